@@ -1,0 +1,84 @@
+"""Exceptions that say where and what to do, and the table of statuses."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol
+
+
+class Locator(Protocol):
+    """Knows the file a description came from and the line of each of its keys."""
+
+    @property
+    def name(self) -> str: ...
+
+    def line(self, path: Sequence[str | int]) -> int: ...
+
+
+class DalembertError(Exception):
+    """Base of every exception this package raises on purpose."""
+
+
+class ModelError(DalembertError, ValueError):
+    """A description, file or request that is wrong: what is wrong, what would be right.
+
+    >>> print(ModelError("joint 'A' names the link 'rodd'", "did you mean 'rod'?"))
+    joint 'A' names the link 'rodd'; did you mean 'rod'?
+    """
+
+    def __init__(
+        self, what: str, remedy: str = "", path: Sequence[str | int] = (), file: str = "", line: int = 0
+    ) -> None:
+        self.what, self.remedy, self.path = what, remedy, tuple(path)
+        self.file, self.line = file, line
+        super().__init__(what, remedy)
+
+    def __str__(self) -> str:
+        where = f"{self.file}:{self.line}: " if self.file else ""
+        return where + (f"{self.what}; {self.remedy}" if self.remedy else self.what)
+
+    def located(self, source: Locator | None) -> ModelError:
+        """The same error with file and line, if the description came from a file."""
+        if source is None or self.file:
+            return self
+        return ModelError(self.what, self.remedy, self.path, source.name, source.line(self.path))
+
+
+class AnalysisError(DalembertError):
+    """A position has no answer and the caller asked to be strict: the sentence of its status."""
+
+
+class Status(NamedTuple):
+    """What a status code means, and what a person can do about it."""
+
+    sentence: str
+    remedy: str
+
+
+STATUSES: dict[str, Status] = {
+    "ok": Status("Solved.", ""),
+    "not_assembled": Status(
+        "The linkage does not close at this position.", "Change a length, the assembly or the range of the drive."
+    ),
+    "singular": Status(
+        "A dead centre or change point: the drive cannot hold or move the mechanism here.",
+        "Drive another joint, or step over this position.",
+    ),
+    "redundant": Status(
+        "More constraints than needed: some reactions depend on the elasticity of the links.",
+        "Read the unique components; free a constraint to make the others unique.",
+    ),
+    "no_balance": Status(
+        "No equilibrium with the known efforts and loads.", "Leave an effort or a load unknown, or widen the range."
+    ),
+    "jammed": Status(
+        "Friction holds the mechanism: no effort moves it in this sense.", "Reduce friction or change the geometry."
+    ),
+    "self_locking": Status(
+        "Friction reverses the sense of the drive's effort.", "Reduce friction if the load is to drive the machine."
+    ),
+    "at_rest": Status(
+        "With friction and no motion the efforts are an interval, not a number.", "Give a speed to choose the sense."
+    ),
+}
+"""Code of a status -> its sentence and remedy; the codes are those of the JSON answer."""
