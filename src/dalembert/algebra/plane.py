@@ -1,0 +1,88 @@
+"""Rigid-body algebra of the plane: twists (vx, vy, omega), wrenches (fx, fy, m), rotations as (cos, sin).
+
+Every function takes arrays with any leading axes and the components last. Only arithmetic, ``cos`` and ``sin`` are
+used, so the entries may be floats or traced symbols.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
+
+name = "plane"
+d = 2
+"""Components of a force."""
+n = 3
+"""Components of a twist or wrench."""
+
+
+def rotation(turn: Array) -> Array:
+    """Rotation (..., 2) = (cos, sin) of an angle.
+
+    >>> rotation(np.array(0.0))
+    array([1., 0.])
+    """
+    return np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+
+
+def rotate(r: Array, u: Array) -> Array:
+    """Ground components of a vector u given in rotated axes."""
+    c, s = r[..., 0], r[..., 1]
+    return np.stack(np.broadcast_arrays(c * u[..., 0] - s * u[..., 1], s * u[..., 0] + c * u[..., 1]), axis=-1)
+
+
+def unrotate(r: Array, v: Array) -> Array:
+    """Components in rotated axes of a vector v given in ground axes."""
+    c, s = r[..., 0], r[..., 1]
+    return np.stack(np.broadcast_arrays(c * v[..., 0] + s * v[..., 1], c * v[..., 1] - s * v[..., 0]), axis=-1)
+
+
+def across(u: Array) -> Array:
+    """The vector turned by a right angle, counter-clockwise.
+
+    >>> across(np.array([1.0, 0.0]))
+    array([-0.,  1.])
+    """
+    return np.stack([-u[..., 1], u[..., 0]], axis=-1)
+
+
+def cross(r: Array, f: Array) -> Array:
+    """Moment (..., 1) of a force f with arm r.
+
+    >>> cross(np.array([2.0, 0.0]), np.array([0.0, 3.0]))
+    array([6.])
+    """
+    return np.asarray(r[..., 0] * f[..., 1] - r[..., 1] * f[..., 0])[..., None]
+
+
+def spin(w: Array, r: Array) -> Array:
+    """Velocity omega x r of a point with arm r on a link turning at w (..., 1)."""
+    return np.stack([-w[..., 0] * r[..., 1], w[..., 0] * r[..., 0]], axis=-1)
+
+
+def centripetal(w: Array, r: Array) -> Array:
+    """Acceleration omega x (omega x r) towards the centre."""
+    return -(w * w) * r
+
+
+def gyroscopic(r: Array, w: Array, inertia: Array) -> Array:
+    """Moment omega x (I omega): none in the plane. Shape (..., 1)."""
+    return np.zeros_like(w)
+
+
+def angular_momentum_rate(r: Array, alpha: Array, inertia: Array) -> Array:
+    """I alpha about the mass centre, shape (..., 1); ``inertia`` (..., 1)."""
+    return inertia * alpha
+
+
+def dot(a: Array, b: Array) -> Array:
+    """Plain dot product of the components; of a twist and a wrench it is power.
+
+    >>> float(dot(np.array([1.0, 2.0, 3.0]), np.array([1.0, 0.0, 1.0])))
+    4.0
+    """
+    return np.asarray((a * b).sum(axis=-1))

@@ -1,0 +1,1 @@
+"""Numbers only: constraints, poses, motion, equilibrium, over arrays with leading axes (design, position)."""

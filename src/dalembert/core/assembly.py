@@ -1,0 +1,310 @@
+"""The first pose: links laid down joint by joint, Newton from many starts at once, the modes told apart.
+
+Each link's angle is given, follows from a joint that fixes it (slider, weld, driven pin), or is free: free ones are
+zero in the first start ("as drawn") and spread evenly over the turn in the others, always in the same way.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.core.closure import CLOSED, closed, distance
+from dalembert.core.constraints import measure
+from dalembert.core.layout import Along, Layout, Meet, Mesh, Pose, Rows, Turn
+
+Array = NDArray[Any]
+
+STARTS = 64
+SAME = 1e-4
+"""Two starts that end this close to each other, radians or characteristic lengths, found the same mode."""
+
+
+@dataclass(frozen=True)
+class Guess:
+    """What is given of the first pose: angles (L+1,) and reference points (L+1, d), NaN where nothing is."""
+
+    turn: Array
+    point: Array
+
+
+class Modes(NamedTuple):
+    """The ways the linkage closes at the first position: poses (M, L+1, ...), the chosen one first."""
+
+    pose: Pose
+    chosen_by: str  # "given" | "drawn" | "search" | "nearest"
+
+
+def modes(layout: Layout, target: Array, guess: Guess) -> Modes | None:
+    """Modes at a target (K + D,), or None if no start closes.
+
+    The phase of a mesh (or of a rolling wheel) is that of this first pose: its row is left out here, and one wheel
+    of it held at its given angle; where that does not close, wheels turn as little as possible from the start.
+    """
+    found = _modes(layout, *_without_phase(layout, target, guess, hold=True), guess)
+    if found is None and phase_rows(layout.constraints).size:
+        found = _modes(layout, *_without_phase(layout, target, guess, hold=False), guess)
+    return found
+
+
+def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes | None:
+    rows = free.constraints.count
+    drawn = _laid(free, target, guess, np.zeros((1, layout.links + 1)), np.full((1, rows), layout.length))
+    pose, missing = closed(free, drawn, target[None])
+    given = np.isfinite(guess.turn[:-1])
+    if missing[0] <= CLOSED * layout.length:
+        off = np.abs(_turned(pose.turn[0, :-1] - guess.turn[:-1])[given]).max(initial=0.0)
+        if given.any() and off < np.pi / 6:
+            return Modes(_reduced(layout, pose), "given")
+        if not given.any() and distance(layout, pose, drawn)[0] < SAME:
+            return Modes(_reduced(layout, pose), "drawn")
+    return _searched(layout, free, target, guess)
+
+
+def phase_rows(rows: Rows) -> NDArray[np.intp]:
+    """Rows whose target is their measure at the first pose: meshes and rolling without slip."""
+    found = [f.row if isinstance(f, Mesh) else f.row[f.pitch != 0] for f in rows.families if isinstance(f, Mesh | Along)]
+    return np.concatenate([*found, np.zeros(0, np.intp)]).astype(np.intp)
+
+
+def _without_phase(layout: Layout, target: Array, guess: Guess, hold: bool) -> tuple[Layout, Array]:
+    """The layout and target without phase rows; with ``hold``, one wheel of each held at its given angle, or at 0."""
+    phased = phase_rows(layout.constraints)
+    if not phased.size:
+        return layout, target
+    rows = layout.constraints
+    held = _held_wheels(layout, phased, guess) if hold else []
+    kept = np.setdiff1d(np.arange(rows.count), phased)
+    count = len(kept) + len(held)
+    families = [r for f in rows.families if (r := _renumbered(f, kept)) is not None]
+    families.append(Turn(np.arange(len(kept), count), np.full(len(held), layout.links), np.array(held, np.intp)))
+    angular = np.concatenate([rows.angular[kept], np.ones(len(held), bool)])
+    joint = np.concatenate([rows.joint[kept], np.zeros(len(held), np.intp)])
+    angles = np.nan_to_num(guess.turn[np.array(held, np.intp)])
+    constraints = Rows(count, rows.links, tuple(families), joint, angular)
+    return replace(layout, constraints=constraints), np.concatenate([target[kept], angles, target[rows.count :]])
+
+
+def _renumbered(f: Any, kept: NDArray[np.intp]) -> Any:
+    """A family with only the kept rows, at their new places."""
+    mask = np.isin(f.row, kept)
+    mask = mask.all(axis=1) if mask.ndim == 2 else mask
+    if not mask.any():
+        return None
+    parts = {name: value[mask] for name, value in vars(f).items() if name != "row"}
+    return type(f)(row=np.searchsorted(kept, f.row[mask]), **parts)
+
+
+def _held_wheels(layout: Layout, phased: NDArray[np.intp], guess: Guess) -> list[int]:
+    """One wheel of each phase row whose angle nothing else fixes."""
+    i, j = layout.constraints.ends
+    turns = _edges(layout).turns
+    fixed, held = _reached({layout.links}, turns), []
+    for row in phased:
+        candidates = [int(k) for k in (j[row], i[row]) if int(k) not in fixed]
+        candidates.sort(key=lambda k: not np.isfinite(guess.turn[k]))
+        if candidates:
+            held.append(candidates[0])
+            fixed |= _reached({candidates[0]}, turns)
+    return held
+
+
+def _reached(start: set[int], turns: list[tuple[int, int, int]]) -> set[int]:
+    """Links whose angle follows from those of ``start``."""
+    reached, grown = set(start), True
+    while grown:
+        grown = False
+        for i, j, _ in turns:
+            if (i in reached) != (j in reached):
+                reached |= {i, j}
+                grown = True
+    return reached
+
+
+def _searched(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes | None:
+    """Every mode that the starts find; first the one nearest to what is given, else by the rule of ``_preferred``."""
+    starts = STARTS if layout.links <= 40 else 8
+    angles, slides = _spread(starts, layout.links + 1, free.constraints.count)
+    laid = _laid(free, target, guess, angles, slides * layout.length)
+    pose, missing = closed(free, laid, np.broadcast_to(target, (starts, len(target))).copy(), iterations=60)
+    good = np.flatnonzero(missing <= CLOSED * layout.length)
+    if not good.size:
+        return None
+    distinct = _distinct(layout, _reduced(layout, pose[good]))
+    given = np.isfinite(guess.turn[:-1])
+    if given.any():
+        off = np.abs(_turned(distinct.turn[:, :-1] - guess.turn[:-1])[:, given]).max(axis=1)
+        return Modes(distinct[np.argsort(off, kind="stable")], "nearest")
+    return Modes(distinct[_preferred(layout, distinct)], "search")
+
+
+def _turned(angle: Array) -> Array:
+    """Angles reduced to (-pi, pi]."""
+    return np.asarray(angle - 2 * np.pi * np.ceil(angle / (2 * np.pi) - 0.5))
+
+
+def _reduced(layout: Layout, pose: Pose) -> Pose:
+    """Whole turns taken off links whose angle no row of the system counts."""
+    counted = {int(k) for rows in (layout.constraints, layout.freedoms) for k in _counted(layout, rows)}
+    turn = pose.turn.copy()
+    free = [k for k in range(layout.links) if k not in counted]
+    turn[..., free] = _turned(turn[..., free])
+    return Pose(pose.point, turn, pose.rotation)
+
+
+def _counted(layout: Layout, rows: Rows) -> list[int]:
+    driven = set(layout.driven.tolist()) if rows is layout.freedoms else None
+    out: list[int] = []
+    for f in rows.families:
+        if isinstance(f, Turn):
+            keep = [driven is None or int(k) in driven for k in f.row]
+            out += f.i[keep].tolist() + f.j[keep].tolist()
+    return out
+
+
+def _distinct(layout: Layout, pose: Pose) -> Pose:
+    kept: list[int] = []
+    for k in range(len(pose.turn)):
+        one = Pose(pose.point[k], _turned(pose.turn[k]), pose.rotation[k])
+        if all(_apart(layout, one, pose[m]) > SAME for m in kept):
+            kept.append(k)
+    return pose[np.array(kept)]
+
+
+def _apart(layout: Layout, a: Pose, b: Pose) -> float:
+    shift = np.abs(a.point - b.point).max() / layout.length
+    return float(max(shift, np.abs(_turned(a.turn - b.turn)).max()))
+
+
+def _preferred(layout: Layout, pose: Pose) -> NDArray[np.intp]:
+    """Sliders farthest along their directions first, then the highest links."""
+    slides = np.setdiff1d(np.flatnonzero(~layout.freedoms.angular), layout.driven)
+    along = measure(layout.algebra, layout.freedoms, pose)[:, slides].sum(axis=1) / layout.length
+    height = pose.point[:, :-1, 1].sum(axis=1) / layout.length + _tips(layout, pose)
+    return np.lexsort((-np.round(height, 6), -np.round(along, 6)))
+
+
+def _tips(layout: Layout, pose: Pose) -> Array:
+    """Sum of the joints' heights: y of the links' far ends."""
+    total = np.zeros(len(pose.turn))
+    for f in layout.constraints.families:
+        if isinstance(f, Meet):
+            arm = layout.algebra.rotate(pose.rotation[:, f.j], f.uj)
+            total += (pose.point[:, f.j, 1] + arm[..., 1]).sum(axis=1) / layout.length
+    return total
+
+
+def _spread(starts: int, links: int, rows: int) -> tuple[Array, Array]:
+    """Angles (S, L+1) and slide lengths (S, K) by a Kronecker sequence of irrational steps; always the same."""
+    primes = np.arange(2, 2 + links + rows)
+    steps = np.modf(np.sqrt(primes + 0.5) * 1.6180339887)[0]
+    unit = np.modf(0.5 + np.arange(starts)[:, None] * steps)[0]
+    return 2 * np.pi * unit[:, :links] - np.pi, 5 * unit[:, links:] - 2
+
+
+def _laid(layout: Layout, target: Array, guess: Guess, angles: Array, slides: Array) -> Pose:
+    """Starting poses (S, L+1, ...): links laid joint by joint from the ground."""
+    g = layout.algebra
+    edges = _edges(layout)
+    turn = _turns(layout, target, guess, angles, edges)
+    rotation = g.rotation(turn)
+    point = np.full((*turn.shape, g.d), np.nan)
+    point[:, -1] = 0.0
+    given = np.isfinite(guess.point).all(axis=-1)
+    point[:, given] = guess.point[given]
+    placed = set(np.flatnonzero(given)) | {layout.links}
+    while len(placed) <= layout.links:
+        grown = False
+        for edge in edges.points:
+            if (edge.i in placed) != (edge.j in placed):
+                _place(g, edge, target, point, rotation, slides)
+                placed |= {edge.i, edge.j}
+                grown = True
+        if not grown:
+            lone = min(set(range(layout.links)) - placed)
+            point[:, lone] = 0.0
+            placed.add(lone)
+    return Pose(point, turn, rotation)
+
+
+class _PointEdge(NamedTuple):
+    i: int
+    j: int
+    ui: Array
+    uj: Array
+    axis: Array | None  # in i's axes, of a coordinate kept at its target
+    row: int
+
+
+class _Edges(NamedTuple):
+    turns: list[tuple[int, int, int]]  # link i, link j, stacked row
+    points: list[_PointEdge]
+
+
+def _edges(layout: Layout) -> _Edges:
+    turns: list[tuple[int, int, int]] = []
+    pins: list[_PointEdge] = []
+    slides: list[_PointEdge] = []
+    place = {int(f): layout.constraints.count + k for k, f in enumerate(layout.driven)}
+    for rows, where in ((layout.constraints, None), (layout.freedoms, place)):
+        for f in rows.families:
+            for k in range(len(f.i)):
+                row = int(np.ravel(f.row[k])[0])
+                if where is not None:
+                    if row not in where:
+                        continue
+                    row = where[row]
+                i, j = int(f.i[k]), int(f.j[k])
+                if isinstance(f, Turn):
+                    turns.append((i, j, row))
+                elif isinstance(f, Meet):
+                    pins.append(_PointEdge(i, j, f.ui[k], f.uj[k], None, row))
+                elif isinstance(f, Along) and where is None and not f.pitch[k]:
+                    slides.append(_PointEdge(i, j, f.ui[k], f.uj[k], f.axis[k], row))
+                elif not isinstance(f, Along):
+                    slides.append(_PointEdge(i, j, f.ui[k], f.uj[k], None, row))
+    return _Edges(turns, pins + slides)
+
+
+def _turns(layout: Layout, target: Array, guess: Guess, angles: Array, edges: _Edges) -> Array:
+    """Angles (S, L+1): ground and given ones, spread over the joints that fix relative angles, then the free ones."""
+    turn = np.full(angles.shape, np.nan)
+    turn[:, -1] = 0.0
+    _spread_turns(turn, target, edges)
+    for k in np.flatnonzero(np.isfinite(guess.turn)):
+        if np.isnan(turn[0, k]):
+            turn[:, k] = guess.turn[k]
+            _spread_turns(turn, target, edges)
+    for k in range(turn.shape[1]):
+        if np.isnan(turn[0, k]):
+            turn[:, k] = angles[:, k]
+            _spread_turns(turn, target, edges)
+    return turn
+
+
+def _spread_turns(turn: Array, target: Array, edges: _Edges) -> None:
+    grown = True
+    while grown:
+        grown = False
+        for i, j, row in edges.turns:
+            if np.isnan(turn[0, i]) != np.isnan(turn[0, j]):
+                known, new, sign = (i, j, 1.0) if np.isnan(turn[0, j]) else (j, i, -1.0)
+                turn[:, new] = turn[:, known] + sign * target[row]
+                grown = True
+
+
+def _place(g: Any, edge: _PointEdge, target: Array, point: Array, rotation: Array, slides: Array) -> None:
+    """Lay one of the two links of an edge by the other."""
+    offset = np.zeros(point[:, 0].shape)
+    if edge.axis is not None:
+        across = g.rotate(rotation[:, edge.i], edge.axis)
+        along = -g.across(across)
+        offset = across * target[edge.row] + along * slides[:, edge.row, None]
+    ri, rj = g.rotate(rotation[:, edge.i], edge.ui), g.rotate(rotation[:, edge.j], edge.uj)
+    if np.isnan(point[0, edge.j, 0]):
+        point[:, edge.j] = point[:, edge.i] + ri + offset - rj
+    else:
+        point[:, edge.i] = point[:, edge.j] + rj - offset - ri

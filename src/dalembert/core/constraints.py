@@ -1,0 +1,215 @@
+"""The one matrix A: measures, wrenches and drifts of rows (THEORY.md 1).
+
+r   arm of the acting point from the link's reference point, ground axes
+e   axis of a row, ground axes
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.core.layout import Along, Distance, Family, Layout, Meet, Mesh, Pose, Rows, System, Turn
+
+Array = NDArray[Any]
+
+
+def measure(g: Any, rows: Rows, pose: Pose) -> Array:
+    """Value of each row (..., K): lengths and angles that constraints hold at their targets."""
+    out = np.zeros(pose.turn.shape[:-1] + (rows.count,), pose.point.dtype)
+    for family in rows.families:
+        out[..., family.row] = _MEASURES[type(family)](g, family, pose)
+    return out
+
+
+def wrenches(g: Any, rows: Rows, pose: Pose) -> tuple[Array, Array]:
+    """Wrench of each row on i and on j per unit of multiplier, each about its link's reference point: (..., K, n)."""
+    shape = pose.turn.shape[:-1] + (rows.count, g.n)
+    on_i, on_j = np.zeros(shape, pose.point.dtype), np.zeros(shape, pose.point.dtype)
+    for family in rows.families:
+        _WRENCHES[type(family)](g, family, pose, on_i, on_j)
+    return on_i, on_j
+
+
+def drift(g: Any, rows: Rows, pose: Pose, twist: Array) -> Array:
+    """Second derivative of each measure at zero acceleration (..., K); ``twist`` (..., L+1, n)."""
+    out = np.zeros(pose.turn.shape[:-1] + (rows.count,), pose.point.dtype)
+    for family in rows.families:
+        if not isinstance(family, Turn):
+            out[..., family.row] = _DRIFTS[type(family)](g, family, pose, twist)
+    return out
+
+
+def system(g: Any, rows: Rows, pose: Pose) -> System:
+    """The rows with their wrenches at a pose."""
+    return System(*rows.ends, rows.angular, *wrenches(g, rows, pose))
+
+
+def stacked(layout: Layout, pose: Pose) -> System:
+    """The constraint rows, then the drives' rows."""
+    constraints = system(layout.algebra, layout.constraints, pose)
+    if not layout.driven.size:
+        return constraints
+    return constraints + system(layout.algebra, layout.freedoms, pose).rows(layout.driven)
+
+
+def stacked_measure(layout: Layout, pose: Pose) -> Array:
+    """Measures of the stacked rows (..., K + D)."""
+    return _both(layout, measure, pose)
+
+
+def stacked_drift(layout: Layout, pose: Pose, twist: Array) -> Array:
+    """Drifts of the stacked rows (..., K + D)."""
+    return _both(layout, drift, pose, twist)
+
+
+def _both(layout: Layout, of: Any, *state: Any) -> Array:
+    constraints: Array = of(layout.algebra, layout.constraints, *state)
+    if not layout.driven.size:
+        return constraints
+    return np.concatenate([constraints, of(layout.algebra, layout.freedoms, *state)[..., layout.driven]], axis=-1)
+
+
+def dense(layout: Layout, rows: System) -> Array:
+    """J, dense: (..., K, n L); its transpose is A. Velocities of the measures are J v."""
+    n, k = layout.algebra.n, np.arange(len(rows.i))
+    lead = rows.on_j.shape[:-2]
+    full = np.zeros((*lead, len(k), layout.links + 1, n), rows.on_j.dtype)
+    full[..., k, rows.i, :] = rows.on_i
+    full[..., k, rows.j, :] = rows.on_j
+    return full[..., : layout.links, :].reshape((*lead, len(k), layout.links * n))
+
+
+def rates(rows: System, twist: Array) -> Array:
+    """Velocities of the measures (..., K) for twists (..., L+1, n) of all links."""
+    return np.asarray((rows.on_i * twist[..., rows.i, :] + rows.on_j * twist[..., rows.j, :]).sum(axis=-1))
+
+
+def arm(g: Any, pose: Pose, link: NDArray[np.intp], u: Array) -> Array:
+    """Ground components of link vectors u (..., k, d)."""
+    rotated: Array = g.rotate(pose.rotation[..., link, :], u)
+    return rotated
+
+
+def span(g: Any, f: Any, pose: Pose) -> Array:
+    """P_j - P_i."""
+    pi, pj = pose.point[..., f.i, :], pose.point[..., f.j, :]
+    return (pj + arm(g, pose, f.j, f.uj)) - (pi + arm(g, pose, f.i, f.ui))
+
+
+def _relative_turn(f: Any, pose: Pose) -> Array:
+    return np.asarray(pose.turn[..., f.j] - pose.turn[..., f.i])
+
+
+def _unit(span: Array) -> tuple[Array, Array]:
+    length = np.sqrt((span * span).sum(axis=-1))
+    return span / length[..., None], length
+
+
+def _mesh_measure(g: Any, f: Mesh, pose: Pose) -> Array:
+    line = span(g, f, pose)
+    phi = np.arctan2(line[..., 1], line[..., 0])
+    return np.asarray(f.ri * (pose.turn[..., f.i] - phi) + f.rj * (pose.turn[..., f.j] - phi))
+
+
+_MEASURES: dict[type[Family], Any] = {
+    Meet: span,
+    Along: lambda g, f, pose: (
+        g.dot(arm(g, pose, f.i, f.axis), span(g, f, pose)) + f.pitch * _relative_turn(f, pose)
+    ),
+    Turn: lambda g, f, pose: _relative_turn(f, pose),
+    Mesh: _mesh_measure,
+    Distance: lambda g, f, pose: _unit(span(g, f, pose))[1],
+}
+
+
+def _meet_wrench(g: Any, f: Meet, pose: Pose, on_i: Array, on_j: Array) -> None:
+    ri, rj = arm(g, pose, f.i, f.ui), arm(g, pose, f.j, f.uj)
+    for axis, e in enumerate(np.eye(g.d)):
+        row = f.row[:, axis]
+        on_j[..., row, : g.d], on_j[..., row, g.d :] = e, g.cross(rj, e)
+        on_i[..., row, : g.d], on_i[..., row, g.d :] = -e, -g.cross(ri, e)
+
+
+def _along_wrench(g: Any, f: Along, pose: Pose, on_i: Array, on_j: Array) -> None:
+    e = arm(g, pose, f.i, f.axis)
+    rj = arm(g, pose, f.j, f.uj)
+    ri = pose.point[..., f.j, :] + rj - pose.point[..., f.i, :]
+    pitch = f.pitch[..., None]
+    on_j[..., f.row, : g.d], on_j[..., f.row, g.d :] = e, g.cross(rj, e) + pitch
+    on_i[..., f.row, : g.d], on_i[..., f.row, g.d :] = -e, -(g.cross(ri, e) + pitch)
+
+
+def _turn_wrench(g: Any, f: Turn, pose: Pose, on_i: Array, on_j: Array) -> None:
+    on_j[..., f.row, -1] = 1
+    on_i[..., f.row, -1] = -1
+
+
+def _mesh_wrench(g: Any, f: Mesh, pose: Pose, on_i: Array, on_j: Array) -> None:
+    e, length = _unit(span(g, f, pose))
+    t = g.across(e) * ((f.ri + f.rj) / length)[..., None]
+    ri, rj = arm(g, pose, f.i, f.ui), arm(g, pose, f.j, f.uj)
+    on_j[..., f.row, : g.d], on_j[..., f.row, g.d :] = -t, f.rj[..., None] - g.cross(rj, t)
+    on_i[..., f.row, : g.d], on_i[..., f.row, g.d :] = t, f.ri[..., None] + g.cross(ri, t)
+
+
+def _distance_wrench(g: Any, f: Distance, pose: Pose, on_i: Array, on_j: Array) -> None:
+    e, _ = _unit(span(g, f, pose))
+    ri, rj = arm(g, pose, f.i, f.ui), arm(g, pose, f.j, f.uj)
+    on_j[..., f.row, : g.d], on_j[..., f.row, g.d :] = e, g.cross(rj, e)
+    on_i[..., f.row, : g.d], on_i[..., f.row, g.d :] = -e, -g.cross(ri, e)
+
+
+_WRENCHES: dict[type[Family], Any] = {
+    Meet: _meet_wrench,
+    Along: _along_wrench,
+    Turn: _turn_wrench,
+    Mesh: _mesh_wrench,
+    Distance: _distance_wrench,
+}
+
+
+def _point_motion(g: Any, pose: Pose, twist: Array, link: NDArray[np.intp], r: Array) -> tuple[Array, Array]:
+    """Velocity, and acceleration at zero link accelerations, of the points with arms r."""
+    v, w = twist[..., link, : g.d], twist[..., link, g.d :]
+    return v + g.spin(w, r), g.centripetal(w, r)
+
+
+def _span_motion(g: Any, f: Any, pose: Pose, twist: Array) -> tuple[Array, Array]:
+    """First and second rate of P_j - P_i, the second at zero link accelerations."""
+    vi, ai = _point_motion(g, pose, twist, f.i, arm(g, pose, f.i, f.ui))
+    vj, aj = _point_motion(g, pose, twist, f.j, arm(g, pose, f.j, f.uj))
+    return vj - vi, aj - ai
+
+
+def _along_drift(g: Any, f: Along, pose: Pose, twist: Array) -> Array:
+    rj = arm(g, pose, f.j, f.uj)
+    vj, aj = _point_motion(g, pose, twist, f.j, rj)
+    vi, ai = _point_motion(g, pose, twist, f.i, pose.point[..., f.j, :] + rj - pose.point[..., f.i, :])
+    coriolis = 2 * g.spin(twist[..., f.i, g.d :], vj - vi)
+    return np.asarray(g.dot(arm(g, pose, f.i, f.axis), aj - ai - coriolis))
+
+
+def _mesh_drift(g: Any, f: Mesh, pose: Pose, twist: Array) -> Array:
+    line = span(g, f, pose)
+    rate, second = _span_motion(g, f, pose, twist)
+    square = g.dot(line, line)
+    phi_rate = g.cross(line, rate)[..., 0] / square
+    return np.asarray(-(f.ri + f.rj) * (g.cross(line, second)[..., 0] - 2 * g.dot(line, rate) * phi_rate) / square)
+
+
+def _distance_drift(g: Any, f: Distance, pose: Pose, twist: Array) -> Array:
+    e, length = _unit(span(g, f, pose))
+    rate, second = _span_motion(g, f, pose, twist)
+    along = g.dot(e, rate)
+    return np.asarray(g.dot(e, second) + (g.dot(rate, rate) - along * along) / length)
+
+
+_DRIFTS: dict[type[Family], Any] = {
+    Meet: lambda g, f, pose, twist: _span_motion(g, f, pose, twist)[1],
+    Along: _along_drift,
+    Mesh: _mesh_drift,
+    Distance: _distance_drift,
+}

@@ -1,0 +1,237 @@
+"""Motion and equilibrium at known poses: velocities, accelerations, A x + w = 0, residual, virtual work.
+
+x   multipliers of the unknowns: constraints, then drive efforts that are not given, then unknown loads
+w   wrenches of everything else on the links (D'Alembert: inertia with the minus sign)
+V   twists of the links per unit speed of each drive, the others held: virtual velocities
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.core import forcing as fc
+from dalembert.core.constraints import arm, rates, stacked, stacked_drift
+from dalembert.core.factor import column_scale, factor
+from dalembert.core.forcing import Forcing, Source, pair, summed
+from dalembert.core.layout import Layout, Pose, System
+from dalembert.core.linear import Factor, PseudoInverse
+
+Array = NDArray[Any]
+Ints = NDArray[np.intp]
+
+
+@dataclass(frozen=True)
+class Known:
+    """What is given of the drives' efforts and what is asked of loads.
+
+    effort (P, D), NaN where unknown by ``asked`` (D,); unknown loads: unit force ``direction`` (U, d) at ``at`` on
+    ``link``, in link axes where ``follows``, or a unit couple where ``couple``.
+    """
+
+    asked: NDArray[np.bool_]
+    effort: Array
+    link: Ints
+    at: Array
+    direction: Array
+    follows: NDArray[np.bool_]
+    couple: NDArray[np.bool_]
+
+
+class Motion(NamedTuple):
+    """Twists and accelerations of all links (..., L+1, n), V (..., D, L+1, n), and the scaled rcond of J (...)."""
+
+    twist: Array
+    acceleration: Array
+    virtual: Array
+    rcond: Array
+
+
+class Balance(NamedTuple):
+    """Solved equilibrium: multipliers and what checks them.
+
+    constraint (..., K), effort (..., D), load (..., U), residual and power_balance (...), free (..., X, X) the
+    projector on multipliers that load nothing where A has redundant columns, separation: radial tooth forces on j.
+    """
+
+    constraint: Array
+    effort: Array
+    load: Array
+    residual: Array
+    power_balance: Array
+    rcond: Array
+    free: Array | None
+    separation: list[Array]
+
+
+def with_ground(twist: Array) -> Array:
+    """Twists with the ground's zeros as the last link."""
+    return np.concatenate([twist, np.zeros_like(twist[..., :1, :])], axis=-2)
+
+
+def motion(layout: Layout, pose: Pose, speed: Array, acceleration: Array) -> tuple[Motion, System, Factor]:
+    """Velocities and accelerations from the drives' speeds and accelerations (..., D): A^T v = rates."""
+    rows = stacked(layout, pose)
+    solver = factor(layout, rows)
+    count, lead = layout.constraints.count, pose.turn.shape[:-1]
+
+    def twists(right: Array) -> Array:
+        solved = solver.motion(right)
+        return with_ground(solved.reshape((*solved.shape[:-1], layout.links, layout.algebra.n)))
+
+    def prescribed(drives: Array) -> Array:
+        return np.concatenate([np.zeros((*lead, count)), np.broadcast_to(drives, (*lead, len(layout.driven)))], axis=-1)
+
+    v = twists(prescribed(speed))
+    a = twists(prescribed(acceleration) - stacked_drift(layout, pose, v))
+    unit = np.eye(len(layout.driven))
+    virtual = [twists(prescribed(e)) for e in unit]
+    stack = np.stack(virtual, axis=-3) if virtual else np.zeros((*lead, 0, *v.shape[-2:]))
+    return Motion(v, a, stack, solver.rcond), rows, solver
+
+
+def known_sources(layout: Layout, forcing: Forcing, pose: Pose, moving: Motion, inertia: bool) -> dict[str, Source]:
+    """Every known wrench by kind; springs and dampers included, inertia where asked for."""
+    still = np.zeros_like(moving.twist)
+    twist = moving.twist if inertia else still
+    sources = {
+        "weight": fc.weight(layout, forcing.inertia, pose),
+        "force": fc.force_wrench(layout, forcing.forces, pose),
+        "couple": fc.couple_wrench(layout, forcing.couples),
+        "spring": fc.spring_wrench(layout, forcing.springs, pose, twist),
+        "resistance": fc.resistance_wrench(layout, forcing.resistances, pose, twist),
+    }
+    if inertia:
+        sources["inertia"] = fc.inertia_wrench(
+            layout, forcing.inertia, pose, moving.twist, moving.acceleration[..., :-1, :]
+        )
+    return sources
+
+
+def balance(
+    layout: Layout, forcing: Forcing, known: Known, pose: Pose, moving: Motion, rows: System, solver: Factor, w: Array
+) -> Balance:
+    """Solve A x + w = 0 for total wrenches w (..., L, n)."""
+    count = layout.constraints.count
+    unknown = _unknowns(layout, known, pose, rows)
+    if known.asked.all() and not known.link.size:
+        forces = solver
+    else:
+        forces = factor(layout, unknown)
+        given = pair(rows.rows(count + np.flatnonzero(~known.asked)), known.effort[..., ~known.asked])
+        w = w + summed(layout, given)
+    x, total, pushed = _solved(layout, forcing, pose, forces, w)
+    effort = np.broadcast_to(known.effort, (*x.shape[:-1], len(known.asked))).copy()
+    effort[..., known.asked] = x[..., count : count + known.asked.sum()]
+    load = x[..., count + known.asked.sum() :]
+    sources = [pair(unknown, x)]
+    residual, largest = _residual(layout, sources, total)
+    power = _power(layout, known, moving, unknown, x, total, largest)
+    free = forces.null if isinstance(forces, PseudoInverse) else None
+    return Balance(x[..., :count], effort, load, residual, power, forces.rcond, free, pushed)
+
+
+def _unknowns(layout: Layout, known: Known, pose: Pose, rows: System) -> System:
+    """Rows whose multipliers are asked for."""
+    count = layout.constraints.count
+    kept = np.concatenate([np.arange(count), count + np.flatnonzero(known.asked)])
+    asked = rows.rows(kept)
+    return asked + load_rows(layout, known, pose) if known.link.size else asked
+
+
+def load_rows(layout: Layout, known: Known, pose: Pose) -> System:
+    """Unit unknown loads as rows between ground and their links."""
+    g, size = layout.algebra, len(known.link)
+    r = arm(g, pose, known.link, known.at)
+    turned = g.rotate(pose.rotation[..., known.link, :], known.direction)
+    force = np.where(known.follows[:, None], turned, known.direction)
+    wrench = np.concatenate([np.broadcast_to(force, r.shape), g.cross(r, force)], axis=-1)
+    wrench = np.where(known.couple[:, None], np.eye(g.n)[-1], wrench)
+    ground = np.full(size, layout.links)
+    return System(ground, known.link, known.couple, np.zeros_like(wrench), wrench)
+
+
+def _solved(
+    layout: Layout, forcing: Forcing, pose: Pose, forces: Factor, w: Array
+) -> tuple[Array, Array, list[Array]]:
+    """Multipliers, total wrenches with the teeth's separation, and that separation.
+
+    The radial tooth force depends on the tangential one by its magnitude only; where it does no work (centres at a
+    fixed distance) the second solution is exact, else a few more are needed.
+    """
+    x = forces.forces(-w.reshape((*w.shape[:-2], -1)))
+    tangent = forcing.separation
+    if not tangent.size or not tangent.any():
+        return x, w, fc.separation(layout, pose, tangent, x)
+    for _ in range(50):
+        total = w + summed(layout, fc.separation_wrench(layout, pose, tangent, x))
+        new = forces.forces(-total.reshape((*total.shape[:-2], -1)))
+        change = np.nan_to_num(np.abs(new - x)).max(initial=0.0)
+        x = new
+        if change <= 1e-14 * np.nan_to_num(np.abs(new)).max(initial=0.0):
+            break
+    return x, total, fc.separation(layout, pose, tangent, x)
+
+
+def _residual(layout: Layout, sources: list[Source], w: Array) -> tuple[Array, Array]:
+    """Largest out-of-balance force or moment (over length) relative to the largest force, and that force."""
+    scale = column_scale(layout)[: layout.algebra.n]
+    out = np.abs((summed(layout, *sources) + w) * scale).max(axis=(-2, -1), initial=0.0)
+    largest = np.abs(w * scale).max(axis=(-2, -1), initial=0.0)
+    for source in sources:
+        largest = np.maximum(largest, np.abs(source.wrench * scale).max(axis=(-2, -1), initial=0.0))
+    return out / np.where(largest > 0, largest, 1.0), largest
+
+
+def _power(
+    layout: Layout, known: Known, moving: Motion, unknown: System, x: Array, w: Array, largest: Array
+) -> Array:
+    """Virtual power of all loads and efforts at unit speed of each drive, over force times velocity; no reactions."""
+    if not moving.virtual.shape[-3]:
+        return np.zeros_like(largest)
+    count = layout.constraints.count
+    v = moving.virtual
+    power = (v[..., :-1, :] * w[..., None, :, :]).sum(axis=(-2, -1))
+    asked = unknown.rows(slice(count, None))
+    applied = System(*asked[:3], asked.on_i[..., None, :, :], asked.on_j[..., None, :, :])
+    power = power + (rates(applied, v) * x[..., None, count:]).sum(axis=-1)
+    scale = column_scale(layout)[: layout.algebra.n]
+    fastest = np.abs(v / scale).max(axis=(-2, -1), initial=0.0)
+    reference = largest[..., None] * fastest
+    return np.asarray(np.abs(power / np.where(reference > 0, reference, 1.0)).max(axis=-1))
+
+
+def reactions(layout: Layout, rows: System, found: Balance) -> tuple[Array, Array]:
+    """Force (..., joints, d) and couple (..., joints, n - d) of each joint on its link j, at j's point (contact)."""
+    g, constraints = layout.algebra, layout.constraints
+    lead = found.constraint.shape[:-1]
+    force = np.zeros((*lead, layout.joints, g.d))
+    couple = np.zeros((*lead, layout.joints, g.n - g.d))
+    for k, joint in enumerate(constraints.joint):
+        multiplier = found.constraint[..., k, None]
+        if constraints.angular[k]:
+            couple[..., joint, :] += multiplier * rows.on_j[..., k, g.d :]
+        else:
+            force[..., joint, :] += multiplier * rows.on_j[..., k, : g.d]
+    for f, pushed in zip(fc.meshes(layout), found.separation, strict=True):
+        for k, row in enumerate(f.row):
+            force[..., constraints.joint[row], :] += pushed[..., k, :]
+    return force, couple
+
+
+def unique(layout: Layout, rows: System, free: Array, joints: int) -> tuple[Array, Array]:
+    """Which reaction components (..., joints, n), and which other unknowns (..., X - K), no free multiplier changes."""
+    g, constraints = layout.algebra, layout.constraints
+    shift = np.zeros((*free.shape[:-2], joints, g.n, free.shape[-1]))
+    for k, joint in enumerate(constraints.joint):
+        part = slice(g.d, None) if constraints.angular[k] else slice(None, g.d)
+        shift[..., joint, part, :] += rows.on_j[..., k, part, None] * free[..., k, None, :]
+    others = free[..., constraints.count :, :]
+    return np.abs(shift).max(axis=-1) < UNIQUE, np.abs(others).max(axis=-1, initial=0.0) < UNIQUE
+
+
+UNIQUE = 1e-8
+"""A component is unique where the projector on free multipliers moves it less than this (unit multipliers)."""

@@ -1,0 +1,112 @@
+"""Which solver a mechanism's matrix gets: batched inverse, singular values, or sparse elimination position by position."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.core.constraints import dense
+from dalembert.core.layout import Layout, System
+from dalembert.core.linear import Factor, inverse, pseudo_inverse
+
+Array = NDArray[Any]
+
+SPARSE = 120
+"""Unknowns above which sparse elimination beats a batched dense inverse."""
+
+
+def row_scale(layout: Layout, angular: NDArray[np.bool_]) -> Array:
+    """Scale of the measures: angles times the characteristic length."""
+    return np.where(angular, layout.length, 1.0)
+
+
+def column_scale(layout: Layout) -> Array:
+    """Scale of the twists' components, also of the equilibrium equations: moments over the characteristic length."""
+    g = layout.algebra
+    return np.tile(np.repeat([1.0, 1 / layout.length], [g.d, g.n - g.d]), layout.links)
+
+
+def factor(layout: Layout, rows: System) -> Factor:
+    """Factor J of some rows with the solver that suits it."""
+    row, column = row_scale(layout, rows.angular), column_scale(layout)
+    if layout.redundant or len(row) != layout.unknowns:
+        return pseudo_inverse(dense(layout, rows), row, column)
+    if layout.unknowns > SPARSE:
+        return sparse(layout, rows, row, column)
+    return inverse(dense(layout, rows), row, column)
+
+
+@dataclass(frozen=True)
+class Sparse:
+    """Square systems by sparse LU, one a position; cost grows with the number of links."""
+
+    solvers: tuple[Any, ...]
+    matrices: tuple[Any, ...]
+    lead: tuple[int, ...]
+    row: Array
+    column: Array
+    rcond: Array
+
+    def motion(self, rates: Array) -> Array:
+        return self._each(rates * self.row, "N", lambda m: m) * self.column
+
+    def forces(self, wrench: Array) -> Array:
+        return self._each(wrench * self.column, "T", lambda m: m.T) * self.row
+
+    def _each(self, right: Array, trans: str, side: Callable[[Any], Any]) -> Array:
+        size = right.shape[-1]
+        flat = np.broadcast_to(right, (*self.lead, size)).reshape(-1, size)
+        out = np.full(flat.shape, np.nan)
+        for p, lu in enumerate(self.solvers):
+            if lu is not None:
+                x = lu.solve(flat[p], trans)
+                out[p] = x + lu.solve(flat[p] - side(self.matrices[p]) @ x, trans)
+        return out.reshape((*self.lead, size))
+
+
+def sparse(layout: Layout, rows: System, row: Array, column: Array) -> Sparse:
+    """Sparse LU of square systems J, position by position."""
+    lead = rows.on_j.shape[:-2]
+    solvers, matrices, rcond = [], [], []
+    for p in np.ndindex(*lead):
+        matrix = _sparse_matrix(layout, rows._replace(on_i=rows.on_i[p], on_j=rows.on_j[p]), row, column)
+        lu, reciprocal = _lu(matrix)
+        solvers.append(lu)
+        matrices.append(matrix)
+        rcond.append(reciprocal)
+    return Sparse(tuple(solvers), tuple(matrices), lead, row, column, np.array(rcond).reshape(lead))
+
+
+def _sparse_matrix(layout: Layout, rows: System, row: Array, column: Array) -> Any:
+    """Scaled J (K, n L) in compressed columns; ground's columns left out."""
+    from scipy.sparse import csc_array
+
+    n, count = layout.algebra.n, len(rows.i)
+    links = np.concatenate([rows.i, rows.j])
+    moving = links < layout.links
+    k = np.repeat(np.tile(np.arange(count), 2)[moving], n)
+    columns = (links[moving][:, None] * n + np.arange(n)).ravel()
+    data = np.concatenate([rows.on_i, rows.on_j])[moving].ravel() * row[k] * column[columns]
+    matrix = csc_array((data, (k, columns)), shape=(count, layout.unknowns))
+    matrix.eliminate_zeros()
+    return matrix
+
+
+def _lu(matrix: Any) -> tuple[Any, float]:
+    """Factors and estimated reciprocal condition number; None and 0 where exactly singular."""
+    from scipy.sparse.linalg import LinearOperator, onenormest, splu
+
+    try:
+        lu = splu(matrix)
+    except RuntimeError:
+        return None, 0.0
+    operator = LinearOperator(
+        matrix.shape, matvec=lu.solve, rmatvec=lambda v: lu.solve(v, "T"), matmat=lu.solve, dtype=float
+    )
+    norm = float(abs(matrix).sum(axis=0).max())
+    with np.errstate(all="ignore"):
+        return lu, float(np.nan_to_num(1 / (norm * onenormest(operator, t=1))))

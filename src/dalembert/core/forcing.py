@@ -1,0 +1,221 @@
+"""Wrenches on the links that are known once the motion is: loads, weights, springs, dampers, inertia (D'Alembert).
+
+Every function returns a ``Source``: wrenches (..., k, n) about the reference points of the links they act on, one a
+contribution, so that superposition and virtual work can take them apart; ``summed`` adds them up per link.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.core.constraints import arm, measure, rates, span, system
+from dalembert.core.layout import Layout, Mesh, Pose, System
+
+Array = NDArray[Any]
+Ints = NDArray[np.intp]
+
+
+MANY = 100
+"""Contributions above which one indexed addition is faster than a loop over them."""
+
+
+@dataclass(frozen=True)
+class Inertia:
+    """Mass (L,), arm of the mass centre (L, d) in link axes, inertia about it (L, n - d), and gravity (d,)."""
+
+    mass: Array
+    center: Array
+    inertia: Array
+    gravity: Array
+
+
+@dataclass(frozen=True)
+class Forces:
+    """Forces on links at points: arms (k, d) in link axes; components (P, k, d), in link axes where ``follows``."""
+
+    link: Ints
+    at: Array
+    follows: NDArray[np.bool_]
+    value: Array
+
+
+@dataclass(frozen=True)
+class Couples:
+    """Couples (P, k, n - d) on links."""
+
+    link: Ints
+    value: Array
+
+
+@dataclass(frozen=True)
+class Springs:
+    """Springs and dampers between points of two links: tension k (l - l0) + c dl/dt pulls them together."""
+
+    a: Ints
+    b: Ints
+    at_a: Array
+    at_b: Array
+    stiffness: Array
+    free_length: Array
+    damping: Array
+
+
+@dataclass(frozen=True)
+class Resistances:
+    """Springs and dampers in freedoms: -k (q - q0) - c dq/dt along freedom ``row``, on j; the opposite on i."""
+
+    row: Ints
+    stiffness: Array
+    free: Array
+    damping: Array
+
+
+@dataclass(frozen=True)
+class Forcing:
+    """All that loads the links, but for the drives' efforts."""
+
+    inertia: Inertia
+    forces: Forces
+    couples: Couples
+    springs: Springs
+    resistances: Resistances
+    separation: Array  # tan(alpha) of each mesh
+
+
+class Source(NamedTuple):
+    """Wrenches (..., k, n) on links (k,), about their reference points."""
+
+    link: Ints
+    wrench: Array
+
+
+def summed(layout: Layout, *sources: Source) -> Array:
+    """Total wrench on each moving link (..., L, n)."""
+    lead = np.broadcast_shapes(*(s.wrench.shape[:-2] for s in sources))
+    out = np.zeros((*lead, layout.links + 1, layout.algebra.n), np.result_type(*(s.wrench for s in sources)))
+    for source in sources:
+        if len(source.link) > MANY:
+            np.add.at(out, (..., source.link, slice(None)), source.wrench)
+            continue
+        for k, link in enumerate(source.link):
+            out[..., link, :] += source.wrench[..., k, :]
+    return out[..., :-1, :]
+
+
+def weight(layout: Layout, inertia: Inertia, pose: Pose) -> Source:
+    """m g at the mass centres."""
+    return _at_center(layout, inertia, pose, inertia.mass[..., None] * inertia.gravity, None)
+
+
+def inertia_wrench(layout: Layout, inertia: Inertia, pose: Pose, twist: Array, acceleration: Array) -> Source:
+    """D'Alembert's wrench: -m a_G at the mass centre and -(I alpha + omega x I omega)."""
+    g = layout.algebra
+    _, _, a = center_motion(layout, inertia, pose, twist, acceleration)
+    r, w, alpha = pose.rotation[..., :-1, :], twist[..., :-1, g.d :], acceleration[..., g.d :]
+    couple = -g.angular_momentum_rate(r, alpha, inertia.inertia) - g.gyroscopic(r, w, inertia.inertia)
+    return _at_center(layout, inertia, pose, -inertia.mass[..., None] * a, couple)
+
+
+def center_motion(
+    layout: Layout, inertia: Inertia, pose: Pose, twist: Array, acceleration: Array
+) -> tuple[Array, Array, Array]:
+    """Position, velocity, acceleration (..., L, d) of the mass centres; twist (..., L+1, n), acceleration (..., L, n)."""
+    g, links = layout.algebra, np.arange(layout.links)
+    r = arm(g, pose, links, inertia.center)
+    v, w, alpha = twist[..., :-1, : g.d], twist[..., :-1, g.d :], acceleration[..., g.d :]
+    accelerated = acceleration[..., : g.d] + g.spin(alpha, r) + g.centripetal(w, r)
+    return pose.point[..., :-1, :] + r, v + g.spin(w, r), accelerated
+
+
+def _at_center(layout: Layout, inertia: Inertia, pose: Pose, force: Array, couple: Array | None) -> Source:
+    g, links = layout.algebra, np.arange(layout.links)
+    r = arm(g, pose, links, inertia.center)
+    return Source(links, _wrench(g, r, force, couple))
+
+
+def _wrench(g: Any, r: Array, force: Array, couple: Array | None = None) -> Array:
+    """Wrench about the reference point of a force with arm r and a couple."""
+    moment = g.cross(r, force)
+    if couple is not None:
+        moment = moment + couple
+    force = np.broadcast_to(force, (*moment.shape[:-1], g.d))
+    return np.concatenate([force, moment], axis=-1)
+
+
+def force_wrench(layout: Layout, forces: Forces, pose: Pose) -> Source:
+    """Forces at points of links."""
+    g = layout.algebra
+    r = arm(g, pose, forces.link, forces.at)
+    turned = g.rotate(pose.rotation[..., forces.link, :], forces.value)
+    return Source(forces.link, _wrench(g, r, np.where(forces.follows[:, None], turned, forces.value)))
+
+
+def couple_wrench(layout: Layout, couples: Couples) -> Source:
+    """Couples on links."""
+    zero = np.zeros((*couples.value.shape[:-1], layout.algebra.d))
+    return Source(couples.link, np.concatenate([zero, couples.value], axis=-1))
+
+
+def spring_wrench(layout: Layout, springs: Springs, pose: Pose, twist: Array) -> Source:
+    """Springs and dampers between points: on a towards b, on b the opposite."""
+    g = layout.algebra
+    ra, rb = arm(g, pose, springs.a, springs.at_a), arm(g, pose, springs.b, springs.at_b)
+    span = pose.point[..., springs.b, :] + rb - pose.point[..., springs.a, :] - ra
+    length = np.sqrt((span * span).sum(axis=-1))
+    e = span / np.where(length > 0, length, 1.0)[..., None]
+    va = twist[..., springs.a, : g.d] + g.spin(twist[..., springs.a, g.d :], ra)
+    vb = twist[..., springs.b, : g.d] + g.spin(twist[..., springs.b, g.d :], rb)
+    tension = springs.stiffness * (length - springs.free_length) + springs.damping * g.dot(e, vb - va)
+    pull = tension[..., None] * e
+    return Source(
+        np.concatenate([springs.a, springs.b]), np.concatenate([_wrench(g, ra, pull), _wrench(g, rb, -pull)], axis=-2)
+    )
+
+
+def resistance_wrench(layout: Layout, resistances: Resistances, pose: Pose, twist: Array) -> Source:
+    """Springs and dampers in freedoms."""
+    rows = system(layout.algebra, layout.freedoms, pose).rows(resistances.row)
+    value = measure(layout.algebra, layout.freedoms, pose)[..., resistances.row]
+    effort = -resistances.stiffness * (value - resistances.free) - resistances.damping * rates(rows, twist)
+    return pair(rows, effort)
+
+
+def pair(rows: System, multiplier: Array) -> Source:
+    """Wrenches of rows on both their links for multipliers (..., K)."""
+    both = [multiplier[..., None] * rows.on_i, multiplier[..., None] * rows.on_j]
+    return Source(np.concatenate([rows.i, rows.j]), np.concatenate(both, axis=-2))
+
+
+def separation_wrench(layout: Layout, pose: Pose, tangent: Array, multiplier: Array) -> Source:
+    """Radial tooth forces |F_t| tan(alpha) on both wheels of each mesh, apart whatever the sense of F_t.
+
+    ``tangent`` (k,) holds tan(alpha) of the mesh rows, ``multiplier`` (..., K) all constraints' multipliers.
+    """
+    force = separation(layout, pose, tangent, multiplier)
+    links, parts = [], []
+    for f, pushed in zip(meshes(layout), force, strict=True):
+        ri, rj = arm(layout.algebra, pose, f.i, f.ui), arm(layout.algebra, pose, f.j, f.uj)
+        links += [f.i, f.j]
+        parts += [_wrench(layout.algebra, ri, -pushed), _wrench(layout.algebra, rj, pushed)]
+    return Source(np.concatenate(links), np.concatenate(parts, axis=-2))
+
+
+def meshes(layout: Layout) -> list[Mesh]:
+    """The families of gear meshes."""
+    return [f for f in layout.constraints.families if isinstance(f, Mesh)]
+
+
+def separation(layout: Layout, pose: Pose, tangent: Array, multiplier: Array) -> list[Array]:
+    """Radial force on j (..., k, d) of each family of meshes, along the line of centres."""
+    out, start = [], 0
+    for f in meshes(layout):
+        line = span(layout.algebra, f, pose)
+        length = np.sqrt((line * line).sum(axis=-1))
+        tan = tangent[start : start + len(f.i)] * np.sign(f.ri * f.rj) * np.abs(f.ri + f.rj)
+        out.append((np.abs(multiplier[..., f.row]) * tan / length**2)[..., None] * line)
+        start += len(f.i)
+    return out

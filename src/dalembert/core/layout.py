@@ -1,0 +1,184 @@
+"""What is compiled from a description: integers that never change with a number (Rows), and the numbers (arrays).
+
+L   moving links; ground is link number L, the last
+K   rows (constraints, or freedoms) of a system
+d,n components of a force (2, 3) and of a wrench (3, 6)
+
+A *row* is one scalar condition between two links i and j: its measure m(q), the wrench it exerts on j per unit of
+multiplier, and the drift, the part of the second derivative of m that does not contain accelerations. Constraints keep
+their measure at a target; freedoms are the same thing left free, driven, damped or sprung (THEORY: one matrix A).
+
+All arms (``ui``, ``uj``) are in link axes from the link's own reference point. Shapes: (K, d), or (design, 1, K, d).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
+Ints = NDArray[np.intp]
+
+
+class Pose(NamedTuple):
+    """Where the links are, ground included as the last one.
+
+    point (..., L+1, d) reference points in ground axes; turn (..., L+1) angles, not reduced to one turn; rotation
+    (..., L+1, 2) their cosines and sines.
+    """
+
+    point: Array
+    turn: Array
+    rotation: Array
+
+    def __getitem__(self, index: Any) -> Self:  # type: ignore[override]
+        return type(self)(self.point[index], self.turn[index], self.rotation[index])
+
+
+@dataclass(frozen=True)
+class Meet:
+    """A point of j stays on a point of i: d rows, one a ground axis. Measure P_j - P_i."""
+
+    row: Ints  # (k, d) places of the rows in the system
+    i: Ints
+    j: Ints
+    ui: Array
+    uj: Array
+
+
+@dataclass(frozen=True)
+class Along:
+    """Coordinate of j's point along an axis fixed in i, plus pitch times the relative turn.
+
+    Measure e . (P_j - P_i) + pitch (theta_j - theta_i); the force acts at P_j.
+    """
+
+    row: Ints
+    i: Ints
+    j: Ints
+    ui: Array
+    uj: Array
+    axis: Array  # (k, d) in i's axes
+    pitch: Array  # (k,)
+
+
+@dataclass(frozen=True)
+class Turn:
+    """Relative angle theta_j - theta_i; a pure couple."""
+
+    row: Ints
+    i: Ints
+    j: Ints
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Pitch circles of signed radii that roll on each other at the pitch point, centres free to move.
+
+    Measure r_i (theta_i - phi) + r_j (theta_j - phi) with phi the angle of the line from centre i to centre j; a
+    ring wheel has a negative radius. The tangential force acts at the pitch point.
+    """
+
+    row: Ints
+    i: Ints
+    j: Ints
+    ui: Array
+    uj: Array
+    ri: Array
+    rj: Array
+
+
+@dataclass(frozen=True)
+class Distance:
+    """Distance of a point of j from a point of i."""
+
+    row: Ints
+    i: Ints
+    j: Ints
+    ui: Array
+    uj: Array
+
+
+Family = Meet | Along | Turn | Mesh | Distance
+
+
+@dataclass(frozen=True)
+class Rows:
+    """The rows of one system by family; ``count`` of them in all, each with the joint it belongs to."""
+
+    count: int
+    links: int
+    families: tuple[Family, ...]
+    joint: Ints  # (K,) joint of each row
+    angular: NDArray[np.bool_]  # (K,) the measure is an angle, the wrench a couple
+
+    @cached_property
+    def ends(self) -> tuple[Ints, Ints]:
+        """Links i and j of each row."""
+        i, j = np.zeros(self.count, np.intp), np.zeros(self.count, np.intp)
+        for family in self.families:
+            row = family.row.T if isinstance(family, Meet) else family.row
+            i[row], j[row] = family.i, family.j
+        return i, j
+
+
+class System(NamedTuple):
+    """Rows between links i and j (K,), with their wrenches on them (..., K, n): the columns of A, row by row."""
+
+    i: Ints
+    j: Ints
+    angular: NDArray[np.bool_]
+    on_i: Array
+    on_j: Array
+
+    def __add__(self, other: System) -> System:  # type: ignore[override]
+        """Both, one after the other."""
+        lead = np.broadcast_shapes(self.on_j.shape[:-2], other.on_j.shape[:-2])
+        wide = [np.broadcast_to(a, lead + a.shape[-2:]) for a in (self.on_i, other.on_i, self.on_j, other.on_j)]
+        return System(
+            np.concatenate([self.i, other.i]),
+            np.concatenate([self.j, other.j]),
+            np.concatenate([self.angular, other.angular]),
+            np.concatenate(wide[:2], axis=-2),
+            np.concatenate(wide[2:], axis=-2),
+        )
+
+    def rows(self, which: Any) -> System:
+        """Some of the rows."""
+        on_i, on_j = self.on_i[..., which, :], self.on_j[..., which, :]
+        return System(self.i[which], self.j[which], self.angular[which], on_i, on_j)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """A compiled mechanism: who touches whom.
+
+    constraints, freedoms   the rows of A and of the joints' freedoms
+    driven (D,)             the freedom each drive prescribes
+    redundant               solve by singular values: constraints repeat each other
+    length                  characteristic length: makes angles and moments comparable with lengths and forces
+    """
+
+    algebra: Any
+    links: int
+    joints: int
+    constraints: Rows
+    freedoms: Rows
+    driven: Ints
+    length: float
+    redundant: bool
+    reference: Array = field(repr=False)  # (L+1, d) reference point of each link in its own axes
+
+    @cached_property
+    def angular(self) -> NDArray[np.bool_]:
+        """Which of the stacked rows, constraints then drives, measure an angle."""
+        return np.concatenate([self.constraints.angular, self.freedoms.angular[self.driven]])
+
+    @property
+    def unknowns(self) -> int:
+        """n L, the number of velocities, and of equilibrium equations."""
+        return int(self.algebra.n) * self.links

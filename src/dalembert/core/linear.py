@@ -1,0 +1,127 @@
+"""Linear systems of a batch of positions: solved once factored, with A and its transpose, singular ones marked.
+
+J   rows (velocities of measures), (..., K, n L);  A = J transposed
+r, c scales of rows and columns that make J free of units: angles times the characteristic length
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
+
+SINGULAR = 1e-6
+"""A position is singular below this reciprocal condition number (1-norm, scaled): there a rounding error of the pose,
+1e-16 / rcond, shows in the forces as 1e-16 / rcond**2, so what remains is good to about four digits at worst."""
+
+
+class Factor(Protocol):
+    """A factored system J; ``rcond`` (...) is its scaled reciprocal condition number."""
+
+    rcond: Array
+
+    def motion(self, rates: Array) -> Array:
+        """Solve J v = rates."""
+        ...
+
+    def forces(self, wrench: Array) -> Array:
+        """Solve J^T x = wrench."""
+        ...
+
+
+def apply(matrix: Array, vector: Array) -> Array:
+    """Matrix times vector over leading axes."""
+    return np.asarray((matrix @ vector[..., None])[..., 0])
+
+
+@dataclass(frozen=True)
+class Inverse:
+    """Square systems by their inverses, with one step of refinement: few batched calls for many positions."""
+
+    matrix: Array
+    inverse: Array
+    row: Array
+    column: Array
+    rcond: Array
+
+    def motion(self, rates: Array) -> Array:
+        rates = rates * self.row
+        first = apply(self.inverse, rates)
+        first += apply(self.inverse, rates - apply(self.matrix, first))
+        return first * self.column
+
+    def forces(self, wrench: Array) -> Array:
+        wrench = wrench * self.column
+        inverse, matrix = np.swapaxes(self.inverse, -1, -2), np.swapaxes(self.matrix, -1, -2)
+        first = apply(inverse, wrench)
+        first += apply(inverse, wrench - apply(matrix, first))
+        return first * self.row
+
+
+def inverse(j: Array, row: Array, column: Array) -> Inverse:
+    """Factor square systems J (..., m, m). An exactly singular one gets NaN and rcond 0; the others are unaffected."""
+    matrix = j * row[..., None] * column
+    inv = _inverse(matrix)
+    with np.errstate(all="ignore"):
+        rcond = 1 / (np.abs(matrix).sum(axis=-2).max(axis=-1) * np.abs(inv).sum(axis=-2).max(axis=-1))
+    return Inverse(matrix, inv, row, column, np.nan_to_num(rcond, nan=0.0))
+
+
+def _inverse(matrix: Array) -> Array:
+    """numpy's batched inverse raises when one matrix is singular; halve the batch until that one is alone."""
+    try:
+        return np.linalg.inv(matrix)
+    except np.linalg.LinAlgError:
+        if matrix.ndim == 2:
+            return np.full_like(matrix, np.nan)
+        if len(matrix) == 1:
+            return _inverse(matrix[0])[None]
+        half = len(matrix) // 2
+        return np.concatenate([_inverse(matrix[:half]), _inverse(matrix[half:])])
+
+
+@dataclass(frozen=True)
+class PseudoInverse:
+    """Any shape and rank, by singular values: least-norm forces, least-squares motion.
+
+    ``null`` (..., K, K) projects on the multipliers that load nothing: a row of zeros marks a unique multiplier.
+    """
+
+    pinv: Array
+    null: Array
+    row: Array
+    column: Array
+    rcond: Array
+    rank: Array
+
+    def motion(self, rates: Array) -> Array:
+        return apply(self.pinv, rates * self.row) * self.column
+
+    def forces(self, wrench: Array) -> Array:
+        return apply(np.swapaxes(self.pinv, -1, -2), wrench * self.column) * self.row
+
+
+RANK = 1e-9
+"""Singular values below this part of the largest count as zero in rank decisions (scaled systems)."""
+
+
+def pseudo_inverse(j: Array, row: Array, column: Array, tolerance: float = RANK) -> PseudoInverse:
+    """Factor systems J (..., K, m) of any rank."""
+    matrix = j * row[..., None] * column
+    bad = ~np.isfinite(matrix).all(axis=(-2, -1))
+    u, s, vt = np.linalg.svd(np.where(bad[..., None, None], 0.0, matrix), full_matrices=False)
+    top = s.max(axis=-1, keepdims=True, initial=0.0)
+    kept = s > tolerance * np.where(top > 0, top, 1.0)
+    with np.errstate(all="ignore"):
+        scaled = np.where(kept, 1 / np.where(kept, s, 1.0), 0.0)
+        rcond = np.where(kept, s, np.inf).min(axis=-1, initial=np.inf) / top[..., 0]
+    range_ = u * kept[..., None, :]
+    pinv = np.swapaxes(vt, -1, -2) @ (scaled[..., None] * np.swapaxes(u, -1, -2))
+    null = np.eye(j.shape[-2]) - range_ @ np.swapaxes(range_, -1, -2)
+    rank = kept.sum(axis=-1)
+    full = (rank == j.shape[-1]) & ~bad
+    return PseudoInverse(pinv, null, row, column, np.where(full, np.nan_to_num(rcond), 0.0), rank)
