@@ -1,0 +1,1 @@
+"""Tests: oracles, laws on random mechanisms, books."""
