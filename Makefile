@@ -1,0 +1,46 @@
+# make run        a private environment in .venv, then the first example solved and printed
+# make test       the same environment with what the tests need; ruff, mypy --strict, pytest
+# make test-long  the long tests too, in one run
+# Needs nothing but make and Python 3.11 or newer.
+
+VENV ?= .venv
+PYTEST_ARGS ?=
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
+
+FIND_PYTHON = for p in $(PYTHON) python3 python3.14 python3.13 python3.12 python3.11 python; do \
+    "$$p" -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo "$$p" && exit 0; \
+  done; \
+  echo "dalembert needs Python 3.11 or newer with its venv module; none was found." \
+       "Install it, or name it: make $(MAKECMDGOALS) PYTHON=/path/to/python3" >&2; exit 1
+
+.PHONY: run test test-long lint clean
+
+run: $(VENV)/.run
+	@$(BIN)/dalembert solve examples/four_bar.yaml
+
+test: lint
+	@$(BIN)/python -m pytest $(PYTEST_ARGS)
+
+test-long: lint
+	@$(BIN)/python -m pytest -m "long or not long" $(PYTEST_ARGS)
+
+lint: $(VENV)/.test
+	@$(BIN)/ruff check .
+	@$(BIN)/ruff format --check .
+	@$(BIN)/mypy --strict
+
+$(BIN)/python:
+	@python=$$($(FIND_PYTHON)) || exit 1; \
+	  echo "Making $(VENV) with $$("$$python" --version)"; "$$python" -m venv "$(VENV)"
+
+$(VENV)/.run: pyproject.toml | $(BIN)/python
+	@echo "Installing dalembert into $(VENV)"
+	@$(PIP) install --editable . && touch $@
+
+$(VENV)/.test: pyproject.toml | $(BIN)/python
+	@echo "Installing dalembert and its test requirements into $(VENV)"
+	@$(PIP) install --editable '.[test]' && touch $@ $(VENV)/.run
+
+clean:
+	@rm -rf "$(VENV)" build dist .pytest_cache .mypy_cache .ruff_cache
