@@ -32,13 +32,17 @@ def rotation(turn: Array) -> Array:
 def rotate(r: Array, u: Array) -> Array:
     """Ground components of a vector u given in rotated axes."""
     c, s = r[..., 0], r[..., 1]
-    return np.stack(np.broadcast_arrays(c * u[..., 0] - s * u[..., 1], s * u[..., 0] + c * u[..., 1]), axis=-1)
+    return np.stack(
+        np.broadcast_arrays(c * u[..., 0] - s * u[..., 1], s * u[..., 0] + c * u[..., 1]), axis=-1
+    )
 
 
 def unrotate(r: Array, v: Array) -> Array:
     """Components in rotated axes of a vector v given in ground axes."""
     c, s = r[..., 0], r[..., 1]
-    return np.stack(np.broadcast_arrays(c * v[..., 0] + s * v[..., 1], c * v[..., 1] - s * v[..., 0]), axis=-1)
+    return np.stack(
+        np.broadcast_arrays(c * v[..., 0] + s * v[..., 1], c * v[..., 1] - s * v[..., 0]), axis=-1
+    )
 
 
 def across(u: Array) -> Array:

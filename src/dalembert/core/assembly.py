@@ -66,7 +66,11 @@ def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes |
 
 def phase_rows(rows: Rows) -> NDArray[np.intp]:
     """Rows whose target is their measure at the first pose: meshes and rolling without slip."""
-    found = [f.row if isinstance(f, Mesh) else f.row[f.pitch != 0] for f in rows.families if isinstance(f, Mesh | Along)]
+    found = [
+        f.row if isinstance(f, Mesh) else f.row[f.pitch != 0]
+        for f in rows.families
+        if isinstance(f, Mesh | Along)
+    ]
     return np.concatenate([*found, np.zeros(0, np.intp)]).astype(np.intp)
 
 
@@ -80,18 +84,21 @@ def _without_phase(layout: Layout, target: Array, guess: Guess, hold: bool) -> t
     kept = np.setdiff1d(np.arange(rows.count), phased)
     count = len(kept) + len(held)
     families = [r for f in rows.families if (r := _renumbered(f, kept)) is not None]
-    families.append(Turn(np.arange(len(kept), count), np.full(len(held), layout.links), np.array(held, np.intp)))
+    families.append(
+        Turn(np.arange(len(kept), count), np.full(len(held), layout.links), np.array(held, np.intp))
+    )
     angular = np.concatenate([rows.angular[kept], np.ones(len(held), bool)])
     joint = np.concatenate([rows.joint[kept], np.zeros(len(held), np.intp)])
     angles = np.nan_to_num(guess.turn[np.array(held, np.intp)])
     constraints = Rows(count, rows.links, tuple(families), joint, angular)
-    return replace(layout, constraints=constraints), np.concatenate([target[kept], angles, target[rows.count :]])
+    return replace(layout, constraints=constraints), np.concatenate(
+        [target[kept], angles, target[rows.count :]]
+    )
 
 
 def _renumbered(f: Any, kept: NDArray[np.intp]) -> Any:
     """A family with only the kept rows, at their new places."""
-    mask = np.isin(f.row, kept)
-    mask = mask.all(axis=1) if mask.ndim == 2 else mask
+    mask = np.asarray(np.isin(f.row, kept).reshape(len(f.i), -1).all(axis=1))
     if not mask.any():
         return None
     parts = {name: value[mask] for name, value in vars(f).items() if name != "row"}
@@ -133,12 +140,12 @@ def _searched(layout: Layout, free: Layout, target: Array, guess: Guess) -> Mode
     good = np.flatnonzero(missing <= CLOSED * layout.length)
     if not good.size:
         return None
-    distinct = _distinct(layout, _reduced(layout, pose[good]))
+    distinct = _distinct(layout, _reduced(layout, pose.at(good)))
     given = np.isfinite(guess.turn[:-1])
     if given.any():
-        off = np.abs(_turned(distinct.turn[:, :-1] - guess.turn[:-1])[:, given]).max(axis=1)
-        return Modes(distinct[np.argsort(off, kind="stable")], "nearest")
-    return Modes(distinct[_preferred(layout, distinct)], "search")
+        off = (_turned(distinct.turn[:, :-1] - guess.turn[:-1])[:, given] ** 2).sum(axis=1).round(9)
+        return Modes(distinct.at(np.argsort(off, kind="stable")), "nearest")
+    return Modes(distinct.at(_preferred(layout, distinct)), "search")
 
 
 def _turned(angle: Array) -> Array:
@@ -169,9 +176,9 @@ def _distinct(layout: Layout, pose: Pose) -> Pose:
     kept: list[int] = []
     for k in range(len(pose.turn)):
         one = Pose(pose.point[k], _turned(pose.turn[k]), pose.rotation[k])
-        if all(_apart(layout, one, pose[m]) > SAME for m in kept):
+        if all(_apart(layout, one, pose.at(m)) > SAME for m in kept):
             kept.append(k)
-    return pose[np.array(kept)]
+    return pose.at(np.array(kept))
 
 
 def _apart(layout: Layout, a: Pose, b: Pose) -> float:
@@ -274,13 +281,10 @@ def _turns(layout: Layout, target: Array, guess: Guess, angles: Array, edges: _E
     turn = np.full(angles.shape, np.nan)
     turn[:, -1] = 0.0
     _spread_turns(turn, target, edges)
-    for k in np.flatnonzero(np.isfinite(guess.turn)):
+    given = np.isfinite(guess.turn)
+    for k in np.argsort(~given, kind="stable").tolist():
         if np.isnan(turn[0, k]):
-            turn[:, k] = guess.turn[k]
-            _spread_turns(turn, target, edges)
-    for k in range(turn.shape[1]):
-        if np.isnan(turn[0, k]):
-            turn[:, k] = angles[:, k]
+            turn[:, k] = guess.turn[k] if given[k] else angles[:, k]
             _spread_turns(turn, target, edges)
     return turn
 

@@ -29,7 +29,7 @@ LONGEST_TURN = 0.5
 
 def gap(layout: Layout, pose: Pose, target: Array) -> Array:
     """What is missing to the targets (..., K + D)."""
-    missing = target - stacked_measure(layout, pose)
+    missing: Array = target - stacked_measure(layout, pose)
     for family in layout.constraints.families:
         if isinstance(family, Mesh):  # the angle of the line of centres is known but for whole turns
             period = 2 * np.pi * (family.ri + family.rj)
@@ -43,9 +43,13 @@ def step(layout: Layout, pose: Pose, scaled_gap: Array) -> Array:
     rows = stacked(layout, pose)
     solver = factor(layout, rows)
     with np.errstate(all="ignore"):
-        dq = np.nan_to_num(solver.motion(scaled_gap / row_scale(layout, rows.angular)), nan=0.0, posinf=0.0, neginf=0.0)
+        dq = np.nan_to_num(
+            solver.motion(scaled_gap / row_scale(layout, rows.angular)), nan=0.0, posinf=0.0, neginf=0.0
+        )
     dq = dq.reshape((*dq.shape[:-1], layout.links, layout.algebra.n))
-    return np.asarray(dq * np.minimum(1.0, LONGEST_TURN / np.maximum(largest(layout, dq), 1e-300))[..., None, None])
+    return np.asarray(
+        dq * np.minimum(1.0, LONGEST_TURN / np.maximum(largest(layout, dq), 1e-300))[..., None, None]
+    )
 
 
 def largest(layout: Layout, dq: Array) -> Array:
@@ -68,7 +72,7 @@ def moved(layout: Layout, pose: Pose, dq: Array) -> Pose:
 def distance(layout: Layout, a: Pose, b: Pose) -> Array:
     """Largest displacement of a link between two poses: radians, or lengths over the characteristic length (...)."""
     shift = np.abs(a.point - b.point).max(axis=(-2, -1)) / layout.length
-    return np.maximum(shift, np.abs(a.turn - b.turn).max(axis=-1))
+    return np.asarray(np.maximum(shift, np.abs(a.turn - b.turn).max(axis=-1)))
 
 
 def closed(layout: Layout, guess: Pose, target: Array, iterations: int = 40) -> tuple[Pose, Array]:
@@ -81,9 +85,9 @@ def closed(layout: Layout, guess: Pose, target: Array, iterations: int = 40) -> 
     size = np.abs(missing).max(axis=-1, initial=0.0)
     active = np.arange(len(size))
     for _ in range(iterations):
-        dq = step(layout, pose[active], missing[active])
+        dq = step(layout, pose.at(active), missing[active])
         last = (size[active] <= CLOSED * layout.length) & (largest(layout, dq) <= FINE)
-        part = moved(layout, pose[active], dq)
+        part = moved(layout, pose.at(active), dq)
         for whole, new in zip(pose, part, strict=True):
             whole[active] = new
         missing[active] = gap(layout, part, target[active])

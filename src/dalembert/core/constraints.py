@@ -69,7 +69,9 @@ def _both(layout: Layout, of: Any, *state: Any) -> Array:
     constraints: Array = of(layout.algebra, layout.constraints, *state)
     if not layout.driven.size:
         return constraints
-    return np.concatenate([constraints, of(layout.algebra, layout.freedoms, *state)[..., layout.driven]], axis=-1)
+    return np.concatenate(
+        [constraints, of(layout.algebra, layout.freedoms, *state)[..., layout.driven]], axis=-1
+    )
 
 
 def dense(layout: Layout, rows: System) -> Array:
@@ -96,7 +98,7 @@ def arm(g: Any, pose: Pose, link: NDArray[np.intp], u: Array) -> Array:
 def span(g: Any, f: Any, pose: Pose) -> Array:
     """P_j - P_i."""
     pi, pj = pose.point[..., f.i, :], pose.point[..., f.j, :]
-    return (pj + arm(g, pose, f.j, f.uj)) - (pi + arm(g, pose, f.i, f.ui))
+    return np.asarray((pj + arm(g, pose, f.j, f.uj)) - (pi + arm(g, pose, f.i, f.ui)))
 
 
 def _relative_turn(f: Any, pose: Pose) -> Array:
@@ -197,7 +199,9 @@ def _mesh_drift(g: Any, f: Mesh, pose: Pose, twist: Array) -> Array:
     rate, second = _span_motion(g, f, pose, twist)
     square = g.dot(line, line)
     phi_rate = g.cross(line, rate)[..., 0] / square
-    return np.asarray(-(f.ri + f.rj) * (g.cross(line, second)[..., 0] - 2 * g.dot(line, rate) * phi_rate) / square)
+    return np.asarray(
+        -(f.ri + f.rj) * (g.cross(line, second)[..., 0] - 2 * g.dot(line, rate) * phi_rate) / square
+    )
 
 
 def _distance_drift(g: Any, f: Distance, pose: Pose, twist: Array) -> Array:

@@ -83,7 +83,9 @@ def motion(layout: Layout, pose: Pose, speed: Array, acceleration: Array) -> tup
         return with_ground(solved.reshape((*solved.shape[:-1], layout.links, layout.algebra.n)))
 
     def prescribed(drives: Array) -> Array:
-        return np.concatenate([np.zeros((*lead, count)), np.broadcast_to(drives, (*lead, len(layout.driven)))], axis=-1)
+        return np.concatenate(
+            [np.zeros((*lead, count)), np.broadcast_to(drives, (*lead, len(layout.driven)))], axis=-1
+        )
 
     v = twists(prescribed(speed))
     a = twists(prescribed(acceleration) - stacked_drift(layout, pose, v))
@@ -93,7 +95,9 @@ def motion(layout: Layout, pose: Pose, speed: Array, acceleration: Array) -> tup
     return Motion(v, a, stack, solver.rcond), rows, solver
 
 
-def known_sources(layout: Layout, forcing: Forcing, pose: Pose, moving: Motion, inertia: bool) -> dict[str, Source]:
+def known_sources(
+    layout: Layout, forcing: Forcing, pose: Pose, moving: Motion, inertia: bool
+) -> dict[str, Source]:
     """Every known wrench by kind; springs and dampers included, inertia where asked for."""
     still = np.zeros_like(moving.twist)
     twist = moving.twist if inertia else still
@@ -112,7 +116,14 @@ def known_sources(layout: Layout, forcing: Forcing, pose: Pose, moving: Motion, 
 
 
 def balance(
-    layout: Layout, forcing: Forcing, known: Known, pose: Pose, moving: Motion, rows: System, solver: Factor, w: Array
+    layout: Layout,
+    forcing: Forcing,
+    known: Known,
+    pose: Pose,
+    moving: Motion,
+    rows: System,
+    solver: Factor,
+    w: Array,
 ) -> Balance:
     """Solve A x + w = 0 for total wrenches w (..., L, n)."""
     count = layout.constraints.count

@@ -104,8 +104,9 @@ def _lu(matrix: Any) -> tuple[Any, float]:
         lu = splu(matrix)
     except RuntimeError:
         return None, 0.0
-    operator = LinearOperator(
-        matrix.shape, matvec=lu.solve, rmatvec=lambda v: lu.solve(v, "T"), matmat=lu.solve, dtype=float
+    solve: Any = lu.solve
+    operator: Any = LinearOperator(
+        matrix.shape, matvec=solve, rmatvec=lambda v: solve(v, "T"), matmat=solve, dtype=np.float64
     )
     norm = float(abs(matrix).sum(axis=0).max())
     with np.errstate(all="ignore"):

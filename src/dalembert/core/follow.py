@@ -75,7 +75,7 @@ def _lagrange(s: Array, nodes: Array) -> Array:
     return out
 
 
-def march(layout: Layout, first: Pose, targets: Array, start: int = 0, backward: bool = False) -> March:
+def march(layout: Layout, first: Pose, targets: Array, start: float = 0.0, backward: bool = False) -> March:
     """Stations from position ``start`` to the end of the list (or its beginning), from the pose there (L+1, ...)."""
     end = 0.0 if backward else len(targets) - 1.0
     sign = -1.0 if backward else 1.0
@@ -123,19 +123,21 @@ def _station(layout: Layout, targets: Array, s: Array, poses: list[Pose], ahead:
     if not missing[0] <= CLOSED * layout.length:
         return None
     correction = float(distance(layout, pose, guess)[0])
-    travel = float(distance(layout, pose, poses[-1][None])[0])
+    travel = float(distance(layout, pose, poses[-1].at(None))[0])
     if correction > 0.15 * travel + 1e-6 or travel > 4 * STRIDE:
         return None
-    return pose[0]
+    return pose.at(0)
 
 
-def _predicted(layout: Layout, targets: Array, s: Array, poses: list[Pose], ahead: float, there: Array) -> Pose:
+def _predicted(
+    layout: Layout, targets: Array, s: Array, poses: list[Pose], ahead: float, there: Array
+) -> Pose:
     """Polynomial through the last stations; along the velocity from the first."""
     if len(s) > 1:
         order = np.argsort(s[-4:])
         recent = stack([poses[-4:][k] for k in order])
         return interpolated(np.array([ahead]), s[-4:][order], recent, layout)
-    here = poses[-1][None]
+    here = poses[-1].at(None)
     return moved(layout, here, velocity(layout, here, there - target_at(targets, s[-1:])))
 
 
@@ -152,20 +154,22 @@ class Path(NamedTuple):
     reached: NDArray[np.bool_]
 
 
-def path(layout: Layout, first: Pose, targets: Array, period: Array | None = None) -> Path:
-    """Poses at every position of the list, followed from the first pose (L+1, ...).
+def path(layout: Layout, first: Pose, targets: Array, period: Array | None = None, start: float = 0.0) -> Path:
+    """Poses at every position of the list, followed both ways from the pose (L+1, ...) at parameter ``start``.
 
     ``period`` (K + D) is what a whole cycle adds to the targets, if the list is one: then what lies behind a dead
     centre is also reached backwards from the first position. What is still missing is looked for from the poses
     already known, on the first one's side of the dead centre (same sign of det J).
     """
     if len(targets) == 1:
-        return Path(first[None], np.ones(1, bool))
-    forward = march(layout, first, targets)
+        return Path(first.at(None), np.ones(1, bool))
+    forward = march(layout, first, targets, start)
     result = _filled(layout, targets, forward)
-    if not forward.whole and period is not None:
+    if start > 0:
+        result = _joined(result, _filled(layout, targets, march(layout, first, targets, start, backward=True)))
+    if not forward.whole and period is not None and result.reached[0]:
         cycle = np.concatenate([targets - period, targets[:1]])
-        back = march(layout, first, cycle, start=len(targets), backward=True)
+        back = march(layout, result.pose.at(0), cycle, start=len(targets), backward=True)
         result = _joined(result, _filled(layout, cycle, back, count=len(targets)))
     return result if result.reached.all() else _reentered(layout, first, targets, result)
 
@@ -177,7 +181,7 @@ def _filled(layout: Layout, targets: Array, piece: March, count: int | None = No
     pose = interpolated(s, piece.s, piece.pose, layout)
     reached = np.zeros(len(s), bool)
     if inside.any():
-        guess = pose[inside]
+        guess = pose.at(inside)
         part, missing = closed(layout, guess, targets[: len(s)][inside])
         near = distance(layout, part, guess) <= TRUSTED
         for whole, new in zip(pose, part, strict=True):
@@ -199,7 +203,7 @@ def _over(mask: NDArray[np.bool_], array: Array) -> NDArray[np.bool_]:
 
 def _reentered(layout: Layout, first: Pose, targets: Array, known: Path) -> Path:
     """Positions behind a gap: entered at some sample position from poses already known, then followed both ways."""
-    sign = orientation(layout, first[None])[0]
+    sign = orientation(layout, first.at(None))[0]
     for _ in range(MOST_GAPS):
         missing = np.flatnonzero(~known.reached)
         sample = missing[np.unique(np.linspace(0, len(missing) - 1, min(len(missing), 12)).astype(int))]
@@ -220,12 +224,12 @@ def _entry(layout: Layout, target: Array, known: Path, sign: float) -> Pose | No
     """A pose at one target, from the nearest of the known poses that leads there with the given orientation."""
     good = np.flatnonzero(known.reached)
     good = good[np.linspace(0, len(good) - 1, min(len(good), 24)).astype(int)]
-    guess = known.pose[good]
+    guess = known.pose.at(good)
     pose, missing = closed(layout, guess, np.broadcast_to(target, (len(good), len(target))).copy())
     fits = (missing <= CLOSED * layout.length) & (orientation(layout, pose) * sign >= 0)
     if not fits.any():
         return None
-    return pose[np.flatnonzero(fits)[np.argmin(distance(layout, pose, guess)[fits])]]
+    return pose.at(np.flatnonzero(fits)[np.argmin(distance(layout, pose, guess)[fits])])
 
 
 def orientation(layout: Layout, pose: Pose) -> Array:

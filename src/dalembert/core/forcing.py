@@ -99,7 +99,7 @@ def summed(layout: Layout, *sources: Source) -> Array:
     out = np.zeros((*lead, layout.links + 1, layout.algebra.n), np.result_type(*(s.wrench for s in sources)))
     for source in sources:
         if len(source.link) > MANY:
-            np.add.at(out, (..., source.link, slice(None)), source.wrench)
+            np.add.at(np.moveaxis(out, -2, 0), source.link, np.moveaxis(source.wrench, -2, 0))
             continue
         for k, link in enumerate(source.link):
             out[..., link, :] += source.wrench[..., k, :]
@@ -172,7 +172,8 @@ def spring_wrench(layout: Layout, springs: Springs, pose: Pose, twist: Array) ->
     tension = springs.stiffness * (length - springs.free_length) + springs.damping * g.dot(e, vb - va)
     pull = tension[..., None] * e
     return Source(
-        np.concatenate([springs.a, springs.b]), np.concatenate([_wrench(g, ra, pull), _wrench(g, rb, -pull)], axis=-2)
+        np.concatenate([springs.a, springs.b]),
+        np.concatenate([_wrench(g, ra, pull), _wrench(g, rb, -pull)], axis=-2),
     )
 
 

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, NamedTuple, Self
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,8 +35,9 @@ class Pose(NamedTuple):
     turn: Array
     rotation: Array
 
-    def __getitem__(self, index: Any) -> Self:  # type: ignore[override]
-        return type(self)(self.point[index], self.turn[index], self.rotation[index])
+    def at(self, index: Any) -> Pose:
+        """The poses at an index of the leading axes."""
+        return Pose(self.point[index], self.turn[index], self.rotation[index])
 
 
 @dataclass(frozen=True)
@@ -138,7 +139,9 @@ class System(NamedTuple):
     def __add__(self, other: System) -> System:  # type: ignore[override]
         """Both, one after the other."""
         lead = np.broadcast_shapes(self.on_j.shape[:-2], other.on_j.shape[:-2])
-        wide = [np.broadcast_to(a, lead + a.shape[-2:]) for a in (self.on_i, other.on_i, self.on_j, other.on_j)]
+        wide = [
+            np.broadcast_to(a, lead + a.shape[-2:]) for a in (self.on_i, other.on_i, self.on_j, other.on_j)
+        ]
         return System(
             np.concatenate([self.i, other.i]),
             np.concatenate([self.j, other.j]),

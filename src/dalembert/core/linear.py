@@ -22,7 +22,8 @@ SINGULAR = 1e-6
 class Factor(Protocol):
     """A factored system J; ``rcond`` (...) is its scaled reciprocal condition number."""
 
-    rcond: Array
+    @property
+    def rcond(self) -> Array: ...
 
     def motion(self, rates: Array) -> Array:
         """Solve J v = rates."""
@@ -63,7 +64,7 @@ class Inverse:
 
 
 def inverse(j: Array, row: Array, column: Array) -> Inverse:
-    """Factor square systems J (..., m, m). An exactly singular one gets NaN and rcond 0; the others are unaffected."""
+    """Factor square systems J (..., m, m). A singular one gets NaN and rcond 0, alone."""
     matrix = j * row[..., None] * column
     inv = _inverse(matrix)
     with np.errstate(all="ignore"):
@@ -88,7 +89,7 @@ def _inverse(matrix: Array) -> Array:
 class PseudoInverse:
     """Any shape and rank, by singular values: least-norm forces, least-squares motion.
 
-    ``null`` (..., K, K) projects on the multipliers that load nothing: a row of zeros marks a unique multiplier.
+    ``null`` (..., K, K) projects on multipliers that load nothing: a row of zeros marks a unique one.
     """
 
     pinv: Array

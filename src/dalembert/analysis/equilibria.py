@@ -1,0 +1,178 @@
+"""Equilibrium positions: where a given effort holds the machine, all of them in a range, with their stability.
+
+g(q) = effort needed at q - effort given. A root is stable where g grows through it: the given effort then pulls back.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.analysis.result import Result
+from dalembert.analysis.solve import at_schedule
+from dalembert.model import Mechanism, Schedule
+
+Array = NDArray[Any]
+
+SCAN = 720
+"""Positions scanned for changes of sign; equilibria closer together than two of them may be missed in pairs."""
+
+COARSE = 60
+STEPS = 60
+EQUAL = 1e-9
+"""Efforts this close, relative to the largest in the range, count as equal."""
+
+
+def equilibria(m: Mechanism, schedule: Schedule, inertia: bool) -> Result:
+    """Every position of the unknown drive in its range where its given effort is in equilibrium."""
+    scan = _Scan(m, schedule, inertia)
+    q = np.linspace(*scan.range, SCAN + 1)
+    g, scale = scan.excess(q)
+    solved = np.isfinite(g)
+    if solved.any() and np.nanmax(np.abs(g)) <= EQUAL * scale:
+        found = scan.at(q[:1])
+        sentence = "Every position of the range is an equilibrium (indifferent): the first is given."
+        return replace(found, stability=("neutral",), reasons=(sentence,))
+    roots = _distinct(np.concatenate([_crossings(scan, q, g, scale), _touches(scan, q, g, scale)]), q[1] - q[0])
+    if scan.whole_turn and roots.size > 1 and abs(roots[-1] - roots[0] - 2 * np.pi) < 1e-9:
+        roots = roots[:-1]
+    if not roots.size:
+        return _none(scan, q, g)
+    return replace(scan.at(roots), stability=_stability(scan, roots, scale))
+
+
+class _Scan:
+    """Efforts of the unknown drive at chosen positions, the other drives standing."""
+
+    def __init__(self, m: Mechanism, schedule: Schedule, inertia: bool) -> None:
+        assert schedule.unknown is not None and schedule.range is not None
+        self.m, self.schedule, self.inertia = m, schedule, inertia
+        self.name, self.range = schedule.unknown, schedule.range
+        self.drive = schedule.names.index(schedule.unknown)
+        self.whole_turn = abs(abs(self.range[1] - self.range[0]) - 2 * np.pi) < 1e-9
+
+    def result(self, q: Array) -> tuple[Result, NDArray[np.intp]]:
+        """Analysis over a coarse grid and the positions q, and the places of q in it."""
+        grid = np.union1d(np.linspace(*self.range, COARSE + 1), q)
+        return at_schedule(self.m, self._schedule(grid), self.inertia), np.searchsorted(grid, q)
+
+    def _schedule(self, grid: Array) -> Schedule:
+        def column(values: Array) -> Array:
+            return np.repeat(values[:1], len(grid), axis=0)
+
+        position = column(self.schedule.position)
+        position[:, self.drive] = grid
+        rates = (column(self.schedule.speed), column(self.schedule.acceleration))
+        return replace(self.schedule, position=position, speed=rates[0], acceleration=rates[1], time=None)
+
+    def excess(self, q: Array) -> tuple[Array, float]:
+        """g at q, NaN where there is no answer, and the largest effort met."""
+        result, where = self.result(q)
+        needed = result.effort(self.name)
+        drives = {n: result.schedule.position[:, k] for k, n in enumerate(result.drives)}
+        effort = self.m.drives[self.name].effort
+        given = effort.at(drives) if hasattr(effort, "at") else effort
+        forces = np.abs(result.force_array).max(initial=0.0, where=np.isfinite(result.force_array))
+        reference = forces * result.compiled.layout.length
+        scale = max(float(np.nanmax(np.abs(np.append(needed[np.isfinite(needed)], given)))), reference * 1e-3)
+        return (needed - given)[where], scale
+
+    def at(self, q: Array) -> Result:
+        """The result at positions q only."""
+        result, where = self.result(q)
+        return picked(result, where)
+
+
+def picked(result: Result, where: NDArray[np.intp]) -> Result:
+    """A result at some of its positions."""
+    c, s = result.compiled, result.schedule
+    schedule = replace(s, position=s.position[where], speed=s.speed[where], acceleration=s.acceleration[where])
+    forces = replace(c.forcing.forces, value=c.forcing.forces.value[where])
+    couples = replace(c.forcing.couples, value=c.forcing.couples.value[where])
+    forcing = replace(c.forcing, forces=forces, couples=couples)
+    known = replace(c.known, effort=c.known.effort[where])
+    arrays: dict[str, Any] = {
+        name: value[where] for name, value in vars(result).items() if isinstance(value, np.ndarray) and value.ndim > 0
+    }
+    return replace(
+        result,
+        compiled=replace(c, schedule=schedule, forcing=forcing, known=known),
+        status=tuple(result.status[k] for k in where),
+        reasons=tuple(result.reasons[k] for k in where),
+        **arrays,
+    )
+
+
+def _crossings(scan: _Scan, q: Array, g: Array, scale: float) -> Array:
+    """Roots between neighbours of different sign, all refined together (bisection steered by the secant)."""
+    exact = q[g == 0]
+    k = np.flatnonzero(g[:-1] * g[1:] < 0)
+    a, b, ga, gb = q[k].copy(), q[k + 1].copy(), g[k].copy(), g[k + 1].copy()
+    for step in range(STEPS):
+        if not k.size or np.all(np.abs(b - a) <= 4e-16 * np.maximum(np.abs(a), 1e-3)):
+            break
+        x = (a + b) / 2 if step % 3 == 2 else np.clip(a - ga * (b - a) / (gb - ga), np.minimum(a, b), np.maximum(a, b))
+        gx, _ = scan.excess(x)
+        gx = np.where(np.isfinite(gx), gx, ga)
+        left = gx * ga > 0
+        a, ga = np.where(left, x, a), np.where(left, gx, ga)
+        b, gb = np.where(left, b, x), np.where(left, gb, gx)
+        if np.all(gx == 0):
+            a = b = x
+            break
+    roots = np.where(np.abs(ga) < np.abs(gb), a, b)
+    poles = np.minimum(np.abs(ga), np.abs(gb)) > 1e-6 * scale
+    return np.concatenate([exact, roots[~poles]])
+
+
+def _touches(scan: _Scan, q: Array, g: Array, scale: float) -> Array:
+    """Roots where g touches zero without a change of sign: least values of |g| that vanish."""
+    size = np.abs(g)
+    inner = np.flatnonzero((size[1:-1] < size[:-2]) & (size[1:-1] <= size[2:]) & (size[1:-1] < 1e-2 * scale)) + 1
+    same = inner[(g[inner - 1] * g[inner] > 0) & (g[inner] * g[inner + 1] > 0)]
+    if not same.size:
+        return np.zeros(0)
+    low, high = q[same - 1].copy(), q[same + 1].copy()
+    for _ in range(STEPS):
+        x1, x2 = low + 0.382 * (high - low), low + 0.618 * (high - low)
+        first = np.abs(scan.excess(x1)[0]) < np.abs(scan.excess(x2)[0])
+        high, low = np.where(first, x2, high), np.where(first, low, x1)
+        if np.all(high - low < 1e-9):
+            break
+    x = (low + high) / 2
+    return np.asarray(x[np.abs(scan.excess(x)[0]) <= EQUAL * scale])
+
+
+def _distinct(roots: Array, spacing: float) -> Array:
+    """Sorted, without repetitions."""
+    roots = np.sort(roots)
+    return roots[np.append(True, np.diff(roots) > 1e-6 * abs(spacing))] if roots.size else roots
+
+
+def _stability(scan: _Scan, roots: Array, scale: float) -> tuple[str | None, ...]:
+    """Sign of dg/dq at each root."""
+    h = 1e-4 * abs(scan.range[1] - scan.range[0])
+    slope = (scan.excess(roots + h)[0] - scan.excess(roots - h)[0]) / (2 * h)
+    flat = np.abs(slope) * abs(scan.range[1] - scan.range[0]) <= 1e-6 * scale
+    return tuple("neutral" if f else "stable" if s > 0 else "unstable" for s, f in zip(slope, flat, strict=True))
+
+
+def _none(scan: _Scan, q: Array, g: Array) -> Result:
+    """No root: one position without values, and the range of efforts that would be met."""
+    nearest = int(np.nanargmin(np.abs(g))) if np.isfinite(g).any() else 0
+    found = scan.at(q[[nearest]])
+    arrays = {n: v for n, v in vars(found).items() if isinstance(v, np.ndarray) and v.dtype.kind == "f"}
+    blank: dict[str, Any] = {n: np.full_like(v, np.nan) for n, v in arrays.items()}
+    position = np.full_like(found.schedule.position, np.nan)
+    compiled = replace(found.compiled, schedule=replace(found.schedule, position=position))
+    low, high = (float(np.nanmin(g)), float(np.nanmax(g))) if np.isfinite(g).any() else (np.nan, np.nan)
+    sentence = (
+        f"No position of {scan.name} in its range is in equilibrium: the effort needed differs from the given one by "
+        f"{low:.6g} to {high:.6g}. Change the effort or widen the range."
+    )
+    return replace(
+        found, compiled=compiled, status=("no_balance",), reasons=(sentence,), stability=(None,), **blank
+    )

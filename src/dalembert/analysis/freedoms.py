@@ -1,0 +1,41 @@
+"""Value and rates of joints' freedoms, from the motion of their links."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.core.constraints import drift, measure, rates, system
+from dalembert.core.equilibrium import with_ground
+from dalembert.core.layout import Pose
+from dalembert.errors import ModelError
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result import Result
+
+Array = NDArray[Any]
+
+
+def whole_pose(layout: Any, point: Array, turn: Array) -> Pose:
+    """Pose of the moving links with the ground added."""
+    point = with_ground(point)
+    turn = np.concatenate([turn, np.zeros_like(turn[..., :1])], axis=-1)
+    return Pose(point, turn, layout.algebra.rotation(turn))
+
+
+def freedom_motion(result: Result, joint: str, kind: str) -> tuple[Array, Array, Array]:
+    """Value, rate and second rate of a joint's freedom, each (P,)."""
+    c = result.compiled
+    if (joint, kind) not in c.freedoms:
+        has = ", ".join(f"{k} of {j}" for j, k in c.freedoms if j == joint) or "no such joint, or none free"
+        raise ModelError(f"joint {joint!r} has no freedom {kind!r}", f"there is: {has}")
+    row = c.freedoms.index((joint, kind))
+    g, freedoms = c.layout.algebra, c.layout.freedoms
+    pose = whole_pose(c.layout, result.point_array, result.turn_array)
+    twist = with_ground(result.twist_array)
+    rows = system(g, freedoms, pose)
+    second = rates(rows, with_ground(result.acceleration_array)) + drift(g, freedoms, pose, twist)
+    value, rate = measure(g, freedoms, pose), rates(rows, twist)
+    return value[..., row], rate[..., row], second[..., row]

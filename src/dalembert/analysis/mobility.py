@@ -1,0 +1,85 @@
+"""Mobility by rank: freedoms, drives, redundant constraints, and what to do when they do not match."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from dalembert.analysis.compile import Compiled
+from dalembert.core.layout import Pose
+from dalembert.core.rank import Rank, rank, well_driven
+from dalembert.errors import ModelError
+
+
+@dataclass(frozen=True)
+class Mobility:
+    """Freedoms of the mechanism, how many drives it has, redundant constraints and the joints they are in."""
+
+    freedoms: int
+    drives: int
+    redundant: int
+    redundant_joints: tuple[str, ...]
+
+    @property
+    def sentence(self) -> str:
+        """Mobility in words.
+
+        >>> Mobility(1, 1, 0, ()).sentence
+        'mobility 1, driven by 1 drive, no redundant constraint'
+        """
+        drives = _count(self.drives, "drive") if self.drives else "no drive"
+        if not self.redundant:
+            return f"mobility {self.freedoms}, driven by {drives}, no redundant constraint"
+        where = ", ".join(self.redundant_joints)
+        return f"mobility {self.freedoms}, driven by {drives}, {_count(self.redundant, 'redundant constraint')} among joints {where}"
+
+
+def mobility_at(c: Compiled, pose: Pose) -> Mobility:
+    """Mobility at a pose; refused with the counts and names where drives and freedoms do not match."""
+    drives = len(c.schedule.names)
+    if well_driven(c.layout, pose):
+        return Mobility(c.layout.unknowns - c.layout.constraints.count, drives, 0, ())
+    found = rank(c.layout, pose)
+    joints = tuple(dict.fromkeys(c.joints[c.layout.constraints.joint[k]] for k in np.flatnonzero(found.repeated)))
+    result = Mobility(found.freedoms, drives, found.redundant, joints if found.redundant else ())
+    check_drives(c, found, result)
+    return result
+
+
+def check_drives(c: Compiled, found: Rank, mobility: Mobility) -> None:
+    """Drives must equal freedoms."""
+    missing = mobility.freedoms - mobility.drives
+    path = ("drives",) if mobility.drives else ("joints",)
+    counts = f"the mechanism has {_count(mobility.freedoms, 'freedom')} and {_count(mobility.drives, 'drive')}"
+    if missing < 0:
+        names = ", ".join(c.schedule.names)
+        raise ModelError(counts, f"leave out {_count(-missing, 'drive')} of {names}", path)
+    if missing > 0 or found.loose.any():
+        loose = ", ".join(name for name, moves in zip(c.links, found.loose, strict=True) if moves)
+        free = [f"{j} ({kind})" for (j, kind), moves in zip(c.freedoms, found.free, strict=True) if moves]
+        where = f" at one of {', '.join(free[:6])}" if free else ""
+        remedy = f"add {_count(max(missing, 1), 'drive')}{where}, or join the links that still move: {loose}"
+        raise ModelError(counts, remedy, path)
+
+
+def check_knowns(c: Compiled) -> None:
+    """Every given effort leaves one load to be found, and every unknown load takes one given effort."""
+    given = int((~c.known.asked).sum())
+    unknown = len(c.unknown_loads)
+    if given == unknown:
+        return
+    efforts = _count(given, "drive effort") + (" is" if given == 1 else " are") + " given"
+    loads = _count(unknown, "load") + (" is" if unknown == 1 else " are") + " unknown"
+    if given > unknown:
+        remedy = f"make {_count(given - unknown, 'load')} unknown (`value: unknown` with a direction) or leave the efforts out"
+        raise ModelError(f"{efforts} but {loads}", remedy, ("drives",))
+    remedy = f"give the effort of {_count(unknown - given, 'drive')} or the values of the loads"
+    raise ModelError(f"{loads} but {efforts}", remedy, ("loads", c.unknown_loads[0]))
+
+
+def _count(number: int, noun: str) -> str:
+    """'1 drive', '2 drives', 'no drive'."""
+    if number == 0:
+        return f"no {noun}"
+    return f"{number} {noun}" + ("s" if number > 1 else "")

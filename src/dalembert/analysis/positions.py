@@ -1,0 +1,196 @@
+"""Positions of the mechanism over the schedule: first pose, assembly mode, the motion from there, what does not close."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.analysis.compile import Compiled
+from dalembert.analysis.mobility import Mobility, check_drives, mobility_at
+from dalembert.core.assembly import Modes, modes, phase_rows
+from dalembert.core.closure import CLOSED, closed, gap
+from dalembert.core.constraints import measure
+from dalembert.core.follow import Path, path, target_at
+from dalembert.core.layout import Mesh, Pose
+from dalembert.core.rank import rank, well_driven
+from dalembert.errors import ModelError
+
+Array = NDArray[Any]
+
+SAMPLES = 12
+"""Positions at which a first pose is sought when the first of the list does not close."""
+
+MESH = 1e-3
+"""Relative error of a centre distance that a mesh of gears forgives."""
+
+
+@dataclass(frozen=True)
+class Positions:
+    """The compiled mechanism with its phases set, its path, its mobility and a sentence on the assembly mode."""
+
+    compiled: Compiled
+    path: Path | None
+    mobility: Mobility | None
+    mode: str | None
+
+
+def positions(c: Compiled) -> Positions:
+    """Follow the mechanism over its schedule."""
+    found = _first(c)
+    if found is None:
+        _refuse_overdriven(c)
+        return Positions(c, None, None, None)
+    start, first = found
+    c = _with_phase(c, first.pose.at(0))
+    mobility = mobility_at(c, first.pose.at(0))
+    if mobility.redundant:
+        c = replace(c, layout=replace(c.layout, redundant=True))
+    elif not well_driven(c.layout, first.pose.at(0)) and len(c.targets) > 1:
+        start, first = _beside_change_point(c, start, first)
+    return Positions(c, path(c.layout, first.pose.at(0), c.targets, c.period, start), mobility, _mode(c, first))
+
+
+def _first(c: Compiled) -> tuple[float, Modes] | None:
+    """The first position that closes, and its modes."""
+    count = len(c.targets)
+    for k in np.unique(np.linspace(0, count - 1, min(count, SAMPLES)).astype(int)):
+        found = modes(c.layout, c.targets[k], c.guess)
+        if found is not None:
+            return float(k), found
+    return None
+
+
+def _beside_change_point(c: Compiled, start: float, first: Modes) -> tuple[float, Modes]:
+    """Where the motion begins at a change point it is taken up a little further on, in the mode nearest to it."""
+    ahead = start + 0.1 if start < len(c.targets) - 1 else start - 0.1
+    turn = np.where(np.isfinite(c.guess.turn), c.guess.turn, first.pose.turn[0])
+    near = replace(c.guess, turn=turn, point=np.full_like(c.guess.point, np.nan))
+    found = modes(c.layout, target_at(c.targets, np.array([ahead]))[0], near)
+    return (start, first) if found is None else (ahead, found)
+
+
+def _with_phase(c: Compiled, first: Pose) -> Compiled:
+    """Targets of meshes and rolling wheels: their measures at the first pose."""
+    rows = phase_rows(c.layout.constraints)
+    if not rows.size:
+        return c
+    _check_meshes(c, first)
+    target = c.target.copy()
+    target[rows] = measure(c.layout.algebra, c.layout.constraints, first)[rows]
+    return replace(c, target=target)
+
+
+def _check_meshes(c: Compiled, first: Pose) -> None:
+    """Wheels in mesh stand at the sum (internal: difference) of their pitch radii."""
+    g, constraints = c.layout.algebra, c.layout.constraints
+    for f in constraints.families:
+        if not isinstance(f, Mesh):
+            continue
+        a = first.point[f.i] + g.rotate(first.rotation[f.i], f.ui)
+        b = first.point[f.j] + g.rotate(first.rotation[f.j], f.uj)
+        for k, found in enumerate(np.hypot(*(b - a).T)):
+            wanted = float(f.ri[k] + f.rj[k])
+            if abs(found - wanted) > MESH * wanted:
+                name = c.joints[constraints.joint[f.row[k]]]
+                radii = f"{abs(f.ri[k]):.6g} m and {abs(f.rj[k]):.6g} m"
+                what = f"gear {name!r}: its centres are {found:.6g} m apart, its pitch radii {radii} need {wanted:.6g} m"
+                raise ModelError(what, "change the radii or move a centre", ("joints", name))
+
+
+def _refuse_overdriven(c: Compiled) -> None:
+    """Nothing closes: perhaps because there are more drives than freedoms."""
+    layout = replace(c.layout, driven=np.zeros(0, np.intp))
+    found = modes(layout, c.target, c.guess)
+    if found is None:
+        return
+    free = rank(layout, found.pose.at(0))
+    if free.freedoms < len(c.schedule.names):
+        check_drives(c, free, Mobility(free.freedoms, len(c.schedule.names), free.redundant, ()))
+
+
+def _mode(c: Compiled, found: Modes) -> str | None:
+    """Which assembly mode was taken, and the others; nothing to say where the file chose it and it is the only one."""
+    if found.chosen_by in ("given", "drawn"):
+        return None
+    moving = np.ptp(np.sin(found.pose.turn[:, :-1] / 2), axis=0) > 1e-6
+    shown = [k for k in range(len(c.links)) if moving[k]][:4] or list(range(min(len(c.links), 4)))
+    names = [_angles(c, found.pose.at(m), shown) for m in range(len(found.pose.turn))]
+    why = "nearest to the file's assembly" if found.chosen_by == "nearest" else "found by search"
+    others = f"; other modes: {' | '.join(names[1:5])}" if len(names) > 1 else ""
+    more = f" and {len(names) - 5} more" if len(names) > 5 else ""
+    return f"assembly mode {names[0]} ({why}){others}{more}"
+
+
+def _angles(c: Compiled, pose: Pose, shown: list[int]) -> str:
+    return ", ".join(f"{c.links[k]} {math.degrees(pose.turn[k]):.2f} deg" for k in shown)
+
+
+def open_sentence(c: Compiled, found: Path | None, where: NDArray[np.intp]) -> str:
+    """Why a run of positions does not close: the smallest gap that is left, where, and between which links."""
+    middle = int(where[len(where) // 2])
+    known = found.pose if found is not None else None
+    reached = np.flatnonzero(found.reached) if found is not None else np.zeros(0, np.intp)
+    span = _span_text(c, where)
+    if known is None or not reached.size:
+        return f"The linkage does not close {span}: no pose of the links was found that joins them all."
+    nearest = reached[np.argmin(np.abs(reached - middle))]
+    missing = _least_gap(c, known.at(nearest), c.targets[middle])
+    row = int(np.argmax(np.abs(missing[: len(c.target)])))
+    joint = c.joints[c.layout.constraints.joint[row]]
+    size = float(np.abs(missing).max())
+    return f"The linkage does not close {span}: at best {size:.3g} m stay open at joint {joint}."
+
+
+def _least_gap(c: Compiled, start: Pose, target: Array) -> Array:
+    """Gap left by the best pose near ``start``: damped least squares with the drives held."""
+    layout, pose = c.layout, start.at(None)
+    best = gap(layout, pose, target[None])[0]
+    tried, missing = closed(layout, pose, target[None], iterations=30)
+    if missing[0] <= CLOSED * layout.length:
+        return np.asarray(gap(layout, tried, target[None])[0])
+    return _levenberg(c, pose, target, best)
+
+
+def _levenberg(c: Compiled, pose: Pose, target: Array, best: Array) -> Array:
+    from dalembert.core.closure import moved
+    from dalembert.core.constraints import dense, stacked
+    from dalembert.core.factor import column_scale, row_scale
+
+    layout, weight = c.layout, 1.0
+    stiff = np.concatenate([np.ones(len(c.target)), np.full(len(layout.driven), 1e3)])
+    for _ in range(60):
+        rows = stacked(layout, pose)
+        j = (dense(layout, rows)[0] * row_scale(layout, rows.angular)[:, None] * column_scale(layout)) * stiff[:, None]
+        right = j.T @ (gap(layout, pose, target[None])[0] * stiff)
+        dq = np.linalg.solve(j.T @ j + weight * np.eye(j.shape[1]), right) * column_scale(layout)
+        trial = moved(layout, pose, dq.reshape(1, layout.links, -1))
+        new = gap(layout, trial, target[None])[0]
+        if np.linalg.norm(new * stiff) < np.linalg.norm(best * stiff):
+            pose, best, weight = trial, new, weight / 3
+        else:
+            weight *= 4
+    return best
+
+
+def _span_text(c: Compiled, where: NDArray[np.intp]) -> str:
+    """'between 212 and 238 deg of O2'."""
+    if not c.schedule.names:
+        return "as it is described"
+    first = [drive_text(c, int(where[0]), k) for k in range(len(c.schedule.names))]
+    last = [drive_text(c, int(where[-1]), k) for k in range(len(c.schedule.names))]
+    if len(where) == 1:
+        return "at " + " and ".join(f"{n} = {a}" for n, a in zip(c.schedule.names, first, strict=True))
+    parts = [f"{a} and {b} of {n}" for n, a, b in zip(c.schedule.names, first, last, strict=True)]
+    return "between " + ", ".join(parts)
+
+
+def drive_text(c: Compiled, position: int, drive: int) -> str:
+    """A drive's position as a person writes it."""
+    value = float(c.schedule.position[position, drive])
+    if c.layout.freedoms.angular[c.layout.driven[drive]]:
+        return f"{math.degrees(value):.6g} deg"
+    return f"{value:.6g} m"

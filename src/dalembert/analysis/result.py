@@ -1,0 +1,330 @@
+"""What an analysis answers: arrays with names, a status and a sentence a position."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.algebra import plane
+from dalembert.errors import STATUSES, ModelError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    import pandas
+    import xarray
+
+    from dalembert.analysis.compile import Compiled
+    from dalembert.analysis.mobility import Mobility
+    from dalembert.model import Mechanism, Schedule
+
+Array = NDArray[Any]
+Axes = Literal["ground", "link"]
+
+
+@dataclass(frozen=True)
+class Result:
+    """Answer of one analysis over P positions (a leading axis design may stand before position).
+
+    Everything in SI and radians, vectors in ground axes. A reaction is what a joint's other link exerts on the link
+    asked for, at that link's point of the joint. NaN where there is no value; ``status`` and ``reasons`` say why.
+    """
+
+    compiled: Compiled = field(repr=False)
+    inertia: bool
+    mobility: Mobility | None
+    mode: str | None
+    status: tuple[str, ...]
+    reasons: tuple[str | None, ...]
+    point_array: Array = field(repr=False)  # (P, L, 2) links' reference points
+    turn_array: Array = field(repr=False)  # (P, L)
+    twist_array: Array = field(repr=False)  # (P, L, 3)
+    acceleration_array: Array = field(repr=False)  # (P, L, 3)
+    force_array: Array = field(repr=False)  # (P, joints, 2) on j
+    moment_array: Array = field(repr=False)  # (P, joints)
+    effort_array: Array = field(repr=False)  # (P, D)
+    load_array: Array = field(repr=False)  # (P, U)
+    residual: Array = field(repr=False)
+    power_balance: Array = field(repr=False)
+    unique_array: NDArray[np.bool_] | None = field(repr=False, default=None)  # (P, joints, 3)
+    unique_unknowns: NDArray[np.bool_] | None = field(repr=False, default=None)  # (P, D asked + U)
+    stability: tuple[str | None, ...] | None = None
+
+    # what was asked
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The description that was analysed."""
+        return self.compiled.mechanism
+
+    @property
+    def schedule(self) -> Schedule:
+        """Positions, speeds and accelerations of the drives."""
+        return self.compiled.schedule
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """Names of the moving links."""
+        return self.compiled.links
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Names of the joints."""
+        return self.compiled.joints
+
+    @property
+    def drives(self) -> tuple[str, ...]:
+        """Names of the drives."""
+        return tuple(self.schedule.names)
+
+    @property
+    def unknown_loads(self) -> tuple[str, ...]:
+        """Names of the loads that were asked for."""
+        return self.compiled.unknown_loads
+
+    @cached_property
+    def assumptions(self) -> dict[str, str]:
+        """What the numbers rest on, each as a phrase."""
+        gravity = self.mechanism.gravity_vector
+        shown = "none" if not any(gravity) else "[" + ", ".join(f"{c:.6g}" for c in gravity) + "] m/s2"
+        return {
+            "gravity": shown,
+            "inertia": "on (D'Alembert)" if self.inertia else "off (static)",
+            "friction": "off",
+        }
+
+    @property
+    def ok(self) -> NDArray[np.bool_]:
+        """Which positions are solved."""
+        return np.array([s == "ok" for s in self.status])
+
+    def problems(self) -> list[tuple[str, str, str]]:
+        """Runs of positions that are not ok: which ("3" or "3-7", counted from 1), status, sentence."""
+        out: list[tuple[str, str, str]] = []
+        start = 0
+        for k in range(1, len(self.status) + 1):
+            same = k < len(self.status) and (self.status[k], self.reasons[k]) == (
+                self.status[start],
+                self.reasons[start],
+            )
+            if not same:
+                if self.status[start] != "ok":
+                    which = str(start + 1) if k == start + 1 else f"{start + 1}-{k}"
+                    out.append((which, self.status[start], self.reasons[start] or STATUSES[self.status[start]].sentence))
+                start = k
+        return out
+
+    # drives and unknown loads
+
+    def drive_position(self, drive: str) -> Array:
+        """Position of a drive (P,), rad or m."""
+        return np.asarray(self.schedule.position[:, _index(self.drives, drive, "drive")])
+
+    def drive_speed(self, drive: str) -> Array:
+        """Speed of a drive (P,), rad/s or m/s."""
+        return np.asarray(self.schedule.speed[:, _index(self.drives, drive, "drive")])
+
+    def drive_acceleration(self, drive: str) -> Array:
+        """Acceleration of a drive (P,), rad/s2 or m/s2."""
+        return np.asarray(self.schedule.acceleration[:, _index(self.drives, drive, "drive")])
+
+    def effort(self, drive: str) -> Array:
+        """Torque (N m) or force (N) of a drive on link j of its joint (P,), positive with the freedom."""
+        k = _index(self.drives, drive, "drive")
+        return self._masked_unknown(self.effort_array[..., k], self._unknown_place(k))
+
+    def unknown_load(self, name: str) -> Array:
+        """Value of a load that was asked for (P,), N along its direction, or N m."""
+        k = _index(self.unknown_loads, name, "unknown load")
+        asked = int(self.compiled.known.asked.sum())
+        return self._masked_unknown(self.load_array[..., k], asked + k)
+
+    def _unknown_place(self, drive: int) -> int | None:
+        asked = self.compiled.known.asked
+        return int(asked[:drive].sum()) if asked[drive] else None
+
+    def _masked_unknown(self, value: Array, place: int | None) -> Array:
+        if self.unique_unknowns is None or place is None:
+            return np.asarray(value)
+        return np.where(self.unique_unknowns[..., place], value, np.nan)
+
+    # reactions
+
+    def reaction(self, joint: str, on: str | None = None, axes: Axes = "ground") -> Array:
+        """Force of a joint on one of its links (P, 2), default on j; NaN in components that are not unique.
+
+        Asking ``on`` the other link changes the sign, nothing else. ``axes="link"`` gives components in the axes of
+        the link acted on.
+        """
+        k, sign = self._joint(joint, on)
+        if axes == "link":
+            return self._on_link(joint, on, sign * np.where(self.unique(joint)[..., :2], self.force_array[..., k, :], np.nan))
+        return np.where(self.unique(joint)[..., :2], sign * self.force_array[..., k, :], np.nan)
+
+    def reaction_moment(self, joint: str, on: str | None = None) -> Array:
+        """Moment of a joint on one of its links about j's point of the joint (P,); 0 for pins and slots."""
+        k, sign = self._joint(joint, on)
+        return np.where(self.unique(joint)[..., 2], sign * self.moment_array[..., k], np.nan)
+
+    def unique(self, joint: str) -> NDArray[np.bool_]:
+        """Which of (fx, fy, m) of a joint statics alone determines (P, 3)."""
+        k, _ = self._joint(joint, None)
+        if self.unique_array is None:
+            return np.ones((*self.moment_array.shape[:-1], 3), bool)
+        return np.asarray(self.unique_array[..., k, :])
+
+    def least_norm(self, joint: str, on: str | None = None) -> Array:
+        """(fx, fy, m) of a joint with the smallest sum of squares where they are not unique (P, 3)."""
+        k, sign = self._joint(joint, on)
+        return sign * np.concatenate([self.force_array[..., k, :], self.moment_array[..., k, None]], axis=-1)
+
+    def _joint(self, joint: str, on: str | None) -> tuple[int, float]:
+        k = _index(self.joints, joint, "joint")
+        i, j = self.mechanism.joints[joint].links
+        if on not in (None, i, j):
+            raise ModelError(f"joint {joint!r} does not act on {on!r}", f"it joins {i} and {j}", ("joints", joint))
+        return k, -1.0 if on == i else 1.0
+
+    def _on_link(self, joint: str, on: str | None, force: Array) -> Array:
+        link = on or self.mechanism.joints[joint].links[1]
+        return force if link == "ground" else plane.unrotate(plane.rotation(self.angle(link)), force)
+
+    # links
+
+    def angle(self, link: str) -> Array:
+        """Angle of a link's x axis to ground's (P,), followed through whole turns."""
+        return np.asarray(self.turn_array[..., self._link(link)])
+
+    def speed(self, link: str) -> Array:
+        """Angular velocity of a link (P,), rad/s."""
+        return np.asarray(self.twist_array[..., self._link(link), 2])
+
+    def acceleration(self, link: str) -> Array:
+        """Angular acceleration of a link (P,), rad/s2."""
+        return np.asarray(self.acceleration_array[..., self._link(link), 2])
+
+    def position(self, link: str) -> Array:
+        """Origin of a link's axes (P, 2)."""
+        return self._place(link, np.zeros(2))
+
+    def velocity(self, link: str) -> Array:
+        """Velocity of the origin of a link's axes (P, 2)."""
+        return self._velocity(link, np.zeros(2))
+
+    def center(self, link: str) -> Array:
+        """Mass centre of a link (P, 2)."""
+        return self._place(link, np.array(self.mechanism.center(link)))
+
+    def center_velocity(self, link: str) -> Array:
+        """Velocity of a link's mass centre (P, 2)."""
+        return self._velocity(link, np.array(self.mechanism.center(link)))
+
+    def center_acceleration(self, link: str) -> Array:
+        """Acceleration of a link's mass centre (P, 2)."""
+        return self._acceleration(link, np.array(self.mechanism.center(link)))
+
+    def point(self, link: str, name: str) -> Array:
+        """A named point of a link (P, 2), ground axes."""
+        return self._place(link, self._point(link, name))
+
+    def point_velocity(self, link: str, name: str) -> Array:
+        """Velocity of a named point of a link (P, 2)."""
+        return self._velocity(link, self._point(link, name))
+
+    def point_acceleration(self, link: str, name: str) -> Array:
+        """Acceleration of a named point of a link (P, 2)."""
+        return self._acceleration(link, self._point(link, name))
+
+    def _link(self, link: str) -> int:
+        return _index(self.links, link, "link")
+
+    def _point(self, link: str, name: str) -> Array:
+        from dalembert.analysis.compile import point_of
+
+        return point_of(self.mechanism, link, name)
+
+    def _arm(self, link: str, u: Array) -> tuple[int, Array]:
+        k = self._link(link)
+        return k, plane.rotate(plane.rotation(self.turn_array[..., k]), u - self.compiled.layout.reference[k])
+
+    def _place(self, link: str, u: Array) -> Array:
+        k, r = self._arm(link, u)
+        return np.asarray(self.point_array[..., k, :] + r + self.compiled.origin)
+
+    def _velocity(self, link: str, u: Array) -> Array:
+        k, r = self._arm(link, u)
+        return np.asarray(self.twist_array[..., k, :2] + plane.spin(self.twist_array[..., k, 2:], r))
+
+    def _acceleration(self, link: str, u: Array) -> Array:
+        k, r = self._arm(link, u)
+        a = self.acceleration_array[..., k, :2] + plane.spin(self.acceleration_array[..., k, 2:], r)
+        return np.asarray(a + plane.centripetal(self.twist_array[..., k, 2:], r))
+
+    # joints' freedoms
+
+    def freedom(self, joint: str, kind: str) -> tuple[Array, Array, Array]:
+        """Value, rate and second rate of a joint's freedom `slide` or `turn`, each (P,)."""
+        from dalembert.analysis.freedoms import freedom_motion
+
+        return freedom_motion(self, joint, kind)
+
+    # summaries and files
+
+    def worst(self, quantity: Literal["effort", "reaction", "moment"], of: str) -> tuple[float, int]:
+        """Largest magnitude over the solved positions, and the position (from 0) where it occurs."""
+        found: Mapping[str, Any] = {
+            "effort": lambda: np.abs(self.effort(of)),
+            "reaction": lambda: np.hypot(*np.moveaxis(self.reaction(of), -1, 0)),
+            "moment": lambda: np.abs(self.reaction_moment(of)),
+        }
+        values = found[quantity]()
+        if np.isnan(values).all():
+            return float("nan"), -1
+        return float(np.nanmax(values)), int(np.nanargmax(values))
+
+    def to_dict(self, units: Literal["SI", "file"] = "SI", axes: Axes = "ground") -> dict[str, Any]:
+        """The JSON answer of the model file's contract."""
+        from dalembert.analysis import export
+
+        return export.to_dict(self, units, axes)
+
+    def to_dataframe(self, units: Literal["SI", "file"] = "SI", axes: Axes = "ground") -> pandas.DataFrame:
+        """One row a position, one column a quantity."""
+        from dalembert.analysis import export
+
+        return export.to_dataframe(self, units, axes)
+
+    def to_xarray(self, units: Literal["SI", "file"] = "SI", axes: Axes = "ground") -> xarray.Dataset:
+        """Labelled arrays with units in their attributes."""
+        from dalembert.analysis import export
+
+        return export.to_xarray(self, units, axes)
+
+    def to_csv(self, path: str | Path, overwrite: bool = False, units: Literal["SI", "file"] = "SI") -> None:
+        """Write one row a position."""
+        from dalembert.analysis import export
+
+        export.to_csv(self, path, overwrite=overwrite, units=units)
+
+    def to_xlsx(self, path: str | Path, overwrite: bool = False, units: Literal["SI", "file"] = "SI") -> None:
+        """Write a workbook."""
+        from dalembert.analysis import export
+
+        export.to_xlsx(self, path, overwrite=overwrite, units=units)
+
+    def to_netcdf(self, path: str | Path, overwrite: bool = False, units: Literal["SI", "file"] = "SI") -> None:
+        """Write labelled arrays."""
+        from dalembert.analysis import export
+
+        export.to_netcdf(self, path, overwrite=overwrite, units=units)
+
+
+def _index(names: tuple[str, ...], name: str, kind: str) -> int:
+    if name not in names:
+        raise ModelError(f"there is no {kind} {name!r}", f"there are: {', '.join(names) or 'none'}")
+    return names.index(name)

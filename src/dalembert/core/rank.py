@@ -1,0 +1,70 @@
+"""Mobility and redundancy by rank of the constraints at a pose, not by count (THEORY.md 1)."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.core.constraints import dense, stacked, system
+from dalembert.core.factor import column_scale, factor, row_scale
+from dalembert.core.layout import Layout, Pose
+from dalembert.core.linear import SINGULAR, pseudo_inverse
+
+Array = NDArray[Any]
+
+
+class Rank(NamedTuple):
+    """What the constraints leave free.
+
+    freedoms: dimension of the motions they allow; redundant: constraints beyond their rank; repeated (K,) marks the
+    constraints that take part in a redundancy; loose (L,) the links and free (F,) the joint freedoms that still move
+    when all drives stand; fixed (D,) the drives that cannot move.
+    """
+
+    freedoms: int
+    redundant: int
+    repeated: NDArray[np.bool_]
+    loose: NDArray[np.bool_]
+    free: NDArray[np.bool_]
+
+
+def singular_below(layout: Layout) -> float:
+    """Reciprocal condition below which a position counts as singular; large chains are worse conditioned by size."""
+    return SINGULAR / max(1.0, layout.links / 10) ** 3
+
+
+def well_driven(layout: Layout, pose: Pose) -> bool:
+    """Constraints and drives fix every link once, neither more nor less: the common case, asked cheaply."""
+    if len(layout.angular) != layout.unknowns:
+        return False
+    rcond = factor(layout, stacked(layout, pose.at(None))).rcond[0]
+    return bool(rcond > singular_below(layout))
+
+
+TOLERANCE = 1e-7
+
+
+def rank(layout: Layout, pose: Pose) -> Rank:
+    """Rank of the constraints at a pose (L+1, ...), by singular values."""
+    pose = pose.at(None)
+    constraints = system(layout.algebra, layout.constraints, pose)
+    column = column_scale(layout)
+    alone = pseudo_inverse(dense(layout, constraints), row_scale(layout, constraints.angular), column, TOLERANCE)
+    freedoms = layout.unknowns - int(alone.rank[0])
+    redundant = layout.constraints.count - int(alone.rank[0])
+    repeated = np.abs(alone.null[0]).max(axis=-1, initial=0.0) > 1e-6
+    rows = stacked(layout, pose)
+    whole = pseudo_inverse(dense(layout, rows), row_scale(layout, rows.angular), column, TOLERANCE)
+    held = whole.pinv[0] @ (dense(layout, rows) * row_scale(layout, rows.angular)[:, None] * column)[0]
+    idle = (np.eye(layout.unknowns) - held).reshape(layout.links, -1, layout.unknowns)
+    loose = np.abs(idle).max(axis=(1, 2), initial=0.0) > 1e-6
+    return Rank(freedoms, redundant, repeated, loose, _free(layout, pose, np.eye(layout.unknowns) - held, column))
+
+
+def _free(layout: Layout, pose: Pose, idle: Array, column: Array) -> NDArray[np.bool_]:
+    """Joint freedoms that move in the motions the drives leave."""
+    rows = system(layout.algebra, layout.freedoms, pose)
+    j = dense(layout, rows)[0] * row_scale(layout, rows.angular)[:, None] * column
+    return np.asarray(np.abs(j @ idle).max(axis=-1, initial=0.0) > 1e-6)
