@@ -65,6 +65,11 @@ def functions(kind: str) -> list[sp.Expr]:
 
 
 @lru_cache(None)
+def size(kind: str) -> int:
+    return len(functions(kind))
+
+
+@lru_cache(None)
 def compiled(kind: str) -> Callable[..., Any]:
     """f(qi, qj, vi, vj, parameters) -> (phi, J, gamma) with shapes (P, k), (P, k, 6), (P, k)."""
     phi = sp.Matrix(functions(kind))

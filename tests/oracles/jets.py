@@ -18,6 +18,7 @@ class Jet:
     x: Array
     v: Array
     a: Array
+    __array_ufunc__ = None
 
     def chain(self, f: Any, d: Any, dd: Any) -> Jet:
         return Jet(f, d * self.v, d * self.a + dd * self.v**2)
@@ -42,6 +43,9 @@ class Jet:
     def __truediv__(self, other: Any) -> Jet:
         o = jet(other)
         return self * o.chain(1 / o.x, -1 / o.x**2, 2 / o.x**3)
+
+    def __rtruediv__(self, other: Any) -> Jet:
+        return jet(other) / self
 
     __radd__ = __add__
     __rmul__ = __mul__

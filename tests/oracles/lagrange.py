@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tests.oracles.constraints import compiled
-from tests.oracles.reading import Array, Joint, Machine, machine, number, Tree
+from tests.oracles.constraints import compiled, size
+from tests.oracles.reading import Array, Joint, Machine, Tree, machine, number
 from tests.oracles.wrenches import cross, known, placed, push, turned
 
 
@@ -131,12 +131,12 @@ def _closed(rows: list[Row], q: Array) -> Array:
     best = np.inf
     for _ in range(60):
         phi, J, _ = _system(rows, q, np.zeros_like(q))
-        size = float(np.max(np.abs(phi)))
-        if size < 1e-14 and size >= best / 4:
+        open_by = float(np.max(np.abs(phi)))
+        if open_by < 1e-14 and open_by >= best / 4:
             return q
-        best = min(best, size)
+        best = min(best, open_by)
         q = q - _full(_solved(J, phi))
-    raise ArithmeticError(f"the oracle does not close: residual {size}")
+    raise ArithmeticError(f"the oracle does not close: residual {open_by}")
 
 
 def _solved(A: Array, b: Array) -> Array:
@@ -156,27 +156,25 @@ def _full(moving: Array) -> Array:
 
 
 def _stacked(rows: list[Row], rate: str, q: Array) -> Array:
-    sizes = [_evaluate(row, q[:1], q[:1])[0].shape[1] for row in rows]
-    columns = [np.broadcast_to(np.reshape(getattr(r, rate), (-1, 1)), (len(q), n)) for r, n in zip(rows, sizes, strict=True)]
+    columns = [np.broadcast_to(np.reshape(getattr(r, rate), (-1, 1)), (len(q), size(r.kind))) for r in rows]
     return np.concatenate(columns, 1).astype(q.dtype)
 
 
 def _multipliers(m: Machine, rows: list[Row], J: Array, w: Array, q: Array) -> dict[str, tuple[Array, Array]]:
     """Row name -> (multipliers, extra wrench on j): the radial tooth force follows the tangential one."""
     flat = lambda wrench: wrench[:, 1:].reshape(len(w), -1)  # noqa: E731
-    across = _split(rows, _solved(np.swapaxes(J, 1, 2), -flat(w)), q)
+    across = _split(rows, _solved(np.swapaxes(J, 1, 2), -flat(w)))
     radial = {r.name: _radial(r, across[r.name, r.kind], q) for r in rows if r.kind == "gear"}
     total = w + sum((_on_both(r, radial[r.name], q) for r in rows if r.kind == "gear"), np.zeros_like(w))
-    final = _split(rows, _solved(np.swapaxes(J, 1, 2), -flat(total)), q)
+    final = _split(rows, _solved(np.swapaxes(J, 1, 2), -flat(total)))
     return {key: (value, radial.get(key[0], 0.0)) for key, value in final.items()}  # type: ignore[misc]
 
 
-def _split(rows: list[Row], multipliers: Array, q: Array) -> dict[tuple[str, str], Array]:
+def _split(rows: list[Row], multipliers: Array) -> dict[tuple[str, str], Array]:
     out, start = {}, 0
     for row in rows:
-        size = _evaluate(row, q[:1], q[:1])[0].shape[1]
-        out[row.name, row.kind] = multipliers[:, start : start + size]
-        start += size
+        out[row.name, row.kind] = multipliers[:, start : start + size(row.kind)]
+        start += size(row.kind)
     return out
 
 
@@ -198,9 +196,9 @@ def _line_of_centres(row: Row, q: Array) -> Array:
 def _radial(row: Row, multiplier: Array, q: Array) -> Array:
     """The tooth force on j along the line of centres: apart outside, towards each other inside a ring."""
     pressure = row.joint.tree.get("pressure_angle", 20.0)
-    size = np.abs(multiplier) * np.tan(np.radians(pressure))
+    radial = np.abs(multiplier) * np.tan(np.radians(pressure))
     sign = -1.0 if row.joint.tree.get("internal", False) else 1.0
-    return sign * size * _line_of_centres(row, q)
+    return sign * radial * _line_of_centres(row, q)
 
 
 def _on_both(row: Row, force: Array, q: Array) -> Array:
