@@ -48,7 +48,9 @@ class Compiled:
     def targets(self) -> Array:
         """Stacked targets (P, K + D)."""
         positions = self.schedule.position
-        return np.concatenate([np.broadcast_to(self.target, (len(positions), len(self.target))), positions], axis=1)
+        return np.concatenate(
+            [np.broadcast_to(self.target, (len(positions), len(self.target))), positions], axis=1
+        )
 
     @property
     def origin(self) -> Array:
@@ -123,7 +125,9 @@ def compiled(m: Mechanism, schedule: Schedule, redundant: bool = False) -> Compi
 def _refuse_unready(m: Mechanism) -> None:
     """What later issues bring is refused, never left out silently."""
     if m.space != "plane":
-        raise ModelError("mechanisms in space cannot be analysed yet", "describe the plane mechanism", ("space",))
+        raise ModelError(
+            "mechanisms in space cannot be analysed yet", "describe the plane mechanism", ("space",)
+        )
     switched_off = m.friction is not None and getattr(m.friction, "enabled", True) is False
     for name, joint in m.joints.items():
         if joint.type not in table.FREEDOMS:
@@ -169,8 +173,12 @@ def _driven_freedom(m: Mechanism, drive: str) -> tuple[str, str]:
     freedom = d.freedom or (freedoms[0] if len(freedoms) == 1 else None)
     if freedom not in freedoms:
         has = " and ".join(freedoms) or "no freedom"
-        remedy = f"name one of them with `freedom`: {', '.join(freedoms)}" if freedoms else "drive another joint"
-        raise ModelError(f"drive {drive!r}: joint {joint!r} ({m.joints[joint].type}) has {has}", remedy, ("drives", drive))
+        remedy = (
+            f"name one of them with `freedom`: {', '.join(freedoms)}" if freedoms else "drive another joint"
+        )
+        raise ModelError(
+            f"drive {drive!r}: joint {joint!r} ({m.joints[joint].type}) has {has}", remedy, ("drives", drive)
+        )
     return joint, str(freedom)
 
 
@@ -205,7 +213,9 @@ def _forcing(
             inertia=np.array([m.inertia(k) for k in links])[:, None],
             gravity=np.array(m.gravity_vector),
         ),
-        forces=_forces(m, {k: v for k, v in known.items() if v.type == "force"}, index, reference, drives, count),
+        forces=_forces(
+            m, {k: v for k, v in known.items() if v.type == "force"}, index, reference, drives, count
+        ),
         couples=_couples({k: v for k, v in known.items() if v.type == "couple"}, index, drives, count),
         springs=_springs(m, known, index, reference),
         resistances=_resistances(m, known, freedoms),
@@ -237,7 +247,12 @@ def point_of(m: Mechanism, link: str, at: Any, path: tuple[str | int, ...] = ())
 
 
 def _forces(
-    m: Mechanism, loads: dict[str, Any], index: dict[str, int], reference: Array, drives: dict[str, Array], count: int
+    m: Mechanism,
+    loads: dict[str, Any],
+    index: dict[str, int],
+    reference: Array,
+    drives: dict[str, Array],
+    count: int,
 ) -> Forces:
     link, at, value = [], [], np.zeros((count, len(loads), 2))
     for k, (name, load) in enumerate(loads.items()):
@@ -286,7 +301,9 @@ def _resistances(m: Mechanism, loads: dict[str, Any], freedoms: list[tuple[str, 
                 what = f"load {name!r}: joint {load.joint!r} does not turn"
                 raise ModelError(what, "name a pin or slot", ("loads", name, "joint"))
             stiffness, free = getattr(load, "stiffness", 0.0), getattr(load, "free_angle", 0.0)
-            rows.append((freedoms.index((load.joint, "turn")), stiffness, free, getattr(load, "damping", 0.0) or 0.0))
+            rows.append(
+                (freedoms.index((load.joint, "turn")), stiffness, free, getattr(load, "damping", 0.0) or 0.0)
+            )
     for name, joint in m.joints.items():
         for freedom, damping in joint_damping(joint).items():
             rows.append((freedoms.index((name, freedom)), 0.0, 0.0, damping))
@@ -317,7 +334,9 @@ def _known(
         given = m.drives[name].effort
         if given is not None and schedule.unknown is None:
             effort[:, k] = given.at(drives) if hasattr(given, "at") else given
-    asked = np.array([m.drives[n].effort is None or schedule.unknown is not None for n in schedule.names], bool)
+    asked = np.array(
+        [m.drives[n].effort is None or schedule.unknown is not None for n in schedule.names], bool
+    )
     loads = [m.loads[name] for name in unknown]
     at = [
         point_of(m, load.on, load.at, ("loads", name, "at")) - reference[index[load.on]]
@@ -326,7 +345,8 @@ def _known(
         for name, load in zip(unknown, loads, strict=True)
     ]
     direction = [
-        (math.cos(load.direction), math.sin(load.direction)) if load.type == "force" else (0.0, 0.0) for load in loads
+        (math.cos(load.direction), math.sin(load.direction)) if load.type == "force" else (0.0, 0.0)
+        for load in loads
     ]
     return Known(
         asked=asked,

@@ -36,7 +36,9 @@ def equilibria(m: Mechanism, schedule: Schedule, inertia: bool) -> Result:
         found = scan.at(q[:1])
         sentence = "Every position of the range is an equilibrium (indifferent): the first is given."
         return replace(found, stability=("neutral",), reasons=(sentence,))
-    roots = _distinct(np.concatenate([_crossings(scan, q, g, scale), _touches(scan, q, g, scale)]), q[1] - q[0])
+    roots = _distinct(
+        np.concatenate([_crossings(scan, q, g, scale), _touches(scan, q, g, scale)]), q[1] - q[0]
+    )
     if scan.whole_turn and roots.size > 1 and abs(roots[-1] - roots[0] - 2 * np.pi) < 1e-9:
         roots = roots[:-1]
     if not roots.size:
@@ -89,13 +91,17 @@ class _Scan:
 def picked(result: Result, where: NDArray[np.intp]) -> Result:
     """A result at some of its positions."""
     c, s = result.compiled, result.schedule
-    schedule = replace(s, position=s.position[where], speed=s.speed[where], acceleration=s.acceleration[where])
+    schedule = replace(
+        s, position=s.position[where], speed=s.speed[where], acceleration=s.acceleration[where]
+    )
     forces = replace(c.forcing.forces, value=c.forcing.forces.value[where])
     couples = replace(c.forcing.couples, value=c.forcing.couples.value[where])
     forcing = replace(c.forcing, forces=forces, couples=couples)
     known = replace(c.known, effort=c.known.effort[where])
     arrays: dict[str, Any] = {
-        name: value[where] for name, value in vars(result).items() if isinstance(value, np.ndarray) and value.ndim > 0
+        name: value[where]
+        for name, value in vars(result).items()
+        if isinstance(value, np.ndarray) and value.ndim > 0
     }
     return replace(
         result,
@@ -114,7 +120,11 @@ def _crossings(scan: _Scan, q: Array, g: Array, scale: float) -> Array:
     for step in range(STEPS):
         if not k.size or np.all(np.abs(b - a) <= 4e-16 * np.maximum(np.abs(a), 1e-3)):
             break
-        x = (a + b) / 2 if step % 3 == 2 else np.clip(a - ga * (b - a) / (gb - ga), np.minimum(a, b), np.maximum(a, b))
+        x = (
+            (a + b) / 2
+            if step % 3 == 2
+            else np.clip(a - ga * (b - a) / (gb - ga), np.minimum(a, b), np.maximum(a, b))
+        )
         gx, _ = scan.excess(x)
         gx = np.where(np.isfinite(gx), gx, ga)
         left = gx * ga > 0
@@ -131,7 +141,9 @@ def _crossings(scan: _Scan, q: Array, g: Array, scale: float) -> Array:
 def _touches(scan: _Scan, q: Array, g: Array, scale: float) -> Array:
     """Roots where g touches zero without a change of sign: least values of |g| that vanish."""
     size = np.abs(g)
-    inner = np.flatnonzero((size[1:-1] < size[:-2]) & (size[1:-1] <= size[2:]) & (size[1:-1] < 1e-2 * scale)) + 1
+    inner = (
+        np.flatnonzero((size[1:-1] < size[:-2]) & (size[1:-1] <= size[2:]) & (size[1:-1] < 1e-2 * scale)) + 1
+    )
     same = inner[(g[inner - 1] * g[inner] > 0) & (g[inner] * g[inner + 1] > 0)]
     if not same.size:
         return np.zeros(0)
@@ -157,7 +169,9 @@ def _stability(scan: _Scan, roots: Array, scale: float) -> tuple[str | None, ...
     h = 1e-4 * abs(scan.range[1] - scan.range[0])
     slope = (scan.excess(roots + h)[0] - scan.excess(roots - h)[0]) / (2 * h)
     flat = np.abs(slope) * abs(scan.range[1] - scan.range[0]) <= 1e-6 * scale
-    return tuple("neutral" if f else "stable" if s > 0 else "unstable" for s, f in zip(slope, flat, strict=True))
+    return tuple(
+        "neutral" if f else "stable" if s > 0 else "unstable" for s, f in zip(slope, flat, strict=True)
+    )
 
 
 def _none(scan: _Scan, q: Array, g: Array) -> Result:

@@ -72,7 +72,9 @@ def direction(joint: Any) -> Array:
     return np.array([math.cos(angle), math.sin(angle)])
 
 
-def add_constraints(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array) -> None:
+def add_constraints(
+    rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array
+) -> None:
     """Rows of a joint's constraints: what its freedoms leave over, or those of a higher pair."""
     if joint.type in HIGHER:
         HIGHER[joint.type](rows, index, joint, ends, ui, uj)
@@ -96,7 +98,9 @@ def _across(e: Array) -> Array:
     return np.array([-e[1], e[0]])
 
 
-def add_freedom(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array) -> None:
+def add_freedom(
+    rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array
+) -> None:
     """Rows of a joint's freedoms, in the order of ``FREEDOMS``."""
     for name in FREEDOMS[joint.type]:
         if name == "slide":

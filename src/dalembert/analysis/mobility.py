@@ -41,7 +41,9 @@ def mobility_at(c: Compiled, pose: Pose) -> Mobility:
     if well_driven(c.layout, pose):
         return Mobility(c.layout.unknowns - c.layout.constraints.count, drives, 0, ())
     found = rank(c.layout, pose)
-    joints = tuple(dict.fromkeys(c.joints[c.layout.constraints.joint[k]] for k in np.flatnonzero(found.repeated)))
+    joints = tuple(
+        dict.fromkeys(c.joints[c.layout.constraints.joint[k]] for k in np.flatnonzero(found.repeated))
+    )
     result = Mobility(found.freedoms, drives, found.redundant, joints if found.redundant else ())
     check_drives(c, found, result)
     return result
@@ -51,7 +53,9 @@ def check_drives(c: Compiled, found: Rank, mobility: Mobility) -> None:
     """Drives must equal freedoms."""
     missing = mobility.freedoms - mobility.drives
     path = ("drives",) if mobility.drives else ("joints",)
-    counts = f"the mechanism has {_count(mobility.freedoms, 'freedom')} and {_count(mobility.drives, 'drive')}"
+    counts = (
+        f"the mechanism has {_count(mobility.freedoms, 'freedom')} and {_count(mobility.drives, 'drive')}"
+    )
     if missing < 0:
         names = ", ".join(c.schedule.names)
         raise ModelError(counts, f"leave out {_count(-missing, 'drive')} of {names}", path)

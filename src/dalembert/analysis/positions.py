@@ -51,7 +51,9 @@ def positions(c: Compiled) -> Positions:
         c = replace(c, layout=replace(c.layout, redundant=True))
     elif not well_driven(c.layout, first.pose.at(0)) and len(c.targets) > 1:
         start, first = _beside_change_point(c, start, first)
-    return Positions(c, path(c.layout, first.pose.at(0), c.targets, c.period, start), mobility, _mode(c, first))
+    return Positions(
+        c, path(c.layout, first.pose.at(0), c.targets, c.period, start), mobility, _mode(c, first)
+    )
 
 
 def _first(c: Compiled) -> tuple[float, Modes] | None:
@@ -158,15 +160,17 @@ def _least_gap(c: Compiled, start: Pose, target: Array) -> Array:
 def _levenberg(c: Compiled, pose: Pose, target: Array, best: Array) -> Array:
     from dalembert.core.closure import moved
     from dalembert.core.constraints import dense, stacked
-    from dalembert.core.factor import column_scale, row_scale
+    from dalembert.core.factor import row_scale
 
     layout, weight = c.layout, 1.0
     stiff = np.concatenate([np.ones(len(c.target)), np.full(len(layout.driven), 1e3)])
     for _ in range(60):
         rows = stacked(layout, pose)
-        j = (dense(layout, rows)[0] * row_scale(layout, rows.angular)[:, None] * column_scale(layout)) * stiff[:, None]
+        j = (dense(layout, rows)[0] * row_scale(layout, rows.angular)[:, None] * layout.column_scale) * stiff[
+            :, None
+        ]
         right = j.T @ (gap(layout, pose, target[None])[0] * stiff)
-        dq = np.linalg.solve(j.T @ j + weight * np.eye(j.shape[1]), right) * column_scale(layout)
+        dq = np.linalg.solve(j.T @ j + weight * np.eye(j.shape[1]), right) * layout.column_scale
         trial = moved(layout, pose, dq.reshape(1, layout.links, -1))
         new = gap(layout, trial, target[None])[0]
         if np.linalg.norm(new * stiff) < np.linalg.norm(best * stiff):

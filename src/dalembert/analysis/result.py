@@ -115,7 +115,13 @@ class Result:
             if not same:
                 if self.status[start] != "ok":
                     which = str(start + 1) if k == start + 1 else f"{start + 1}-{k}"
-                    out.append((which, self.status[start], self.reasons[start] or STATUSES[self.status[start]].sentence))
+                    out.append(
+                        (
+                            which,
+                            self.status[start],
+                            self.reasons[start] or STATUSES[self.status[start]].sentence,
+                        )
+                    )
                 start = k
         return out
 
@@ -163,7 +169,9 @@ class Result:
         """
         k, sign = self._joint(joint, on)
         if axes == "link":
-            return self._on_link(joint, on, sign * np.where(self.unique(joint)[..., :2], self.force_array[..., k, :], np.nan))
+            return self._on_link(
+                joint, on, sign * np.where(self.unique(joint)[..., :2], self.force_array[..., k, :], np.nan)
+            )
         return np.where(self.unique(joint)[..., :2], sign * self.force_array[..., k, :], np.nan)
 
     def reaction_moment(self, joint: str, on: str | None = None) -> Array:
@@ -187,7 +195,9 @@ class Result:
         k = _index(self.joints, joint, "joint")
         i, j = self.mechanism.joints[joint].links
         if on not in (None, i, j):
-            raise ModelError(f"joint {joint!r} does not act on {on!r}", f"it joins {i} and {j}", ("joints", joint))
+            raise ModelError(
+                f"joint {joint!r} does not act on {on!r}", f"it joins {i} and {j}", ("joints", joint)
+            )
         return k, -1.0 if on == i else 1.0
 
     def _on_link(self, joint: str, on: str | None, force: Array) -> Array:
@@ -317,7 +327,9 @@ class Result:
 
         export.to_xlsx(self, path, overwrite=overwrite, units=units)
 
-    def to_netcdf(self, path: str | Path, overwrite: bool = False, units: Literal["SI", "file"] = "SI") -> None:
+    def to_netcdf(
+        self, path: str | Path, overwrite: bool = False, units: Literal["SI", "file"] = "SI"
+    ) -> None:
         """Write labelled arrays."""
         from dalembert.analysis import export
 

@@ -13,6 +13,7 @@ from dalembert.analysis.mobility import check_knowns
 from dalembert.analysis.positions import Positions, drive_text, open_sentence, positions
 from dalembert.analysis.result import Result
 from dalembert.core.equilibrium import balance, known_sources, motion, reactions, unique
+from dalembert.core.follow import BLOCK
 from dalembert.core.forcing import summed
 from dalembert.core.layout import Pose
 from dalembert.core.rank import singular_below
@@ -20,9 +21,6 @@ from dalembert.errors import STATUSES, AnalysisError, ModelError
 from dalembert.model import Mechanism, Schedule
 
 Array = NDArray[Any]
-
-BLOCK = 2048
-"""Positions solved at once: enough to hide the cost of a numpy call, few enough to stay in the cache."""
 
 UNBALANCED = 1e-6
 """Residual above which a position has no equilibrium."""
@@ -78,7 +76,9 @@ def at_schedule(m: Mechanism, schedule: Schedule, inertia: bool, forces: bool = 
         _block(followed.compiled, followed.path.pose, slice(k, k + BLOCK), inertia, forces)
         for k in range(0, len(c.targets), BLOCK)
     ]
-    return _result(followed, _Arrays(*(_concatenated(column) for column in zip(*parts, strict=True))), inertia, forces)
+    return _result(
+        followed, _Arrays(*(_concatenated(column) for column in zip(*parts, strict=True))), inertia, forces
+    )
 
 
 class _Arrays(NamedTuple):
@@ -114,7 +114,18 @@ def _block(c: Compiled, whole: Pose, part: slice, inertia: bool, forces: bool) -
             nan = np.full((count, layout.joints, 2), np.nan)
             empty = np.full((count, len(layout.driven)), np.nan)
             zero, load = np.zeros(count), np.full((count, len(c.unknown_loads)), np.nan)
-            found: tuple[Any, ...] = (nan, nan[..., 0], empty, load, zero, zero, moving.rcond, moving.rcond, None, None)
+            found: tuple[Any, ...] = (
+                nan,
+                nan[..., 0],
+                empty,
+                load,
+                zero,
+                zero,
+                moving.rcond,
+                moving.rcond,
+                None,
+                None,
+            )
         else:
             found = _forces(c, pose, part, moving, rows, solver, inertia)
     moved = (pose.point, pose.turn, moving.twist, moving.acceleration)
@@ -167,7 +178,9 @@ def _blank(where: NDArray[np.bool_], *arrays: Array) -> None:
         array[where] = np.nan
 
 
-def _statuses(followed: Positions, a: _Arrays, forces: bool) -> tuple[tuple[str, ...], tuple[str | None, ...]]:
+def _statuses(
+    followed: Positions, a: _Arrays, forces: bool
+) -> tuple[tuple[str, ...], tuple[str | None, ...]]:
     """Status and sentence of each position: the first that applies."""
     c, path = followed.compiled, followed.path
     assert path is not None

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from dalembert.core.closure import CLOSED, closed, distance
 from dalembert.core.constraints import measure
-from dalembert.core.layout import Along, Layout, Meet, Mesh, Pose, Rows, Turn
+from dalembert.core.layout import Along, Layout, Meet, Mesh, Pose, Rows, Turn, selected
 
 Array = NDArray[Any]
 
@@ -83,7 +83,7 @@ def _without_phase(layout: Layout, target: Array, guess: Guess, hold: bool) -> t
     held = _held_wheels(layout, phased, guess) if hold else []
     kept = np.setdiff1d(np.arange(rows.count), phased)
     count = len(kept) + len(held)
-    families = [r for f in rows.families if (r := _renumbered(f, kept)) is not None]
+    families = selected(rows, kept)
     families.append(
         Turn(np.arange(len(kept), count), np.full(len(held), layout.links), np.array(held, np.intp))
     )
@@ -94,15 +94,6 @@ def _without_phase(layout: Layout, target: Array, guess: Guess, hold: bool) -> t
     return replace(layout, constraints=constraints), np.concatenate(
         [target[kept], angles, target[rows.count :]]
     )
-
-
-def _renumbered(f: Any, kept: NDArray[np.intp]) -> Any:
-    """A family with only the kept rows, at their new places."""
-    mask = np.asarray(np.isin(f.row, kept).reshape(len(f.i), -1).all(axis=1))
-    if not mask.any():
-        return None
-    parts = {name: value[mask] for name, value in vars(f).items() if name != "row"}
-    return type(f)(row=np.searchsorted(kept, f.row[mask]), **parts)
 
 
 def _held_wheels(layout: Layout, phased: NDArray[np.intp], guess: Guess) -> list[int]:

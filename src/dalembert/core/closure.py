@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.constraints import stacked, stacked_measure
-from dalembert.core.factor import factor, row_scale
+from dalembert.core.constraints import measure, stacked
+from dalembert.core.factor import displacement
 from dalembert.core.layout import Layout, Mesh, Pose
 
 Array = NDArray[Any]
@@ -29,34 +29,31 @@ LONGEST_TURN = 0.5
 
 def gap(layout: Layout, pose: Pose, target: Array) -> Array:
     """What is missing to the targets (..., K + D)."""
-    missing: Array = target - stacked_measure(layout, pose)
-    for family in layout.constraints.families:
+    missing: Array = target - measure(layout.algebra, layout.stack, pose)
+    for family in layout.stack.families:
         if isinstance(family, Mesh):  # the angle of the line of centres is known but for whole turns
             period = 2 * np.pi * (family.ri + family.rj)
             part = missing[..., family.row]
             missing[..., family.row] = part - period * np.round(part / period)
-    return np.asarray(missing * row_scale(layout, layout.angular))
+    missing *= layout.row_scale
+    return missing
 
 
-def step(layout: Layout, pose: Pose, scaled_gap: Array) -> Array:
-    """Newton step (..., L, n), shortened where it is long."""
-    rows = stacked(layout, pose)
-    solver = factor(layout, rows)
+def step(layout: Layout, pose: Pose, scaled_gap: Array) -> tuple[Array, Array]:
+    """Newton step (..., L, n), shortened where it is long, and its size before that (...)."""
     with np.errstate(all="ignore"):
-        dq = np.nan_to_num(
-            solver.motion(scaled_gap / row_scale(layout, rows.angular)), nan=0.0, posinf=0.0, neginf=0.0
-        )
+        dq = displacement(layout, stacked(layout, pose), scaled_gap)
     dq = dq.reshape((*dq.shape[:-1], layout.links, layout.algebra.n))
-    return np.asarray(
-        dq * np.minimum(1.0, LONGEST_TURN / np.maximum(largest(layout, dq), 1e-300))[..., None, None]
-    )
+    size = largest(layout, dq)
+    if size.max(initial=0.0) > LONGEST_TURN:
+        dq = dq * np.minimum(1.0, LONGEST_TURN / np.maximum(size, 1e-300))[..., None, None]
+    return dq, size
 
 
 def largest(layout: Layout, dq: Array) -> Array:
     """Largest turn, or shift over characteristic length, of displacements (..., L, n)."""
-    g = layout.algebra
-    per_length = np.repeat([1 / layout.length, 1.0], [g.d, g.n - g.d])
-    return np.asarray(np.abs(dq * per_length).max(axis=(-2, -1), initial=0.0))
+    scaled = np.abs(dq) / (layout.wrench_scale * layout.length)
+    return np.asarray(scaled.max(axis=(-2, -1), initial=0.0))
 
 
 def moved(layout: Layout, pose: Pose, dq: Array) -> Pose:
@@ -75,24 +72,38 @@ def distance(layout: Layout, a: Pose, b: Pose) -> Array:
     return np.asarray(np.maximum(shift, np.abs(a.turn - b.turn).max(axis=-1)))
 
 
-def closed(layout: Layout, guess: Pose, target: Array, iterations: int = 40) -> tuple[Pose, Array]:
+def closed(
+    layout: Layout, guess: Pose, target: Array, iterations: int = 40, polish: bool = True
+) -> tuple[Pose, Array]:
     """Poses (P, L+1, ...) that reach the targets (P, K + D) from the guesses, and their remaining gaps (P,).
 
-    A gap above ``CLOSED * length`` means: not reached from here. Elements are independent of each other.
+    A gap above ``CLOSED * length`` means: not reached from here. Elements are independent of each other. Without
+    ``polish`` that is where an element stops, with it a last step follows, to rounding.
     """
-    pose = Pose(*(a.copy() for a in guess))
-    missing = gap(layout, pose, target)
+    pose, missing = guess, gap(layout, guess, target)
     size = np.abs(missing).max(axis=-1, initial=0.0)
     active = np.arange(len(size))
     for _ in range(iterations):
-        dq = step(layout, pose.at(active), missing[active])
-        last = (size[active] <= CLOSED * layout.length) & (largest(layout, dq) <= FINE)
-        part = moved(layout, pose.at(active), dq)
-        for whole, new in zip(pose, part, strict=True):
-            whole[active] = new
-        missing[active] = gap(layout, part, target[active])
-        size[active] = np.abs(missing[active]).max(axis=-1, initial=0.0)
-        active = active[~last]
+        every = active.size == size.size
+        part, wanted, open_ = (
+            (pose, target, missing) if every else (pose.at(active), target[active], missing[active])
+        )
+        dq, length = step(layout, part, open_)
+        last = (size[active] <= CLOSED * layout.length) & (length <= FINE)
+        part = moved(layout, part, dq)
+        open_ = gap(layout, part, wanted)
+        left = np.abs(open_).max(axis=-1, initial=0.0)
+        if every:
+            pose, missing, size = part, open_, left
+        else:
+            _put(pose, active, part)
+            missing[active], size[active] = open_, left
+        active = active[~last if polish else left > CLOSED * layout.length]
         if not active.size:
             break
     return pose, size
+
+
+def _put(pose: Pose, where: NDArray[np.intp], part: Pose) -> None:
+    for whole, new in zip(pose, part, strict=True):
+        whole[where] = new

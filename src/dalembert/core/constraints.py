@@ -49,29 +49,7 @@ def system(g: Any, rows: Rows, pose: Pose) -> System:
 
 def stacked(layout: Layout, pose: Pose) -> System:
     """The constraint rows, then the drives' rows."""
-    constraints = system(layout.algebra, layout.constraints, pose)
-    if not layout.driven.size:
-        return constraints
-    return constraints + system(layout.algebra, layout.freedoms, pose).rows(layout.driven)
-
-
-def stacked_measure(layout: Layout, pose: Pose) -> Array:
-    """Measures of the stacked rows (..., K + D)."""
-    return _both(layout, measure, pose)
-
-
-def stacked_drift(layout: Layout, pose: Pose, twist: Array) -> Array:
-    """Drifts of the stacked rows (..., K + D)."""
-    return _both(layout, drift, pose, twist)
-
-
-def _both(layout: Layout, of: Any, *state: Any) -> Array:
-    constraints: Array = of(layout.algebra, layout.constraints, *state)
-    if not layout.driven.size:
-        return constraints
-    return np.concatenate(
-        [constraints, of(layout.algebra, layout.freedoms, *state)[..., layout.driven]], axis=-1
-    )
+    return system(layout.algebra, layout.stack, pose)
 
 
 def dense(layout: Layout, rows: System) -> Array:

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.core import forcing as fc
-from dalembert.core.constraints import arm, rates, stacked, stacked_drift
-from dalembert.core.factor import column_scale, factor
+from dalembert.core.constraints import arm, drift, rates, stacked
+from dalembert.core.factor import factor
 from dalembert.core.forcing import Forcing, Source, pair, summed
 from dalembert.core.layout import Layout, Pose, System
 from dalembert.core.linear import Factor, PseudoInverse
@@ -88,7 +88,7 @@ def motion(layout: Layout, pose: Pose, speed: Array, acceleration: Array) -> tup
         )
 
     v = twists(prescribed(speed))
-    a = twists(prescribed(acceleration) - stacked_drift(layout, pose, v))
+    a = twists(prescribed(acceleration) - drift(layout.algebra, layout.stack, pose, v))
     unit = np.eye(len(layout.driven))
     virtual = [twists(prescribed(e)) for e in unit]
     stack = np.stack(virtual, axis=-3) if virtual else np.zeros((*lead, 0, *v.shape[-2:]))
@@ -189,7 +189,7 @@ def _solved(
 
 def _residual(layout: Layout, sources: list[Source], w: Array) -> tuple[Array, Array]:
     """Largest out-of-balance force or moment (over length) relative to the largest force, and that force."""
-    scale = column_scale(layout)[: layout.algebra.n]
+    scale = layout.wrench_scale
     out = np.abs((summed(layout, *sources) + w) * scale).max(axis=(-2, -1), initial=0.0)
     largest = np.abs(w * scale).max(axis=(-2, -1), initial=0.0)
     for source in sources:
@@ -209,7 +209,7 @@ def _power(
     asked = unknown.rows(slice(count, None))
     applied = System(*asked[:3], asked.on_i[..., None, :, :], asked.on_j[..., None, :, :])
     power = power + (rates(applied, v) * x[..., None, count:]).sum(axis=-1)
-    scale = column_scale(layout)[: layout.algebra.n]
+    scale = layout.wrench_scale
     fastest = np.abs(v / scale).max(axis=(-2, -1), initial=0.0)
     reference = largest[..., None] * fastest
     return np.asarray(np.abs(power / np.where(reference > 0, reference, 1.0)).max(axis=-1))

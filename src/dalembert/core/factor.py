@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from dalembert.core.constraints import dense
 from dalembert.core.layout import Layout, System
-from dalembert.core.linear import Factor, inverse, pseudo_inverse
+from dalembert.core.linear import Factor, inverse, pseudo_inverse, solved
 
 Array = NDArray[Any]
 
@@ -20,24 +20,33 @@ SPARSE = 120
 
 
 def row_scale(layout: Layout, angular: NDArray[np.bool_]) -> Array:
-    """Scale of the measures: angles times the characteristic length."""
+    """Scale of some rows' measures: angles times the characteristic length."""
     return np.where(angular, layout.length, 1.0)
-
-
-def column_scale(layout: Layout) -> Array:
-    """Scale of the twists' components, also of the equilibrium equations: moments over the characteristic length."""
-    g = layout.algebra
-    return np.tile(np.repeat([1.0, 1 / layout.length], [g.d, g.n - g.d]), layout.links)
 
 
 def factor(layout: Layout, rows: System) -> Factor:
     """Factor J of some rows with the solver that suits it."""
-    row, column = row_scale(layout, rows.angular), column_scale(layout)
+    row, column = row_scale(layout, rows.angular), layout.column_scale
     if layout.redundant or len(row) != layout.unknowns:
         return pseudo_inverse(dense(layout, rows), row, column)
     if layout.unknowns > SPARSE:
         return sparse(layout, rows, row, column)
     return inverse(dense(layout, rows), row, column)
+
+
+def displacement(layout: Layout, rows: System, scaled_gap: Array) -> Array:
+    """One solution of J dq = gap (gap scaled), without keeping factors: a Newton step. 0 where J is singular."""
+    square = len(rows.i) == layout.unknowns and not layout.redundant
+    if square and layout.unknowns <= SPARSE:
+        j = dense(layout, rows)
+        j *= row_scale(layout, rows.angular)[:, None]
+        dq = solved(j, scaled_gap)
+    else:
+        dq = factor(layout, rows).motion(scaled_gap / row_scale(layout, rows.angular))
+    bad = ~np.isfinite(dq)
+    if bad.any():
+        dq[bad] = 0.0
+    return dq
 
 
 @dataclass(frozen=True)

@@ -22,11 +22,14 @@ from dalembert.core.layout import Layout, Pose
 
 Array = NDArray[Any]
 
-STRIDE = 0.23
+STRIDE = 0.31
 """Radians of a drive (or slide over characteristic length) between stations; no divisor of a quarter turn."""
 
-NODES = 6
+NODES = 8
 """Stations in an interpolation or extrapolation."""
+
+BLOCK = 2048
+"""Positions corrected at once: enough to hide the cost of a numpy call, few enough to stay in the cache."""
 
 TRUSTED = 0.05
 """Largest correction of an interpolated pose, radians or characteristic lengths."""
@@ -119,7 +122,7 @@ def _station(layout: Layout, targets: Array, s: Array, poses: list[Pose], ahead:
     """The pose at ``ahead``, predicted from the last stations and corrected; None where the prediction is poor."""
     there = target_at(targets, np.array([ahead]))
     guess = _predicted(layout, targets, s, poses, ahead, there)
-    pose, missing = closed(layout, guess, there, iterations=12)
+    pose, missing = closed(layout, guess, there, iterations=12, polish=False)
     if not missing[0] <= CLOSED * layout.length:
         return None
     correction = float(distance(layout, pose, guess)[0])
@@ -134,9 +137,9 @@ def _predicted(
 ) -> Pose:
     """Polynomial through the last stations; along the velocity from the first."""
     if len(s) > 1:
-        order = np.argsort(s[-4:])
-        recent = stack([poses[-4:][k] for k in order])
-        return interpolated(np.array([ahead]), s[-4:][order], recent, layout)
+        order = np.argsort(s[-6:])
+        recent = stack([poses[-6:][k] for k in order])
+        return interpolated(np.array([ahead]), s[-6:][order], recent, layout)
     here = poses[-1].at(None)
     return moved(layout, here, velocity(layout, here, there - target_at(targets, s[-1:])))
 
@@ -154,7 +157,9 @@ class Path(NamedTuple):
     reached: NDArray[np.bool_]
 
 
-def path(layout: Layout, first: Pose, targets: Array, period: Array | None = None, start: float = 0.0) -> Path:
+def path(
+    layout: Layout, first: Pose, targets: Array, period: Array | None = None, start: float = 0.0
+) -> Path:
     """Poses at every position of the list, followed both ways from the pose (L+1, ...) at parameter ``start``.
 
     ``period`` (K + D) is what a whole cycle adds to the targets, if the list is one: then what lies behind a dead
@@ -166,7 +171,9 @@ def path(layout: Layout, first: Pose, targets: Array, period: Array | None = Non
     forward = march(layout, first, targets, start)
     result = _filled(layout, targets, forward)
     if start > 0:
-        result = _joined(result, _filled(layout, targets, march(layout, first, targets, start, backward=True)))
+        result = _joined(
+            result, _filled(layout, targets, march(layout, first, targets, start, backward=True))
+        )
     if not forward.whole and period is not None and result.reached[0]:
         cycle = np.concatenate([targets - period, targets[:1]])
         back = march(layout, result.pose.at(0), cycle, start=len(targets), backward=True)
@@ -180,13 +187,14 @@ def _filled(layout: Layout, targets: Array, piece: March, count: int | None = No
     inside = (s >= piece.s[0] - 1e-9) & (s <= piece.s[-1] + 1e-9)
     pose = interpolated(s, piece.s, piece.pose, layout)
     reached = np.zeros(len(s), bool)
-    if inside.any():
-        guess = pose.at(inside)
-        part, missing = closed(layout, guess, targets[: len(s)][inside])
+    places = np.flatnonzero(inside)
+    for block in np.split(places, range(BLOCK, len(places), BLOCK)):
+        guess = pose.at(block)
+        part, missing = closed(layout, guess, targets[block])
         near = distance(layout, part, guess) <= TRUSTED
         for whole, new in zip(pose, part, strict=True):
-            whole[inside] = new
-        reached[inside] = near & (missing <= CLOSED * layout.length)
+            whole[block] = new
+        reached[block] = near & (missing <= CLOSED * layout.length)
     return Path(pose, reached)
 
 
@@ -234,7 +242,7 @@ def _entry(layout: Layout, target: Array, known: Path, sign: float) -> Pose | No
 
 def orientation(layout: Layout, pose: Pose) -> Array:
     """Sign of det J: it tells the two sides of a dead centre apart. 0 where J is not square or too large to ask."""
-    if layout.redundant or layout.unknowns > SPARSE or len(layout.angular) != layout.unknowns:
+    if layout.redundant or layout.unknowns > SPARSE or layout.stack.count != layout.unknowns:
         return np.zeros(len(pose.turn))
     sign, _ = np.linalg.slogdet(dense(layout, stacked(layout, pose)))
     return np.asarray(sign)

@@ -156,6 +156,30 @@ class System(NamedTuple):
         return System(self.i[which], self.j[which], self.angular[which], on_i, on_j)
 
 
+def selected(rows: Rows, kept: Ints, first: int = 0) -> list[Family]:
+    """The families of some rows only (ascending), renumbered from ``first``."""
+    out: list[Family] = []
+    for f in rows.families:
+        mask = np.asarray(np.isin(f.row, kept).reshape(len(f.i), -1).all(axis=1))
+        if mask.any():
+            parts = {name: value[mask] for name, value in vars(f).items() if name != "row"}
+            out.append(type(f)(row=first + np.searchsorted(kept, f.row[mask]), **parts))
+    return out
+
+
+def _merged(families: list[Family]) -> tuple[Family, ...]:
+    """Families of one kind joined into one."""
+    kinds: dict[type, list[Family]] = {}
+    for f in families:
+        kinds.setdefault(type(f), []).append(f)
+    return tuple(_joined(kind, group) for kind, group in kinds.items())
+
+
+def _joined(kind: type, group: list[Family]) -> Family:
+    family: Family = kind(**{name: np.concatenate([vars(f)[name] for f in group]) for name in vars(group[0])})
+    return family
+
+
 @dataclass(frozen=True)
 class Layout:
     """A compiled mechanism: who touches whom.
@@ -177,9 +201,34 @@ class Layout:
     reference: Array = field(repr=False)  # (L+1, d) reference point of each link in its own axes
 
     @cached_property
-    def angular(self) -> NDArray[np.bool_]:
-        """Which of the stacked rows, constraints then drives, measure an angle."""
-        return np.concatenate([self.constraints.angular, self.freedoms.angular[self.driven]])
+    def stack(self) -> Rows:
+        """The constraints, then the driven freedoms: the rows of the square system."""
+        count = self.constraints.count
+        driven = [selected(self.freedoms, self.driven[k : k + 1], count + k) for k in range(len(self.driven))]
+        families = _merged([*self.constraints.families, *(f for one in driven for f in one)])
+        return Rows(
+            count + len(self.driven),
+            self.links,
+            families,
+            np.concatenate([self.constraints.joint, self.freedoms.joint[self.driven]]),
+            np.concatenate([self.constraints.angular, self.freedoms.angular[self.driven]]),
+        )
+
+    @cached_property
+    def row_scale(self) -> Array:
+        """Scale of the stacked measures: angles times the characteristic length."""
+        return np.where(self.stack.angular, self.length, 1.0)
+
+    @cached_property
+    def wrench_scale(self) -> Array:
+        """Scale of a wrench's components (n,): moments over the characteristic length."""
+        g = self.algebra
+        return np.repeat([1.0, 1 / self.length], [g.d, g.n - g.d])
+
+    @cached_property
+    def column_scale(self) -> Array:
+        """Scale of the equilibrium equations (n L,), and inverse scale of the displacements."""
+        return np.tile(self.wrench_scale, self.links)
 
     @property
     def unknowns(self) -> int:

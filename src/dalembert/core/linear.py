@@ -85,6 +85,17 @@ def _inverse(matrix: Array) -> Array:
         return np.concatenate([_inverse(matrix[:half]), _inverse(matrix[half:])])
 
 
+def solved(matrix: Array, right: Array) -> Array:
+    """Solution (..., m) of each square system; NaN for a singular one."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0])
+    except np.linalg.LinAlgError:
+        if len(matrix) == 1:
+            return np.full_like(right, np.nan)
+        half = len(matrix) // 2
+        return np.concatenate([solved(matrix[:half], right[:half]), solved(matrix[half:], right[half:])])
+
+
 @dataclass(frozen=True)
 class PseudoInverse:
     """Any shape and rank, by singular values: least-norm forces, least-squares motion.

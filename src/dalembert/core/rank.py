@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.core.constraints import dense, stacked, system
-from dalembert.core.factor import column_scale, factor, row_scale
+from dalembert.core.factor import factor, row_scale
 from dalembert.core.layout import Layout, Pose
 from dalembert.core.linear import SINGULAR, pseudo_inverse
 
@@ -37,7 +37,7 @@ def singular_below(layout: Layout) -> float:
 
 def well_driven(layout: Layout, pose: Pose) -> bool:
     """Constraints and drives fix every link once, neither more nor less: the common case, asked cheaply."""
-    if len(layout.angular) != layout.unknowns:
+    if layout.stack.count != layout.unknowns:
         return False
     rcond = factor(layout, stacked(layout, pose.at(None))).rcond[0]
     return bool(rcond > singular_below(layout))
@@ -50,8 +50,10 @@ def rank(layout: Layout, pose: Pose) -> Rank:
     """Rank of the constraints at a pose (L+1, ...), by singular values."""
     pose = pose.at(None)
     constraints = system(layout.algebra, layout.constraints, pose)
-    column = column_scale(layout)
-    alone = pseudo_inverse(dense(layout, constraints), row_scale(layout, constraints.angular), column, TOLERANCE)
+    column = layout.column_scale
+    alone = pseudo_inverse(
+        dense(layout, constraints), row_scale(layout, constraints.angular), column, TOLERANCE
+    )
     freedoms = layout.unknowns - int(alone.rank[0])
     redundant = layout.constraints.count - int(alone.rank[0])
     repeated = np.abs(alone.null[0]).max(axis=-1, initial=0.0) > 1e-6
@@ -60,7 +62,9 @@ def rank(layout: Layout, pose: Pose) -> Rank:
     held = whole.pinv[0] @ (dense(layout, rows) * row_scale(layout, rows.angular)[:, None] * column)[0]
     idle = (np.eye(layout.unknowns) - held).reshape(layout.links, -1, layout.unknowns)
     loose = np.abs(idle).max(axis=(1, 2), initial=0.0) > 1e-6
-    return Rank(freedoms, redundant, repeated, loose, _free(layout, pose, np.eye(layout.unknowns) - held, column))
+    return Rank(
+        freedoms, redundant, repeated, loose, _free(layout, pose, np.eye(layout.unknowns) - held, column)
+    )
 
 
 def _free(layout: Layout, pose: Pose, idle: Array, column: Array) -> NDArray[np.bool_]:

@@ -1,0 +1,230 @@
+"""A result written out: tables (CSV, workbook, DataFrame) and labelled arrays (xarray, netCDF)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.analysis.columns import (
+    DRIVE_NUMBERS,
+    LINK_NUMBERS,
+    LINK_VECTORS,
+    Axes,
+    Scale,
+    UnitChoice,
+    columns,
+    drive_kinds,
+    load_kind,
+    reactions,
+    scale,
+)
+from dalembert.analysis.record import BLOCK, nulled, to_dict, to_json, write_json
+from dalembert.errors import ModelError
+from dalembert.saving import needs, new_file
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+    from dalembert.analysis.result import Result
+
+__all__ = [
+    "headings",
+    "rows",
+    "to_csv",
+    "to_dataframe",
+    "to_dict",
+    "to_json",
+    "to_netcdf",
+    "to_xarray",
+    "to_xlsx",
+    "write_csv",
+    "write_json",
+]
+
+Array = NDArray[Any]
+
+WORKBOOK_ROWS = 1_048_575
+"""Rows of a worksheet, less its heading."""
+
+
+# tables
+
+
+def headings(
+    result: Result, units: UnitChoice = "SI", axes: Axes = "ground"
+) -> tuple[list[str], list[Array]]:
+    """Names of the columns with their units, and the columns (P,)."""
+    to = scale(result, units)
+    named = [(c.name, to.text(c.kind), to(c.kind, c.values)) for c in columns(result, axes)]
+    return [f"{name} [{unit}]" if unit else name for name, unit, _ in named], [values for *_, values in named]
+
+
+def rows(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Iterator[list[Any]]:
+    """The heading, then one row a position: its number, status, every number (or None), reason."""
+    names, arrays = headings(result, units, axes)
+    yield ["position", "status", *names, "reason"]
+    for start in range(0, len(result.status), BLOCK):
+        lists = [nulled(values[start : start + BLOCK]) for values in arrays]
+        for k, numbers in enumerate(zip(*lists, strict=True), start):
+            yield [k + 1, result.status[k], *numbers, result.reasons[k]]
+
+
+def write_csv(result: Result, stream: IO[str], units: UnitChoice = "SI", axes: Axes = "ground") -> None:
+    """One row a position into an open text file; an empty field where there is no value."""
+    import csv
+
+    csv.writer(stream, lineterminator="\n").writerows(rows(result, units, axes))
+
+
+def to_csv(
+    result: Result,
+    path: str | Path,
+    overwrite: bool = False,
+    units: UnitChoice = "SI",
+    axes: Axes = "ground",
+) -> None:
+    """One row a position as a CSV file, units in the heading."""
+    with new_file(path, overwrite) as temporary, open(temporary, "w", encoding="utf-8", newline="") as stream:
+        write_csv(result, stream, units, axes)
+
+
+def to_xlsx(
+    result: Result,
+    path: str | Path,
+    overwrite: bool = False,
+    units: UnitChoice = "SI",
+    axes: Axes = "ground",
+) -> None:
+    """A workbook: the positions on one sheet, what they rest on on another."""
+    with needs("openpyxl", "a workbook"):
+        from openpyxl import Workbook
+    if len(result.status) > WORKBOOK_ROWS:
+        raise ModelError(
+            f"{len(result.status)} positions do not fit a worksheet of {WORKBOOK_ROWS} rows",
+            "write CSV or netCDF",
+        )
+    book = Workbook(write_only=True)
+    sheet = book.create_sheet("positions")
+    sheet.freeze_panes = "C2"
+    for row in rows(result, units, axes):
+        sheet.append(row)
+    about = book.create_sheet("about")
+    for pair in _about(result).items():
+        about.append(pair)
+    with new_file(path, overwrite) as temporary:
+        book.save(temporary)
+
+
+def _about(result: Result) -> dict[str, str]:
+    """What stands beside every table: title, source, assumptions, mobility."""
+    m = result.mechanism
+    about = {"title": m.title or "", "source": m.source_text or "", **result.assumptions}
+    return about | {"mobility": result.mobility.sentence if result.mobility else ""}
+
+
+def to_dataframe(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> pandas.DataFrame:
+    """One row a position, one column a number, units in the names of the columns."""
+    with needs("pandas", "a DataFrame"):
+        import pandas
+    names, arrays = headings(result, units, axes)
+    frame = pandas.DataFrame(dict(zip(names, arrays, strict=True)))
+    frame.insert(0, "status", list(result.status))
+    frame.index = pandas.RangeIndex(1, len(frame) + 1, name="position")
+    frame.attrs.update(_about(result))
+    return frame
+
+
+# labelled arrays
+
+
+def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> xarray.Dataset:
+    """Arrays over position, drive, joint, link and component, each with ``attrs["units"]``."""
+    with needs("xarray", "labelled arrays"):
+        import xarray
+    to = scale(result, units)
+    data: dict[str, Any] = {"status": ("position", np.array(result.status, dtype=str))}
+    data |= _drive_arrays(result, to) | _joint_arrays(result, to, axes) | _link_arrays(result, to)
+    for load in result.unknown_loads:
+        kind = load_kind(result, load)
+        data[f"unknown_load_{load}"] = (
+            "position",
+            to(kind, result.unknown_load(load)),
+            {"units": to.text(kind)},
+        )
+    data["residual"] = ("position", result.residual, {"units": "1"})
+    data["power_balance"] = ("position", result.power_balance, {"units": "1"})
+    coordinates = {
+        "position": np.arange(1, len(result.status) + 1),
+        "component": ["x", "y"],
+        "drive": list(result.drives),
+        "joint": list(result.joints),
+        "link": list(result.links),
+    }
+    present = {name: names for name, names in coordinates.items() if len(names)}
+    return xarray.Dataset(data, coords=present, attrs=_about(result) | {"reaction_axes": axes})
+
+
+def _drive_arrays(result: Result, to: Scale) -> dict[str, Any]:
+    """Position, speed, acceleration and effort; drives that turn and drives that slide differ in their units."""
+    if not result.drives:
+        return {}
+    out: dict[str, Any] = {}
+    for name, read in {**DRIVE_NUMBERS, "effort": lambda r, drive: r.effort(drive)}.items():
+        kinds = [drive_kinds(result, drive)[name] for drive in result.drives]
+        stacked = np.stack(
+            [to(k, read(result, d)) for k, d in zip(kinds, result.drives, strict=True)], axis=1
+        )
+        texts = [to.text(kind) for kind in kinds]
+        unit = texts[0] if len(set(texts)) == 1 else "of each drive: " + ", ".join(texts)
+        variable = name if name == "effort" else f"drive_{name}"
+        out[variable] = (("position", "drive"), stacked, {"units": unit})
+    return out
+
+
+def _joint_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
+    """Reactions on each joint's j, which link that is, and which components statics determines."""
+    found = list(reactions(result, axes))
+    if not found:
+        return {}
+    force = to("force", np.stack([r.force for r in found], axis=1))
+    moment = to("moment", np.stack([r.moment for r in found], axis=1))
+    return {
+        "reaction": (("position", "joint", "component"), force, {"units": to.text("force")}),
+        "reaction_moment": (("position", "joint"), moment, {"units": to.text("moment")}),
+        "reaction_on": ("joint", [r.on for r in found]),
+        "reaction_by": ("joint", [r.by for r in found]),
+    }
+
+
+def _link_arrays(result: Result, to: Scale) -> dict[str, Any]:
+    if not result.links:
+        return {}
+    out: dict[str, Any] = {}
+    for dimensions, table in (
+        (("position", "link"), LINK_NUMBERS),
+        (("position", "link", "component"), LINK_VECTORS),
+    ):
+        for name, (kind, read) in table.items():
+            stacked = np.stack([read(result, link) for link in result.links], axis=1)
+            out[f"link_{name}"] = (dimensions, to(kind, stacked), {"units": to.text(kind)})
+    return out
+
+
+def to_netcdf(
+    result: Result,
+    path: str | Path,
+    overwrite: bool = False,
+    units: UnitChoice = "SI",
+    axes: Axes = "ground",
+) -> None:
+    """The labelled arrays as a netCDF file."""
+    with needs("h5netcdf", "a netCDF file"):
+        import h5netcdf  # noqa: F401
+    dataset = to_xarray(result, units, axes)
+    with new_file(path, overwrite) as temporary:
+        dataset.to_netcdf(temporary, engine="h5netcdf")

@@ -1,0 +1,159 @@
+"""The JSON answer of the model file's contract (section 6), made position by position."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.analysis.columns import (
+    DRIVE_NUMBERS,
+    LINK_NUMBERS,
+    LINK_VECTORS,
+    Axes,
+    Scale,
+    UnitChoice,
+    drive_kinds,
+    load_kind,
+    reactions,
+    scale,
+)
+from dalembert.saving import new_file
+from dalembert.units import KINDS
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result import Result
+
+Array = NDArray[Any]
+
+BLOCK = 1024
+"""Positions turned into Python objects at once: of a hundred thousand few stand in memory together."""
+
+
+def to_dict(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> dict[str, Any]:
+    """The JSON answer of the model file's contract (section 6); None where there is no value."""
+    return {**head(result, units), "positions": list(position_records(result, units, axes))}
+
+
+def head(result: Result, units: UnitChoice = "SI") -> dict[str, Any]:
+    """What stands before the positions: title, units, assumptions, mobility."""
+    to = scale(result, units)
+    mobility = result.mobility
+    return {
+        "dalembert": 1,
+        "title": result.mechanism.title,
+        "units": "SI" if units == "SI" else {kind: to.text(kind) for kind in KINDS if to.text(kind)},
+        "friction": not result.assumptions["friction"].startswith("off"),
+        "assumptions": dict(result.assumptions),
+        "mobility": None
+        if mobility is None
+        else {
+            "freedoms": mobility.freedoms,
+            "drives": mobility.drives,
+            "redundant": mobility.redundant,
+            "redundant_joints": list(mobility.redundant_joints),
+        },
+        "assembly_mode": result.mode,
+    }
+
+
+def position_records(
+    result: Result, units: UnitChoice = "SI", axes: Axes = "ground"
+) -> Iterator[dict[str, Any]]:
+    """One mapping a position, made a block at a time."""
+    fields = _fields(result, scale(result, units), axes)
+    for start in range(0, len(result.status), BLOCK):
+        part = slice(start, start + BLOCK)
+        yield from (
+            _record(result, start + k, group)
+            for k, group in enumerate(_transposed({name: lists(part) for name, lists in fields.items()}))
+        )
+
+
+Lists = Callable[[slice], list[Any]]
+
+
+def _fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], Lists]:
+    """Keys down the record -> its values of some positions, as lists with None for NaN."""
+
+    def numbers(kind: str, values: Array) -> Lists:
+        scaled = to(kind, values)
+        return lambda part: nulled(scaled[part])
+
+    out: dict[tuple[str, ...], Lists] = {}
+    for drive in result.drives:
+        kinds = drive_kinds(result, drive)
+        for name, of in DRIVE_NUMBERS.items():
+            out["drives", drive, name] = numbers(kinds[name], of(result, drive))
+    for drive in result.drives:
+        out["efforts", drive] = numbers(drive_kinds(result, drive)["effort"], result.effort(drive))
+    for load in result.unknown_loads:
+        out["unknown_loads", load] = numbers(load_kind(result, load), result.unknown_load(load))
+    for r in reactions(result, axes):
+        out["reactions", r.joint, "force"] = numbers("force", r.force)
+        out["reactions", r.joint, "moment"] = numbers("moment", r.moment)
+        if r.least_norm is not None:
+            out["reactions", r.joint, "least_norm", "force"] = numbers("force", r.least_norm[:, :2])
+            out["reactions", r.joint, "least_norm", "moment"] = numbers("moment", r.least_norm[:, 2])
+    for link in result.links:
+        for name, (kind, read) in {**LINK_VECTORS, **LINK_NUMBERS}.items():
+            out["links", link, name] = numbers(kind, read(result, link))
+    out["residual",] = numbers("number", result.residual)
+    out["power_balance",] = numbers("number", result.power_balance)
+    return out
+
+
+def nulled(values: Array) -> list[Any]:
+    """A list with None for NaN and infinity."""
+    if np.isfinite(values).all():
+        return list(values.tolist())
+    return list(np.where(np.isfinite(values), values.astype(object), None).tolist())
+
+
+def _transposed(lists: dict[tuple[str, ...], list[Any]]) -> Iterator[dict[tuple[str, ...], Any]]:
+    for row in zip(*lists.values(), strict=True):
+        yield dict(zip(lists, row, strict=True))
+
+
+def _record(result: Result, position: int, values: dict[tuple[str, ...], Any]) -> dict[str, Any]:
+    status, reason = result.status[position], result.reasons[position]
+    record: dict[str, Any] = {"drives": {}, "status": status}
+    if reason is not None:
+        record["reason"] = reason
+    if result.stability is not None and result.stability[position] is not None:
+        record["stability"] = result.stability[position]
+    record |= {"efforts": {}, "unknown_loads": {}, "reactions": {}, "links": {}}
+    for joint in result.joints:
+        by, on = result.mechanism.joints[joint].links
+        record["reactions"][joint] = {"on": on, "by": by}
+    for path, value in values.items():
+        place = record
+        for key in path[:-1]:
+            place = place.setdefault(key, {})
+        place[path[-1]] = value
+    return record
+
+
+def write_json(result: Result, stream: IO[str], units: UnitChoice = "SI", axes: Axes = "ground") -> None:
+    """The JSON answer into an open text file, one position a line."""
+    opening = json.dumps(head(result, units), ensure_ascii=False, allow_nan=False, indent=1)
+    stream.write(opening.removesuffix("\n}") + ',\n "positions": [')
+    for k, record in enumerate(position_records(result, units, axes)):
+        stream.write((",\n  " if k else "\n  ") + json.dumps(record, ensure_ascii=False, allow_nan=False))
+    stream.write("]}\n")
+
+
+def to_json(
+    result: Result,
+    path: str | Path,
+    overwrite: bool = False,
+    units: UnitChoice = "SI",
+    axes: Axes = "ground",
+) -> None:
+    """The JSON answer as a file."""
+    with new_file(path, overwrite) as temporary, open(temporary, "w", encoding="utf-8") as stream:
+        write_json(result, stream, units, axes)
