@@ -6,7 +6,7 @@ import os
 import sys
 from collections.abc import Sequence
 
-OK, SOME_NOT_OK, WRONG_INPUT, INTERRUPTED = 0, 1, 2, 130
+WRONG_INPUT, INTERRUPTED = 2, 130
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -23,23 +23,30 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return INTERRUPTED
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # nobody reads: let exit flush in peace
-        return OK
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # nobody reads any more: let the last flush go nowhere
+        return 0
 
 
 def _run(arguments: list[str]) -> int:
+    from cyclopts import CycloptsError
+
     from dalembert.cli.app import app, command_line_error
     from dalembert.errors import DalembertError
 
     try:
-        from cyclopts import CycloptsError
-
-        try:
-            status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
-        except CycloptsError as error:
-            print(command_line_error(error), file=sys.stderr)
-            return WRONG_INPUT
+        status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
+    except CycloptsError as error:
+        return _refused(command_line_error(error, arguments))
     except DalembertError as error:
-        print(error, file=sys.stderr)
-        return WRONG_INPUT
-    return int(status or OK)
+        return _refused(str(error))
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        return _refused(f"{error.filename}: {(error.strerror or str(error)).lower()}")
+    return int(status or 0)
+
+
+def _refused(sentence: str) -> int:
+    sys.stdout.flush()
+    print(sentence, file=sys.stderr)
+    return WRONG_INPUT

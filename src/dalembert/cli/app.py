@@ -2,19 +2,236 @@
 
 from __future__ import annotations
 
-from cyclopts import App, CycloptsError
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from cyclopts import App, CycloptsError, Parameter
 
 from dalembert import __version__
 
-app = App(name="dalembert", version=__version__, help_formatter="plain", help_format="plaintext")
+OK, SOME_NOT_OK = 0, 1
+
+Flag = Annotated[bool, Parameter(negative=())]
+Target = Annotated[Path | None, Parameter(allow_leading_hyphen=True)]
+Output = Annotated[Path | None, Parameter(name=["--output", "-o"])]
+
+app = App(
+    name="dalembert",
+    version=__version__,
+    help="Force analysis of mechanisms: a model file in, motion, reactions and driving efforts out.",
+    help_format="plaintext",
+    help_formatter="plain",
+    default_parameter=Parameter(show_default=False),
+    suppress_keyboard_interrupt=False,
+    help_epilogue="""Examples:
+  dalembert examples four_bar -o four_bar.yaml
+  dalembert solve four_bar.yaml
+  dalembert solve four_bar.yaml --positions 72 --csv four_bar.csv
+  dalembert solve --help
+
+Exit status: 0 all positions solved; 1 some position is not; 2 the file or the command line is wrong.""",
+)
 
 
-@app.command
-def solve(file: str) -> int:
-    """Solve FILE."""
-    return 0
+@app.command(
+    help_epilogue="""Examples:
+  dalembert solve four_bar.yaml
+  dalembert solve four_bar.yaml --static --units si
+  dalembert solve four_bar.yaml --positions 360 --csv turn.csv --xlsx turn.xlsx
+  dalembert solve four_bar.yaml --json - --units file"""
+)
+def solve(
+    file: Path,
+    /,
+    *,
+    static: Flag = False,
+    positions: int | None = None,
+    json: Target = None,
+    csv: Target = None,
+    xlsx: Path | None = None,
+    netcdf: Path | None = None,
+    method: Literal["matrix", "superposition", "virtual-work"] = "matrix",
+    units: Literal["si", "file"] | None = None,
+    axes: Literal["ground", "link"] = "ground",
+    no_friction: Flag = False,
+    all: Flag = False,
+    force: Flag = False,
+) -> int:
+    """Solve FILE and print drives, efforts, reactions and motion, in the units of the file.
+
+    Parameters
+    ----------
+    file
+        Model file: YAML, JSON or TOML.
+    static
+        Leave inertia out, even where the file has speeds.
+    positions
+        Number of positions over the range of the drives, instead of the file's own count.
+    json
+        Write the JSON answer to this file; - prints it, and nothing else.
+    csv
+        Write a table, one row a position; - prints it, and nothing else.
+    xlsx
+        Write a workbook.
+    netcdf
+        Write labelled arrays for xarray and other readers of netCDF.
+    method
+        How the forces are found.
+    units
+        Units of what is printed (default: those of the file) and written (default: si).
+    axes
+        Axes of the reactions: ground, or the link they act on.
+    no_friction
+        Leave friction out.
+    all
+        Print every position, however many.
+    force
+        Overwrite files that exist.
+    """
+    from dalembert.cli.solving import Wanted, solved
+
+    wanted = Wanted(json, csv, xlsx, netcdf, units, axes, all, force)
+    return solved(file, wanted, static=static, positions=positions, method=method, friction=not no_friction)
 
 
-def command_line_error(error: CycloptsError) -> str:
-    """The sentence for a wrong command line."""
-    return f"dalembert: {error}"
+@app.command(
+    help_epilogue="""Examples:
+  dalembert check four_bar.yaml
+  dalembert check problems/ --all"""
+)
+def check(*files: Path, all: Flag = False) -> int:
+    """Compare the answers that stand in model files with what is computed.
+
+    Parameters
+    ----------
+    files
+        Model files, or folders of them.
+    all
+        Print every answer, not only those that disagree, also for many files.
+    """
+    from dalembert.cli.checking import checked
+
+    return checked(files, every=all)
+
+
+@app.command(
+    help_epilogue="""Examples:
+  dalembert validate
+  dalembert validate --all"""
+)
+def validate(*, all: Flag = False) -> int:
+    """Qualify this installation: solve every bundled published problem and compare all answers.
+
+    Parameters
+    ----------
+    all
+        Print every answer, not only those that disagree.
+    """
+    from dalembert.cli.checking import validated
+
+    return validated(every=all)
+
+
+@app.command(help_epilogue="Examples:\n  dalembert schema > dalembert.schema.json")
+def schema(*, output: Output = None, force: Flag = False) -> int:
+    """Print the JSON schema of the model file, for editors that complete and check.
+
+    Parameters
+    ----------
+    output
+        Write it to this file.
+    force
+        Overwrite a file that exists.
+    """
+    from dalembert.cli.describing import schema_text
+
+    return emitted(schema_text(), output, force)
+
+
+@app.command(
+    help_epilogue="""Examples:
+  dalembert new
+  dalembert new slider_crank -o engine.yaml"""
+)
+def new(template: str = "", /, *, output: Output = None, force: Flag = False) -> int:
+    """Begin a model file from a template; without a name, list the templates.
+
+    Parameters
+    ----------
+    template
+        Name of the template.
+    output
+        Write it to this file; without it, it is printed.
+    force
+        Overwrite a file that exists.
+    """
+    from dalembert.cli.describing import template_list, template_text
+
+    return emitted(template_text(template) if template else template_list(), output, force)
+
+
+@app.command(help_epilogue="Examples:\n  dalembert convert four_bar.yaml -o four_bar.json")
+def convert(file: Path, /, *, output: Output, force: Flag = False) -> int:
+    """Write a model file in another format: .yaml, .json or .toml.
+
+    Parameters
+    ----------
+    file
+        Model file.
+    output
+        File to write; its ending names the format.
+    force
+        Overwrite a file that exists.
+    """
+    from dalembert.cli.describing import converted
+
+    return converted(file, output, force)
+
+
+@app.command(
+    help_epilogue="""Examples:
+  dalembert examples
+  dalembert examples four_bar -o four_bar.yaml"""
+)
+def examples(name: str = "", /, *, output: Output = None, force: Flag = False) -> int:
+    """Bundled problems: list them, print one, or copy one to a file.
+
+    Parameters
+    ----------
+    name
+        Name of the example; without one, they are listed.
+    output
+        Write it to this file; without it, it is printed.
+    force
+        Overwrite a file that exists.
+    """
+    from dalembert.cli.describing import example_list, example_text
+
+    return emitted(example_text(name) if name else example_list(), output, force)
+
+
+def emitted(text: str, output: Path | None, force: bool) -> int:
+    """Text to a new file, or printed."""
+    from dalembert.saving import new_file
+
+    if output is None or str(output) == "-":
+        print(text.rstrip("\n"))
+        return OK
+    with new_file(output, force) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+    print(f"Written: {output}")
+    return OK
+
+
+LATER = ("draw", "report")
+"""Commands of the contract that this version does not have."""
+
+
+def command_line_error(error: CycloptsError, arguments: list[str]) -> str:
+    """The sentence for a wrong command line, and where to read more."""
+    asked: Any = arguments[0] if arguments else ""
+    if asked in LATER:
+        return f"dalembert: {asked} is not part of version {__version__}; `dalembert --help` lists what is"
+    said = str(error).strip().rstrip(".")
+    command = f" {asked}" if asked in app and not asked.startswith("-") else ""
+    return f"dalembert: {said[:1].lower() + said[1:]}; see `dalembert{command} --help`"

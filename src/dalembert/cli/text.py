@@ -1,0 +1,72 @@
+"""Plain columns for a person: aligned, at most 80 wide where they can be, the same on a terminal and in a pipe."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+WIDTH = 80
+GAP = 2
+
+
+def number(value: float, digits: int = 6) -> str:
+    """A number as a person reads it; `-` where there is none.
+
+    >>> number(243.237591), number(-0.0), number(1e-17), number(float("nan")), number(1.5e7)
+    ('243.238', '0', '1e-17', '-', '1.5e+07')
+    """
+    if not math.isfinite(value):
+        return "-"
+    return format(value + 0.0, f".{digits}g")
+
+
+def table(heads: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> str:
+    """Columns under their heads; the first `left` are aligned left. A head may have two lines.
+
+    >>> print(table(["joint", "x\\n[N]"], [["A", "12.5"], ["B", "-3"]]))
+    joint     x
+            [N]
+    -----------
+    A      12.5
+    B        -3
+    """
+    body = [list(row) for row in rows]
+    split = [head.split("\n") for head in heads]
+    deep = max(len(lines) for lines in split)
+    over = [[lines[k] if k < len(lines) else "" for lines in split] for k in range(deep)]
+    wide = [max(len(row[k]) for row in [*over, *body]) for k in range(len(heads))]
+
+    def line(row: Sequence[str]) -> str:
+        cells = [cell.ljust(w) if k < left else cell.rjust(w) for k, (cell, w) in enumerate(zip(row, wide, strict=True))]
+        return (" " * GAP).join(cells).rstrip()
+
+    rule = "-" * (sum(wide) + GAP * (len(wide) - 1))
+    return "\n".join([*map(line, over), rule, *map(line, body)])
+
+
+def tables(heads: Sequence[str], rows: Iterable[Sequence[str]], left: int, width: int = WIDTH) -> str:
+    """The same, continued below in further tables that repeat the left columns where one would be too wide."""
+    body = [list(row) for row in rows]
+    wide = [
+        max([len(line) for line in head.split("\n")] + [len(row[k]) for row in body])
+        for k, head in enumerate(heads)
+    ]
+    fixed = sum(wide[:left]) + GAP * (left - 1)
+    parts: list[list[int]] = [[]]
+    room = width - fixed
+    for k in range(left, len(heads)):
+        if parts[-1] and room < wide[k] + GAP:
+            parts.append([])
+            room = width - fixed
+        parts[-1].append(k)
+        room -= wide[k] + GAP
+    first = list(range(left))
+    chosen = [first + part for part in parts]
+    return "\n\n".join(table([heads[k] for k in ks], [[row[k] for k in ks] for row in body], left) for ks in chosen)
+
+
+def wrapped(sentence: str, indent: str = "") -> str:
+    """A sentence over lines of 80 characters."""
+    from textwrap import fill
+
+    return fill(sentence, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)

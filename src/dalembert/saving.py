@@ -1,0 +1,57 @@
+"""Writing files: what exists is kept unless told otherwise, and a file appears whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from dalembert.errors import DalembertError, ModelError
+
+
+@contextmanager
+def needs(package: str, what: str, extra: str = "results") -> Iterator[None]:
+    """A missing optional package as a sentence with the line that installs it."""
+    try:
+        yield
+    except ImportError as error:
+        remedy = f"pip install 'dalembert[{extra}]'"
+        raise DalembertError(f"{what} needs {package}, which is not installed; {remedy}") from error
+
+
+@contextmanager
+def new_file(path: str | Path, overwrite: bool = False) -> Iterator[Path]:
+    """A temporary file beside `path` that takes its place when all is written; an existing one is kept."""
+    target = Path(path)
+    if target.exists() and not overwrite:
+        raise ModelError(
+            f"{target} exists", "name another file, or overwrite it with --force (Python: overwrite=True)"
+        )
+    try:
+        handle, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+        os.close(handle)
+    except OSError as error:
+        raise _unwritable(target, error) from None
+    temporary = Path(name)
+    try:
+        yield temporary
+        temporary.chmod(0o666 & ~_umask())
+        temporary.replace(target)
+    except OSError as error:
+        raise _unwritable(target, error) from None
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def _unwritable(target: Path, error: OSError) -> ModelError:
+    return ModelError(
+        f"cannot write {target}: {(error.strerror or str(error)).lower()}", "name a file that can be written"
+    )
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
