@@ -64,6 +64,17 @@ def solve(tree: Tree, guess: Array, inertia: bool = True) -> Answer:
     return Answer(m, *(np.asarray(x, float) for x in (q, v, a)), forces, moments, efforts, _condition(J, q))
 
 
+def quality(tree: Tree, pose: Array) -> tuple[float, Array, Array]:
+    """Condition of J, speeds and accelerations at a pose (1, L, 3) that closes: cheap, in double precision."""
+    m = machine(tree)
+    rows = [*(_joint_row(j, pose) for j in m.joints), *_drive_rows(m)]
+    rows = [Row(r.name, r.kind, r.joint, r.parameters, *(np.ravel(x)[0] for x in (r.position, r.speed, r.acceleration))) for r in rows]
+    J = _system(rows, pose, 0 * pose)[1]
+    v = _full(np.linalg.solve(J, _stacked(rows, "speed", pose)[..., None])[..., 0])
+    gamma = _system(rows, pose, v)[2] + _stacked(rows, "acceleration", pose)
+    return _condition(J, pose), v, _full(np.linalg.solve(J, gamma[..., None])[..., 0])
+
+
 def _condition(J: Array, q: Array) -> float:
     """Of the Jacobian with lengths divided by the machine's."""
     scale = np.tile([1.0, 1.0, 1.0 / float(np.max(np.abs(q[..., :2])) or 1.0)], J.shape[-1] // 3)
