@@ -35,8 +35,11 @@ class Mobility:
         return f"mobility {self.freedoms}, driven by {drives}, {_count(self.redundant, 'redundant constraint')} among joints {where}"
 
 
-def mobility_at(c: Compiled, pose: Pose) -> Mobility:
-    """Mobility at a pose; refused with the counts and names where drives and freedoms do not match."""
+def mobility_at(c: Compiled, pose: Pose, special: bool = False) -> Mobility:
+    """Mobility at a pose; refused with the counts and names where drives and freedoms do not match.
+
+    A ``special`` pose may be a dead centre, where a right drive moves nothing: then only the counts must match.
+    """
     drives = len(c.schedule.names)
     if well_driven(c.layout, pose):
         return Mobility(c.layout.unknowns - c.layout.constraints.count, drives, 0, ())
@@ -45,7 +48,8 @@ def mobility_at(c: Compiled, pose: Pose) -> Mobility:
         dict.fromkeys(c.joints[c.layout.constraints.joint[k]] for k in np.flatnonzero(found.repeated))
     )
     result = Mobility(found.freedoms, drives, found.redundant, joints if found.redundant else ())
-    check_drives(c, found, result)
+    if not (special and found.freedoms == drives):
+        check_drives(c, found, result)
     return result
 
 

@@ -46,11 +46,15 @@ def positions(c: Compiled) -> Positions:
         return Positions(c, None, None, None)
     start, first = found
     c = _with_phase(c, first.pose.at(0))
-    mobility = mobility_at(c, first.pose.at(0))
+    here = general = first.pose.at(0)
+    if c.schedule.names and not well_driven(c.layout, general):
+        ahead, beside = _beside(c, start, first)
+        general = general if beside is None else beside.pose.at(0)
+        if beside is not None and len(c.targets) > 1:
+            start, first = ahead, beside
+    mobility = mobility_at(c, general, special=general is here)
     if mobility.redundant:
         c = replace(c, layout=replace(c.layout, redundant=True))
-    elif not well_driven(c.layout, first.pose.at(0)) and len(c.targets) > 1:
-        start, first = _beside_change_point(c, start, first)
     return Positions(
         c, path(c.layout, first.pose.at(0), c.targets, c.period, start), mobility, _mode(c, first)
     )
@@ -66,13 +70,19 @@ def _first(c: Compiled) -> tuple[float, Modes] | None:
     return None
 
 
-def _beside_change_point(c: Compiled, start: float, first: Modes) -> tuple[float, Modes]:
-    """Where the motion begins at a change point it is taken up a little further on, in the mode nearest to it."""
-    ahead = start + 0.1 if start < len(c.targets) - 1 else start - 0.1
+def _beside(c: Compiled, start: float, first: Modes) -> tuple[float, Modes | None]:
+    """The mode nearest to the first pose a little further on: the first may be a change point, which says nothing of
+    the mobility, and from which the motion cannot be taken up."""
+    last = len(c.targets) - 1
+    ahead = start + 0.13 if start < last else start - 0.13
     turn = np.where(np.isfinite(c.guess.turn), c.guess.turn, first.pose.turn[0])
     near = replace(c.guess, turn=turn, point=np.full_like(c.guess.point, np.nan))
-    found = modes(c.layout, target_at(c.targets, np.array([ahead]))[0], near)
-    return (start, first) if found is None else (ahead, found)
+    if last:
+        return ahead, modes(c.layout, target_at(c.targets, np.array([ahead]))[0], near)
+    angular = c.layout.freedoms.angular[c.layout.driven]
+    nudge = np.concatenate([np.zeros(len(c.target)), 0.05 * np.where(angular, 1.0, c.layout.length)])
+    sides = (modes(c.layout, c.targets[0] + sign * nudge, near) for sign in (1, -1))
+    return start, next((found for found in sides if found is not None), None)
 
 
 def _with_phase(c: Compiled, first: Pose) -> Compiled:

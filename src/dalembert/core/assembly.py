@@ -268,14 +268,18 @@ def _edges(layout: Layout) -> _Edges:
 
 
 def _turns(layout: Layout, target: Array, guess: Guess, angles: Array, edges: _Edges) -> Array:
-    """Angles (S, L+1): ground and given ones, spread over the joints that fix relative angles, then the free ones."""
+    """Angles (S, L+1): ground and given ones, spread over the joints that fix relative angles, then the free ones.
+
+    Later starts stray further and further from the given angles.
+    """
     turn = np.full(angles.shape, np.nan)
     turn[:, -1] = 0.0
     _spread_turns(turn, target, edges)
     given = np.isfinite(guess.turn)
+    further = np.linspace(0, 1, len(turn))
     for k in np.argsort(~given, kind="stable").tolist():
         if np.isnan(turn[0, k]):
-            turn[:, k] = guess.turn[k] if given[k] else angles[:, k]
+            turn[:, k] = guess.turn[k] + angles[:, k] * further if given[k] else angles[:, k]
             _spread_turns(turn, target, edges)
     return turn
 
