@@ -50,7 +50,8 @@ class _Scan:
     """Efforts of the unknown drive at chosen positions, the other drives standing."""
 
     def __init__(self, m: Mechanism, schedule: Schedule, inertia: bool) -> None:
-        assert schedule.unknown is not None and schedule.range is not None
+        assert schedule.unknown is not None
+        assert schedule.range is not None
         self.m, self.schedule, self.inertia = m, schedule, inertia
         self.name, self.range = schedule.unknown, schedule.range
         self.drive = schedule.names.index(schedule.unknown)

@@ -32,7 +32,8 @@ class Mobility:
         if not self.redundant:
             return f"mobility {self.freedoms}, driven by {drives}, no redundant constraint"
         where = ", ".join(self.redundant_joints)
-        return f"mobility {self.freedoms}, driven by {drives}, {_count(self.redundant, 'redundant constraint')} among joints {where}"
+        more = _count(self.redundant, "redundant constraint")
+        return f"mobility {self.freedoms}, driven by {drives}, {more} among joints {where}"
 
 
 def mobility_at(c: Compiled, pose: Pose, special: bool = False) -> Mobility:
@@ -80,7 +81,8 @@ def check_knowns(c: Compiled) -> None:
     efforts = _count(given, "drive effort") + (" is" if given == 1 else " are") + " given"
     loads = _count(unknown, "load") + (" is" if unknown == 1 else " are") + " unknown"
     if given > unknown:
-        remedy = f"make {_count(given - unknown, 'load')} unknown (`value: unknown` with a direction) or leave the efforts out"
+        more = _count(given - unknown, "load")
+        remedy = f"make {more} unknown (`value: unknown` with a direction) or leave the efforts out"
         raise ModelError(f"{efforts} but {loads}", remedy, ("drives",))
     remedy = f"give the effort of {_count(unknown - given, 'drive')} or the values of the loads"
     raise ModelError(f"{loads} but {efforts}", remedy, ("loads", c.unknown_loads[0]))

@@ -1,4 +1,4 @@
-"""Positions of the mechanism over the schedule: first pose, assembly mode, the motion from there, what does not close."""
+"""Positions of the mechanism over the schedule: first pose, assembly mode, the motion from there, its gaps."""
 
 from __future__ import annotations
 
@@ -109,7 +109,9 @@ def _check_meshes(c: Compiled, first: Pose) -> None:
             if abs(found - wanted) > MESH * wanted:
                 name = c.joints[constraints.joint[f.row[k]]]
                 radii = f"{abs(f.ri[k]):.6g} m and {abs(f.rj[k]):.6g} m"
-                what = f"gear {name!r}: its centres are {found:.6g} m apart, its pitch radii {radii} need {wanted:.6g} m"
+                what = (
+                    f"gear {name!r}: centres {found:.6g} m apart, but pitch radii {radii} need {wanted:.6g} m"
+                )
                 raise ModelError(what, "change the radii or move a centre", ("joints", name))
 
 

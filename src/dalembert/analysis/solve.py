@@ -17,7 +17,7 @@ from dalembert.core.follow import BLOCK
 from dalembert.core.forcing import summed
 from dalembert.core.layout import Pose
 from dalembert.core.rank import singular_below
-from dalembert.errors import STATUSES, AnalysisError, ModelError
+from dalembert.errors import AnalysisError, ModelError
 from dalembert.model import Mechanism, Schedule
 
 Array = NDArray[Any]
@@ -207,14 +207,14 @@ def _statuses(
 def _singular_sentence(c: Compiled, where: NDArray[np.intp]) -> str:
     at = [f"{n} = {drive_text(c, int(where[0]), k)}" for k, n in enumerate(c.schedule.names)]
     here = f" at {' and '.join(at)}" if at else ""
-    return f"Dead centre or change point{here}: {STATUSES['singular'].remedy[0].lower()}{STATUSES['singular'].remedy[1:]}"
+    return f"Dead centre or change point{here}: drive another joint, or step over this position."
 
 
 def _no_balance_sentence(c: Compiled) -> str:
     given = ", ".join(n for n, asked in zip(c.schedule.names, c.known.asked, strict=True) if not asked)
     unknown = ", ".join(c.unknown_loads)
     if unknown:
-        return f"The unknown {unknown} cannot balance the given effort of {given} here: it has no power in this position."
+        return f"The unknown {unknown} cannot balance the given effort of {given}: it has no power here."
     return "The loads have no equilibrium here."
 
 

@@ -18,7 +18,7 @@ Array = NDArray[Any]
 
 def measure(g: Any, rows: Rows, pose: Pose) -> Array:
     """Value of each row (..., K): lengths and angles that constraints hold at their targets."""
-    out = np.zeros(pose.turn.shape[:-1] + (rows.count,), pose.point.dtype)
+    out = np.zeros((*pose.turn.shape[:-1], rows.count), pose.point.dtype)
     for family in rows.families:
         out[..., family.row] = _MEASURES[type(family)](g, family, pose)
     return out
@@ -26,7 +26,7 @@ def measure(g: Any, rows: Rows, pose: Pose) -> Array:
 
 def wrenches(g: Any, rows: Rows, pose: Pose) -> tuple[Array, Array]:
     """Wrench of each row on i and on j per unit of multiplier, each about its link's reference point: (..., K, n)."""
-    shape = pose.turn.shape[:-1] + (rows.count, g.n)
+    shape = (*pose.turn.shape[:-1], rows.count, g.n)
     on_i, on_j = np.zeros(shape, pose.point.dtype), np.zeros(shape, pose.point.dtype)
     for family in rows.families:
         _WRENCHES[type(family)](g, family, pose, on_i, on_j)
@@ -35,7 +35,7 @@ def wrenches(g: Any, rows: Rows, pose: Pose) -> tuple[Array, Array]:
 
 def drift(g: Any, rows: Rows, pose: Pose, twist: Array) -> Array:
     """Second derivative of each measure at zero acceleration (..., K); ``twist`` (..., L+1, n)."""
-    out = np.zeros(pose.turn.shape[:-1] + (rows.count,), pose.point.dtype)
+    out = np.zeros((*pose.turn.shape[:-1], rows.count), pose.point.dtype)
     for family in rows.families:
         if not isinstance(family, Turn):
             out[..., family.row] = _DRIFTS[type(family)](g, family, pose, twist)

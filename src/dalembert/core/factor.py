@@ -1,4 +1,4 @@
-"""Which solver a mechanism's matrix gets: batched inverse, singular values, or sparse elimination position by position."""
+"""Which solver a mechanism's matrix gets: batched inverse, singular values, or sparse LU a position."""
 
 from __future__ import annotations
 

@@ -123,7 +123,7 @@ def inertia_wrench(layout: Layout, inertia: Inertia, pose: Pose, twist: Array, a
 def center_motion(
     layout: Layout, inertia: Inertia, pose: Pose, twist: Array, acceleration: Array
 ) -> tuple[Array, Array, Array]:
-    """Position, velocity, acceleration (..., L, d) of the mass centres; twist (..., L+1, n), acceleration (..., L, n)."""
+    """Position, velocity, acceleration (..., L, d) of the mass centres; twist with ground, acceleration without."""
     g, links = layout.algebra, np.arange(layout.links)
     r = arm(g, pose, links, inertia.center)
     v, w, alpha = twist[..., :-1, : g.d], twist[..., :-1, g.d :], acceleration[..., g.d :]

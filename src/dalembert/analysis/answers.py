@@ -1,0 +1,333 @@
+"""The answers that stand in a model file, compared with what is computed."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.analysis.quantities import QUANTITIES, WHOLE, WORDS, Series, component, size
+from dalembert.errors import STATUSES, ModelError
+from dalembert.symbols import unit
+from dalembert.units import KINDS, NUMBER, Units, file_units, quantity
+from dalembert.wording import closest, shown
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result import Result
+    from dalembert.model import Answer, Mechanism
+
+Array = NDArray[Any]
+
+TOLERANCE = 1e-6
+"""Relative deviation that an answer without a tolerance of its own may have."""
+
+EXACT = 1e-7
+"""Relative deviation from an independent exact value."""
+
+SAME_POSITION = 1e-6
+"""Difference, in radians or metres, up to which a drive's position is the one that an answer names."""
+
+
+class Row(NamedTuple):
+    """One answer compared: as published, as computed, how far apart and how far they may be; ok, and why not."""
+
+    case: str
+    quantity: str
+    published: str
+    exact: str
+    computed: str
+    tolerance: str
+    deviation: str
+    ok: bool
+    why: str
+    problem: str = ""
+    line: int = 0
+
+
+def check_file(path: str | Path) -> list[Row]:
+    """The answers of a model file compared with what is computed; raises ModelError where the file is wrong.
+
+    >>> from dalembert.bundled import examples
+    >>> check_file(examples()["four_bar"])
+    []
+    """
+    from dalembert.model import load
+
+    return check(load(path), Path(path).stem)
+
+
+def check(mechanism: Mechanism, case: str = "") -> list[Row]:
+    """The answers of a mechanism compared with what is computed: one row an answer."""
+    from dalembert.analysis.solve import solve
+
+    if not mechanism.answers:
+        return []
+    result = solve(mechanism)
+    return [_row(result, answer, k, case or mechanism.title) for k, answer in enumerate(mechanism.answers)]
+
+
+def _row(result: Result, answer: Answer, number: int, case: str) -> Row:
+    source = result.mechanism.source
+    path = ("answers", number)
+    try:
+        row = _compared(result, answer, case)
+    except ModelError as error:
+        raise ModelError(error.what, error.remedy, (*path, *error.path)).located(source) from None
+    return row._replace(line=source.line(path) if source else 0)
+
+
+def _compared(result: Result, answer: Answer, case: str) -> Row:
+    if answer.quantity in WHOLE:
+        return _word(answer, case, WHOLE[answer.quantity](result), "")
+    if answer.quantity in WORDS:
+        position = position_of(result, answer)
+        return _word(answer, case, WORDS[answer.quantity](result, position), _reason(result, position))
+    if answer.quantity not in QUANTITIES:
+        known = [*QUANTITIES, *WORDS, *WHOLE]
+        raise ModelError(
+            f"there is no quantity {answer.quantity!r}", closest(answer.quantity, known, 40), ("quantity",)
+        )
+    series = component(QUANTITIES[answer.quantity](result, answer), answer.component)
+    return _measured(result, answer, series, case)
+
+
+def named(answer: Answer) -> str:
+    """The quantity in words: 'reaction of A on crank, magnitude, at 60 deg'."""
+    parts = [answer.quantity.replace("_", " ")]
+    parts += [f"of {answer.of}"] if answer.of else []
+    parts += [f"on {answer.on}"] if answer.on else []
+    text = " ".join(parts)
+    where = "" if answer.at is None else _at_text(answer.at)
+    axes = "link axes" if answer.axes == "link" else ""
+    return ", ".join(part for part in (text, answer.component, axes, where, answer.extreme) if part)
+
+
+def _at_text(at: Any) -> str:
+    if isinstance(at, Mapping):
+        return "at " + ", ".join(f"{name} = {value}" for name, value in at.items())
+    return f"at no. {at}" if isinstance(at, int) else f"at {at}"
+
+
+# words and counts
+
+
+def _word(answer: Answer, case: str, found: str | int | None, problem: str) -> Row:
+    ok = found is not None and str(found) == _plain(answer.value)
+    computed = "-" if found is None else str(found)
+    return Row(
+        case, named(answer), _plain(answer.value), "", computed, "", "", ok, answer.why, "" if ok else problem
+    )
+
+
+def _plain(value: Any) -> str:
+    return str(int(value)) if isinstance(value, float) and value.is_integer() else str(value)
+
+
+def _reason(result: Result, position: int) -> str:
+    if result.status[position] == "ok":
+        return ""
+    return result.reasons[position] or STATUSES[result.status[position]].sentence
+
+
+# positions
+
+
+def position_of(result: Result, answer: Answer, series: Series | None = None) -> int:
+    """Which position an answer is about, from 0."""
+    count = len(result.status)
+    if answer.extreme is not None and series is not None:
+        return _extreme(answer.extreme, size(series))
+    if answer.at is None:
+        if count == 1:
+            return 0
+        raise ModelError(
+            f"the answer has {count} positions", "say which: at: 1, or at: 60 deg", ("quantity",)
+        )
+    if isinstance(answer.at, int):
+        if not 1 <= answer.at <= count:
+            raise ModelError(f"there is no position {answer.at}", f"they are 1 to {count}", ("at",))
+        return answer.at - 1
+    return _named_position(result, answer.at)
+
+
+def _extreme(which: str, values: Array) -> int:
+    if np.isnan(values).all():
+        return 0
+    by = {"max": values, "min": -values, "maxabs": np.abs(values)}
+    return int(np.nanargmax(by[which]))
+
+
+def _named_position(result: Result, at: Any) -> int:
+    """The position where drives have the values named: `60 deg` (of the first drive), or {O2: 60 deg, S: 10 mm}."""
+    wanted = dict(at) if isinstance(at, Mapping) else {result.drives[0]: at} if result.drives else {}
+    if not wanted:
+        raise ModelError(
+            "there is no drive whose position could be named", "number the position: at: 1", ("at",)
+        )
+    away = np.zeros(len(result.status))
+    for drive, value in wanted.items():
+        away = np.maximum(away, np.abs(_difference_of_drive(result, drive, value)))
+    if not away.min() < SAME_POSITION:
+        text = " and ".join(f"{drive} = {value}" for drive, value in wanted.items())
+        raise ModelError(
+            f"no position has {text}", "number the position, or give the drive that value", ("at",)
+        )
+    return int(away.argmin())
+
+
+def _difference_of_drive(result: Result, drive: str, value: Any) -> Array:
+    from dalembert.analysis.columns import drive_kinds
+
+    if drive not in result.drives:
+        raise ModelError(f"there is no drive {drive!r}", closest(drive, list(result.drives)), ("at",))
+    kind = drive_kinds(result, drive)["position"]
+    try:
+        target = quantity(value, kind, file_units(result.mechanism.units))
+    except ModelError as error:
+        raise ModelError(error.what, error.remedy, ("at",)) from None
+    away = result.drive_position(drive) - target
+    return np.asarray(np.angle(np.exp(1j * away)) if kind == "angle" else away)
+
+
+# numbers and vectors
+
+
+class Target(NamedTuple):
+    """A published value: SI number or vector, the unit and the form it was written in."""
+
+    value: Array
+    unit: str
+    polar: bool
+
+
+def target(value: Any, series: Series, units: Units, key: str) -> Target:
+    """A value as it stands in the file, read as the kind of the series."""
+    from dalembert.model.part import Reading
+    from dalembert.model.values import vector
+
+    vectorial = series.values.ndim == 2
+    try:
+        read = (
+            vector(value, series.kind, Reading(units, dimension=2))
+            if vectorial
+            else quantity(value, series.kind, units)
+        )
+    except ModelError as error:
+        raise ModelError(error.what, error.remedy, (key, *error.path)) from None
+    polar = vectorial and isinstance(value, str)
+    return Target(np.array(read, dtype=float), _unit_of(value, series.kind, units), polar)
+
+
+def _unit_of(value: Any, kind: str, units: Units) -> str:
+    """The unit a published value is written in: its own, or the file's."""
+    for item in value if isinstance(value, (list, tuple)) else [value]:
+        for text in re.findall(rf"{NUMBER}\s*([^\d\s@][^@]*)", str(item)):
+            if unit(text.strip()).dimension == KINDS[kind].dimension:
+                return str(text.strip())
+    return units.text(kind)
+
+
+def _measured(result: Result, answer: Answer, series: Series, case: str) -> Row:
+    units = file_units(result.mechanism.units)
+    position = position_of(result, answer, series)
+    found = np.asarray(series.values[position], dtype=float)
+    published = target(answer.value, series, units, "value")
+    scale = _scale(published.value, series)
+    away = _away(found, published.value, series.kind)
+    allowed, said = _tolerance(answer.tolerance, scale, series.kind, units, TOLERANCE, "tolerance")
+    near = bool(away <= allowed)
+    exact = answer.exact is None or _meets_exact(found, answer, series, units)
+    problem = _reason(result, position) or ("" if exact else "the exact value is missed")
+    return Row(
+        case,
+        named(answer),
+        value_text(answer.value),
+        "" if answer.exact is None else value_text(answer.exact),
+        computed_text(found, published, series.kind, units),
+        said,
+        _deviation(away, scale, series.kind, published.unit),
+        near and exact,
+        answer.why,
+        "" if near and exact else problem,
+    )
+
+
+def _meets_exact(found: Array, answer: Answer, series: Series, units: Units) -> bool:
+    exact = target(answer.exact, series, units, "exact")
+    scale = _scale(exact.value, series)
+    allowed, _ = _tolerance(answer.exact_tolerance, scale, series.kind, units, EXACT, "exact_tolerance")
+    return bool(_away(found, exact.value, series.kind) <= allowed)
+
+
+def _away(found: Array, wanted: Array, kind: str) -> float:
+    """Distance of two values; angles a whole turn apart are the same."""
+    difference = found - wanted
+    if kind == "angle":
+        difference = np.angle(np.exp(1j * difference))
+    return float(np.linalg.norm(np.atleast_1d(difference)))
+
+
+def _scale(wanted: Array, series: Series) -> float:
+    """What a relative tolerance is relative to: the value, or the largest of its series where it is 0."""
+    own = float(np.linalg.norm(np.atleast_1d(wanted)))
+    values = size(series)
+    return own or (float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0)
+
+
+def _tolerance(
+    given: Any, scale: float, kind: str, units: Units, default: float, key: str
+) -> tuple[float, str]:
+    """Allowed distance in SI, and as text: relative (`0.3 %`) or a quantity of the same kind."""
+    if given is None:
+        return default * scale, f"{default:g}"
+    if isinstance(given, str) and given.strip().endswith("%"):
+        return _percent(given, key) / 100 * scale, given.strip()
+    try:
+        return quantity(given, kind, units), value_text(given)
+    except ModelError as error:
+        raise ModelError(error.what, error.remedy, (key,)) from None
+
+
+def _percent(text: str, key: str) -> float:
+    try:
+        return float(text.strip().removesuffix("%"))
+    except ValueError:
+        raise ModelError(f"{shown(text)} is no percentage", "write one, for example 0.3 %", (key,)) from None
+
+
+# as text
+
+
+def value_text(value: Any) -> str:
+    """A value as it stands in the file."""
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(value_text(item) for item in value) + "]"
+    return f"{value:.10g}" if isinstance(value, float) else str(value)
+
+
+def computed_text(found: Array, published: Target, kind: str, units: Units) -> str:
+    """A computed value in the unit and the form of the published one."""
+    if not np.isfinite(found).all():
+        return "-"
+    shown_in = unit(published.unit).of_si if published.unit else float
+    behind = "" if published.unit in ("", units.text(kind)) else f" {published.unit}"
+    if found.ndim == 0:
+        return f"{shown_in(float(found)):.7g}{behind}"
+    if published.polar:
+        angle = units.unit("angle").of_si(math.atan2(found[1], found[0]))
+        return f"{shown_in(float(np.hypot(*found))):.7g} @ {angle:.6g}{behind}"
+    return "[" + ", ".join(f"{shown_in(float(v)):.7g}" for v in found) + f"]{behind}"
+
+
+def _deviation(away: float, scale: float, kind: str, unit_text: str) -> str:
+    """How far: in percent, or in the published unit where there is nothing to be relative to."""
+    if not math.isfinite(away):
+        return "-"
+    if scale and kind != "angle":
+        return f"{100 * away / scale:.2g} %"
+    return f"{unit(unit_text).of_si(away):.2g} {unit_text}" if unit_text else f"{away:.2g}"

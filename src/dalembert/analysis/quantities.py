@@ -1,0 +1,148 @@
+"""The quantities that an answer of a model file may name, and how each is read from a result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.analysis.columns import drive_kinds, load_kind
+from dalembert.errors import ModelError
+from dalembert.wording import closest
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result import Result
+    from dalembert.model import Answer
+
+Array = NDArray[Any]
+
+
+class Series(NamedTuple):
+    """Values of a quantity over the positions, SI: numbers (P,) or vectors (P, 2); the kind is one of ``units.KINDS``."""
+
+    kind: str
+    values: Array
+
+
+Read = Callable[["Result", "Answer"], Series]
+
+
+def _effort(r: Result, a: Answer) -> Series:
+    return Series(drive_kinds(r, a.of)["effort"], r.effort(a.of)) if a.of in r.drives else _no_drive(r, a)
+
+
+def _drive(r: Result, a: Answer) -> Series:
+    return (
+        Series(drive_kinds(r, a.of)["position"], r.drive_position(a.of))
+        if a.of in r.drives
+        else _no_drive(r, a)
+    )
+
+
+def _no_drive(r: Result, a: Answer) -> Series:
+    raise ModelError(f"there is no drive {a.of!r}", closest(str(a.of), list(r.drives)), ("of",))
+
+
+def _unknown_load(r: Result, a: Answer) -> Series:
+    if a.of not in r.unknown_loads:
+        raise ModelError(
+            f"there is no unknown load {a.of!r}", closest(str(a.of), list(r.unknown_loads)), ("of",)
+        )
+    return Series(load_kind(r, a.of), r.unknown_load(a.of))
+
+
+def _reaction(r: Result, a: Answer) -> Series:
+    return Series("force", r.reaction(a.of, a.on, a.axes or "ground"))
+
+
+def _moment(r: Result, a: Answer) -> Series:
+    return Series("moment", r.reaction_moment(a.of, a.on))
+
+
+def _of_link(kind: str, name: str) -> Read:
+    return lambda r, a: Series(kind, getattr(r, name)(a.of))
+
+
+def _of_point(kind: str, name: str) -> Read:
+    def read(r: Result, a: Answer) -> Series:
+        link, _, point = str(a.of).partition(".")
+        if not point:
+            raise ModelError(f"{a.of!r} names no point", "write of: link.point", ("of",))
+        return Series(kind, getattr(r, name)(link, point))
+
+    return read
+
+
+def _of_freedom(freedom: str, order: int) -> Read:
+    kinds = {
+        "slide": ("length", "speed", "acceleration"),
+        "turn": ("angle", "angular_speed", "angular_acceleration"),
+    }
+    return lambda r, a: Series(kinds[freedom][order], r.freedom(a.of, freedom)[order])
+
+
+QUANTITIES: dict[str, Read] = {
+    "effort": _effort,
+    "drive": _drive,
+    "unknown_load": _unknown_load,
+    "reaction": _reaction,
+    "moment": _moment,
+    "position": _of_link("length", "position"),
+    "velocity": _of_link("speed", "velocity"),
+    "angle": _of_link("angle", "angle"),
+    "speed": _of_link("angular_speed", "speed"),
+    "acceleration": _of_link("angular_acceleration", "acceleration"),
+    "center": _of_link("length", "center"),
+    "center_velocity": _of_link("speed", "center_velocity"),
+    "center_acceleration": _of_link("acceleration", "center_acceleration"),
+    "point": _of_point("length", "point"),
+    "point_velocity": _of_point("speed", "point_velocity"),
+    "point_acceleration": _of_point("acceleration", "point_acceleration"),
+    "slide": _of_freedom("slide", 0),
+    "slide_speed": _of_freedom("slide", 1),
+    "slide_acceleration": _of_freedom("slide", 2),
+    "turn": _of_freedom("turn", 0),
+    "turn_speed": _of_freedom("turn", 1),
+    "turn_acceleration": _of_freedom("turn", 2),
+    "residual": lambda r, a: Series("number", r.residual),
+    "power_balance": lambda r, a: Series("number", r.power_balance),
+}
+"""Name -> how its values over the positions are read."""
+
+WORDS: dict[str, Callable[[Result, int], str | None]] = {
+    "status": lambda r, k: r.status[k],
+    "stability": lambda r, k: r.stability[k] if r.stability else None,
+}
+"""Quantities of a position whose value is a word."""
+
+WHOLE: dict[str, Callable[[Result], int | None]] = {
+    "count": lambda r: len(r.status),
+    "mobility": lambda r: r.mobility.freedoms if r.mobility else None,
+    "redundant": lambda r: r.mobility.redundant if r.mobility else None,
+}
+"""Quantities of the mechanism as a whole."""
+
+
+def component(series: Series, name: str | None) -> Series:
+    """One component of a vector: x, y, magnitude or direction; the series itself without a name."""
+    if name is None:
+        return series
+    if series.values.ndim == 1:
+        if name == "magnitude":
+            return Series(series.kind, np.abs(series.values))
+        raise ModelError(f"a number has no component {name!r}", "leave it out", ("component",))
+    x, y = series.values[:, 0], series.values[:, 1]
+    if name == "direction":
+        return Series("angle", np.arctan2(y, x))
+    parts = {"x": x, "y": y, "magnitude": np.hypot(x, y)}
+    if name not in parts:
+        known = [*parts, "direction"]
+        raise ModelError(f"there is no component {name!r}", closest(name, known), ("component",))
+    return Series(series.kind, parts[name])
+
+
+def size(series: Series) -> Array:
+    """Numbers to compare positions by: the value, or the magnitude of a vector."""
+    return series.values if series.values.ndim == 1 else np.hypot(series.values[:, 0], series.values[:, 1])
