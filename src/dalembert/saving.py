@@ -30,7 +30,7 @@ def new_file(path: str | Path, overwrite: bool = False) -> Iterator[Path]:
             f"{target} exists", "name another file, or overwrite it with --force (Python: overwrite=True)"
         )
     try:
-        handle, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+        handle, name = tempfile.mkstemp(target.suffix, f".{target.stem}.", target.parent)
         os.close(handle)
     except OSError as error:
         raise _unwritable(target, error) from None

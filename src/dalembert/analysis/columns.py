@@ -35,7 +35,7 @@ class Column(NamedTuple):
 
 
 class Reaction(NamedTuple):
-    """What a joint's i exerts on its j: force (P, 2), moment (P,), NaN where not unique; then least norm (P, 3)."""
+    """What a joint's i exerts on its j: force (P, 2), moment (P,), NaN if not unique; then least norm (P, 3)."""
 
     joint: str
     on: str

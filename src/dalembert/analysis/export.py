@@ -170,7 +170,7 @@ def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -
 
 
 def _drive_arrays(result: Result, to: Scale) -> dict[str, Any]:
-    """Position, speed, acceleration and effort; drives that turn and drives that slide differ in their units."""
+    """Position, speed, acceleration and effort; drives that turn and that slide differ in their units."""
     if not result.drives:
         return {}
     out: dict[str, Any] = {}

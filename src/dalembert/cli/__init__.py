@@ -1,4 +1,4 @@
-"""The command `dalembert`: arguments in, text and an exit status out; all work is done by the packages below."""
+"""The command `dalembert`: arguments in, text and an exit status out; the packages below do the work."""
 
 from __future__ import annotations
 

@@ -12,6 +12,7 @@ from dalembert import __version__
 OK, SOME_NOT_OK = 0, 1
 
 Flag = Annotated[bool, Parameter(negative=())]
+Every = Annotated[bool, Parameter(name="--all", negative=())]
 Target = Annotated[Path | None, Parameter(allow_leading_hyphen=True)]
 Output = Annotated[Path | None, Parameter(name=["--output", "-o"])]
 
@@ -54,7 +55,7 @@ def solve(
     units: Literal["si", "file"] | None = None,
     axes: Literal["ground", "link"] = "ground",
     no_friction: Flag = False,
-    all: Flag = False,
+    every: Every = False,
     force: Flag = False,
 ) -> int:
     """Solve FILE and print drives, efforts, reactions and motion, in the units of the file.
@@ -83,14 +84,14 @@ def solve(
         Axes of the reactions: ground, or the link they act on.
     no_friction
         Leave friction out.
-    all
+    every
         Print every position, however many.
     force
         Overwrite files that exist.
     """
     from dalembert.cli.solving import Wanted, solved
 
-    wanted = Wanted(json, csv, xlsx, netcdf, units, axes, all, force)
+    wanted = Wanted(json, csv, xlsx, netcdf, units, axes, every, force)
     return solved(file, wanted, static=static, positions=positions, method=method, friction=not no_friction)
 
 
@@ -99,37 +100,27 @@ def solve(
   dalembert check four_bar.yaml
   dalembert check problems/ --all"""
 )
-def check(*files: Path, all: Flag = False) -> int:
+def check(*files: Path, every: Every = False) -> int:
     """Compare the answers that stand in model files with what is computed.
 
     Parameters
     ----------
     files
         Model files, or folders of them.
-    all
-        Print every answer, not only those that disagree, also for many files.
+    every
+        Print every answer of many files, not only one line a file and what disagrees.
     """
     from dalembert.cli.checking import checked
 
-    return checked(files, every=all)
+    return checked(files, every=every)
 
 
-@app.command(
-    help_epilogue="""Examples:
-  dalembert validate
-  dalembert validate --all"""
-)
-def validate(*, all: Flag = False) -> int:
-    """Qualify this installation: solve every bundled published problem and compare all answers.
-
-    Parameters
-    ----------
-    all
-        Print every answer, not only those that disagree.
-    """
+@app.command(help_epilogue="Examples:\n  dalembert validate\n  dalembert validate > qualification.txt")
+def validate() -> int:
+    """Qualify this installation: solve every bundled published problem and compare all answers."""
     from dalembert.cli.checking import validated
 
-    return validated(every=all)
+    return validated()
 
 
 @app.command(help_epilogue="Examples:\n  dalembert schema > dalembert.schema.json")

@@ -1,4 +1,4 @@
-"""Plain columns for a person: aligned, at most 80 wide where they can be, the same on a terminal and in a pipe."""
+"""Plain columns for a person: aligned, 80 wide where they can be, the same on a terminal and in a pipe."""
 
 from __future__ import annotations
 
@@ -37,7 +37,10 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) ->
     wide = [max(len(row[k]) for row in [*over, *body]) for k in range(len(heads))]
 
     def line(row: Sequence[str]) -> str:
-        cells = [cell.ljust(w) if k < left else cell.rjust(w) for k, (cell, w) in enumerate(zip(row, wide, strict=True))]
+        cells = [
+            cell.ljust(w) if k < left else cell.rjust(w)
+            for k, (cell, w) in enumerate(zip(row, wide, strict=True))
+        ]
         return (" " * GAP).join(cells).rstrip()
 
     rule = "-" * (sum(wide) + GAP * (len(wide) - 1))
@@ -45,7 +48,7 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) ->
 
 
 def tables(heads: Sequence[str], rows: Iterable[Sequence[str]], left: int, width: int = WIDTH) -> str:
-    """The same, continued below in further tables that repeat the left columns where one would be too wide."""
+    """The same, continued below in further tables with the left columns repeated where one is too wide."""
     body = [list(row) for row in rows]
     wide = [
         max([len(line) for line in head.split("\n")] + [len(row[k]) for row in body])
@@ -62,7 +65,9 @@ def tables(heads: Sequence[str], rows: Iterable[Sequence[str]], left: int, width
         room -= wide[k] + GAP
     first = list(range(left))
     chosen = [first + part for part in parts]
-    return "\n\n".join(table([heads[k] for k in ks], [[row[k] for k in ks] for row in body], left) for ks in chosen)
+    return "\n\n".join(
+        table([heads[k] for k in ks], [[row[k] for k in ks] for row in body], left) for ks in chosen
+    )
 
 
 def wrapped(sentence: str, indent: str = "") -> str:

@@ -1,0 +1,273 @@
+"""The answer as a person reads it: what was assumed, one position in full or many in a table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.analysis.columns import (
+    Axes,
+    Scale,
+    UnitChoice,
+    drive_kinds,
+    load_kind,
+    reactions,
+    scale,
+)
+from dalembert.cli.text import number, table, tables, wrapped
+
+if TYPE_CHECKING:
+    from dalembert.analysis import Result
+
+MANY = 12
+"""Positions that are printed without `--all`."""
+
+
+class Printed(Scale):
+    """The units of the file, but angular rates in rad/s: a bare angular rate has no unit in a file."""
+
+    def text(self, kind: str) -> str:
+        return RADIANS.get(kind) or super().text(kind)
+
+    def __call__(self, kind: str, values: Any) -> Any:
+        return values if kind in RADIANS else super().__call__(kind, values)
+
+
+RADIANS = {"angular_speed": "rad/s", "angular_acceleration": "rad/s^2"}
+
+
+def printed(result: Result, units: UnitChoice) -> Printed:
+    """The scale of a printed answer."""
+    return Printed(None if units == "SI" else result.mechanism.units)
+
+
+def answer_text(
+    result: Result, units: UnitChoice = "file", axes: Axes = "ground", every: bool = False
+) -> str:
+    """The whole answer as text."""
+    to = printed(result, units)
+    parts = [heading(result)]
+    if len(result.status) == 1:
+        parts += _one(result, to, axes)
+    else:
+        parts += _many(result, to, axes, every)
+    parts += [problems_text(result, to), checks_text(result)]
+    return "\n\n".join(part for part in parts if part)
+
+
+def heading(result: Result) -> str:
+    """Title, source, what was assumed, mobility, assembly mode."""
+    m = result.mechanism
+    assumed = ", ".join(f"{name} {value}" for name, value in result.assumptions.items())
+    lines = [m.title, m.source_text, f"Assumptions: {assumed}"]
+    if result.mobility is not None:
+        lines.append(_sentence(result.mobility.sentence))
+    if result.mode:
+        lines.append(_sentence(result.mode))
+    return "\n".join(wrapped(line, "  ") for line in lines if line)
+
+
+def _sentence(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+# one position
+
+
+def _one(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
+    status = result.status[0]
+    if result.drives:
+        yield _drive_table(result, to)
+    if status == "not_assembled":
+        return
+    if result.unknown_loads:
+        yield _load_table(result, to)
+    if result.joints:
+        yield _reaction_table(result, to, axes)
+    if result.links:
+        yield _link_tables(result, to)
+
+
+def _drive_table(result: Result, to: Printed) -> str:
+    rows = []
+    for drive in result.drives:
+        kinds = drive_kinds(result, drive)
+        values = {
+            "position": result.drive_position(drive),
+            "speed": result.drive_speed(drive),
+            "acceleration": result.drive_acceleration(drive),
+            "effort": result.effort(drive),
+        }
+        cells = [f"{number(float(to(kinds[n], v[0])))} {to.text(kinds[n])}" for n, v in values.items()]
+        rows.append([drive, *cells, *([result.stability[0] or "-"] if result.stability else [])])
+    heads = [
+        "drive",
+        "position",
+        "speed",
+        "acceleration",
+        "effort",
+        *(["stability"] if result.stability else []),
+    ]
+    return tables(heads, rows, 1)
+
+
+def _load_table(result: Result, to: Printed) -> str:
+    rows = [
+        [name, f"{number(float(to(kind, result.unknown_load(name)[0])))} {to.text(kind)}"]
+        for name in result.unknown_loads
+        for kind in [load_kind(result, name)]
+    ]
+    return table(["unknown load", "value"], rows)
+
+
+def _reaction_table(result: Result, to: Printed, axes: Axes) -> str:
+    force, moment, angle = to.text("force"), to.text("moment"), to.text("angle")
+    heads = ["joint", "by i", "on j", f"F_ij x\n{force}", f"F_ij y\n{force}", f"|F_ij|\n{force}"]
+    heads += [f"direction\n{angle}", f"moment\n{moment}"]
+    rows, least = [], []
+    for r in reactions(result, axes):
+        rows.append([r.joint, r.by, r.on, *_wrench(r.force[0], r.moment[0], to)])
+        if r.least_norm is not None:
+            least.append([r.joint, r.by, r.on, *_wrench(r.least_norm[0, :2], r.least_norm[0, 2], to)])
+    where = "ground axes" if axes == "ground" else "the axes of link j"
+    note = f"F_ij is the force by link i on link j, in {where}; moments about j's point of the joint."
+    shown = f"{tables(heads, rows, 3)}\n{wrapped(note)}"
+    if least:
+        shown += "\n\nNot unique; with the least sum of squares:\n\n" + tables(heads, least, 3)
+    return shown
+
+
+def _wrench(force: Any, moment: float, to: Printed) -> list[str]:
+    """x, y, magnitude, direction, moment as text."""
+    x, y = (float(v) for v in to("force", force))
+    size = float(np.hypot(x, y))
+    direction = float(to("angle", np.arctan2(y, x))) if size else 0.0
+    return [number(v) for v in (x, y, size, direction, float(to("moment", moment)))]
+
+
+def _link_tables(result: Result, to: Printed) -> str:
+    units = [
+        to.text(kind) for kind in ("angle", "angular_speed", "angular_acceleration", "length", "acceleration")
+    ]
+    heads = ["link", f"angle\n{units[0]}", f"speed\n{units[1]}", f"acceler.\n{units[2]}"]
+    heads += [
+        f"center x\n{units[3]}",
+        f"center y\n{units[3]}",
+        f"its acc. x\n{units[4]}",
+        f"its acc. y\n{units[4]}",
+    ]
+    rows = []
+    for link in result.links:
+        values = [
+            to("angle", result.angle(link)[0]),
+            to("angular_speed", result.speed(link)[0]),
+            to("angular_acceleration", result.acceleration(link)[0]),
+            *to("length", result.center(link)[0]),
+            *to("acceleration", result.center_acceleration(link)[0]),
+        ]
+        rows.append([link, *(number(float(v), 5) for v in values)])
+    return tables(heads, rows, 1)
+
+
+# many positions
+
+
+def _many(result: Result, to: Printed, axes: Axes, every: bool) -> Iterator[str]:
+    count = len(result.status)
+    shown = (
+        range(count)
+        if every or count <= MANY
+        else np.unique(np.linspace(0, count - 1, MANY).round().astype(int))
+    )
+    heads, values = _series(result, to, axes)
+    rows = []
+    for k in shown:
+        mark = [] if result.ok.all() else [result.status[k]]
+        stability = [result.stability[k] or "-"] if result.stability else []
+        rows.append([str(k + 1), *mark, *stability, *(number(float(v[k]), 5) for v in values)])
+    first = ["no.", *([] if result.ok.all() else ["status"]), *(["stability"] if result.stability else [])]
+    drives = len(result.drives)
+    yield tables([*first, *heads], rows, len(first) + drives)
+    if len(rows) < count:
+        yield f"{len(rows)} of {count} positions are shown; --all prints every one, --csv FILE writes them."
+    if count > 2:
+        yield _peak_table(result, to, axes)
+
+
+def _series(result: Result, to: Printed, axes: Axes) -> tuple[list[str], list[Any]]:
+    """Columns of the table of positions: drives, efforts, unknown loads, magnitudes of the reactions."""
+    named: list[tuple[str, str, Any]] = []
+    for drive in result.drives:
+        named.append((drive, drive_kinds(result, drive)["position"], result.drive_position(drive)))
+    for drive in result.drives:
+        named.append((f"effort {drive}", drive_kinds(result, drive)["effort"], result.effort(drive)))
+    for load in result.unknown_loads:
+        named.append((load, load_kind(result, load), result.unknown_load(load)))
+    for r in reactions(result, axes):
+        named.append((f"|F| {r.joint}", "force", np.hypot(r.force[:, 0], r.force[:, 1])))
+    return [f"{name}\n{to.text(kind)}" for name, kind, _ in named], [
+        to(kind, values) for _, kind, values in named
+    ]
+
+
+def _peak_table(result: Result, to: Printed, axes: Axes) -> str:
+    """Largest and smallest value of each effort, unknown load and reaction, and where."""
+    drives = len(result.drives)
+    heads, values = _series(result, to, axes)
+    rows = []
+    for head, series in zip(heads[drives:], values[drives:], strict=True):
+        if np.isfinite(series).any():
+            name, unit = head.split("\n")
+            least, most = int(np.nanargmin(series)), int(np.nanargmax(series))
+            cells = [number(float(series[most])), _where(result, to, most), number(float(series[least]))]
+            rows.append([name, unit, *cells, _where(result, to, least)])
+    return tables(["over the positions", "unit", "largest", "at", "smallest", "at"], rows, 2) if rows else ""
+
+
+def _where(result: Result, to: Printed, position: int) -> str:
+    """'60 deg', or the number of the position."""
+    if len(result.drives) != 1:
+        return f"no. {position + 1}"
+    kind = drive_kinds(result, result.drives[0])["position"]
+    value = float(to(kind, result.drive_position(result.drives[0])[position]))
+    return f"{number(value)} {to.text(kind)}"
+
+
+# what did not work, and how far the rest can be trusted
+
+
+def problems_text(result: Result, to: Printed) -> str:
+    """Runs of positions that are not ok, with their sentence."""
+    lines = []
+    for which, status, sentence in result.problems():
+        place = (
+            ""
+            if len(result.status) == 1
+            else f" position{'s' if '-' in which else ''} {which}{_range(result, to, which)}:"
+        )
+        lines.append(wrapped(f"{status}:{place} {sentence}", "  "))
+    return "\n".join(lines)
+
+
+def _range(result: Result, to: Printed, which: str) -> str:
+    if len(result.drives) != 1:
+        return ""
+    ends: Sequence[str] = [_where(result, to, int(k) - 1) for k in which.split("-")]
+    return f" ({result.drives[0]} {' to '.join(ends)})"
+
+
+def checks_text(result: Result) -> str:
+    """Residual and power balance, the worst over the positions that are solved."""
+    found = [
+        (n, v[np.isfinite(v)])
+        for n, v in (("residual", result.residual), ("power balance", result.power_balance))
+    ]
+    shown = [f"{name} {np.abs(values).max():.1e}" for name, values in found if values.size]
+    solved = int(result.ok.sum())
+    count = f"{solved} of {len(result.status)} positions solved" if len(result.status) > 1 else ""
+    return _sentence(", ".join([part for part in (count, *shown) if part])) + "." if count or shown else ""
+
+
+__all__ = ["answer_text", "checks_text", "heading", "printed", "problems_text", "scale"]

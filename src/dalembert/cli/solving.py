@@ -1,0 +1,129 @@
+"""`dalembert solve`: a file analysed, printed and written."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+from dalembert.errors import ModelError
+
+if TYPE_CHECKING:
+    from dalembert.analysis import Result
+    from dalembert.model import Mechanism
+
+
+class Wanted(NamedTuple):
+    """What to print and write."""
+
+    json: Path | None
+    csv: Path | None
+    xlsx: Path | None
+    netcdf: Path | None
+    units: Literal["si", "file"] | None
+    axes: Literal["ground", "link"]
+    every: bool
+    force: bool
+
+    @property
+    def written_units(self) -> Literal["SI", "file"]:
+        """Units of files: SI unless told otherwise."""
+        return "file" if self.units == "file" else "SI"
+
+    @property
+    def printed_units(self) -> Literal["SI", "file"]:
+        """Units of what a person reads: the file's unless told otherwise."""
+        return "SI" if self.units == "si" else "file"
+
+    @property
+    def files(self) -> dict[str, Path]:
+        """Kind of file -> where, those that do not go to the screen."""
+        named = {"json": self.json, "csv": self.csv, "xlsx": self.xlsx, "netcdf": self.netcdf}
+        return {kind: path for kind, path in named.items() if path is not None and str(path) != "-"}
+
+
+def solved(
+    file: Path, wanted: Wanted, *, static: bool, positions: int | None, method: str, friction: bool
+) -> int:
+    """Analyse a file, print or write the answer; 1 where some position has a status other than ok."""
+    _check_targets(wanted)
+    result = _result(file, static, positions, method, friction)
+    _printed(result, wanted)
+    for kind, path in wanted.files.items():
+        _write(result, kind, path, wanted)
+        print(f"Written: {path}", file=sys.stderr)
+    return 0 if result.ok.all() else 1
+
+
+def _check_targets(wanted: Wanted) -> None:
+    """Refused before the work, not behind it."""
+    for kind in ("json", "csv"):
+        if str(getattr(wanted, kind) or "").startswith("--"):
+            raise ModelError(f"--{kind} needs the name of a file", f"or - to print it: --{kind} -")
+    if str(wanted.json) == "-" and str(wanted.csv) == "-":
+        raise ModelError("--json - and --csv - both ask for the screen", "name a file for one of them")
+    for path in wanted.files.values():
+        if path.exists() and not wanted.force:
+            raise ModelError(f"{path} exists", "name another file, or overwrite it with --force")
+
+
+def _result(file: Path, static: bool, positions: int | None, method: str, friction: bool) -> Result:
+    from dalembert.model import load
+
+    if positions is not None and positions < 1:
+        raise ModelError(f"--positions is {positions}", "give 1 or more")
+    m = load(file)
+    if not friction:
+        m = m.with_values({"friction": {"enabled": False}})
+    with _waiting(f"Solving {file}"):
+        return _by(method, m, static, positions)
+
+
+def _by(method: str, m: Mechanism, static: bool, positions: int | None) -> Result:
+    from dalembert import __version__
+    from dalembert.analysis import solve
+
+    if method != "matrix":
+        raise ModelError(f"--method {method} is not part of version {__version__}", "use --method matrix")
+    return solve(m, static=static, positions=positions)
+
+
+@contextmanager
+def _waiting(what: str) -> Iterator[None]:
+    """A spinner on the terminal's standard error while something takes long; nothing in a pipe."""
+    if not sys.stderr.isatty():
+        yield
+        return
+    from rich.console import Console
+
+    with Console(stderr=True).status(what):
+        yield
+
+
+def _printed(result: Result, wanted: Wanted) -> None:
+    if str(wanted.json) == "-":
+        from dalembert.analysis.record import write_json
+
+        write_json(result, sys.stdout, wanted.written_units, wanted.axes)
+    elif str(wanted.csv) == "-":
+        from dalembert.analysis.export import write_csv
+
+        write_csv(result, sys.stdout, wanted.written_units, wanted.axes)
+    else:
+        from dalembert.cli.answer import answer_text
+
+        print(answer_text(result, wanted.printed_units, wanted.axes, wanted.every))
+
+
+def _write(result: Result, kind: str, path: Path, wanted: Wanted) -> None:
+    from dalembert.analysis import export
+
+    writers = {
+        "json": export.to_json,
+        "csv": export.to_csv,
+        "xlsx": export.to_xlsx,
+        "netcdf": export.to_netcdf,
+    }
+    writers[kind](result, path, wanted.force, wanted.written_units, wanted.axes)
