@@ -1,0 +1,1 @@
+"""Laws of mechanics, stated as tests on random mechanisms."""

@@ -1,0 +1,236 @@
+"""The laws of mechanics on random mechanisms: 1e-9 of the largest force (times length) wherever they are well conditioned.
+
+Each law runs on a few mechanisms by default and on many more with the mark ``long``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from copy import deepcopy
+from dataclasses import replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from tests.laws.measures import (
+    difference, joint_powers, joint_wrenches, known_wrenches, shifted_moment, smooth_teeth, speed_scale, spots, state,
+)  # fmt: skip
+from tests.oracles import lagrange
+from tests.oracles.agreement import disagreement, worst
+from tests.random_mechanisms import (
+    IN_LBF, MM_N, Drawing, Rigid, Scale, Style, exchangeable, pose_array, random_case, tree,
+)  # fmt: skip
+
+TOLERANCE = 1e-9
+
+
+def over(quick: int, long: int = 1000) -> Callable[..., Any]:
+    """Seeds of the default run, and those that only the long run adds."""
+    seeds = [pytest.param(s, marks=pytest.mark.long) if s >= quick else s for s in range(long)]
+    return pytest.mark.parametrize("seed", seeds)
+
+
+def dynamics(made: dict[str, Any]) -> Any:
+    r = da.dynamics(da.mechanism(made))
+    assert all(r.ok), r.problems()
+    return r
+
+
+def statics(made: dict[str, Any]) -> Any:
+    r = da.statics(da.mechanism(made))
+    assert all(r.ok), r.problems()
+    return r
+
+
+@lru_cache(maxsize=8)
+def answered(seed: int) -> Any:
+    return dynamics(random_case(seed).tree)
+
+
+@over(100)
+def test_every_number_is_that_of_the_lagrange_oracle(seed: int) -> None:
+    quantity, size = worst(disagreement(answered(seed), random_case(seed).answer))
+    assert size < TOLERANCE, quantity
+
+
+@over(30)
+def test_statics_is_that_of_the_lagrange_oracle(seed: int) -> None:
+    case = random_case(seed)
+    expected = lagrange.solve(case.tree, case.answer.q, inertia=False)
+    quantity, size = worst(disagreement(statics(case.tree), expected))
+    assert size < TOLERANCE, quantity
+
+
+@over(60)
+def test_every_link_is_in_equilibrium(seed: int) -> None:
+    r, answer = answered(seed), random_case(seed).answer
+    out_of_balance = (joint_wrenches(r, answer) + known_wrenches(r, answer))[:, 1:]
+    length = answer.length()
+    assert np.max(np.abs(out_of_balance / [1, 1, length])) < TOLERANCE * answer.force_scale()
+    assert np.max(r.residual) < TOLERANCE
+
+
+@over(60)
+def test_power_of_efforts_loads_and_inertia_is_balanced(seed: int) -> None:
+    r, answer = answered(seed), random_case(seed).answer
+    v = state(r, answer.machine.links)[1]
+    power = np.sum(known_wrenches(r, answer) * v, (1, 2))
+    power += sum(r.effort(d.name) * d.speed for d in answer.machine.drives)
+    assert np.max(np.abs(power)) < TOLERANCE * answer.force_scale() * speed_scale(answer)
+    assert np.max(np.abs(r.power_balance)) < TOLERANCE
+
+
+@over(60)
+def test_reactions_do_no_work(seed: int) -> None:
+    answer = random_case(seed).answer
+    for joint, power in joint_powers(answered(seed), answer).items():
+        assert np.max(np.abs(power)) < TOLERANCE * answer.force_scale() * speed_scale(answer), joint
+
+
+@over(20)
+@pytest.mark.parametrize("motion", [Rigid(0.7, 0.3, -2.0), Rigid(-2.9, 100.0, 350.0)])
+def test_moving_the_machine_moves_the_answers(seed: int, motion: Rigid) -> None:
+    d, r = random_case(seed).drawing, answered(seed)
+    moved = dynamics(tree(d, motion=motion))
+    force, length = random_case(seed).answer.force_scale(), random_case(seed).answer.length()
+    for joint in d.joints:
+        expected = np.stack(motion.vector(tuple(r.reaction(joint).T)), -1)
+        assert np.max(np.abs(moved.reaction(joint) - expected)) < TOLERANCE * force
+        assert np.max(np.abs(moved.reaction_moment(joint) - r.reaction_moment(joint))) < TOLERANCE * force * length
+        in_link = r.reaction(joint, axes="link"), moved.reaction(joint, axes="link")
+        if d.joints[joint].j != "ground":
+            assert np.max(np.abs(in_link[0] - in_link[1])) < TOLERANCE * force
+    for drive in d.drives:
+        assert np.max(np.abs(moved.effort(drive) - r.effort(drive))) < TOLERANCE * force * max(length, 1.0)
+
+
+@over(20)
+@pytest.mark.parametrize("style", [MM_N, IN_LBF], ids=["mm N", "in lbf"])
+def test_units_change_nothing(seed: int, style: Style) -> None:
+    case = random_case(seed)
+    same = dynamics(tree(case.drawing, style))
+    assert difference(answered(seed), same, case.drawing, case.answer.length()) < TOLERANCE
+    quantity, size = worst(disagreement(same, case.answer))
+    assert size < TOLERANCE, quantity
+
+
+@over(20)
+def test_loads_add(seed: int) -> None:
+    d = smooth_teeth(random_case(seed).drawing)
+    names = sorted(d.loads)
+    half = {k: d.loads[k] for k in names[::2]}
+    rest = {k: d.loads[k] for k in names[1::2]}
+    parts = [
+        statics(tree(replace(d, loads=half, gravity=(0.0, 0.0), joints=undamped(d)))),
+        statics(tree(replace(d, loads=rest))),
+    ]
+    whole = statics(tree(d))
+    force = random_case(seed).answer.force_scale()
+    for joint in d.joints:
+        for question in ("reaction", "reaction_moment"):
+            total = sum(getattr(p, question)(joint) for p in parts)
+            assert np.max(np.abs(total - getattr(whole, question)(joint))) < TOLERANCE * force * 4
+
+
+def undamped(d: Drawing) -> dict[str, Any]:
+    return {k: replace(j, damping=0.0) for k, j in d.joints.items()}
+
+
+@over(20)
+@pytest.mark.parametrize("factor", [1e-6, 3.0, 1e8])
+def test_all_forces_scale_together(seed: int, factor: float) -> None:
+    case = random_case(seed)
+    d = replace(case.drawing, joints=undamped(case.drawing))
+    r, scaled = statics(tree(d)), statics(tree(d, scale=Scale(loads=factor, masses=factor)))
+    force = case.answer.force_scale()
+    for joint in d.joints:
+        assert np.max(np.abs(scaled.reaction(joint) / factor - r.reaction(joint))) < TOLERANCE * force
+
+
+@over(20)
+def test_at_speed_0_dynamics_is_statics(seed: int) -> None:
+    case = random_case(seed)
+    still = tree(case.drawing, scale=Scale(speeds=0.0))
+    assert difference(dynamics(still), statics(still), case.drawing, case.answer.length()) < TOLERANCE
+
+
+@over(20)
+def test_inertia_forces_grow_with_the_square_of_speed(seed: int) -> None:
+    case = random_case(seed)
+    d = smooth_teeth(case.drawing)
+    slow, fast = tree(d), tree(d, scale=Scale(speeds=3.0))
+    added = [{j: dynamics(t).reaction(j) - statics(t).reaction(j) for j in d.joints} for t in (slow, fast)]
+    force = max(float(np.max(np.abs(dynamics(fast).reaction(j)))) for j in d.joints)
+    for joint in d.joints:
+        assert np.max(np.abs(9 * added[0][joint] - added[1][joint])) < TOLERANCE * force, joint
+
+
+@over(20)
+def test_exchanging_i_and_j_only_flips_signs(seed: int) -> None:
+    case = random_case(seed)
+    d, r, swapped = case.drawing, answered(seed), exchangeable(case.drawing)
+    other = dynamics(tree(d, exchange=swapped))
+    force, length = case.answer.force_scale(), case.answer.length()
+    q = state(r, case.answer.machine.links)[0]
+    there, here = spots(exchanged_answer(seed), q), spots(case.answer, q)
+    for name, joint in d.joints.items():
+        sign = -1.0 if name in swapped else 1.0
+        assert np.max(np.abs(sign * other.reaction(name) - r.reaction(name))) < TOLERANCE * force
+        assert np.max(np.abs(other.reaction(name, on=joint.i) + r.reaction(name, on=joint.j))) < TOLERANCE * force
+        moved = shifted_moment(r.reaction_moment(name), r.reaction(name), here[name], there[name])
+        assert np.max(np.abs(sign * other.reaction_moment(name) - moved)) < TOLERANCE * force * length
+    for name, drive in d.drives.items():
+        sign = -1.0 if drive.joint in swapped else 1.0
+        assert np.max(np.abs(sign * other.effort(name) - r.effort(name))) < TOLERANCE * force * max(length, 1.0)
+
+
+def exchanged_answer(seed: int) -> lagrange.Answer:
+    d = random_case(seed).drawing
+    return lagrange.solve(tree(d, exchange=exchangeable(d)), pose_array(d))
+
+
+@over(20)
+def test_a_batch_is_its_positions_one_by_one(seed: int) -> None:
+    case, r = random_case(seed), answered(seed)
+    for k in range(len(r.status)):
+        single = dynamics(at_position(case.tree, r, k))
+        for joint in r.joints:
+            gap = np.max(np.abs(single.reaction(joint)[0] - r.reaction(joint)[k]))
+            assert gap < TOLERANCE * case.answer.force_scale(), (joint, k)
+
+
+def at_position(made: dict[str, Any], r: Any, k: int) -> dict[str, Any]:
+    """The tree with position k alone, assembled as the batch found it."""
+    made = deepcopy(made)
+    for drive in made["drives"].values():
+        drive["position"] = drive["position"][k]
+    made["assembly"] = {link: float(np.degrees(r.angle(link)[k])) for link in r.links}
+    return made
+
+
+@over(20)
+def test_rates_are_the_differences_of_positions(seed: int) -> None:
+    """Central differences over five positions in time, of fourth order."""
+    case, h = random_case(seed), 2e-3
+    d = replace(case.drawing, drives={k: replace(v, steps=in_time(v, h)) for k, v in case.drawing.drives.items()})
+    r, length = da.kinematics(da.mechanism(tree(d))), case.answer.length()
+    assert all(r.ok), r.problems()
+    speed, gain = speed_scale(case.answer), float(np.max(np.abs(case.answer.a * [1, 1, length])))
+    for link in r.links:
+        for position, v, a, unit in (
+            (r.angle(link), r.speed(link), r.acceleration(link), length),
+            (r.center(link), r.center_velocity(link), r.center_acceleration(link), 1.0),
+        ):
+            x = position[1:]
+            first = (x[0] - 8 * x[1] + 8 * x[3] - x[4]) / (12 * h)
+            second = (-x[0] + 16 * x[1] - 30 * x[2] + 16 * x[3] - x[4]) / (12 * h * h)
+            assert np.max(np.abs(first - v[0])) * unit < 1e-6 * max(speed, 1.0)
+            assert np.max(np.abs(second - a[0])) * unit < 1e-5 * max(gain, 1.0)
+
+
+def in_time(drive: Any, h: float) -> tuple[float, ...]:
+    """The drawn position first (it carries the rates and the phases), then five around it in time."""
+    return (0.0, *(drive.speed * t + drive.acceleration * t * t / 2 for t in (-2 * h, -h, 0.0, h, 2 * h)))
