@@ -14,7 +14,8 @@ from dalembert.analysis.mobility import Mobility, check_drives, mobility_at
 from dalembert.core.assembly import Modes, modes, phase_rows
 from dalembert.core.closure import CLOSED, closed, gap
 from dalembert.core.constraints import measure
-from dalembert.core.follow import Path, path, target_at
+from dalembert.core.course import Course, course
+from dalembert.core.follow import Path, path
 from dalembert.core.layout import Mesh, Pose
 from dalembert.core.rank import rank, well_driven
 from dalembert.errors import ModelError
@@ -44,41 +45,41 @@ def positions(c: Compiled) -> Positions:
     if found is None:
         _refuse_overdriven(c)
         return Positions(c, None, None, None)
-    start, first = found
+    place, first = found
     c = _with_phase(c, first.pose.at(0))
+    along = course(c.layout, c.targets)
+    start = along.at(place)
     here = general = first.pose.at(0)
     if c.schedule.names and not well_driven(c.layout, general):
-        ahead, beside = _beside(c, start, first)
+        ahead, beside = _beside(c, along, start, first)
         general = general if beside is None else beside.pose.at(0)
         if beside is not None and len(c.targets) > 1:
             start, first = ahead, beside
     mobility = mobility_at(c, general, special=general is here)
     if mobility.redundant:
         c = replace(c, layout=replace(c.layout, redundant=True))
-    return Positions(
-        c, path(c.layout, first.pose.at(0), c.targets, c.period, start), mobility, _mode(c, first)
-    )
+    return Positions(c, path(c.layout, first.pose.at(0), along, start, c.period), mobility, _mode(c, first))
 
 
-def _first(c: Compiled) -> tuple[float, Modes] | None:
+def _first(c: Compiled) -> tuple[int, Modes] | None:
     """The first position that closes, and its modes."""
     count = len(c.targets)
     for k in np.unique(np.linspace(0, count - 1, min(count, SAMPLES)).astype(int)):
         found = modes(c.layout, c.targets[k], c.guess)
         if found is not None:
-            return float(k), found
+            return int(k), found
     return None
 
 
-def _beside(c: Compiled, start: float, first: Modes) -> tuple[float, Modes | None]:
+def _beside(c: Compiled, along: Course, start: float, first: Modes) -> tuple[float, Modes | None]:
     """The mode nearest to the first pose a little further on: the first may be a change point, which says nothing of
     the mobility, and from which the motion cannot be taken up."""
-    last = len(c.targets) - 1
-    ahead = start + 0.13 if start < last else start - 0.13
     turn = np.where(np.isfinite(c.guess.turn), c.guess.turn, first.pose.turn[0])
     near = replace(c.guess, turn=turn, point=np.full_like(c.guess.point, np.nan))
-    if last:
-        return ahead, modes(c.layout, target_at(c.targets, np.array([ahead]))[0], near)
+    if along.end > 0:
+        step = min(0.02, along.end / 2)
+        ahead = start + step if start + step <= along.end else start - step
+        return ahead, modes(c.layout, along.target(ahead)[0], near)
     angular = c.layout.freedoms.angular[c.layout.driven]
     nudge = np.concatenate([np.zeros(len(c.target)), 0.05 * np.where(angular, 1.0, c.layout.length)])
     sides = (modes(c.layout, c.targets[0] + sign * nudge, near) for sign in (1, -1))

@@ -57,7 +57,7 @@ def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes |
     given = np.isfinite(guess.turn[:-1])
     if missing[0] <= CLOSED * layout.length:
         off = np.abs(_turned(pose.turn[0, :-1] - guess.turn[:-1])[given]).max(initial=0.0)
-        if given.any() and off < np.pi / 6:
+        if given.any() and off < 0.1:
             return Modes(_reduced(layout, pose), "given")
         if not given.any() and distance(layout, pose, drawn)[0] < SAME:
             return Modes(_reduced(layout, pose), "drawn")

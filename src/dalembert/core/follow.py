@@ -1,11 +1,11 @@
 """A motion followed from its first pose: a coarse march, then all positions corrected at once.
 
-s  path parameter: the place in the list of positions, 0 .. P-1, with the drives linear between neighbours
-
 The march goes from station to station with a predictor through the last ones, halving its step where the corrector
-moves far. Where the determinant of J changes its sign smoothly the motion passed a change point, and goes on. Where no
-step is small enough it has come to a dead centre, and ends. Between stations the poses are interpolated and corrected
-together; a position whose correction is not small next to the spacing of the stations is not trusted.
+moves far. Where the determinant of J changes its sign smoothly the motion passed a change point, and goes on. Where
+no step is small enough it has come to a dead centre, and ends. Between stations the poses are interpolated and
+corrected together; a position whose correction is not small next to the spacing of the stations is not trusted.
+
+s  parameter of the course
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from dalembert.core.closure import CLOSED, closed, distance, moved
 from dalembert.core.constraints import dense, stacked
+from dalembert.core.course import Course, course
 from dalembert.core.factor import SPARSE, factor
 from dalembert.core.layout import Layout, Pose
 
@@ -26,7 +27,10 @@ STRIDE = 0.31
 """Radians of a drive (or slide over characteristic length) between stations; no divisor of a quarter turn."""
 
 NODES = 8
-"""Stations in an interpolation or extrapolation."""
+"""Stations in an interpolation."""
+
+RECENT = 6
+"""Stations in an extrapolation."""
 
 BLOCK = 2048
 """Positions corrected at once: enough to hide the cost of a numpy call, few enough to stay in the cache."""
@@ -42,22 +46,14 @@ SHORTEST = 2.0**-14
 
 
 class March(NamedTuple):
-    """Stations of a march: parameters (S,), their poses (S, L+1, ...), and whether the end of the list was reached."""
+    """Stations of a march: parameters (S,) ascending, their poses (S, L+1, ...), whether the course's end was met."""
 
     s: Array
     pose: Pose
     whole: bool
 
 
-def target_at(targets: Array, s: Array) -> Array:
-    """Targets between the positions of the list, linear in s: (S, K + D)."""
-    last = len(targets) - 1
-    low = np.clip(np.floor(s).astype(int), 0, max(last - 1, 0))
-    part = (s - low)[:, None]
-    return np.asarray(targets[low] * (1 - part) + targets[np.minimum(low + 1, last)] * part)
-
-
-def interpolated(s: Array, nodes: Array, pose: Pose, layout: Layout) -> Pose:
+def interpolated(layout: Layout, s: Array, nodes: Array, pose: Pose) -> Pose:
     """Poses at s (P,) by Lagrange polynomials through the ``NODES`` nearest stations; also outside them."""
     count = min(NODES, len(nodes))
     first = np.clip(np.searchsorted(nodes, s) - count // 2, 0, len(nodes) - count)
@@ -78,15 +74,13 @@ def _lagrange(s: Array, nodes: Array) -> Array:
     return out
 
 
-def march(layout: Layout, first: Pose, targets: Array, start: float = 0.0, backward: bool = False) -> March:
-    """Stations from position ``start`` to the end of the list (or its beginning), from the pose there (L+1, ...)."""
-    end = 0.0 if backward else len(targets) - 1.0
-    sign = -1.0 if backward else 1.0
-    s, poses, size = [float(start)], [first], 1.0
+def march(layout: Layout, first: Pose, along: Course, start: float, backward: bool = False) -> March:
+    """Stations from parameter ``start`` to the end of the course (or its beginning), from the pose there."""
+    end, sign = (0.0, -1.0) if backward else (along.end, 1.0)
+    s, poses, size, smooth = [start], [first], 1.0, 0
     while sign * (end - s[-1]) > 0:
-        stride = _stride(layout, targets, s[-1], sign)
-        ahead = s[-1] + sign * min(size * stride, abs(end - s[-1]))
-        new = _station(layout, targets, np.array(s), poses, ahead)
+        ahead = s[-1] + sign * min(size * STRIDE, abs(along.limit(s[-1], sign) - s[-1]))
+        new = _station(layout, along, s[smooth:][-RECENT:], poses[smooth:][-RECENT:], ahead)
         if new is None:
             size /= 2
             if size < SHORTEST:
@@ -95,8 +89,10 @@ def march(layout: Layout, first: Pose, targets: Array, start: float = 0.0, backw
         s.append(ahead)
         poses.append(new)
         size = min(2 * size, 1.0)
-    order = np.argsort(s)
+        if np.abs(along.breaks - ahead).min() < 1e-12:
+            smooth = len(s) - 1
     whole = sign * (end - s[-1]) <= 0
+    order = np.argsort(s)
     return March(np.array(s)[order], stack([poses[k] for k in order]), bool(whole))
 
 
@@ -105,23 +101,10 @@ def stack(poses: list[Pose]) -> Pose:
     return Pose(*(np.stack(part) for part in zip(*poses, strict=True)))
 
 
-def _stride(layout: Layout, targets: Array, s: float, sign: float) -> float:
-    """Step in s that moves the fastest drive by ``STRIDE``, not past the next position where positions are sparse."""
-    here = int(np.ceil(s) - 1 if sign < 0 else np.floor(s))
-    here = min(max(here, 0), len(targets) - 2)
-    rates = np.abs(targets[here + 1] - targets[here])
-    scale = np.ones(len(rates))
-    drives = len(layout.driven)
-    angular = layout.freedoms.angular[layout.driven]
-    scale[len(rates) - drives :] = np.where(angular, 1.0, 1 / layout.length)
-    fastest = float((rates * scale).max(initial=0.0))
-    return STRIDE / fastest if fastest > 0 else np.inf
-
-
-def _station(layout: Layout, targets: Array, s: Array, poses: list[Pose], ahead: float) -> Pose | None:
+def _station(layout: Layout, along: Course, s: list[float], poses: list[Pose], ahead: float) -> Pose | None:
     """The pose at ``ahead``, predicted from the last stations and corrected; None where the prediction is poor."""
-    there = target_at(targets, np.array([ahead]))
-    guess = _predicted(layout, targets, s, poses, ahead, there)
+    there = along.target(ahead)
+    guess = _predicted(layout, along, s, poses, ahead, there)
     pose, missing = closed(layout, guess, there, iterations=12, polish=False)
     if not missing[0] <= CLOSED * layout.length:
         return None
@@ -133,15 +116,14 @@ def _station(layout: Layout, targets: Array, s: Array, poses: list[Pose], ahead:
 
 
 def _predicted(
-    layout: Layout, targets: Array, s: Array, poses: list[Pose], ahead: float, there: Array
+    layout: Layout, along: Course, s: list[float], poses: list[Pose], ahead: float, there: Array
 ) -> Pose:
     """Polynomial through the last stations; along the velocity from the first."""
     if len(s) > 1:
-        order = np.argsort(s[-6:])
-        recent = stack([poses[-6:][k] for k in order])
-        return interpolated(np.array([ahead]), s[-6:][order], recent, layout)
+        order = np.argsort(s)
+        return interpolated(layout, np.array([ahead]), np.array(s)[order], stack([poses[k] for k in order]))
     here = poses[-1].at(None)
-    return moved(layout, here, velocity(layout, here, there - target_at(targets, s[-1:])))
+    return moved(layout, here, velocity(layout, here, there - along.target(s[-1])))
 
 
 def velocity(layout: Layout, pose: Pose, rates: Array) -> Array:
@@ -157,49 +139,72 @@ class Path(NamedTuple):
     reached: NDArray[np.bool_]
 
 
-def path(
-    layout: Layout, first: Pose, targets: Array, period: Array | None = None, start: float = 0.0
-) -> Path:
+def path(layout: Layout, first: Pose, along: Course, start: float, period: Array | None = None) -> Path:
     """Poses at every position of the list, followed both ways from the pose (L+1, ...) at parameter ``start``.
 
     ``period`` (K + D) is what a whole cycle adds to the targets, if the list is one: then what lies behind a dead
-    centre is also reached backwards from the first position. What is still missing is looked for from the poses
-    already known, on the first one's side of the dead centre (same sign of det J).
+    centre is also reached around the other way. What is still missing is looked for from the poses already known,
+    on the first one's side of the dead centre (same sign of det J).
     """
-    if len(targets) == 1:
-        return Path(first.at(None), np.ones(1, bool))
-    forward = march(layout, first, targets, start)
-    result = _filled(layout, targets, forward)
-    if start > 0:
-        result = _joined(
-            result, _filled(layout, targets, march(layout, first, targets, start, backward=True))
-        )
-    if not forward.whole and period is not None and result.reached[0]:
-        cycle = np.concatenate([targets - period, targets[:1]])
-        back = march(layout, result.pose.at(0), cycle, start=len(targets), backward=True)
-        result = _joined(result, _filled(layout, cycle, back, count=len(targets)))
-    return result if result.reached.all() else _reentered(layout, first, targets, result)
+    result = _both_ways(layout, first, along, start, len(along.s))
+    if len(along.s) == 1 or result.reached.all():
+        return result
+    if period is not None and result.reached.any():
+        result = _around(layout, along, period, result)
+    return result if result.reached.all() else _reentered(layout, first, along, result)
 
 
-def _filled(layout: Layout, targets: Array, piece: March, count: int | None = None) -> Path:
-    """The first ``count`` positions, where they lie within a march, by interpolation and correction."""
-    s = np.arange(count or len(targets), dtype=float)
-    inside = (s >= piece.s[0] - 1e-9) & (s <= piece.s[-1] + 1e-9)
-    pose = interpolated(s, piece.s, piece.pose, layout)
-    reached = np.zeros(len(s), bool)
-    places = np.flatnonzero(inside)
-    for block in np.split(places, range(BLOCK, len(places), BLOCK)):
-        guess = pose.at(block)
-        part, missing = closed(layout, guess, targets[block])
-        near = distance(layout, part, guess) <= TRUSTED
-        for whole, new in zip(pose, part, strict=True):
-            whole[block] = new
-        reached[block] = near & (missing <= CLOSED * layout.length)
-    return Path(pose, reached)
+def _both_ways(layout: Layout, first: Pose, along: Course, start: float, count: int) -> Path:
+    forward = _filled(layout, along, march(layout, first, along, start), count)
+    backward = _filled(layout, along, march(layout, first, along, start, backward=True), count)
+    return _joined(forward, backward)
+
+
+def _around(layout: Layout, along: Course, period: Array, known: Path) -> Path:
+    """Positions of the cycle before and after this one, from the first and last of the list."""
+    count, listed = len(along.s), np.empty_like(along.targets)
+    listed[along.order] = along.targets
+    for sign, place in ((-1, 0), (1, count - 1)):
+        if known.reached[place] and not known.reached.all():
+            cycle = course(layout, np.concatenate([listed + sign * period, listed[place : place + 1]]))
+            known = _joined(known, _both_ways(layout, known.pose.at(place), cycle, cycle.at(count), count))
+    return known
+
+
+def _filled(layout: Layout, along: Course, piece: March, count: int) -> Path:
+    """The first ``count`` positions of the list, where they lie within a march, by interpolation and correction."""
+    inside = (along.s >= piece.s[0] - 1e-12) & (along.s <= piece.s[-1] + 1e-12) & (along.order < count)
+    links = piece.pose.turn.shape[-1]
+    turn, point = np.full((count, links), np.nan), np.full((count, links, layout.algebra.d), np.nan)
+    found = Path(Pose(point, turn, layout.algebra.rotation(turn)), np.zeros(count, bool))
+    for low, high in (
+        zip(along.breaks[:-1], along.breaks[1:], strict=True) if len(along.s) > 1 else [(0.0, 0.0)]
+    ):
+        nodes = np.flatnonzero((piece.s >= low - 1e-12) & (piece.s <= high + 1e-12))
+        places = np.flatnonzero(inside & (along.s >= low - 1e-12) & (along.s <= high + 1e-12))
+        if nodes.size and places.size:
+            for block in np.split(places, range(BLOCK, len(places), BLOCK)):
+                _fill(layout, along, piece.s[nodes], piece.pose.at(nodes), block, found)
+    return found
+
+
+def _fill(
+    layout: Layout, along: Course, nodes: Array, pose: Pose, places: NDArray[np.intp], found: Path
+) -> None:
+    """Put corrected poses at some places of the course into the list."""
+    guess = interpolated(layout, along.s[places], nodes, pose)
+    part, missing = closed(layout, guess, along.targets[places])
+    near = distance(layout, part, guess) <= TRUSTED
+    listed = along.order[places]
+    for whole, new in zip(found.pose, part, strict=True):
+        whole[listed] = new
+    found.reached[listed] = near & (missing <= CLOSED * layout.length)
 
 
 def _joined(a: Path, b: Path) -> Path:
     """The first where it reached, else the second."""
+    if a.reached.all():
+        return a
     take = a.reached
     pose = Pose(*(np.where(_over(take, x), x, y) for x, y in zip(a.pose, b.pose, strict=True)))
     return Path(pose, take | b.reached)
@@ -209,20 +214,18 @@ def _over(mask: NDArray[np.bool_], array: Array) -> NDArray[np.bool_]:
     return mask.reshape(mask.shape + (1,) * (array.ndim - 1))
 
 
-def _reentered(layout: Layout, first: Pose, targets: Array, known: Path) -> Path:
+def _reentered(layout: Layout, first: Pose, along: Course, known: Path) -> Path:
     """Positions behind a gap: entered at some sample position from poses already known, then followed both ways."""
     sign = orientation(layout, first.at(None))[0]
     for _ in range(MOST_GAPS):
         missing = np.flatnonzero(~known.reached)
         sample = missing[np.unique(np.linspace(0, len(missing) - 1, min(len(missing), 12)).astype(int))]
-        entries = ((int(k), _entry(layout, targets[k], known, sign)) for k in sample)
+        entries = ((int(k), _entry(layout, along.target(along.at(int(k)))[0], known, sign)) for k in sample)
         where, entry = next(((k, e) for k, e in entries if e is not None), (0, None))
         if entry is None:
             return known
         before = known.reached.sum()
-        for backward in (False, True):
-            piece = march(layout, entry, targets, start=where, backward=backward)
-            known = _joined(known, _filled(layout, targets, piece))
+        known = _joined(known, _both_ways(layout, entry, along, along.at(where), len(known.reached)))
         if known.reached.all() or known.reached.sum() == before:
             break
     return known
