@@ -1,0 +1,73 @@
+"""One word for one thing, and small pieces (STYLE), read from the sources."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import dalembert
+
+PACKAGE = Path(dalembert.__file__).parent
+MODULES = sorted(PACKAGE.rglob("*.py"))
+
+VAGUE = {"util", "utils", "helper", "helpers", "manager", "handler", "data", "misc", "common", "tools"}
+OTHER_WORDS = {
+    "body": "link",
+    "bodies": "links",
+    "bar": "link",
+    "bars": "links",
+    "pivot": "joint",
+    "linkage_pair": "joint",
+    "kinematic_pair": "joint",
+    "motor": "drive",
+    "actuator": "drive",
+    "degree_of_freedom": "freedom",
+    "dof": "freedom",
+}
+LONGEST_FILE, LONGEST_FUNCTION = 400, 60
+
+Function = ast.FunctionDef | ast.AsyncFunctionDef
+
+
+def test_modules_say_what_they_hold() -> None:
+    names = {part.removesuffix(".py") for path in MODULES for part in path.relative_to(PACKAGE).parts}
+    assert not names & VAGUE
+
+
+def named(tree: ast.AST) -> Iterator[str]:
+    """Public names: of classes, functions, their arguments, and fields and constants."""
+    for node in ast.walk(tree):
+        if isinstance(node, Function | ast.ClassDef) and not node.name.startswith("_"):
+            yield node.name
+            if isinstance(node, Function):
+                yield from (a.arg for a in [*node.args.args, *node.args.kwonlyargs, *node.args.posonlyargs])
+            else:
+                yield from (
+                    f.target.id
+                    for f in node.body
+                    if isinstance(f, ast.AnnAssign) and isinstance(f.target, ast.Name)
+                )
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
+def test_one_word_for_one_thing(path: Path) -> None:
+    for name in named(ast.parse(path.read_text(encoding="utf-8"))):
+        assert name.lower() not in OTHER_WORDS, f"{name}: say {OTHER_WORDS[name.lower()]}"
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
+def test_pieces_are_small(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    assert text.count("\n") <= LONGEST_FILE
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, Function):
+            assert (node.end_lineno or 0) - node.lineno < LONGEST_FUNCTION, node.name
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
+def test_modules_say_what_they_are(path: Path) -> None:
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    assert ast.get_docstring(tree) or not tree.body, path.name
