@@ -176,7 +176,8 @@ def compare(count: int, repeat: int) -> None:
     found = timed(calls, repeat)
     for name, seconds in found.items():
         share = seconds / found["dalembert"]
-        print(f"  {name:21} {seconds * 1e3:10.3f} ms  {seconds / count * 1e6:8.3f} us a position  {share:7.2f} x dalembert")
+        each = f"{seconds * 1e3:10.3f} ms  {seconds / count * 1e6:8.3f} us a position"
+        print(f"  {name:21} {each}  {share:7.2f} x dalembert")
 
 
 def main() -> None:

@@ -45,7 +45,9 @@ def description(stages: int, count: int) -> dict[str, Any]:
         "joints": joints,
         "drives": {"U0": {"position": start if count == 1 else {"from": start, "to": 40, "count": count}}},
         "loads": {"P": {"type": "force", "on": f"up{stages}", "at": f"V{stages}", "value": [0, -LOAD]}},
-        "assembly": {name: (start if name.startswith("up") else 180 - start) for name in links if name != "ground"},
+        "assembly": {
+            name: (start if name.startswith("up") else 180 - start) for name in links if name != "ground"
+        },
     }
 
 
@@ -70,7 +72,8 @@ def measured(stages: int, count: int, repeat: int) -> float:
         times.append(perf_counter() - start)
     seconds = median(times)
     a_link = seconds / count / (2 * stages)
-    print(f"  n = {stages:4} ({2 * stages:4} links), {count:2} positions: {seconds * 1e3:10.2f} ms, {a_link * 1e6:8.2f} us a link; error {error:.1e}")
+    case = f"n = {stages:4} ({2 * stages:4} links), {count:2} positions"
+    print(f"  {case}: {seconds * 1e3:10.2f} ms, {a_link * 1e6:8.2f} us a link; error {error:.1e}")
     return seconds
 
 

@@ -23,7 +23,10 @@ RUNS = {
     "import numpy": ([sys.executable, "-c", "import numpy"], None),
     "import dalembert": ([sys.executable, "-c", "import dalembert"], 0.3),
     "dalembert --help": ([*COMMAND, "--help"], 0.5),
-    "dalembert solve examples/four_bar.yaml": ([*COMMAND, "solve", str(ROOT / "examples" / "four_bar.yaml")], 0.8),
+    "dalembert solve examples/four_bar.yaml": (
+        [*COMMAND, "solve", str(ROOT / "examples" / "four_bar.yaml")],
+        0.8,
+    ),
 }
 """Name -> command and the limit in seconds."""
 
@@ -47,7 +50,9 @@ def main() -> None:
                 times[name].append(taken)
     for name, values in times.items():
         limit = RUNS[name][1]
-        wanted = "" if limit is None else f"  limit {limit} s: {'kept' if median(values) < limit else 'MISSED'}"
+        wanted = (
+            "" if limit is None else f"  limit {limit} s: {'kept' if median(values) < limit else 'MISSED'}"
+        )
         print(f"{name:40} median {median(values):.3f} s  slowest {max(values):.3f} s{wanted}")
 
 

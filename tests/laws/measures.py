@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from tests.oracles.lagrange import Answer
+from tests.oracles.lagrange import Answer, contact
 from tests.oracles.lagrange import rows as oracle_rows
-from tests.oracles.lagrange import contact
 from tests.oracles.reading import Array
 from tests.oracles.wrenches import carried, cross, known, placed, push, turned
 from tests.random_mechanisms import Drawing
@@ -98,7 +97,10 @@ def difference(r: Any, s: Any, d: Drawing, length: float) -> float:
     gaps = [np.max(np.abs(r.reaction(j) - s.reaction(j))) / force for j in d.joints]
     gaps += [np.max(np.abs(r.reaction_moment(j) - s.reaction_moment(j))) / (force * length) for j in d.joints]
     for name, drive in d.drives.items():
-        gaps.append(np.max(np.abs(r.effort(name) - s.effort(name))) / (force * (length if drive.freedom == "turn" else 1.0)))
+        gaps.append(
+            np.max(np.abs(r.effort(name) - s.effort(name)))
+            / (force * (length if drive.freedom == "turn" else 1.0))
+        )
     return float(np.max(gaps))
 
 

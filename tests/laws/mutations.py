@@ -11,8 +11,9 @@ Path = tuple[Any, ...]
 
 ODD: tuple[Any, ...] = (
     0, 0.0, -1, 1, 3, 1e-12, 1e12, 1e300, -1e-300, float("nan"), float("inf"), "", "nonsense", "5 parsecs", "3 @ 30",
-    "7 mm", "2 kg", "45 deg", "10 rpm", "unknown", "ground", "slider", "1e400", None, True, [], {}, [1], [0, 0], [1, 2, 3],
-    [None, "x"], {"from": 0, "to": 360, "count": 4}, {"from": 1, "to": 0, "count": -2}, "__import__('os')", "sin(O2)", "é",
+    "7 mm", "2 kg", "45 deg", "10 rpm", "unknown", "ground", "slider", "1e400", None, True, [], {}, [1],
+    [0, 0], [1, 2, 3], [None, "x"], {"from": 0, "to": 360, "count": 4}, {"from": 1, "to": 0, "count": -2},
+    "__import__('os')", "sin(O2)", "é",
 )  # fmt: skip
 
 
@@ -65,7 +66,9 @@ def _renamed(tree: Any, rng: random.Random, places: list[Path]) -> None:
 
 def _stretched(tree: Any, rng: random.Random, places: list[Path]) -> None:
     """A number times a factor: the likeliest slip of a user, and the one that stays readable."""
-    numbers = [p for p in places if isinstance(get(tree, p), int | float) and not isinstance(get(tree, p), bool)]
+    numbers = [
+        p for p in places if isinstance(get(tree, p), int | float) and not isinstance(get(tree, p), bool)
+    ]
     if numbers:
         path = rng.choice(numbers)
         put(tree, path, get(tree, path) * rng.choice((0, -1, 0.5, 1.001, 2, 10, 1e-9, 1e9)))
@@ -76,7 +79,9 @@ def _retyped(tree: Any, rng: random.Random, places: list[Path]) -> None:
     if isinstance(joints, dict) and joints:
         joint = rng.choice(list(joints.values()))
         if isinstance(joint, dict):
-            joint["type"] = rng.choice(("pin", "slider", "slot", "weld", "gear", "rolling", "cam", "revolute"))
+            joint["type"] = rng.choice(
+                ("pin", "slider", "slot", "weld", "gear", "rolling", "cam", "revolute")
+            )
 
 
 def _rejoined(tree: Any, rng: random.Random, places: list[Path]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -18,10 +18,13 @@ from tests.random_mechanisms import random_mechanism, tree
 BALANCED = 1e-6
 
 
-@lru_cache(maxsize=None)
+@cache
 def bases() -> tuple[dict[str, Any], ...]:
     """Mechanisms that are right: those of the oracles at four positions, and random ones."""
-    return (*(shortened(assembled(e).tree) for e in EXAMPLES.values()), *(tree(random_mechanism(s, (2, 5))) for s in range(15)))
+    return (
+        *(shortened(assembled(e).tree) for e in EXAMPLES.values()),
+        *(tree(random_mechanism(s, (2, 5))) for s in range(15)),
+    )
 
 
 def shortened(made: dict[str, Any]) -> dict[str, Any]:
@@ -35,7 +38,7 @@ def check(made: dict[str, Any]) -> None:
     try:
         r = da.solve(da.mechanism(made))
     except da.ModelError as error:
-        assert error.what
+        assert error.what  # noqa: PT017
         return
     for k, status in enumerate(r.status):
         if status == "ok":
@@ -50,7 +53,9 @@ def balanced(r: Any, k: int) -> bool:
     numbers = [r.effort(d)[k] for d in r.drives] + [r.unknown_load(x)[k] for x in r.unknown_loads]
     numbers += [c for link in r.links for c in (*r.position(link)[k], r.angle(link)[k], *r.center(link)[k])]
     numbers += [c for joint in r.joints for c in (*r.least_norm(joint)[k],)]
-    return bool(np.all(np.isfinite(numbers)) and r.residual[k] < BALANCED and abs(r.power_balance[k]) < BALANCED)
+    return bool(
+        np.all(np.isfinite(numbers)) and r.residual[k] < BALANCED and abs(r.power_balance[k]) < BALANCED
+    )
 
 
 def silent(r: Any, k: int) -> bool:
@@ -71,8 +76,25 @@ def test_a_hundred_thousand_changed_trees(block: int) -> None:
 
 
 scalars = st.none() | st.booleans() | st.integers(-5, 400) | st.floats() | st.text(max_size=8)
-odd_trees = st.recursive(scalars, lambda x: st.lists(x, max_size=3) | st.dictionaries(st.text(max_size=6), x, max_size=3), max_leaves=6)
-KEYS = ("links", "joints", "drives", "loads", "assembly", "gravity", "units", "answers", "title", "friction", "g", "space")
+odd_trees = st.recursive(
+    scalars,
+    lambda x: st.lists(x, max_size=3) | st.dictionaries(st.text(max_size=6), x, max_size=3),
+    max_leaves=6,
+)
+KEYS = (
+    "links",
+    "joints",
+    "drives",
+    "loads",
+    "assembly",
+    "gravity",
+    "units",
+    "answers",
+    "title",
+    "friction",
+    "g",
+    "space",
+)
 
 
 @settings(max_examples=100, deadline=None)
@@ -82,7 +104,11 @@ def test_any_value_under_any_key(key: str, value: Any) -> None:
 
 
 @settings(max_examples=100, deadline=None)
-@given(st.sampled_from(sorted(("crank", "coupler", "rocker"))), st.sampled_from(("points", "mass", "center", "inertia")), odd_trees)
+@given(
+    st.sampled_from(sorted(("crank", "coupler", "rocker"))),
+    st.sampled_from(("points", "mass", "center", "inertia")),
+    odd_trees,
+)
 def test_any_value_in_a_link(link: str, key: str, value: Any) -> None:
     made = bases()[0]
     check({**made, "links": {**made["links"], link: {**made["links"][link], key: value}}})

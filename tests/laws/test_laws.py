@@ -1,4 +1,4 @@
-"""The laws of mechanics on random mechanisms: 1e-9 of the largest force (times length) wherever they are well conditioned.
+"""The laws of mechanics on random, well-conditioned mechanisms, to 1e-9 of the largest force (times length).
 
 Each law runs on a few mechanisms by default and on many more with the mark ``long``.
 """
@@ -16,12 +16,29 @@ import pytest
 
 import dalembert as da
 from tests.laws.measures import (
-    difference, joint_powers, joint_wrenches, known_wrenches, shifted_moment, smooth_teeth, speed_scale, spots, state,
+    difference,
+    joint_powers,
+    joint_wrenches,
+    known_wrenches,
+    shifted_moment,
+    smooth_teeth,
+    speed_scale,
+    spots,
+    state,
 )  # fmt: skip
 from tests.oracles import lagrange
 from tests.oracles.agreement import disagreement, worst
 from tests.random_mechanisms import (
-    IN_LBF, MM_N, Drawing, Rigid, Scale, Style, exchangeable, pose_array, random_case, tree,
+    IN_LBF,
+    MM_N,
+    Drawing,
+    Rigid,
+    Scale,
+    Style,
+    exchangeable,
+    pose_array,
+    random_case,
+    tree,
 )  # fmt: skip
 
 TOLERANCE = 1e-9
@@ -99,7 +116,10 @@ def test_moving_the_machine_moves_the_answers(seed: int, motion: Rigid) -> None:
     for joint in d.joints:
         expected = np.stack(motion.vector(tuple(r.reaction(joint).T)), -1)
         assert np.max(np.abs(moved.reaction(joint) - expected)) < TOLERANCE * force
-        assert np.max(np.abs(moved.reaction_moment(joint) - r.reaction_moment(joint))) < TOLERANCE * force * length
+        assert (
+            np.max(np.abs(moved.reaction_moment(joint) - r.reaction_moment(joint)))
+            < TOLERANCE * force * length
+        )
         in_link = r.reaction(joint, axes="link"), moved.reaction(joint, axes="link")
         if d.joints[joint].j != "ground":
             assert np.max(np.abs(in_link[0] - in_link[1])) < TOLERANCE * force
@@ -179,12 +199,17 @@ def test_exchanging_i_and_j_only_flips_signs(seed: int) -> None:
     for name, joint in d.joints.items():
         sign = -1.0 if name in swapped else 1.0
         assert np.max(np.abs(sign * other.reaction(name) - r.reaction(name))) < TOLERANCE * force
-        assert np.max(np.abs(other.reaction(name, on=joint.i) + r.reaction(name, on=joint.j))) < TOLERANCE * force
+        assert (
+            np.max(np.abs(other.reaction(name, on=joint.i) + r.reaction(name, on=joint.j)))
+            < TOLERANCE * force
+        )
         moved = shifted_moment(r.reaction_moment(name), r.reaction(name), here[name], there[name])
         assert np.max(np.abs(sign * other.reaction_moment(name) - moved)) < TOLERANCE * force * length
     for name, drive in d.drives.items():
         sign = -1.0 if drive.joint in swapped else 1.0
-        assert np.max(np.abs(sign * other.effort(name) - r.effort(name))) < TOLERANCE * force * max(length, 1.0)
+        assert np.max(np.abs(sign * other.effort(name) - r.effort(name))) < TOLERANCE * force * max(
+            length, 1.0
+        )
 
 
 def exchanged_answer(seed: int) -> lagrange.Answer:
@@ -215,7 +240,9 @@ def at_position(made: dict[str, Any], r: Any, k: int) -> dict[str, Any]:
 def test_rates_are_the_differences_of_positions(seed: int) -> None:
     """Central differences over five positions in time, of fourth order."""
     case, h = random_case(seed), 2e-3
-    d = replace(case.drawing, drives={k: replace(v, steps=in_time(v, h)) for k, v in case.drawing.drives.items()})
+    d = replace(
+        case.drawing, drives={k: replace(v, steps=in_time(v, h)) for k, v in case.drawing.drives.items()}
+    )
     r, length = da.kinematics(da.mechanism(tree(d))), case.answer.length()
     assert all(r.ok), r.problems()
     speed, gain = speed_scale(case.answer), float(np.max(np.abs(case.answer.a * [1, 1, length])))

@@ -18,7 +18,7 @@ V = sp.symbols("vxi vyi wi vxj vyj wj", real=True)
 AT = sp.symbols("aix aiy ajx ajy", real=True)
 DIRECTION, ANGLE, RI, RJ, PHASE, START = sp.symbols("direction angle ri rj phase start", real=True)
 PARAMETERS = (*AT, DIRECTION, ANGLE, RI, RJ, PHASE, START)
-"""``ri, rj``: signed radii of i and j; ``phase``: the mesh constant; ``start``: a direction near the line of centres."""
+"""``ri, rj``: signed radii of i and j; ``phase``: mesh constant; ``start``: a direction near the line of centres."""
 
 
 def _gap() -> sp.Matrix:
@@ -80,7 +80,10 @@ def compiled(kind: str) -> Callable[..., Any]:
     k = len(phi)
 
     def evaluated(q: Any, v: Any, parameters: Any) -> Any:
-        out = np.stack([np.broadcast_to(x, q[0].shape) for x in flat(q, v, parameters)], -1)
+        values = flat(q, v, parameters)
+        out = np.empty((*q[0].shape, len(values)), q[0].dtype)
+        for n, value in enumerate(values):
+            out[..., n] = value
         return out[..., :k], out[..., k : 7 * k].reshape(*out.shape[:-1], k, 6), out[..., 7 * k :]
 
     return evaluated

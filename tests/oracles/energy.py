@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tests.oracles.jets import Jet, Kinematics, jet
-from tests.oracles.reading import Array, Machine, machine, Tree
+from tests.oracles.reading import Array, Machine, Tree, machine
 from tests.oracles.wrenches import known
 
 
@@ -33,7 +33,9 @@ def solve(tree: Tree, kinematics: Kinematics, inertia: bool = True) -> Motion:
     w = known(m, q, v, a if inertia else None)
     efforts = {}
     for k, drive in enumerate(m.drives):
-        alone = [Jet(d.position, np.full_like(d.speed, float(n == k)), 0 * d.speed) for n, d in enumerate(m.drives)]
+        alone = [
+            Jet(d.position, np.full_like(d.speed, float(n == k)), 0 * d.speed) for n, d in enumerate(m.drives)
+        ]
         efforts[drive.name] = -np.sum(w * _states(m, kinematics, alone)[1], (1, 2))
     return Motion(q, v, a, efforts)
 
@@ -44,5 +46,7 @@ def _states(m: Machine, kinematics: Kinematics, driven: list[Jet]) -> list[Array
     for link, pose in poses.items():
         for k, part in enumerate(pose):
             j = jet(part)
-            state[:, :, m.links.index(link), k] = np.stack(np.broadcast_arrays(j.x + 0 * driven[0].x, j.v, j.a))
+            state[:, :, m.links.index(link), k] = np.stack(
+                np.broadcast_arrays(j.x + 0 * driven[0].x, j.v, j.a)
+            )
     return list(state)

@@ -82,7 +82,15 @@ def four_bar(
 
 
 def slider_crank(
-    r: float, l: float, e: float, bodies: tuple[Body, Body], piston: float, load: float, t2: float, w2: float, al2: float  # noqa: E741
+    r: float,
+    l: float,  # noqa: E741
+    e: float,
+    bodies: tuple[Body, Body],
+    piston: float,
+    load: float,
+    t2: float,
+    w2: float,
+    al2: float,
 ) -> dict[str, float]:
     """Piston pin on the line y = e; ``load`` on the piston along x through its pin, where its mass centre is."""
     p, q = bodies

@@ -52,26 +52,35 @@ class Row:
 def solve(tree: Tree, guess: Array, inertia: bool = True) -> Answer:
     """The answer at every position; ``guess`` (P, L, 3) chooses the assembly mode and the phase of meshes."""
     m = machine(tree)
-    rows = [*(_joint_row(j, guess) for j in m.joints), *_drive_rows(m)]
-    q = _closed(rows, guess.astype(np.longdouble))
-    _, J, _ = _system(rows, q, np.zeros_like(q))
-    v = _full(_solved(J, _stacked(rows, "speed", q)))
-    _, _, gamma = _system(rows, q, v)
-    a = _full(_solved(J, gamma + _stacked(rows, "acceleration", q)))
+    all_rows = [*rows(m, guess), *_drive_rows(m)]
+    q = _closed(all_rows, guess.astype(np.longdouble))
+    _, J, _ = _system(all_rows, q, np.zeros_like(q))
+    v = _full(_solved(J, _stacked(all_rows, "speed", q)))
+    _, _, gamma = _system(all_rows, q, v)
+    a = _full(_solved(J, gamma + _stacked(all_rows, "acceleration", q)))
     w = known(m, q, v, a if inertia else None)
-    multipliers = _multipliers(m, rows, J, w, q)
-    forces, moments, efforts = _reactions(m, rows, multipliers, q)
+    multipliers = _multipliers(all_rows, J, w, q)
+    forces, moments, efforts = _reactions(all_rows, multipliers, q)
     return Answer(m, *(np.asarray(x, float) for x in (q, v, a)), forces, moments, efforts, _condition(J, q))
 
 
 def quality(tree: Tree, pose: Array) -> tuple[float, Array, Array]:
     """Condition of J, speeds and accelerations at a pose (1, L, 3) that closes: cheap, in double precision."""
     m = machine(tree)
-    rows = [*(_joint_row(j, pose) for j in m.joints), *_drive_rows(m)]
-    rows = [Row(r.name, r.kind, r.joint, r.parameters, *(np.ravel(x)[0] for x in (r.position, r.speed, r.acceleration))) for r in rows]
-    J = _system(rows, pose, 0 * pose)[1]
-    v = _full(np.linalg.solve(J, _stacked(rows, "speed", pose)[..., None])[..., 0])
-    gamma = _system(rows, pose, v)[2] + _stacked(rows, "acceleration", pose)
+    drawn = [*rows(m, pose), *_drive_rows(m)]
+    first = [
+        Row(
+            r.name,
+            r.kind,
+            r.joint,
+            r.parameters,
+            *(np.ravel(x)[0] for x in (r.position, r.speed, r.acceleration)),
+        )
+        for r in drawn
+    ]
+    J = _system(first, pose, 0 * pose)[1]
+    v = _full(np.linalg.solve(J, _stacked(first, "speed", pose)[..., None])[..., 0])
+    gamma = _system(first, pose, v)[2] + _stacked(first, "acceleration", pose)
     return _condition(J, pose), v, _full(np.linalg.solve(J, gamma[..., None])[..., 0])
 
 
@@ -82,12 +91,26 @@ def _condition(J: Array, q: Array) -> float:
     return float(np.max(np.linalg.cond(scaled / np.linalg.norm(scaled, axis=-1, keepdims=True))))
 
 
+def rows(m: Machine, guess: Array) -> list[Row]:
+    """The joints' rows; ``guess`` gives the phase of meshes and rolling wheels."""
+    return [_joint_row(joint, guess) for joint in m.joints]
+
+
 def _joint_row(joint: Joint, guess: Array) -> Row:
     kind, ri, rj = _radii(joint)
     d = placed(guess, joint.j, joint.at_j) - placed(guess, joint.i, joint.at_i)
     start = np.arctan2(d[:, 1], d[:, 0])
     start = np.unwrap(start)
-    parameters = [*joint.at_i, *joint.at_j, joint.angle("direction"), joint.angle("angle"), ri, rj, 0.0, start]
+    parameters = [
+        *joint.at_i,
+        *joint.at_j,
+        joint.angle("direction"),
+        joint.angle("angle"),
+        ri,
+        rj,
+        0.0,
+        start,
+    ]
     if kind in ("gear", "rolling", "rolling_circle"):
         at_first = _evaluate(Row(joint.name, kind, joint, tuple(parameters)), guess, 0 * guess)[0]
         parameters[8] = at_first[0, -1]
@@ -171,8 +194,8 @@ def _stacked(rows: list[Row], rate: str, q: Array) -> Array:
     return np.concatenate(columns, 1).astype(q.dtype)
 
 
-def _multipliers(m: Machine, rows: list[Row], J: Array, w: Array, q: Array) -> dict[str, tuple[Array, Array]]:
-    """Row name -> (multipliers, extra wrench on j): the radial tooth force follows the tangential one."""
+def _multipliers(rows: list[Row], J: Array, w: Array, q: Array) -> dict[tuple[str, str], tuple[Array, Array]]:
+    """(name, kind) of a row -> (multipliers, extra wrench on j): the radial tooth force follows the tangential one."""
     flat = lambda wrench: wrench[:, 1:].reshape(len(w), -1)  # noqa: E731
     across = _split(rows, _solved(np.swapaxes(J, 1, 2), -flat(w)))
     radial = {r.name: _radial(r, across[r.name, r.kind], q) for r in rows if r.kind == "gear"}
@@ -220,8 +243,12 @@ def _on_both(row: Row, force: Array, q: Array) -> Array:
     return w
 
 
-def _reactions(m: Machine, rows: list[Row], multipliers, q: Array):  # type: ignore[no-untyped-def]
-    forces, moments, efforts = {}, {}, {}
+def _reactions(
+    rows: list[Row], multipliers: dict[tuple[str, str], tuple[Array, Array]], q: Array
+) -> tuple[dict[str, Array], dict[str, Array], dict[str, Array]]:
+    forces: dict[str, Array] = {}
+    moments: dict[str, Array] = {}
+    efforts: dict[str, Array] = {}
     for row in rows:
         values, extra = multipliers[row.name, row.kind]
         if row.kind in ("turn", "slide"):

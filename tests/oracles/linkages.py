@@ -6,7 +6,20 @@ from math import radians
 
 from tests.oracles.jets import Jet, Pose, at, circles, heading, line_circle
 from tests.oracles.parts import (
-    Example, couple, damper, force, gear, ground, link, pin, slider, slot, sliding, spring, tree, turning,
+    Example,
+    couple,
+    damper,
+    force,
+    gear,
+    ground,
+    link,
+    pin,
+    slider,
+    sliding,
+    slot,
+    spring,
+    tree,
+    turning,
 )  # fmt: skip
 
 COUNT = 24
@@ -114,7 +127,10 @@ def stephenson3() -> Example:
         "O4": pin("ground", "rocker"), "P": pin("coupler", "rod"), "E": pin("output", "rod"),
         "O6": pin("ground", "output"),
     }  # fmt: skip
-    loads = {"T": couple("output", 7.0), "D": {"type": "torsion_damper", "joint": "O6", "damping": "0.8 N*m*s/rad"}}
+    loads = {
+        "T": couple("output", 7.0),
+        "D": {"type": "torsion_damper", "joint": "O6", "damping": "0.8 N*m*s/rad"},
+    }
     made = tree(links, joints, {"O2": turning(0.0, 360.0, COUNT, -14.0, 0.0)}, loads)
 
     def kinematics(t: Jet) -> dict[str, Pose]:
@@ -153,7 +169,10 @@ def five_bar(geared: bool = False) -> Example:
     made = tree(links, joints, drives, loads)
 
     def kinematics(t1: Jet, t5: Jet | None = None) -> dict[str, Pose]:
-        left, right = (0.0, 0.0, t1), (0.24, 0.0, radians(60.0) - 2.0 * (t1 - radians(20.0)) if t5 is None else t5)
+        left, right = (
+            (0.0, 0.0, t1),
+            (0.24, 0.0, radians(60.0) - 2.0 * (t1 - radians(20.0)) if t5 is None else t5),
+        )
         a, b = at(left, 0.07, 0), at(right, 0.06, 0)
         c = circles(a, 0.22, b, 0.24, 1)
         return {"left": left, "first": (*a, heading(a, c)), "second": (*b, heading(b, c)), "right": right}
@@ -207,7 +226,9 @@ def slotted_rod() -> Example:
         "O": pin("ground", "crank"), "A": pin("rod", "crank"),
         "B": slot("ground", "rod", -10.0, at=["S", "B"], damping={"slide": 5.0}),
     }  # fmt: skip
-    made = tree(links, joints, {"O": turning(0.0, 360.0, COUNT, 20.0, 0.0)}, {"F": force("rod", "T", [50.0, 40.0])})
+    made = tree(
+        links, joints, {"O": turning(0.0, 360.0, COUNT, 20.0, 0.0)}, {"F": force("rod", "T", [50.0, 40.0])}
+    )
 
     def kinematics(t: Jet) -> dict[str, Pose]:
         crank = (0.0, 0.0, t)

@@ -7,7 +7,18 @@ from math import pi, radians
 from tests.oracles.jets import Jet, Pose, at, atan2, cos, heading, jet, line_circle, sin, sqrt
 from tests.oracles.linkages import COUNT
 from tests.oracles.parts import (
-    Example, couple, force, gear, ground, link, pin, slider, slot, spring, tree, turning,
+    Example,
+    couple,
+    force,
+    gear,
+    ground,
+    link,
+    pin,
+    slider,
+    slot,
+    spring,
+    tree,
+    turning,
 )  # fmt: skip
 
 
@@ -66,7 +77,8 @@ def shaper() -> Example:
     }
     joints = {
         "O2": pin("ground", "crank"), "A": slot("lever", "crank", 0.0, at=["O4", "A"]), "O4": pin("ground", "lever"),
-        "B": pin("lever", "rod"), "C": pin("rod", "ram"), "S": slider("ground", "ram", 180.0, at=["S", "C"], angle=-180.0),
+        "B": pin("lever", "rod"), "C": pin("rod", "ram"),
+        "S": slider("ground", "ram", 180.0, at=["S", "C"], angle=-180.0),
     }  # fmt: skip
     loads = {"cut": force("ram", "T", [1200.0, -200.0])}
     made = tree(links, joints, {"O2": turning(0.0, 360.0, COUNT, 6.0, 5.0)}, loads)
@@ -122,7 +134,12 @@ def rolling_wheel() -> Example:
         "O": pin("ground", "crank"), "A": pin("crank", "rod"), "W": pin("rod", "wheel"),
         "R": {"type": "rolling", "links": ["ground", "wheel"], "at": ["S", "W"], "direction": 5.0, "radius": 0.06},
     }  # fmt: skip
-    made = tree(links, joints, {"O": turning(0.0, 360.0, COUNT, 11.0, 9.0)}, {"F": force("wheel", [0.02, 0.0], [30.0, -60.0])})
+    made = tree(
+        links,
+        joints,
+        {"O": turning(0.0, 360.0, COUNT, 11.0, 9.0)},
+        {"F": force("wheel", [0.02, 0.0], [30.0, -60.0])},
+    )
     c, s = float(cos(jet(radians(5.0))).x), float(sin(jet(radians(5.0))).x)
     start = (0.2 - 0.06 * s, -0.1 + 0.06 * c)
 
@@ -160,8 +177,12 @@ def scissor(stages: int = 3, count: int = COUNT) -> Example:
     joints = {"U0": pin("ground", "up1"), "V0": slot("ground", "down1", 0.0)}
     for k in range(1, stages + 1):
         ends = {"left": f"U{k}", "right": f"V{k}"}
-        links[f"up{k}"] = link(1.5, (0.5, 0.01), 0.13, **{f"U{k - 1}": (0, 0), "X": (0.5, 0), ends["right"]: (1, 0)})
-        links[f"down{k}"] = link(1.4, (0.5, 0.0), 0.12, **{f"V{k - 1}": (0, 0), "X": (0.5, 0), ends["left"]: (1, 0)})
+        links[f"up{k}"] = link(
+            1.5, (0.5, 0.01), 0.13, **{f"U{k - 1}": (0, 0), "X": (0.5, 0), ends["right"]: (1, 0)}
+        )
+        links[f"down{k}"] = link(
+            1.4, (0.5, 0.0), 0.12, **{f"V{k - 1}": (0, 0), "X": (0.5, 0), ends["left"]: (1, 0)}
+        )
         joints[f"X{k}"] = pin(f"up{k}", f"down{k}", at="X")
         if k < stages:
             joints[f"U{k}"] = pin(f"down{k}", f"up{k + 1}")

@@ -19,7 +19,12 @@ class Example:
 
 
 def link(mass: float, center: tuple[float, float], inertia: float, **points: tuple[float, float]) -> Tree:
-    return {"points": {k: list(p) for k, p in points.items()}, "mass": mass, "center": list(center), "inertia": inertia}
+    return {
+        "points": {k: list(p) for k, p in points.items()},
+        "mass": mass,
+        "center": list(center),
+        "inertia": inertia,
+    }
 
 
 def ground(**points: tuple[float, float]) -> Tree:
@@ -51,7 +56,11 @@ def turning(start: float, end: float, count: int, speed: float, acceleration: fl
 
 
 def sliding(start: float, end: float, count: int, speed: float, acceleration: float) -> Tree:
-    return {"position": {"from": start, "to": end, "count": count}, "speed": speed, "acceleration": acceleration}
+    return {
+        "position": {"from": start, "to": end, "count": count},
+        "speed": speed,
+        "acceleration": acceleration,
+    }
 
 
 def force(on: str, at: Any, value: Any, **more: Any) -> Tree:
@@ -70,7 +79,9 @@ def damper(a: str, b: str, damping: float) -> Tree:
     return {"type": "damper", "between": [a, b], "damping": damping}
 
 
-def tree(links: Tree, joints: Tree, drives: Tree, loads: Tree | None = None, gravity: Any = "standard") -> Tree:
+def tree(
+    links: Tree, joints: Tree, drives: Tree, loads: Tree | None = None, gravity: Any = "standard"
+) -> Tree:
     return {
         "dalembert": 1, "gravity": gravity, "links": links, "joints": joints, "drives": drives, "loads": loads or {},
     }  # fmt: skip

@@ -91,7 +91,10 @@ def machine(tree: Tree) -> Machine:
     """The machine of a tree whose units are SI and degrees."""
     links = ("ground", *(name for name in tree["links"] if name != "ground"))
     trees = [tree["links"].get(name, {}) for name in links]
-    points = {name: {k: vector(p) for k, p in t.get("points", {}).items()} for name, t in zip(links, trees, strict=True)}
+    points = {
+        name: {k: vector(p) for k, p in t.get("points", {}).items()}
+        for name, t in zip(links, trees, strict=True)
+    }
     return Machine(
         links=links,
         points=points,
@@ -122,7 +125,12 @@ def _drives(tree: Tree) -> tuple[Drive, ...]:
     drives = [_drive(name, t, tree["joints"]) for name, t in tree.get("drives", {}).items()]
     count = max((len(d.position) for d in drives), default=1)
     return tuple(
-        Drive(d.name, d.joint, d.freedom, *(np.broadcast_to(x, count) for x in (d.position, d.speed, d.acceleration)))
+        Drive(
+            d.name,
+            d.joint,
+            d.freedom,
+            *(np.broadcast_to(x, count) for x in (d.position, d.speed, d.acceleration)),
+        )
         for d in drives
     )
 

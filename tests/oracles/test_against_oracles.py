@@ -55,7 +55,11 @@ def test_four_bar_is_the_nine_equations_over_a_turn() -> None:
         "O2": pin("ground", "crank"), "A": pin("crank", "coupler"), "B": pin("coupler", "rocker"),
         "O4": pin("ground", "rocker"),
     }  # fmt: skip
-    drive = {"position": {"from": 0, "to": 360, "count": count}, "speed": "21 rad/s", "acceleration": "-90 rad/s^2"}
+    drive = {
+        "position": {"from": 0, "to": 360, "count": count},
+        "speed": "21 rad/s",
+        "acceleration": "-90 rad/s^2",
+    }
     loads = {"F": force("coupler", "center", [80.0, -140.0]), "T": couple("rocker", 13.0)}
     made = tree(links, joints, {"O2": drive}, loads, gravity="none")
     expected = [
@@ -84,7 +88,11 @@ def test_slider_crank_is_the_hand_calculation_over_a_turn() -> None:
         "O": pin("ground", "crank"), "A": pin("crank", "rod"), "B": pin("rod", "piston"),
         "S": slider("ground", "piston", 0.0, at=["S", "B"]),
     }  # fmt: skip
-    drive = {"position": {"from": 0, "to": 360, "count": count}, "speed": "50 rad/s", "acceleration": "200 rad/s^2"}
+    drive = {
+        "position": {"from": 0, "to": 360, "count": count},
+        "speed": "50 rad/s",
+        "acceleration": "200 rad/s^2",
+    }
     made = tree(links, joints, {"O": drive}, {"gas": force("piston", "B", [-900.0, 0.0])}, gravity="none")
     made["assembly"] = {"rod": 4.0}
     r = da.dynamics(da.mechanism(made))
@@ -102,7 +110,9 @@ def test_slider_crank_is_the_hand_calculation_over_a_turn() -> None:
 
 
 def vectors(r: da.Result, **joints: str) -> dict[str, np.ndarray]:
-    return {f"{name}{c}": r.reaction(joint)[:, k] for name, joint in joints.items() for k, c in enumerate("xy")}
+    return {
+        f"{name}{c}": r.reaction(joint)[:, k] for name, joint in joints.items() for k, c in enumerate("xy")
+    }
 
 
 def check(found: dict[str, np.ndarray], expected: list[dict[str, float]]) -> None:

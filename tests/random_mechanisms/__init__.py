@@ -3,7 +3,8 @@
 Links are added in groups that neither add nor take freedoms beyond their drives, so the mobility is the number of
 drives, nothing is redundant, and the drawn configuration is one position in closed form.
 
-``random_case(seed)`` -> drawing, tree in SI, the oracle's answer;  ``tree(drawing, ...)`` -> model tree, moved, in other units, exchanged.
+``random_case(seed)`` -> drawing, tree in SI, the oracle's answer
+``tree(drawing, ...)`` -> model tree, moved, in other units, with loads scaled, joints' i and j exchanged
 """
 
 from tests.random_mechanisms.drawing import Drawing, Rigid

@@ -80,7 +80,10 @@ def _moved(d: Drawing, m: Rigid) -> Drawing:
     poses = {k: (*m.point(p[:2]), p[2] + m.turn) if k != "ground" else p for k, p in d.poses.items()}
     spots = {link: {k: m.point(p) for k, p in points.items()} for link, points in d.spots.items()}
     joints = {k: Joint(**{**vars(j), "direction": j.direction + m.turn}) for k, j in d.joints.items()}
-    loads = {k: load if load.follows else Load(**{**vars(load), "vector": m.vector(load.vector)}) for k, load in d.loads.items()}
+    loads = {
+        k: load if load.follows else Load(**{**vars(load), "vector": m.vector(load.vector)})
+        for k, load in d.loads.items()
+    }
     return Drawing(poses, spots, joints, d.drives, loads, d.masses, m.vector(d.gravity), d.seed)
 
 
@@ -122,7 +125,11 @@ class _Writer:
         j = self.d.joints[name]
         swapped = name in self.exchange
         i, k = (j.j, j.i) if swapped else (j.i, j.j)
-        made: Tree = {"type": j.type, "links": [i, k], "at": [j.at_j, j.at_i] if swapped else [j.at_i, j.at_j]}
+        made: Tree = {
+            "type": j.type,
+            "links": [i, k],
+            "at": [j.at_j, j.at_i] if swapped else [j.at_i, j.at_j],
+        }
         direction = j.direction - self.d.poses[i][2]
         turn = self.d.poses[k][2] - self.d.poses[i][2]
         if j.type in ("slider", "slot") or (j.type == "rolling" and not j.radii[0]):
@@ -152,7 +159,9 @@ class _Writer:
         sign = -1.0 if drive.joint in self.exchange else 1.0
         start, turns = self._start(self.d.joints[drive.joint], drive.freedom), drive.freedom == "turn"
         positions = [sign * (start + step) for step in drive.steps]
-        speed, gain = (sign * x for x in (drive.speed * self.scale.speeds, drive.acceleration * self.scale.speeds**2))
+        speed, gain = (
+            sign * x for x in (drive.speed * self.scale.speeds, drive.acceleration * self.scale.speeds**2)
+        )
         return {
             "joint": drive.joint,
             "freedom": drive.freedom,
