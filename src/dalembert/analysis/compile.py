@@ -318,7 +318,7 @@ def joint_damping(joint: Any) -> dict[str, float]:
         return {}
     if isinstance(damping, int | float):
         return {table.FREEDOMS[joint.type][0]: float(damping)}
-    return {k: float(v) for k, v in dict(damping).items() if v}
+    return {k: float(v) for k, v in zip(table.FREEDOMS[joint.type], damping, strict=True) if v}
 
 
 def _known(
