@@ -1,0 +1,67 @@
+"""What the user, the file and the web page write: a frozen description, in SI and radians inside.
+
+>>> from dalembert.model import loads
+>>> loads("{links: {ground: {}, bar: {mass: 2 lbm}}}").mass("bar")
+0.90718474
+"""
+
+from dalembert.model.answers import Answer
+from dalembert.model.drives import Drive, Range
+from dalembert.model.expressions import Expression
+from dalembert.model.files import convert, load, loads, read_file, read_text, save_tree, tree_text
+from dalembert.model.friction import FrictionDefaults, GuideFriction, PinFriction, SlotFriction
+from dalembert.model.joints import Gear, Joint, Pin, Rolling, Slider, Slot, SpaceJoint, Weld
+from dalembert.model.laws import Rise, TimeTable
+from dalembert.model.link import Link, Offset
+from dalembert.model.loads import Couple, Damper, ForceLoad, Load, Spring, TorsionDamper, TorsionSpring
+from dalembert.model.mechanism import Mechanism, mechanism
+from dalembert.model.messages import ModelErrors
+from dalembert.model.schedule import Schedule
+from dalembert.model.schema import json_schema
+from dalembert.model.tables import Table
+from dalembert.model.values import Varying, value_at
+
+__all__ = [
+    "Answer",
+    "Couple",
+    "Damper",
+    "Drive",
+    "Expression",
+    "ForceLoad",
+    "FrictionDefaults",
+    "Gear",
+    "GuideFriction",
+    "Joint",
+    "Link",
+    "Load",
+    "Mechanism",
+    "ModelErrors",
+    "Offset",
+    "Pin",
+    "PinFriction",
+    "Range",
+    "Rise",
+    "Rolling",
+    "Schedule",
+    "Slider",
+    "Slot",
+    "SlotFriction",
+    "SpaceJoint",
+    "Spring",
+    "Table",
+    "TimeTable",
+    "TorsionDamper",
+    "TorsionSpring",
+    "Varying",
+    "Weld",
+    "convert",
+    "json_schema",
+    "load",
+    "loads",
+    "mechanism",
+    "read_file",
+    "read_text",
+    "save_tree",
+    "tree_text",
+    "value_at",
+]

@@ -1,0 +1,76 @@
+"""The answers a file claims for itself, to be compared with what is computed."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import Field, ValidationInfo, field_validator
+
+from dalembert.errors import ModelError
+from dalembert.model.part import Part
+from dalembert.wording import shown
+
+Quantity = Literal[
+    "effort",
+    "reaction",
+    "moment",
+    "unknown_load",
+    "position",
+    "angle",
+    "speed",
+    "acceleration",
+    "center",
+    "center_velocity",
+    "center_acceleration",
+    "point",
+    "point_velocity",
+    "point_acceleration",
+    "drive",
+    "slide",
+    "slide_speed",
+    "slide_acceleration",
+    "turn",
+    "turn_speed",
+    "turn_acceleration",
+    "residual",
+    "status",
+    "count",
+    "mobility",
+]
+
+
+class Answer(Part):
+    """One claimed value; numbers and texts stay as written, in the file's units.
+
+    >>> Answer(quantity="effort", of="O2", value="243.23 lbf*in", tolerance="0.01 %").of
+    'O2'
+    """
+
+    quantity: Quantity = Field(description="what is claimed")
+    of: str | None = Field(None, description="of which joint, drive, load, link or link.point")
+    on: str | None = Field(None, description="the link a reaction acts on; default the joint's j")
+    by: str | None = Field(None, description="the link a reaction is exerted by")
+    at: Any = Field(None, description="position: its number from 1, or the drive's value as text")
+    extreme: Literal["max", "min", "maxabs"] | None = Field(
+        None, description="over all positions, in place of at"
+    )
+    component: Literal["x", "y", "z", "magnitude", "direction"] | None = Field(
+        None, description="of a vector; without it the whole vector"
+    )
+    axes: Literal["ground", "link"] = Field("ground", description="the axes of a vector")
+    value: Any = Field(None, description="as published: number, text with unit, [x, y], r @ angle, a status")
+    exact: Any = Field(None, description="the exact value, computed independently; checked to 1e-7")
+    tolerance: Any = Field(None, description="relative, 0.3 %, or a quantity; default 1e-6 relative")
+    exact_tolerance: Any = Field(None, description="in place of 1e-7 relative")
+    why: str | None = Field(None, description="the reason of the tolerance")
+
+    @field_validator("value", "exact", "at", "tolerance", "exact_tolerance")
+    @classmethod
+    def _plain(cls, value: Any, info: ValidationInfo) -> Any:
+        items = value if isinstance(value, (list, tuple)) else (value,)
+        for item in items:
+            if item is not None and (isinstance(item, bool) or not isinstance(item, (int, float, str))):
+                raise ModelError(
+                    f"{shown(item)} is no value", "write a number, a text with its unit, or a list of them"
+                )
+        return tuple(items) if isinstance(value, list) else value

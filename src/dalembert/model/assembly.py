@@ -1,0 +1,87 @@
+"""Approximate poses of links, which choose the assembly mode."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import ValidationInfo
+
+from dalembert.errors import ModelError
+from dalembert.model.part import mapping, reading
+from dalembert.model.values import (
+    NUMBER_OR_TEXT,
+    JsonSchema,
+    Value,
+    Vector,
+    at_item,
+    vector,
+    vector_schema,
+    written,
+)
+from dalembert.units import quantity
+
+
+@dataclass(frozen=True, slots=True)
+class SpacePose:
+    """A pose in space: position, and a turn about an axis."""
+
+    position: Vector
+    axis: Vector
+    angle: float
+
+
+Pose = float | tuple[float, float, float] | SpacePose
+
+
+class PoseValue(Value):
+    """An angle, `[x, y, angle]`, in space `{position, axis, angle}`."""
+
+    def read(self, value: Any, info: ValidationInfo) -> Pose:
+        rules = reading(info)
+        if isinstance(value, SpacePose):
+            return value
+        if isinstance(value, Mapping):
+            return _in_space(
+                mapping(value, ["position", "axis", "angle"], ""), type(rules)(rules.units, {}, 3)
+            )
+        if not isinstance(value, (list, tuple)):
+            return quantity(value, "angle", rules.units)
+        if len(value) != 3:
+            raise ModelError(f"a list of {len(value)} is no pose", "write an angle, or [x, y, angle]")
+        kinds = ("length", "length", "angle")
+        x, y, angle = (
+            at_item(i, quantity, item, kind, rules.units)
+            for i, (item, kind) in enumerate(zip(value, kinds, strict=True))
+        )
+        return x, y, angle
+
+    def write(self, value: Pose) -> Any:
+        if isinstance(value, tuple):
+            return [written(value[0], "length"), written(value[1], "length"), written(value[2], "angle")]
+        if isinstance(value, SpacePose):
+            position = [written(x, "length") for x in value.position]
+            return {"position": position, "axis": list(value.axis), "angle": written(value.angle, "angle")}
+        return written(value, "angle")
+
+    def json_schema(self) -> JsonSchema:
+        space = {
+            "type": "object",
+            "properties": {
+                "position": vector_schema() | {"description": "of the link's origin, lengths"},
+                "axis": vector_schema() | {"description": "about which it is turned"},
+                "angle": NUMBER_OR_TEXT | {"description": "by which it is turned"},
+            },
+            "additionalProperties": False,
+        }
+        pose = {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 3, "maxItems": 3}
+        return {"anyOf": [NUMBER_OR_TEXT, pose, space]}
+
+
+def _in_space(keys: Mapping[str, Any], rules: Any) -> SpacePose:
+    return SpacePose(
+        at_item("position", vector, keys.get("position", (0.0, 0.0, 0.0)), "length", rules),
+        at_item("axis", vector, keys.get("axis", (0.0, 0.0, 1.0)), "number", rules),
+        at_item("angle", quantity, keys.get("angle", 0.0), "angle", rules.units),
+    )

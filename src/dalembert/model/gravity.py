@@ -1,0 +1,41 @@
+"""Gravity: none, standard, or a vector."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import ValidationInfo
+
+from dalembert.errors import ModelError
+from dalembert.model.part import reading
+from dalembert.model.values import JsonSchema, Value, Vector, vector, vector_schema, written
+from dalembert.wording import closest, shown
+
+STANDARD = 9.80665
+"""Standard acceleration of gravity, m/s2."""
+
+Gravity = Vector | Literal["standard"] | None
+
+
+class GravityValue(Value):
+    """`none`, `standard`, or a vector of accelerations."""
+
+    def read(self, value: Any, info: ValidationInfo) -> Gravity:
+        if value is None or value == "none":
+            return None
+        if value == "standard":
+            return "standard"
+        if isinstance(value, str) and "@" not in value:
+            raise ModelError(
+                f"{shown(value)} says no direction",
+                closest(value, ["none", "standard"]) + "; or write a vector, gravity: [0, -9.81]",
+            )
+        return vector(value, "acceleration", reading(info))
+
+    def write(self, value: Gravity) -> Any:
+        if isinstance(value, tuple):
+            return [written(x, "acceleration") for x in value]
+        return value or "none"
+
+    def json_schema(self) -> JsonSchema:
+        return {"anyOf": [{"enum": ["none", "standard"]}, *vector_schema()["anyOf"]]}

@@ -1,0 +1,266 @@
+"""The description of a mechanism: what the user, the file and the web page write, frozen."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
+
+from dalembert.errors import ModelError
+from dalembert.model.answers import Answer
+from dalembert.model.assembly import Pose, PoseValue
+from dalembert.model.checks import problems
+from dalembert.model.drives import Drive
+from dalembert.model.friction import FrictionDefaults
+from dalembert.model.gravity import STANDARD, Gravity, GravityValue
+from dalembert.model.joints import Joint, refuse_unfinished
+from dalembert.model.link import Link
+from dalembert.model.loads import Damper, ForceLoad, Load, Spring
+from dalembert.model.messages import together
+from dalembert.model.names import drive_freedoms, with_freedoms
+from dalembert.model.part import Part, Reading
+from dalembert.model.paths import replaced
+from dalembert.model.schedule import Schedule, schedule
+from dalembert.model.source import Source
+from dalembert.model.values import JsonSchema, Name, Scalar, Value, Vector, at_item
+from dalembert.units import Units, file_units
+from dalembert.wording import shown
+
+
+class UnitsValue(Value):
+    """The file's units."""
+
+    def read(self, value: Any, info: ValidationInfo) -> Units:
+        return file_units(value)
+
+    def write(self, value: Units) -> Any:
+        return value.tree()
+
+    def json_schema(self) -> JsonSchema:
+        said = {"length": "m", "force": "N", "mass": "kg", "time": "s", "angle": "deg"}
+        return {
+            "type": "object",
+            "properties": {
+                key: {"type": "string", "description": f"unit of bare numbers; default {unit}"}
+                for key, unit in said.items()
+            },
+            "additionalProperties": False,
+        }
+
+
+class Mechanism(Part):
+    """Links, joints, drives and loads, in SI and radians; no analysis alters it.
+
+    In Python bare numbers are SI and radians, texts carry their unit; a file's own rules are those of `load`.
+
+    >>> from dalembert.model import Drive, Link, Pin
+    >>> mechanism = Mechanism(
+    ...     links={"ground": Link(points={"O": (0, 0)}), "arm": Link(points={"O": (0, 0)}, mass=2, center=(1, 0))},
+    ...     joints={"O": Pin(links=("ground", "arm"))},
+    ...     drives={"O": Drive(position="30 deg")},
+    ...     gravity="standard",
+    ... )
+    >>> mechanism.mass("arm")
+    2.0
+    """
+
+    dalembert: Literal[1] = Field(1, description="version of this format")
+    title: str = Field("", description="what the mechanism is")
+    source_text: str = Field("", alias="source", description="where the problem comes from")
+    space: Literal["plane", "space"] = Field("plane", description="plane (default) or space")
+    units: Annotated[Units, UnitsValue()] = Field(
+        Units(), description="units of bare numbers; those left out are SI, angles degrees"
+    )
+    gravity: Annotated[Gravity, GravityValue()] = Field(
+        None, description="none (default), standard (9.80665 m/s^2 down), or a vector of accelerations"
+    )
+    g_override: Annotated[float, Scalar("acceleration", "positive")] | None = Field(
+        None,
+        alias="g",
+        description="acceleration by which weights are divided; default gravity's, or 9.80665 m/s^2",
+    )
+    links: dict[Name, Link] = Field(description="the rigid bodies; ground is the fixed one")
+    joints: dict[Name, Joint] = Field(default_factory=dict, description="how they are connected")
+    drives: dict[Name, Drive] = Field(default_factory=dict, description="what is prescribed")
+    loads: dict[Name, Load] = Field(default_factory=dict, description="forces, couples, springs, dampers")
+    friction: FrictionDefaults = Field(FrictionDefaults(), description="defaults of the joints' friction")
+    assembly: dict[Name, Annotated[Pose, PoseValue()]] = Field(
+        default_factory=dict,
+        description="approximate angle, or [x, y, angle], of links: chooses the assembly mode",
+    )
+    answers: tuple[Answer, ...] = Field((), description="published answers, compared by `check`")
+    _source: Source | None = PrivateAttr(None)
+
+    @classmethod
+    def _rules(cls, keys: Mapping[str, Any]) -> Reading:
+        return Reading(None, drive_freedoms(keys), 3 if keys.get("space") == "space" else 2)
+
+    @classmethod
+    def model_validate(cls, obj: Any, *, context: Any = None, **options: Any) -> Self:
+        """The mechanism that a tree describes, by the file's rules; raises ModelError."""
+        if context is None and isinstance(obj, Mapping):
+            context = file_rules(obj)
+        return super().model_validate(obj, context=context, **options)
+
+    @field_validator("dalembert", mode="before")
+    @classmethod
+    def _version(cls, value: Any) -> Any:
+        if value != 1 or isinstance(value, bool):
+            raise ModelError(
+                f"{shown(value)} is no version of the format that this program knows", "write dalembert: 1"
+            )
+        return value
+
+    @model_validator(mode="before")
+    @classmethod
+    def _freedoms(cls, keys: Any) -> Any:
+        if not isinstance(keys, Mapping):
+            return keys
+        for name, joint in _items(keys.get("joints")):
+            if isinstance(joint, Mapping):
+                at_item("joints", at_item, name, refuse_unfinished, joint.get("type"))
+        return with_freedoms(keys)
+
+    @model_validator(mode="after")
+    def _names(self) -> Self:
+        found = problems(self)
+        if found:
+            raise together(found)
+        return self
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the description is the same, wherever it came from."""
+        if not isinstance(other, Mechanism):
+            return NotImplemented
+        return all(getattr(self, name) == getattr(other, name) for name in type(self).model_fields)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    @property
+    def source(self) -> Source | None:
+        """The file it came from, which knows the line of each path."""
+        return self._source
+
+    @property
+    def dimension(self) -> int:
+        """Components of a vector: 2 in the plane, 3 in space."""
+        return 2 if self.space == "plane" else 3
+
+    @property
+    def gravity_vector(self) -> Vector:
+        """Acceleration of gravity in ground axes, m/s2."""
+        none = (0.0,) * self.dimension
+        if self.gravity == "standard":
+            return (*none[1:], -STANDARD)
+        return self.gravity if isinstance(self.gravity, tuple) else none
+
+    @property
+    def g(self) -> float:
+        """The acceleration by which weights are divided, m/s2."""
+        return self.g_override or math.hypot(*self.gravity_vector) or STANDARD
+
+    def point(self, link: str, point: str) -> Vector:
+        """A point in link axes, metres; `center` is the mass centre."""
+        return self.links[link].point(point)
+
+    def points(self, link: str) -> dict[str, Vector]:
+        """All points of a link in its axes, metres."""
+        return {point: self.links[link].point(point) for point in self.links[link].points}
+
+    def mass(self, link: str) -> float:
+        """Mass of a link, kg: as given, or its weight over g."""
+        part = self.links[link]
+        return part.weight / self.g if part.weight is not None else part.mass or 0.0
+
+    def center(self, link: str) -> Vector:
+        """Mass centre in link axes, metres."""
+        return self.links[link].center or (0.0,) * self.dimension
+
+    def inertia(self, link: str) -> Any:
+        """Moment of inertia about the mass centre, kg m2; in space as given."""
+        return self.links[link].inertia
+
+    def joint_points(self, joint: str) -> tuple[Vector, Vector]:
+        """A joint's points on i and on j, each in its link's axes, metres."""
+        part = self.joints[joint]
+        first, second = part.point_names(joint)
+        return self.point(part.links[0], first), self.point(part.links[1], second)
+
+    def load_points(self, load: str) -> tuple[tuple[str, Vector], tuple[str, Vector]]:
+        """Link and point in its axes of both ends of a spring or damper."""
+        part = self.loads[load]
+        assert isinstance(part, (Spring, Damper))
+        (a, first), (b, second) = part.between
+        return (a, self.point(a, first)), (b, self.point(b, second))
+
+    def load_point(self, load: str) -> Vector:
+        """The point a force acts at, in its link's axes, metres."""
+        part = self.loads[load]
+        assert isinstance(part, ForceLoad)
+        return part.at if isinstance(part.at, tuple) else self.point(part.on, part.at)
+
+    def drive_joint(self, drive: str) -> str:
+        """The joint a drive prescribes a freedom of."""
+        return self.drives[drive].joint or drive
+
+    def schedule(self, positions: int | None = None) -> Schedule:
+        """What the drives do, position by position; `positions` replaces the file's counts."""
+        return schedule(self.drives, positions)
+
+    @property
+    def has_speeds(self) -> bool:
+        """Whether some drive has a speed, an acceleration or a law, so that inertia counts."""
+        return any(drive.moves for drive in self.drives.values())
+
+    def with_values(self, values: Mapping[str, Any]) -> Mechanism:
+        """Another mechanism with some values replaced, each named by its path; bare numbers are SI and radians.
+
+        Raises ModelError for a path that does not exist.
+        """
+        found = self
+        for path, value in values.items():
+            found = replaced(found, path.split("."), value)
+        changed = Mechanism(**{name: getattr(found, name) for name in type(self).model_fields})
+        changed._source = self._source
+        return changed
+
+    def to_tree(self) -> dict[str, Any]:
+        """The description as a file's tree, every quantity as text with its SI unit; reads back equal."""
+        return self.model_dump(mode="json", by_alias=True)
+
+    def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
+        """Write it to a .yaml, .json or .toml file; raises ModelError if there is one and not `overwrite`."""
+        from dalembert.model.files import save_tree
+
+        save_tree(self.to_tree(), path, overwrite)
+
+
+def file_rules(tree: Mapping[str, Any]) -> Reading:
+    """The rules of a file: its own units, its drives' freedoms, plane or space."""
+    units = at_item("units", file_units, tree.get("units", {}))
+    return Reading(units, drive_freedoms(tree), 3 if tree.get("space") == "space" else 2)
+
+
+def mechanism(tree: Mapping[str, Any], source: Source | None = None) -> Mechanism:
+    """The mechanism that a file's tree describes, by the file's rules: its units, angles in degrees.
+
+    >>> mechanism({"links": {"ground": {}, "bar": {"mass": 1}}, "units": {"mass": "lbm"}}).mass("bar")
+    0.45359237
+    """
+    if not isinstance(tree, Mapping):
+        raise ModelError(
+            f"{shown(tree)} stands where a mapping is needed", "write links: and joints: ..."
+        ).located(source)
+    try:
+        found = Mechanism.model_validate(tree)
+    except ModelError as error:
+        raise error.located(source) from None
+    found._source = source
+    return found
+
+
+def _items(value: object) -> list[tuple[Any, Any]]:
+    return list(value.items()) if isinstance(value, Mapping) else []

@@ -1,0 +1,173 @@
+"""What is wrong with a description, as sentences: pydantic's findings and our own, most useful first."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from pydantic import ValidationError
+
+from dalembert.errors import Locator, ModelError
+from dalembert.wording import closest, shown
+
+Path = tuple[str | int, ...]
+
+SINGULAR = {
+    "links": "link",
+    "points": "point",
+    "joints": "joint",
+    "drives": "drive",
+    "loads": "load",
+    "answers": "answer",
+}
+"""Collection -> what one of its members is called."""
+
+HINTS = {
+    "links": "name the two links it connects, links: [ground, crank]",
+    "type": "say what it is, for example type: pin",
+    "on": "name the link it acts on, on: coupler",
+    "at": "name the point it acts at, at: P",
+    "value": "give it a value, or value: unknown",
+    "between": "name its two ends, between: [ground.A, rod.B]",
+    "joint": "name the joint",
+    "stiffness": "give it, for example stiffness: 2000 N/m",
+    "damping": "give it, for example damping: 30 N*s/m",
+    "direction": "give the angle it points at, direction: 30 deg",
+    "quantity": "say what is asked for, quantity: effort",
+}
+"""Missing key -> what to write."""
+
+MOST = 20
+"""How many errors are listed one by one."""
+
+
+class UnknownKey(ModelError):  # noqa: N818
+    """A key that a part of the description does not have."""
+
+
+class ModelErrors(ModelError):  # noqa: N818
+    """Several errors of one description, the most useful first, one a line."""
+
+    def __init__(self, errors: Sequence[ModelError]) -> None:
+        first = errors[0]
+        super().__init__(first.what, first.remedy, first.path, first.file, first.line)
+        self.errors = tuple(errors)
+
+    def __str__(self) -> str:
+        more = len(self.errors) - MOST
+        rest = [f"and {more} more"] if more > 0 else []
+        return "\n".join([*map(str, self.errors[:MOST]), *rest])
+
+    def located(self, source: Locator | None) -> ModelError:
+        return ModelErrors([error.located(source) for error in self.errors])
+
+
+def together(errors: Sequence[ModelError]) -> ModelError:
+    """One error for several."""
+    flat: dict[tuple[object, ...], ModelError] = {}
+    for error in errors:
+        for one in error.errors if isinstance(error, ModelErrors) else (error,):
+            flat.setdefault((one.what, one.path), one)
+    found = list(flat.values())
+    return found[0] if len(found) == 1 else ModelErrors(found)
+
+
+def place(path: Sequence[str | int]) -> str:
+    """Where in a description, in words.
+
+    >>> place(("links", "crank", "points", "A", "at", 0))
+    "item 1 of at of point 'A' of link 'crank'"
+    """
+    words: list[str] = []
+    keys = list(path)
+    while keys:
+        key = keys.pop(0)
+        if key in SINGULAR and keys and not (key == "links" and isinstance(keys[0], int)):
+            member = keys.pop(0)
+            words.append(f"{SINGULAR[str(key)]} {member + 1 if isinstance(member, int) else repr(member)}")
+        else:
+            words.append(f"item {key + 1}" if isinstance(key, int) else str(key))
+    return " of ".join(reversed(words))
+
+
+def translated(error: ValidationError, tree: object) -> ModelError:
+    """pydantic's findings about a tree as one ModelError, with paths down that tree."""
+    found = [_translated(dict(one), tree) for one in error.errors(include_url=False)]
+    ranked = sorted(enumerate(found), key=lambda pair: (pair[1][0], pair[0]))
+    return together([one for _, (_, one) in ranked])
+
+
+def _translated(one: dict[str, Any], tree: object) -> tuple[int, ModelError]:
+    path = _path(one["loc"], tree)
+    inner = one.get("ctx", {}).get("error")
+    if isinstance(inner, ModelError):
+        return _of_ours(inner, path)
+    if one["type"] == "missing":
+        return 3, _missing(path)
+    what, remedy = _sentence(one)
+    return 2, ModelError(f"{place(path)}: {what}" if path else what, remedy, path)
+
+
+def _of_ours(inner: ModelError, path: Path) -> tuple[int, ModelError]:
+    if isinstance(inner, UnknownKey):
+        where = f" in {place(path)}" if path else ""
+        return 0, ModelError(inner.what + where, inner.remedy, path + inner.path)
+    if not path:
+        return 1, inner
+    whole = path + inner.path
+    return 2, ModelError(f"{place(whole)}: {inner.what}", inner.remedy, whole)
+
+
+def _path(loc: Sequence[str | int], tree: object) -> Path:
+    """pydantic's location without the names of the alternatives it tried, which are no keys of the tree."""
+    path: list[str | int] = []
+    for step, key in enumerate(loc):
+        inner = _inside(tree, key)
+        if inner is not tree:
+            tree = inner
+        elif step < len(loc) - 1 or key == "[key]":
+            continue
+        path.append(key)
+    return tuple(path)
+
+
+def _inside(tree: object, key: str | int) -> object:
+    """What stands at a key, or the tree itself if it has no such key."""
+    if isinstance(tree, Mapping):
+        return tree.get(key, tree)
+    if isinstance(tree, (list, tuple)) and isinstance(key, int) and key < len(tree):
+        return tree[key]
+    return tree
+
+
+def _missing(path: Path) -> ModelError:
+    key = str(path[-1])
+    where = f" in {place(path[:-1])}" if path[:-1] else ""
+    return ModelError(f"the key {key!r} is missing{where}", HINTS.get(key, f"write {key}: ..."), path[:-1])
+
+
+def _sentence(one: Mapping[str, Any]) -> tuple[str, str]:
+    kind, given, ctx = one["type"], one.get("input"), one.get("ctx", {})
+    if kind == "union_tag_invalid":
+        return f"there is no type {shown(ctx['tag'])}", closest(
+            str(ctx["tag"]), _quoted(ctx["expected_tags"]), 30
+        )
+    if kind == "union_tag_not_found":
+        return "the key 'type' is missing", HINTS["type"]
+    if kind == "literal_error":
+        choices = _quoted(ctx["expected"])
+        return f"{shown(given)} is none of {', '.join(choices)}", closest(str(given), choices)
+    if kind in ("model_type", "model_attributes_type", "dict_type", "mapping_type"):
+        return f"{shown(given)} stands where a mapping is needed", "write {key: value, ...}"
+    if kind in ("tuple_type", "list_type"):
+        return f"{shown(given)} stands where a list is needed", "write [..., ...]"
+    if kind in ("bool_type", "bool_parsing"):
+        return f"{shown(given)} is neither true nor false", "write true or false"
+    if kind == "string_type":
+        return f"{shown(given)} is no text", "put it in quotes"
+    return f"{shown(given)}: {one['msg'].lower()}", ""
+
+
+def _quoted(choices: str) -> list[str]:
+    return re.findall(r"'([^']*)'", choices)

@@ -1,0 +1,118 @@
+"""What every part of a description has in common: frozen, no unknown keys, read by a file's rules or by Python's."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Self
+
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    SerializationInfo,
+    SerializerFunctionWrapHandler,
+    ValidationError,
+    ValidationInfo,
+    model_serializer,
+    model_validator,
+)
+
+from dalembert.errors import ModelError
+from dalembert.model.messages import UnknownKey, translated
+from dalembert.units import Units
+from dalembert.wording import closest, shown
+
+
+@dataclass(frozen=True)
+class Reading:
+    """The rules by which values are read.
+
+    units:     of bare numbers; None is Python's rule, SI and radians
+    freedoms:  of each drive, `turn` or `slide`: whether an angle or a length is meant
+    dimension: components of a vector; None takes 2 and 3
+    """
+
+    units: Units | None = None
+    freedoms: Mapping[str, str] = field(default_factory=dict)
+    dimension: int | None = None
+
+
+PYTHON = Reading()
+
+
+def reading(info: ValidationInfo | None) -> Reading:
+    """The rules that apply while a value is validated."""
+    context = info.context if info is not None else None
+    return context if isinstance(context, Reading) else PYTHON
+
+
+class Part(BaseModel):
+    """A part of a description: frozen; in Python bare numbers are SI and radians, texts carry their unit."""
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", validate_by_name=True, validate_by_alias=True, coerce_numbers_to_str=True
+    )
+
+    if not TYPE_CHECKING:
+
+        def __init__(self, **keys: Any) -> None:
+            try:
+                self.__pydantic_validator__.validate_python(
+                    keys, self_instance=self, context=self._rules(keys)
+                )
+            except ValidationError as error:
+                raise translated(error, keys) from None
+
+        __init__.__pydantic_base_init__ = True
+
+    @classmethod
+    def _rules(cls, keys: Mapping[str, Any]) -> Reading:
+        return PYTHON
+
+    @classmethod
+    def model_validate(cls, obj: Any, *, context: Any = None, **options: Any) -> Self:
+        """The part that a tree describes; raises ModelError."""
+        try:
+            return super().model_validate(obj, context=context, **options)
+        except ValidationError as error:
+            raise translated(error, obj) from None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _known_keys(cls, keys: Any) -> Any:
+        if isinstance(keys, Mapping):
+            check_keys(keys, cls.keys())
+        return keys
+
+    @classmethod
+    def keys(cls) -> list[str]:
+        """The keys it may have, as a file writes them."""
+        return [field.alias or name for name, field in cls.model_fields.items()]
+
+    @model_serializer(mode="wrap")
+    def _tree(self, handler: SerializerFunctionWrapHandler, info: SerializationInfo) -> dict[str, Any]:
+        keys: dict[str, Any] = handler(self)
+        if info.mode != "json":
+            return keys
+        for name, model_field in type(self).model_fields.items():
+            if name != "type" and not model_field.is_required():
+                default = model_field.get_default(call_default_factory=True)
+                if getattr(self, name) == default:
+                    keys.pop(model_field.alias or name, None)
+                    keys.pop(name, None)
+        return keys
+
+
+def check_keys(keys: Mapping[Any, Any], allowed: list[str]) -> None:
+    """Raise for the first key that is not allowed."""
+    for key in keys:
+        if key not in allowed:
+            raise UnknownKey(f"there is no key {shown(key)}", closest(str(key), allowed, 20), (str(key),))
+
+
+def mapping(value: object, allowed: list[str], example: str) -> Mapping[str, Any]:
+    """The value, if it is a mapping with allowed keys only."""
+    if not isinstance(value, Mapping):
+        raise ModelError(f"{shown(value)} stands where a mapping is needed", f"write {example}")
+    check_keys(value, allowed)
+    return value

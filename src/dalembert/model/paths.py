@@ -1,0 +1,58 @@
+"""Replacing a value deep in a frozen description, by its path."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from dalembert.errors import ModelError
+from dalembert.model.part import Part
+from dalembert.wording import closest
+
+
+def replaced(part: Any, keys: Sequence[str], value: Any, walked: tuple[str, ...] = ()) -> Any:
+    """The part with the value at the path in place of its own; raises ModelError where there is no such path."""
+    key, rest = keys[0], keys[1:]
+    here = (*walked, key)
+    if isinstance(part, Part):
+        name = _field(part, key, here)
+        inner = replaced(getattr(part, name), rest, value, here) if rest else value
+        return _rebuilt(part, name, inner, here)
+    if isinstance(part, Mapping):
+        _known(key, list(part), here)
+        return {**part, key: replaced(part[key], rest, value, here) if rest else value}
+    if isinstance(part, tuple):
+        _known(key, [str(i) for i in range(len(part))], here)
+        items = list(part)
+        items[int(key)] = replaced(items[int(key)], rest, value, here) if rest else value
+        return tuple(items)
+    raise ModelError(
+        f"the path {'.'.join([*here, *rest])!r} goes into a single value", "leave out its end", walked
+    )
+
+
+def _field(part: Part, key: str, here: tuple[str, ...]) -> str:
+    names = {field.alias or name: name for name, field in type(part).model_fields.items()}
+    _known(key, list(names), here)
+    return names[key]
+
+
+def _known(key: str, choices: list[str], here: tuple[str, ...]) -> None:
+    if key not in choices:
+        where = f" in {'.'.join(here[:-1])}" if here[:-1] else ""
+        raise ModelError(
+            f"there is no {key!r}{where}, asked for by the path {'.'.join(here)!r}",
+            closest(key, choices),
+            here[:-1],
+        )
+
+
+def _rebuilt(part: Part, name: str, inner: Any, here: tuple[str, ...]) -> Any:
+    """The part with one field replaced; the whole mechanism is rebuilt by its own method, once."""
+    if len(here) == 1:
+        return part.model_copy(update={name: inner})
+    values = {field: getattr(part, field) for field in type(part).model_fields}
+    try:
+        return type(part)(**{**values, name: inner})
+    except ModelError as error:
+        raise ModelError(error.what, error.remedy, (*here[:-1], *error.path)) from None

@@ -1,0 +1,24 @@
+"""The JSON Schema of a model file."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from dalembert.model.mechanism import Mechanism
+
+
+def json_schema() -> dict[str, Any]:
+    """The JSON Schema of a model file: every key with its meaning and units.
+
+    >>> json_schema()["properties"]["links"]["description"]
+    'the rigid bodies; ground is the fixed one'
+    """
+    schema = Mechanism.model_json_schema(by_alias=True)
+    for part in schema["$defs"].values():
+        if "type" in part.get("properties", {}):
+            part["required"] = ["type", *(key for key in part.get("required", []) if key != "type")]
+    return (
+        {"$schema": "https://json-schema.org/draft/2020-12/schema"}
+        | schema
+        | {"title": "dalembert model file"}
+    )

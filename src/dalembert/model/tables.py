@@ -1,0 +1,135 @@
+"""Quantities given as a table against a drive's position: linear or a cubic spline, periodic if said so."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from dalembert.errors import ModelError
+
+SLACK = 1e-9
+"""Relative to the table's span: how far outside its ends a position is still taken as the end."""
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A quantity known at positions `x` of the drive `against` (radians or metres), SI values `y`.
+
+    Outside its ends a table has no value; with a `period` it repeats.
+
+    >>> Table("O2", (0.0, 1.0, 2.0), (0.0, 10.0, 0.0)).at({"O2": 0.25})
+    np.float64(2.5)
+    """
+
+    against: str
+    x: tuple[float, ...]
+    y: tuple[float, ...]
+    interpolate: str = "linear"
+    period: float | None = None
+    along: str = "angle"
+
+    def __post_init__(self) -> None:
+        _check(self)
+
+    @property
+    def names(self) -> frozenset[str]:
+        """The drive it is against."""
+        return frozenset((self.against,))
+
+    def closed(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """x and y with the point that closes the period, if that was left out."""
+        if self.period is None or self.x[-1] - self.x[0] > self.period * (1 - SLACK):
+            return self.x, self.y
+        return (*self.x, self.x[0] + self.period), (*self.y, self.y[0])
+
+    def pieces(self) -> tuple[Any, Any]:
+        """Breaks (n+1,) and coefficients (k, n), highest power first, in the distance from a piece's left break."""
+        import numpy as np
+
+        x, y = (np.asarray(values, float) for values in self.closed())
+        if self.interpolate == "linear":
+            return x, np.stack([np.diff(y) / np.diff(x), y[:-1]])
+        from scipy.interpolate import CubicSpline
+
+        if self.period is not None:
+            y[-1] = y[0]
+        spline = CubicSpline(x, y, bc_type="not-a-knot" if self.period is None else "periodic")
+        return x, spline.c
+
+    def at(self, drives: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]] | None = None) -> Any:
+        """The SI value at the drives' positions; `functions["table"](table, position)` replaces numpy's."""
+        if self.against not in drives:
+            raise ModelError(f"a table is against {self.against!r}, which is no drive")
+        if functions is not None:
+            return functions["table"](self, drives[self.against])
+        return self._of_numbers(drives[self.against])
+
+    def _of_numbers(self, position: Any) -> Any:
+        import numpy as np
+
+        breaks, coefficients = self.pieces()
+        place = self._inside(np.asarray(position, float), breaks[0], breaks[-1])
+        piece = np.clip(np.searchsorted(breaks, place, "right") - 1, 0, len(breaks) - 2)
+        step, value = place - breaks[piece], np.zeros(place.shape)
+        for row in coefficients:
+            value = value * step + row[piece]
+        return value[()]
+
+    def _inside(self, position: Any, low: float, high: float) -> Any:
+        import numpy as np
+
+        if self.period is not None:
+            return low + np.mod(position - low, self.period)
+        slack = SLACK * (high - low)
+        outside = (position < low - slack) | (position > high + slack)
+        if outside.any():
+            raise ModelError(
+                f"a table goes from {self._said(low)} to {self._said(high)} of the drive {self.against!r}, "
+                f"which is at {self._said(position[outside].ravel()[0])}",
+                "give the table more points, make it periodic, or give the drive a smaller range",
+            )
+        return np.clip(position, low, high)
+
+    def _said(self, position: float) -> str:
+        import math
+
+        return f"{math.degrees(position):.6g} deg" if self.along == "angle" else f"{position:.6g} m"
+
+
+def _check(table: Table) -> None:
+    if len(table.x) != len(table.y):
+        raise ModelError(
+            f"a table has {len(table.x)} values in x and {len(table.y)} in y", "give one y for each x"
+        )
+    if len(table.x) < 2:
+        raise ModelError(f"a table has {len(table.x)} points", "give at least 2")
+    for i, (a, b) in enumerate(zip(table.x, table.x[1:], strict=False)):
+        if not a < b:
+            raise ModelError(
+                f"x of a table does not increase from its item {i + 1} to {i + 2}",
+                "sort the points; for a jump give two that are close",
+                ("x", i + 1),
+            )
+    if table.interpolate not in ("linear", "cubic"):
+        raise ModelError(f"interpolate is {table.interpolate!r}", "write linear or cubic", ("interpolate",))
+    _check_period(table)
+
+
+def _check_period(table: Table) -> None:
+    if table.period is None:
+        return
+    span = table.x[-1] - table.x[0]
+    if not table.period > 0 or span > table.period * (1 + SLACK):
+        raise ModelError(
+            f"a periodic table goes over {table._said(span)} and repeats after {table._said(table.period)}",
+            "leave out the points beyond one period",
+            ("periodic",),
+        )
+    size = max(abs(y) for y in table.y)
+    if span > table.period * (1 - SLACK) and abs(table.y[-1] - table.y[0]) > SLACK * size:
+        raise ModelError(
+            "a periodic table ends with another value than it begins with",
+            "give the first value again at the end, or leave the last point out",
+            ("periodic",),
+        )

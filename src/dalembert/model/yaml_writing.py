@@ -1,0 +1,70 @@
+"""A tree as YAML: one line for each link, joint, drive and load where it fits."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from dalembert.model.yaml_text import scalar
+
+WIDTH = 110
+_SPECIAL = re.compile(r"[\x7f-\x9f\u2028\u2029\ufeff\ufffe\uffff\ud800-\udfff]")
+_PLAIN = re.compile(r"[^\W\d_][\w./*^() +@-]*|[-+]?\.?[0-9][\w./*^() +@-]*")
+
+
+def written(tree: Mapping[str, Any]) -> str:
+    """The tree as YAML text that reads back equal."""
+    return "".join(line + "\n" for key, value in tree.items() for line in _entry(_word(key), value, 0))
+
+
+def _entry(head: str, value: Any, indent: int) -> list[str]:
+    """The lines of `head: value`; a mapping at the top level is always opened up."""
+    space = " " * indent
+    flow = _flow(value)
+    short = len(space) + len(head) + 2 + len(flow) <= WIDTH
+    if not isinstance(value, (Mapping, list, tuple)) or not value or (short and not _opened(value, indent)):
+        return [f"{space}{head}: {flow}"]
+    lines = [f"{space}{head}:"]
+    if isinstance(value, Mapping):
+        return lines + [line for key, item in value.items() for line in _entry(_word(key), item, indent + 2)]
+    if any(isinstance(item, (Mapping, list, tuple)) for item in value):
+        return lines + [f"{space}  - {_flow(item)}" for item in value]
+    return [f"{space}{head}: {flow}"]
+
+
+def _opened(value: Any, indent: int) -> bool:
+    inner = value.values() if isinstance(value, Mapping) else value
+    return indent == 0 and any(isinstance(item, (Mapping, list, tuple)) for item in inner)
+
+
+def _flow(value: Any) -> str:
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{_word(key)}: {_flow(item)}" for key, item in value.items()) + "}"
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return "[" + ", ".join(_flow(item) for item in value) + "]"
+    if value is None:
+        return "null"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return _word(value) if isinstance(value, str) else repr(value)
+
+
+def _word(text: str) -> str:
+    """A text, in quotes where YAML would read something else."""
+    plain = _PLAIN.fullmatch(text) and scalar(text) == text and not text.endswith(" ")
+    return text if plain else _quoted(text)
+
+
+def _quoted(text: str) -> str:
+    import json
+
+    return re.sub(
+        r"[\x7f-\x9f\u2028\u2029\ufeff\ufffe\uffff\ud800-\udfff]",
+        _escaped,
+        json.dumps(text, ensure_ascii=False),
+    )
+
+
+def _escaped(match: re.Match[str]) -> str:
+    return f"\\u{ord(match[0]):04x}"

@@ -1,0 +1,246 @@
+"""Text to SI and back, at the border; inside the package everything is SI and radians.
+
+A quantity is a number and a unit; what it may be the number of is its kind (`KINDS`).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from functools import lru_cache
+
+from dalembert.errors import ModelError
+from dalembert.symbols import ANGLE, FORCE, LENGTH, MASS, MOMENT, NONE, ONE, TIME, Dimension, Unit, unit
+from dalembert.wording import closest, shown
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """What a number can be: its SI unit, and the powers of the file's units that a bare number takes."""
+
+    phrase: str
+    si: str
+    dimension: Dimension
+    file: Mapping[str, int]
+    example: str
+
+
+def _kind(phrase: str, si: str, dimension: Dimension, file: str, example: str) -> Kind:
+    powers = {name: int(power or 1) for name, power in re.findall(r"(\w+)(?:\^(-?\d+))?", file)}
+    return Kind(phrase, si, dimension, powers, example)
+
+
+KINDS: dict[str, Kind] = {
+    "number": _kind("a plain number", "", NONE, "", "0.15"),
+    "length": _kind("a length", "m", LENGTH, "length", "127 mm"),
+    "angle": _kind("an angle", "rad", ANGLE, "angle", "60 deg"),
+    "time": _kind("a time", "s", TIME, "time", "0.5 s"),
+    "mass": _kind("a mass", "kg", MASS, "mass", "1.5 kg"),
+    "force": _kind("a force", "N", FORCE, "force", "80 N"),
+    "moment": _kind("a moment", "N*m", MOMENT, "force length", "12 N*m"),
+    "inertia": _kind("a moment of inertia", "kg*m^2", (2, 1, 0, 0), "mass length^2", "0.02 kg*m^2"),
+    "speed": _kind("a speed", "m/s", (1, 0, -1, 0), "length time^-1", "200 mm/s"),
+    "acceleration": _kind("an acceleration", "m/s^2", (1, 0, -2, 0), "length time^-2", "9.81 m/s^2"),
+    "angular_speed": _kind("an angular speed", "rad/s", (0, 0, -1, 1), "angle time^-1", "25 rad/s"),
+    "angular_acceleration": _kind(
+        "an angular acceleration", "rad/s^2", (0, 0, -2, 1), "angle time^-2", "-40 rad/s^2"
+    ),
+    "stiffness": _kind("a stiffness", "N/m", (0, 1, -2, 0), "force length^-1", "2000 N/m"),
+    "damping": _kind("a damping", "N*s/m", (0, 1, -1, 0), "force time length^-1", "30 N*s/m"),
+    "torsion_stiffness": _kind(
+        "a torsional stiffness", "N*m/rad", (2, 1, -2, -1), "force length", "50 N*m/rad"
+    ),
+    "torsion_damping": _kind(
+        "a torsional damping", "N*m*s/rad", (2, 1, -1, -1), "force length time", "0.2 N*m*s/rad"
+    ),
+    "power": _kind("a power", "W", (2, 1, -3, 0), "force length time^-1", "2 kW"),
+}
+"""Every kind of number in a file or an answer. A bare torsional stiffness or damping is one per radian."""
+
+PER_RADIAN = ("torsion_stiffness", "torsion_damping")
+REFUSED_BARE = {"angular_speed": "rad/s, deg/s or rpm", "angular_acceleration": "rad/s^2 or deg/s^2"}
+
+
+@dataclass(frozen=True, slots=True)
+class Units:
+    """The units that a file's bare numbers are in; those left out are SI, angles degrees.
+
+    >>> Units(length="in", force="lbf", mass="blob").text("inertia")
+    'blob*in^2'
+    """
+
+    length: str = "m"
+    force: str = "N"
+    mass: str = "kg"
+    time: str = "s"
+    angle: str = "deg"
+
+    def unit(self, kind: str) -> Unit:
+        """The unit of a bare number of this kind: the product of the file's units."""
+        return _file_unit(self, kind)
+
+    def text(self, kind: str) -> str:
+        """The same unit as text, as it may stand behind a number."""
+        powers = KINDS[kind].file
+        up = [_power(getattr(self, name), power) for name, power in powers.items() if power > 0]
+        down = [_power(getattr(self, name), -power) for name, power in powers.items() if power < 0]
+        return "/".join(["*".join(up), *down]) if up else ""
+
+    def tree(self) -> dict[str, str]:
+        """As a file says it."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+
+@lru_cache(maxsize=1024)
+def _file_unit(units: Units, kind: str) -> Unit:
+    product = ONE
+    for name, power in KINDS[kind].file.items():
+        product = product.times(unit(getattr(units, name)), power)
+    return product
+
+
+def _power(text: str, power: int) -> str:
+    base = f"({text})" if re.search(r"[*/^ ]", text) else text
+    return base if power == 1 else f"{base}^{power}"
+
+
+def file_units(tree: object) -> Units:
+    """The `units` of a file: a mapping of length, force, mass, time and angle to names of units.
+
+    >>> file_units({"length": "mm"}).text("moment")
+    'N*mm'
+    """
+    if isinstance(tree, Units):
+        return tree
+    names = [field.name for field in fields(Units)]
+    if not isinstance(tree, Mapping):
+        raise ModelError(f"units are {shown(tree)}, not a mapping", "write units: {length: mm, force: N}")
+    for name, text in tree.items():
+        _check_file_unit(name, text, names)
+    return Units(**tree)
+
+
+def _check_file_unit(name: object, text: object, names: list[str]) -> None:
+    if name not in names:
+        raise ModelError(f"units has no key {shown(name)}", closest(str(name), names), (str(name),))
+    if not isinstance(text, str):
+        raise ModelError(
+            f"{shown(text)} is no unit", f"write {KINDS[str(name)].si}, for example", (str(name),)
+        )
+    try:
+        _check_dimension(text, unit(text), text, str(name))
+    except ModelError as error:
+        raise ModelError(error.what, error.remedy, (str(name),)) from None
+
+
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_QUANTITY = re.compile(rf"\s*({NUMBER})\s*(.*?)\s*", re.DOTALL)
+
+
+def quantity(value: object, kind: str, units: Units | None = None) -> float:
+    """The SI value of a number or a text with its unit.
+
+    A bare number is in the file's `units`; without `units`, as in Python, in SI and radians. Raises ModelError
+    for a unit of another dimension, an unknown unit, no number, NaN and infinity.
+
+    >>> quantity("1500 rpm", "angular_speed")
+    157.07963267948966
+    >>> quantity(30, "angle", Units())
+    0.5235987755982988
+    """
+    number, unit_text = _split(value, kind)
+    if not unit_text:
+        return _finite(_bare(number, kind, units), value)
+    named = unit(unit_text)
+    _check_dimension(unit_text, named, value, kind)
+    return _finite(named.si(number), value)
+
+
+def _split(value: object, kind: str) -> tuple[float, str]:
+    if isinstance(value, str):
+        return _split_text(value, kind)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ModelError(f"{shown(value)} is not {KINDS[kind].phrase}", _write(kind))
+    return _float(value), ""
+
+
+def _float(value: int | float | str) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        raise ModelError(f"{shown(value)} is too large", "write a number below 1e300") from None
+
+
+def _split_text(text: str, kind: str) -> tuple[float, str]:
+    match = _QUANTITY.fullmatch(text.replace("\u2212", "-"))
+    if match is None:
+        raise ModelError(f"{shown(text)} is not {KINDS[kind].phrase}", _write(kind))
+    number, rest = match.groups()
+    if re.match(r",\s*\d", rest):
+        raise ModelError(f"{shown(text)} has a decimal comma", f"write {text.replace(',', '.', 1)!r}")
+    if re.match(r"[\d/]", rest) and not re.match(r"1/[^\W\d]", rest):
+        raise ModelError(
+            f"{shown(text)} is not one number", "write a fraction as a decimal: 1.5 in for 1 1/2 in"
+        )
+    return _float(number), rest
+
+
+def _bare(number: float, kind: str, units: Units | None) -> float:
+    if units is None:
+        return number
+    if kind in REFUSED_BARE:
+        raise ModelError(
+            f"{number!r} is {KINDS[kind].phrase} without a unit", f"{REFUSED_BARE[kind]}? Write which"
+        )
+    return units.unit(kind).si(number)
+
+
+def _finite(number: float, value: object) -> float:
+    if not math.isfinite(number):
+        raise ModelError(f"{shown(value)} is no finite number", "write a finite one")
+    return number
+
+
+def _write(kind: str) -> str:
+    example = KINDS[kind].example
+    return f"write one, for example {example!r}" if " " in example else f"write one, for example {example}"
+
+
+def _check_dimension(unit_text: str, named: Unit, value: object, kind: str) -> None:
+    wanted = KINDS[kind]
+    given = named.dimension
+    if given == wanted.dimension:
+        return
+    if kind in PER_RADIAN and given == (*wanted.dimension[:3], 0):
+        return
+    raise ModelError(
+        f"{shown(value)} is {_phrase(given)}, and {wanted.phrase} is needed", _remedy(unit_text, given, kind)
+    )
+
+
+def _phrase(dimension: Dimension) -> str:
+    found = [kind.phrase for kind in KINDS.values() if kind.dimension == dimension]
+    if found:
+        return found[0]
+    names = ("m", "kg", "s", "rad")
+    powers = [f"{name}^{power}" for name, power in zip(names, dimension, strict=True) if power]
+    return "in " + "*".join(powers).replace("^1", "")
+
+
+def _remedy(unit_text: str, given: Dimension, kind: str) -> str:
+    if re.search(r"\blb\b", unit_text) and "force" in KINDS[kind].file:
+        return f"lb is a mass: say {re.sub(r'lb', 'lbf', unit_text)} (lbf is the force, lbm the mass)"
+    if kind == "angular_speed" and given == (0, 0, -1, 0):
+        return "Hz and 1/s do not say whether turns or radians are counted: say rev/s, rpm or rad/s"
+    return _write(kind)
+
+
+def text(number: float, kind: str) -> str:
+    """The number as text with its SI unit, exact when read again.
+
+    >>> text(0.127, "length")
+    '0.127 m'
+    """
+    return f"{number!r} {KINDS[kind].si}".rstrip()

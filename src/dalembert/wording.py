@@ -1,0 +1,41 @@
+"""How messages quote a value and propose a name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+
+def shown(value: object) -> str:
+    """A value as a message quotes it, cut when long."""
+    if isinstance(value, Mapping):
+        return "a mapping"
+    if isinstance(value, (list, tuple)):
+        return "a list" if len(value) else "an empty list"
+    if value is None:
+        return "nothing"
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        return _number(value)
+    plain = repr(value) if isinstance(value, str) else str(value).lower()
+    return plain if len(plain) <= 60 else plain[:57] + "..."
+
+
+def _number(value: int | float) -> str:
+    if isinstance(value, int) and abs(value) > 10**15:
+        return f"a number of {value.bit_length() * 3 // 10} digits"
+    return repr(value)
+
+
+def closest(word: str, choices: list[str], most: int = 12) -> str:
+    """`did you mean 'x'?`, or the list to choose from.
+
+    >>> closest("rodd", ["crank", "rod"])
+    "did you mean 'rod'?"
+    """
+    import difflib
+
+    folded = {choice.lower(): choice for choice in reversed(choices)}
+    near = difflib.get_close_matches(word.lower(), list(folded), 1, 0.6)
+    if near:
+        return f"did you mean {folded[near[0]]!r}?"
+    some = ", ".join(choices[:most])
+    return f"there is {some}" + (", ..." if len(choices) > most else "") if choices else "there is none"
