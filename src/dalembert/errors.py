@@ -58,7 +58,8 @@ class Status(NamedTuple):
 STATUSES: dict[str, Status] = {
     "ok": Status("Solved.", ""),
     "not_assembled": Status(
-        "The linkage does not close at this position.", "Change a length, the assembly or the range of the drive."
+        "The linkage does not close at this position.",
+        "Change a length, the assembly or the range of the drive.",
     ),
     "singular": Status(
         "A dead centre or change point: the drive cannot hold or move the mechanism here.",
@@ -69,16 +70,20 @@ STATUSES: dict[str, Status] = {
         "Read the unique components; free a constraint to make the others unique.",
     ),
     "no_balance": Status(
-        "No equilibrium with the known efforts and loads.", "Leave an effort or a load unknown, or widen the range."
+        "No equilibrium with the known efforts and loads.",
+        "Leave an effort or a load unknown, or widen the range.",
     ),
     "jammed": Status(
-        "Friction holds the mechanism: no effort moves it in this sense.", "Reduce friction or change the geometry."
+        "Friction holds the mechanism: no effort moves it in this sense.",
+        "Reduce friction or change the geometry.",
     ),
     "self_locking": Status(
-        "Friction reverses the sense of the drive's effort.", "Reduce friction if the load is to drive the machine."
+        "Friction reverses the sense of the drive's effort.",
+        "Reduce friction if the load is to drive the machine.",
     ),
     "at_rest": Status(
-        "With friction and no motion the efforts are an interval, not a number.", "Give a speed to choose the sense."
+        "With friction and no motion the efforts are an interval, not a number.",
+        "Give a speed to choose the sense.",
     ),
 }
 """Code of a status -> its sentence and remedy; the codes are those of the JSON answer."""

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert.analysis.columns import drive_kinds
 from dalembert.analysis.quantities import QUANTITIES, WHOLE, WORDS, Series, component, size
 from dalembert.errors import STATUSES, ModelError
 from dalembert.symbols import unit
@@ -100,7 +100,7 @@ def named(answer: Answer) -> str:
     """The quantity in words: 'reaction of A on crank, magnitude, at 60 deg'."""
     parts = [answer.quantity.replace("_", " ")]
     parts += [f"of {answer.of}"] if answer.of else []
-    parts += [f"on {answer.on}"] if answer.on else []
+    parts += [f"on {answer.on}"] if answer.on else [f"by {answer.by}"] if answer.by else []
     text = " ".join(parts)
     where = "" if answer.at is None else _at_text(answer.at)
     axes = "link axes" if answer.axes == "link" else ""
@@ -108,8 +108,6 @@ def named(answer: Answer) -> str:
 
 
 def _at_text(at: Any) -> str:
-    if isinstance(at, Mapping):
-        return "at " + ", ".join(f"{name} = {value}" for name, value in at.items())
     return f"at no. {at}" if isinstance(at, int) else f"at {at}"
 
 
@@ -120,7 +118,16 @@ def _word(answer: Answer, case: str, found: str | int | None, problem: str) -> R
     ok = found is not None and str(found) == _plain(answer.value)
     computed = "-" if found is None else str(found)
     return Row(
-        case, named(answer), _plain(answer.value), "", computed, "", "", ok, answer.why, "" if ok else problem
+        case,
+        named(answer),
+        _plain(answer.value),
+        "",
+        computed,
+        "",
+        "",
+        ok,
+        answer.why or "",
+        "" if ok else problem,
     )
 
 
@@ -163,35 +170,29 @@ def _extreme(which: str, values: Array) -> int:
 
 
 def _named_position(result: Result, at: Any) -> int:
-    """The position where drives have the values named: `60 deg` (of the first drive), or {O2: 60 deg, S: 10 mm}."""
-    wanted = dict(at) if isinstance(at, Mapping) else {result.drives[0]: at} if result.drives else {}
-    if not wanted:
+    """The position where the first drive has a value: `60 deg`."""
+    if not result.drives:
         raise ModelError(
             "there is no drive whose position could be named", "number the position: at: 1", ("at",)
         )
-    away = np.zeros(len(result.status))
-    for drive, value in wanted.items():
-        away = np.maximum(away, np.abs(_difference_of_drive(result, drive, value)))
+    drive = result.drives[0]
+    kind = drive_kinds(result, drive)["position"]
+    try:
+        wanted = quantity(at, kind, file_units(result.mechanism.units))
+    except ModelError as error:
+        raise ModelError(error.what, error.remedy, ("at",)) from None
+    away = np.abs(_apart(result.drive_position(drive), wanted, kind))
     if not away.min() < SAME_POSITION:
-        text = " and ".join(f"{drive} = {value}" for drive, value in wanted.items())
         raise ModelError(
-            f"no position has {text}", "number the position, or give the drive that value", ("at",)
+            f"no position has {drive} = {at}", "number the position, or give the drive that value", ("at",)
         )
     return int(away.argmin())
 
 
-def _difference_of_drive(result: Result, drive: str, value: Any) -> Array:
-    from dalembert.analysis.columns import drive_kinds
-
-    if drive not in result.drives:
-        raise ModelError(f"there is no drive {drive!r}", closest(drive, list(result.drives)), ("at",))
-    kind = drive_kinds(result, drive)["position"]
-    try:
-        target = quantity(value, kind, file_units(result.mechanism.units))
-    except ModelError as error:
-        raise ModelError(error.what, error.remedy, ("at",)) from None
-    away = result.drive_position(drive) - target
-    return np.asarray(np.angle(np.exp(1j * away)) if kind == "angle" else away)
+def _apart(found: Array, wanted: Any, kind: str) -> Array:
+    """Difference of two values; angles a whole turn apart are the same."""
+    difference = found - wanted
+    return np.asarray(np.angle(np.exp(1j * difference)) if kind == "angle" else difference)
 
 
 # numbers and vectors
@@ -226,7 +227,7 @@ def target(value: Any, series: Series, units: Units, key: str) -> Target:
 def _unit_of(value: Any, kind: str, units: Units) -> str:
     """The unit a published value is written in: its own, or the file's."""
     for item in value if isinstance(value, (list, tuple)) else [value]:
-        for text in re.findall(rf"{NUMBER}\s*([^\d\s@][^@]*)", str(item)):
+        for text in re.findall(rf"(?>{NUMBER})\s*([^\W\d][^@]*)", str(item)):
             if unit(text.strip()).dimension == KINDS[kind].dimension:
                 return str(text.strip())
     return units.text(kind)
@@ -252,7 +253,7 @@ def _measured(result: Result, answer: Answer, series: Series, case: str) -> Row:
         said,
         _deviation(away, scale, series.kind, published.unit),
         near and exact,
-        answer.why,
+        answer.why or "",
         "" if near and exact else problem,
     )
 
@@ -265,11 +266,8 @@ def _meets_exact(found: Array, answer: Answer, series: Series, units: Units) -> 
 
 
 def _away(found: Array, wanted: Array, kind: str) -> float:
-    """Distance of two values; angles a whole turn apart are the same."""
-    difference = found - wanted
-    if kind == "angle":
-        difference = np.angle(np.exp(1j * difference))
-    return float(np.linalg.norm(np.atleast_1d(difference)))
+    """Distance of two numbers or vectors."""
+    return float(np.linalg.norm(np.atleast_1d(_apart(found, wanted, kind))))
 
 
 def _scale(wanted: Array, series: Series) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -20,7 +20,7 @@ Array = NDArray[Any]
 
 
 class Series(NamedTuple):
-    """Values of a quantity over the positions, SI: numbers (P,) or vectors (P, 2); the kind is one of ``units.KINDS``."""
+    """Values of a quantity over the positions, SI: numbers (P,) or vectors (P, 2), of a kind of ``units.KINDS``."""
 
     kind: str
     values: Array
@@ -29,47 +29,59 @@ class Series(NamedTuple):
 Read = Callable[["Result", "Answer"], Series]
 
 
+def _name(answer: Answer, names: Iterable[str], kind: str) -> str:
+    """The name that `of` gives, if there is such a one."""
+    known = list(names)
+    if answer.of not in known:
+        said = f"{answer.quantity} needs `of`" if answer.of is None else f"there is no {kind} {answer.of!r}"
+        raise ModelError(said, closest(answer.of or "", known), ("of",) if answer.of else ())
+    return answer.of
+
+
 def _effort(r: Result, a: Answer) -> Series:
-    return Series(drive_kinds(r, a.of)["effort"], r.effort(a.of)) if a.of in r.drives else _no_drive(r, a)
+    drive = _name(a, r.drives, "drive")
+    return Series(drive_kinds(r, drive)["effort"], r.effort(drive))
 
 
 def _drive(r: Result, a: Answer) -> Series:
-    return (
-        Series(drive_kinds(r, a.of)["position"], r.drive_position(a.of))
-        if a.of in r.drives
-        else _no_drive(r, a)
-    )
-
-
-def _no_drive(r: Result, a: Answer) -> Series:
-    raise ModelError(f"there is no drive {a.of!r}", closest(str(a.of), list(r.drives)), ("of",))
+    drive = _name(a, r.drives, "drive")
+    return Series(drive_kinds(r, drive)["position"], r.drive_position(drive))
 
 
 def _unknown_load(r: Result, a: Answer) -> Series:
-    if a.of not in r.unknown_loads:
-        raise ModelError(
-            f"there is no unknown load {a.of!r}", closest(str(a.of), list(r.unknown_loads)), ("of",)
-        )
-    return Series(load_kind(r, a.of), r.unknown_load(a.of))
+    load = _name(a, r.unknown_loads, "unknown load")
+    return Series(load_kind(r, load), r.unknown_load(load))
 
 
 def _reaction(r: Result, a: Answer) -> Series:
-    return Series("force", r.reaction(a.of, a.on, a.axes or "ground"))
+    joint = _name(a, r.joints, "joint")
+    return Series("force", r.reaction(joint, _on(r, a, joint), a.axes))
 
 
 def _moment(r: Result, a: Answer) -> Series:
-    return Series("moment", r.reaction_moment(a.of, a.on))
+    joint = _name(a, r.joints, "joint")
+    return Series("moment", r.reaction_moment(joint, _on(r, a, joint)))
+
+
+def _on(r: Result, a: Answer, joint: str) -> str | None:
+    """The link acted on: named by `on`, or the other one than `by`."""
+    i, j = r.mechanism.joints[joint].links
+    if a.by is None or a.on is not None:
+        return a.on
+    if a.by not in (i, j):
+        raise ModelError(f"joint {joint!r} does not join {a.by!r}", f"it joins {i} and {j}", ("by",))
+    return j if a.by == i else i
 
 
 def _of_link(kind: str, name: str) -> Read:
-    return lambda r, a: Series(kind, getattr(r, name)(a.of))
+    return lambda r, a: Series(kind, getattr(r, name)(_name(a, r.links, "link")))
 
 
 def _of_point(kind: str, name: str) -> Read:
     def read(r: Result, a: Answer) -> Series:
-        link, _, point = str(a.of).partition(".")
-        if not point:
-            raise ModelError(f"{a.of!r} names no point", "write of: link.point", ("of",))
+        link, _, point = (a.of or "").partition(".")
+        if link not in r.links or not point:
+            raise ModelError(f"{a.of!r} names no point of a moving link", "write of: link.point", ("of",))
         return Series(kind, getattr(r, name)(link, point))
 
     return read
@@ -80,7 +92,7 @@ def _of_freedom(freedom: str, order: int) -> Read:
         "slide": ("length", "speed", "acceleration"),
         "turn": ("angle", "angular_speed", "angular_acceleration"),
     }
-    return lambda r, a: Series(kinds[freedom][order], r.freedom(a.of, freedom)[order])
+    return lambda r, a: Series(kinds[freedom][order], r.freedom(_name(a, r.joints, "joint"), freedom)[order])
 
 
 QUANTITIES: dict[str, Read] = {

@@ -100,7 +100,7 @@ def _drive_table(result: Result, to: Printed) -> str:
             "acceleration": result.drive_acceleration(drive),
             "effort": result.effort(drive),
         }
-        cells = [f"{number(float(to(kinds[n], v[0])))} {to.text(kinds[n])}" for n, v in values.items()]
+        cells = [f"{number(float(to(kinds[n], v[0])), 7)} {to.text(kinds[n])}" for n, v in values.items()]
         rows.append([drive, *cells, *([result.stability[0] or "-"] if result.stability else [])])
     heads = [
         "drive",
@@ -141,10 +141,20 @@ def _reaction_table(result: Result, to: Printed, axes: Axes) -> str:
 
 def _wrench(force: Any, moment: float, to: Printed) -> list[str]:
     """x, y, magnitude, direction, moment as text."""
-    x, y = (float(v) for v in to("force", force))
+    x, y = rounded(to("force", force))
     size = float(np.hypot(x, y))
     direction = float(to("angle", np.arctan2(y, x))) if size else 0.0
     return [number(v) for v in (x, y, size, direction, float(to("moment", moment)))]
+
+
+def rounded(vector: Any) -> list[float]:
+    """Components of a vector; what is nothing but rounding beside its largest is 0.
+
+    >>> rounded([1e-17, 3.0])
+    [0.0, 3.0]
+    """
+    size = float(np.nanmax(np.abs(vector))) if np.isfinite(vector).any() else 0.0
+    return [0.0 if abs(float(v)) < 1e-12 * size else float(v) for v in vector]
 
 
 def _link_tables(result: Result, to: Printed) -> str:
@@ -164,8 +174,8 @@ def _link_tables(result: Result, to: Printed) -> str:
             to("angle", result.angle(link)[0]),
             to("angular_speed", result.speed(link)[0]),
             to("angular_acceleration", result.acceleration(link)[0]),
-            *to("length", result.center(link)[0]),
-            *to("acceleration", result.center_acceleration(link)[0]),
+            *rounded(to("length", result.center(link)[0])),
+            *rounded(to("acceleration", result.center_acceleration(link)[0])),
         ]
         rows.append([link, *(number(float(v), 5) for v in values)])
     return tables(heads, rows, 1)

@@ -156,9 +156,9 @@ def new(template: str = "", /, *, output: Output = None, force: Flag = False) ->
     force
         Overwrite a file that exists.
     """
-    from dalembert.cli.describing import template_list, template_text
+    from dalembert.cli.describing import template_file, template_list
 
-    return emitted(template_text(template) if template else template_list(), output, force)
+    return emitted(template_file(template) if template else template_list(), output, force)
 
 
 @app.command(help_epilogue="Examples:\n  dalembert convert four_bar.yaml -o four_bar.json")

@@ -58,3 +58,17 @@ def converted(file: Path, output: Path | None, force: bool) -> int:
         mechanism.save(temporary)
     print(f"Written: {output}")
     return 0
+
+
+def template_list() -> str:
+    """Names of the templates and what they build."""
+    from dalembert.model.library import TEMPLATES
+
+    return table(["template", "what it is"], [[name, t.description] for name, t in TEMPLATES.items()], 2)
+
+
+def template_file(name: str) -> str:
+    """The commented model file of a template."""
+    from dalembert.model.library import template_text
+
+    return template_text(name)

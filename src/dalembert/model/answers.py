@@ -16,6 +16,7 @@ Quantity = Literal[
     "moment",
     "unknown_load",
     "position",
+    "velocity",
     "angle",
     "speed",
     "acceleration",
@@ -33,9 +34,12 @@ Quantity = Literal[
     "turn_speed",
     "turn_acceleration",
     "residual",
+    "power_balance",
     "status",
     "count",
     "mobility",
+    "redundant",
+    "stability",
 ]
 
 
