@@ -1,0 +1,107 @@
+"""Ready mechanisms: as functions of their dimensions, and as commented files to start from.
+
+>>> from dalembert.model.library import TEMPLATES, template
+>>> template("scotch_yoke").title
+'Scotch yoke'
+>>> print(TEMPLATES["five_bar"].description)
+two driven cranks and two couplers, the simplest parallel robot
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+from dalembert.errors import ModelError
+from dalembert.model.library.four_bars import four_bar, inverted_slider_crank, scotch_yoke, slider_crank
+from dalembert.model.library.machines import bucket, five_bar, scissor, toggle_press
+from dalembert.model.library.quick_returns import crank_shaper, whitworth
+from dalembert.model.library.stephenson import stephenson_1, stephenson_2, stephenson_3
+from dalembert.model.library.watt import watt_1, watt_2
+
+if TYPE_CHECKING:
+    from dalembert.model import Mechanism
+
+__all__ = [
+    "TEMPLATES",
+    "Template",
+    "bucket",
+    "crank_shaper",
+    "five_bar",
+    "four_bar",
+    "inverted_slider_crank",
+    "scissor",
+    "scotch_yoke",
+    "slider_crank",
+    "stephenson_1",
+    "stephenson_2",
+    "stephenson_3",
+    "template",
+    "template_text",
+    "toggle_press",
+    "watt_1",
+    "watt_2",
+    "whitworth",
+]
+
+
+class Template(NamedTuple):
+    """A function that builds a mechanism from dimensions, and what it builds in one line."""
+
+    function: Callable[..., Mechanism]
+    description: str
+
+
+TEMPLATES: dict[str, Template] = {
+    "four_bar": Template(four_bar, "crank, coupler and rocker"),
+    "slider_crank": Template(slider_crank, "engine, pump or compressor; with offset if wanted"),
+    "inverted_slider_crank": Template(
+        inverted_slider_crank, "a block on the crank pin slides along a swinging arm"
+    ),
+    "whitworth": Template(whitworth, "quick return with an arm that goes right round"),
+    "crank_shaper": Template(crank_shaper, "quick return with a swinging lever, as in a shaping machine"),
+    "watt_1": Template(watt_1, "six-bar: a second loop on the coupler and rocker of a four-bar"),
+    "watt_2": Template(watt_2, "six-bar: two four-bars in series"),
+    "stephenson_1": Template(stephenson_1, "six-bar: a second dyad between crank and rocker"),
+    "stephenson_2": Template(stephenson_2, "six-bar: a floating plate on two couplers drives the rocker"),
+    "stephenson_3": Template(stephenson_3, "six-bar: a coupler point drives an output rocker"),
+    "scotch_yoke": Template(scotch_yoke, "the crank pin in a slot moves a yoke as a pure cosine"),
+    "toggle_press": Template(toggle_press, "a crank straightens two toggle links over a ram"),
+    "five_bar": Template(five_bar, "two driven cranks and two couplers, the simplest parallel robot"),
+    "scissor": Template(scissor, "scissor lift of any number of stages"),
+    "bucket": Template(bucket, "excavator bucket moved by a hydraulic cylinder"),
+}
+"""Name -> function and description, for `dalembert new NAME`."""
+
+
+def template(name: str) -> Mechanism:
+    """The template of that name with its own dimensions.
+
+    >>> from dalembert.model.library import template
+    >>> template("four_bar").joints["A"].links
+    ('crank', 'coupler')
+    """
+    return _known(name).function()
+
+
+def template_text(name: str) -> str:
+    """The same mechanism as a commented YAML file in millimetres, to be edited.
+
+    >>> from dalembert.model.library import template_text
+    >>> template_text("four_bar").splitlines()[1]
+    'title: Four-bar linkage'
+    """
+    from importlib.resources import files
+
+    _known(name)
+    return (files(__package__) / "files" / f"{name}.yaml").read_text(encoding="utf-8")
+
+
+def _known(name: str) -> Template:
+    if name not in TEMPLATES:
+        from difflib import get_close_matches
+
+        near = get_close_matches(name, TEMPLATES, 1, 0.4)
+        hint = f"did you mean {near[0]!r}?" if near else "they are " + ", ".join(TEMPLATES)
+        raise ModelError(f"there is no template {name!r}", hint)
+    return TEMPLATES[name]
