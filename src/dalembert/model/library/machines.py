@@ -53,8 +53,8 @@ def toggle_press(
 
     `center` is the crank's centre O2 from O4, in metres, `crank`, `rod`, `upper` and `lower` between pins; the
     ram slides down the line below O4. `pressing_force` in N pushes the ram up. `ram_mass` in kg, the other links
-    uniform and slender with `mass_per_length` in kg/m; gravity is on; `speed` in rad/s; `sweep` in radians. Raises ModelError
-    where the toggle does not close or would pass its straight position.
+    uniform and slender with `mass_per_length` in kg/m; gravity is on; `speed` in rad/s; `sweep` in radians.
+    Raises ModelError where the toggle does not close or would pass its straight position.
 
     >>> from dalembert.model.library import toggle_press
     >>> toggle_press().joints["guide"].links
@@ -250,9 +250,9 @@ def bucket(
                                        P  bucket -> T (tip)
 
     P, the bucket's pivot, is the origin; `base` is the cylinder's pin Q and `rocker_pivot` R, from P in ground axes;
-    `rocker` is R J, `coupler` J H; `ear` is H from P in the bucket's axes, whose x axis goes to the tip T
-    at `reach_to_tip`; `strokes` are the first and last length Q J; in metres. `digging_force` in N acts at the tip, square to P T, against
-    the closing bucket. Masses in kg and kg/m, gravity on; `speed` of the cylinder in m/s.
+    `rocker` is R J, `coupler` J H; `ear` is H from P in the bucket's axes, whose x axis goes to the tip T at
+    `reach_to_tip`; `strokes` are the first and last length Q J; in metres. `digging_force` in N acts at the tip,
+    square to P T, against the closing bucket. Masses in kg and kg/m, gravity on; `speed` of the cylinder in m/s.
 
     >>> from dalembert.model.library import bucket
     >>> bucket().drives["cylinder"].joint
