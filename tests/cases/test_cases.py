@@ -1,0 +1,47 @@
+"""Every published problem of `cases/`: each answer, each position, each free body."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from dalembert.analysis.answers import Row, check_file
+from dalembert.analysis.solve import solve
+from dalembert.model import load
+
+FILES = sorted((Path(__file__).parents[2] / "cases").glob("*.yaml"))
+
+every_case = pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+
+
+def line(row: Row) -> str:
+    """One answer that is missed, as a person reads it."""
+    exact = f", exact {row.exact}" if row.exact else ""
+    published = f"published {row.published} within {row.tolerance}{exact}"
+    return f"{row.quantity}: computed {row.computed}, {published} {row.problem}"
+
+
+@every_case
+def test_answers(path: Path) -> None:
+    rows = check_file(path)
+    assert rows, "a case without answers"
+    missed = [line(row) for row in rows if not row.ok]
+    assert not missed, "\n".join([f"{path.name}: {len(missed)} of {len(rows)} answers are missed", *missed])
+
+
+@every_case
+def test_every_answer_has_its_reason_and_every_case_its_source(path: Path) -> None:
+    mechanism = load(path)
+    assert mechanism.title
+    assert mechanism.source_text
+    assert [answer.quantity for answer in mechanism.answers if not answer.why] == []
+
+
+@every_case
+def test_bodies_balance_and_power_agrees(path: Path) -> None:
+    result = solve(load(path))
+    assert result.ok.all(), result.problems()
+    assert np.nanmax(result.residual) < 1e-9
+    assert np.nanmax(result.power_balance) < 1e-9
