@@ -29,6 +29,9 @@ TOLERANCE = 1e-6
 EXACT = 1e-7
 """Relative deviation from an independent exact value."""
 
+DIGITS = 7
+"""Significant digits of the numbers shown."""
+
 SAME_POSITION = 1e-6
 """Difference, in radians or metres, up to which a drive's position is the one that an answer names."""
 
@@ -236,45 +239,53 @@ def _unit_of(value: Any, kind: str, units: Units) -> str:
 def _measured(result: Result, answer: Answer, series: Series, case: str) -> Row:
     units = file_units(result.mechanism.units)
     position = position_of(result, answer, series)
-    found = np.asarray(series.values[position], dtype=float)
     published = target(answer.value, series, units, "value")
-    scale = _scale(published.value, series)
+    exact = None if answer.exact is None else target(answer.exact, series, units, "exact")
+    found = _same_turn(np.asarray(series.values[position], dtype=float), published.value, series.kind)
+    scale = _scale((exact or published).value, series)
     away = _away(found, published.value, series.kind)
     allowed, said = _tolerance(answer.tolerance, scale, series.kind, units, TOLERANCE, "tolerance")
-    near = bool(away <= allowed)
-    exact = answer.exact is None or _meets_exact(found, answer, series, units)
-    problem = _reason(result, position) or ("" if exact else "the exact value is missed")
+    near = away <= allowed
+    met = exact is None or _meets_exact(found, exact, answer, series, units)
+    problem = _reason(result, position) or ("" if met else "The exact value is missed.")
     return Row(
         case,
         named(answer),
         value_text(answer.value),
-        "" if answer.exact is None else value_text(answer.exact),
+        "" if exact is None else _shortened(value_text(answer.exact)),
         computed_text(found, published, series.kind, units),
         said,
-        _deviation(away, scale, series.kind, published.unit),
-        near and exact,
+        _deviation(away, _size(published.value) and scale, series.kind, published.unit),
+        near and met,
         answer.why or "",
-        "" if near and exact else problem,
+        "" if near and met else problem,
     )
 
 
-def _meets_exact(found: Array, answer: Answer, series: Series, units: Units) -> bool:
-    exact = target(answer.exact, series, units, "exact")
+def _meets_exact(found: Array, exact: Target, answer: Answer, series: Series, units: Units) -> bool:
     scale = _scale(exact.value, series)
     allowed, _ = _tolerance(answer.exact_tolerance, scale, series.kind, units, EXACT, "exact_tolerance")
-    return bool(_away(found, exact.value, series.kind) <= allowed)
+    return _away(found, exact.value, series.kind) <= allowed
+
+
+def _same_turn(found: Array, wanted: Array, kind: str) -> Array:
+    """An angle in the turn that the published one is in."""
+    return found + 2 * np.pi * np.round((wanted - found) / (2 * np.pi)) if kind == "angle" else found
 
 
 def _away(found: Array, wanted: Array, kind: str) -> float:
     """Distance of two numbers or vectors."""
-    return float(np.linalg.norm(np.atleast_1d(_apart(found, wanted, kind))))
+    return _size(_apart(found, wanted, kind))
+
+
+def _size(value: Array) -> float:
+    return float(np.linalg.norm(np.atleast_1d(value)))
 
 
 def _scale(wanted: Array, series: Series) -> float:
-    """What a relative tolerance is relative to: the value, or the largest of its series where it is 0."""
-    own = float(np.linalg.norm(np.atleast_1d(wanted)))
+    """What a relative tolerance is relative to: the value that is wanted, or where it is 0 the largest of its series."""
     values = size(series)
-    return own or (float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0)
+    return _size(wanted) or (float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0)
 
 
 def _tolerance(
@@ -305,21 +316,27 @@ def value_text(value: Any) -> str:
     """A value as it stands in the file."""
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(value_text(item) for item in value) + "]"
-    return f"{value:.10g}" if isinstance(value, float) else str(value)
+    return f"{value:.{DIGITS}g}" if isinstance(value, float) else str(value)
+
+
+def _shortened(text: str) -> str:
+    """The same with no more digits than a computed value is shown with."""
+    return re.sub(rf"(?<![\w.]){NUMBER}", lambda found: f"{float(found[0]):.{DIGITS}g}", text)
 
 
 def computed_text(found: Array, published: Target, kind: str, units: Units) -> str:
     """A computed value in the unit and the form of the published one."""
     if not np.isfinite(found).all():
         return "-"
-    shown_in = unit(published.unit).of_si if published.unit else float
+    own = unit(published.unit).of_si if published.unit else float
     behind = "" if published.unit in ("", units.text(kind)) else f" {published.unit}"
     if found.ndim == 0:
-        return f"{shown_in(float(found)):.7g}{behind}"
+        return f"{own(float(found)):.{DIGITS}g}{behind}"
     if published.polar:
         angle = units.unit("angle").of_si(math.atan2(found[1], found[0]))
-        return f"{shown_in(float(np.hypot(*found))):.7g} @ {angle:.6g}{behind}"
-    return "[" + ", ".join(f"{shown_in(float(v)):.7g}" for v in found) + f"]{behind}"
+        return f"{own(float(np.hypot(*found))):.{DIGITS}g} @ {angle:.6g}{behind}"
+    clean = np.where(np.abs(found) < 1e-12 * np.abs(found).max(), 0.0, found)
+    return "[" + ", ".join(f"{own(float(v)):.{DIGITS}g}" for v in clean) + f"]{behind}"
 
 
 def _deviation(away: float, scale: float, kind: str, unit_text: str) -> str:

@@ -120,6 +120,7 @@ DRIVE_NUMBERS: dict[str, Callable[[Any, str], Array]] = {
     "speed": lambda r, drive: r.drive_speed(drive),
     "acceleration": lambda r, drive: r.drive_acceleration(drive),
 }
+EFFORT: dict[str, Callable[[Any, str], Array]] = {"effort": lambda r, drive: r.effort(drive)}
 
 
 def columns(result: Result, axes: Axes = "ground") -> Iterator[Column]:

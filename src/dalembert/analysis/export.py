@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.columns import (
     DRIVE_NUMBERS,
+    EFFORT,
     LINK_NUMBERS,
     LINK_VECTORS,
     Axes,
@@ -158,7 +159,7 @@ def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -
         )
     data["residual"] = ("position", result.residual, {"units": "1"})
     data["power_balance"] = ("position", result.power_balance, {"units": "1"})
-    coordinates = {
+    coordinates: dict[str, Any] = {
         "position": np.arange(1, len(result.status) + 1),
         "component": ["x", "y"],
         "drive": list(result.drives),
@@ -174,7 +175,7 @@ def _drive_arrays(result: Result, to: Scale) -> dict[str, Any]:
     if not result.drives:
         return {}
     out: dict[str, Any] = {}
-    for name, read in {**DRIVE_NUMBERS, "effort": lambda r, drive: r.effort(drive)}.items():
+    for name, read in {**DRIVE_NUMBERS, **EFFORT}.items():
         kinds = [drive_kinds(result, drive)[name] for drive in result.drives]
         stacked = np.stack(
             [to(k, read(result, d)) for k, d in zip(kinds, result.drives, strict=True)], axis=1

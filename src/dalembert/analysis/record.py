@@ -109,9 +109,12 @@ def _fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], List
 
 def nulled(values: Array) -> list[Any]:
     """A list with None for NaN and infinity."""
-    if np.isfinite(values).all():
+    finite = np.isfinite(values)
+    if finite.all():
         return list(values.tolist())
-    return list(np.where(np.isfinite(values), values.astype(object), None).tolist())
+    out = values.astype(object)
+    out[~finite] = None
+    return list(out.tolist())
 
 
 def _transposed(lists: dict[tuple[str, ...], list[Any]]) -> Iterator[dict[tuple[str, ...], Any]]:

@@ -100,6 +100,7 @@ def _text(rows: Sequence[Row], every: bool) -> str:
 
 
 def _answers_table(rows: Sequence[Row]) -> str:
+    """One line an answer; the names of cases stand above theirs."""
     cells = [
         [
             row.quantity,
@@ -113,9 +114,16 @@ def _answers_table(rows: Sequence[Row]) -> str:
         for row in rows
     ]
     heads = ["quantity", "published", "exact", "computed", "tolerance", "deviation", "ok"]
+    head, rule, *lines = table(heads, cells, 1).splitlines()
     if len({row.case for row in rows}) == 1:
-        return table(heads, cells, 1)
-    return table(["case", *heads], [[row.case, *cell] for row, cell in zip(rows, cells, strict=True)], 2)
+        return "\n".join([head, rule, *lines])
+    shown, case = [head, rule], ""
+    for row, line in zip(rows, lines, strict=True):
+        if row.case != case:
+            shown += ["", row.case]
+            case = row.case
+        shown.append(line)
+    return "\n".join(shown)
 
 
 def _case_table(rows: Sequence[Row]) -> str:
