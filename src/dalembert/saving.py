@@ -21,14 +21,19 @@ def needs(package: str, what: str, extra: str = "results") -> Iterator[None]:
         raise DalembertError(f"{what} needs {package}, which is not installed; {remedy}") from error
 
 
+def check_new(path: Path, overwrite: bool) -> None:
+    """Raise where a file exists that is not to be overwritten."""
+    if path.exists() and not overwrite:
+        raise ModelError(
+            f"{path} exists", "name another file, or overwrite it: --force, in Python overwrite=True"
+        )
+
+
 @contextmanager
 def new_file(path: str | Path, overwrite: bool = False) -> Iterator[Path]:
     """A temporary file beside `path` that takes its place when all is written; an existing one is kept."""
     target = Path(path)
-    if target.exists() and not overwrite:
-        raise ModelError(
-            f"{target} exists", "name another file, or overwrite it with --force (Python: overwrite=True)"
-        )
+    check_new(target, overwrite)
     try:
         handle, name = tempfile.mkstemp(target.suffix, f".{target.stem}.", target.parent)
         os.close(handle)

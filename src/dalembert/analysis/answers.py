@@ -283,7 +283,7 @@ def _size(value: Array) -> float:
 
 
 def _scale(wanted: Array, series: Series) -> float:
-    """What a relative tolerance is relative to: the value that is wanted, or where it is 0 the largest of its series."""
+    """What a relative tolerance is relative to: the value wanted, or where that is 0 the largest of its series."""
     values = size(series)
     return _size(wanted) or (float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0)
 

@@ -65,7 +65,7 @@ class Scale:
         if self._units is None:
             return values
         unit = self._units.unit(kind)
-        return values * (unit.denominator / unit.numerator)
+        return values * unit.denominator / unit.numerator
 
 
 def scale(result: Result, units: UnitChoice) -> Scale:

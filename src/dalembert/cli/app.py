@@ -162,7 +162,9 @@ def new(template: str = "", /, *, output: Output = None, force: Flag = False) ->
 
 
 @app.command(help_epilogue="Examples:\n  dalembert convert four_bar.yaml -o four_bar.json")
-def convert(file: Path, /, *, output: Output, force: Flag = False) -> int:
+def convert(
+    file: Path, /, *, output: Annotated[Path, Parameter(name=["--output", "-o"])], force: Flag = False
+) -> int:
     """Write a model file in another format: .yaml, .json or .toml.
 
     Parameters

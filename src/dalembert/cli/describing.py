@@ -44,18 +44,13 @@ def _title(path: Path) -> str:
     return ""
 
 
-def converted(file: Path, output: Path | None, force: bool) -> int:
+def converted(file: Path, output: Path, force: bool) -> int:
     """Write a model file in the format that the ending of the output names."""
-    from dalembert.model import load
-    from dalembert.saving import new_file
+    from dalembert.model import convert
+    from dalembert.saving import check_new
 
-    if output is None:
-        raise ModelError(
-            "convert needs the file to write", f"dalembert convert {file} -o {file.with_suffix('.json')}"
-        )
-    mechanism = load(file)
-    with new_file(output, force) as temporary:
-        mechanism.save(temporary)
+    check_new(output, force)
+    convert(file, output, overwrite=force)
     print(f"Written: {output}")
     return 0
 

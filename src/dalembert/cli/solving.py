@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from dalembert.errors import ModelError
+from dalembert.saving import check_new
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
@@ -65,8 +66,7 @@ def _check_targets(wanted: Wanted) -> None:
     if str(wanted.json) == "-" and str(wanted.csv) == "-":
         raise ModelError("--json - and --csv - both ask for the screen", "name a file for one of them")
     for path in wanted.files.values():
-        if path.exists() and not wanted.force:
-            raise ModelError(f"{path} exists", "name another file, or overwrite it with --force")
+        check_new(path, wanted.force)
 
 
 def _result(file: Path, static: bool, positions: int | None, method: str, friction: bool) -> Result:
