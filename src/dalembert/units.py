@@ -152,7 +152,7 @@ def quantity(value: object, kind: str, units: Units | None = None) -> float:
     """
     number, unit_text = _split(value, kind)
     if not unit_text:
-        return _finite(_bare(number, kind, units), value)
+        return _finite(_bare(number, kind, units, value), value)
     named = unit(unit_text)
     _check_dimension(unit_text, named, value, kind)
     return _finite(named.si(number), value)
@@ -181,18 +181,16 @@ def _split_text(text: str, kind: str) -> tuple[float, str]:
     if re.match(r",\s*\d", rest):
         raise ModelError(f"{shown(text)} has a decimal comma", f"write {text.replace(',', '.', 1)!r}")
     if re.match(r"[\d/]", rest) and not re.match(r"1/[^\W\d]", rest):
-        raise ModelError(
-            f"{shown(text)} is not one number", "write a fraction as a decimal: 1.5 in for 1 1/2 in"
-        )
+        raise ModelError(f"{shown(text)} is not one number", "write a decimal: 1.5 in for 1 1/2 in")
     return _float(number), rest
 
 
-def _bare(number: float, kind: str, units: Units | None) -> float:
+def _bare(number: float, kind: str, units: Units | None, value: object) -> float:
     if units is None:
         return number
     if kind in REFUSED_BARE:
         raise ModelError(
-            f"{number!r} is {KINDS[kind].phrase} without a unit", f"{REFUSED_BARE[kind]}? Write which"
+            f"{shown(value)} is {KINDS[kind].phrase} without a unit", f"write which: {REFUSED_BARE[kind]}"
         )
     return units.unit(kind).si(number)
 

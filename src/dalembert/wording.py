@@ -26,7 +26,7 @@ def _number(value: int | float) -> str:
 
 
 def closest(word: str, choices: list[str], most: int = 12) -> str:
-    """`did you mean 'x'?`, or the list to choose from.
+    """The choice that is meant, or the list of them.
 
     >>> closest("rodd", ["crank", "rod"])
     "did you mean 'rod'?"
@@ -37,5 +37,6 @@ def closest(word: str, choices: list[str], most: int = 12) -> str:
     near = difflib.get_close_matches(word.lower(), list(folded), 1, 0.6)
     if near:
         return f"did you mean {folded[near[0]]!r}?"
-    some = ", ".join(choices[:most])
-    return f"there is {some}" + (", ..." if len(choices) > most else "") if choices else "there is none"
+    if len(choices) < 2:
+        return f"there is only {choices[0]!r}" if choices else "there is none"
+    return f"choose among {', '.join(choices[:most])}" + (", ..." if len(choices) > most else "")

@@ -19,7 +19,7 @@ from dalembert.model.messages import ModelErrors
 from dalembert.model.schedule import Schedule
 from dalembert.model.schema import json_schema
 from dalembert.model.tables import Table
-from dalembert.model.values import Varying, value_at
+from dalembert.model.varying import Varying, value_at
 
 __all__ = [
     "Answer",

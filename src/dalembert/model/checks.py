@@ -10,7 +10,7 @@ from dalembert.model.joints import JointPart, SpaceJoint
 from dalembert.model.link import CENTER, Link, Offset
 from dalembert.model.loads import Couple, Damper, ForceLoad, Spring, TorsionDamper, TorsionSpring
 from dalembert.model.tables import Table
-from dalembert.model.values import Varying
+from dalembert.model.varying import Varying
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
@@ -165,10 +165,7 @@ def _varying(m: Mechanism, value: Varying, what: str, path: tuple[str | int, ...
         return
     drives = list(m.drives)
     for name in sorted(value.names - set(drives)):
-        remedy = (
-            closest(name, [*drives, "unknown"]) if drives else "give it as a number: the file has no drives"
-        )
-        yield ModelError(f"{what} uses {name!r}, which is no drive", remedy, path)
+        yield ModelError(f"{what} uses {name!r}, which is no drive", _drive_remedy(name, drives), path)
     if isinstance(value, Table) and value.against in m.drives:
         along = "angle" if m.drives[value.against].turns else "length"
         if along != value.along:
@@ -178,6 +175,13 @@ def _varying(m: Mechanism, value: Varying, what: str, path: tuple[str | int, ...
                 "give x with units of that kind",
                 (*path, "x"),
             )
+
+
+def _drive_remedy(name: str, drives: list[str]) -> str:
+    guess = closest(name, [*drives, "unknown"])
+    if guess.startswith("did"):
+        return guess
+    return closest(name, drives) if drives else "give a number: the file has no drives"
 
 
 def _loads(m: Mechanism) -> Iterator[ModelError]:

@@ -18,15 +18,12 @@ from dalembert.model.values import (
     JsonSchema,
     Name,
     Value,
-    Varying,
     Vector,
     at_item,
     numbers,
-    varying,
-    varying_schema,
-    varying_tree,
     written,
 )
+from dalembert.model.varying import Varying, varying, varying_schema, varying_tree
 from dalembert.units import NUMBER, quantity
 
 UNKNOWN: Literal["unknown"] = "unknown"

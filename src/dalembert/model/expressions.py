@@ -33,7 +33,8 @@ ARGUMENTS = dict.fromkeys(
 }
 """Function -> how many arguments it takes."""
 
-LONGEST, DEEPEST, EXPONENT = 1000, 40, 16
+LONGEST, DEEPEST, MOST, EXPONENT = 1000, 40, 200, 16
+"""Characters, brackets, operations, and size of an exponent."""
 OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
     "+": operator.add,
     "-": operator.sub,
@@ -208,7 +209,7 @@ class _Parser:
     """Recursive descent over the grammar at the head of this file."""
 
     def __init__(self, text: str) -> None:
-        self.text, self.place = text, 0
+        self.text, self.place, self.operations = text, 0, 0
 
     def peek(self) -> re.Match[str] | None:
         return _TOKEN.match(self.text, self.place)
@@ -231,12 +232,14 @@ class _Parser:
         return self.chain(("*", "/"), self.sign, depth)
 
     def chain(self, signs: tuple[str, ...], part: Callable[[int], Tree], depth: int) -> Tree:
-        tree, length = part(depth), 0
+        tree = part(depth)
         while sign := self.sign_among(signs):
-            tree, length = Apply(sign, (tree, part(depth))), length + 1
-            if length > 4 * DEEPEST:
+            tree = Apply(sign, (tree, part(depth)))
+            self.operations += 1
+            if self.operations > MOST:
                 raise ModelError(
-                    f"the expression {shown(self.text)} has too many terms", "use a table instead"
+                    f"the expression {shown(self.text)} has more than {MOST} operations",
+                    "use a table instead",
                 )
         return tree
 

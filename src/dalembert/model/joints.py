@@ -236,8 +236,8 @@ class Rolling(JointPart):
     radius: Annotated[float, Scalar("length", "positive")] | None = Field(
         None, description="of the wheel on a straight line, a length; or radii"
     )
-    direction: Angle | None = Field(
-        None, description="of the line, an angle in i's axes; the wheel is on its left; default 0"
+    direction: Angle = Field(
+        0.0, description="of the line, an angle in i's axes; the wheel is on its left; default 0"
     )
     radii: Annotated[tuple[float, float], Pair("length")] | None = Field(
         None, description="of the circle on i and of the wheel on j, lengths"
@@ -251,7 +251,7 @@ class Rolling(JointPart):
                 "its size is not said once",
                 "give radius for a wheel on a line, or radii [of i, of j] on a circle",
             )
-        if self.radii is not None and self.direction is not None:
+        if self.radii is not None and self.direction:
             raise ModelError("a wheel on a circle has no direction", "leave it out", ("direction",))
         if self.radii is None and self.internal:
             raise ModelError("a wheel on a line cannot be internal", "leave it out", ("internal",))

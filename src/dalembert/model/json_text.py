@@ -6,7 +6,6 @@ import json
 import re
 from typing import Any
 
-from dalembert.errors import ModelError
 from dalembert.model.source import Path
 from dalembert.model.yaml_text import DEEPEST, at_line
 from dalembert.wording import shown
@@ -14,9 +13,9 @@ from dalembert.wording import shown
 
 def read(text: str) -> Any:
     """The tree; raises ModelError with its `line`."""
-    _check_depth(text)
+    _check_tokens(text)
     try:
-        return json.loads(text, object_pairs_hook=_object, parse_int=_number, parse_constant=_constant)
+        return json.loads(text, object_pairs_hook=_object, parse_int=_number)
     except json.JSONDecodeError as error:
         raise at_line(
             f"it is not JSON here: {error.msg.lower()}", "check commas, quotes and brackets", error.lineno
@@ -43,19 +42,17 @@ def _number(digits: str) -> int | float:
     return int(digits) if len(digits) < 19 else float(digits)
 
 
-def _constant(word: str) -> float:
-    raise ModelError(f"{word} is no number of JSON", "write a finite number")
-
-
 _TOKEN = re.compile(r'"(?:[^"\\\n]|\\.)*"|[][{},:]|[^][{},:"\s]+|\n')
 
 
-def _check_depth(text: str) -> None:
+def _check_tokens(text: str) -> None:
     depth, line = 0, 1
     for match in _TOKEN.finditer(text):
         token = match[0]
         depth += (token in "[{") - (token in "]}")
         line += token == "\n"
+        if token in ("NaN", "Infinity", "-Infinity"):
+            raise at_line(f"{token} is no number of JSON", "write a finite number", line)
         if depth > DEEPEST:
             raise at_line(
                 f"the file is nested deeper than {DEEPEST} levels", "a model file needs 6 or so", line

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import Field, ValidationInfo, model_validator
 
@@ -125,6 +125,8 @@ class Link(Part):
     >>> link.mass
     0.90718474
     """
+
+    INSTEAD: ClassVar = {"mass": "weight", "weight": "mass"}
 
     points: dict[Name, Annotated[Vector | Offset, Place()]] = Field(
         default_factory=dict, description="named points in link axes: lengths, or {from: OTHER, at: VECTOR}"

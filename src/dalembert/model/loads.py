@@ -14,21 +14,17 @@ from dalembert.model.values import (
     Name,
     Scalar,
     Value,
-    Varying,
     Vector,
     at_item,
     listed,
     name,
     polar,
     unit_vector,
-    value_at,
-    varying,
-    varying_schema,
-    varying_tree,
     vector,
     vector_schema,
     written,
 )
+from dalembert.model.varying import Varying, value_at, varying, varying_schema, varying_tree
 from dalembert.wording import shown
 
 UNKNOWN: Literal["unknown"] = "unknown"

@@ -22,7 +22,7 @@ from dalembert.model.loads import Damper, ForceLoad, Load, Spring
 from dalembert.model.messages import together
 from dalembert.model.names import drive_freedoms, with_freedoms
 from dalembert.model.part import Part, Reading
-from dalembert.model.paths import replaced
+from dalembert.model.paths import fields, replaced
 from dalembert.model.schedule import Schedule, schedule
 from dalembert.model.source import Source
 from dalembert.model.values import JsonSchema, Name, Scalar, Value, Vector, at_item
@@ -119,6 +119,7 @@ class Mechanism(Part):
     def _freedoms(cls, keys: Any) -> Any:
         if not isinstance(keys, Mapping):
             return keys
+        keys = {key: value for key, value in keys.items() if value is not None}
         for name, joint in _items(keys.get("joints")):
             if isinstance(joint, Mapping):
                 at_item("joints", at_item, name, refuse_unfinished, joint.get("type"))
@@ -223,7 +224,7 @@ class Mechanism(Part):
         found = self
         for path, value in values.items():
             found = replaced(found, path.split("."), value)
-        changed = Mechanism(**{name: getattr(found, name) for name in type(self).model_fields})
+        changed = Mechanism(**fields(found))
         changed._source = self._source
         return changed
 

@@ -99,7 +99,7 @@ def translated(error: ValidationError, tree: object) -> ModelError:
 
 
 def _translated(one: dict[str, Any], tree: object) -> tuple[int, ModelError]:
-    path = _path(one["loc"], tree)
+    path = _path(one["loc"], tree, one["type"] == "missing")
     inner = one.get("ctx", {}).get("error")
     if isinstance(inner, ModelError):
         return _of_ours(inner, path)
@@ -119,14 +119,14 @@ def _of_ours(inner: ModelError, path: Path) -> tuple[int, ModelError]:
     return 2, ModelError(f"{place(whole)}: {inner.what}", inner.remedy, whole)
 
 
-def _path(loc: Sequence[str | int], tree: object) -> Path:
+def _path(loc: Sequence[str | int], tree: object, missing: bool) -> Path:
     """pydantic's location without the names of the alternatives it tried, which are no keys of the tree."""
     path: list[str | int] = []
     for step, key in enumerate(loc):
         inner = _inside(tree, key)
         if inner is not tree:
             tree = inner
-        elif step < len(loc) - 1 or key == "[key]":
+        elif step < len(loc) - 1 or not missing:
             continue
         path.append(key)
     return tuple(path)
@@ -157,7 +157,7 @@ def _sentence(one: Mapping[str, Any]) -> tuple[str, str]:
         return "the key 'type' is missing", HINTS["type"]
     if kind == "literal_error":
         choices = _quoted(ctx["expected"])
-        return f"{shown(given)} is none of {', '.join(choices)}", closest(str(given), choices)
+        return f"{shown(given)} has no meaning here", closest(str(given), choices)
     if kind in ("model_type", "model_attributes_type", "dict_type", "mapping_type"):
         return f"{shown(given)} stands where a mapping is needed", "write {key: value, ...}"
     if kind in ("tuple_type", "list_type"):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from pydantic import (
     BaseModel,
@@ -49,9 +49,10 @@ def reading(info: ValidationInfo | None) -> Reading:
 class Part(BaseModel):
     """A part of a description: frozen; in Python bare numbers are SI and radians, texts carry their unit."""
 
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", validate_by_name=True, validate_by_alias=True, coerce_numbers_to_str=True
-    )
+    model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True)
+
+    INSTEAD: ClassVar[Mapping[str, str]] = {}
+    """Key -> the key that it takes the place of, when it is given a value later."""
 
     if not TYPE_CHECKING:
 

@@ -31,6 +31,11 @@ def replaced(part: Any, keys: Sequence[str], value: Any, walked: tuple[str, ...]
     )
 
 
+def fields(part: Part) -> dict[str, Any]:
+    """Its keys and values, from which an equal part can be made."""
+    return {field.alias or name: getattr(part, name) for name, field in type(part).model_fields.items()}
+
+
 def _field(part: Part, key: str, here: tuple[str, ...]) -> str:
     names = {field.alias or name: name for name, field in type(part).model_fields.items()}
     _known(key, list(names), here)
@@ -51,8 +56,8 @@ def _rebuilt(part: Part, name: str, inner: Any, here: tuple[str, ...]) -> Any:
     """The part with one field replaced; the whole mechanism is rebuilt by its own method, once."""
     if len(here) == 1:
         return part.model_copy(update={name: inner})
-    values = {field: getattr(part, field) for field in type(part).model_fields}
+    other = {part.INSTEAD[name]: None} if name in part.INSTEAD else {}
     try:
-        return type(part)(**{**values, name: inner})
+        return type(part)(**{**fields(part), **other, name: inner})
     except ModelError as error:
         raise ModelError(error.what, error.remedy, (*here[:-1], *error.path)) from None

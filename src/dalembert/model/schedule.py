@@ -84,9 +84,9 @@ def _count(drives: Mapping[str, Drive], positions: int | None) -> int:
         listed = [number for key, number in drive.counts().items() if isinstance(getattr(drive, key), tuple)]
         for number in listed or drive.counts().values():
             found.setdefault(number if listed or positions is None else positions, name)
-    if len(found) > 1:
+    if len(found) > 1 or (positions is not None and found and positions not in found):
         said = " and ".join(f"{number} of drive {name!r}" for number, name in found.items())
-        asked = f" ({positions} are asked for)" if positions is not None else ""
+        asked = f", and {positions} are asked for" if positions is not None else ""
         raise ModelError(
             f"the numbers of positions differ: {said}{asked}",
             "drives advance together: give equal counts, or single values",

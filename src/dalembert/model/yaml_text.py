@@ -38,7 +38,7 @@ def read(text: str) -> tuple[Any, dict[Path, int]]:
             builder.take(event)
     except MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
-        problem = " ".join(str(error.problem or error.context).split())
+        problem = _problem(error)
         raise at_line(
             f"it is not YAML here: {problem}", _advice(text, mark), mark.line + 1 if mark else 1
         ) from None
@@ -48,6 +48,14 @@ def read(text: str) -> tuple[Any, dict[Path, int]]:
         said = str(error).split("\n")[0]
         raise at_line(f"it is not YAML: {said}", "check its characters and brackets", 1) from None
     return builder.root, builder.lines
+
+
+def _problem(error: Any) -> str:
+    said = " ".join(str(error.problem or error.context).split())
+    begun, found = error.context_mark, error.problem_mark
+    if begun is not None and found is not None and begun.line != found.line:
+        return f"{said}, {error.context} that begins in line {begun.line + 1}"
+    return said
 
 
 def at_line(what: str, remedy: str, line: int) -> ModelError:
