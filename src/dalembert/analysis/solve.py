@@ -32,7 +32,7 @@ def kinematics(m: Mechanism, positions: int | None = None, strict: bool = False)
 
 
 def statics(m: Mechanism, positions: int | None = None, strict: bool = False) -> Result:
-    """Joint forces and efforts without inertia, springs and weights included; velocities stay those of the drives."""
+    """Joint forces and efforts without inertia; springs, weights and, at the drives' speeds, dampers act."""
     return _analysed(m, positions, strict, inertia=False, forces=True)
 
 

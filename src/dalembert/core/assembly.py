@@ -6,6 +6,7 @@ zero in the first start ("as drawn") and spread evenly over the turn in the othe
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 
 from dalembert.core.closure import CLOSED, closed, distance
 from dalembert.core.constraints import measure
-from dalembert.core.layout import Along, Layout, Meet, Mesh, Pose, Rows, Turn, selected
+from dalembert.core.layout import Along, Distance, Layout, Meet, Mesh, Pose, Rows, Turn, selected
 
 Array = NDArray[Any]
 
@@ -213,19 +214,31 @@ def _laid(layout: Layout, target: Array, guess: Guess, angles: Array, slides: Ar
     point[:, -1] = 0.0
     given = np.isfinite(guess.point).all(axis=-1)
     point[:, given] = guess.point[given]
-    placed = set(np.flatnonzero(given)) | {layout.links}
+    placed = set(np.flatnonzero(given).tolist()) | {layout.links}
     while len(placed) <= layout.links:
-        grown = False
-        for edge in edges.points:
-            if (edge.i in placed) != (edge.j in placed):
-                _place(g, edge, target, point, rotation, slides)
-                placed |= {edge.i, edge.j}
-                grown = True
-        if not grown:
-            lone = min(set(range(layout.links)) - placed)
-            point[:, lone] = 0.0
-            placed.add(lone)
+        if _grown(placed, edges.pins, lambda e: _place(g, e, target, point, rotation, slides)):
+            continue
+        if _grown(placed, edges.others, lambda e: _place(g, e, target, point, rotation, slides), one=True):
+            continue
+        lone = min(set(range(layout.links)) - placed)
+        point[:, lone] = 0.0
+        placed.add(lone)
     return Pose(point, turn, rotation)
+
+
+def _grown(
+    placed: set[int], edges: list[_PointEdge], place: Callable[[_PointEdge], None], one: bool = False
+) -> bool:
+    """Lay links across edges that have one end placed; whether there was any."""
+    any_ = False
+    for edge in edges:
+        if (edge.i in placed) != (edge.j in placed):
+            place(edge)
+            placed |= {edge.i, edge.j}
+            any_ = True
+            if one:
+                break
+    return any_
 
 
 class _PointEdge(NamedTuple):
@@ -235,11 +248,13 @@ class _PointEdge(NamedTuple):
     uj: Array
     axis: Array | None  # in i's axes, of a coordinate kept at its target
     row: int
+    far: float = 0.0  # distance of the points, where that is what the row keeps
 
 
 class _Edges(NamedTuple):
     turns: list[tuple[int, int, int]]  # link i, link j, stacked row
-    points: list[_PointEdge]
+    pins: list[_PointEdge]
+    others: list[_PointEdge]
 
 
 def _edges(layout: Layout) -> _Edges:
@@ -262,9 +277,11 @@ def _edges(layout: Layout) -> _Edges:
                     pins.append(_PointEdge(i, j, f.ui[k], f.uj[k], None, row))
                 elif isinstance(f, Along) and where is None and not f.pitch[k]:
                     slides.append(_PointEdge(i, j, f.ui[k], f.uj[k], f.axis[k], row))
-                elif not isinstance(f, Along):
-                    slides.append(_PointEdge(i, j, f.ui[k], f.uj[k], None, row))
-    return _Edges(turns, pins + slides)
+                elif isinstance(f, Mesh):
+                    slides.append(_PointEdge(i, j, f.ui[k], f.uj[k], None, row, float(f.ri[k] + f.rj[k])))
+                elif isinstance(f, Distance):
+                    slides.append(_PointEdge(i, j, f.ui[k], f.uj[k], None, row, np.nan))
+    return _Edges(turns, pins, slides)
 
 
 def _turns(layout: Layout, target: Array, guess: Guess, angles: Array, edges: _Edges) -> Array:
@@ -302,6 +319,9 @@ def _place(g: Any, edge: _PointEdge, target: Array, point: Array, rotation: Arra
         across = g.rotate(rotation[:, edge.i], edge.axis)
         along = -g.across(across)
         offset = across * target[edge.row] + along * slides[:, edge.row, None]
+    elif edge.far:
+        far = target[edge.row] if np.isnan(edge.far) else edge.far
+        offset = far * g.rotation(np.pi / 2 * slides[:, edge.row] / np.abs(slides).max())
     ri, rj = g.rotate(rotation[:, edge.i], edge.ui), g.rotate(rotation[:, edge.j], edge.uj)
     if np.isnan(point[0, edge.j, 0]):
         point[:, edge.j] = point[:, edge.i] + ri + offset - rj

@@ -80,7 +80,12 @@ def closed(
     A gap above ``CLOSED * length`` means: not reached from here. Elements are independent of each other. Without
     ``polish`` that is where an element stops, with it a last step follows, to rounding.
     """
-    pose, missing = guess, gap(layout, guess, target)
+    with np.errstate(all="ignore"):
+        return _closed(layout, guess, target, iterations, polish)
+
+
+def _closed(layout: Layout, pose: Pose, target: Array, iterations: int, polish: bool) -> tuple[Pose, Array]:
+    missing = gap(layout, pose, target)
     size = np.abs(missing).max(axis=-1, initial=0.0)
     active = np.arange(len(size))
     for _ in range(iterations):

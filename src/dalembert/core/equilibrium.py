@@ -98,9 +98,8 @@ def motion(layout: Layout, pose: Pose, speed: Array, acceleration: Array) -> tup
 def known_sources(
     layout: Layout, forcing: Forcing, pose: Pose, moving: Motion, inertia: bool
 ) -> dict[str, Source]:
-    """Every known wrench by kind; springs and dampers included, inertia where asked for."""
-    still = np.zeros_like(moving.twist)
-    twist = moving.twist if inertia else still
+    """Every known wrench by kind: dampers at the speeds of the motion, inertia where asked for."""
+    twist = moving.twist
     sources = {
         "weight": fc.weight(layout, forcing.inertia, pose),
         "force": fc.force_wrench(layout, forcing.forces, pose),
