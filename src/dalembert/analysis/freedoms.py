@@ -26,7 +26,7 @@ def whole_pose(layout: Any, point: Array, turn: Array) -> Pose:
 
 
 def freedom_motion(result: Result, joint: str, kind: str) -> tuple[Array, Array, Array]:
-    """Value, rate and second rate of a joint's freedom, each (P,)."""
+    """Value, rate and second rate of a joint's freedom, each (P,); a free turn starts within half a turn of 0."""
     c = result.compiled
     if (joint, kind) not in c.freedoms:
         has = ", ".join(f"{k} of {j}" for j, k in c.freedoms if j == joint) or "no such joint, or none free"
@@ -37,5 +37,13 @@ def freedom_motion(result: Result, joint: str, kind: str) -> tuple[Array, Array,
     twist = with_ground(result.twist_array)
     rows = system(g, freedoms, pose)
     second = rates(rows, with_ground(result.acceleration_array)) + drift(g, freedoms, pose, twist)
-    value, rate = measure(g, freedoms, pose), rates(rows, twist)
-    return value[..., row], rate[..., row], second[..., row]
+    value, rate = measure(g, freedoms, pose)[..., row], rates(rows, twist)[..., row]
+    if freedoms.angular[row] and row not in c.layout.driven:
+        value = value - 2 * np.pi * np.round(_first(value) / (2 * np.pi))
+    return value, rate, second[..., row]
+
+
+def _first(value: Array) -> float:
+    """The first value there is."""
+    known = value[np.isfinite(value)]
+    return float(known[0]) if known.size else 0.0

@@ -46,7 +46,7 @@ def positions(c: Compiled) -> Positions:
         _refuse_overdriven(c)
         return Positions(c, None, None, None)
     place, first = found
-    c = _with_phase(c, first.pose.at(0))
+    c = _wound(_with_phase(c, first.pose.at(0)), first.pose.at(0))
     along = course(c.layout, c.targets)
     start = along.at(place)
     here = general = first.pose.at(0)
@@ -95,6 +95,18 @@ def _with_phase(c: Compiled, first: Pose) -> Compiled:
     target = c.target.copy()
     target[rows] = measure(c.layout.algebra, c.layout.constraints, first)[rows]
     return replace(c, target=target)
+
+
+def _wound(c: Compiled, first: Pose) -> Compiled:
+    """Springs in turning freedoms are deflected by less than half a turn at the first pose, unless a drive says."""
+    springs, freedoms = c.forcing.resistances, c.layout.freedoms
+    if not springs.row.size:
+        return c
+    value = measure(c.layout.algebra, freedoms, first)[springs.row]
+    whole = freedoms.angular[springs.row] & ~np.isin(springs.row, c.layout.driven)
+    turns = 2 * np.pi * np.round((value - springs.free) / (2 * np.pi))
+    wound = replace(springs, free=springs.free + np.where(whole, turns, 0.0))
+    return replace(c, forcing=replace(c.forcing, resistances=wound))
 
 
 def _check_meshes(c: Compiled, first: Pose) -> None:
