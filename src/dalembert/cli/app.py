@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from cyclopts import App, CycloptsError, Parameter
+from cyclopts import App, CycloptsError, MissingArgumentError, Parameter
 
 from dalembert import __version__
 
@@ -225,6 +226,7 @@ def command_line_error(error: CycloptsError, arguments: list[str]) -> str:
     asked: Any = arguments[0] if arguments else ""
     if asked in LATER:
         return f"dalembert: {asked} is not part of version {__version__}; `dalembert --help` lists what is"
-    said = str(error).strip().rstrip(".")
+    missing = isinstance(error, MissingArgumentError) and re.search(r"parameter (\S+) requires", str(error))
+    said = f"{asked} needs {missing[1]}" if missing else str(error).strip().rstrip(".")
     command = f" {asked}" if asked in app and not asked.startswith("-") else ""
     return f"dalembert: {said[:1].lower() + said[1:]}; see `dalembert{command} --help`"

@@ -95,7 +95,8 @@ def _text(rows: Sequence[Row], every: bool) -> str:
     parts = [_answers_table(rows) if every else _case_table(rows)]
     parts += [_failure(row) for row in failed]
     exact = sum(1 for row in rows if row.exact)
-    parts.append(f"{len(rows)} answers, {exact} of them with an exact value; {len(failed)} disagree.")
+    some = f"{len(rows)} answer{'s' if len(rows) > 1 else ''}, {exact} with an exact value"
+    parts.append(f"{some}; {f'{len(failed)} not met' if failed else 'all met'}.")
     return "\n\n".join(parts)
 
 

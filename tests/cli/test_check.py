@@ -1,0 +1,136 @@
+"""`dalembert check` and `dalembert validate`: answers compared."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import dalembert as da
+from tests.cli.conftest import Run
+
+ANSWERS = """
+answers:
+  - {quantity: effort, of: O2, value: 243.23 lbf*in, exact: 243.2375907612, tolerance: 0.01 %, why: five digits}
+  - {quantity: reaction, of: A, on: crank, value: 154.99 @ 40.35 lbf, tolerance: 0.3 %, why: the book rounds the masses}
+  - {quantity: reaction, of: A, by: coupler, component: direction, value: 40.35, tolerance: 0.1 deg}
+  - {quantity: speed, of: coupler, value: -5.87 rad/s, tolerance: 0.005 rad/s}
+  - {quantity: point, of: crank.A, value: "[2.5 in, 4.330127 in]"}
+  - {quantity: turn, of: B, value: 83.4924964081, tolerance: 1e-6 deg}
+  - {quantity: mobility, value: 1}
+  - {quantity: count, value: 1}
+  - {quantity: status, at: 60 deg, value: ok}
+  - {quantity: moment, of: A, at: 1, value: 0, tolerance: 1e-9}
+""".replace('"[2.5 in, 4.330127 in]"', "[2.5 in, 4.330127 in]")
+
+
+def with_answers(folder: Path, answers: str, name: str = "claims.yaml") -> str:
+    text = (folder / "four_bar.yaml").read_text(encoding="utf-8")
+    (folder / name).write_text(text + answers, encoding="utf-8")
+    return name
+
+
+def test_answers_that_agree(run: Run, folder: Path) -> None:
+    ran = run("check", with_answers(folder, ANSWERS))
+    assert ran.err == ""
+    assert ran.status == 0
+    lines = ran.out.splitlines()
+    assert lines[0].split() == ["quantity", "published", "exact", "computed", "tolerance", "deviation", "ok"]
+    effort = "effort of O2 243.23 lbf*in 243.2376 243.2376 0.01 % 0.0031 % yes"
+    assert " ".join(lines[2].split()) == effort
+    assert lines[-1] == "10 answers, 1 with an exact value; all met."
+
+
+def test_an_answer_that_disagrees(run: Run, folder: Path) -> None:
+    claim = "answers:\n  - {quantity: effort, of: O2, value: 250, tolerance: 1 %, why: a slip}\n"
+    ran = run("check", with_answers(folder, claim))
+    assert ran.status == 1
+    assert "claims, line 33: effort of O2: published 250, computed 243.2376, 2.7 %" in ran.out.replace(
+        "\n  ", " "
+    )
+    assert ran.out.splitlines()[-1] == "1 answer, 0 with an exact value; 1 not met."
+
+
+def test_an_exact_value_that_is_missed(run: Run, folder: Path) -> None:
+    claim = "answers:\n  - {quantity: effort, of: O2, value: 243.2, exact: 243.2, tolerance: 1 %}\n"
+    ran = run("check", with_answers(folder, claim))
+    assert ran.status == 1
+    assert "The exact value is missed." in ran.out
+
+
+@pytest.mark.parametrize(
+    ("claim", "said"),
+    [
+        (
+            "{quantity: effort, of: O3, value: 1}",
+            "claims.yaml:33: there is no drive 'O3'; there is only 'O2'",
+        ),
+        ("{quantity: effort, value: 1}", "claims.yaml:33: effort needs `of`; there is only 'O2'"),
+        (
+            "{quantity: effort, of: O2, value: 1 lbf}",
+            "claims.yaml:33: '1 lbf' is a force, and a moment is needed",
+        ),
+        (
+            "{quantity: speed, of: crank, at: 70 deg, value: 1 rad/s}",
+            "claims.yaml:33: no position has O2 = 70 deg",
+        ),
+        (
+            "{quantity: speed, of: crank, at: 2, value: 1 rad/s}",
+            "claims.yaml:33: there is no position 2; they are 1 to 1",
+        ),
+        (
+            "{quantity: point, of: crank, value: [1, 2]}",
+            "claims.yaml:33: 'crank' names no point of a moving link",
+        ),
+        ("{quantity: effort, of: O2, value: 1, tolerance: x %}", "claims.yaml:33: 'x %' is no percentage"),
+        (
+            "{quantity: reaction, of: A, by: rocker, value: [1, 2]}",
+            "claims.yaml:33: joint 'A' does not join 'rocker'; it joins crank and coupler",
+        ),
+    ],
+)
+def test_answers_that_ask_for_nothing(run: Run, folder: Path, claim: str, said: str) -> None:
+    ran = run("check", with_answers(folder, f"answers:\n  - {claim}\n"))
+    assert ran.status == 2
+    assert ran.err.startswith(said)
+
+
+def test_a_folder_one_line_a_file(run: Run, folder: Path) -> None:
+    with_answers(folder, ANSWERS, "a.yaml")
+    with_answers(folder, "answers:\n  - {quantity: effort, of: O2, value: 250}\n", "b.yaml")
+    ran = run("check", str(folder))
+    assert ran.status == 1
+    cases = {line.split()[0]: line.split()[1:] for line in ran.out.splitlines()[2:4]}
+    assert cases == {"a": ["10", "1", "10", "yes"], "b": ["1", "0", "0", "NO"]}
+
+
+def test_a_wrong_file_does_not_stop_the_others(run: Run, folder: Path, edited: Callable[..., str]) -> None:
+    wrong = edited(("type: pin", "type: pim"))
+    ran = run("check", wrong, with_answers(folder, ANSWERS))
+    assert ran.status == 2
+    assert ran.err.startswith("edited.yaml:19: ")
+    assert "10 answers" in ran.out
+
+
+def test_extremes_over_a_turn(run: Run, folder: Path) -> None:
+    text = (folder / "four_bar.yaml").read_text(encoding="utf-8")
+    text = text.replace("position: 60 deg", "position: {from: 60, to: 420, count: 72}")
+    r = da.dynamics(da.loads(text))
+    most = float(r.effort("O2").max()) / 0.1129848290276167
+    claim = f"answers:\n  - {{quantity: effort, of: O2, extreme: max, value: {most!r}}}\n"
+    (folder / "turn.yaml").write_text(text + claim, encoding="utf-8")
+    assert run("check", "turn.yaml").status == 0
+
+
+def test_files_without_answers(run: Run) -> None:
+    assert run("check", "four_bar.yaml") == (0, "No answers to compare.\n", "")
+
+
+def test_this_installation(run: Run) -> None:
+    ran = run("validate")
+    assert ran.err == ""
+    assert ran.status == 0, ran.out
+    *_, where, verdict = ran.out.splitlines()
+    assert where.startswith("dalembert 0.1.0, Python 3.")
+    assert verdict.startswith("PASSED: ")

@@ -1,0 +1,61 @@
+"""The command as a process of its own: start, pipes, signals, exit status."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from dalembert.bundled import examples
+
+COMMAND = [sys.executable, "-m", "dalembert"]
+FOUR_BAR = str(examples()["four_bar"])
+
+
+def test_status_and_streams() -> None:
+    done = subprocess.run(
+        [*COMMAND, "solve", FOUR_BAR], capture_output=True, text=True, stdin=subprocess.DEVNULL
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "243.2376 lbf*in" in done.stdout
+    assert "\x1b" not in done.stdout
+    done = subprocess.run([*COMMAND, "solve", "none.yaml"], capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "there is no file none.yaml; check the name and the folder\n"
+
+
+def test_a_reader_that_goes_away_is_no_error() -> None:
+    command = [*COMMAND, "solve", FOUR_BAR, "--positions", "5000", "--csv", "-"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        process.stdout.readline()
+        process.stdout.close()
+        assert process.stderr.read() == b""
+        assert process.wait(30) == 0
+
+
+def test_interruption_is_quiet(tmp_path: Path) -> None:
+    command = [*COMMAND, "solve", FOUR_BAR, "--positions", "200000", "--csv", str(tmp_path / "out.csv")]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        time.sleep(1.5)
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=30)
+        assert (process.returncode, err) == (130, b"")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("arguments", "seconds"), [(["--help"], 0.5), (["solve", FOUR_BAR], 0.8)])
+def test_it_starts_fast(arguments: list[str], seconds: float) -> None:
+    """The best of five, from process start to its end: the machine may be busy with other things."""
+    best = float("inf")
+    for _ in range(5):
+        started = time.perf_counter()
+        subprocess.run([*COMMAND, *arguments], capture_output=True, check=True)
+        best = min(best, time.perf_counter() - started)
+    assert best < seconds

@@ -1,0 +1,255 @@
+"""`dalembert solve`: what it prints, in which units, and what it writes."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Run
+
+ONE_POSITION = """\
+Four-bar linkage, dynamic
+Norton, Design of Machinery, example 11-3
+Assumptions: gravity none, inertia on (D'Alembert), friction off
+Mobility 1, driven by 1 drive, no redundant constraint
+
+drive  position     speed  acceleration           effort
+--------------------------------------------------------
+O2       60 deg  25 rad/s   -40 rad/s^2  243.2376 lbf*in
+
+joint  by i     on j       F_ij x    F_ij y   |F_ij|  direction  moment
+                              lbf       lbf      lbf        deg  lbf*in
+-----------------------------------------------------------------------
+O2     ground   crank     -117.56  -107.459  159.272    -137.57       0
+A      crank    coupler  -118.026  -100.172  154.805   -139.678       0
+B      coupler  rocker    1.30956  -87.4015  87.4113   -89.1416       0
+O4     ground   rocker   -20.2378   77.6581  80.2518    104.606       0
+F_ij is the force by link i on link j, in ground axes; moments about j's point
+of the joint.
+
+link      angle    speed  acceler.  center x  center y  its acc. x  its acc. y
+            deg    rad/s   rad/s^2        in        in      in/s^2      in/s^2
+------------------------------------------------------------------------------
+crank        60       25       -40         0         3         120       -1875
+coupler  20.917  -5.8694     120.9    6.1725    12.547     -2509.2     -2645.4
+rocker   104.41   7.9316    276.29    17.756    4.8427     -1259.7     -648.44
+"""
+
+
+def test_one_position(run: Run) -> None:
+    ran = run("solve", "four_bar.yaml")
+    assert ran.status == 0
+    assert ran.err == ""
+    assert ran.out.startswith(ONE_POSITION)
+    assert ran.out.splitlines()[-1].startswith("Residual ")
+    assert "power balance" in ran.out.splitlines()[-1]
+    assert max(map(len, ran.out.splitlines())) <= 80
+
+
+def test_units_and_axes_are_said(run: Run) -> None:
+    printed = run("solve", "four_bar.yaml", "--units", "si", "--axes", "link").out
+    assert "27.48216 N*m" in printed
+    assert "in the axes of link j" in printed
+    assert " lbf" not in printed
+
+
+def test_static_leaves_inertia_out(run: Run) -> None:
+    printed = run("solve", "four_bar.yaml", "--static").out
+    assert "inertia off (static)" in printed
+    assert "243.2376" not in printed
+
+
+def test_many_positions_are_summed_up(run: Run) -> None:
+    printed = run("solve", "four_bar.yaml", "--positions", "36").out
+    assert "12 of 36 positions are shown; --all prints every one, --csv FILE writes them." in printed
+    assert "over the positions  unit    largest       at  smallest       at" in printed
+    assert printed.splitlines()[-1].startswith("36 of 36 positions solved, residual ")
+    every = run("solve", "four_bar.yaml", "--positions", "36", "--all").out
+    assert sum(line[:1].isdigit() for line in every.splitlines()) == 37
+
+
+def test_positions_that_do_not_close_are_named(run: Run, edited: Callable[..., str]) -> None:
+    file = edited(
+        ("A: [5, 0]", "A: [12, 0]"), ("position: 60 deg", "position: {from: 60, to: 300, count: 13}")
+    )
+    ran = run("solve", file)
+    assert ran.status == 1
+    assert ran.err == ""
+    assert "not_assembled: position" in ran.out
+    assert "The linkage does not close" in ran.out.replace("\n  ", " ")
+    answer = json.loads(run("solve", file, "--json", "-").out)
+    open_ = [p for p in answer["positions"] if p["status"] != "ok"]
+    assert open_
+    for position in open_:
+        assert position["status"] == "not_assembled"
+        assert position["reason"].startswith("The linkage does not close")
+        assert position["efforts"] == {"O2": None}
+        assert position["reactions"]["A"]["force"] == [None, None]
+        assert position["links"]["rocker"]["angle"] is None
+        assert position["drives"]["O2"]["position"] is not None
+
+
+def test_json_is_the_contract(run: Run) -> None:
+    ran = run("solve", "four_bar.yaml", "--json", "-")
+    answer = json.loads(ran.out)
+    assert ran.status == 0
+    assert {"dalembert", "title", "units", "friction", "positions"} <= set(answer)
+    assert (answer["dalembert"], answer["units"], answer["friction"]) == (1, "SI", False)
+    (position,) = answer["positions"]
+    assert set(position) == {
+        "drives",
+        "status",
+        "efforts",
+        "unknown_loads",
+        "reactions",
+        "links",
+        "residual",
+        "power_balance",
+    }
+    assert position["drives"]["O2"] == {"position": math.pi / 3, "speed": 25.0, "acceleration": -40.0}
+    assert position["status"] == "ok"
+    assert position["efforts"]["O2"] == pytest.approx(27.4821576052, rel=1e-10)
+    assert position["unknown_loads"] == {}
+    assert set(position["reactions"]) == {"O2", "A", "B", "O4"}
+    a = position["reactions"]["A"]
+    assert (a["on"], a["by"], a["moment"], set(a)) == (
+        "coupler",
+        "crank",
+        0.0,
+        {"on", "by", "force", "moment"},
+    )
+    assert a["force"] == pytest.approx([-525.00541990866, -445.58839936385], rel=1e-10)
+    assert set(position["links"]) == {"crank", "coupler", "rocker"}
+    coupler = position["links"]["coupler"]
+    assert set(coupler) == {"position", "angle", "speed", "acceleration", "center", "center_acceleration"}
+    assert coupler["angle"] == pytest.approx(0.36507444430057, rel=1e-10)
+    assert coupler["center_acceleration"] == pytest.approx([-63.7329854218, -67.1929541341], rel=1e-10)
+    assert abs(position["residual"]) < 1e-12
+    assert abs(position["power_balance"]) < 1e-12
+
+
+def test_json_in_the_units_of_the_file(run: Run) -> None:
+    answer = json.loads(run("solve", "four_bar.yaml", "--json", "-", "--units", "file").out)
+    assert answer["units"]["moment"] == "lbf*in"
+    assert answer["units"]["angular_speed"] == "deg/s"
+    (position,) = answer["positions"]
+    assert position["efforts"]["O2"] == pytest.approx(243.2375907612, rel=1e-10)
+    assert position["drives"]["O2"]["position"] == pytest.approx(60, rel=1e-14)
+    assert position["drives"]["O2"]["speed"] == pytest.approx(math.degrees(25), rel=1e-14)
+    assert position["reactions"]["A"]["force"] == pytest.approx([-118.0259135713, -100.1722571185], rel=1e-10)
+    assert position["links"]["coupler"]["center_acceleration"] == pytest.approx(
+        [-2509.172654401, -2645.391895043]
+    )
+
+
+def test_json_in_link_axes(run: Run) -> None:
+    ground = json.loads(run("solve", "four_bar.yaml", "--json", "-").out)["positions"][0]
+    link = json.loads(run("solve", "four_bar.yaml", "--json", "-", "--axes", "link").out)["positions"][0]
+    turn = ground["links"]["coupler"]["angle"]
+    x, y = ground["reactions"]["A"]["force"]
+    local = [math.cos(turn) * x + math.sin(turn) * y, math.cos(turn) * y - math.sin(turn) * x]
+    assert link["reactions"]["A"]["force"] == pytest.approx(local, rel=1e-12)
+    assert link["links"] == ground["links"]
+
+
+def test_redundant_reactions_have_their_least_norm_beside(run: Run, folder: Path) -> None:
+    (folder / "beam.yaml").write_text(
+        """
+links:
+  ground: {points: {A: [0, 0], B: [2, 0]}}
+  beam: {points: {A: [0, 0], B: [2, 0], P: [1, 0]}}
+joints:
+  A: {type: pin, links: [ground, beam]}
+  B: {type: pin, links: [ground, beam]}
+loads:
+  F: {type: force, on: beam, at: P, value: [10, -100]}
+""",
+        encoding="utf-8",
+    )
+    ran = run("solve", "beam.yaml", "--json", "-")
+    assert ran.status == 1
+    (position,) = json.loads(ran.out)["positions"]
+    assert position["status"] == "redundant"
+    assert "A, B" in position["reason"]
+    assert position["reactions"]["A"]["force"] == [None, pytest.approx(50)]
+    assert position["reactions"]["A"]["least_norm"] == {"force": pytest.approx([-5, 50]), "moment": 0}
+    printed = run("solve", "beam.yaml").out
+    assert "redundant: 1 constraint is redundant among joints A, B" in printed
+    assert "Not unique; with the least sum of squares:" in printed
+
+
+def test_csv(run: Run, folder: Path) -> None:
+    ran = run("solve", "four_bar.yaml", "--positions", "5", "--csv", "turn.csv")
+    assert ran.err == "Written: turn.csv\n"
+    with (folder / "turn.csv").open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert [row["position"] for row in rows] == ["1", "2", "3", "4", "5"]
+    assert float(rows[0]["effort O2 [N*m]"]) == pytest.approx(27.4821576052, rel=1e-10)
+    assert float(rows[0]["reaction A on coupler x [N]"]) == pytest.approx(-525.00541990866, rel=1e-10)
+    printed = run("solve", "four_bar.yaml", "--csv", "-", "--units", "file").out
+    assert printed.splitlines()[0].startswith(
+        "position,status,drive O2 position [deg],drive O2 speed [deg/s]"
+    )
+    assert len(printed.splitlines()) == 2
+
+
+def test_workbook(run: Run, folder: Path) -> None:
+    openpyxl = pytest.importorskip("openpyxl")
+    run("solve", "four_bar.yaml", "--positions", "3", "--xlsx", "turn.xlsx")
+    book = openpyxl.load_workbook(folder / "turn.xlsx", read_only=True)
+    first, *rows = list(book["positions"].values)
+    assert len(rows) == 3
+    assert rows[0][first.index("effort O2 [N*m]")] == pytest.approx(27.4821576052, rel=1e-10)
+    assert ("inertia", "on (D'Alembert)") in list(book["about"].values)
+    book.close()
+
+
+def test_netcdf(run: Run, folder: Path) -> None:
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("h5netcdf")
+    run("solve", "four_bar.yaml", "--positions", "3", "--netcdf", "turn.nc")
+    with xarray.open_dataset(folder / "turn.nc", engine="h5netcdf") as data:
+        assert data.reaction.dims == ("position", "joint", "component")
+        assert data.reaction.attrs["units"] == "N"
+        assert data.effort.attrs["units"] == "N*m"
+        assert float(data.effort.sel(position=1, drive="O2")) == pytest.approx(27.4821576052, rel=1e-10)
+        assert list(data.reaction_on.values) == ["crank", "coupler", "rocker", "rocker"]
+
+
+def test_files_are_never_overwritten_unless_told(run: Run, folder: Path) -> None:
+    (folder / "out.json").write_text("mine", encoding="utf-8")
+    ran = run("solve", "four_bar.yaml", "--json", "out.json")
+    assert ran == (
+        2,
+        "",
+        "out.json exists; name another file, or overwrite it: --force, in Python overwrite=True\n",
+    )
+    assert (folder / "out.json").read_text(encoding="utf-8") == "mine"
+    assert run("solve", "four_bar.yaml", "--json", "out.json", "--force").status == 0
+    assert json.loads((folder / "out.json").read_text(encoding="utf-8"))["dalembert"] == 1
+    assert sorted(path.name for path in folder.iterdir()) == ["four_bar.yaml", "out.json"]
+
+
+def test_a_folder_that_is_not_there(run: Run) -> None:
+    ran = run("solve", "four_bar.yaml", "--csv", "nowhere/out.csv")
+    assert ran.status == 2
+    assert (
+        ran.err
+        == "cannot write nowhere/out.csv: no such file or directory; name a file that can be written\n"
+    )
+
+
+def test_equilibrium_positions(run: Run, edited: Callable[..., str]) -> None:
+    file = edited(
+        ("position: 60 deg, speed: 25 rad/s, acceleration: -40 rad/s^2", "position: unknown, effort: 50")
+    )
+    ran = run("solve", file)
+    assert "stability" in ran.out
+    answer = json.loads(run("solve", file, "--json", "-").out)
+    assert {p["stability"] for p in answer["positions"]} <= {"stable", "unstable", "neutral"}
+    assert all(p["efforts"]["O2"] == pytest.approx(50 * 0.1129848290276167) for p in answer["positions"])
