@@ -46,10 +46,10 @@ def four_bar(
          crank /                   \ rocker
             O2 ---- ground -------- O4
 
-    Lengths in metres between pins; `torque` in N m on the rocker, counter-clockwise positive; links are
-    uniform and slender, `mass_per_length` in kg/m; `speed` of the crank in rad/s; `sweep` of its angle in
-    radians; `positions` in it. B is on the left of the way from A to O4. Raises ModelError where the four
-    lengths do not close along the sweep.
+    Lengths in metres between pins; `torque` in N m on the rocker, counter-clockwise positive; links are uniform and
+    slender, `mass_per_length` in kg/m; `speed` of the crank in rad/s; `sweep` of its angle in radians; `positions`
+    in it. B is on the left of the way from A to O4. Raises ModelError where the four lengths do not close along the
+    sweep.
 
     >>> from dalembert.model.library import four_bar
     >>> sorted(four_bar(crank=0.06).links)
@@ -162,10 +162,10 @@ def inverted_slider_crank(
             crank /    ------
                 O2 ------ O4    the slide passes O4 at the distance `offset`
 
-    `ground` is O2 O4, `rocker` the length of the arm from O4, in metres; with a crank longer than the ground
-    the arm goes round. `torque` in N m on the rocker; `block_mass` in kg; arm and crank are uniform and slender,
-    `mass_per_length` in kg/m; `speed` in rad/s; `sweep` in radians. Raises ModelError where the block passes
-    O4 nearer than the offset or leaves the arm.
+    `ground` is O2 O4, `rocker` the length of the arm from O4, in metres; with a crank longer than the ground the
+    arm goes round. `torque` in N m on the rocker; `block_mass` in kg; arm and crank are uniform and slender,
+    `mass_per_length` in kg/m; `speed` in rad/s; `sweep` in radians. Raises ModelError where the block passes O4
+    nearer than the offset or leaves the arm.
 
     >>> from dalembert.model.library import inverted_slider_crank
     >>> inverted_slider_crank().joints["slide"].links

@@ -51,10 +51,10 @@ def toggle_press(
               / lower           O2 _/ crank
             D [ram]
 
-    `center` is the crank's centre O2 from O4, in metres, `crank`, `rod`, `upper` and `lower` between pins; the
-    ram slides down the line below O4. `pressing_force` in N pushes the ram up. `ram_mass` in kg, the other links
-    uniform and slender with `mass_per_length` in kg/m; gravity is on; `speed` in rad/s; `sweep` in radians.
-    Raises ModelError where the toggle does not close or would pass its straight position.
+    `center` is the crank's centre O2 from O4, in metres, `crank`, `rod`, `upper` and `lower` between pins; the ram
+    slides down the line below O4. `pressing_force` in N pushes the ram up. `ram_mass` in kg, the other links
+    uniform and slender with `mass_per_length` in kg/m; gravity is on; `speed` in rad/s; `sweep` in radians. Raises
+    ModelError where the toggle does not close or would pass its straight position.
 
     >>> from dalembert.model.library import toggle_press
     >>> toggle_press().joints["guide"].links
@@ -124,9 +124,10 @@ def five_bar(
              A         B
         O2 /  - ground - \ O5   both cranks driven
 
-    Lengths in metres; `load` in N at C, in ground axes; links uniform and slender, `mass_per_length` in kg/m;
-    `speed` of the first crank in rad/s, the second goes as much faster or slower as `second_sweep` is longer or
-    shorter than `sweep` (radians). C is on the left of the way from A to B.
+    `ground` is O2 O5, `crank` O2 A, `second_crank` O5 B, `coupler` A C and `second_coupler` B C, in metres; `load`
+    in N at C, in ground axes; links uniform and slender, `mass_per_length` in kg/m; `speed` of the first crank in
+    rad/s, the second goes as much faster or slower as `second_sweep` is longer or shorter than `sweep` (radians). C
+    is on the left of the way from A to B.
 
     >>> from dalembert.model.library import five_bar
     >>> sorted(five_bar().drives)
@@ -194,8 +195,8 @@ def scissor(
         base_pin                base_roller -> slides on the ground
 
     `link` is the length of each link and `widths` the first and last distance of the roller from the base pin, in
-    metres; `drive` is "slide" (a force on the roller) or "turn" (a couple at the base pin); `load` in N pushes down on
-    the middle of the platform; masses in kg and kg/m, gravity on; `speed` in m/s of the roller or rad/s of the
+    metres; `drive` is "slide" (a force on the roller) or "turn" (a couple at the base pin); `load` in N pushes down
+    on the middle of the platform; masses in kg and kg/m, gravity on; `speed` in m/s of the roller or rad/s of the
     pin. Raises ModelError without stages or with a width that the links do not reach.
 
     >>> from dalembert.model.library import scissor
@@ -249,14 +250,14 @@ def bucket(
              arm (ground)    rocker  R   H
                                        P  bucket -> T (tip)
 
-    P, the bucket's pivot, is the origin; `base` is the cylinder's pin Q and `rocker_pivot` R, from P in ground axes;
-    `rocker` is R J, `coupler` J H; `ear` is H from P in the bucket's axes, whose x axis goes to the tip T at
+    P, the bucket's pivot, is the origin; `base` is the cylinder's pin Q and `rocker_pivot` R, from P in ground
+    axes; `rocker` is R J, `coupler` J H; `ear` is H from P in the bucket's axes, whose x axis goes to the tip T at
     `reach_to_tip`; `strokes` are the first and last length Q J; in metres. `digging_force` in N acts at the tip,
     square to P T, against the closing bucket. Masses in kg and kg/m, gravity on; `speed` of the cylinder in m/s.
 
     >>> from dalembert.model.library import bucket
-    >>> bucket().drives["cylinder"].joint
-    'cylinder'
+    >>> bucket().joints["J_coupler"].links
+    ('rocker', 'coupler')
     """
     positive("bucket", rocker=rocker, coupler=coupler, reach_to_tip=reach_to_tip)
     positive("bucket", first_stroke=strokes[0], last_stroke=strokes[1])

@@ -41,10 +41,10 @@ def whitworth(
         slot    \O4 ................[ram] D
                   C ----____ rod _--
 
-    `ground` is O2 O4 (O4 below O2) and shorter than `crank`, O2 A; `slot` is the length of the arm from O4
-    on the block's side, `throw` from O4 to C on the other; in metres. The ram slides on the level of O4, to its right;
-    `cutting_force` in N resists its slow stroke. Masses in kg, `mass_per_length` in kg/m; `speed` in rad/s;
-    `sweep` in radians.
+    `ground` is O2 O4 (O4 below O2) and shorter than `crank`, O2 A; `slot` is the length of the arm from O4 on the
+    block's side, `throw` from O4 to C on the other; in metres. The ram slides on the level of O4, to its right;
+    `cutting_force` in N resists its slow stroke. Masses in kg, `mass_per_length` in kg/m; `speed` in rad/s; `sweep`
+    in radians.
 
     >>> from dalembert.model.library import whitworth
     >>> list(whitworth().links)

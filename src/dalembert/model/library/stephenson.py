@@ -59,9 +59,10 @@ def stephenson_1(
           / A ---- B - D    crank O2 A C, rocker O4 B D
         O2 -------- O4
 
-    Lengths in metres; `crank_point` is C from O2 with x towards A, `rocker_point` is D from O4 with x towards
-    B; `load` in N at E on the upper rocker, in ground axes. Masses in kg/m (binary links) and kg/m2
-    (ternary plates); `speed` in rad/s; `sweep` in radians.
+    `ground` is O2 O4, `crank` O2 A, `coupler` A B, `rocker` O4 B, `upper_coupler` C E and `upper_rocker` D E, in
+    metres; `crank_point` is C from O2 with x towards A, `rocker_point` is D from O4 with x towards B; `load` in N
+    at E on the upper rocker, in ground axes. Masses in kg/m (binary links) and kg/m2 (ternary plates); `speed` in
+    rad/s; `sweep` in radians.
 
     >>> from dalembert.model.library import stephenson_1
     >>> stephenson_1().joints["C"].links
@@ -130,9 +131,10 @@ def stephenson_2(
            / A ------- C     \  rocker
           O2 ---- ground ---- O4
 
-    Lengths in metres; A C is the first coupler, B D the second; `crank_point` is B from O2 with x towards A;
-    `plate_length` is C D and `plate_point` E from C with x towards D; `torque` in N m on the rocker. Masses in
-    kg/m (binary links) and kg/m2 (ternary plates); `speed` in rad/s; `sweep` in radians.
+    `ground` is O2 O4, `crank` O2 A, `first_coupler` A C, `second_coupler` B D and `rocker` O4 E, in metres;
+    `crank_point` is B from O2 with x towards A; `plate_length` is C D and `plate_point` E from C with x towards D;
+    `torque` in N m on the rocker. Masses in kg/m (binary links) and kg/m2 (ternary plates); `speed` in rad/s;
+    `sweep` in radians.
 
     >>> from dalembert.model.library import stephenson_2
     >>> stephenson_2().joints["E"].links
@@ -210,9 +212,10 @@ def stephenson_3(
           /      \      O6
         O2 ------ O4
 
-    Lengths in metres; `coupler_point` is C from A with x towards B; `second_ground` is O6 from O2; `torque` in
-    N m on the output rocker. Masses in kg/m (binary links) and kg/m2 (ternary plate); `speed` in rad/s; `sweep`
-    in radians. The usual dwell mechanisms are of this kind.
+    `ground` is O2 O4, `crank` O2 A, `coupler` A B, `rocker` O4 B, `second_coupler` C D and `output` O6 D, in
+    metres; `coupler_point` is C from A with x towards B; `second_ground` is O6 from O2; `torque` in N m on the
+    output rocker. Masses in kg/m (binary links) and kg/m2 (ternary plate); `speed` in rad/s; `sweep` in radians.
+    The usual dwell mechanisms are of this kind.
 
     >>> from dalembert.model.library import stephenson_3
     >>> stephenson_3(output=0.27).joints["C"].links

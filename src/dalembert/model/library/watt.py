@@ -59,9 +59,10 @@ def watt_1(
           /      \
         O2 ------ O4
 
-    Lengths in metres; `coupler_point` is C from A with x towards B, `rocker_point` is D from O4 with x towards
-    B; `load` in N at E on the upper rocker, in ground axes. Masses in kg/m (binary links) and kg/m2
-    (ternary plates); `speed` in rad/s; `sweep` in radians.
+    `ground` is O2 O4, `crank` O2 A, `coupler` A B, `rocker` O4 B, `upper_coupler` C E and `upper_rocker` D E, in
+    metres; `coupler_point` is C from A with x towards B, `rocker_point` is D from O4 with x towards B; `load` in N
+    at E on the upper rocker, in ground axes. Masses in kg/m (binary links) and kg/m2 (ternary plates); `speed` in
+    rad/s; `sweep` in radians.
 
     >>> from dalembert.model.library import watt_1
     >>> len(watt_1().joints)
@@ -129,9 +130,9 @@ def watt_2(
           /         \__ C ------- /
         O2 -------- O4 ---------- O6      rocker O4 B C, output O6 D
 
-    Lengths in metres; `rocker_point` is C from O4 with x towards B; `second_ground` is O6 from O2; `torque` in N m
-    on the output rocker. Masses in kg/m (binary links) and kg/m2 (ternary plate); `speed` in rad/s; `sweep` in
-    radians.
+    `ground` is O2 O4, `crank` O2 A, `coupler` A B, `rocker` O4 B, `second_coupler` C D and `output` O6 D, in
+    metres; `rocker_point` is C from O4 with x towards B; `second_ground` is O6 from O2; `torque` in N m on the
+    output rocker. Masses in kg/m (binary links) and kg/m2 (ternary plate); `speed` in rad/s; `sweep` in radians.
 
     >>> from dalembert.model.library import watt_2
     >>> watt_2().loads["torque"].on

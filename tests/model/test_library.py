@@ -1,0 +1,292 @@
+"""Templates: they load, are the same as their files, go through their whole range, and refuse bad dimensions."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from math import atan2, pi, radians, sqrt
+from typing import Any
+
+import numpy as np
+import pytest
+
+from dalembert.analysis import solve
+from dalembert.errors import ModelError
+from dalembert.model import Mechanism, loads
+from dalembert.model.library import (
+    TEMPLATES,
+    bucket,
+    crank_shaper,
+    five_bar,
+    four_bar,
+    inverted_slider_crank,
+    scissor,
+    slider_crank,
+    stephenson_2,
+    template,
+    template_text,
+    toggle_press,
+    watt_1,
+    whitworth,
+)
+
+NAMES = list(TEMPLATES)
+ROUGH = radians(1.0)
+"""The files give rounded angles in `assembly`."""
+
+
+def numbers(tree: Any, path: str = "") -> dict[str, Any]:
+    """Path -> leaf of a tree."""
+    if isinstance(tree, dict):
+        return {k: v for key, item in tree.items() for k, v in numbers(item, f"{path}.{key}").items()}
+    if isinstance(tree, (list, tuple)):
+        return {k: v for i, item in enumerate(tree) for k, v in numbers(item, f"{path}.{i}").items()}
+    return {path: tree}
+
+
+def physics(m: Mechanism) -> dict[str, Any]:
+    """What a mechanism says in SI, without its assembly and its units."""
+    dump = m.model_dump()
+    return numbers({key: dump[key] for key in ("title", "links", "joints", "drives", "loads")})
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_file_says_the_same_as_the_function(name: str) -> None:
+    built, read = template(name), loads(template_text(name))
+    ours, files = physics(built), physics(read)
+    assert ours.keys() == files.keys()
+    for path, value in ours.items():
+        expected = pytest.approx(value, rel=1e-9, abs=1e-15) if isinstance(value, float) else value
+        assert files[path] == expected, path
+    assert read.gravity_vector == pytest.approx(built.gravity_vector)
+    assert read.assembly.keys() == built.assembly.keys()
+    for link, angle in built.assembly.items():
+        assert read.assembly[link] == pytest.approx(angle, abs=ROUGH)
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("text", [False, True])
+def test_every_position_is_solved(name: str, text: bool) -> None:
+    m = loads(template_text(name)) if text else template(name)
+    result = solve(m)
+    assert set(result.status) == {"ok"}
+    assert len(result.status) > 30
+    assert np.nanmax(result.residual) < 1e-12
+    assert np.nanmax(result.power_balance) < 1e-12
+    assert result.mobility is not None
+    assert result.mobility.freedoms == len(m.drives)
+    assert result.mobility.redundant == 0
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_motion_is_a_motion(name: str) -> None:
+    """No position jumps into another assembly: links turn little from one position to the next, and come back."""
+    r = solve(template(name))
+    for link in r.links:
+        turns = np.abs(np.diff(np.unwrap(r.angle(link))))
+        assert np.max(turns) < radians(25), link
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_docstring_explains_every_dimension(name: str) -> None:
+    function = TEMPLATES[name].function
+    text = inspect.getdoc(function) or ""
+    shared = {"positions", "mass_per_length", "mass_per_area"}
+    for dimension in inspect.signature(function).parameters:
+        words = dimension.replace("_mass", "")
+        assert dimension in shared or f"`{dimension}`" in text or words in text, f"{name}: {dimension}"
+
+
+def test_text_of_a_template_has_comments_and_stays_narrow() -> None:
+    for name in NAMES:
+        lines = template_text(name).splitlines()
+        assert sum(line.lstrip().startswith("#") for line in lines) > 6
+        assert max(map(len, lines)) <= 120
+
+
+# dimensions that are asked for
+
+
+def test_quick_return_has_its_time_ratio() -> None:
+    """Crank 90 on ground 180: 240 degrees to work, 120 back; the stroke is 2 lever crank / ground."""
+    r = solve(crank_shaper(positions=360))
+    x = r.center("ram")[:, 0]
+    assert x.max() - x.min() == pytest.approx(2 * 0.36 * 0.5, rel=1e-9)
+    assert (np.argmax(x) - np.argmin(x)) % 360 == 120
+
+
+def test_whitworth_has_its_time_ratio() -> None:
+    r = solve(whitworth(positions=360))
+    x = r.center("ram")[:, 0]
+    assert x.max() - x.min() == pytest.approx(2 * 0.09, rel=1e-9)
+    assert (np.argmax(x) - np.argmin(x)) % 360 == 240
+
+
+def test_inverted_slider_crank_with_long_crank_turns_its_arm_right_round() -> None:
+    r = solve(inverted_slider_crank(ground=0.06, crank=0.12, rocker=0.2, offset=0.03))
+    assert set(r.status) == {"ok"}
+    turns = np.unwrap(r.angle("rocker"))
+    assert turns[-1] - turns[0] > 1.8 * pi
+
+
+def test_offset_slider_crank_has_a_quick_return() -> None:
+    r = solve(slider_crank(offset=0.03, positions=720))
+    x = r.center("piston")[:, 0]
+    assert x.max() - x.min() == pytest.approx(sqrt(0.3**2 - 0.03**2) - sqrt(0.18**2 - 0.03**2), rel=1e-4)
+
+
+def test_a_rocker_can_be_swept_where_no_crank_goes_round() -> None:
+    m = four_bar(
+        ground=0.3, crank=0.2, coupler=0.2, rocker=0.2, sweep=(radians(30), radians(80)), positions=11
+    )
+    assert set(solve(m).status) == {"ok"}
+
+
+def test_five_bar_with_opposite_cranks_moves_on_the_line_of_symmetry() -> None:
+    r = solve(five_bar(second_sweep=(pi, -pi)))
+    assert r.point("coupler", "C")[:, 0] == pytest.approx(0.12, abs=1e-9)
+
+
+@pytest.mark.parametrize("stages", [1, 2, 5])
+@pytest.mark.parametrize("drive", ["slide", "turn"])
+def test_scissor_is_lifted_by_its_formula(stages: int, drive: str) -> None:
+    m = scissor(stages, drive=drive)
+    r = solve(m)
+    assert set(r.status) == {"ok"}
+    alpha = r.angle("left_1")
+    lifted = stages * (2000 + 60 * m.g) + stages**2 * 6 * m.g
+    force = -lifted / np.tan(alpha)
+    exact = force if drive == "slide" else -force * 1.2 * np.sin(alpha)
+    assert r.effort("base_roller" if drive == "slide" else "base_pin") == pytest.approx(exact, rel=1e-10)
+    assert r.position("platform")[:, 1] == pytest.approx(stages * 1.2 * np.sin(alpha), rel=1e-12)
+
+
+@pytest.mark.long
+def test_scissor_of_four_hundred_stages() -> None:
+    m = scissor(400, positions=2)
+    r = solve(m)
+    assert set(r.status) == {"ok"}
+    assert r.mobility is not None
+    assert (r.mobility.freedoms, r.mobility.redundant) == (1, 0)
+    alpha = np.array([atan2(0.336, 1.152), atan2(0.96, 0.72)])
+    assert r.effort("base_roller") == pytest.approx(
+        -(400 * (2000 + 60 * m.g) + 400**2 * 6 * m.g) / np.tan(alpha), rel=1e-9
+    )
+
+
+def test_bucket_closes_clockwise_against_the_digging_force() -> None:
+    r = solve(bucket())
+    assert np.all(np.diff(np.unwrap(r.angle("bucket"))) < 0)
+    assert np.all(r.effort("cylinder") > 0)
+
+
+def test_toggle_press_comes_near_to_straight_and_not_through() -> None:
+    r = solve(toggle_press())
+    lean = r.angle("upper") + pi / 2
+    assert 0 < lean.min() < radians(5)
+    assert lean.max() > radians(20)
+
+
+# dimensions that do not go
+
+
+BAD: list[tuple[Callable[[], Mechanism], str]] = [
+    (
+        lambda: four_bar(crank=-0.1),
+        "four_bar: crank is -0.1 m, and must be greater than 0; give crank a finite value in m",
+    ),
+    (
+        lambda: four_bar(rocker=float("nan")),
+        "four_bar: rocker is nan m, and must be greater than 0; give rocker a finite value in m",
+    ),
+    (
+        lambda: four_bar(crank=0.25, coupler=0.1),
+        "four_bar does not close from 0 to 27 degrees of the crank: rocker 0.24 m is 0.09 m too long for coupler "
+        "0.1 m to meet it; shorten the rocker or lengthen the coupler, or give the crank a smaller range",
+    ),
+    (
+        lambda: four_bar(crank=0.2, coupler=0.2, rocker=0.2),
+        "four_bar does not close from 105 to 255 degrees of the crank: coupler 0.2 m and rocker 0.2 m are 0.1 m "
+        "too short to meet; lengthen the coupler or the rocker, or give the crank a smaller range",
+    ),
+    (
+        lambda: four_bar(crank=0.06, coupler=0.6),
+        "four_bar does not close from 0 to 360 degrees of the crank: coupler 0.6 m is 0.12 m too long for rocker "
+        "0.24 m to meet it; shorten the coupler or lengthen the rocker, or give the crank a smaller range",
+    ),
+    (
+        lambda: four_bar(ground=0.3, crank=0.1, coupler=0.3, rocker=0.1),
+        "four_bar does not close at 0 degrees of the crank: coupler 0.3 m and rocker 0.1 m fold into one line, a dead "
+        "centre, where they are just long enough to meet; shorten the coupler or lengthen the rocker, or give the "
+        "crank a smaller range",
+    ),
+    (
+        lambda: slider_crank(crank=0.1, rod=0.12, offset=0.05),
+        "slider_crank does not close from 225 to 315 degrees of the crank: rod 0.12 m is 0.03 m too short to reach "
+        "the line of the slide; lengthen the rod, or give the crank a smaller range",
+    ),
+    (
+        lambda: inverted_slider_crank(ground=0.1, crank=0.1),
+        "inverted_slider_crank: the crank pin passes O4 at 0 m, not farther than the slide's offset of 0 m; "
+        "let ground and crank differ by more, or take a smaller offset",
+    ),
+    (
+        lambda: inverted_slider_crank(rocker=0.2),
+        "inverted_slider_crank: the block goes out to 0.33 m from O4, and the rocker ends at 0.2 m; "
+        "lengthen the rocker to 0.33 m or more",
+    ),
+    (
+        lambda: whitworth(crank=0.05),
+        "whitworth: the crank 0.05 m is not longer than the ground O2 O4 0.06 m, so the arm would not go round; "
+        "lengthen the crank, or take the template crank_shaper",
+    ),
+    (
+        lambda: crank_shaper(crank=0.2, lever=0.5),
+        "crank_shaper: the crank 0.2 m is not shorter than the ground O2 O4 0.18 m, so the lever would not swing to "
+        "and fro; shorten the crank, or take the template whitworth",
+    ),
+    (
+        lambda: scissor(0),
+        "scissor: stages is 0, and must be a whole number of 1 or more; for example scissor(3)",
+    ),
+    (
+        lambda: scissor(2, widths=(1.3, 0.7)),
+        "scissor: the roller is to be 1.3 m from the base pin, and links of 1.2 m lie flat there; "
+        "give widths below 1.2 m, or longer links",
+    ),
+    (
+        lambda: scissor(2, drive="pull"),
+        'scissor: drive is \'pull\'; it is "slide" (the roller) or "turn" (the base pin)',
+    ),
+    (
+        lambda: bucket(strokes=(0.6, 1.32)),
+        "bucket does not close from 0.6 to 0.786 m of the cylinder: cylinder 0.6 m and rocker 0.42 m are 0.159 m "
+        "too short to meet; lengthen the cylinder or the rocker, or give the cylinder a smaller range",
+    ),
+    (
+        lambda: watt_1(upper_coupler=0.05),
+        "watt_1 does not close from 0 to 118 degrees of the crank: upper rocker 0.18 m and upper coupler 0.05 m are "
+        "0.0344 m too short to meet; lengthen the upper rocker or the upper coupler, or give the crank a smaller range",
+    ),
+    (
+        lambda: stephenson_2(rocker=0.9),
+        "stephenson_2 does not close from 0 to 360 degrees of the crank: rocker 0.9 m misses the point E of the plate "
+        "by 0.211 m; change the rocker or the ground, or give the crank a smaller range",
+    ),
+]
+
+
+@pytest.mark.parametrize(("build", "message"), BAD)
+def test_bad_dimensions_are_refused_with_names_numbers_and_a_remedy(
+    build: Callable[[], Mechanism], message: str
+) -> None:
+    with pytest.raises(ModelError) as caught:
+        build()
+    assert str(caught.value) == message
+
+
+def test_unknown_template() -> None:
+    with pytest.raises(ModelError, match=r"there is no template 'fourbar'; did you mean 'four_bar'\?"):
+        template("fourbar")
+    with pytest.raises(ModelError, match="there is no template 'zzz'; they are four_bar, slider_crank"):
+        template_text("zzz")
