@@ -14,12 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.core.closure import CLOSED, closed, distance
-from dalembert.core.constraints import measure
+from dalembert.core.constraints import dense, measure, stacked
 from dalembert.core.layout import Along, Distance, Layout, Meet, Mesh, Pose, Rows, Turn, selected
 
 Array = NDArray[Any]
 
 STARTS = 64
+FEW = 40
+"""Links up to which every start is worth its cost; of more, starts are few and laid down link by link only."""
+
 SAME = 1e-4
 """Two starts that end this close to each other, radians or characteristic lengths, found the same mode."""
 
@@ -125,7 +128,7 @@ def _reached(start: set[int], turns: list[tuple[int, int, int]]) -> set[int]:
 
 def _searched(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes | None:
     """Every mode that the starts find; first the one nearest to what is given, else by the rule of ``_preferred``."""
-    starts = STARTS if layout.links <= 40 else 8
+    starts = STARTS if layout.links <= FEW else 8
     angles, slides = _spread(starts, layout.links + 1, free.constraints.count)
     laid = _laid(free, target, guess, angles, slides * layout.length)
     pose, missing = closed(free, laid, np.broadcast_to(target, (starts, len(target))).copy(), iterations=60)
@@ -223,7 +226,23 @@ def _laid(layout: Layout, target: Array, guess: Guess, angles: Array, slides: Ar
         lone = min(set(range(layout.links)) - placed)
         point[:, lone] = 0.0
         placed.add(lone)
-    return Pose(point, turn, rotation)
+    return _settled(layout, target, Pose(point, turn, rotation))
+
+
+def _settled(layout: Layout, target: Array, pose: Pose) -> Pose:
+    """Links shifted, not turned, to where their points and slides fit best: at given angles that is linear."""
+    linear = [f.row.ravel() for f in layout.stack.families if isinstance(f, Meet | Along)]
+    if not linear or layout.links > FEW:
+        return pose
+    kept = np.sort(np.concatenate(linear))
+    g = layout.algebra
+    rows = stacked(layout, pose).rows(kept)
+    j = dense(layout, rows).reshape(len(pose.turn), len(kept), layout.links, g.n)[..., : g.d]
+    missing = (target - measure(g, layout.stack, pose))[:, kept]
+    shift = np.linalg.pinv(j.reshape(len(pose.turn), len(kept), -1)) @ missing[..., None]
+    point = pose.point.copy()
+    point[:, :-1] += shift.reshape(len(pose.turn), layout.links, g.d)
+    return pose._replace(point=point)
 
 
 def _grown(
