@@ -63,8 +63,8 @@ def test_an_exact_value_that_is_missed(run: Run, folder: Path) -> None:
     ("claim", "said"),
     [
         (
-            "{quantity: effort, of: O3, value: 1}",
-            "claims.yaml:33: there is no drive 'O3'; there is only 'O2'",
+            "{quantity: effort, of: A, value: 1}",
+            "claims.yaml:33: there is no drive 'A'; there is only 'O2'",
         ),
         ("{quantity: effort, value: 1}", "claims.yaml:33: effort needs `of`; there is only 'O2'"),
         (
