@@ -12,7 +12,7 @@ import numpy as np
 
 from tests.oracles.lagrange import Answer, contact
 from tests.oracles.lagrange import rows as oracle_rows
-from tests.oracles.reading import Array
+from tests.oracles.reading import Array, Machine
 from tests.oracles.wrenches import carried, cross, known, placed, push, turned
 from tests.random_mechanisms import Drawing
 
@@ -44,7 +44,7 @@ def joint_wrenches(r: Any, answer: Answer) -> Array:
     m = answer.machine
     q = state(r, m.links)[0]
     w = np.zeros_like(q)
-    for joint, spot in spots(answer, q).items():
+    for joint, spot in spots(answer.machine, q).items():
         j = next(x for x in m.joints if x.name == joint)
         force, moment = r.reaction(joint), r.reaction_moment(joint)
         _both(w, q, j.i, j.j, spot, force, moment)
@@ -65,16 +65,16 @@ def _both(w: Array, q: Array, i: int, j: int, spot: Array, force: Array, moment:
     w[:, i, 2] -= moment
 
 
-def spots(answer: Answer, q: Array) -> dict[str, Array]:
+def spots(m: Machine, q: Array) -> dict[str, Array]:
     """Where each joint's reaction acts."""
-    return {row.name: contact(row, q) for row in oracle_rows(answer.machine, answer.q)}
+    return {row.name: contact(row, q) for row in oracle_rows(m, q)}
 
 
 def joint_powers(r: Any, answer: Answer) -> dict[str, Array]:
     """Power of each joint's reaction on its relative motion, which must vanish."""
     q, v, _ = state(r, answer.machine.links)
     out = {}
-    for joint, spot in spots(answer, q).items():
+    for joint, spot in spots(answer.machine, q).items():
         j = next(x for x in answer.machine.joints if x.name == joint)
         slip = carried(q, v, j.j, spot) - carried(q, v, j.i, spot)
         spin = v[:, j.j, 2] - v[:, j.i, 2]

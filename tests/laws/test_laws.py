@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from copy import deepcopy
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, wraps
 from typing import Any
 
 import numpy as np
@@ -28,6 +28,7 @@ from tests.laws.measures import (
 )  # fmt: skip
 from tests.oracles import lagrange
 from tests.oracles.agreement import disagreement, worst
+from tests.oracles.reading import machine
 from tests.random_mechanisms import (
     IN_LBF,
     MM_N,
@@ -36,7 +37,6 @@ from tests.random_mechanisms import (
     Scale,
     Style,
     exchangeable,
-    pose_array,
     random_case,
     tree,
 )  # fmt: skip
@@ -45,9 +45,18 @@ TOLERANCE = 1e-9
 
 
 def over(quick: int, long: int = 1000) -> Callable[..., Any]:
-    """Seeds of the default run, and those that only the long run adds."""
-    seeds = [pytest.param(s, marks=pytest.mark.long) if s >= quick else s for s in range(long)]
-    return pytest.mark.parametrize("seed", seeds)
+    """A law on the first seeds, one test each, and with the mark ``long`` on the rest, a block of 50 a test."""
+    blocks = [pytest.param(range(s, s + 50), marks=pytest.mark.long) for s in range(quick, long, 50)]
+
+    def decorated(law: Callable[..., None]) -> Callable[..., None]:
+        @wraps(law)
+        def each(seed: int | range, **more: Any) -> None:
+            for s in [seed] if isinstance(seed, int) else seed:
+                law(seed=s, **more)
+
+        return pytest.mark.parametrize("seed", [*range(quick), *blocks])(each)
+
+    return decorated
 
 
 def dynamics(made: dict[str, Any]) -> Any:
@@ -62,7 +71,7 @@ def statics(made: dict[str, Any]) -> Any:
     return r
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=128)
 def answered(seed: int) -> Any:
     return dynamics(random_case(seed).tree)
 
@@ -107,7 +116,7 @@ def test_reactions_do_no_work(seed: int) -> None:
         assert np.max(np.abs(power)) < TOLERANCE * answer.force_scale() * speed_scale(answer), joint
 
 
-@over(20)
+@over(12)
 @pytest.mark.parametrize("motion", [Rigid(0.7, 0.3, -2.0), Rigid(-2.9, 100.0, 350.0)])
 def test_moving_the_machine_moves_the_answers(seed: int, motion: Rigid) -> None:
     d, r = random_case(seed).drawing, answered(seed)
@@ -127,7 +136,7 @@ def test_moving_the_machine_moves_the_answers(seed: int, motion: Rigid) -> None:
         assert np.max(np.abs(moved.effort(drive) - r.effort(drive))) < TOLERANCE * force * max(length, 1.0)
 
 
-@over(20)
+@over(10)
 @pytest.mark.parametrize("style", [MM_N, IN_LBF], ids=["mm N", "in lbf"])
 def test_units_change_nothing(seed: int, style: Style) -> None:
     case = random_case(seed)
@@ -137,7 +146,7 @@ def test_units_change_nothing(seed: int, style: Style) -> None:
     assert size < TOLERANCE, quantity
 
 
-@over(20)
+@over(10)
 def test_loads_add(seed: int) -> None:
     d = smooth_teeth(random_case(seed).drawing)
     names = sorted(d.loads)
@@ -159,7 +168,7 @@ def undamped(d: Drawing) -> dict[str, Any]:
     return {k: replace(j, damping=0.0) for k, j in d.joints.items()}
 
 
-@over(20)
+@over(6)
 @pytest.mark.parametrize("factor", [1e-6, 3.0, 1e8])
 def test_all_forces_scale_together(seed: int, factor: float) -> None:
     case = random_case(seed)
@@ -170,32 +179,34 @@ def test_all_forces_scale_together(seed: int, factor: float) -> None:
         assert np.max(np.abs(scaled.reaction(joint) / factor - r.reaction(joint))) < TOLERANCE * force
 
 
-@over(20)
+@over(10)
 def test_at_speed_0_dynamics_is_statics(seed: int) -> None:
     case = random_case(seed)
     still = tree(case.drawing, scale=Scale(speeds=0.0))
     assert difference(dynamics(still), statics(still), case.drawing, case.answer.length()) < TOLERANCE
 
 
-@over(20)
+@over(10)
 def test_inertia_forces_grow_with_the_square_of_speed(seed: int) -> None:
-    case = random_case(seed)
-    d = smooth_teeth(case.drawing)
-    slow, fast = tree(d), tree(d, scale=Scale(speeds=3.0))
-    added = [{j: dynamics(t).reaction(j) - statics(t).reaction(j) for j in d.joints} for t in (slow, fast)]
-    force = max(float(np.max(np.abs(dynamics(fast).reaction(j)))) for j in d.joints)
+    """What dynamics adds to statics, which keeps the viscous forces, is inertia alone."""
+    d = smooth_teeth(random_case(seed).drawing)
+    slow, fast = (
+        [answer(tree(d, scale=Scale(speeds=s))) for answer in (dynamics, statics)] for s in (1.0, 3.0)
+    )
+    force = max(float(np.max(np.abs(fast[0].reaction(j)))) for j in d.joints)
     for joint in d.joints:
-        assert np.max(np.abs(9 * added[0][joint] - added[1][joint])) < TOLERANCE * force, joint
+        added = [r.reaction(joint) - still.reaction(joint) for r, still in (slow, fast)]
+        assert np.max(np.abs(9 * added[0] - added[1])) < TOLERANCE * force, joint
 
 
-@over(20)
+@over(15)
 def test_exchanging_i_and_j_only_flips_signs(seed: int) -> None:
     case = random_case(seed)
     d, r, swapped = case.drawing, answered(seed), exchangeable(case.drawing)
     other = dynamics(tree(d, exchange=swapped))
     force, length = case.answer.force_scale(), case.answer.length()
     q = state(r, case.answer.machine.links)[0]
-    there, here = spots(exchanged_answer(seed), q), spots(case.answer, q)
+    here, there = spots(case.answer.machine, q), spots(machine(tree(d, exchange=swapped)), q)
     for name, joint in d.joints.items():
         sign = -1.0 if name in swapped else 1.0
         assert np.max(np.abs(sign * other.reaction(name) - r.reaction(name))) < TOLERANCE * force
@@ -212,12 +223,7 @@ def test_exchanging_i_and_j_only_flips_signs(seed: int) -> None:
         )
 
 
-def exchanged_answer(seed: int) -> lagrange.Answer:
-    d = random_case(seed).drawing
-    return lagrange.solve(tree(d, exchange=exchangeable(d)), pose_array(d))
-
-
-@over(20)
+@over(8)
 def test_a_batch_is_its_positions_one_by_one(seed: int) -> None:
     case, r = random_case(seed), answered(seed)
     for k in range(len(r.status)):
@@ -236,28 +242,27 @@ def at_position(made: dict[str, Any], r: Any, k: int) -> dict[str, Any]:
     return made
 
 
-@over(20)
+FIRST = np.array([-1, 9, -45, 0, 45, -9, 1]) / 60
+SECOND = np.array([2, -27, 270, -490, 270, -27, 2]) / 180
+
+
+@over(15)
 def test_rates_are_the_differences_of_positions(seed: int) -> None:
-    """Central differences over five positions in time, of fourth order."""
-    case, h = random_case(seed), 2e-3
-    d = replace(
-        case.drawing, drives={k: replace(v, steps=in_time(v, h)) for k, v in case.drawing.drives.items()}
-    )
-    r, length = da.kinematics(da.mechanism(tree(d))), case.answer.length()
+    """Central differences over seven positions in time, of sixth order."""
+    case, h = random_case(seed), 1e-3
+    moved = {k: replace(v, steps=in_time(v, h)) for k, v in case.drawing.drives.items()}
+    r, length = da.kinematics(da.mechanism(tree(replace(case.drawing, drives=moved)))), case.answer.length()
     assert all(r.ok), r.problems()
     speed, gain = speed_scale(case.answer), float(np.max(np.abs(case.answer.a * [1, 1, length])))
     for link in r.links:
-        for position, v, a, unit in (
+        for x, v, a, unit in (
             (r.angle(link), r.speed(link), r.acceleration(link), length),
             (r.center(link), r.center_velocity(link), r.center_acceleration(link), 1.0),
         ):
-            x = position[1:]
-            first = (x[0] - 8 * x[1] + 8 * x[3] - x[4]) / (12 * h)
-            second = (-x[0] + 16 * x[1] - 30 * x[2] + 16 * x[3] - x[4]) / (12 * h * h)
-            assert np.max(np.abs(first - v[0])) * unit < 1e-6 * max(speed, 1.0)
-            assert np.max(np.abs(second - a[0])) * unit < 1e-5 * max(gain, 1.0)
+            assert np.max(np.abs(FIRST @ x[1:] / h - v[0])) * unit < 1e-7 * max(speed, 1.0)
+            assert np.max(np.abs(SECOND @ x[1:] / h**2 - a[0])) * unit < 1e-6 * max(gain, 1.0)
 
 
 def in_time(drive: Any, h: float) -> tuple[float, ...]:
-    """The drawn position first (it carries the rates and the phases), then five around it in time."""
-    return (0.0, *(drive.speed * t + drive.acceleration * t * t / 2 for t in (-2 * h, -h, 0.0, h, 2 * h)))
+    """The drawn position first (it carries the rates and the phases), then seven around it in time."""
+    return (0.0, *(drive.speed * t + drive.acceleration * t * t / 2 for t in h * np.arange(-3.0, 4.0)))

@@ -61,7 +61,7 @@ def solve(tree: Tree, guess: Array, inertia: bool = True) -> Answer:
     w = known(m, q, v, a if inertia else None)
     multipliers = _multipliers(all_rows, J, w, q)
     forces, moments, efforts = _reactions(all_rows, multipliers, q)
-    return Answer(m, *(np.asarray(x, float) for x in (q, v, a)), forces, moments, efforts, _condition(J, q))
+    return Answer(m, q.astype(float), v.astype(float), a.astype(float), forces, moments, efforts, _condition(J, q))
 
 
 def quality(tree: Tree, pose: Array) -> tuple[float, Array, Array]:
@@ -196,12 +196,16 @@ def _stacked(rows: list[Row], rate: str, q: Array) -> Array:
 
 def _multipliers(rows: list[Row], J: Array, w: Array, q: Array) -> dict[tuple[str, str], tuple[Array, Array]]:
     """(name, kind) of a row -> (multipliers, extra wrench on j): the radial tooth force follows the tangential one."""
-    flat = lambda wrench: wrench[:, 1:].reshape(len(w), -1)  # noqa: E731
-    across = _split(rows, _solved(np.swapaxes(J, 1, 2), -flat(w)))
+    across = _split(rows, _solved(np.swapaxes(J, 1, 2), -_flat(w)))
+    zero = np.zeros(2)
     radial = {r.name: _radial(r, across[r.name, r.kind], q) for r in rows if r.kind == "gear"}
     total = w + sum((_on_both(r, radial[r.name], q) for r in rows if r.kind == "gear"), np.zeros_like(w))
-    final = _split(rows, _solved(np.swapaxes(J, 1, 2), -flat(total)))
-    return {key: (value, radial.get(key[0], 0.0)) for key, value in final.items()}  # type: ignore[misc]
+    final = _split(rows, _solved(np.swapaxes(J, 1, 2), -_flat(total)))
+    return {key: (value, radial.get(key[0], zero)) for key, value in final.items()}
+
+
+def _flat(w: Array) -> Array:
+    return w[:, 1:].reshape(len(w), -1)
 
 
 def _split(rows: list[Row], multipliers: Array) -> dict[tuple[str, str], Array]:

@@ -151,5 +151,7 @@ def _values(value: Any, bare: float) -> Array:
 
 
 def _range(start: float, end: float, count: int, bare: float) -> Array:
-    whole_turn = bare != 1.0 and abs(abs(end - start) - 2 * pi) < 1e-9
-    return np.linspace(start, end, count, endpoint=not whole_turn)
+    """Whole turns do not repeat their first position."""
+    turns = abs(end - start) / (2 * pi)
+    whole = bare != 1.0 and round(turns) > 0 and abs(turns - round(turns)) < 1e-9
+    return np.linspace(start, end, count, endpoint=not whole)

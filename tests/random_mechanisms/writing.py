@@ -57,7 +57,7 @@ def tree(
         "links": {name: w.link(name) for name in d.spots},
         "joints": {name: w.joint(name) for name in d.joints},
         "drives": {name: w.drive(drive) for name, drive in d.drives.items()},
-        "loads": {name: w.load(load) for name, load in d.loads.items()},
+        "loads": {name: w.load(load) for name, load in w.d.loads.items()},
         "assembly": {name: w.assembly(k, name) for k, name in enumerate(d.poses) if name != "ground"},
     }
     return made | ({"units": style.units} if style.units else {})
