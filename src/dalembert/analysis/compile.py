@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -75,8 +74,14 @@ def _whole_turns(positions: Array, layout: Layout) -> Array | None:
     return np.where(turns, np.sign(closing) * 2 * np.pi, 0.0)
 
 
-def compiled(m: Mechanism, schedule: Schedule, redundant: bool = False) -> Compiled:
-    """The mechanism at the positions of a schedule."""
+def compiled(
+    m: Mechanism, schedule: Schedule, redundant: bool = False, like: Compiled | None = None
+) -> Compiled:
+    """The mechanism at the positions of a schedule.
+
+    Its numbers may be symbols (one position then): scale and first guess are taken from ``like``, the mechanism with
+    numbers in their places.
+    """
     _refuse_unready(m)
     links = tuple(name for name in m.links if name != GROUND)
     index = {name: k for k, name in enumerate(links)} | {GROUND: len(links)}
@@ -99,7 +104,7 @@ def compiled(m: Mechanism, schedule: Schedule, redundant: bool = False) -> Compi
         constraints=constraints.rows(),
         freedoms=freedoms.rows(),
         driven=driven,
-        length=characteristic_length(m),
+        length=characteristic_length(m) if like is None else like.layout.length,
         redundant=redundant,
         reference=reference,
     )
@@ -114,11 +119,11 @@ def compiled(m: Mechanism, schedule: Schedule, redundant: bool = False) -> Compi
         freedoms=tuple(names),
         unknown_loads=unknown,
         layout=layout,
-        target=np.array(constraints.targets),
-        guess=_guess(m, index, reference),
+        target=table.numbers(constraints.targets),
+        guess=_guess(m, index, reference) if like is None else like.guess,
         forcing=_forcing(m, index, reference, names, drives, len(schedule.position)),
         known=_known(m, schedule, index, reference, unknown, drives),
-        joint_at=np.array(at).reshape(-1, 2),
+        joint_at=table.numbers(at).reshape(-1, 2),
     )
 
 
@@ -143,12 +148,11 @@ def _refuse_unready(m: Mechanism) -> None:
 
 def _references(m: Mechanism, index: dict[str, int]) -> Array:
     """Reference point of each link: its point of the first joint, so that arms stay short and many are zero."""
-    reference = np.full((len(index), 2), np.nan)
+    reference: dict[int, Any] = {}
     for name, joint in m.joints.items():
         for link, u in zip(joint.links, m.joint_points(name), strict=True):
-            if np.isnan(reference[index[link], 0]):
-                reference[index[link]] = u
-    return np.asarray(np.nan_to_num(reference))
+            reference.setdefault(index[link], u)
+    return table.numbers([reference.get(k, (0.0, 0.0)) for k in range(len(index))])
 
 
 def characteristic_length(m: Mechanism) -> float:
@@ -208,9 +212,11 @@ def _forcing(
     known = {k: v for k, v in m.loads.items() if not getattr(v, "unknown", False)}
     return Forcing(
         inertia=Inertia(
-            mass=np.array([m.mass(k) for k in links]),
-            center=np.array([np.subtract(m.center(k), reference[index[k]]) for k in links]).reshape(-1, 2),
-            inertia=np.array([m.inertia(k) for k in links])[:, None],
+            mass=table.numbers([m.mass(k) for k in links]),
+            center=table.numbers([np.subtract(m.center(k), reference[index[k]]) for k in links]).reshape(
+                -1, 2
+            ),
+            inertia=table.numbers([m.inertia(k) for k in links])[:, None],
             gravity=np.array(m.gravity_vector),
         ),
         forces=_forces(
@@ -219,16 +225,16 @@ def _forcing(
         couples=_couples({k: v for k, v in known.items() if v.type == "couple"}, index, drives, count),
         springs=_springs(m, known, index, reference),
         resistances=_resistances(m, known, freedoms),
-        separation=np.array(_mesh_tangents(m)),
+        separation=table.numbers(_mesh_tangents(m)),
     )
 
 
-def _mesh_tangents(m: Mechanism) -> list[float]:
+def _mesh_tangents(m: Mechanism) -> list[Any]:
     """tan(pressure angle) of each mesh row, 0 for a wheel that rolls on a circle; in the order of the rows."""
     out = []
     for joint in m.joints.values():
         if joint.type == "gear":
-            out.append(math.tan(joint.pressure_angle))
+            out.append(np.tan(joint.pressure_angle))
         elif joint.type == "rolling" and getattr(joint, "radii", None) is not None:
             out.append(0.0)
     return out
@@ -237,7 +243,7 @@ def _mesh_tangents(m: Mechanism) -> list[float]:
 def point_of(m: Mechanism, link: str, at: Any, path: tuple[str | int, ...] = ()) -> Array:
     """A point of a link in its axes: by name, `center`, or as a vector."""
     if not isinstance(at, str):
-        return np.array([float(c) for c in at])
+        return table.numbers(at)
     points = m.points(link)
     if at in points:
         return np.array(points[at])
@@ -254,21 +260,22 @@ def _forces(
     drives: dict[str, Array],
     count: int,
 ) -> Forces:
-    link, at, value = [], [], np.zeros((count, len(loads), 2))
-    for k, (name, load) in enumerate(loads.items()):
+    link, at, value = [], [], []
+    for name, load in loads.items():
         link.append(index[load.on])
         at.append(point_of(m, load.on, load.at, ("loads", name, "at")) - reference[index[load.on]])
-        fx, fy = load.force(drives)
-        value[:, k, 0], value[:, k, 1] = fx, fy
+        value += [np.broadcast_to(f, (count,)) for f in load.force(drives)]
     follows = np.array([load.axes == "link" for load in loads.values()], bool)
-    return Forces(np.array(link, np.intp), np.array(at).reshape(-1, 2), follows, value)
+    values = table.numbers(value).reshape(len(loads), 2, count)
+    return Forces(
+        np.array(link, np.intp), table.numbers(at).reshape(-1, 2), follows, np.moveaxis(values, -1, 0)
+    )
 
 
 def _couples(loads: dict[str, Any], index: dict[str, int], drives: dict[str, Array], count: int) -> Couples:
-    value = np.zeros((count, len(loads), 1))
-    for k, load in enumerate(loads.values()):
-        value[:, k, 0] = load.value.at(drives) if hasattr(load.value, "at") else load.value
-    return Couples(np.array([index[load.on] for load in loads.values()], np.intp), value)
+    value = [load.value.at(drives) if hasattr(load.value, "at") else load.value for load in loads.values()]
+    columns = table.numbers([np.broadcast_to(v, (count,)) for v in value]).reshape(len(loads), count)
+    return Couples(np.array([index[load.on] for load in loads.values()], np.intp), columns.T[..., None])
 
 
 def _springs(m: Mechanism, loads: dict[str, Any], index: dict[str, int], reference: Array) -> Springs:
@@ -284,11 +291,9 @@ def _springs(m: Mechanism, loads: dict[str, Any], index: dict[str, int], referen
     return Springs(
         np.array(columns[0], np.intp),
         np.array(columns[1], np.intp),
-        np.array(columns[2], float).reshape(-1, 2),
-        np.array(columns[3], float).reshape(-1, 2),
-        np.array(columns[4], float),
-        np.array(columns[5], float),
-        np.array(columns[6], float),
+        table.numbers(columns[2]).reshape(-1, 2),
+        table.numbers(columns[3]).reshape(-1, 2),
+        *(table.numbers(column) for column in columns[4:]),
     )
 
 
@@ -308,7 +313,7 @@ def _resistances(m: Mechanism, loads: dict[str, Any], freedoms: list[tuple[str, 
         for freedom, damping in joint_damping(joint).items():
             rows.append((freedoms.index((name, freedom)), 0.0, 0.0, damping))
     columns = list(zip(*rows, strict=True)) if rows else [()] * 4
-    return Resistances(np.array(columns[0], np.intp), *(np.array(c, float) for c in columns[1:]))
+    return Resistances(np.array(columns[0], np.intp), *(table.numbers(c) for c in columns[1:]))
 
 
 def joint_damping(joint: Any) -> dict[str, float]:
@@ -316,9 +321,17 @@ def joint_damping(joint: Any) -> dict[str, float]:
     damping = getattr(joint, "damping", None)
     if not damping:
         return {}
-    if isinstance(damping, int | float):
-        return {table.FREEDOMS[joint.type][0]: float(damping)}
-    return {k: float(v) for k, v in zip(table.FREEDOMS[joint.type], damping, strict=True) if v}
+    if not isinstance(damping, tuple):
+        return {table.FREEDOMS[joint.type][0]: damping}
+    return {k: v for k, v in zip(table.FREEDOMS[joint.type], damping, strict=True) if v}
+
+
+def _effort(m: Mechanism, name: str, schedule: Schedule, drives: dict[str, Array], count: int) -> Array:
+    """Given effort of a drive at each position, NaN where it is asked for."""
+    given = m.drives[name].effort
+    if given is None or schedule.unknown is not None:
+        return np.full(count, np.nan)
+    return np.broadcast_to(given.at(drives) if hasattr(given, "at") else given, (count,))
 
 
 def _known(
@@ -329,11 +342,8 @@ def _known(
     unknown: tuple[str, ...],
     drives: dict[str, Array],
 ) -> Known:
-    effort = np.full(schedule.position.shape, np.nan)
-    for k, name in enumerate(schedule.names):
-        given = m.drives[name].effort
-        if given is not None and schedule.unknown is None:
-            effort[:, k] = given.at(drives) if hasattr(given, "at") else given
+    count = len(schedule.position)
+    effort = [_effort(m, name, schedule, drives, count) for name in schedule.names]
     asked = np.array(
         [m.drives[n].effort is None or schedule.unknown is not None for n in schedule.names], bool
     )
@@ -345,15 +355,15 @@ def _known(
         for name, load in zip(unknown, loads, strict=True)
     ]
     direction = [
-        (math.cos(load.direction), math.sin(load.direction)) if load.type == "force" else (0.0, 0.0)
+        (np.cos(load.direction), np.sin(load.direction)) if load.type == "force" else (0.0, 0.0)
         for load in loads
     ]
     return Known(
         asked=asked,
-        effort=effort,
+        effort=table.numbers(effort).reshape(len(effort), count).T,
         link=np.array([index[load.on] for load in loads], np.intp),
-        at=np.array(at).reshape(-1, 2),
-        direction=np.array(direction).reshape(-1, 2),
+        at=table.numbers(at).reshape(-1, 2),
+        direction=table.numbers(direction).reshape(-1, 2),
         follows=np.array([getattr(load, "axes", "ground") == "link" for load in loads], bool),
         couple=np.array([load.type == "couple" for load in loads], bool),
     )

@@ -6,7 +6,6 @@ To add a joint kind that slides or turns, add its freedoms to ``FREEDOMS``; one 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
@@ -61,15 +60,22 @@ def _family(kind: type, entries: list[dict[str, Any]]) -> Family:
     columns: dict[str, Any] = {}
     for name in entries[0]:
         whole = name in ("row", "i", "j")
-        columns[name] = np.array([e[name] for e in entries], np.intp if whole else float)
+        values = [e[name] for e in entries]
+        columns[name] = np.array(values, np.intp) if whole else numbers(values)
     family: Family = kind(**columns)
     return family
 
 
+def numbers(values: Any) -> Array:
+    """An array of floats; of symbols where some are (the kernel is traced on them)."""
+    array = np.asarray(values)
+    return array if array.dtype == object else array.astype(float)
+
+
 def direction(joint: Any) -> Array:
     """Unit vector of the slide in i's axes; x where the joint has none."""
-    angle = float(getattr(joint, "direction", 0.0) or 0.0)
-    return np.array([math.cos(angle), math.sin(angle)])
+    angle = getattr(joint, "direction", 0.0) or 0.0
+    return np.array([np.cos(angle), np.sin(angle)])
 
 
 def add_constraints(
@@ -89,9 +95,9 @@ def add_constraints(
         rows.add(Turn, index, ends, target=_fixed_angle(joint))
 
 
-def _fixed_angle(joint: Any) -> float:
+def _fixed_angle(joint: Any) -> Any:
     """Angle of j's axes to i's where the joint fixes it."""
-    return float(joint.angle) + (float(joint.direction) if joint.type == "slider" else 0.0)
+    return joint.angle + (joint.direction if joint.type == "slider" else 0.0)
 
 
 def _across(e: Array) -> Array:
@@ -119,8 +125,8 @@ def signed_radii(joint: Any) -> Vector:
     distance of the centres."""
     ri, rj = joint.pitch_radii if joint.type == "gear" else joint.radii
     if not joint.internal:
-        return float(ri), float(rj)
-    return (float(ri), -float(rj)) if ri > rj else (-float(ri), float(rj))
+        return ri, rj
+    return (ri, -rj) if ri > rj else (-ri, rj)
 
 
 def _rolling(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array) -> None:
@@ -130,7 +136,7 @@ def _rolling(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui
         rows.add(Distance, index, ends, target=ri + rj, ui=ui, uj=uj)
         rows.add(Mesh, index, ends, ui=ui, uj=uj, ri=ri, rj=rj)
         return
-    e, r = direction(joint), float(joint.radius)
+    e, r = direction(joint), joint.radius
     rows.add(Along, index, ends, target=r, ui=ui, uj=uj, axis=_across(e), pitch=0.0)
     rows.add(Along, index, ends, ui=ui, uj=uj, axis=e, pitch=r)
 

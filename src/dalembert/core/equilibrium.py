@@ -114,6 +114,24 @@ def known_sources(
     return sources
 
 
+class Statement(NamedTuple):
+    """What A x + w = 0 is about: the rows asked for, their factored A, and w with the given efforts (..., L, n)."""
+
+    unknown: System
+    forces: Factor
+    w: Array
+
+
+def statement(layout: Layout, known: Known, pose: Pose, rows: System, solver: Factor, w: Array) -> Statement:
+    """The unknowns and what is known, from total wrenches w (..., L, n) of loads."""
+    unknown = _unknowns(layout, known, pose, rows)
+    if known.asked.all() and not known.link.size:
+        return Statement(unknown, solver, w)
+    given = rows.rows(layout.constraints.count + np.flatnonzero(~known.asked))
+    w = w + summed(layout, pair(given, known.effort[..., ~known.asked]))
+    return Statement(unknown, factor(layout, unknown), w)
+
+
 def balance(
     layout: Layout,
     forcing: Forcing,
@@ -125,23 +143,32 @@ def balance(
     w: Array,
 ) -> Balance:
     """Solve A x + w = 0 for total wrenches w (..., L, n)."""
-    count = layout.constraints.count
-    unknown = _unknowns(layout, known, pose, rows)
-    if known.asked.all() and not known.link.size:
-        forces = solver
-    else:
-        forces = factor(layout, unknown)
-        given = pair(rows.rows(count + np.flatnonzero(~known.asked)), known.effort[..., ~known.asked])
-        w = w + summed(layout, given)
-    x, total, pushed = _solved(layout, forcing, pose, forces, w)
+    s = statement(layout, known, pose, rows, solver, w)
+    x, total = _solved(layout, forcing, pose, s.forces, s.w)
+    return checked(layout, forcing, known, pose, moving, s, x, total)
+
+
+def checked(
+    layout: Layout,
+    forcing: Forcing,
+    known: Known,
+    pose: Pose,
+    moving: Motion,
+    s: Statement,
+    x: Array,
+    total: Array,
+) -> Balance:
+    """Multipliers x by what they mean, with the residual and virtual power under total wrenches (..., L, n)."""
+    count, asked = layout.constraints.count, int(known.asked.sum())
     effort = np.broadcast_to(known.effort, (*x.shape[:-1], len(known.asked))).copy()
-    effort[..., known.asked] = x[..., count : count + known.asked.sum()]
-    load = x[..., count + known.asked.sum() :]
-    sources = [pair(unknown, x)]
+    effort[..., known.asked] = x[..., count : count + asked]
+    sources = [pair(s.unknown, x)]
     residual, largest = _residual(layout, sources, total)
-    power = _power(layout, known, moving, unknown, x, total, largest)
-    free = forces.null if isinstance(forces, PseudoInverse) else None
-    return Balance(x[..., :count], effort, load, residual, power, forces.rcond, free, pushed)
+    power = _power(layout, known, moving, s.unknown, x, total, largest)
+    free = s.forces.null if isinstance(s.forces, PseudoInverse) else None
+    pushed = fc.separation(layout, pose, forcing.separation, x)
+    parts = (x[..., :count], effort, x[..., count + asked :])
+    return Balance(*parts, residual, power, s.forces.rcond, free, pushed)
 
 
 def _unknowns(layout: Layout, known: Known, pose: Pose, rows: System) -> System:
@@ -164,10 +191,8 @@ def load_rows(layout: Layout, known: Known, pose: Pose) -> System:
     return System(ground, known.link, known.couple, np.zeros_like(wrench), wrench)
 
 
-def _solved(
-    layout: Layout, forcing: Forcing, pose: Pose, forces: Factor, w: Array
-) -> tuple[Array, Array, list[Array]]:
-    """Multipliers, total wrenches with the teeth's separation, and that separation.
+def _solved(layout: Layout, forcing: Forcing, pose: Pose, forces: Factor, w: Array) -> tuple[Array, Array]:
+    """Multipliers and total wrenches with the teeth's separation.
 
     The radial tooth force depends on the tangential one by its magnitude only; where it does no work (centres at a
     fixed distance) the second solution is exact, else a few more are needed.
@@ -175,7 +200,7 @@ def _solved(
     x = forces.forces(-w.reshape((*w.shape[:-2], -1)))
     tangent = forcing.separation
     if not tangent.size or not tangent.any():
-        return x, w, fc.separation(layout, pose, tangent, x)
+        return x, w
     for _ in range(50):
         total = w + summed(layout, fc.separation_wrench(layout, pose, tangent, x))
         new = forces.forces(-total.reshape((*total.shape[:-2], -1)))
@@ -183,7 +208,7 @@ def _solved(
         x = new
         if change <= 1e-14 * np.nan_to_num(np.abs(new)).max(initial=0.0):
             break
-    return x, total, fc.separation(layout, pose, tangent, x)
+    return x, total
 
 
 def _residual(layout: Layout, sources: list[Source], w: Array) -> tuple[Array, Array]:
@@ -218,8 +243,9 @@ def reactions(layout: Layout, rows: System, found: Balance) -> tuple[Array, Arra
     """Force (..., joints, d) and couple (..., joints, n - d) of each joint on its link j, at j's point (contact)."""
     g, constraints = layout.algebra, layout.constraints
     lead = found.constraint.shape[:-1]
-    force = np.zeros((*lead, layout.joints, g.d))
-    couple = np.zeros((*lead, layout.joints, g.n - g.d))
+    dtype = found.constraint.dtype
+    force = np.zeros((*lead, layout.joints, g.d), dtype)
+    couple = np.zeros((*lead, layout.joints, g.n - g.d), dtype)
     for k, joint in enumerate(constraints.joint):
         multiplier = found.constraint[..., k, None]
         if constraints.angular[k]:

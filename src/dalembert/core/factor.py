@@ -26,6 +26,9 @@ def row_scale(layout: Layout, angular: NDArray[np.bool_]) -> Array:
 
 def factor(layout: Layout, rows: System) -> Factor:
     """Factor J of some rows with the solver that suits it."""
+    if layout.solver is not None:
+        found: Factor = layout.solver(layout, rows)
+        return found
     row, column = row_scale(layout, rows.angular), layout.column_scale
     if layout.redundant or len(row) != layout.unknowns:
         return pseudo_inverse(dense(layout, rows), row, column)

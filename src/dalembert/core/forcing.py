@@ -166,7 +166,7 @@ def spring_wrench(layout: Layout, springs: Springs, pose: Pose, twist: Array) ->
     ra, rb = arm(g, pose, springs.a, springs.at_a), arm(g, pose, springs.b, springs.at_b)
     span = pose.point[..., springs.b, :] + rb - pose.point[..., springs.a, :] - ra
     length = np.sqrt((span * span).sum(axis=-1))
-    e = span / np.where(length > 0, length, 1.0)[..., None]
+    e = span / np.sqrt((span * span).sum(axis=-1) + 1e-300)[..., None]  # no pull on a spring of length zero
     va = twist[..., springs.a, : g.d] + g.spin(twist[..., springs.a, g.d :], ra)
     vb = twist[..., springs.b, : g.d] + g.spin(twist[..., springs.b, g.d :], rb)
     tension = springs.stiffness * (length - springs.free_length) + springs.damping * g.dot(e, vb - va)

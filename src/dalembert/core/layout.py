@@ -199,6 +199,9 @@ class Layout:
     length: float
     redundant: bool
     reference: Array = field(repr=False)  # (L+1, d) reference point of each link in its own axes
+    solver: Any = field(
+        repr=False, default=None
+    )  # factors systems that are not made of numbers (the kernel's)
 
     @cached_property
     def stack(self) -> Rows:
