@@ -11,14 +11,13 @@ from pathlib import Path
 from dalembert.errors import DalembertError, ModelError
 
 
-@contextmanager
-def needs(package: str, what: str, extra: str = "results") -> Iterator[None]:
-    """A missing optional package as a sentence with the line that installs it."""
-    try:
-        yield
-    except ImportError as error:
+def check_installed(package: str, what: str, extra: str = "results") -> None:
+    """Raise where an optional package is missing, with the line that installs it."""
+    from importlib.util import find_spec
+
+    if find_spec(package) is None:
         remedy = f"pip install 'dalembert[{extra}]'"
-        raise DalembertError(f"{what} needs {package}, which is not installed; {remedy}") from error
+        raise DalembertError(f"{what} needs the package {package}, which is not installed; {remedy}")
 
 
 def check_new(path: Path, overwrite: bool) -> None:

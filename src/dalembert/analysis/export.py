@@ -25,7 +25,7 @@ from dalembert.analysis.columns import (
 )
 from dalembert.analysis.record import BLOCK, nulled, to_dict, to_json, write_json
 from dalembert.errors import ModelError
-from dalembert.saving import needs, new_file
+from dalembert.saving import check_installed, new_file
 
 if TYPE_CHECKING:
     import pandas
@@ -102,8 +102,9 @@ def to_xlsx(
     axes: Axes = "ground",
 ) -> None:
     """A workbook: the positions on one sheet, what they rest on on another."""
-    with needs("openpyxl", "a workbook"):
-        from openpyxl import Workbook
+    check_installed("openpyxl", "a workbook")
+    from openpyxl import Workbook
+
     if len(result.status) > WORKBOOK_ROWS:
         raise ModelError(
             f"{len(result.status)} positions do not fit a worksheet of {WORKBOOK_ROWS} rows",
@@ -130,8 +131,9 @@ def _about(result: Result) -> dict[str, str]:
 
 def to_dataframe(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> pandas.DataFrame:
     """One row a position, one column a number, units in the names of the columns."""
-    with needs("pandas", "a DataFrame"):
-        import pandas
+    check_installed("pandas", "a DataFrame")
+    import pandas
+
     names, arrays = headings(result, units, axes)
     frame = pandas.DataFrame(dict(zip(names, arrays, strict=True)))
     frame.insert(0, "status", list(result.status))
@@ -145,8 +147,9 @@ def to_dataframe(result: Result, units: UnitChoice = "SI", axes: Axes = "ground"
 
 def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> xarray.Dataset:
     """Arrays over position, drive, joint, link and component, each with ``attrs["units"]``."""
-    with needs("xarray", "labelled arrays"):
-        import xarray
+    check_installed("xarray", "a dataset")
+    import xarray
+
     to = scale(result, units)
     data: dict[str, Any] = {"status": ("position", np.array(result.status, dtype=str))}
     data |= _drive_arrays(result, to) | _joint_arrays(result, to, axes) | _link_arrays(result, to)
@@ -224,8 +227,7 @@ def to_netcdf(
     axes: Axes = "ground",
 ) -> None:
     """The labelled arrays as a netCDF file."""
-    with needs("h5netcdf", "a netCDF file"):
-        import h5netcdf  # noqa: F401
+    check_installed("h5netcdf", "a netCDF file")
     dataset = to_xarray(result, units, axes)
     with new_file(path, overwrite) as temporary:
         dataset.to_netcdf(temporary, engine="h5netcdf")

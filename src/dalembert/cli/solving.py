@@ -9,11 +9,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from dalembert.errors import ModelError
-from dalembert.saving import check_new
+from dalembert.saving import check_installed, check_new
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
     from dalembert.model import Mechanism
+
+
+PACKAGES = {"xlsx": ("openpyxl", "a workbook"), "netcdf": ("h5netcdf", "a netCDF file")}
+"""Kind of file -> the optional package that writes it, and what it is called."""
 
 
 class Wanted(NamedTuple):
@@ -65,8 +69,10 @@ def _check_targets(wanted: Wanted) -> None:
             raise ModelError(f"--{kind} needs the name of a file", f"or - to print it: --{kind} -")
     if str(wanted.json) == "-" and str(wanted.csv) == "-":
         raise ModelError("--json - and --csv - both ask for the screen", "name a file for one of them")
-    for path in wanted.files.values():
+    for kind, path in wanted.files.items():
         check_new(path, wanted.force)
+        if kind in PACKAGES:
+            check_installed(*PACKAGES[kind])
 
 
 def _result(file: Path, static: bool, positions: int | None, method: str, friction: bool) -> Result:
