@@ -142,6 +142,13 @@ def test_a_rocker_can_be_swept_where_no_crank_goes_round() -> None:
     assert set(solve(m).status) == {"ok"}
 
 
+def test_parallelogram_passes_its_change_points() -> None:
+    r = solve(four_bar(ground=0.3, crank=0.1, coupler=0.3, rocker=0.1, positions=36))
+    assert [k for k, status in enumerate(r.status) if status != "ok"] == [0, 18]
+    assert {r.status[0], r.status[18]} == {"singular"}
+    assert r.angle("coupler")[r.ok] == pytest.approx(0.0, abs=1e-9)
+
+
 def test_five_bar_with_opposite_cranks_moves_on_the_line_of_symmetry() -> None:
     r = solve(five_bar(second_sweep=(pi, -pi)))
     assert r.point("coupler", "C")[:, 0] == pytest.approx(0.12, abs=1e-9)
@@ -210,15 +217,14 @@ BAD: list[tuple[Callable[[], Mechanism], str]] = [
         "too short to meet; lengthen the coupler or the rocker, or give the crank a smaller range",
     ),
     (
-        lambda: four_bar(crank=0.06, coupler=0.6),
-        "four_bar does not close from 0 to 360 degrees of the crank: coupler 0.6 m is 0.12 m too long for rocker "
+        lambda: four_bar(crank=0.06, coupler=0.66),
+        "four_bar does not close from 0 to 360 degrees of the crank: coupler 0.66 m is 0.18 m too long for rocker "
         "0.24 m to meet it; shorten the coupler or lengthen the rocker, or give the crank a smaller range",
     ),
     (
-        lambda: four_bar(ground=0.3, crank=0.1, coupler=0.3, rocker=0.1),
-        "four_bar does not close at 0 degrees of the crank: coupler 0.3 m and rocker 0.1 m fold into one line, a dead "
-        "centre, where they are just long enough to meet; shorten the coupler or lengthen the rocker, or give the "
-        "crank a smaller range",
+        lambda: five_bar(ground=0.12, second_sweep=(pi, 3 * pi)),
+        "five_bar does not close at 0 degrees of the crank: coupler and second coupler, both 0.24 m, lie on each other "
+        "and are free to turn; shorten the coupler or lengthen the second coupler, or give the crank a smaller range",
     ),
     (
         lambda: slider_crank(crank=0.1, rod=0.12, offset=0.05),

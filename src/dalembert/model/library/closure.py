@@ -41,17 +41,19 @@ def turned(length: float, angle: float) -> complex:
 def meet(a: complex, first: Side, b: complex, second: Side, left: bool = True) -> complex:
     """Where a link from a and a link from b meet, on the left of the way from a to b or on its right.
 
+    In one line they just meet: a change point, which is for the analysis to judge.
+
     >>> meet(0, ("coupler", 3.0), 5, ("rocker", 4.0))
     (1.8+2.4j)
     """
     (_, r), (_, s), d = first, second, abs(b - a)
     tolerance = TOUCHING * (r + s)
-    if d > r + s - tolerance:
+    if d > r + s + tolerance:
         raise _too_short(first, second, d)
-    if d < abs(r - s) + tolerance:
+    if d < max(abs(r - s) - tolerance, tolerance):
         raise _too_different(first, second, d)
     along = (d * d + r * r - s * s) / (2 * d)
-    across = sqrt(r * r - along * along)
+    across = sqrt(max(0.0, r * r - along * along))
     return a + (b - a) / d * (along + 1j * (across if left else -across))
 
 
@@ -64,11 +66,11 @@ def reach(a: complex, link: Side, line: complex, direction: float = 0.0, forward
     name, length = link
     unit = exp(1j * direction)
     local = (a - line) / unit
-    gap = abs(local.imag) - length * (1 - TOUCHING)
-    if gap >= 0:
-        what = f"{name} {length:g} m {_by(gap, length)} too short to reach the line of the slide"
+    gap = abs(local.imag) - length
+    if gap > TOUCHING * length:
+        what = f"{name} {length:g} m is {gap:.3g} m too short to reach the line of the slide"
         raise GapError(gap, what, f"lengthen the {name}")
-    step = sqrt(length * length - local.imag * local.imag)
+    step = sqrt(max(0.0, length * length - local.imag * local.imag))
     return line + unit * (local.real + (step if forward else -step))
 
 
@@ -123,7 +125,7 @@ def _does_not_close(template: str, drive: str, turn: bool, gaps: list[tuple[floa
 def _too_short(first: Side, second: Side, distance: float) -> GapError:
     (i, r), (j, s) = first, second
     missing = distance - (r + s)
-    what = f"{i} {r:g} m and {j} {s:g} m {_by(missing, distance, 'are')} too short to meet"
+    what = f"{i} {r:g} m and {j} {s:g} m are {missing:.3g} m too short to meet"
     return GapError(missing, what, f"lengthen the {i} or the {j}")
 
 
@@ -131,13 +133,6 @@ def _too_different(first: Side, second: Side, distance: float) -> GapError:
     (longer, r), (shorter, s) = sorted((first, second), key=lambda side: -side[1])
     excess = r - s - distance
     what = f"{longer} {r:g} m is {excess:.3g} m too long for {shorter} {s:g} m to meet it"
-    if excess <= TOUCHING * (r + s):
-        what = (
-            f"{longer} {r:g} m and {shorter} {s:g} m fold into one line, a dead centre, where they are just"
-        )
-        what += " long enough to meet"
+    if r == s:
+        what = f"{longer} and {shorter}, both {r:g} m, lie on each other and are free to turn"
     return GapError(excess, what, f"shorten the {longer} or lengthen the {shorter}")
-
-
-def _by(missing: float, scale: float, verb: str = "is") -> str:
-    return f"{verb} {missing:.3g} m" if missing > TOUCHING * scale else f"{verb} by a hair"
