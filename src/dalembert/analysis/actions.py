@@ -1,0 +1,284 @@
+"""Every force and couple on every link, one by one, with the point where it acts: what a free body shows."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.analysis.freedoms import whole_pose
+from dalembert.analysis.joints import signed_radii
+from dalembert.core.constraints import arm
+from dalembert.core.equilibrium import Motion, known_sources, motion
+from dalembert.core.factor import Factor
+from dalembert.core.forcing import Source
+from dalembert.core.layout import Pose, System
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result import Result
+
+Array = NDArray[Any]
+Kind = Literal["joint", "effort", "load", "weight", "spring", "damper", "inertia"]
+GROUND = "ground"
+
+
+@dataclass(frozen=True)
+class Action:
+    """A force (P, 2) at a point (P, 2) and a couple (P,) on a link, all in ground axes.
+
+    ``source`` is the contribution it belongs to in a superposition, empty for joints' reactions; ``by`` the link
+    that exerts it, where it is one; ``of`` the joint, drive or load.
+    """
+
+    of: str
+    kind: Kind
+    source: str
+    link: str
+    by: str | None
+    at: Array
+    force: Array
+    couple: Array
+
+    def moment(self, about: Array) -> Array:
+        """Moment (P,) about a point (P, 2): couple + r x F."""
+        r = self.at - about
+        return np.asarray(self.couple + r[..., 0] * self.force[..., 1] - r[..., 1] * self.force[..., 0])
+
+    def power(self, velocity: Array, spin: Array) -> Array:
+        """Power (P,) for the velocity of its point (P, 2) and the link's spin (P,)."""
+        return np.asarray((self.force * velocity).sum(axis=-1) + self.couple * spin)
+
+
+class State(NamedTuple):
+    """The core's view of a result: pose, motion, rows of A and its factors."""
+
+    pose: Pose
+    moving: Motion
+    rows: System
+    solver: Factor
+
+
+def state(r: Result) -> State:
+    """Pose and motion of the links of a result, ready for the core's functions."""
+    c = r.compiled
+    pose = whole_pose(c.layout, r.point_array, r.turn_array)
+    with np.errstate(all="ignore"):
+        moving, rows, solver = motion(c.layout, pose, c.schedule.speed, c.schedule.acceleration)
+    return State(pose, moving, rows, solver)
+
+
+def actions(r: Result) -> tuple[Action, ...]:
+    """Everything that acts on the links: reactions of joints, efforts, loads, weights, inertia.
+
+    Units N, N m, m; the sum over a link is zero (ground aside) at every solved position.
+    """
+    return (*joint_actions(r), *effort_actions(r), *known_actions(r), *unknown_load_actions(r))
+
+
+def on_link(all_of_them: tuple[Action, ...], link: str) -> tuple[Action, ...]:
+    """Those on one link."""
+    return tuple(a for a in all_of_them if a.link == link)
+
+
+def joint_actions(r: Result) -> tuple[Action, ...]:
+    """Reactions of all joints, on both links."""
+    out = []
+    for joint in r.joints:
+        i, j = r.mechanism.joints[joint].links
+        at = joint_place(r, joint)
+        for on, by in ((j, i), (i, j)):
+            least = r.least_norm(joint, on)
+            out.append(Action(joint, "joint", "", on, by, at, least[..., :2], least[..., 2]))
+    return tuple(out)
+
+
+def joint_place(r: Result, joint: str) -> Array:
+    """Where a joint's reaction acts (P, 2): j's point, or the contact of a higher pair."""
+    described = r.mechanism.joints[joint]
+    (i, j), (ui, uj) = described.links, r.mechanism.joint_points(joint)
+    pj = link_place(r, j, uj)
+    if described.type not in ("gear", "rolling"):
+        return pj
+    if described.type == "rolling" and getattr(described, "radii", None) is None:
+        angle = link_angle(r, i) + float(described.direction)
+        return pj + float(described.radius) * np.stack([np.sin(angle), -np.cos(angle)], axis=-1)
+    pi = link_place(r, i, ui)
+    ri, rj = signed_radii(described)
+    return np.asarray(pi + (pj - pi) * (ri / (ri + rj)))
+
+
+def link_place(r: Result, link: str, u: Any) -> Array:
+    """A point of any link, ground included (P, 2)."""
+    if link == GROUND:
+        return np.broadcast_to(np.asarray(u, float), (len(r.status), 2))
+    return r._place(link, np.asarray(u, float))
+
+
+def link_angle(r: Result, link: str) -> Array:
+    """Angle of any link, ground included (P,)."""
+    return np.zeros(len(r.status)) if link == GROUND else r.angle(link)
+
+
+def link_speed(r: Result, link: str) -> Array:
+    """Angular velocity of any link, ground included (P,)."""
+    return np.zeros(len(r.status)) if link == GROUND else r.speed(link)
+
+
+def effort_actions(r: Result) -> tuple[Action, ...]:
+    """Efforts of the drives on both links; given ones are sources of their own."""
+    out = []
+    for k, drive in enumerate(r.drives):
+        joint = r.mechanism.drives[drive].joint or drive
+        freedom = r.compiled.freedoms[int(r.compiled.layout.driven[k])][1]
+        i, j = r.mechanism.joints[joint].links
+        source = "" if r.compiled.known.asked[k] else f"effort of {drive}"
+        at = joint_place(r, joint)
+        force, couple = _effort(r, joint, freedom, r.effort(drive))
+        out += [
+            Action(drive, "effort", source, on, by, at, s * force, s * couple)
+            for on, by, s in ((j, i, 1), (i, j, -1))
+        ]
+    return tuple(out)
+
+
+def _effort(r: Result, joint: str, freedom: str, value: Array) -> tuple[Array, Array]:
+    if freedom == "turn":
+        return np.zeros((len(value), 2)), value
+    along = slide_direction(r, joint)
+    return value[:, None] * along, np.zeros(len(value))
+
+
+def slide_direction(r: Result, joint: str) -> Array:
+    """Unit vector of a joint's slide (P, 2), ground axes."""
+    described = r.mechanism.joints[joint]
+    angle = link_angle(r, described.links[0]) + float(getattr(described, "direction", 0.0) or 0.0)
+    return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+
+
+def unknown_load_actions(r: Result) -> tuple[Action, ...]:
+    """Loads that were asked for, with the values found."""
+    from dalembert.analysis.compile import point_of
+
+    out, known = [], r.compiled.known
+    for k, name in enumerate(r.unknown_loads):
+        load, value = r.mechanism.loads[name], r.unknown_load(name)
+        zero = np.zeros(len(value))
+        if known.couple[k]:
+            at = link_place(r, load.on, r.mechanism.center(load.on))
+            out.append(Action(name, "load", "", load.on, None, at, np.zeros((len(value), 2)), value))
+            continue
+        angle = load.direction + (link_angle(r, load.on) if known.follows[k] else zero)
+        force = value[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        at = link_place(r, load.on, point_of(r.mechanism, load.on, load.at))
+        out.append(Action(name, "load", "", load.on, None, at, force, zero))
+    return tuple(out)
+
+
+def known_actions(r: Result, at: State | None = None) -> tuple[Action, ...]:
+    """Everything on the links that is known before the balance: loads, weights, springs, dampers, inertia."""
+    s = at or state(r)
+    c = r.compiled
+    with np.errstate(all="ignore"):
+        sources = known_sources(c.layout, c.forcing, s.pose, s.moving, r.inertia)
+    m = r.mechanism
+    known = {name: load for name, load in m.loads.items() if not getattr(load, "unknown", False)}
+    build = _Builder(r, s.pose)
+    build.centers("weight", "weight of {}", sources["weight"])
+    build.forces([n for n, load in known.items() if load.type == "force"], sources["force"])
+    build.couples([n for n, load in known.items() if load.type == "couple"], sources["couple"])
+    build.springs([n for n, load in known.items() if load.type in ("spring", "damper")], sources["spring"])
+    build.resistances(list(known.items()), sources["resistance"])
+    if "inertia" in sources:
+        build.inertia(sources["inertia"])
+    return tuple(build.out)
+
+
+class _Builder:
+    """Turns the core's wrenches about reference points into forces at points with names."""
+
+    def __init__(self, r: Result, pose: Pose) -> None:
+        self.r, self.pose, self.out = r, pose, list[Action]()
+        self.links = (*r.links, GROUND)
+        self.mechanism = r.mechanism
+
+    def add(self, of: str, kind: Kind, source: str, one: Source, k: int, r: Array, pure: str) -> None:
+        """Wrench k of a source at the arm r (P, 2) from its link's reference point."""
+        link, count = int(one.link[k]), len(self.pose.turn)
+        wrench = np.broadcast_to(one.wrench[..., k, :], (count, 3))
+        force = wrench[:, :2] if pure != "couple" else np.zeros((count, 2))
+        couple = wrench[:, 2] - (r[:, 0] * wrench[:, 1] - r[:, 1] * wrench[:, 0])
+        if pure == "force":
+            couple = np.zeros(count)
+        at = self.pose.point[:, link, :] + r + self.r.compiled.origin
+        self.out.append(Action(of, kind, source, self.links[link], None, at, force, couple))
+
+    def arm(self, link: int, u: Array) -> Array:
+        """Ground components of an arm (2,) of a link."""
+        return arm(self.r.compiled.layout.algebra, self.pose, np.array([link]), u[None])[:, 0, :]
+
+    def center(self, link: int) -> Array:
+        return self.arm(link, self.r.compiled.forcing.inertia.center[link])
+
+    def centers(self, kind: Kind, name: str, one: Source) -> None:
+        """Forces at mass centres, those that are not zero."""
+        for k, link in enumerate(self.r.links):
+            if np.any(one.wrench[..., k, :]):
+                self.add(link, kind, name.format(link), one, k, self.center(k), "force")
+
+    def inertia(self, one: Source) -> None:
+        numbers = self.r.compiled.forcing.inertia
+        for k, link in enumerate(self.r.links):
+            if numbers.mass[k]:
+                self.add(link, "inertia", f"inertia force of {link}", one, k, self.center(k), "force")
+            if numbers.inertia[k].any():
+                self.add(link, "inertia", f"inertia couple of {link}", one, k, self.center(k), "couple")
+
+    def forces(self, names: list[str], one: Source) -> None:
+        forces = self.r.compiled.forcing.forces
+        for k, name in enumerate(names):
+            self.add(name, "load", name, one, k, self.arm(int(forces.link[k]), forces.at[k]), "force")
+
+    def couples(self, names: list[str], one: Source) -> None:
+        for k, name in enumerate(names):
+            link = int(one.link[k])
+            middle = self.center(link) if link < len(self.r.links) else np.zeros((len(self.pose.turn), 2))
+            self.add(name, "load", name, one, k, middle, "couple")
+
+    def springs(self, names: list[str], one: Source) -> None:
+        springs = self.r.compiled.forcing.springs
+        for k, name in enumerate(names):
+            kind: Kind = "spring" if self.mechanism.loads[name].type == "spring" else "damper"
+            ends = ((k, int(springs.a[k]), springs.at_a[k]), (k + len(names), int(springs.b[k]), springs.at_b[k]))
+            for place, link, u in ends:
+                self.add(name, kind, name, one, place, self.arm(link, u), "force")
+
+    def resistances(self, loads: list[tuple[str, Any]], one: Source) -> None:
+        from dalembert.analysis.compile import joint_damping
+
+        rows: list[tuple[str, Kind, str, str, str]] = [
+            (name, "spring" if load.type == "torsion_spring" else "damper", name, load.joint, "turn")
+            for name, load in loads
+            if load.type in ("torsion_spring", "torsion_damper")
+        ]
+        for joint, described in self.mechanism.joints.items():
+            damped = joint_damping(described)
+            rows += [(joint, "damper", f"damping of {joint}", joint, freedom) for freedom in damped]
+        for k, (of, kind, source, joint, freedom) in enumerate(rows):
+            place = joint_place(self.r, joint)
+            for end in (k, k + len(rows)):
+                link = int(one.link[end])
+                r = place - self.pose.point[:, link, :] - self.r.compiled.origin
+                self.add(of, kind, source, one, end, r, "couple" if freedom == "turn" else "force")
+
+
+def magnitude(force: Array) -> Array:
+    """Length of vectors (..., 2)."""
+    return np.hypot(force[..., 0], force[..., 1])
+
+
+def polar(force: Array) -> tuple[float, float]:
+    """(magnitude, direction in radians) of one vector."""
+    return math.hypot(float(force[0]), float(force[1])), math.atan2(float(force[1]), float(force[0]))

@@ -1,0 +1,285 @@
+"""What a good teacher sees before calculating: class of each link, order of solution, lines that meet, inertia's share.
+
+Classes follow from what acts on a link: two-force, two-force with couple, three-force, four-force, general. The
+order of solution starts at the smallest group of links whose equations suffice for its unknowns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.analysis.actions import Action, actions, magnitude, on_link, slide_direction
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result import Result
+
+Array = NDArray[Any]
+
+NOTHING = 1e-9
+"""A force below this part of the largest on the mechanism does not count."""
+
+KINDS = {2: "two-force", 3: "three-force", 4: "four-force"}
+
+
+@dataclass(frozen=True)
+class Member:
+    """A link's class: what acts on it, and for a two-force member its tension (P,), negative in compression.
+
+    ``forces`` and ``couples`` name what acts: joints, loads, `weight`, `inertia`.
+    """
+
+    link: str
+    kind: str
+    forces: tuple[str, ...]
+    couples: tuple[str, ...]
+    tension: Array | None
+
+    def state(self, k: int) -> str:
+        """`tension`, `compression` or nothing, at position k."""
+        if self.tension is None or not np.isfinite(self.tension[k]) or self.tension[k] == 0:
+            return ""
+        return "tension" if self.tension[k] > 0 else "compression"
+
+    @property
+    def sentence(self) -> str:
+        """Why it has this class."""
+        what = _listed(self.forces) or "no force"
+        couples = f"; couples: {_listed(self.couples)}" if self.couples else "; no couple"
+        return f"{self.link}: {self.kind} member (forces: {what}{couples})"
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of the solution: links taken together, what it finds, and why it can."""
+
+    links: tuple[str, ...]
+    finds: tuple[str, ...]
+    equations: int
+    why: str
+
+
+@dataclass(frozen=True)
+class Displaced:
+    """Inertia force (P, 2) of a link moved off its mass centre so that it makes the inertia couple too.
+
+    ``offset`` h = I alpha / F (P,) and ``at`` a point of its line of action (P, 2).
+    """
+
+    link: str
+    force: Array
+    couple: Array
+    offset: Array
+    center: Array
+    at: Array
+
+
+@dataclass(frozen=True)
+class Share:
+    """Largest difference that inertia makes over the cycle to the whole largest value: may it be left out?"""
+
+    of: str
+    quantity: str
+    whole: float
+    inertia: float
+
+    @property
+    def share(self) -> float:
+        """Inertia's part, 0 to 1 and more."""
+        return self.inertia / self.whole if self.whole > 0 else 0.0
+
+
+def members(r: Result, limit: float = NOTHING) -> dict[str, Member]:
+    """Class of every link over the positions of a result.
+
+    >>> import dalembert as da
+    >>> from dalembert.bundled import cases
+    >>> found = da.members(da.statics(da.load(cases()["seed-000-a-four-bar-loaded-rocker"])))
+    >>> {name: member.kind for name, member in found.items()}
+    {'crank': 'two-force with couple', 'coupler': 'two-force', 'rocker': 'three-force'}
+    """
+    everything = actions(r)
+    largest = max((float(np.nanmax(magnitude(a.force), initial=0.0)) for a in everything), default=0.0)
+    floor = limit * largest
+    return {link: _member(r, link, on_link(everything, link), floor) for link in r.links}
+
+
+def _member(r: Result, link: str, some: Sequence[Action], floor: float) -> Member:
+    forces = [a for a in some if a.kind == "joint" or np.nanmax(magnitude(a.force), initial=0.0) > floor]
+    length = r.compiled.layout.length
+    couples = [
+        a
+        for a in some
+        if np.nanmax(np.abs(a.couple), initial=0.0) > floor * length
+        and not (a.kind == "joint" and r.mechanism.joints[a.of].type == "slider")
+    ]
+    kind = KINDS.get(len(forces), "general")
+    if couples:
+        kind = "two-force with couple" if kind == "two-force" else "general"
+    tension = _tension(forces) if kind == "two-force" else None
+    return Member(link, kind, tuple(map(_name, forces)), tuple(map(_name, couples)), tension)
+
+
+def _name(a: Action) -> str:
+    return a.kind if a.kind in ("weight", "inertia") else a.of
+
+
+def _tension(two: Sequence[Action]) -> Array:
+    """Pull along the line from the first point to the second (P,)."""
+    line = two[1].at - two[0].at
+    length = magnitude(line)
+    return np.asarray((two[1].force * line).sum(axis=-1) / np.where(length > 0, length, 1.0))
+
+
+def _listed(names: Sequence[str]) -> str:
+    return ", ".join(names)
+
+
+def order_of_solution(r: Result, found: dict[str, Member] | None = None) -> tuple[Step, ...]:
+    """The links in the order in which they can be solved, the fewest at a time.
+
+    A link without loads and couples between two joints is a two-force member: its forces are known in direction, one
+    unknown is left of them. A group of links is solvable when its unknowns are no more than its equations.
+
+    >>> import dalembert as da
+    >>> from dalembert.bundled import examples
+    >>> for step in da.order_of_solution(da.dynamics(da.load(examples()["four_bar"]))):
+    ...     print(step.why)
+    coupler and rocker together: 6 equations, 6 unknowns in A, B, O4
+    crank: 3 equations, 3 unknowns in O2, torque O2
+    """
+    found = found or members(r)
+    rods = {link for link, m in found.items() if m.kind == "two-force"}
+    unknowns = _Unknowns(r, rods)
+    left = [link for link in r.links if link not in rods]
+    steps: list[Step] = []
+    while left:
+        group = next(
+            (g for size in range(1, len(left) + 1) for g in combinations(left, size) if unknowns.suffice(g)),
+            tuple(left),
+        )
+        steps.append(unknowns.step(group))
+        left = [link for link in left if link not in group]
+    return tuple(steps)
+
+
+class _Unknowns:
+    """Unknown numbers by name, the links each stands on, and what has been found."""
+
+    def __init__(self, r: Result, rods: set[str]) -> None:
+        rows = r.compiled.layout.constraints.joint
+        self.count: dict[str, int] = {}
+        self.on: dict[str, set[str]] = {}
+        self.solved: set[str] = set()
+        for k, joint in enumerate(r.joints):
+            links = set(r.mechanism.joints[joint].links)
+            between = links & rods
+            name = f"the line of {next(iter(between))}" if between else joint
+            self.count[name] = 1 if between else int((rows == k).sum())
+            self.on.setdefault(name, set()).update(links - rods)
+        for k, drive in enumerate(r.drives):
+            if r.compiled.known.asked[k]:
+                joint = r.mechanism.drives[drive].joint or drive
+                angular = r.compiled.layout.freedoms.angular[r.compiled.layout.driven[k]]
+                name = f"{'torque' if angular else 'force'} {drive}"
+                self.count[name], self.on[name] = 1, set(r.mechanism.joints[joint].links)
+        for load in r.unknown_loads:
+            self.count[load], self.on[load] = 1, {r.mechanism.loads[load].on}
+
+    def of(self, group: Sequence[str]) -> list[str]:
+        return [n for n, links in self.on.items() if links & set(group) and n not in self.solved]
+
+    def suffice(self, group: Sequence[str]) -> bool:
+        return sum(self.count[n] for n in self.of(group)) <= 3 * len(group)
+
+    def step(self, group: Sequence[str]) -> Step:
+        finds = self.of(group)
+        self.solved |= set(finds)
+        unknowns, equations = sum(self.count[n] for n in finds), 3 * len(group)
+        links = " and ".join(group) + (" together" if len(group) > 1 else "")
+        noun = "unknown" if unknowns == 1 else "unknowns"
+        why = f"{links}: {equations} equations, {unknowns} {noun} in {_listed(finds)}"
+        return Step(tuple(group), tuple(finds), equations, why)
+
+
+def displaced_inertia(r: Result, link: str) -> Displaced:
+    """The inertia force of a link on its displaced line: F = -m a_G, couple -I alpha, h = I alpha / F.
+
+    >>> import dalembert as da
+    >>> from dalembert.bundled import cases
+    >>> found = da.displaced_inertia(da.dynamics(da.load(cases()["seed-000-b-crank-inertia-force"])), "crank")
+    >>> f"{float(found.offset[0]) / 0.0254:.4f} in"
+    '1.7995 in'
+    """
+    center = r.center(link)
+    force = -r.mechanism.mass(link) * r.center_acceleration(link)
+    couple = -r.mechanism.inertia(link) * r.acceleration(link)
+    size = magnitude(force)
+    with np.errstate(all="ignore"):
+        offset = np.abs(couple) / size
+        across = np.stack([-force[:, 1], force[:, 0]], axis=-1)
+        at = center - across * (couple / size**2)[:, None]
+    return Displaced(link, force, couple, np.asarray(offset), center, np.asarray(at))
+
+
+def concurrency(some: Sequence[Action], k: int) -> tuple[float, float] | None:
+    """Where the lines of action of forces meet at position k: least squares; None where they are parallel."""
+    rows, right = [], []
+    for a in some:
+        f, at = a.force[k], a.at[k]
+        size = float(np.hypot(*f))
+        if size > 0:
+            rows.append([-f[1] / size, f[0] / size])
+            right.append((-f[1] * at[0] + f[0] * at[1]) / size)
+    if len(rows) < 2:
+        return None
+    point, _, rank, values = np.linalg.lstsq(np.array(rows), np.array(right), rcond=None)
+    return (float(point[0]), float(point[1])) if rank == 2 and values[1] > 1e-6 * values[0] else None
+
+
+def components_along(r: Result, a: Action, k: int) -> tuple[float, float]:
+    """A force along and across its link (its x axis), at position k."""
+    angle = 0.0 if a.link == "ground" else float(r.angle(a.link)[k])
+    c, s = np.cos(angle), np.sin(angle)
+    fx, fy = a.force[k]
+    return float(c * fx + s * fy), float(c * fy - s * fx)
+
+
+def inertia_shares(r: Result) -> tuple[Share, ...]:
+    """How much of every effort and joint force is inertia's, over the cycle, the largest first."""
+    from dalembert.analysis.superposition import superposition
+
+    parts = superposition(r)
+    which = [k for k, s in enumerate(parts.sources) if s.startswith("inertia")]
+    out = []
+    for k, drive in enumerate(r.drives):
+        part = np.abs(parts.efforts[which][..., k].sum(axis=0))
+        out.append(_share(drive, "effort", np.abs(r.effort_array[:, k]), part))
+    for k, joint in enumerate(r.joints):
+        part = magnitude(parts.force[which][..., k, :].sum(axis=0))
+        out.append(_share(joint, "reaction", magnitude(r.force_array[:, k, :]), part))
+    return tuple(sorted(out, key=lambda s: -s.share))
+
+
+def _share(of: str, quantity: str, whole: Array, part: Array) -> Share:
+    return Share(of, quantity, float(np.nanmax(whole, initial=0.0)), float(np.nanmax(part, initial=0.0)))
+
+
+__all__ = [
+    "Displaced",
+    "Member",
+    "Share",
+    "Step",
+    "components_along",
+    "concurrency",
+    "displaced_inertia",
+    "inertia_shares",
+    "members",
+    "order_of_solution",
+    "slide_direction",
+]

@@ -1,0 +1,199 @@
+"""A drawing in the making: primitives now, labels at the end, each where it covers neither a line nor another text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.views.lettering import BOLD, broken, text_width
+from dalembert.views.scene import Arc, Arrow, Circle, Group, Item, Line, Point, Polygon, Scene, Text, item_box
+
+Array = NDArray[Any]
+
+GAPS = (0.9, 1.6, 2.6, 4.0, 6.0, 8.5, 12.0, 17.0, 24.0, 34.0, 48.0)
+"""Distances in mm at which a label is tried."""
+
+LEADER = 5.0
+"""Distance in mm beyond which a thin line leads from the label to its place."""
+
+
+@dataclass(frozen=True)
+class Label:
+    """A text near one of some points, preferably in a direction (radians)."""
+
+    text: str
+    near: tuple[Point, ...]
+    prefer: float | None
+    size: float
+    role: str
+    leads: bool
+
+
+class Canvas:
+    """Collects primitives and labels."""
+
+    def __init__(self) -> None:
+        self.items: list[Item] = []
+        self._labels: list[Label] = []
+
+    def add(self, *items: Item) -> None:
+        """Primitives."""
+        self.items += items
+
+    def label(
+        self,
+        text: str,
+        *near: Point,
+        prefer: float | None = None,
+        size: float = 3.0,
+        role: str = "text",
+        leads: bool = True,
+    ) -> None:
+        """A text near one of some points, placed at the end."""
+        if text:
+            self._labels.append(Label(text, near, prefer, size, role, leads))
+
+    def scene(self, title: str = "", heading: bool = True, notes: Sequence[str] = (), **given: Any) -> Scene:
+        """The finished drawing, with its title above and notes below."""
+        placer = _Placer(self.items)
+        for label in self._labels:
+            self.items += placer.placed(label)
+        self._labels = []
+        if heading:
+            self._headed(title, notes)
+        return Scene(tuple(self.items), title, **given)
+
+    def _headed(self, title: str, notes: Sequence[str]) -> None:
+        left, bottom, right, top = Scene(tuple(self.items)).bounds
+        width = max(right - left, 80.0)
+        for k, line in enumerate(reversed(broken(title, 3.6 * BOLD, width))):
+            self.add(Text((left, top + 4.5 + 4.8 * k), line, 3.6, "title", "start"))
+        lines = [line for note in notes for line in broken(note, 2.6, width)]
+        for k, line in enumerate(lines):
+            self.add(Text((left, bottom - 4.0 - 4.0 * k), line, 2.6, "note", "start"))
+
+
+def segments(items: Sequence[Item]) -> Array:
+    """Every stroke as straight pieces (S, 2, 2)."""
+    out: list[tuple[Point, Point]] = []
+    for item in items:
+        if isinstance(item, Group):
+            out += [tuple(map(tuple, s)) for s in segments(item.items).tolist()]  # type: ignore[misc]
+        elif not isinstance(item, Text):
+            points = _outline(item)
+            out += list(zip(points[:-1], points[1:], strict=True))
+    return np.array(out, float).reshape(-1, 2, 2)
+
+
+def _outline(item: Item) -> Sequence[Point]:
+    if isinstance(item, Circle):
+        return Arc(item.center, item.radius, 0.0, 2 * math.pi).points
+    if isinstance(item, Arrow):
+        return (item.tail, item.head)
+    if isinstance(item, Polygon):
+        return (*item.points, item.points[0])
+    return item.points  # type: ignore[union-attr]
+
+
+def crossed(box: Array, pieces: Array) -> NDArray[np.bool_]:
+    """Which straight pieces (S, 2, 2) touch each of some boxes (B, 4): (B, S), by separating axes."""
+    middle, half = (box[:, None, :2] + box[:, None, 2:]) / 2, (box[:, None, 2:] - box[:, None, :2]) / 2
+    c, d = pieces.mean(axis=1) - middle, (pieces[:, 1] - pieces[:, 0]) / 2
+    d = np.broadcast_to(d, c.shape)
+    near = (np.abs(c) <= half + np.abs(d)).all(axis=-1)
+    turn = np.abs(c[..., 0] * d[..., 1] - c[..., 1] * d[..., 0])
+    return np.asarray(near & (turn <= half[..., 0] * np.abs(d[..., 1]) + half[..., 1] * np.abs(d[..., 0])))
+
+
+def overlapping(a: Array, b: Array) -> NDArray[np.bool_]:
+    """Which of boxes a (A, 4) and b (B, 4) overlap."""
+    lower = np.maximum(a[:, None, :2], b[None, :, :2])
+    upper = np.minimum(a[:, None, 2:], b[None, :, 2:])
+    return np.asarray((upper > lower).all(axis=-1))
+
+
+class _Placer:
+    """Finds places for labels one by one."""
+
+    def __init__(self, items: Sequence[Item]) -> None:
+        self.strokes = segments(items)
+        self.boxes = np.array([item_box(i) for i in items if isinstance(i, Text)], float).reshape(-1, 4)
+
+    def placed(self, label: Label) -> list[Item]:
+        bold = BOLD if label.role == "title" else 1.0
+        width, height = bold * text_width(label.text, label.size), 1.3 * label.size
+        at, near, gap = _candidates(label, width / 2, height / 2)
+        lift = 0.07 * label.size if "_{" in label.text else 0.0
+        room = np.array([width, height]) / 2 + 0.25
+        box = np.concatenate([at - room, at + room], axis=1)
+        cost = gap + self._preference(label, at, near)
+        cost += 9.0 * np.minimum(crossed(box, self.strokes).sum(axis=1), 6)
+        cost += np.where(overlapping(box, self.boxes).any(axis=1), 1000.0, 0.0)
+        if label.leads:
+            far = gap >= LEADER
+            cost += np.where(far & self._blocked(near, at), 300.0, 0.0)
+        best = int(cost.argmin())
+        x, y = at[best]
+        text = Text((float(x), float(y + lift)), label.text, label.size, label.role)
+        items: list[Item] = [text]
+        if label.leads and gap[best] >= LEADER:
+            items.append(_leader(near[best], box[best]))
+            self.strokes = np.concatenate([self.strokes, segments(items[1:])])
+        self.boxes = np.concatenate([self.boxes, box[best : best + 1]])
+        return items
+
+    def _blocked(self, near: Array, at: Array) -> NDArray[np.bool_]:
+        """Whether the straight way to a candidate crosses a text."""
+        if not len(self.boxes):
+            return np.zeros(len(at), bool)
+        return np.asarray(crossed(self.boxes, np.stack([near, at], axis=1)).any(axis=0))
+
+    def _preference(self, label: Label, at: Array, near: Array) -> Array:
+        if label.prefer is None:
+            return np.zeros(len(at))
+        away = at - near
+        angle = np.arctan2(away[:, 1], away[:, 0]) - label.prefer
+        return np.asarray(2.0 * (1 - np.cos(angle)))
+
+
+def _candidates(label: Label, half_width: float, half_height: float) -> tuple[Array, Array, Array]:
+    """Middles of boxes (B, 2) at distances ``gap`` around the points, and those points."""
+    angles = np.arange(24) * (2 * math.pi / 24) + (label.prefer or 0.0)
+    direction = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    reach = np.clip(direction * 1.5, -1, 1) * np.array([half_width, half_height])
+    gaps = np.array(GAPS)
+    near = np.array(label.near, float)
+    at = near[:, None, None, :] + gaps[None, :, None, None] * direction + reach
+    shape = at.shape[:-1]
+    starts = np.broadcast_to(near[:, None, None, :], at.shape)
+    far = np.broadcast_to(gaps[None, :, None], shape) + 0.2 * np.arange(len(near))[:, None, None]
+    return at.reshape(-1, 2), starts.reshape(-1, 2), np.asarray(far).reshape(-1)
+
+
+def _leader(near: Array, box: Array) -> Line:
+    """From the nearest point of the box to the place."""
+    edge = np.clip(near, box[:2], box[2:])
+    return Line(((float(edge[0]), float(edge[1])), (float(near[0]), float(near[1]))), "leader")
+
+
+def text_overlaps(scene: Scene) -> list[tuple[str, str]]:
+    """Pairs of texts that overlap; none in a good drawing."""
+    texts = scene.texts()
+    boxes = np.array([t.box for t in texts], float).reshape(-1, 4)
+    pairs = np.argwhere(np.triu(overlapping(boxes, boxes), 1))
+    return [(texts[a].text, texts[b].text) for a, b in pairs]
+
+
+def text_over_lines(scene: Scene) -> list[str]:
+    """Texts that a stroke crosses; none in a good drawing."""
+    texts = scene.texts()
+    boxes = np.array([t.box for t in texts], float).reshape(-1, 4)
+    strokes = segments([i for i in scene.flat() if not isinstance(i, Text)])
+    if not len(strokes) or not len(boxes):
+        return []
+    return [t.text for t, hit in zip(texts, crossed(boxes, strokes).any(axis=1), strict=True) if hit]

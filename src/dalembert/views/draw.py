@@ -1,0 +1,154 @@
+"""Drawings of a result: ``da.draw.mechanism(r)``, ``da.draw.free_body(r, "rod", at="60 deg")``, ...
+
+Each returns a Scene with ``save``; ``at`` is a position by its number from 1, or the one nearest to a value of the
+first drive; the first solved position by default.
+
+>>> import dalembert as da
+>>> from dalembert.bundled import examples
+>>> r = da.dynamics(da.load(examples()["four_bar"]))
+>>> polygon = da.draw.force_polygon(r, "rocker")
+>>> [arrow.of for arrow in polygon.arrows()]
+['rocker', 'B', 'O4']
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+from dalembert.views import charts as _charts
+from dalembert.views.free_body import components_scene, free_body_scene
+from dalembert.views.mechanism import mechanism_scene, place_title, position_at
+from dalembert.views.motion import instant_centers_scene, motion_polygon_scene
+from dalembert.views.notation import Notation, Shown
+from dalembert.views.polygons import force_chain_scene, force_polygon_scene, lines_of_action_scene
+from dalembert.views.scene import Scene, stacked
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result import Result
+
+View = Literal["mechanism", "free-bodies", "force-polygons", "charts", "motion", "all"]
+
+
+def mechanism(r: Result, at: Any = None, notation: Notation | None = None, forces: bool = False) -> Scene:
+    """The mechanism with the field's symbols, its loads and traces."""
+    return mechanism_scene(r, position_at(r, at), notation, forces)
+
+
+def free_body(r: Result, link: str, at: Any = None, notation: Notation | None = None) -> Scene:
+    """One link with everything that acts on it, to scale."""
+    return free_body_scene(r, _link(r, link), position_at(r, at), notation)
+
+
+def components(r: Result, link: str, at: Any = None, notation: Notation | None = None) -> Scene:
+    """Joint forces of a link along and across it."""
+    return components_scene(r, _link(r, link), position_at(r, at), notation)
+
+
+def force_polygon(
+    r: Result, link: str, at: Any = None, notation: Notation | None = None, case: str | None = None
+) -> Scene:
+    """The forces on a link head to tail; ``case`` names one source of the superposition to draw alone."""
+    return force_polygon_scene(r, _link(r, link), position_at(r, at), notation, case)
+
+
+def force_chain(r: Result, at: Any = None, notation: Notation | None = None, case: str | None = None) -> Scene:
+    """The polygons of all links on the sides they share, in the order of solution."""
+    return force_chain_scene(r, position_at(r, at), notation, case)
+
+
+def lines_of_action(
+    r: Result, link: str, at: Any = None, notation: Notation | None = None, case: str | None = None
+) -> Scene:
+    """Where the lines of a link's forces meet."""
+    return lines_of_action_scene(r, _link(r, link), position_at(r, at), notation, case)
+
+
+def velocity_polygon(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
+    """Velocities from one pole, with the links' images."""
+    return motion_polygon_scene(r, position_at(r, at), "velocity", notation)
+
+
+def acceleration_polygon(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
+    """Accelerations from one pole, with the links' images."""
+    return motion_polygon_scene(r, position_at(r, at), "acceleration", notation)
+
+
+def instant_centers(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
+    """The instant centres of every two links."""
+    return instant_centers_scene(r, position_at(r, at), notation)
+
+
+def charts(r: Result, notation: Notation | None = None) -> Scene:
+    """Efforts, joint forces, polar diagrams and the shaking force over the cycle."""
+    return stacked(_charts.chart_scenes(r, notation), title=r.mechanism.title, width=270.0)
+
+
+def free_bodies(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
+    """All links as free bodies, one force scale."""
+    k = position_at(r, at)
+    scenes = [free_body_scene(r, link, k, notation) for link in r.links]
+    return stacked(scenes, title=_title(r, k, "Free bodies", notation))
+
+
+def force_polygons(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
+    """Polygons of each link, then of the chain."""
+    k = position_at(r, at)
+    scenes = [force_polygon_scene(r, link, k, notation) for link in r.links]
+    return stacked([*scenes, force_chain_scene(r, k, notation)], title=_title(r, k, "Force polygons", notation))
+
+
+def motion(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
+    """Velocity and acceleration polygons and instant centres."""
+    k = position_at(r, at)
+    scenes = [motion_polygon_scene(r, k, "velocity", notation), motion_polygon_scene(r, k, "acceleration", notation)]
+    if r.drives:
+        scenes.append(instant_centers_scene(r, k, notation))
+    return stacked(scenes, title=_title(r, k, "Motion", notation))
+
+
+def view(r: Result, which: View = "all", at: Any = None, notation: Notation | None = None) -> Scene:
+    """What `dalembert draw --view` writes."""
+    if which == "mechanism":
+        return mechanism(r, at, notation)
+    one = {"free-bodies": free_bodies, "force-polygons": force_polygons, "motion": motion}
+    if which in one:
+        return one[which](r, at, notation)
+    if which == "charts":
+        return charts(r, notation)
+    parts = [mechanism(r, at, notation), free_bodies(r, at, notation), force_polygons(r, at, notation)]
+    if len(r.status) > 2:
+        parts.append(charts(r, notation))
+    return stacked(parts, title=r.mechanism.title)
+
+
+def _link(r: Result, link: str) -> str:
+    from dalembert.errors import ModelError
+    from dalembert.wording import closest
+
+    if link not in r.links:
+        raise ModelError(f"there is no link {link!r}", closest(link, list(r.links)))
+    return link
+
+
+def _title(r: Result, k: int, what: str, notation: Notation | None) -> str:
+    return place_title(r, k, what, Shown(r, notation or Notation()))
+
+
+__all__ = [
+    "Notation",
+    "Scene",
+    "acceleration_polygon",
+    "charts",
+    "components",
+    "force_chain",
+    "force_polygon",
+    "force_polygons",
+    "free_bodies",
+    "free_body",
+    "instant_centers",
+    "lines_of_action",
+    "mechanism",
+    "motion",
+    "velocity_polygon",
+    "view",
+]

@@ -1,0 +1,146 @@
+"""Free bodies: one link with everything that acts on it, to scale."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.actions import Action, actions, on_link
+from dalembert.analysis.members import components_along, members
+from dalembert.views import symbols
+from dalembert.views.canvas import Canvas
+from dalembert.views.frame import Frame, fitted, force_scale
+from dalembert.views.mechanism import draw_actions, role_of, stated, unit_size
+from dalembert.views.notation import Notation, Shown
+from dalembert.views.outline import link_points, link_shape, wheels
+from dalembert.views.scene import Arrow, Line, Point, Scene
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result import Result
+
+LONGEST = 26.0
+"""Largest force of a set of free bodies, mm."""
+
+
+def free_body_scene(
+    r: Result, link: str, k: int, notation: Notation | None = None, some: tuple[Action, ...] | None = None
+) -> Scene:
+    """One link with all joint forces, loads, weights, inertia forces and couples at a position."""
+    shown = Shown(r, notation or Notation())
+    everything = actions(r) if some is None else some
+    frame = _frame(r, link, k, shown)
+    canvas = Canvas()
+    _draw_link(canvas, r, link, k, frame, shown)
+    mine = [a for a in on_link(everything, link)]
+    per_mm = draw_actions(canvas, r, mine, k, frame, shown, LONGEST, common_scale(r, everything, k, shown))
+    notes, scales = stated(shown, frame, per_mm)
+    member = members(r)[link]
+    kind = " ".join(part for part in (member.kind, "member", member.state(k) and f"in {member.state(k)}") if part)
+    notes = [f"{kind[0].upper()}{kind[1:]}. {_distances(r, link, k, shown)}".strip(), *notes]
+    return canvas.scene(f"Link {shown.heading(link)}", notes=notes, scales=scales)
+
+
+def common_scale(r: Result, some: tuple[Action, ...], k: int, shown: Shown, longest: float = LONGEST) -> float:
+    """Newtons a millimetre for all links at a position."""
+    sizes = [float(np.hypot(*a.force[k])) for a in some]
+    return force_scale(sizes, longest, unit_size(r, "force", shown.notation))
+
+
+def _frame(r: Result, link: str, k: int, shown: Shown) -> Frame:
+    places = [*link_points(r, link, k).values()]
+    if r.mechanism.mass(link):
+        places.append(tuple(r.center(link)[k]))
+    for center, radius in _own_wheels(r, link, k):
+        places += [(center[0] - radius, center[1] - radius), (center[0] + radius, center[1] + radius)]
+    return fitted(places, 46.0, 40.0, unit_size(r, "length", shown.notation))
+
+
+def _own_wheels(r: Result, link: str, k: int) -> list[tuple[tuple[float, float], float]]:
+    out = []
+    for name, joint in r.mechanism.joints.items():
+        if link in joint.links and joint.type in ("gear", "rolling"):
+            both = wheels(r, name, joint, k)
+            out.append(both[-1] if joint.links[1] == link or len(both) == 1 else both[0])
+    return out
+
+
+def _draw_link(canvas: Canvas, r: Result, link: str, k: int, frame: Frame, shown: Shown) -> None:
+    m = r.mechanism
+    for center, radius in _own_wheels(r, link, k):
+        canvas.add(*symbols.wheel(frame(center), frame.length(radius), float(r.angle(link)[k])))
+    canvas.add(*link_shape(r, link, k, frame))
+    for name, joint in m.joints.items():
+        if link not in joint.links:
+            continue
+        end = joint.links.index(link)
+        at = frame(r._place(link, np.asarray(m.joint_points(name)[end], float))[k])
+        if joint.type == "slider" and end == 1:
+            angle = float(r.angle(link)[k]) - float(getattr(joint, "angle", 0.0) or 0.0)
+            canvas.add(*symbols.slider(at, angle))
+        canvas.add(*(symbols.pin(at) if joint.type != "weld" else symbols.weld(at)))
+        canvas.label(name, *_corners(at), size=3.2, role="title", leads=False)
+    at = frame(r.center(link)[k])
+    if m.mass(link):
+        canvas.add(*symbols.mass_center(at))
+        canvas.label("G", *_corners(at), size=2.8, role="note", leads=False)
+
+
+def _corners(at: Point) -> list[Point]:
+    return [(at[0] + x, at[1] + y) for x in (-0.9, 0.9) for y in (-0.9, 0.9)]
+
+
+def _distances(r: Result, link: str, k: int, shown: Shown) -> str:
+    """Lengths between the link's joints and places, in words."""
+    names = [n for n in link_points(r, link, k) if " " not in n]
+    places = link_points(r, link, k)
+    first = names[0] if names else ""
+    parts = [
+        f"{first}–{n} = {shown.text('length', math.dist(places[first], places[n]))}"
+        for n in names[1:]
+        if math.dist(places[first], places[n]) > 0
+    ]
+    if r.mechanism.mass(link) and first:
+        g = tuple(map(float, r.center(link)[k]))
+        if math.dist(g, places[first]) > 0:
+            parts.append(f"{first}–G = {shown.text('length', math.dist(g, places[first]))}")
+    return ", ".join(parts)
+
+
+def components_scene(r: Result, link: str, k: int, notation: Notation | None = None) -> Scene:
+    """Joint forces of a link resolved along and across it."""
+    shown = Shown(r, notation or Notation())
+    frame = _frame(r, link, k, shown)
+    canvas = Canvas()
+    _draw_link(canvas, r, link, k, frame, shown)
+    everything = actions(r)
+    per_mm = common_scale(r, everything, k, shown)
+    angle = float(r.angle(link)[k])
+    along, across = (math.cos(angle), math.sin(angle)), (-math.sin(angle), math.cos(angle))
+    for a in on_link(everything, link):
+        if a.kind == "joint":
+            _resolved(canvas, a, k, frame, shown, per_mm, components_along(r, a, k), along, across)
+    notes, scales = stated(shown, frame, per_mm)
+    return canvas.scene(f"Link {shown.heading(link)}: along and across", notes=notes, scales=scales)
+
+
+def _resolved(
+    canvas: Canvas,
+    a: Action,
+    k: int,
+    frame: Frame,
+    shown: Shown,
+    per_mm: float,
+    parts: tuple[float, float],
+    along: Point,
+    across: Point,
+) -> None:
+    at = frame(a.at[k])
+    head = (at[0] + float(a.force[k][0]) / per_mm, at[1] + float(a.force[k][1]) / per_mm)
+    canvas.add(Arrow(at, head, role_of(a.kind), a.of, "force", float(np.hypot(*a.force[k]))))
+    canvas.label(shown.symbol(a), head, size=2.8, role=role_of(a.kind))
+    for value, e, mark in ((parts[0], along, "∥"), (parts[1], across, "⊥")):
+        end = (at[0] + value * e[0] / per_mm, at[1] + value * e[1] / per_mm)
+        canvas.add(Arrow(at, end, "effort", a.of, "force", abs(value)), Line((end, head), "construction"))
+        canvas.label(f"{shown.symbol(a)}^{{{mark}}} = {shown.text('force', value)}", end, size=2.6, role="effort")

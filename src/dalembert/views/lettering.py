@@ -1,0 +1,85 @@
+"""How wide a text is: advance widths of DejaVu Sans, the widest of the common sans-serif fonts.
+
+Boxes measured with them hold the text in any of the fonts that a browser, a PDF or matplotlib may take instead.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+Box = tuple[float, float, float, float]
+
+SMALL = 0.72
+"""Size of raised and lowered letters."""
+
+_ASCII = (
+    "318 401 460 838 636 950 780 275 390 390 500 838 318 361 318 337 636 636 636 636 636 636 636 636 636 636 337 337 "
+    "838 838 838 531 1000 684 686 698 770 632 575 775 752 295 295 656 557 863 748 787 603 787 695 635 611 732 684 989 "
+    "685 611 685 390 337 390 838 500 500 613 635 550 635 615 352 635 634 278 278 579 278 974 634 612 635 635 411 521 "
+    "392 634 592 818 592 592 525 636 337 636 838"
+)
+_WIDTHS = {chr(32 + k): int(w) / 1000 for k, w in enumerate(_ASCII.split())}
+_OTHER = 0.75
+_NARROW = {"·": 0.318, "²": 0.401, "³": 0.401, "°": 0.5}
+
+
+class Piece(NamedTuple):
+    """Letters at one level: 0 on the line, -1 lowered, 1 raised."""
+
+    text: str
+    level: int
+
+
+def pieces(text: str) -> list[Piece]:
+    """A text taken apart at `_{...}` and `^{...}`.
+
+    >>> pieces("F_{12} = 3")
+    [Piece(text='F', level=0), Piece(text='12', level=-1), Piece(text=' = 3', level=0)]
+    """
+    out = []
+    for plain, sign, small in re.findall(r"([^_^]+|[_^](?!\{))|([_^])\{([^}]*)\}", text):
+        if plain:
+            out.append(Piece(plain, 0))
+        elif small:
+            out.append(Piece(small, -1 if sign == "_" else 1))
+    return out
+
+
+def plain(text: str) -> str:
+    """The text without marks: F_12."""
+    return re.sub(r"([_^])\{([^}]*)\}", r"\1\2", text)
+
+
+def letters_width(letters: str) -> float:
+    """Width of letters over the size."""
+    return sum(_WIDTHS.get(c) or _NARROW.get(c, _OTHER) for c in letters)
+
+
+def text_width(text: str, size: float) -> float:
+    """Width in mm of a text of a size in mm."""
+    return size * sum(letters_width(p.text) * (SMALL if p.level else 1.0) for p in pieces(text))
+
+
+BOLD = 1.12
+"""Width of bold letters over that of plain ones."""
+
+
+def text_box(at: tuple[float, float], text: str, size: float, anchor: str, bold: bool = False) -> Box:
+    """(left, bottom, right, top) of a text with its middle height at a point."""
+    width = text_width(text, size) * (BOLD if bold else 1.0)
+    left = at[0] - {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor] * width
+    lowered = any(p.level < 0 for p in pieces(text))
+    return (left, at[1] - size * (0.66 if lowered else 0.56), left + width, at[1] + 0.52 * size)
+
+
+def broken(text: str, size: float, width: float) -> list[str]:
+    """A text in lines no wider than a width in mm."""
+    lines: list[str] = []
+    for word in text.split():
+        longer = f"{lines[-1]} {word}" if lines else word
+        if lines and text_width(longer, size) <= width:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return lines

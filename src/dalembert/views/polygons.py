@@ -1,0 +1,229 @@
+"""Force polygons to a stated scale, per link and for the chain; lines of action and where they meet."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.actions import Action, actions, effort_actions, joint_actions, known_actions, on_link
+from dalembert.analysis.members import concurrency, members, order_of_solution
+from dalembert.views.canvas import Canvas
+from dalembert.views.frame import Frame, force_scale
+from dalembert.views.mechanism import draw_actions, draw_links, role_of, stated, unit_size, whole_frame
+from dalembert.views.notation import Notation, Shown
+from dalembert.views.scene import Arrow, Circle, Line, Point, Polygon, Scene
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result import Result
+
+LONGEST = 42.0
+"""Largest force of a polygon, mm."""
+
+
+def case_actions(r: Result, case: str | None = None) -> tuple[Action, ...]:
+    """All actions, or those of one sub-case of the superposition: one source and what it causes."""
+    if case is None:
+        return actions(r)
+    from dalembert.analysis.superposition import superposition
+
+    parts = superposition(r)
+    if case not in parts.sources:
+        from dalembert.errors import ModelError
+
+        raise ModelError(f"there is no source {case!r}", f"there are: {', '.join(parts.sources)}")
+    part = parts.case(case)
+    return (*joint_actions(part), *effort_actions(part), *(a for a in known_actions(r) if a.source == case))
+
+
+def forces_of(some: Sequence[Action], link: str, k: int, floor: float = 1e-9) -> list[Action]:
+    """Forces on a link that are not zero, loads first, joints last."""
+    largest = max((float(np.hypot(*a.force[k])) for a in some), default=0.0)
+    mine = [a for a in on_link(tuple(some), link) if float(np.hypot(*a.force[k])) > floor * largest]
+    return sorted(mine, key=lambda a: a.kind == "joint")
+
+
+def force_polygon_scene(
+    r: Result, link: str, k: int, notation: Notation | None = None, case: str | None = None
+) -> Scene:
+    """The forces on a link head to tail; the gap between end and start is the residual."""
+    shown = Shown(r, notation or Notation())
+    some = case_actions(r, case)
+    mine = forces_of(some, link, k)
+    per_mm = force_scale(
+        [float(np.hypot(*a.force[k])) for a in mine], LONGEST, unit_size(r, "force", shown.notation)
+    )
+    canvas = Canvas()
+    gap = _polygon(canvas, mine, k, shown, per_mm, (0.0, 0.0))[1]
+    heading = f"Force polygon of link {shown.heading(link)}" + (f": {case} alone" if case else "")
+    if not mine:
+        canvas.label("no forces", (0.0, 0.0))
+    notes, scales = stated(shown, None, per_mm)
+    return canvas.scene(
+        heading, notes=[f"{notes[0]}; {_gap_text(gap, mine, k)}"], scales=scales, numbers=_numbers(gap, mine, k)
+    )
+
+
+def _numbers(gap: float, mine: Sequence[Action], k: int) -> dict[str, float]:
+    largest = max((float(np.hypot(*a.force[k])) for a in mine), default=0.0)
+    return {"gap": gap, "largest": largest}
+
+
+def _gap_text(gap: float, mine: Sequence[Action], k: int) -> str:
+    largest = _numbers(gap, mine, k)["largest"]
+    return f"closure gap {gap / largest:.0e} of the largest force" if largest else "no forces"
+
+
+def _polygon(
+    canvas: Canvas, mine: Sequence[Action], k: int, shown: Shown, per_mm: float, start: Point, skip: str = ""
+) -> tuple[dict[str, tuple[Point, Point]], float]:
+    """Draw forces head to tail from a start; returns where each lies (by joint), and the gap in newtons."""
+    at, edges = start, {}
+    outline: list[Point] = [start]
+    total = np.zeros(2)
+    middle = _middle(mine, k, per_mm, start)
+    for a in mine:
+        fx, fy = map(float, a.force[k])
+        total += (fx, fy)
+        head = (at[0] + fx / per_mm, at[1] + fy / per_mm)
+        edges[a.of] = (at, head)
+        if a.of != skip:
+            canvas.add(Arrow(at, head, role_of(a.kind), a.of, "force", math.hypot(fx, fy)))
+            _edge_label(canvas, a, k, shown, at, head, middle)
+        outline.append(head)
+        at = head
+    gap = float(np.hypot(*total))
+    if gap / per_mm > 0.1:
+        canvas.add(Arrow(at, start, "gap", "gap", "force", gap))
+    return edges, gap
+
+
+def _middle(mine: Sequence[Action], k: int, per_mm: float, start: Point) -> Point:
+    places = np.cumsum([a.force[k] for a in mine], axis=0) / per_mm if mine else np.zeros((1, 2))
+    x, y = places.mean(axis=0)
+    return (start[0] + float(x), start[1] + float(y))
+
+
+def _edge_label(canvas: Canvas, a: Action, k: int, shown: Shown, tail: Point, head: Point, middle: Point) -> None:
+    size = float(np.hypot(*a.force[k]))
+    spots = [(tail[0] + t * (head[0] - tail[0]), tail[1] + t * (head[1] - tail[1])) for t in (0.5, 0.35, 0.65)]
+    away = math.atan2(spots[0][1] - middle[1], spots[0][0] - middle[0])
+    canvas.label(f"{shown.symbol(a)} = {shown.text('force', size)}", *spots, prefer=away, size=2.8, role=role_of(a.kind))
+
+
+def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case: str | None = None) -> Scene:
+    """The polygons of all links in the order of solution, each on the side it shares with one before."""
+    shown = Shown(r, notation or Notation())
+    some = case_actions(r, case)
+    sizes = [float(np.hypot(*a.force[k])) for a in some if a.link != "ground"]
+    per_mm = force_scale(sizes, 60.0, unit_size(r, "force", shown.notation))
+    canvas = Canvas()
+    placed: dict[str, tuple[Point, Point]] = {}
+    worst, everything, bottom = 0.0, [], 0.0
+    for link in _order(r):
+        mine = forces_of(some, link, k)
+        shared = next((a for a in mine if a.kind == "joint" and a.of in placed), None)
+        if shared is not None:
+            tail, head = placed[shared.of]
+            mine = [shared, *(a for a in mine if a is not shared)]
+            edges, gap = _polygon(canvas, mine, k, shown, per_mm, head, shared.of)
+        else:
+            low = Scene(tuple(canvas.items)).bounds[1] if canvas.items else bottom
+            edges, gap = _polygon(canvas, mine, k, shown, per_mm, (0.0, low - 12.0 if canvas.items else 0.0))
+        placed |= {name: edge for name, edge in edges.items() if name not in placed}
+        worst, everything = max(worst, gap), [*everything, *mine]
+    notes, scales = stated(shown, None, per_mm)
+    order = " → ".join(shown.heading(link) for link in _order(r))
+    text = f"Order of solution: {order}. A force shared by two polygons is drawn once."
+    return canvas.scene(
+        "Force polygons of the chain" + (f": {case} alone" if case else ""),
+        notes=[text, f"{notes[0]}; {_gap_text(worst, everything, k)}"],
+        scales=scales,
+        numbers=_numbers(worst, everything, k),
+    )
+
+
+def _order(r: Result) -> list[str]:
+    """Links in the order of solution, two-force members where their joints come up, connected ones next."""
+    found = members(r)
+    out = [link for step in order_of_solution(r, found) for link in step.links]
+    for link in r.links:
+        if link not in out:
+            joints = [d.links for d in r.mechanism.joints.values() if link in d.links]
+            near = [out.index(n) for pair in joints for n in pair if n in out]
+            out.insert(min(near, default=len(out) - 1) + 1, link)
+    return out
+
+
+def lines_of_action_scene(
+    r: Result, link: str, k: int, notation: Notation | None = None, case: str | None = None
+) -> Scene:
+    """A link in the mechanism with the lines its forces act along, and the point where three of them meet.
+
+    Of four forces the lines meet in pairs; the line through the two meeting points carries both resultants.
+    """
+    shown = Shown(r, notation or Notation())
+    some = case_actions(r, case)
+    mine = forces_of(some, link, k)
+    frame = whole_frame(r, k, 90.0, 70.0)
+    canvas = Canvas()
+    draw_links(canvas, r, k, frame)
+    span = Scene(tuple(canvas.items)).bounds
+    notes = _meeting(canvas, mine, k, frame, span, shown)
+    for a in mine:
+        canvas.add(Line(_through(frame(a.at[k]), a.force[k], span), "construction"))
+    flat = [replace(a, couple=np.zeros_like(a.couple)) for a in mine]
+    per_mm = draw_actions(canvas, r, flat, k, frame, shown, 24.0)
+    texts, scales = stated(shown, frame, per_mm)
+    heading = f"Lines of action on link {shown.heading(link)}" + (f": {case} alone" if case else "")
+    return canvas.scene(heading, notes=[*notes, *texts], scales=scales)
+
+
+def _meeting(
+    canvas: Canvas, mine: Sequence[Action], k: int, frame: Frame, span: tuple[float, ...], shown: Shown
+) -> list[str]:
+    """Marks of concurrency, and what to say of it."""
+    names = [shown.symbol(a).replace("_{", "").replace("}", "") for a in mine]
+    if len(mine) == 3:
+        point = concurrency(mine, k)
+        if point is None:
+            return [f"{', '.join(names)} are parallel."]
+        _mark(canvas, frame(point), span, "P")
+        return [f"The lines of {', '.join(names)} meet in P."]
+    if len(mine) == 4:
+        pairs = [concurrency(mine[:2], k), concurrency(mine[2:], k)]
+        if None not in pairs:
+            p, q = frame(pairs[0]), frame(pairs[1])
+            _mark(canvas, p, span, "P")
+            _mark(canvas, q, span, "Q")
+            if math.dist(p, q) < 400:
+                canvas.add(Line((p, q), "resultant"))
+            return [f"{names[0]}, {names[1]} meet in P, {names[2]}, {names[3]} in Q; PQ carries both resultants."]
+    return []
+
+
+def _mark(canvas: Canvas, at: Point, span: tuple[float, ...], name: str) -> None:
+    if _inside(at, span, 60.0):
+        canvas.add(Circle(at, 0.8, "mark"))
+        canvas.label(name, at, size=3.2, role="title")
+
+
+def _inside(at: Point, span: tuple[float, ...], room: float) -> bool:
+    return span[0] - room <= at[0] <= span[2] + room and span[1] - room <= at[1] <= span[3] + room
+
+
+def _through(at: Point, force: np.ndarray, span: tuple[float, ...]) -> tuple[Point, Point]:
+    """A line through a point along a force, to a little beyond the drawing."""
+    ux, uy = (float(c) for c in force / np.hypot(*force))
+    reach = [45.0, 45.0]
+    for n, sign in enumerate((1, -1)):
+        while reach[n] > 8 and not _inside((at[0] + sign * reach[n] * ux, at[1] + sign * reach[n] * uy), span, 14.0):
+            reach[n] -= 2.0
+    a, b = (at[0] + reach[0] * ux, at[1] + reach[0] * uy), (at[0] - reach[1] * ux, at[1] - reach[1] * uy)
+    return a, b
+
+
+__all__ = ["Polygon", "force_chain_scene", "force_polygon_scene", "lines_of_action_scene"]

@@ -1,0 +1,35 @@
+"""A scene to a file; the ending names the format."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from dalembert.errors import ModelError
+from dalembert.saving import needs, new_file
+
+if TYPE_CHECKING:
+    from dalembert.views.scene import Scene
+
+
+def save(scene: Scene, path: str | Path, overwrite: bool = False, theme: str = "light") -> None:
+    """Write .svg, .pdf, .png or .dxf."""
+    from dalembert.views.themes import THEMES
+
+    target = Path(path)
+    if theme not in THEMES:
+        raise ModelError(f"there is no theme {theme!r}", f"there is {', '.join(THEMES)}")
+    kind = target.suffix.lower()
+    if kind not in (".svg", ".pdf", ".png", ".dxf"):
+        raise ModelError(f"{target.name}: drawings are not written as {kind or 'that'}", "use .svg, .pdf, .png or .dxf")
+    with new_file(target, overwrite) as temporary:
+        if kind == ".svg":
+            temporary.write_text(scene.to_svg(theme), encoding="utf-8")
+        elif kind == ".dxf":
+            with needs("ezdxf", "writing DXF", "cad"):
+                from dalembert.views.dxf import write_dxf
+            write_dxf(scene, temporary)
+        else:
+            with needs("matplotlib", f"writing {kind[1:].upper()}", "plot"):
+                from dalembert.views.mpl import write_figure
+            write_figure(scene, temporary, theme)
