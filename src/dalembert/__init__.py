@@ -25,6 +25,9 @@ if TYPE_CHECKING:
         statics,
     )
     from dalembert.analysis.answers import check_file
+    from dalembert.analysis.members import displaced_inertia, inertia_shares, members, order_of_solution
+    from dalembert.analysis.superposition import superposition
+    from dalembert.analysis.virtual_work import virtual_work
     from dalembert.model import (
         Answer,
         Couple,
@@ -75,6 +78,9 @@ if TYPE_CHECKING:
         watt_2,
         whitworth,
     )
+    from dalembert.views import draw
+    from dalembert.views.notation import Notation
+    from dalembert.views.scene import Scene
 
 __version__ = "0.1.0"
 
@@ -91,6 +97,7 @@ _HOME = {
     "Link": "model",
     "Mechanism": "model",
     "Mobility": "analysis",
+    "Notation": "views.notation",
     "Offset": "model",
     "Pin": "model",
     "PinFriction": "model",
@@ -98,6 +105,7 @@ _HOME = {
     "Result": "analysis",
     "Rise": "model",
     "Rolling": "model",
+    "Scene": "views.scene",
     "Slider": "model",
     "Slot": "model",
     "SlotFriction": "model",
@@ -111,16 +119,21 @@ _HOME = {
     "check_file": "analysis.answers",
     "convert": "model",
     "crank_shaper": "model.library",
+    "displaced_inertia": "analysis.members",
+    "draw": "views",
     "dynamics": "analysis",
     "five_bar": "model.library",
     "four_bar": "model.library",
+    "inertia_shares": "analysis.members",
     "inverted_slider_crank": "model.library",
     "json_schema": "model",
     "kinematics": "analysis",
     "load": "model",
     "loads": "model",
     "mechanism": "model",
+    "members": "analysis.members",
     "mobility": "analysis",
+    "order_of_solution": "analysis.members",
     "scissor": "model.library",
     "scotch_yoke": "model.library",
     "slider_crank": "model.library",
@@ -129,7 +142,9 @@ _HOME = {
     "stephenson_1": "model.library",
     "stephenson_2": "model.library",
     "stephenson_3": "model.library",
+    "superposition": "analysis.superposition",
     "toggle_press": "model.library",
+    "virtual_work": "analysis.virtual_work",
     "watt_1": "model.library",
     "watt_2": "model.library",
     "whitworth": "model.library",
@@ -153,6 +168,7 @@ __all__ = [
     "Mechanism",
     "Mobility",
     "ModelError",
+    "Notation",
     "Offset",
     "Pin",
     "PinFriction",
@@ -160,6 +176,7 @@ __all__ = [
     "Result",
     "Rise",
     "Rolling",
+    "Scene",
     "Slider",
     "Slot",
     "SlotFriction",
@@ -174,16 +191,21 @@ __all__ = [
     "check_file",
     "convert",
     "crank_shaper",
+    "displaced_inertia",
+    "draw",
     "dynamics",
     "five_bar",
     "four_bar",
+    "inertia_shares",
     "inverted_slider_crank",
     "json_schema",
     "kinematics",
     "load",
     "loads",
     "mechanism",
+    "members",
     "mobility",
+    "order_of_solution",
     "scissor",
     "scotch_yoke",
     "slider_crank",
@@ -192,7 +214,9 @@ __all__ = [
     "stephenson_1",
     "stephenson_2",
     "stephenson_3",
+    "superposition",
     "toggle_press",
+    "virtual_work",
     "watt_1",
     "watt_2",
     "whitworth",

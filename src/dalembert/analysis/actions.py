@@ -13,9 +13,9 @@ from dalembert.analysis.freedoms import whole_pose
 from dalembert.analysis.joints import signed_radii
 from dalembert.core.constraints import arm
 from dalembert.core.equilibrium import Motion, known_sources, motion
-from dalembert.core.factor import Factor
 from dalembert.core.forcing import Source
 from dalembert.core.layout import Pose, System
+from dalembert.core.linear import Factor
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
@@ -97,7 +97,7 @@ def joint_actions(r: Result) -> tuple[Action, ...]:
 
 def joint_place(r: Result, joint: str) -> Array:
     """Where a joint's reaction acts (P, 2): j's point, or the contact of a higher pair."""
-    described = r.mechanism.joints[joint]
+    described: Any = r.mechanism.joints[joint]
     (i, j), (ui, uj) = described.links, r.mechanism.joint_points(joint)
     pj = link_place(r, j, uj)
     if described.type not in ("gear", "rolling"):
@@ -164,7 +164,8 @@ def unknown_load_actions(r: Result) -> tuple[Action, ...]:
 
     out, known = [], r.compiled.known
     for k, name in enumerate(r.unknown_loads):
-        load, value = r.mechanism.loads[name], r.unknown_load(name)
+        load: Any = r.mechanism.loads[name]
+        value = r.unknown_load(name)
         zero = np.zeros(len(value))
         if known.couple[k]:
             at = link_place(r, load.on, r.mechanism.center(load.on))
@@ -251,7 +252,10 @@ class _Builder:
         springs = self.r.compiled.forcing.springs
         for k, name in enumerate(names):
             kind: Kind = "spring" if self.mechanism.loads[name].type == "spring" else "damper"
-            ends = ((k, int(springs.a[k]), springs.at_a[k]), (k + len(names), int(springs.b[k]), springs.at_b[k]))
+            ends = (
+                (k, int(springs.a[k]), springs.at_a[k]),
+                (k + len(names), int(springs.b[k]), springs.at_b[k]),
+            )
             for place, link, u in ends:
                 self.add(name, kind, name, one, place, self.arm(link, u), "force")
 

@@ -189,7 +189,8 @@ class _Unknowns:
                 name = f"{'torque' if angular else 'force'} {drive}"
                 self.count[name], self.on[name] = 1, set(r.mechanism.joints[joint].links)
         for load in r.unknown_loads:
-            self.count[load], self.on[load] = 1, {r.mechanism.loads[load].on}
+            described: Any = r.mechanism.loads[load]
+            self.count[load], self.on[load] = 1, {described.on}
 
     def of(self, group: Sequence[str]) -> list[str]:
         return [n for n, links in self.on.items() if links & set(group) and n not in self.solved]

@@ -44,7 +44,8 @@ class Superposition:
         k, sign = self.result._joint(joint, on)
         kept = self.result.unique(joint)[..., :2]
         return {
-            s: np.where(kept, sign * f, np.nan) for s, f in zip(self.sources, self.force[..., k, :], strict=True)
+            s: np.where(kept, sign * f, np.nan)
+            for s, f in zip(self.sources, self.force[..., k, :], strict=True)
         }
 
     def unknown_load(self, name: str) -> dict[str, Array]:

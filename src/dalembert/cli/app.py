@@ -98,6 +98,55 @@ def solve(
 
 @app.command(
     help_epilogue="""Examples:
+  dalembert draw four_bar.yaml -o four_bar.svg
+  dalembert draw four_bar.yaml --view force-polygons --at 60deg -o polygons.pdf
+  dalembert draw four_bar.yaml --view charts --positions 72 -o charts.png"""
+)
+def draw(
+    file: Path,
+    /,
+    *,
+    output: Output,
+    view: Literal[
+        "mechanism", "free-bodies", "force-polygons", "motion", "charts", "superposition", "all"
+    ] = "all",
+    at: str | None = None,
+    positions: int | None = None,
+    static: Flag = False,
+    theme: Literal["light", "dark", "print"] = "light",
+    names: Flag = False,
+    force: Flag = False,
+) -> int:
+    """Draw FILE to scale: the mechanism, free bodies, force polygons, charts.
+
+    Parameters
+    ----------
+    file
+        Model file.
+    output
+        File to write; its ending names the format: .svg, .pdf, .png, .dxf, or .gif for an animation.
+    view
+        What to draw.
+    at
+        The position: its number from 1, or a value of the first drive such as 60deg; the first by default.
+    positions
+        Number of positions over the range of the drives, instead of the file's own count.
+    static
+        Leave inertia out, even where the file has speeds.
+    theme
+        Colours for light paper, for a dark screen, or black and white for print.
+    names
+        Write links by their names, not by number.
+    force
+        Overwrite a file that exists.
+    """
+    from dalembert.cli.drawing import drawn
+
+    return drawn(file, output, view, at, positions, static, theme, names, force)
+
+
+@app.command(
+    help_epilogue="""Examples:
   dalembert check four_bar.yaml
   dalembert check problems/ --all"""
 )
@@ -217,7 +266,7 @@ def emitted(text: str, output: Path | None, force: bool) -> int:
     return OK
 
 
-LATER = ("draw", "report")
+LATER = ("report",)
 """Commands of the contract that this version does not have."""
 
 

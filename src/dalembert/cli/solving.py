@@ -13,7 +13,6 @@ from dalembert.saving import check_installed, check_new
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
-    from dalembert.model import Mechanism
 
 
 PACKAGES = {"xlsx": ("openpyxl", "a workbook"), "netcdf": ("h5netcdf", "a netCDF file")}
@@ -54,10 +53,11 @@ def solved(
 ) -> int:
     """Analyse a file, print or write the answer; 1 where some position has a status other than ok."""
     _check_targets(wanted)
-    result = _result(file, static, positions, method, friction)
-    _printed(result, wanted)
+    result = _result(file, static, positions, friction)
+    shown, more = by_method(method, result, wanted.printed_units)
+    _printed(shown, wanted, more)
     for kind, path in wanted.files.items():
-        _write(result, kind, path, wanted)
+        _write(shown, kind, path, wanted)
         print(f"Written: {path}", file=sys.stderr)
     return 0 if result.ok.all() else 1
 
@@ -75,7 +75,8 @@ def _check_targets(wanted: Wanted) -> None:
             check_installed(*PACKAGES[kind])
 
 
-def _result(file: Path, static: bool, positions: int | None, method: str, friction: bool) -> Result:
+def _result(file: Path, static: bool, positions: int | None, friction: bool) -> Result:
+    from dalembert.analysis import solve
     from dalembert.model import load
 
     if positions is not None and positions < 1:
@@ -84,16 +85,18 @@ def _result(file: Path, static: bool, positions: int | None, method: str, fricti
     if not friction:
         m = m.with_values({"friction": {"enabled": False}})
     with _waiting(f"Solving {file}"):
-        return _by(method, m, static, positions)
+        return solve(m, static=static, positions=positions)
 
 
-def _by(method: str, m: Mechanism, static: bool, positions: int | None) -> Result:
-    from dalembert import __version__
-    from dalembert.analysis import solve
+def by_method(method: str, result: Result, units: Literal["SI", "file"]) -> tuple[Result, str]:
+    """The answer as the method finds it, and what it shows besides."""
+    if method == "matrix":
+        return result, ""
+    from dalembert.cli.methods import superposition_text, virtual_work_answer
 
-    if method != "matrix":
-        raise ModelError(f"--method {method} is not part of version {__version__}", "use --method matrix")
-    return solve(m, static=static, positions=positions)
+    if method == "virtual-work":
+        return virtual_work_answer(result, units)
+    return result, superposition_text(result, units)
 
 
 @contextmanager
@@ -108,7 +111,7 @@ def _waiting(what: str) -> Iterator[None]:
         yield
 
 
-def _printed(result: Result, wanted: Wanted) -> None:
+def _printed(result: Result, wanted: Wanted, more: str) -> None:
     if str(wanted.json) == "-":
         from dalembert.analysis.record import write_json
 
@@ -121,6 +124,8 @@ def _printed(result: Result, wanted: Wanted) -> None:
         from dalembert.cli.answer import answer_text
 
         print(answer_text(result, wanted.printed_units, wanted.axes, wanted.every))
+        if more:
+            print(f"\n{more}")
 
 
 def _write(result: Result, kind: str, path: Path, wanted: Wanted) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -86,7 +87,7 @@ def segments(items: Sequence[Item]) -> Array:
             out += [tuple(map(tuple, s)) for s in segments(item.items).tolist()]  # type: ignore[misc]
         elif not isinstance(item, Text):
             points = _outline(item)
-            out += list(zip(points[:-1], points[1:], strict=True))
+            out += list(pairwise(points))
     return np.array(out, float).reshape(-1, 2, 2)
 
 
@@ -132,7 +133,7 @@ class _Placer:
         room = np.array([width, height]) / 2 + 0.25
         box = np.concatenate([at - room, at + room], axis=1)
         cost = gap + self._preference(label, at, near)
-        cost += 9.0 * np.minimum(crossed(box, self.strokes).sum(axis=1), 6)
+        cost += 60.0 * np.minimum(crossed(box, self.strokes).sum(axis=1), 3)
         cost += np.where(overlapping(box, self.boxes).any(axis=1), 1000.0, 0.0)
         if label.leads:
             far = gap >= LEADER
@@ -196,4 +197,4 @@ def text_over_lines(scene: Scene) -> list[str]:
     strokes = segments([i for i in scene.flat() if not isinstance(i, Text)])
     if not len(strokes) or not len(boxes):
         return []
-    return [t.text for t, hit in zip(texts, crossed(boxes, strokes).any(axis=1), strict=True) if hit]
+    return [texts[k].text for k in np.flatnonzero(crossed(boxes, strokes).any(axis=1))]

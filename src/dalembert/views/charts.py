@@ -33,7 +33,9 @@ def ticks(low: float, high: float, most: int = 6, angle: bool = False) -> list[f
         low, high = low - 1.0, high + 1.0
     step = round_up((high - low) / most)
     if angle:
-        step = next((s for s in (5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0) if (high - low) / s <= most), 360.0)
+        step = next(
+            (s for s in (5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0) if (high - low) / s <= most), 360.0
+        )
     first = math.floor(low / step + 1e-9)
     last = math.ceil(high / step - 1e-9)
     return [float(f"{n * step:.10g}") for n in range(first, last + 1)]
@@ -171,7 +173,9 @@ def polar_scene(paths: Mapping[str, Array], unit: str, title: str, radius: float
     return canvas.scene(title, notes=[f"Circles in {unit}"], scales={"force": 1 / scale})
 
 
-def polar_chart(r: Result, joints: Sequence[str], axes: str = "ground", notation: Notation | None = None) -> Scene:
+def polar_chart(
+    r: Result, joints: Sequence[str], axes: str = "ground", notation: Notation | None = None
+) -> Scene:
     """Polar diagrams of joint forces in ground axes, or in the axes of the link (where a bearing wears)."""
     shown = Shown(r, notation or Notation())
     unit = shown.value("force", 1.0)

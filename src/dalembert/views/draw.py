@@ -51,7 +51,9 @@ def force_polygon(
     return force_polygon_scene(r, _link(r, link), position_at(r, at), notation, case)
 
 
-def force_chain(r: Result, at: Any = None, notation: Notation | None = None, case: str | None = None) -> Scene:
+def force_chain(
+    r: Result, at: Any = None, notation: Notation | None = None, case: str | None = None
+) -> Scene:
     """The polygons of all links on the sides they share, in the order of solution."""
     return force_chain_scene(r, position_at(r, at), notation, case)
 
@@ -94,13 +96,29 @@ def force_polygons(r: Result, at: Any = None, notation: Notation | None = None) 
     """Polygons of each link, then of the chain."""
     k = position_at(r, at)
     scenes = [force_polygon_scene(r, link, k, notation) for link in r.links]
-    return stacked([*scenes, force_chain_scene(r, k, notation)], title=_title(r, k, "Force polygons", notation))
+    return stacked(
+        [*scenes, force_chain_scene(r, k, notation)], title=_title(r, k, "Force polygons", notation)
+    )
+
+
+def superposition(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
+    """Force polygons of the chain for one source at a time, then for all together."""
+    from dalembert.analysis.superposition import superposition as split
+
+    k = position_at(r, at)
+    scenes = [force_chain_scene(r, k, notation, source) for source in split(r).sources]
+    return stacked(
+        [*scenes, force_chain_scene(r, k, notation)], title=_title(r, k, "Superposition", notation)
+    )
 
 
 def motion(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
     """Velocity and acceleration polygons and instant centres."""
     k = position_at(r, at)
-    scenes = [motion_polygon_scene(r, k, "velocity", notation), motion_polygon_scene(r, k, "acceleration", notation)]
+    scenes = [
+        motion_polygon_scene(r, k, "velocity", notation),
+        motion_polygon_scene(r, k, "acceleration", notation),
+    ]
     if r.drives:
         scenes.append(instant_centers_scene(r, k, notation))
     return stacked(scenes, title=_title(r, k, "Motion", notation))
@@ -110,7 +128,12 @@ def view(r: Result, which: View = "all", at: Any = None, notation: Notation | No
     """What `dalembert draw --view` writes."""
     if which == "mechanism":
         return mechanism(r, at, notation)
-    one = {"free-bodies": free_bodies, "force-polygons": force_polygons, "motion": motion}
+    one = {
+        "free-bodies": free_bodies,
+        "force-polygons": force_polygons,
+        "motion": motion,
+        "superposition": superposition,
+    }
     if which in one:
         return one[which](r, at, notation)
     if which == "charts":
@@ -149,6 +172,7 @@ __all__ = [
     "lines_of_action",
     "mechanism",
     "motion",
+    "superposition",
     "velocity_polygon",
     "view",
 ]

@@ -39,7 +39,9 @@ def fitted(points: Iterable[Any], width: float, height: float, factor: float = 1
 
     ``factor`` is the size of that unit in metres.
     """
-    p = np.array([(float(x), float(y)) for x, y in points if np.isfinite(x) and np.isfinite(y)]).reshape(-1, 2)
+    p = np.array([(float(x), float(y)) for x, y in points if np.isfinite(x) and np.isfinite(y)]).reshape(
+        -1, 2
+    )
     if not len(p):
         return Frame(1.0)
     low, high = p.min(axis=0), p.max(axis=0)

@@ -33,16 +33,20 @@ def free_body_scene(
     frame = _frame(r, link, k, shown)
     canvas = Canvas()
     _draw_link(canvas, r, link, k, frame, shown)
-    mine = [a for a in on_link(everything, link)]
+    mine = list(on_link(everything, link))
     per_mm = draw_actions(canvas, r, mine, k, frame, shown, LONGEST, common_scale(r, everything, k, shown))
     notes, scales = stated(shown, frame, per_mm)
     member = members(r)[link]
-    kind = " ".join(part for part in (member.kind, "member", member.state(k) and f"in {member.state(k)}") if part)
+    kind = " ".join(
+        part for part in (member.kind, "member", member.state(k) and f"in {member.state(k)}") if part
+    )
     notes = [f"{kind[0].upper()}{kind[1:]}. {_distances(r, link, k, shown)}".strip(), *notes]
     return canvas.scene(f"Link {shown.heading(link)}", notes=notes, scales=scales)
 
 
-def common_scale(r: Result, some: tuple[Action, ...], k: int, shown: Shown, longest: float = LONGEST) -> float:
+def common_scale(
+    r: Result, some: tuple[Action, ...], k: int, shown: Shown, longest: float = LONGEST
+) -> float:
     """Newtons a millimetre for all links at a position."""
     sizes = [float(np.hypot(*a.force[k])) for a in some]
     return force_scale(sizes, longest, unit_size(r, "force", shown.notation))
@@ -143,4 +147,6 @@ def _resolved(
     for value, e, mark in ((parts[0], along, "∥"), (parts[1], across, "⊥")):
         end = (at[0] + value * e[0] / per_mm, at[1] + value * e[1] / per_mm)
         canvas.add(Arrow(at, end, "effort", a.of, "force", abs(value)), Line((end, head), "construction"))
-        canvas.label(f"{shown.symbol(a)}^{{{mark}}} = {shown.text('force', value)}", end, size=2.6, role="effort")
+        canvas.label(
+            f"{shown.symbol(a)}^{{{mark}}} = {shown.text('force', value)}", end, size=2.6, role="effort"
+        )

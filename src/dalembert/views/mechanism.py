@@ -73,7 +73,9 @@ def place_title(r: Result, k: int, heading: str, shown: Shown) -> str:
         return heading
     from dalembert.analysis.columns import drive_kinds
 
-    at = [f"{d} = {shown.text(drive_kinds(r, d)['position'], float(r.drive_position(d)[k]))}" for d in r.drives]
+    at = [
+        f"{d} = {shown.text(drive_kinds(r, d)['position'], float(r.drive_position(d)[k]))}" for d in r.drives
+    ]
     return f"{heading}, {', '.join(at)}"
 
 
@@ -212,7 +214,9 @@ def _pushes(r: Result, a: Action, k: int) -> bool:
     return bool(float(np.dot(a.force[k], middle - a.at[k])) > 1e-12)
 
 
-def draw_couple(canvas: Canvas, r: Result, a: Action, k: int, frame: Frame, shown: Shown, values: bool) -> None:
+def draw_couple(
+    canvas: Canvas, r: Result, a: Action, k: int, frame: Frame, shown: Shown, values: bool
+) -> None:
     """A curved arrow about its place; the sense is drawn, the size written."""
     at, value = frame(a.at[k]), float(a.couple[k])
     radius = 4.6 if a.kind != "inertia" else 3.4
@@ -231,7 +235,7 @@ def _turning(a: Action) -> Action:
 
 
 def position_at(r: Result, at: Any = None) -> int:
-    """Index from 0 of a position: a whole number from 1, or a value of the first drive such as `60 deg`; the nearest."""
+    """Index from 0 of a position given by its number from 1, or nearest to a value of the first drive (`60 deg`)."""
     if at is None:
         good = np.flatnonzero(r.ok)
         return int(good[0]) if len(good) else 0

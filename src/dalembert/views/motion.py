@@ -36,7 +36,9 @@ def motion_polygon_scene(r: Result, k: int, order: Order, notation: Notation | N
     for names in _images(r).values():
         corners = convex(list({heads[n] for n in names if n in heads}))
         if len(corners) >= 2:
-            canvas.add(Polygon(tuple(corners), "link-area") if len(corners) > 2 else Line(tuple(corners), "trace"))
+            canvas.add(
+                Polygon(tuple(corners), "link-area") if len(corners) > 2 else Line(tuple(corners), "trace")
+            )
     letter = "v" if order == "velocity" else "a"
     canvas.add(Circle((0.0, 0.0), 0.7, "mark"))
     canvas.label("o", (0.0, 0.0), size=3.2, role="title")
@@ -60,7 +62,9 @@ def motion_polygon_scene(r: Result, k: int, order: Order, notation: Notation | N
 def _turns(r: Result, k: int, order: Order, shown: Shown) -> str:
     """Angular rates of the links in words."""
     kind, read, letter = (
-        ("angular_speed", r.speed, "ω") if order == "velocity" else ("angular_acceleration", r.acceleration, "α")
+        ("angular_speed", r.speed, "ω")
+        if order == "velocity"
+        else ("angular_acceleration", r.acceleration, "α")
     )
     parts = [f"{letter}{shown.link(link)} = {shown.text(kind, float(read(link)[k]))}" for link in r.links]
     return ", ".join(parts)

@@ -128,7 +128,9 @@ class Shown:
         if a.kind == "joint":
             return self.reaction(a.of, a.link)
         if a.kind == "effort":
-            return f"{'T' if turning else 'F'}_{{{self.pair(a.by or GROUND, a.link)}{'' if turning else ',d'}}}"
+            return (
+                f"{'T' if turning else 'F'}_{{{self.pair(a.by or GROUND, a.link)}{'' if turning else ',d'}}}"
+            )
         if a.kind == "weight":
             return f"W_{{{self.link(a.link)}}}"
         if a.kind == "inertia":

@@ -63,7 +63,10 @@ def force_polygon_scene(
         canvas.label("no forces", (0.0, 0.0))
     notes, scales = stated(shown, None, per_mm)
     return canvas.scene(
-        heading, notes=[f"{notes[0]}; {_gap_text(gap, mine, k)}"], scales=scales, numbers=_numbers(gap, mine, k)
+        heading,
+        notes=[f"{notes[0]}; {_gap_text(gap, mine, k)}"],
+        scales=scales,
+        numbers=_numbers(gap, mine, k),
     )
 
 
@@ -107,11 +110,21 @@ def _middle(mine: Sequence[Action], k: int, per_mm: float, start: Point) -> Poin
     return (start[0] + float(x), start[1] + float(y))
 
 
-def _edge_label(canvas: Canvas, a: Action, k: int, shown: Shown, tail: Point, head: Point, middle: Point) -> None:
+def _edge_label(
+    canvas: Canvas, a: Action, k: int, shown: Shown, tail: Point, head: Point, middle: Point
+) -> None:
     size = float(np.hypot(*a.force[k]))
-    spots = [(tail[0] + t * (head[0] - tail[0]), tail[1] + t * (head[1] - tail[1])) for t in (0.5, 0.35, 0.65)]
+    spots = [
+        (tail[0] + t * (head[0] - tail[0]), tail[1] + t * (head[1] - tail[1])) for t in (0.5, 0.35, 0.65)
+    ]
     away = math.atan2(spots[0][1] - middle[1], spots[0][0] - middle[0])
-    canvas.label(f"{shown.symbol(a)} = {shown.text('force', size)}", *spots, prefer=away, size=2.8, role=role_of(a.kind))
+    canvas.label(
+        f"{shown.symbol(a)} = {shown.text('force', size)}",
+        *spots,
+        prefer=away,
+        size=2.8,
+        role=role_of(a.kind),
+    )
 
 
 def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case: str | None = None) -> Scene:
@@ -122,12 +135,13 @@ def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case:
     per_mm = force_scale(sizes, 60.0, unit_size(r, "force", shown.notation))
     canvas = Canvas()
     placed: dict[str, tuple[Point, Point]] = {}
-    worst, everything, bottom = 0.0, [], 0.0
+    worst, bottom = 0.0, 0.0
+    everything: list[Action] = []
     for link in _order(r):
         mine = forces_of(some, link, k)
         shared = next((a for a in mine if a.kind == "joint" and a.of in placed), None)
         if shared is not None:
-            tail, head = placed[shared.of]
+            head = placed[shared.of][1]
             mine = [shared, *(a for a in mine if a is not shared)]
             edges, gap = _polygon(canvas, mine, k, shown, per_mm, head, shared.of)
         else:
@@ -201,7 +215,9 @@ def _meeting(
             _mark(canvas, q, span, "Q")
             if math.dist(p, q) < 400:
                 canvas.add(Line((p, q), "resultant"))
-            return [f"{names[0]}, {names[1]} meet in P, {names[2]}, {names[3]} in Q; PQ carries both resultants."]
+            return [
+                f"{names[0]}, {names[1]} meet in P, {names[2]}, {names[3]} in Q; PQ carries both resultants."
+            ]
     return []
 
 
@@ -220,7 +236,9 @@ def _through(at: Point, force: np.ndarray, span: tuple[float, ...]) -> tuple[Poi
     ux, uy = (float(c) for c in force / np.hypot(*force))
     reach = [45.0, 45.0]
     for n, sign in enumerate((1, -1)):
-        while reach[n] > 8 and not _inside((at[0] + sign * reach[n] * ux, at[1] + sign * reach[n] * uy), span, 14.0):
+        while reach[n] > 8 and not _inside(
+            (at[0] + sign * reach[n] * ux, at[1] + sign * reach[n] * uy), span, 14.0
+        ):
             reach[n] -= 2.0
     a, b = (at[0] + reach[0] * ux, at[1] + reach[0] * uy), (at[0] - reach[1] * ux, at[1] - reach[1] * uy)
     return a, b

@@ -21,7 +21,9 @@ def save(scene: Scene, path: str | Path, overwrite: bool = False, theme: str = "
         raise ModelError(f"there is no theme {theme!r}", f"there is {', '.join(THEMES)}")
     kind = target.suffix.lower()
     if kind not in (".svg", ".pdf", ".png", ".dxf"):
-        raise ModelError(f"{target.name}: drawings are not written as {kind or 'that'}", "use .svg, .pdf, .png or .dxf")
+        raise ModelError(
+            f"{target.name}: drawings are not written as {kind or 'that'}", "use .svg, .pdf, .png or .dxf"
+        )
     with new_file(target, overwrite) as temporary:
         if kind == ".svg":
             temporary.write_text(scene.to_svg(theme), encoding="utf-8")

@@ -194,8 +194,8 @@ def item_box(item: Item) -> Box:
         (x, y), r = item.center, item.radius
         return (x - r, y - r, x + r, y + r)
     points = (item.tail, item.head) if isinstance(item, Arrow) else item.points  # type: ignore[union-attr]
-    x, y = zip(*points, strict=True)
-    return (min(x), min(y), max(x), max(y))
+    across, up = [p[0] for p in points], [p[1] for p in points]
+    return (min(across), min(up), max(across), max(up))
 
 
 def moved(item: Item, dx: float, dy: float) -> Item:

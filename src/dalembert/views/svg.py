@@ -131,6 +131,4 @@ def arc_head(a: Arc) -> tuple[Point, ...]:
     size = min(0.85 * HEAD, 0.9 * a.radius)
     back = a.end - sign * size / a.radius
     tail, tip = a.at(back), a.at(a.end)
-    return arrow_parts(
-        (tip[0] - 2 * (tip[0] - tail[0]), tip[1] - 2 * (tip[1] - tail[1])), tip
-    )[1]
+    return arrow_parts((tip[0] - 2 * (tip[0] - tail[0]), tip[1] - 2 * (tip[1] - tail[1])), tip)[1]

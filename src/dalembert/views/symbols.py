@@ -100,11 +100,18 @@ def damper(a: Point, b: Point) -> list[Item]:
     x, h = 0.4 * length, min(1.6, 0.2 * length)
     pot: list[Point] = [(0.66 * length, h), (x, h), (x, -h), (0.66 * length, -h)]
     middle = 0.55 * length
-    parts = [[(0.0, 0.0), (x, 0.0)], pot, [(middle, h * 0.8), (middle, -h * 0.8)], [(middle, 0.0), (length, 0.0)]]
+    parts = [
+        [(0.0, 0.0), (x, 0.0)],
+        pot,
+        [(middle, h * 0.8), (middle, -h * 0.8)],
+        [(middle, 0.0), (length, 0.0)],
+    ]
     return [Line(_turned(list(p), a, angle), "spring") for p in parts]
 
 
-def couple(at: Point, sign: float, radius: float, role: str, of: str = "", value: float | None = None) -> list[Item]:
+def couple(
+    at: Point, sign: float, radius: float, role: str, of: str = "", value: float | None = None
+) -> list[Item]:
     """A curved arrow, counter-clockwise where ``sign`` is positive."""
     start, sweep = math.radians(-25.0), math.radians(230.0)
     if sign < 0:

@@ -1,0 +1,51 @@
+"""`dalembert draw`: a file analysed and drawn."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any, Literal
+
+from dalembert.errors import ModelError
+
+OK, SOME_NOT_OK = 0, 1
+PICTURES = (".svg", ".pdf", ".png", ".dxf", ".gif", ".webp")
+
+
+def drawn(
+    file: Path,
+    output: Path | None,
+    view: Any,
+    at: str | None,
+    positions: int | None,
+    static: bool,
+    theme: Literal["light", "dark", "print"],
+    names: bool,
+    force: bool,
+) -> int:
+    """Draw a file; 1 where some position has a status other than ok."""
+    from dalembert.analysis import solve
+    from dalembert.model import load
+    from dalembert.views import draw
+
+    if output is None:
+        raise ModelError("draw needs a file to write", "name one with -o, for example -o drawing.svg")
+    if output.suffix.lower() not in PICTURES:
+        raise ModelError(
+            f"{output.name}: the ending names no kind of drawing", f"use one of {' '.join(PICTURES)}"
+        )
+    if view == "charts" and positions is None:
+        positions = _enough(file)
+    result = solve(load(file), static=static, positions=positions)
+    notation = draw.Notation(links="name" if names else "number")
+    draw.view(result, view, at, notation).save(output, force, theme)
+    print(f"Written: {output}", file=sys.stderr)
+    return OK if result.ok.all() else SOME_NOT_OK
+
+
+def _enough(file: Path) -> int | None:
+    """Charts of a file with one position show a whole turn."""
+    from dalembert.model import load
+
+    m = load(file)
+    return 72 if len(m.schedule().position) == 1 and m.drives else None

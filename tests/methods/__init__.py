@@ -1,0 +1,1 @@
+"""The methods on paper: superposition, virtual work, members, drawings, reports."""

@@ -1,0 +1,149 @@
+"""Drawings as data: gaps are residuals, lengths are forces by the stated scale, texts cover nothing."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+
+import dalembert as da
+from dalembert.bundled import cases, examples
+from dalembert.views.canvas import text_over_lines, text_overlaps
+from dalembert.views.polygons import forces_of
+
+SHOWN = [
+    "seed-000-a-four-bar-loaded-rocker",
+    "seed-002-2-slider-crank-2kn",
+    "seed-002-3-four-link-three-forces",
+    "seed-002-4-four-link-two-couples",
+    "seed-002-5-slider-crank-force-on-rod",
+    "seed-003-norton-11-3",
+    "vw-07-lazy-tongs-between-two-hinges",
+]
+VIEWS = ["mechanism", "free-bodies", "force-polygons", "motion", "superposition", "all"]
+
+
+def result(name: str, **options: Any) -> Any:
+    return da.solve(da.load((cases() | examples())[name]), **options)
+
+
+@pytest.mark.parametrize("name", SHOWN)
+@pytest.mark.parametrize("view", VIEWS)
+def test_texts_cover_nothing_and_lengths_are_to_scale(name: str, view: Any) -> None:
+    scene = da.draw.view(result(name), view)
+    assert text_overlaps(scene) == []
+    ElementTree.fromstring(scene.to_svg())
+    json.dumps(scene.to_dict())
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_arrows_are_to_the_stated_scale(name: str) -> None:
+    r = result(name)
+    scenes = [da.draw.mechanism(r, forces=True), da.draw.force_chain(r)]
+    scenes += [da.draw.free_body(r, link) for link in r.links] + [
+        da.draw.force_polygon(r, link) for link in r.links
+    ]
+    if r.drives:
+        scenes += [da.draw.velocity_polygon(r), da.draw.acceleration_polygon(r)]
+    for scene in scenes:
+        for arrow in scene.arrows():
+            assert arrow.length * scene.scales[arrow.kind] == pytest.approx(arrow.value, rel=1e-9)
+        assert text_over_lines(scene) == []
+
+
+@pytest.mark.parametrize("name", SHOWN)
+def test_the_gap_of_a_polygon_is_the_residual(name: str) -> None:
+    r = result(name)
+    for link in r.links:
+        scene = da.draw.force_polygon(r, link)
+        arrows = scene.arrows()
+        total = [sum(a.head[n] - a.tail[n] for a in arrows) for n in (0, 1)]
+        assert (
+            math.hypot(*total) * scene.scales.get("force", 1.0)
+            <= scene.numbers["gap"] + 1e-9 * scene.numbers["largest"]
+        )
+        assert scene.numbers["gap"] <= (r.residual[0] + 1e-15) * 10 * max(scene.numbers["largest"], 1e-12)
+
+
+def test_a_free_body_shows_everything() -> None:
+    r = result("four_bar")
+    scene = da.draw.free_body(r, "coupler")
+    assert [a.of for a in scene.arrows()] == ["A", "B", "F_P", "coupler"]
+    texts = [t.text for t in scene.texts()]
+    assert "F_{43} = 87.41 lbf" in texts
+    assert "T_{I3} = 181.3 lbf·in" in texts
+
+
+def test_signs_follow_the_notation() -> None:
+    r = result("four_bar")
+    other = da.Notation(order="on-by", letter="G", decimals=1)
+    assert "G_{34} = 87.4 lbf" in [t.text for t in da.draw.free_body(r, "coupler", notation=other).texts()]
+    named = da.Notation(links="name", units="SI")
+    assert "F_{rocker,coupler} = 388.8 N" in [
+        t.text for t in da.draw.free_body(r, "coupler", notation=named).texts()
+    ]
+
+
+def test_a_subcase_closes_alone() -> None:
+    r = result("seed-002-3-four-link-three-forces")
+    for source in da.superposition(r).sources:
+        for link in r.links:
+            numbers = da.draw.force_polygon(r, link, case=source).numbers
+            assert numbers["gap"] <= 1e-12 * max(numbers["largest"], 1e-30)
+
+
+def test_the_four_bar_polygon_of_the_book() -> None:
+    """Seed 000-A: F32 = 113.53 lb on the 120-lb rocker."""
+    r = result("seed-000-a-four-bar-loaded-rocker")
+    sizes = sorted(a.value / 4.4482216152605 for a in da.draw.force_polygon(r, "rocker").arrows())
+    assert sizes == pytest.approx([75.4268451134, 113.530652089, 120.0], rel=1e-7)
+
+
+def test_instant_centers_of_the_four_bar() -> None:
+    from dalembert.views.motion import instant_centers
+
+    r = result("four_bar")
+    found = instant_centers(r, 0)
+    assert found["ground", "crank"] == pytest.approx((0.0, 0.0), abs=1e-12)
+    p = found["ground", "coupler"]
+    assert p is not None
+    a, b, o4 = r.point("crank", "A")[0], r.point("coupler", "B")[0], (19 * 0.0254, 0.0)
+    assert a[0] * p[1] - a[1] * p[0] == pytest.approx(0.0, abs=1e-9)
+    assert (b[0] - o4[0]) * (p[1] - o4[1]) == pytest.approx((b[1] - o4[1]) * (p[0] - o4[0]), abs=1e-9)
+
+
+@pytest.mark.parametrize("theme", ["light", "dark", "print"])
+def test_svg_in_every_theme(theme: Any, tmp_path: Path) -> None:
+    scene = da.draw.mechanism(result("four_bar"))
+    scene.save(tmp_path / "a.svg", theme=theme)
+    text = (tmp_path / "a.svg").read_text(encoding="utf-8")
+    assert text.startswith("<svg")
+    assert len(text) < 12_000
+    with pytest.raises(da.ModelError, match="exists"):
+        scene.save(tmp_path / "a.svg")
+
+
+def test_charts_over_a_cycle() -> None:
+    r = result("four_bar", positions=36)
+    scene = da.draw.charts(r)
+    assert text_overlaps(scene) == []
+    assert len(scene.numbers["Drive effort"]["O2"]) == 36
+
+
+@pytest.mark.parametrize("kind", ["pdf", "png", "dxf"])
+def test_other_formats(kind: str, tmp_path: Path) -> None:
+    pytest.importorskip("ezdxf" if kind == "dxf" else "matplotlib")
+    path = tmp_path / f"a.{kind}"
+    da.draw.free_bodies(result("four_bar")).save(path)
+    assert path.stat().st_size > 3000
+
+
+def test_loads_come_before_joints_in_a_polygon() -> None:
+    r = result("four_bar")
+    from dalembert.analysis.actions import actions
+
+    assert [a.kind for a in forces_of(actions(r), "coupler", 0)] == ["load", "inertia", "joint", "joint"]

@@ -1,0 +1,118 @@
+"""Superposition sums, virtual work equals the matrix, classes of links, displaced inertia."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.analysis.actions import actions, on_link
+from dalembert.bundled import cases, examples
+from tests.random_mechanisms import random_case
+
+SEEDS = range(100)
+CLOSE = 1e-11
+
+
+def mechanism(seed: int) -> Any:
+    return da.mechanism(random_case(seed).tree)
+
+
+def solved(seed: int) -> Any:
+    return da.solve(mechanism(seed))
+
+
+def published(name: str, **options: Any) -> Any:
+    return da.solve(da.load(cases()[name]), **options)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_parts_sum_to_the_whole_and_virtual_work_finds_the_same(seed: int) -> None:
+    r = solved(seed)
+    good = r.ok
+    work = da.virtual_work(r)
+    assert (work.gap[good] < CLOSE).all()
+    if r.compiled.forcing.separation.any():
+        with pytest.raises(da.ModelError, match="superposition is refused"):
+            da.superposition(r)
+        return
+    parts = da.superposition(r)
+    assert (parts.gap[good] < CLOSE).all()
+    assert not good.all() or set(parts.sources) >= {n for n, load in r.mechanism.loads.items()} - set(
+        r.unknown_loads
+    )
+
+
+@pytest.mark.parametrize("seed", SEEDS[::10])
+def test_what_acts_on_a_link_is_in_balance(seed: int) -> None:
+    r = solved(seed)
+    for link in r.links:
+        some = on_link(actions(r), link)
+        force = sum(a.force for a in some)
+        moment = sum(a.moment(r.center(link)) for a in some)
+        largest = max(float(np.nanmax(np.abs(r.force_array), initial=0.0)), 1e-9)
+        assert np.nanmax(np.abs(force)) < 1e-9 * largest
+        assert np.nanmax(np.abs(moment)) < 1e-8 * largest * r.compiled.layout.length
+
+
+def test_a_whole_cycle() -> None:
+    r = da.solve(da.load(examples()["four_bar"]), positions=72)
+    assert (da.superposition(r).gap < CLOSE).all()
+    assert (da.virtual_work(r).gap < CLOSE).all()
+
+
+def test_three_forces_on_a_four_link_book() -> None:
+    """Seed 002-3: each force alone, then all (the published figures are graphical)."""
+    parts = da.superposition(published("seed-002-3-four-link-three-forces"))
+    whole = published("seed-002-3-four-link-three-forces")
+    drive = whole.drives[0]
+    alone = {s: float(v[0]) for s, v in parts.effort(drive).items()}
+    for name, load in (("a", "crank"), ("b", "coupler"), ("c", "rocker")):
+        one = published(f"seed-002-3{name}-four-link-force-on-{load}")
+        assert math.isclose(one.effort(drive)[0], list(alone.values())["abc".index(name)], rel_tol=1e-9)
+    assert math.isclose(sum(alone.values()), whole.effort(drive)[0], rel_tol=1e-12)
+
+
+def test_a_subcase_is_a_result() -> None:
+    r = da.solve(da.load(examples()["four_bar"]))
+    part = da.superposition(r).case("T_4")
+    assert part.effort("O2")[0] == pytest.approx(-38.0718446 * 0.1129848290276167, rel=1e-8)
+
+
+def test_members_of_the_loaded_rocker() -> None:
+    r = published("seed-000-a-four-bar-loaded-rocker")
+    found = da.members(r)
+    assert [m.kind for m in found.values()] == ["two-force with couple", "two-force", "three-force"]
+    assert found["coupler"].state(0) in ("tension", "compression")
+    assert abs(found["coupler"].tension[0]) == pytest.approx(113.530652089 * 4.4482216152605, rel=1e-9)
+    order = da.order_of_solution(r)
+    assert [step.links for step in order] == [("rocker",), ("crank",)]
+    assert order[0].why == "rocker: 3 equations, 3 unknowns in the line of coupler, O4"
+
+
+def test_displaced_inertia_book() -> None:
+    """Seed 000-B: F = 16 lb, h = 1.8 in."""
+    r = published("seed-000-b-crank-inertia-force")
+    found = da.displaced_inertia(r, "crank")
+    assert np.hypot(*found.force[0]) / 4.4482216152605 == pytest.approx(16.0041450777, rel=1e-9)
+    assert found.offset[0] / 0.0254 == pytest.approx(1.7995337995, rel=1e-9)
+    arm, force = found.at[0] - found.center[0], found.force[0]
+    assert arm[0] * force[1] - arm[1] * force[0] == pytest.approx(found.couple[0], rel=1e-12)
+
+
+def test_share_of_inertia() -> None:
+    r = da.dynamics(da.load(examples()["four_bar"]))
+    effort = next(s for s in da.inertia_shares(r) if s.quantity == "effort")
+    static = da.statics(da.load(examples()["four_bar"])).effort("O2")[0]
+    assert effort.inertia == pytest.approx(abs(r.effort("O2")[0] - static), rel=1e-9)
+
+
+def test_given_effort_and_unknown_load() -> None:
+    r = published("st-03-slider-crank-75-lbft")
+    parts = da.superposition(r)
+    assert any(s.startswith("effort of") for s in parts.sources)
+    assert (parts.gap < CLOSE).all()
+    assert (da.virtual_work(r).gap < CLOSE).all()
