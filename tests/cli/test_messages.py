@@ -38,12 +38,12 @@ from tests.cli.conftest import Run
         ),
         (
             ["slove", "four_bar.yaml"],
-            'dalembert: unknown command "slove". Did you mean "solve"? Available commands: solve, check, validate,'
+            'dalembert: unknown command "slove". Did you mean "solve"? Available commands: solve, draw, check, validate,'
             " schema, new, convert, examples; see `dalembert --help`",
         ),
         (
             ["draw", "four_bar.yaml"],
-            "dalembert: draw is not part of version 0.1.0; `dalembert --help` lists what is",
+            "dalembert: draw needs --output; see `dalembert draw --help`",
         ),
         (
             ["report", "four_bar.yaml"],

@@ -106,7 +106,7 @@ def draw(
     file: Path,
     /,
     *,
-    output: Output,
+    output: Annotated[Path, Parameter(name=["--output", "-o"])],
     view: Literal[
         "mechanism", "free-bodies", "force-polygons", "motion", "charts", "superposition", "all"
     ] = "all",

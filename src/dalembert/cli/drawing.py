@@ -14,7 +14,7 @@ PICTURES = (".svg", ".pdf", ".png", ".dxf", ".gif", ".webp")
 
 def drawn(
     file: Path,
-    output: Path | None,
+    output: Path,
     view: Any,
     at: str | None,
     positions: int | None,
@@ -28,8 +28,6 @@ def drawn(
     from dalembert.model import load
     from dalembert.views import draw
 
-    if output is None:
-        raise ModelError("draw needs a file to write", "name one with -o, for example -o drawing.svg")
     if output.suffix.lower() not in PICTURES:
         raise ModelError(
             f"{output.name}: the ending names no kind of drawing", f"use one of {' '.join(PICTURES)}"

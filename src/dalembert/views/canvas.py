@@ -137,7 +137,7 @@ class _Placer:
         cost += np.where(overlapping(box, self.boxes).any(axis=1), 1000.0, 0.0)
         if label.leads:
             far = gap >= LEADER
-            cost += np.where(far & self._blocked(near, at), 300.0, 0.0)
+            cost += np.where(far & self._blocked(near, box), 300.0, 0.0)
         best = int(cost.argmin())
         x, y = at[best]
         text = Text((float(x), float(y + lift)), label.text, label.size, label.role)
@@ -148,11 +148,12 @@ class _Placer:
         self.boxes = np.concatenate([self.boxes, box[best : best + 1]])
         return items
 
-    def _blocked(self, near: Array, at: Array) -> NDArray[np.bool_]:
+    def _blocked(self, near: Array, box: Array) -> NDArray[np.bool_]:
         """Whether the straight way to a candidate crosses a text."""
         if not len(self.boxes):
-            return np.zeros(len(at), bool)
-        return np.asarray(crossed(self.boxes, np.stack([near, at], axis=1)).any(axis=0))
+            return np.zeros(len(box), bool)
+        edge = np.clip(near, box[:, :2], box[:, 2:])
+        return np.asarray(crossed(self.boxes, np.stack([near, edge], axis=1)).any(axis=0))
 
     def _preference(self, label: Label, at: Array, near: Array) -> Array:
         if label.prefer is None:

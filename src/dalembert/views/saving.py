@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from dalembert.errors import ModelError
-from dalembert.saving import needs, new_file
+from dalembert.saving import check_installed, new_file
 
 if TYPE_CHECKING:
     from dalembert.views.scene import Scene
@@ -28,10 +28,12 @@ def save(scene: Scene, path: str | Path, overwrite: bool = False, theme: str = "
         if kind == ".svg":
             temporary.write_text(scene.to_svg(theme), encoding="utf-8")
         elif kind == ".dxf":
-            with needs("ezdxf", "writing DXF", "cad"):
-                from dalembert.views.dxf import write_dxf
+            check_installed("ezdxf", "writing DXF", "cad")
+            from dalembert.views.dxf import write_dxf
+
             write_dxf(scene, temporary)
         else:
-            with needs("matplotlib", f"writing {kind[1:].upper()}", "plot"):
-                from dalembert.views.mpl import write_figure
+            check_installed("matplotlib", f"writing {kind[1:].upper()}", "plot")
+            from dalembert.views.mpl import write_figure
+
             write_figure(scene, temporary, theme)
