@@ -18,10 +18,11 @@ from dalembert.core.layout import Layout, Mesh, Pose
 Array = NDArray[Any]
 
 CLOSED = 1e-9
-"""Gap over characteristic length below which one more Newton step reaches rounding."""
+"""Gap over characteristic length above which a pose does not close."""
 
-FINE = 1e-7
-"""The last step must be below this too: at a dead centre the gap vanishes long before the error of the pose."""
+FINE = 3e-8
+"""A step below this, radians or characteristic lengths, is the last: what it leaves is its square. At a dead centre
+the gap vanishes long before the error of the pose, so it is the step that decides."""
 
 LONGEST_TURN = 0.5
 """No step turns a link further than this, radians, or moves it further than the characteristic length times this."""
@@ -94,7 +95,7 @@ def _closed(layout: Layout, pose: Pose, target: Array, iterations: int, polish: 
             (pose, target, missing) if every else (pose.at(active), target[active], missing[active])
         )
         dq, length = step(layout, part, open_)
-        last = (size[active] <= CLOSED * layout.length) & (length <= FINE)
+        last = (size[active] <= 100 * CLOSED * layout.length) & (length <= FINE)
         part = moved(layout, part, dq)
         open_ = gap(layout, part, wanted)
         left = np.abs(open_).max(axis=-1, initial=0.0)

@@ -53,6 +53,20 @@ class Course:
         part = (s - self.s[low]) / span if span > 0 else 1.0
         return np.asarray(self.targets[low] + part * (self.targets[high] - self.targets[low]))[None]
 
+    def slope(self, s: float, side: float) -> Array:
+        """Derivative (1, K + D) of the targets by s, on the side of a position that ``side`` has the sign of."""
+        if self.end <= 0:
+            return np.zeros_like(self.targets[:1])
+        after = side > 0
+        high = int(
+            np.searchsorted(self.s, s + (1e-12 if after else -1e-12), side="right" if after else "left")
+        )
+        high = min(max(high, 1), len(self.s) - 1)
+        while self.s[high] == self.s[high - 1]:
+            high = high + 1 if after and high < len(self.s) - 1 else high - 1
+        step = self.targets[high] - self.targets[high - 1]
+        return np.asarray(step / (self.s[high] - self.s[high - 1]))[None]
+
     def limit(self, s: float, sign: float) -> float:
         """The next break ahead."""
         ahead = self.breaks[self.breaks > s + 1e-12] if sign > 0 else self.breaks[self.breaks < s - 1e-12]

@@ -15,28 +15,34 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.closure import CLOSED, closed, distance, moved
+from dalembert.core.closure import CLOSED, closed, distance, gap, largest, moved
 from dalembert.core.constraints import dense, stacked
 from dalembert.core.course import Course, course
-from dalembert.core.factor import SPARSE, factor
+from dalembert.core.factor import SPARSE, displacement
 from dalembert.core.layout import Layout, Pose
 
 Array = NDArray[Any]
 
-STRIDE = 0.31
+STRIDE = 0.43
 """Radians of a drive (or slide over characteristic length) between stations; no divisor of a quarter turn."""
 
-NODES = 8
-"""Stations in an interpolation."""
+NODES = 5
+"""Stations in an interpolation, each with pose and rate."""
 
-RECENT = 6
+RECENT = 3
 """Stations in an extrapolation."""
+
+CLOSE, POOR, STEPS = 0.01, 0.1, 5
+"""Newton's step over the travel at which it may stop, the whole correction that is refused, most steps."""
+
+FAR = 4 * STRIDE
+"""Longest travel of a link between stations."""
 
 BLOCK = 2048
 """Positions corrected at once: enough to hide the cost of a numpy call, few enough to stay in the cache."""
 
-TRUSTED = 0.05
-"""Largest correction of an interpolated pose, radians or characteristic lengths."""
+TRUSTED = 0.02
+"""Correction of an interpolated pose, radians or characteristic lengths, that is never suspicious."""
 
 MOST_GAPS = 8
 """Times a motion is taken up again behind a gap."""
@@ -53,44 +59,61 @@ class March(NamedTuple):
     whole: bool
 
 
-def interpolated(layout: Layout, s: Array, nodes: Array, pose: Pose) -> Pose:
-    """Poses at s (P,) by Lagrange polynomials through the ``NODES`` nearest stations; also outside them."""
-    count = min(NODES, len(nodes))
-    first = np.clip(np.searchsorted(nodes, s) - count // 2, 0, len(nodes) - count)
+class Nodes(NamedTuple):
+    """Stations with their rates: parameters (S,) ascending, poses (S, L+1, ...), twists per unit of s (S, L+1, n)."""
+
+    s: Array
+    pose: Pose
+    rate: Array
+
+
+def interpolated(layout: Layout, s: Array, nodes: Nodes) -> Pose:
+    """Poses at s (P,) by Hermite polynomials through the ``NODES`` nearest stations; also outside them."""
+    count, g = min(NODES, len(nodes.s)), layout.algebra
+    first = np.clip(np.searchsorted(nodes.s, s) - count // 2, 0, len(nodes.s) - count)
     index = first[:, None] + np.arange(count)
-    weights = _lagrange(s, nodes[index])
-    point = np.einsum("pk,pkld->pld", weights, pose.point[index])
-    turn = np.einsum("pk,pkl->pl", weights, pose.turn[index])
-    return Pose(point, turn, layout.algebra.rotation(turn))
+    value, slope = _hermite(s, nodes.s[index])
+    q = np.concatenate([nodes.pose.point, nodes.pose.turn[..., None]], axis=-1)
+    weights = np.concatenate([value, slope], axis=1)
+    q = np.concatenate([q[index], nodes.rate[index]], axis=1)
+    q = (weights[:, None] @ q.reshape((*q.shape[:2], -1))).reshape((len(s), *q.shape[2:]))
+    return Pose(q[..., : g.d].copy(), q[..., -1].copy(), g.rotation(q[..., -1]))
 
 
-def _lagrange(s: Array, nodes: Array) -> Array:
-    """Weights (P, k) of nodes (P, k) at s (P,)."""
-    out = np.ones(nodes.shape)
-    for a in range(nodes.shape[1]):
-        for b in range(nodes.shape[1]):
-            if a != b:
-                out[:, a] *= (s - nodes[:, b]) / (nodes[:, a] - nodes[:, b])
-    return out
+def _hermite(s: Array, nodes: Array) -> tuple[Array, Array]:
+    """Weights (P, k) of values and of slopes at nodes (P, k), for s (P,)."""
+    count = nodes.shape[1]
+    apart = nodes[:, :, None] - nodes[:, None, :] + np.eye(count)
+    away = s[:, None] - nodes
+    product = np.repeat(away[:, None, :], count, axis=1)
+    product[:, np.arange(count), np.arange(count)] = 1.0
+    lagrange = (product / apart).prod(axis=2)
+    steep = (1 / apart).sum(axis=2) - 1.0
+    square = lagrange * lagrange
+    return square * (1 - 2 * steep * away), square * away
 
 
 def march(layout: Layout, first: Pose, along: Course, start: float, backward: bool = False) -> March:
     """Stations from parameter ``start`` to the end of the course (or its beginning), from the pose there."""
     end, sign = (0.0, -1.0) if backward else (along.end, 1.0)
     s, poses, size, smooth = [start], [first], 1.0, 0
+    rates = [_rate(layout, along, first.at(None), start, sign)] if start != end else []
     while sign * (end - s[-1]) > 0:
         ahead = s[-1] + sign * min(size * STRIDE, abs(along.limit(s[-1], sign) - s[-1]))
-        new = _station(layout, along, s[smooth:][-RECENT:], poses[smooth:][-RECENT:], ahead)
+        recent = slice(max(smooth, len(s) - RECENT), None)
+        new = _station(layout, along, s[recent], poses[recent], rates[recent], ahead)
         if new is None:
             size /= 2
             if size < SHORTEST:
                 break
             continue
         s.append(ahead)
-        poses.append(new)
+        poses.append(new[0])
+        rates.append(new[1])
         size = min(2 * size, 1.0)
         if np.abs(along.breaks - ahead).min() < 1e-12:
             smooth = len(s) - 1
+            rates[-1] = _rate(layout, along, new[0].at(None), ahead, sign)
     whole = sign * (end - s[-1]) <= 0
     order = np.argsort(s)
     return March(np.array(s)[order], stack([poses[k] for k in order]), bool(whole))
@@ -101,35 +124,53 @@ def stack(poses: list[Pose]) -> Pose:
     return Pose(*(np.stack(part) for part in zip(*poses, strict=True)))
 
 
-def _station(layout: Layout, along: Course, s: list[float], poses: list[Pose], ahead: float) -> Pose | None:
-    """The pose at ``ahead``, predicted from the last stations and corrected; None where the prediction is poor."""
-    there = along.target(ahead)
-    guess = _predicted(layout, along, s, poses, ahead, there)
-    pose, missing = closed(layout, guess, there, iterations=12, polish=False)
-    if not missing[0] <= CLOSED * layout.length:
-        return None
-    correction = float(distance(layout, pose, guess)[0])
-    travel = float(distance(layout, pose, poses[-1].at(None))[0])
-    if correction > 0.15 * travel + 1e-6 or travel > 4 * STRIDE:
-        return None
-    return pose.at(0)
+def _rate(layout: Layout, along: Course, pose: Pose, s: float, side: float) -> Array:
+    """Twists (L+1, n) of the links per unit of s at a single pose, on one side of it."""
+    right = along.slope(s, side) * layout.row_scale
+    with np.errstate(all="ignore"):
+        rate: Array = _twist(layout, displacement(layout, stacked(layout, pose), right))[0]
+    return rate
 
 
-def _predicted(
-    layout: Layout, along: Course, s: list[float], poses: list[Pose], ahead: float, there: Array
-) -> Pose:
-    """Polynomial through the last stations; along the velocity from the first."""
-    if len(s) > 1:
-        order = np.argsort(s)
-        return interpolated(layout, np.array([ahead]), np.array(s)[order], stack([poses[k] for k in order]))
-    here = poses[-1].at(None)
-    return moved(layout, here, velocity(layout, here, there - along.target(s[-1])))
+def _twist(layout: Layout, dq: Array) -> Array:
+    """Displacements (..., n L) by link, ground's zeros included."""
+    moving: Array = dq.reshape((*dq.shape[:-1], layout.links, layout.algebra.n))
+    return np.concatenate([moving, np.zeros_like(moving[..., :1, :])], axis=-2)
 
 
-def velocity(layout: Layout, pose: Pose, rates: Array) -> Array:
-    """Twists (..., L, n) of the moving links at rates (..., K + D) of the measures."""
-    twist = factor(layout, stacked(layout, pose)).motion(rates)
-    return np.nan_to_num(twist).reshape((*twist.shape[:-1], layout.links, layout.algebra.n))
+def _station(
+    layout: Layout, along: Course, s: list[float], poses: list[Pose], rates: list[Array], ahead: float
+) -> tuple[Pose, Array] | None:
+    """Pose and rate at ``ahead``, predicted from the last stations and corrected; None where that is far off.
+
+    Newton stops when its step is small next to the travel: what it leaves is the square of that, and the whole march
+    is polished later. The matrix of the last step gives the rate as well.
+    """
+    there, slope = along.target(ahead), along.slope(ahead, s[-1] - ahead) * layout.row_scale
+    guess = pose = _predicted(layout, s, poses, rates, ahead)
+    for _ in range(STEPS):
+        dq = _twist(layout, _corrections(layout, pose, gap(layout, pose, there), slope))
+        pose = moved(layout, pose, dq[:1, :-1])
+        travel = distance(layout, pose, poses[-1].at(None))[0]
+        if not distance(layout, pose, guess)[0] <= POOR * travel + 1e-6 or travel > FAR:
+            return None
+        if largest(layout, dq[:1])[0] <= CLOSE * travel + 1e-9:
+            return pose.at(0), dq[1]
+    return None
+
+
+def _predicted(layout: Layout, s: list[float], poses: list[Pose], rates: list[Array], ahead: float) -> Pose:
+    """Hermite polynomial through the last stations."""
+    order = np.argsort(s)
+    nodes = Nodes(np.array(s)[order], stack([poses[k] for k in order]), np.stack([rates[k] for k in order]))
+    return interpolated(layout, np.array([ahead]), nodes)
+
+
+def _corrections(layout: Layout, pose: Pose, missing: Array, slope: Array) -> Array:
+    """Newton step and rate at a single pose, with one matrix."""
+    both = Pose(*(np.concatenate([a, a]) for a in pose))
+    with np.errstate(all="ignore"):
+        return displacement(layout, stacked(layout, both), np.concatenate([missing, slope]))
 
 
 class Path(NamedTuple):
@@ -177,28 +218,42 @@ def _filled(layout: Layout, along: Course, piece: March, count: int) -> Path:
     links = piece.pose.turn.shape[-1]
     turn, point = np.full((count, links), np.nan), np.full((count, links, layout.algebra.d), np.nan)
     found = Path(Pose(point, turn, layout.algebra.rotation(turn)), np.zeros(count, bool))
-    for low, high in (
-        zip(along.breaks[:-1], along.breaks[1:], strict=True) if len(along.s) > 1 else [(0.0, 0.0)]
-    ):
-        nodes = np.flatnonzero((piece.s >= low - 1e-12) & (piece.s <= high + 1e-12))
+    for low, high in zip(along.breaks[:-1], along.breaks[1:], strict=True) if along.end > 0 else [(0.0, 0.0)]:
+        which = np.flatnonzero((piece.s >= low - 1e-12) & (piece.s <= high + 1e-12))
         places = np.flatnonzero(inside & (along.s >= low - 1e-12) & (along.s <= high + 1e-12))
-        if nodes.size and places.size:
+        if which.size and places.size:
+            nodes = _polished(layout, along, piece.s[which], piece.pose.at(which), (low + high) / 2)
             for block in np.split(places, range(BLOCK, len(places), BLOCK)):
-                _fill(layout, along, piece.s[nodes], piece.pose.at(nodes), block, found)
+                _fill(layout, along, nodes, block, found)
     return found
 
 
-def _fill(
-    layout: Layout, along: Course, nodes: Array, pose: Pose, places: NDArray[np.intp], found: Path
-) -> None:
+def _polished(layout: Layout, along: Course, s: Array, pose: Pose, inside: float) -> Nodes:
+    """Stations of one smooth piece corrected together, with their rates."""
+    targets = np.concatenate([along.target(x) for x in s])
+    pose, _ = closed(layout, pose, targets)
+    slopes = np.concatenate([along.slope(x, inside - x) for x in s]) * layout.row_scale
+    with np.errstate(all="ignore"):
+        return Nodes(s, pose, _twist(layout, displacement(layout, stacked(layout, pose), slopes)))
+
+
+def _fill(layout: Layout, along: Course, nodes: Nodes, places: NDArray[np.intp], found: Path) -> None:
     """Put corrected poses at some places of the course into the list."""
-    guess = interpolated(layout, along.s[places], nodes, pose)
+    guess = interpolated(layout, along.s[places], nodes)
     part, missing = closed(layout, guess, along.targets[places])
-    near = distance(layout, part, guess) <= TRUSTED
+    near = distance(layout, part, guess) <= TRUSTED + POOR * _travel(layout, along.s[places], nodes)
     listed = along.order[places]
     for whole, new in zip(found.pose, part, strict=True):
         whole[listed] = new
     found.reached[listed] = near & (missing <= CLOSED * layout.length)
+
+
+def _travel(layout: Layout, s: Array, nodes: Nodes) -> Array:
+    """How far the links go between the stations on both sides of s."""
+    if len(nodes.s) == 1:
+        return np.zeros(len(s))
+    between = distance(layout, nodes.pose.at(slice(1, None)), nodes.pose.at(slice(None, -1)))
+    return np.asarray(between[np.clip(np.searchsorted(nodes.s, s) - 1, 0, len(between) - 1)])
 
 
 def _joined(a: Path, b: Path) -> Path:
