@@ -130,7 +130,7 @@ def _check_file_unit(name: object, text: object, names: list[str]) -> None:
             f"{shown(text)} is no unit", f"write {KINDS[str(name)].si}, for example", (str(name),)
         )
     try:
-        _check_dimension(text, unit(text), text, str(name))
+        check_unit(text, str(name))
     except ModelError as error:
         raise ModelError(error.what, error.remedy, (str(name),)) from None
 
@@ -204,6 +204,13 @@ def _finite(number: float, value: object) -> float:
 def _write(kind: str) -> str:
     example = KINDS[kind].example
     return f"write one, for example {example!r}" if " " in example else f"write one, for example {example}"
+
+
+def check_unit(text: str, kind: str) -> Unit:
+    """The unit that a text names, if it is one of this kind; else raises ModelError."""
+    named = unit(text)
+    _check_dimension(text, named, text, kind)
+    return named
 
 
 def _check_dimension(unit_text: str, named: Unit, value: object, kind: str) -> None:

@@ -34,7 +34,7 @@ def closest(word: str, choices: list[str], most: int = 12) -> str:
     import difflib
 
     folded = {choice.lower(): choice for choice in reversed(choices)}
-    near = difflib.get_close_matches(word.lower(), list(folded), 1, 0.6)
+    near = difflib.get_close_matches(word.lower(), list(folded), 1, 0.7)
     if near:
         return f"did you mean {folded[near[0]]!r}?"
     if len(choices) < 2:

@@ -79,16 +79,16 @@ def _point(
         points = list(m.links[link].points)
         yield ModelError(
             f"{user} needs a point {point!r} of link {link!r}, which has {', '.join(points) or 'none'}",
-            _point_remedy(point, points),
+            _point_remedy(point, points, path[0] == "joints"),
             path,
         )
 
 
-def _point_remedy(point: str, points: list[str]) -> str:
+def _point_remedy(point: str, points: list[str], joint: bool) -> str:
     guess = closest(point, points)
-    return (
-        guess if guess.startswith("did") else f"add the point {point}, or name others with at: [of i, of j]"
-    )
+    if guess.startswith("did"):
+        return guess
+    return f"add the point {point}, or name {'others with at: [of i, of j]' if joint else 'another'}"
 
 
 def _joints(m: Mechanism) -> Iterator[ModelError]:
@@ -246,7 +246,7 @@ def _assembly(m: Mechanism) -> Iterator[ModelError]:
 
 def _answers(m: Mechanism) -> Iterator[ModelError]:
     points = [f"{link}.{point}" for link, part in m.links.items() for point in (*part.points, CENTER)]
-    known = [*m.links, *m.joints, *m.drives, *m.loads]
+    known = list(dict.fromkeys([*m.links, *m.joints, *m.drives, *m.loads]))
     for k, answer in enumerate(m.answers):
         if answer.of is not None and answer.of not in known and answer.of not in points:
             yield ModelError(

@@ -109,12 +109,14 @@ class _Later:
 
 def _content(path: Path, name: str) -> bytes:
     try:
-        if path.is_dir():
-            raise ModelError(f"{name} is a directory", "name a file in it")
-        if path.exists() and not path.is_file():
-            raise ModelError(f"{name} is no ordinary file", "name a .yaml, .json or .toml file")
-        with path.open("rb") as file:
-            content = file.read(LARGEST + 1)
+        kind = (
+            "a directory"
+            if path.is_dir()
+            else "no ordinary file"
+            if path.exists() and not path.is_file()
+            else ""
+        )
+        content = b"" if kind else _first_bytes(path)
     except FileNotFoundError:
         raise ModelError(f"there is no file {name}", _neighbour(path)) from None
     except (OSError, ValueError) as error:
@@ -122,11 +124,18 @@ def _content(path: Path, name: str) -> bytes:
         raise ModelError(
             f"the file {name!r} cannot be read: {said}", "check its name and permissions"
         ) from None
+    if kind:
+        raise ModelError(f"{name} is {kind}", "name a .yaml, .json or .toml file")
     if len(content) > LARGEST:
         raise ModelError(
             f"the file has more than {LARGEST} bytes", "give large tables fewer points", (), name, 1
         )
     return content
+
+
+def _first_bytes(path: Path) -> bytes:
+    with path.open("rb") as file:
+        return file.read(LARGEST + 1)
 
 
 def _neighbour(path: Path) -> str:

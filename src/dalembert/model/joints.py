@@ -26,7 +26,6 @@ from dalembert.model.values import (
     written,
 )
 from dalembert.units import quantity
-from dalembert.wording import shown
 
 
 class At(Value):
@@ -54,7 +53,7 @@ class Pair(Value):
         if len(found) != 2:
             raise ModelError(f"a list of {len(found)} stands where two are needed", "write [of i, of j]")
         for i, number in enumerate(found):
-            at_item(i, signed, number, number, "positive")
+            at_item(i, signed, number, value[i], "positive")
         return found[0], found[1]
 
     def write(self, value: tuple[float, float]) -> Any:
@@ -210,7 +209,7 @@ class Gear(JointPart):
         toothed = self.teeth is not None and self.module is not None
         half = (self.teeth is None) != (self.module is None)
         if half or toothed == (self.radii is not None):
-            raise ModelError("its size is not said once", "give radii, or teeth and module")
+            raise ModelError("its size is not clear", "give either radii, or both teeth and module")
         if self.teeth is not None and any(number != round(number) for number in self.teeth):
             raise ModelError("a number of teeth is not whole", "write whole numbers", ("teeth",))
         if not 0 <= self.pressure_angle < 1.2:
@@ -248,8 +247,8 @@ class Rolling(JointPart):
     def _line_or_circle(self) -> Self:
         if (self.radius is None) == (self.radii is None):
             raise ModelError(
-                "its size is not said once",
-                "give radius for a wheel on a line, or radii [of i, of j] on a circle",
+                "its size is not clear",
+                "give either radius, for a wheel on a line, or radii, for one on a circle",
             )
         if self.radii is not None and self.direction:
             raise ModelError("a wheel on a circle has no direction", "leave it out", ("direction",))
@@ -347,10 +346,11 @@ def freedoms(kind: object) -> tuple[str, ...]:
     return PLANE_FREEDOMS.get(kind) or SPACE_FREEDOMS.get(kind) or ()
 
 
-def refuse_unfinished(kind: object) -> None:
+def refuse_unfinished(joint: str, kind: object) -> None:
     """A cam is in the format but not in this version."""
     if kind == "cam":
         raise ModelError(
-            f"{shown(kind)} joints are not analysed by this version",
+            f"joint {joint!r} is a cam, which this version does not analyse",
             "make the follower a slider or pin, driven by a law",
+            (joint,),
         )

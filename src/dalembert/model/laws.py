@@ -156,7 +156,7 @@ def _check_table(time: tuple[float, ...], position: tuple[float, ...], periodic:
             f"it has {len(time)} times and {len(position)} positions", "give one position for each time"
         )
     if len(time) < 4:
-        raise ModelError(f"it has {len(time)} points", "give at least 4, or a harmonic law")
+        raise ModelError(f"it has too few points: {len(time)}", "give at least 4, or a harmonic law")
     if any(not a < b for a, b in pairwise(time)):
         raise ModelError("its times do not increase", "sort the points", ("time",))
     if not isinstance(periodic, bool):

@@ -20,7 +20,7 @@ from dalembert.model.joints import Joint, refuse_unfinished
 from dalembert.model.link import Link
 from dalembert.model.loads import Damper, ForceLoad, Load, Spring
 from dalembert.model.messages import together
-from dalembert.model.names import drive_freedoms, with_freedoms
+from dalembert.model.names import drive_freedoms, refuse_empty, with_freedoms
 from dalembert.model.part import Part, Reading
 from dalembert.model.paths import fields, replaced
 from dalembert.model.schedule import Schedule, schedule
@@ -122,7 +122,7 @@ class Mechanism(Part):
         keys = {key: value for key, value in keys.items() if value is not None}
         for name, joint in _items(keys.get("joints")):
             if isinstance(joint, Mapping):
-                at_item("joints", at_item, name, refuse_unfinished, joint.get("type"))
+                at_item("joints", refuse_unfinished, str(name), joint.get("type"))
         return with_freedoms(keys)
 
     @model_validator(mode="after")
@@ -256,6 +256,7 @@ def mechanism(tree: Mapping[str, Any], source: Source | None = None) -> Mechanis
             f"{shown(tree)} stands where a mapping is needed", "write links: and joints: ..."
         ).located(source)
     try:
+        refuse_empty(tree)
         found = Mechanism.model_validate(tree)
     except ModelError as error:
         raise error.located(source) from None

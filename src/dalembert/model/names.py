@@ -8,7 +8,22 @@ from typing import Any
 from dalembert.errors import ModelError
 from dalembert.model.drives import Drive
 from dalembert.model.joints import JointPart, freedoms
-from dalembert.model.messages import together
+from dalembert.model.messages import place, together
+
+SECTIONS = ("joints", "drives", "loads", "assembly", "answers", "title", "source")
+"""Keys of a file that may be left blank."""
+
+
+def refuse_empty(tree: Any, path: tuple[str | int, ...] = ()) -> None:
+    """Raise ModelError for the first value that is left blank."""
+    inner = tree.items() if isinstance(tree, Mapping) else enumerate(tree) if isinstance(tree, list) else ()
+    for key, value in inner:
+        if value is None and (path or key not in SECTIONS):
+            raise ModelError(
+                f"{place((*path, key))} has no value", "write one, or leave it out", (*path, key)
+            )
+        if isinstance(value, (Mapping, list)):
+            refuse_empty(value, (*path, key))
 
 
 def drive_freedoms(tree: Mapping[str, Any]) -> dict[str, str]:

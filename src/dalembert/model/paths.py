@@ -60,4 +60,6 @@ def _rebuilt(part: Part, name: str, inner: Any, here: tuple[str, ...]) -> Any:
     try:
         return type(part)(**{**fields(part), **other, name: inner})
     except ModelError as error:
-        raise ModelError(error.what, error.remedy, (*here[:-1], *error.path)) from None
+        raise ModelError(
+            f"{'.'.join(here[:-1])}: {error.what}", error.remedy, (*here[:-1], *error.path)
+        ) from None

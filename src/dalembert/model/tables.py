@@ -103,7 +103,7 @@ def _check(table: Table) -> None:
             f"a table has {len(table.x)} values in x and {len(table.y)} in y", "give one y for each x"
         )
     if len(table.x) < 2:
-        raise ModelError(f"a table has {len(table.x)} points", "give at least 2")
+        raise ModelError(f"a table has too few points: {len(table.x)}", "give at least 2")
     for i, (a, b) in enumerate(zip(table.x, table.x[1:], strict=False)):
         if not a < b:
             raise ModelError(
@@ -112,7 +112,9 @@ def _check(table: Table) -> None:
                 ("x", i + 1),
             )
     if table.interpolate not in ("linear", "cubic"):
-        raise ModelError(f"interpolate is {table.interpolate!r}", "write linear or cubic", ("interpolate",))
+        raise ModelError(
+            f"{table.interpolate!r} has no meaning here", "write linear or cubic", ("interpolate",)
+        )
     _check_period(table)
 
 

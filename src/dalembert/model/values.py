@@ -64,9 +64,10 @@ class Scalar(Value):
 def signed(number: float, value: object, sign: str) -> float:
     """The number, if it has the sign wanted: `positive`, `not negative` or any."""
     if (sign == "positive" and not number > 0) or (sign == "not negative" and number < 0):
+        positive = sign == "positive"
         raise ModelError(
-            f"{shown(value)} is not {sign}" if sign == "positive" else f"{shown(value)} is negative",
-            f"write one that is {sign}",
+            f"{shown(value)} is {'not positive' if positive else 'negative'}",
+            "write a positive one" if positive else "write a positive one, or 0",
         )
     return number
 

@@ -14,7 +14,7 @@ from dalembert.model.expressions import Expression, parsed
 from dalembert.model.part import Reading, mapping, reading
 from dalembert.model.tables import Table
 from dalembert.model.values import NUMBER_OR_TEXT, JsonSchema, Value, at_item, name, numbers, written
-from dalembert.units import KINDS, NUMBER, quantity
+from dalembert.units import KINDS, NUMBER, check_unit, quantity
 from dalembert.wording import shown
 
 Varying = float | Expression | Table
@@ -75,6 +75,8 @@ def varying(value: object, kind: str, rules: Reading) -> Varying:
     >>> varying("2*sin(O2) kN", "force", Reading())
     Expression(text='2*sin(O2)', unit='kN')
     """
+    if isinstance(value, Expression) and (value.unit or KINDS[kind].si):
+        check_unit(value.unit, kind)
     if isinstance(value, (Expression, Table)):
         return value
     if isinstance(value, Mapping):
@@ -103,7 +105,7 @@ def expression(value: object, kind: str, rules: Reading, unit_text: str = "") ->
     if rest:
         value, unit_text = value.strip()[: -len(rest)].strip(), rest
     if unit_text:
-        quantity(f"1 {unit_text}", kind)
+        check_unit(unit_text, kind)
     default = rules.units.text(kind) if rules.units else KINDS[kind].si
     return Expression(value, unit_text or default)
 

@@ -13,7 +13,7 @@ from dalembert.errors import ModelError
 from dalembert.model.source import Path
 from dalembert.wording import shown
 
-DEEPEST, MOST = 30, 200_000
+DEEPEST, MOST = 30, 50_000
 """Levels of nesting and values of one file."""
 
 _WORDS: dict[str, Any] = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
@@ -86,7 +86,11 @@ class _Builder:
         line = event.start_mark.line + 1 if event.start_mark else 1
         self.size += 1
         if self.size > MOST:
-            raise at_line(f"the file has more than {MOST} values", "put large tables in fewer points", line)
+            raise at_line(
+                f"the file has more than {MOST} values",
+                "give large tables fewer points, or write the file as JSON",
+                line,
+            )
         if kind == "DocumentStartEvent":
             self.document(line)
         elif kind == "ScalarEvent":

@@ -1,0 +1,87 @@
+"""What is written reads back equal, to the last bit; converting keeps the user's own text."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from dalembert.errors import ModelError
+from dalembert.model import Mechanism, convert, load, loads, read_text, tree_text
+from tests.model.parts import FOUR_BAR, mechanisms, texts
+
+
+@pytest.mark.parametrize("form", ["yaml", "json", "toml"])
+@settings(max_examples=25, deadline=None)
+@given(mechanism=mechanisms())
+def test_what_is_written_reads_back_equal(form: str, mechanism: Mechanism) -> None:
+    assert loads(tree_text(mechanism.to_tree(), form), form) == mechanism
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("form", ["yaml", "json", "toml"])
+@settings(max_examples=2000, deadline=None)
+@given(mechanism=mechanisms())
+def test_what_is_written_reads_back_equal_at_length(form: str, mechanism: Mechanism) -> None:
+    assert loads(tree_text(mechanism.to_tree(), form), form) == mechanism
+
+
+@settings(max_examples=300, deadline=None)
+@given(
+    st.dictionaries(
+        texts, texts | st.integers(-99, 99) | st.floats(allow_nan=False, allow_infinity=False), min_size=1
+    )
+)
+def test_any_text_survives_yaml(tree: dict[str, object]) -> None:
+    assert read_text(tree_text(tree))[0] == tree
+
+
+@pytest.mark.parametrize(
+    "word", ["", "on", "null", "~", "true", "1e-3", "0x1f", ".5", "- a", "a: b", "# a", "*a", "&a"]
+)
+def test_words_that_yaml_would_read_otherwise_are_quoted(word: str) -> None:
+    assert read_text(tree_text({"title": word, "links": {word: [word]}}))[0] == {
+        "title": word,
+        "links": {word: [word]},
+    }
+
+
+@pytest.mark.parametrize("suffix", [".yaml", ".yml", ".json", ".toml"])
+def test_save_and_load(tmp_path: Path, suffix: str) -> None:
+    mechanism = loads(FOUR_BAR)
+    mechanism.save(tmp_path / f"four{suffix}")
+    assert load(tmp_path / f"four{suffix}") == mechanism
+
+
+def test_save_overwrites_only_when_told(tmp_path: Path) -> None:
+    mechanism, path = loads(FOUR_BAR), tmp_path / "four.yaml"
+    path.write_text("mine")
+    with pytest.raises(ModelError, match=r"there is a file .*four\.yaml already; name another, or say"):
+        mechanism.save(path)
+    assert path.read_text() == "mine"
+    mechanism.save(path, overwrite=True)
+    assert load(path) == mechanism
+
+
+def test_convert_keeps_units_and_texts(tmp_path: Path) -> None:
+    paths = [tmp_path / f"four.{suffix}" for suffix in ("yaml", "json", "toml", "yml")]
+    paths[0].write_text(FOUR_BAR)
+    for source, target in pairwise(paths):
+        convert(source, target)
+    assert all(load(path) == load(paths[0]) for path in paths)
+    for path in paths[1:]:
+        assert "25 rad/s" in path.read_text()
+        assert "9 @ 45" in path.read_text()
+        assert "blob" in path.read_text()
+
+
+def test_convert_refuses_what_is_wrong(tmp_path: Path) -> None:
+    (tmp_path / "a.yaml").write_text("links: {bar: {mass: 3 N}}")
+    with pytest.raises(
+        ModelError, match=r"a.yaml:1: mass of link 'bar': '3 N' is a force, and a mass is needed"
+    ):
+        convert(tmp_path / "a.yaml", tmp_path / "a.json")
+    assert not (tmp_path / "a.json").exists()

@@ -1,0 +1,70 @@
+"""Tables: through their points, straight or smooth between them, periodic over a turn, nothing outside."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from dalembert.errors import ModelError
+from dalembert.model import Table, loads
+from tests.model.parts import FOUR_BAR
+
+X, Y = (0.0, 1.0, 2.5, 4.0), (1.0, 3.0, -2.0, 1.0)
+
+
+@pytest.mark.parametrize("interpolate", ["linear", "cubic"])
+@pytest.mark.parametrize("period", [None, 4.0])
+def test_a_table_goes_through_its_points(interpolate: str, period: float | None) -> None:
+    assert Table("O", X, Y, interpolate, period).at({"O": np.array(X)}) == pytest.approx(Y, abs=1e-14)
+
+
+def test_between_the_points_it_is_straight() -> None:
+    place = np.linspace(0, 4, 50).reshape(5, 10)
+    assert Table("O", X, Y).at({"O": place}) == pytest.approx(np.interp(place, X, Y), abs=1e-14)
+
+
+def test_a_cubic_reproduces_cubics() -> None:
+    x = np.linspace(-1, 2, 6)
+    place = np.linspace(-1, 2, 99)
+    table = Table("O", tuple(x), tuple(x**3 - x), "cubic")
+    assert table.at({"O": place}) == pytest.approx(place**3 - place, abs=1e-13)
+
+
+def test_a_periodic_table_repeats_and_closes_itself() -> None:
+    x = tuple(math.radians(a) for a in range(0, 360, 30))
+    table = Table("O", x, tuple(math.sin(a) for a in x), "cubic", 2 * math.pi)
+    place = np.linspace(-9, 9, 77)
+    assert table.at({"O": place}) == pytest.approx(np.sin(place), abs=3e-3)
+    assert table.at({"O": place + 4 * math.pi}) == pytest.approx(table.at({"O": place}), abs=1e-12)
+
+
+def test_at_its_end_rounding_is_forgiven_and_nothing_more() -> None:
+    table = Table("O", X, Y)
+    assert table.at({"O": 4.0 + 1e-12}) == 1.0
+    with pytest.raises(ModelError) as caught:
+        table.at({"O": np.array([1.0, 4.1])})
+    assert str(caught.value) == (
+        "a table goes from 0 deg to 229.183 deg of the drive 'O', which is at 234.913 deg; "
+        "give the table more points, make it periodic, or give the drive a smaller range"
+    )
+
+
+def test_another_evaluator_gets_the_table() -> None:
+    table = Table("O", X, Y)
+    assert table.at({"O": 3.0}, {"table": lambda t, place: (t is table, place)}) == (True, 3.0)
+
+
+def force(value: str) -> tuple[np.ndarray, ...]:
+    text = FOUR_BAR.replace("value: 80 @ 330", f"direction: 0, value: {value}")
+    return loads(text).loads["F_P"].force({"O2": np.radians([0.0, 45.0, 359.0])})  # type: ignore[union-attr]
+
+
+def test_in_a_file_the_units_are_the_files_or_their_own() -> None:
+    bare = force("{against: O2, x: [0, 90, 180, 270], y: [0, 1, 2, 1], periodic: true}")[0]
+    said = force(
+        "{against: O2, x: [0 rad, 0.25 turn, 180 deg, 270], y: [0, 1 lbf, 2, 1], periodic: 360 deg}"
+    )[0]
+    assert bare == pytest.approx(np.array([0, 0.5, 1 / 90]) * 4.4482216152605, abs=1e-12)
+    assert said == pytest.approx(bare, abs=1e-12)
