@@ -38,8 +38,8 @@ from tests.cli.conftest import Run
         ),
         (
             ["slove", "four_bar.yaml"],
-            'dalembert: unknown command "slove". Did you mean "solve"? Available commands: solve, draw, check, validate,'
-            " schema, new, convert, examples; see `dalembert --help`",
+            'dalembert: unknown command "slove". Did you mean "solve"? Available commands: solve, draw, check,'
+            " validate, schema, new, convert, examples; see `dalembert --help`",
         ),
         (
             ["draw", "four_bar.yaml"],
