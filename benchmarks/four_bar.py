@@ -3,9 +3,10 @@
 Method. Both solve the same crank-rocker with masses, inertia, gravity, a force on the coupler and a couple on the
 rocker at the same positions, everything a student asks for: all rates, all reactions, the input torque. The script is
 what a competent student writes: closed-form kinematics and the nine equations filled and solved in a loop over the
-positions. dalembert is called as a user calls it on a description already loaded (``da.dynamics(m)``), after one
-warming call. Each is repeated, alternating; medians and their ratio are printed, and the largest difference of
-torques. The second table adds a student who knows numpy's batches: everything over arrays, one stacked solve.
+positions. dalembert is called as a user calls it on a description already loaded (``da.dynamics(m)``), with an
+`assembly` read off a drawing to a degree, after one warming call. Each is repeated, in turns; medians and their ratio
+are printed, and the largest difference of torques. A third row is a student who knows numpy's batches: everything
+over arrays, one stacked solve.
 
     python benchmarks/four_bar.py [--repeat 15]
 """
@@ -60,7 +61,7 @@ def description(count: int) -> dict[str, Any]:
             "F": {"type": "force", "on": "coupler", "at": "center", "value": [FX, FY]},
             "T": {"type": "couple", "on": "rocker", "value": COUPLE},
         },
-        "assembly": {"coupler": 30, "rocker": 80},
+        "assembly": {"coupler": 41, "rocker": 89},
     }
 
 
