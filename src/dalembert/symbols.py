@@ -205,7 +205,7 @@ def _asked_of_pint(name: str) -> Unit | None:
     order = ("meter", "gram", "second", "radian")
     powers = dict(root._units)
     dimension = tuple(int(powers.pop(base, 0)) for base in order)
-    if powers or not math.isfinite(factor):
+    if powers or not math.isfinite(factor) or any(root._units.get(base, 0) % 1 for base in order):
         return None
     return Unit(float(factor), 1000.0 ** dimension[1], dimension)  # type: ignore[arg-type]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from itertools import pairwise
 from pathlib import Path
 
@@ -85,3 +86,28 @@ def test_convert_refuses_what_is_wrong(tmp_path: Path) -> None:
     ):
         convert(tmp_path / "a.yaml", tmp_path / "a.json")
     assert not (tmp_path / "a.json").exists()
+
+
+def test_what_cannot_be_written_is_said_and_leaves_no_file(tmp_path: Path) -> None:
+    mechanism = loads('{"title": "\\ud800", "links": {"a": {}}}', "json")
+    for name, says in {
+        "a.json": "cannot be written: 'utf-8' codec can't encode",
+        "none/a.yaml": "cannot be written: No such file or directory; name another folder or file",
+        "a.txt": "is named like no model file; end its name with .yaml, .json or .toml",
+    }.items():
+        with pytest.raises(ModelError, match=says):
+            mechanism.save(tmp_path / name)
+        assert list(tmp_path.iterdir()) == []
+
+
+def test_blank_sections_are_not_converted(tmp_path: Path) -> None:
+    (tmp_path / "a.yaml").write_text("drives:\nlinks: {a: {mass: 3 lbm}}\n")
+    convert(tmp_path / "a.yaml", tmp_path / "a.toml")
+    assert (tmp_path / "a.toml").read_text() == '[links.a]\nmass = "3 lbm"\n'
+
+
+def test_a_mechanism_is_pickled_with_its_source() -> None:
+    mechanism = loads(FOUR_BAR, name="four.yaml")
+    other = pickle.loads(pickle.dumps(mechanism))
+    assert other == mechanism
+    assert other.source.line(("loads", "F_P")) == 28

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, Literal
 
 from pydantic import Field, ValidationInfo, field_validator
@@ -71,10 +72,15 @@ class Answer(Part):
     @field_validator("value", "exact", "at", "tolerance", "exact_tolerance")
     @classmethod
     def _plain(cls, value: Any, info: ValidationInfo) -> Any:
-        items = value if isinstance(value, (list, tuple)) else (value,)
-        for item in items:
-            if item is not None and (isinstance(item, bool) or not isinstance(item, (int, float, str))):
-                raise ModelError(
-                    f"{shown(item)} is no value", "write a number, a text with its unit, or a list of them"
-                )
-        return tuple(items) if isinstance(value, list) else value
+        for item in value if isinstance(value, (list, tuple)) else (value,):
+            _check_plain(item)
+        return tuple(value) if isinstance(value, list) else value
+
+
+def _check_plain(item: object) -> None:
+    if item is not None and (isinstance(item, bool) or not isinstance(item, (int, float, str))):
+        raise ModelError(
+            f"{shown(item)} is no value", "write a number, a text with its unit, or a list of them"
+        )
+    if isinstance(item, float) and not math.isfinite(item):
+        raise ModelError(f"{shown(item)} is no finite number", "write a finite one, or leave it out")

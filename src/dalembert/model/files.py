@@ -174,15 +174,16 @@ def convert(path: FilePath, target: FilePath, overwrite: bool = False) -> None:
     """
     tree, source = read_file(path)
     mechanism(tree, source)
-    save_tree(tree, target, overwrite)
+    save_tree({key: value for key, value in tree.items() if value is not None}, target, overwrite)
 
 
 def save_tree(tree: Mapping[str, Any], path: FilePath, overwrite: bool = False) -> None:
     """Write a tree to a .yaml, .json or .toml file; raises ModelError if there is one and not `overwrite`."""
     text = tree_text(tree, _format(path))
     try:
-        with Path(path).open("w" if overwrite else "x", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+        content = text.encode("utf-8")
+        with Path(path).open("wb" if overwrite else "xb") as file:
+            file.write(content)
     except FileExistsError:
         raise ModelError(
             f"there is a file {os.fspath(path)} already", "name another, or say overwrite"
