@@ -190,9 +190,13 @@ def _guess(m: Mechanism, index: dict[str, int], reference: Array) -> Guess:
     turn, point = np.full(len(index), np.nan), np.full((len(index), 2), np.nan)
     for link, given in m.assembly.items():
         k = index[link]
-        if np.ndim(given) == 0:
+        if isinstance(given, float):
             turn[k] = given
             continue
+        if not isinstance(given, tuple):
+            raise ModelError(
+                "a pose in space means nothing in the plane", "give an angle", ("assembly", link)
+            )
         x, y, angle = given
         turn[k] = angle
         arm = plane.rotate(plane.rotation(np.array(angle)), reference[k])
@@ -347,7 +351,7 @@ def _known(
     asked = np.array(
         [m.drives[n].effort is None or schedule.unknown is not None for n in schedule.names], bool
     )
-    loads = [m.loads[name] for name in unknown]
+    loads: list[Any] = [m.loads[name] for name in unknown]
     at = [
         point_of(m, load.on, load.at, ("loads", name, "at")) - reference[index[load.on]]
         if load.type == "force"

@@ -43,7 +43,9 @@ def equilibria(m: Mechanism, schedule: Schedule, inertia: bool) -> Result:
         roots = roots[:-1]
     if not roots.size:
         return _none(scan, q, g)
-    return replace(scan.at(roots), stability=_stability(scan, roots, scale))
+    found = scan.at(roots)
+    found.effort_array[:, scan.drive] = scan.given(found)
+    return replace(found, stability=_stability(scan, roots, scale))
 
 
 class _Scan:
@@ -74,14 +76,18 @@ class _Scan:
     def excess(self, q: Array) -> tuple[Array, float]:
         """g at q, NaN where there is no answer, and the largest effort met."""
         result, where = self.result(q)
-        needed = result.effort(self.name)
-        drives = {n: result.schedule.position[:, k] for k, n in enumerate(result.drives)}
-        effort = self.m.drives[self.name].effort
-        given = effort.at(drives) if hasattr(effort, "at") else effort
+        needed, given = result.effort(self.name), self.given(result)
         forces = np.abs(result.force_array).max(initial=0.0, where=np.isfinite(result.force_array))
         reference = forces * result.compiled.layout.length
         scale = max(float(np.nanmax(np.abs(np.append(needed[np.isfinite(needed)], given)))), reference * 1e-3)
         return (needed - given)[where], scale
+
+    def given(self, result: Result) -> Array:
+        """The given effort at the positions of a result."""
+        drives = {n: result.schedule.position[:, k] for k, n in enumerate(result.drives)}
+        effort: Any = self.m.drives[self.name].effort
+        value = effort.at(drives) if hasattr(effort, "at") else effort
+        return np.broadcast_to(np.asarray(value, float), (len(result.status),))
 
     def at(self, q: Array) -> Result:
         """The result at positions q only."""

@@ -23,6 +23,9 @@ STARTS = 64
 FEW = 40
 """Links up to which every start is worth its cost; of more, starts are few and laid down link by link only."""
 
+LOOSE = 1e-6
+"""Part of a link's turn that the constraints leave, above which it can be held."""
+
 SAME = 1e-4
 """Two starts that end this close to each other, radians or characteristic lengths, found the same mode."""
 
@@ -79,51 +82,52 @@ def phase_rows(rows: Rows) -> NDArray[np.intp]:
 
 
 def _without_phase(layout: Layout, target: Array, guess: Guess, hold: bool) -> tuple[Layout, Array]:
-    """The layout and target without phase rows; with ``hold``, one wheel of each held at its given angle, or at 0."""
+    """The layout and target without phase rows; with ``hold``, wheels held at their given angles, or at 0."""
     phased = phase_rows(layout.constraints)
     if not phased.size:
         return layout, target
-    rows = layout.constraints
-    held = _held_wheels(layout, phased, guess) if hold else []
-    kept = np.setdiff1d(np.arange(rows.count), phased)
-    count = len(kept) + len(held)
-    families = selected(rows, kept)
-    families.append(
-        Turn(np.arange(len(kept), count), np.full(len(held), layout.links), np.array(held, np.intp))
-    )
+    kept = np.setdiff1d(np.arange(layout.constraints.count), phased)
+    target = np.concatenate([target[kept], target[layout.constraints.count :]])
+    free = _with_rows(layout, kept, [])
+    held = _held_wheels(layout, free, target, phased, guess) if hold else []
+    angles = np.nan_to_num(guess.turn[np.array(held, np.intp)])
+    return _with_rows(layout, kept, held), np.concatenate([target[: len(kept)], angles, target[len(kept) :]])
+
+
+def _with_rows(layout: Layout, kept: NDArray[np.intp], held: list[int]) -> Layout:
+    """The layout with some of its constraints, and rows that hold the angles of some links."""
+    rows, count = layout.constraints, len(kept) + len(held)
+    place, ground = np.arange(len(kept), count), np.full(len(held), layout.links)
+    families = [*selected(rows, kept), Turn(place, ground, np.array(held, np.intp))]
     angular = np.concatenate([rows.angular[kept], np.ones(len(held), bool)])
     joint = np.concatenate([rows.joint[kept], np.zeros(len(held), np.intp)])
-    angles = np.nan_to_num(guess.turn[np.array(held, np.intp)])
-    constraints = Rows(count, rows.links, tuple(families), joint, angular)
-    return replace(layout, constraints=constraints), np.concatenate(
-        [target[kept], angles, target[rows.count :]]
-    )
+    return replace(layout, constraints=Rows(count, rows.links, tuple(families), joint, angular))
 
 
-def _held_wheels(layout: Layout, phased: NDArray[np.intp], guess: Guess) -> list[int]:
-    """One wheel of each phase row whose angle nothing else fixes."""
+def _held_wheels(
+    layout: Layout, free: Layout, target: Array, phased: NDArray[np.intp], guess: Guess
+) -> list[int]:
+    """A link for each phase row that still turns where it is laid down: j, else i, else any; given angles first."""
+    one = np.zeros((1, layout.links + 1))
+    pose = _laid(free, target, guess, one, np.full((1, free.constraints.count), layout.length))
+    rows = stacked(free, pose)
+    scaled = dense(free, rows)[0] * free.row_scale[:, None] * free.column_scale
+    idle = np.eye(layout.unknowns) - np.linalg.pinv(scaled, rcond=1e-7) @ scaled
+    turn = np.arange(layout.links) * layout.algebra.n + layout.algebra.d
     i, j = layout.constraints.ends
-    turns = _edges(layout).turns
-    fixed, held = _reached({layout.links}, turns), []
+    held: list[int] = []
     for row in phased:
-        candidates = [int(k) for k in (j[row], i[row]) if int(k) not in fixed]
-        candidates.sort(key=lambda k: not np.isfinite(guess.turn[k]))
-        if candidates:
-            held.append(candidates[0])
-            fixed |= _reached({candidates[0]}, turns)
+        wheels = sorted((int(j[row]), int(i[row])), key=lambda k: not np.isfinite(guess.turn[k]))
+        loose = np.append(idle[turn, turn], 0.0)
+        others = sorted(
+            range(layout.links), key=lambda k: (not np.isfinite(guess.turn[k]), -round(float(loose[k]), 6))
+        )
+        chosen = next((k for k in [*wheels, *others] if loose[k] > LOOSE), None)
+        if chosen is not None:
+            held.append(chosen)
+            column = idle[:, turn[chosen]]
+            idle = idle - np.outer(column, column) / column[turn[chosen]]
     return held
-
-
-def _reached(start: set[int], turns: list[tuple[int, int, int]]) -> set[int]:
-    """Links whose angle follows from those of ``start``."""
-    reached, grown = set(start), True
-    while grown:
-        grown = False
-        for i, j, _ in turns:
-            if (i in reached) != (j in reached):
-                reached |= {i, j}
-                grown = True
-    return reached
 
 
 def _searched(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes | None:
