@@ -9,7 +9,7 @@ from dalembert.model.answers import Answer
 from dalembert.model.drives import Drive, Range
 from dalembert.model.expressions import Expression
 from dalembert.model.files import convert, load, loads, read_file, read_text, save_tree, tree_text
-from dalembert.model.friction import FrictionDefaults, GuideFriction, PinFriction, SlotFriction
+from dalembert.model.friction import FrictionDefaults, GearFriction, GuideFriction, PinFriction, SlotFriction
 from dalembert.model.joints import Gear, Joint, Pin, Rolling, Slider, Slot, SpaceJoint, Weld
 from dalembert.model.laws import Rise, TimeTable
 from dalembert.model.link import Link, Offset
@@ -30,6 +30,7 @@ __all__ = [
     "ForceLoad",
     "FrictionDefaults",
     "Gear",
+    "GearFriction",
     "GuideFriction",
     "Joint",
     "Link",

@@ -40,6 +40,7 @@ class FrictionDefaults(Part):
     """
 
     coefficient: Coefficient | None = Field(None, description="coefficient of friction, a plain number")
+    static: Coefficient | None = Field(None, description="coefficient at rest; default that of motion")
     circle: Circle = Field("sin", description="radius of the friction circle: R sin(phi), or mu R with tan")
     enabled: StrictBool = Field(True, description="false: all friction is left out")
 
@@ -49,6 +50,9 @@ class PinFriction(Part):
 
     coefficient: Coefficient | None = Field(
         None, description="coefficient of friction; default the top level's"
+    )
+    static: Coefficient | None = Field(
+        None, description="coefficient at rest; default the joint's own coefficient, then the top level's static"
     )
     radius: Annotated[float, Scalar("length", "not negative")] = Field(
         description="radius of the pin, a length"
@@ -61,6 +65,9 @@ class GuideFriction(Part):
 
     coefficient: Coefficient | None = Field(
         None, description="coefficient of friction; default the top level's"
+    )
+    static: Coefficient | None = Field(
+        None, description="coefficient at rest; default the joint's own coefficient, then the top level's static"
     )
     guide: Annotated[tuple[float, float], Guide()] | None = Field(
         None, description="how far the guide reaches behind and ahead of j's point, two lengths"
@@ -76,10 +83,32 @@ class SlotFriction(Part):
     coefficient: Coefficient | None = Field(
         None, description="coefficient of friction; default the top level's"
     )
+    static: Coefficient | None = Field(
+        None, description="coefficient at rest; default the joint's own coefficient, then the top level's static"
+    )
     radius: Annotated[float, Scalar("length", "not negative")] | None = Field(
         None, description="radius of the pin in the slot, a length"
     )
     circle: Circle | None = Field(None, description="R sin(phi), or mu R with tan; default the top level's")
 
 
-Friction = PinFriction | GuideFriction | SlotFriction
+class GearFriction(Part):
+    """Friction of teeth: a couple on each wheel against their relative turn, mu |F_n| times the arm.
+
+    Teeth slide at the rate of the wheels' relative turn times the distance of their contact from the pitch point; the
+    friction force changes its sense at the pitch point, so that what is left over a mesh is this couple. Without
+    `arm`, the mean distance on the path of contact of standard full-depth teeth (needs `teeth` and `module`).
+    """
+
+    coefficient: Coefficient | None = Field(
+        None, description="coefficient of friction; default the top level's"
+    )
+    static: Coefficient | None = Field(
+        None, description="coefficient at rest; default the joint's own coefficient, then the top level's static"
+    )
+    arm: Annotated[float, Scalar("length", "positive")] | None = Field(
+        None, description="mean distance of the teeth's contact from the pitch point, a length"
+    )
+
+
+Friction = PinFriction | GuideFriction | SlotFriction | GearFriction

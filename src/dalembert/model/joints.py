@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import Field, StrictBool, ValidationInfo, model_validator
 
 from dalembert.errors import ModelError
-from dalembert.model.friction import GuideFriction, PinFriction, SlotFriction
+from dalembert.model.friction import GearFriction, GuideFriction, PinFriction, SlotFriction
 from dalembert.model.part import Part, mapping, reading
 from dalembert.model.values import (
     NUMBER_OR_TEXT,
@@ -194,6 +194,7 @@ class Gear(JointPart):
     )
     pressure_angle: Angle = Field(0.3490658503988659, description="of the teeth, an angle; default 20 deg")
     internal: StrictBool = Field(False, description="true: the larger wheel is an internal gear")
+    friction: GearFriction | None = Field(None, description="dry friction of the teeth")
 
     @property
     def pitch_radii(self) -> tuple[float, float]:

@@ -1,0 +1,182 @@
+"""The joints' friction as contacts for the core: which multipliers each reads, along which row it acts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.analysis import joints as table
+from dalembert.core.friction import Contacts
+from dalembert.core.layout import Along, Distance, Rows, Turn
+from dalembert.model import Mechanism
+
+Array = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Contact:
+    """One contact of a joint; the keys of ``core.friction.Contacts``. ``along``: kind of row and its numbers."""
+
+    kind: str
+    along: tuple[type, dict[str, Any]]
+    first: int
+    second: int = -1
+    couple: int = -1
+    tilt: tuple[float, float] = (0.0, 0.0)
+    gain: float = 1.0
+    lever: float = 1.0
+    circle: bool = False
+    signed: bool = False
+    fixed: bool = False
+    reach: float = 0.0
+
+
+TURN: tuple[type, dict[str, Any]] = (Turn, {})
+
+
+def friction_on(m: Mechanism) -> bool:
+    """Whether some joint has friction and the file does not switch it off."""
+    return m.friction.enabled and any(getattr(j, "friction", None) is not None for j in m.joints.values())
+
+
+def coefficient(m: Mechanism, joint: Any) -> float:
+    """Coefficient of friction in motion."""
+    own = joint.friction.coefficient
+    return float(m.friction.coefficient if own is None else own)
+
+
+def resting_coefficient(m: Mechanism, joint: Any) -> float:
+    """Coefficient at rest: the joint's own, else its coefficient of motion, else the file's."""
+    f, top = joint.friction, m.friction
+    if f.static is not None or f.coefficient is not None:
+        return float(f.coefficient if f.static is None else f.static)
+    return float(top.coefficient if top.static is None else top.static)
+
+
+def circle(m: Mechanism, joint: Any) -> str:
+    """Convention of a pin's friction circle: sin or tan."""
+    return str(joint.friction.circle or m.friction.circle)
+
+
+def contacts(
+    m: Mechanism, constraints: Rows, ends: list[tuple[int, int]], points: list[tuple[Array, Array]]
+) -> tuple[Contacts, tuple[str, ...]] | None:
+    """All contacts and the kind of each; None without friction. ``ends``, ``points``: links and arms of the joints."""
+    if not friction_on(m):
+        return None
+    rows = table.RowBuilder(constraints.links)
+    found: list[tuple[int, Contact, float, float]] = []
+    for k, joint in enumerate(m.joints.values()):
+        first = int(np.flatnonzero(constraints.joint == k)[0])
+        for contact, mu, resting in _of(m, joint, first):
+            kind, numbers = contact.along
+            arms = {} if kind is Turn else {"ui": points[k][0], "uj": points[k][1]}
+            rows.add(kind, k, ends[k], **arms, **numbers)
+            found.append((k, contact, mu, resting))
+    return _stacked(rows.rows(), found), tuple(contact.kind for _, contact, _, _ in found)
+
+
+def _stacked(rows: Rows, found: list[tuple[int, Contact, float, float]]) -> Contacts:
+    def column(name: str, kind: type) -> Array:
+        return np.array([getattr(c, name) for _, c, _, _ in found], kind)
+
+    return Contacts(
+        rows=rows,
+        joint=np.array([k for k, _, _, _ in found], np.intp),
+        first=column("first", np.intp),
+        second=column("second", np.intp),
+        couple=column("couple", np.intp),
+        tilt=column("tilt", float),
+        gain=column("gain", float),
+        lever=column("lever", float),
+        coefficient=np.array([mu for _, _, mu, _ in found]),
+        resting=np.array([mu for _, _, _, mu in found]),
+        circle=column("circle", bool),
+        signed=column("signed", bool),
+        fixed=column("fixed", bool),
+        reach=column("reach", float),
+    )
+
+
+def _of(m: Mechanism, joint: Any, first: int) -> Iterator[tuple[Contact, float, float]]:
+    """Contacts of one joint with their coefficients; ``first`` is the joint's first constraint row."""
+    if joint.type == "gear" and joint.pressure_angle:
+        yield _separation(joint, first), 0.0, 0.0
+    if getattr(joint, "friction", None) is None:
+        return
+    mu, resting = coefficient(m, joint), resting_coefficient(m, joint)
+    for contact in KINDS[joint.type](joint, first, circle(m, joint) if joint.type in ROUND else "tan", mu):
+        yield contact, mu, resting
+
+
+def _pin(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:
+    yield Contact(
+        "pin", TURN, first, first + 1, lever=joint.friction.radius, circle=circle == "sin"
+    )
+
+
+def _slider(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:
+    f = joint.friction
+    slide = (Along, {"axis": table.direction(joint), "pitch": 0.0})
+    tilt = (0.0, 0.0)
+    if f.guide is not None:
+        behind, ahead = f.guide
+        tilt = 2 / (behind + ahead), -(ahead - behind) / (behind + ahead)
+    yield Contact("guide", slide, first, couple=first + 1, tilt=tilt)
+    if f.half_height:
+        yield Contact("faces", TURN, first, lever=f.half_height, signed=True)
+
+
+def _slot(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:
+    """The pin turns in a block that slides: its circle feels the normal force and the block's friction together."""
+    f = joint.friction
+    yield Contact("guide", (Along, {"axis": table.direction(joint), "pitch": 0.0}), first)
+    if f.radius:
+        gain = math.sqrt(1 + mu * mu)
+        yield Contact("pin", TURN, first, gain=gain, lever=f.radius, circle=circle == "sin")
+
+
+def _gear(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:
+    yield Contact("mesh", TURN, first, gain=1 / math.cos(joint.pressure_angle), lever=contact_arm(joint))
+
+
+def contact_arm(joint: Any) -> float:
+    """Mean distance of the teeth's contact from the pitch point, both sides of it weighted by their length.
+
+    Full-depth teeth: addendum one module, so that the path of contact reaches to the addendum circles.
+    """
+    if joint.friction.arm is not None:
+        return float(joint.friction.arm)
+    inner = joint.pitch_radii[0] < joint.pitch_radii[1]
+    signs = (1, 1) if not joint.internal else ((1, -1) if inner else (-1, 1))
+    parts = [_path(r, joint.module, joint.pressure_angle, s) for r, s in zip(joint.pitch_radii, signs, strict=True)]
+    return sum(p * p for p in parts) / (2 * sum(parts))
+
+
+def _path(radius: float, addendum: float, angle: float, sign: int) -> float:
+    """Length of the path of contact from the pitch point to the addendum circle of one wheel."""
+    outer, base = radius + sign * addendum, radius * math.cos(angle)
+    return abs(math.sqrt(max(outer * outer - base * base, 0.0)) - radius * math.sin(angle))
+
+
+def _separation(joint: Any, first: int) -> Contact:
+    ri, rj = table.signed_radii(joint)
+    lever = math.tan(joint.pressure_angle) * math.copysign(1.0, ri * rj)
+    return Contact("separation", (Distance, {}), first, lever=lever, fixed=True, reach=abs(ri + rj))
+
+
+KINDS: dict[str, Callable[[Any, int, str, float], Iterator[Contact]]] = {
+    "pin": _pin,
+    "slider": _slider,
+    "slot": _slot,
+    "gear": _gear,
+}
+"""Joints that can have friction."""
+
+ROUND = ("pin", "slot")
+"""Joints with a friction circle."""

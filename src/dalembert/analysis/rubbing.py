@@ -1,0 +1,302 @@
+"""Equilibrium with friction at a block of positions: senses, the friction forces, what they cost, the ends at rest."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.core.constraints import measure, rates, system
+from dalembert.core.equilibrium import (
+    UNIQUE,
+    Known,
+    Motion,
+    Statement,
+    checked,
+    reactions,
+    statement,
+    unique,
+)
+from dalembert.core.forcing import Forcing, pair, summed
+from dalembert.core.friction import Contacts, Response, Senses, argument, response, senses
+from dalembert.core.layout import Pose, System
+from dalembert.core.linear import Factor, PseudoInverse
+from dalembert.core.rest import extreme
+from dalembert.core.slip import Slip, slipping, without_friction
+
+if TYPE_CHECKING:
+    from dalembert.analysis.compile import Compiled
+
+Array = NDArray[Any]
+Flags = NDArray[np.bool_]
+
+SAME = 1e-11
+"""Two ends closer than this part of the largest force are one."""
+
+POWERLESS = 1e-9
+"""A power below this part of the powers of all loads has no sign."""
+
+
+class Friction(NamedTuple):
+    """What friction does at each position.
+
+    force (P, joints, 2), moment (P, joints): dry friction on j, moment about j's point; viscous beside it
+    dry_loss, viscous_loss (P, joints): power
+    cz, sense, rate (P, E), argument (P, 3, E) of each contact
+    determinant, critical, iterations, single (P,): of the solution (core.slip)
+    open (P, E): contacts whose sense no rate tells; blocked (P,): their reactions are not unique
+    locked (P,): the unknowns' power has the other sign than without friction, with and without inertia
+    bare_effort (P, D), bare_load (P, U): without friction
+    """
+
+    force: Array
+    moment: Array
+    viscous_force: Array
+    viscous_moment: Array
+    dry_loss: Array
+    viscous_loss: Array
+    cz: Array
+    sense: Array
+    rate: Array
+    argument: Array
+    determinant: Array
+    critical: Array
+    iterations: NDArray[np.intp]
+    single: Flags
+    open: Flags
+    blocked: Flags
+    locked: Flags
+    bare_effort: Array
+    bare_load: Array
+
+
+class Forces(NamedTuple):
+    """Forces of some positions; ``ends``: the low and high end of each unknown where friction leaves it open."""
+
+    force: Array
+    moment: Array
+    effort: Array
+    load: Array
+    residual: Array
+    power_balance: Array
+    rcond: Array
+    unique: Array | None
+    unique_unknowns: Array | None
+    friction: Friction | None = None
+    ends: tuple[Forces, ...] = ()
+
+
+class Setting(NamedTuple):
+    """A block of positions before its friction is known; ``still`` are the loads without inertia."""
+
+    c: Compiled
+    contacts: Contacts
+    forcing: Forcing
+    known: Known
+    pose: Pose
+    moving: Motion
+    rows: System
+    solver: Factor
+    still: Array
+    inertia: bool
+
+
+def rubbing(s: Setting, w: Array) -> Forces:
+    """Forces with friction under the loads w (P, L, n)."""
+    layout, contacts = s.c.layout, s.contacts
+    stated = statement(layout, s.known, s.pose, s.rows, s.solver, w)
+    along = system(layout.algebra, contacts.rows, s.pose)
+    r = _response(s, along, stated)
+    told = senses(layout, contacts, along, s.moving.twist)
+    blocked = _blocked(contacts, stated)
+    r = r._replace(y=np.where(blocked[:, None, None], np.nan, r.y))
+    open_ = np.flatnonzero(told.open.any(axis=-1))
+    slip = slipping(contacts, r, told.sense, told.open)
+    if open_.size:
+        slip.x[open_] = np.nan
+    locked = _locked(s, stated, along, told, r, slip)
+    made = _Made(s, stated, along, told, blocked, locked, without_friction(contacts, r))
+    if not open_.size:
+        return made.forces(r, slip, told.sense)
+    return _with_ends(made, r, slip, told, open_)
+
+
+def _response(s: Setting, along: System, stated: Statement) -> Response:
+    layout, contacts = s.c.layout, s.contacts
+    distance = measure(layout.algebra, contacts.rows, s.pose)
+    return response(layout, contacts, along, distance, stated.forces, stated.w)
+
+
+def _blocked(contacts: Contacts, stated: Statement) -> Flags:
+    """Positions where a reaction that friction follows is not unique."""
+    count = stated.w.shape[0]
+    if not isinstance(stated.forces, PseudoInverse):
+        return np.zeros(count, bool)
+    read = np.concatenate([contacts.first, contacts.second, contacts.couple])
+    read = np.unique(read[read >= 0])
+    return np.asarray(np.abs(stated.forces.null[..., read, :]).max(axis=(-2, -1), initial=0.0) > UNIQUE)
+
+
+def _locked(
+    s: Setting, stated: Statement, along: System, told: Senses, r: Response, slip: Slip
+) -> Flags:
+    """Where friction turns the power of the unknowns round, also without inertia."""
+    turned = _turned(s, stated, r, slip)
+    if not s.inertia or not turned.any():
+        return turned
+    still = statement(s.c.layout, s.known, s.pose, s.rows, s.solver, s.still)
+    r = _response(s, along, still)
+    return turned & _turned(s, still, r, slipping(s.contacts, r, told.sense, told.open))
+
+
+def _turned(s: Setting, stated: Statement, r: Response, slip: Slip) -> Flags:
+    count = s.c.layout.constraints.count
+    rate = rates(stated.unknown.rows(slice(count, None)), s.moving.twist)
+    with_, without = ((x[..., count:] * rate).sum(-1) for x in (slip.x, without_friction(s.contacts, r)))
+    size = np.abs(stated.w * s.moving.twist[..., :-1, :]).sum(axis=(-2, -1))
+    return np.asarray((with_ * without < 0) & (np.abs(without) > POWERLESS * size))
+
+
+def _with_ends(made: _Made, r: Response, slip: Slip, told: Senses, open_: NDArray[np.intp]) -> Forces:
+    """Both ends of every unknown at the open positions; where all are one, the number itself."""
+    s, contacts = made.s, made.s.contacts
+    count = s.c.layout.constraints.count
+    part = Response(*(a[open_] for a in r))
+    known = Senses(*(a[open_] for a in told))
+    ends = [
+        (extreme(s.c.layout, contacts, part, known, unknown, end))
+        for unknown in range(count, r.x.shape[-1])
+        for end in (-1.0, 1.0)
+    ]
+    if not ends:
+        return made.forces(r, slip, told.sense)
+    x = np.stack([end.slip.x for end in ends])
+    size = np.abs(x).max(axis=(0, 2), initial=0.0)
+    one = (np.abs(x - x[0]).max(axis=(0, 2), initial=0.0) <= SAME * size) & np.isfinite(size)
+    made.told.open[open_[one]] = False
+    main = _put(slip, open_[one], ends[0].slip, one)
+    whole = [
+        made.forces(r, _put(slip, open_, end.slip, slice(None)), _filled(told.sense, open_, end.sense))
+        for end in ends
+    ]
+    return made.forces(r, main, told.sense)._replace(ends=tuple(whole))
+
+
+def _put(whole: Slip, where: NDArray[np.intp], part: Slip, which: Any) -> Slip:
+    return Slip(*(_filled(a, where, b[which]) for a, b in zip(whole, part, strict=True)))
+
+
+def _filled(whole: Array, where: NDArray[np.intp], part: Array) -> Array:
+    out = np.array(whole)
+    out[where] = part
+    return out
+
+
+class _Made(NamedTuple):
+    """What does not depend on the senses taken."""
+
+    s: Setting
+    stated: Statement
+    along: System
+    told: Senses
+    blocked: Flags
+    locked: Flags
+    bare: Array
+
+    def forces(self, r: Response, slip: Slip, sense: Array) -> Forces:
+        """Reactions, efforts and what friction does, of one solution."""
+        s, layout = self.s, self.s.c.layout
+        cz = slip.c * slip.z
+        total = self.stated.w + summed(layout, pair(self.along, cz))
+        found = checked(layout, s.forcing, s.known, s.pose, s.moving, self.stated, slip.x, total)
+        bare = checked(layout, s.forcing, s.known, s.pose, s.moving, self.stated, self.bare, self.stated.w)
+        force, couple = reactions(layout, s.rows, found)
+        friction = self._friction(r, slip, sense, cz, bare.effort, bare.load)
+        marks: tuple[Any, Any] = (None, None)
+        if found.free is not None:
+            marks = unique(layout, s.rows, found.free, layout.joints)
+        force = force + friction.force + friction.viscous_force
+        moment = couple[..., 0] + friction.moment + friction.viscous_moment
+        checks = (found.residual, found.power_balance, found.rcond)
+        return Forces(force, moment, found.effort, found.load, *checks, *marks, friction)
+
+    def _friction(
+        self, r: Response, slip: Slip, sense: Array, cz: Array, effort: Array, load: Array
+    ) -> Friction:
+        contacts, told = self.s.contacts, self.told
+        dry = np.where(contacts.fixed, 0.0, cz)
+        joints = self.s.c.layout.joints
+        force, moment = _of_joints(self.along, contacts.joint, joints, dry)
+        viscous = _viscous(self.s)
+        return Friction(
+            force,
+            moment,
+            *viscous[:2],
+            _summed(contacts.joint, joints, -dry * told.rate),
+            viscous[2],
+            dry,
+            sense,
+            told.rate,
+            argument(r, cz),
+            *(slip.determinant, slip.critical, slip.iterations, slip.single),
+            told.open,
+            self.blocked,
+            self.locked,
+            effort,
+            load,
+        )
+
+
+def _of_joints(along: System, joint: NDArray[np.intp], joints: int, effort: Array) -> tuple[Array, Array]:
+    """Force (P, joints, d) and moment about j's point (P, joints) on j of efforts along rows."""
+    force = np.zeros((len(effort), joints, 2))
+    moment = np.zeros((len(effort), joints))
+    for e, k in enumerate(joint):
+        if along.angular[e]:
+            moment[:, k] += effort[:, e]
+        else:
+            force[:, k] += effort[:, e, None] * along.on_j[..., e, :2]
+    return force, moment
+
+
+def _summed(joint: NDArray[np.intp], joints: int, values: Array) -> Array:
+    out = np.zeros((len(values), joints))
+    for e, k in enumerate(joint):
+        out[:, k] += values[:, e]
+    return out
+
+
+def _viscous(s: Setting) -> tuple[Array, Array, Array]:
+    """Force, moment and lost power of the joints' own damping; none without inertia."""
+    layout, own = s.c.layout, s.c.damping
+    rows = system(layout.algebra, layout.freedoms, s.pose).rows(own.row)
+    joint = layout.freedoms.joint[own.row]
+    rate = rates(rows, s.moving.twist) * (1.0 if s.inertia else 0.0)
+    force, moment = _of_joints(rows, joint, layout.joints, -own.damping * rate)
+    return force, moment, _summed(joint, layout.joints, own.damping * rate * rate)
+
+
+def joined(parts: list[Forces]) -> Forces:
+    """Blocks of positions one after the other."""
+    if len(parts) == 1:
+        return parts[0]
+    count = max(len(p.ends) for p in parts)
+    ends = tuple(joined([p.ends[k] if p.ends else p for p in parts]) for k in range(count))
+    plain = [p._replace(ends=(), friction=None) for p in parts]
+    friction = None
+    if parts[0].friction is not None:
+        friction = Friction(*(np.concatenate(a) for a in zip(*(p.friction for p in parts), strict=True)))  # type: ignore[misc]
+    arrays = [None if a[0] is None else np.concatenate(a) for a in zip(*(p[:9] for p in plain), strict=True)]
+    return Forces(*arrays, friction, ends)  # type: ignore[arg-type]
+
+
+def block_size(c: Compiled, most: int) -> int:
+    """Positions at once, so that the matrices H of all stay below a few hundred MB."""
+    if c.contacts is None:
+        return most
+    return max(1, min(most, 10**7 // (c.contacts.count**2 * 3 + 1)))
+
+
+__all__ = ["Forces", "Friction", "Setting", "block_size", "joined", "replace", "rubbing"]

@@ -1,0 +1,189 @@
+"""Wrenches that follow the joints' own reactions: dry friction, and the separation of teeth beside it (THEORY.md 4).
+
+A contact e acts along one row with c z, so that  A x + w + B c z = 0  and  z = -s S(y),  y = Y x.  With A factored
+once, x = x0 - A^-1 B c z leaves a small system in z at every position, solved for all of them at once.
+
+S   bearing force (..., E): of a pin |F|, of a guide max(|N|, |2M - (l2 - l1) N| / (l1 + l2))
+s   sense (..., E): sign of the relative rate of j against i; between -1 and 1 where that is zero
+c   strength (..., E): lever of a couple or coefficient of a force; it grows with the friction scale
+y   arguments (..., 3, E): two forces at a right angle, and the tilting one of a guide
+H   change of y with c z (..., 3, E, E): -Y A^-1 B
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.core.constraints import rates
+from dalembert.core.forcing import summed
+from dalembert.core.layout import Layout, Rows, System
+from dalembert.core.linear import Factor
+
+Array = NDArray[Any]
+Ints = NDArray[np.intp]
+Flags = NDArray[np.bool_]
+
+STILL = 1e-9
+"""A relative rate below this part of the fastest one of the machine counts as zero."""
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """The contacts of a mechanism, E of them.
+
+    rows        what each acts along: a turn, a slide, the line of centres of two wheels
+    joint (E,)  the joint it belongs to
+    first, second, couple (E,)  multipliers its arguments are read from; -1 where it has none
+    tilt (E, 2) parts of the couple and of the first force in the tilting force
+    gain (E,)   factor on its forces
+    lever (E,)  strength at a coefficient of one; radius of a pin
+    coefficient, resting (E,)  of friction in motion and at rest
+    circle (E,) strength lever sin(atan(mu)), else lever mu
+    signed (E,) S is the first force with its sign: the couple of the two faces of a guide
+    fixed (E,)  not friction: strength is the lever whatever the scale, sense -1
+    reach (E,)  where positive: its forces hold at this distance of the centres and fall as it grows
+    """
+
+    rows: Rows
+    joint: Ints
+    first: Ints
+    second: Ints
+    couple: Ints
+    tilt: Array
+    gain: Array
+    lever: Array
+    coefficient: Array
+    resting: Array
+    circle: Flags
+    signed: Flags
+    fixed: Flags
+    reach: Array
+
+    @property
+    def count(self) -> int:
+        """E."""
+        return len(self.joint)
+
+
+class Senses(NamedTuple):
+    """Sense of each contact, 0 where ``open``: there is no relative rate to tell it; rate (..., E) of each."""
+
+    sense: Array
+    open: Flags
+    rate: Array
+
+
+class Response(NamedTuple):
+    """x without contacts (..., X), its change with c z (..., X, E), and the same of the arguments: y, H."""
+
+    x: Array
+    change: Array
+    y: Array
+    h: Array
+
+
+def senses(layout: Layout, contacts: Contacts, along: System, twist: Array) -> Senses:
+    """Senses of the contacts from the twists of all links (..., L+1, n)."""
+    rate = rates(along, twist)
+    scaled = rate * np.where(contacts.rows.angular, layout.length, 1.0)
+    fastest = np.abs(twist / layout.wrench_scale).max(axis=(-2, -1), initial=0.0)
+    still = (np.abs(scaled) <= STILL * fastest[..., None]) & ~contacts.fixed
+    sense = np.where(contacts.fixed, -1.0, np.where(still, 0.0, np.sign(rate)))
+    return Senses(sense, still, rate)
+
+
+def strength(contacts: Contacts, scale: Array | float, resting: Array | bool = False) -> Array:
+    """c (..., E) at a scale of all coefficients; ``resting`` contacts take the coefficient at rest."""
+    mu = scale * np.where(resting, contacts.resting, contacts.coefficient)
+    friction = np.where(contacts.circle, mu / np.sqrt(1 + mu * mu), mu)
+    return np.asarray(contacts.lever * np.where(contacts.fixed, 1.0, friction))
+
+
+def response(
+    layout: Layout, contacts: Contacts, along: System, distance: Array, forces: Factor, w: Array
+) -> Response:
+    """x and y without contacts and per unit of each, from the factored A; ``distance`` (..., E) of the centres."""
+
+    def multipliers(wrench: Array) -> Array:
+        return forces.forces(-wrench.reshape((*wrench.shape[:-2], -1)))
+
+    x = multipliers(w)
+    change = [multipliers(_unit(layout, along, e)) for e in range(contacts.count)]
+    by_contact = np.stack(np.broadcast_arrays(*change), axis=-2)  # (..., E, X)
+    near = np.where(contacts.reach > 0, contacts.reach / np.where(distance > 0, distance, 1.0), 1.0)
+    h = np.stack(_arguments(contacts, by_contact, near[..., None, :]), axis=-3)
+    y = np.stack(_arguments(contacts, x, near), axis=-2)
+    return Response(x, np.swapaxes(by_contact, -1, -2), y, np.swapaxes(h, -1, -2))
+
+
+def _unit(layout: Layout, along: System, e: int) -> Array:
+    """Wrenches on the links of a unit of contact e."""
+    from dalembert.core.forcing import Source
+
+    link = np.array([along.i[e], along.j[e]])
+    return summed(layout, Source(link, np.stack([along.on_i[..., e, :], along.on_j[..., e, :]], axis=-2)))
+
+
+def _arguments(contacts: Contacts, x: Array, near: Array) -> list[Array]:
+    """y of multipliers x (..., X), each part (..., E)."""
+
+    def read(which: Ints) -> Array:
+        return np.where(which >= 0, x[..., which], 0.0)
+
+    first = read(contacts.first) * contacts.gain * near
+    second = read(contacts.second) * contacts.gain
+    tilting = contacts.tilt[:, 0] * read(contacts.couple) + contacts.tilt[:, 1] * first
+    return [first, second, tilting]
+
+
+def bearing(contacts: Contacts, y: Array) -> Array:
+    """S (..., E) of arguments (..., 3, E)."""
+    force = np.hypot(y[..., 0, :], y[..., 1, :])
+    return np.where(contacts.signed, y[..., 0, :], np.maximum(force, np.abs(y[..., 2, :])))
+
+
+def slope(contacts: Contacts, y: Array) -> Array:
+    """Derivative of S after y (..., 3, E); one of its branches where two meet."""
+    force, tilting = np.hypot(y[..., 0, :], y[..., 1, :]), np.abs(y[..., 2, :])
+    tilted = (tilting > force) & ~contacts.signed
+    plain = ~tilted & ~contacts.signed
+    safe = np.where(force > 0, force, 1.0)
+    parts = [
+        np.where(contacts.signed, 1.0, np.where(plain, y[..., 0, :] / safe, 0.0)),
+        np.where(plain, y[..., 1, :] / safe, 0.0),
+        np.where(tilted, np.sign(y[..., 2, :]), 0.0),
+    ]
+    return np.stack(parts, axis=-2)
+
+
+def argument(r: Response, cz: Array) -> Array:
+    """y with contacts c z (..., E)."""
+    return np.asarray(r.y + (r.h @ cz[..., None, :, None])[..., 0])
+
+
+def multiplier(r: Response, cz: Array) -> Array:
+    """x with contacts c z."""
+    return np.asarray(r.x + (r.change @ cz[..., None])[..., 0])
+
+
+def jacobian(contacts: Contacts, r: Response, y: Array, sense: Array, c: Array) -> Array:
+    """Derivative of z + s S(y) after z (..., E, E); its determinant is det(A + J) / det(A)."""
+    change = (slope(contacts, y)[..., None] * r.h).sum(axis=-3)
+    return np.asarray(np.eye(contacts.count) + sense[..., :, None] * change * c[..., None, :])
+
+
+def spread(contacts: Contacts, r: Response, c: Array) -> Array:
+    """Bound (...) of the spectral radius of the fixed point: below 1 there is one solution, at any smaller scale too."""
+    lever = np.maximum(np.hypot(r.h[..., 0, :, :], r.h[..., 1, :, :]), np.abs(r.h[..., 2, :, :]))
+    lever = np.where(contacts.signed[:, None], np.abs(r.h[..., 0, :, :]), lever) * c[..., None, :]
+    power, log, size = lever, np.zeros(lever.shape[:-2]), 1
+    for _ in range(6):
+        largest = np.maximum(power.sum(axis=-1).max(axis=-1, initial=0.0), 1e-300)
+        power = power / largest[..., None, None]
+        log = log + np.log(largest) / size
+        power, size = power @ power, 2 * size
+    return np.asarray(np.exp(log + np.log(np.maximum(power.sum(axis=-1).max(axis=-1, initial=0.0), 1e-300)) / size))

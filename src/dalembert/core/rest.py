@@ -1,0 +1,56 @@
+"""What friction can hold: the extremes of an effort where contacts have no relative rate to tell their sense.
+
+A contact that would move with the unknown has the sense of that impending motion; its influence on the unknown says
+which (virtual work: g = minus the relative rate per unit of the unknown's own). One that would not only loads the
+others; it takes the sense that carries the unknown furthest.
+
+g   change of the unknown with a unit of each contact (..., E)
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.core.friction import STILL, Contacts, Response, Senses, argument, jacobian
+from dalembert.core.linear import solved
+from dalembert.core.slip import Slip, slipping
+
+Array = NDArray[Any]
+
+ROUNDS = 12
+"""Changes of the senses of contacts without impending motion after which the last is taken."""
+
+
+class Extreme(NamedTuple):
+    """The solution at one end, and the sense (P, E) of each contact there: 0 where friction plays no part."""
+
+    slip: Slip
+    sense: Array
+
+
+def extreme(layout: Any, contacts: Contacts, r: Response, known: Senses, unknown: int, end: float) -> Extreme:
+    """The lowest (end -1) or highest (end 1) value of one of the multipliers."""
+    g = np.broadcast_to(r.change[..., unknown, :], known.sense.shape)
+    size = np.abs(g) * np.where(contacts.rows.angular, layout.length, 1.0)
+    moves = size > STILL * size.max(axis=-1, keepdims=True, initial=0.0)
+    sense = np.where(known.open, np.where(moves, -end * np.sign(g), 0.0), known.sense)
+    idle = known.open & ~moves
+    found = slipping(contacts, r, sense, known.open)
+    for _ in range(ROUNDS if idle.any() else 0):
+        new = np.where(idle, -end * _influence(contacts, r, found, sense, g), sense)
+        if np.array_equal(new, sense):
+            break
+        sense, found = new, slipping(contacts, r, new, known.open)
+    return Extreme(found, sense)
+
+
+def _influence(contacts: Contacts, r: Response, found: Slip, sense: Array, g: Array) -> Array:
+    """Sign of the change of the unknown with each friction force, the other contacts following."""
+    y = argument(r, found.c * np.nan_to_num(found.z))
+    j = jacobian(contacts, r, y, sense, found.c)
+    a = solved(np.swapaxes(j, -1, -2), found.c * g)
+    negligible = STILL * np.abs(a).max(axis=-1, keepdims=True, initial=0.0)
+    return np.where(np.abs(a) > negligible, np.sign(np.nan_to_num(a)), 0.0)

@@ -1,0 +1,134 @@
+"""Friction forces with known senses: semi-smooth Newton at all positions at once, continued in the friction scale.
+
+Newton starts from no friction. Where the fixed point is a contraction (``spread`` below 1) the solution is the only
+one. Elsewhere the scale of all coefficients goes from 0 to 1 in steps, with the determinant ratio kept positive: that
+stays on the physical branch, and ends where it ends: at the critical scale the mechanism jams.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.core.friction import (
+    Contacts,
+    Response,
+    argument,
+    bearing,
+    jacobian,
+    multiplier,
+    spread,
+    strength,
+)
+from dalembert.core.linear import solved
+
+Array = NDArray[Any]
+Flags = NDArray[np.bool_]
+
+NEWTON = 25
+"""Steps after which Newton has not arrived."""
+
+ARRIVED = 1e-13
+"""Change of a force, relative to the largest, below which it has."""
+
+SMALLEST = 1e-10
+"""Step of the friction scale below which the branch has ended."""
+
+
+class Slip(NamedTuple):
+    """z (P, E), c (P, E), the multipliers x (P, X), what came of it.
+
+    determinant: det(A + J) / det(A); iterations of Newton; critical: friction scale where the branch ends, NaN where
+    it does not before 1; single: proved to be the only solution.
+    """
+
+    z: Array
+    c: Array
+    x: Array
+    determinant: Array
+    iterations: NDArray[np.intp]
+    critical: Array
+    single: Flags
+
+
+class _Try(NamedTuple):
+    z: Array
+    arrived: Flags
+    determinant: Array
+    iterations: NDArray[np.intp]
+    largest: Array
+
+
+def without_friction(contacts: Contacts, r: Response) -> Array:
+    """Multipliers (P, X) without friction; the teeth's separation stays."""
+    if not contacts.fixed.any():
+        return r.x
+    sense = np.broadcast_to(np.where(contacts.fixed, -1.0, 0.0), r.y.shape[:-2] + r.y.shape[-1:])
+    c = np.broadcast_to(strength(contacts, 0.0), sense.shape)
+    return multiplier(r, c * _newton(contacts, r, sense, c, np.zeros_like(sense)).z)
+
+
+def slipping(contacts: Contacts, r: Response, sense: Array, resting: Array) -> Slip:
+    """Friction at each position; sense (P, E), where ``resting`` (P, E) with the coefficients at rest."""
+    r = Response(*(np.broadcast_to(a, (len(sense), *a.shape[1:])) for a in r))
+    c = np.broadcast_to(strength(contacts, 1.0, resting), sense.shape)
+    first = _newton(contacts, r, sense, c, np.zeros_like(sense))
+    single = spread(contacts, r, c * np.abs(sense)) < 1
+    z, determinant, count = first.z, first.determinant, first.iterations
+    critical = np.full(len(sense), np.nan)
+    finite = np.isfinite(r.y).all(axis=(-2, -1))
+    rest = np.flatnonzero(~(first.arrived & single) & finite)
+    if rest.size:
+        part, scale = _continued(contacts, _at(r, rest), sense[rest], resting[rest])
+        z[rest], determinant[rest], count[rest] = part.z, part.determinant, part.iterations
+        critical[rest] = np.where(part.arrived, np.nan, scale)
+        z[rest[~part.arrived]] = np.nan
+    return Slip(z, c, multiplier(r, c * z), determinant, count, critical, single)
+
+
+def _at(r: Response, where: Any) -> Response:
+    return Response(*(a[where] for a in r))
+
+
+def _newton(contacts: Contacts, r: Response, sense: Array, c: Array, z: Array, most: int = NEWTON) -> _Try:
+    """Newton on z + s S(y0 + H c z) = 0 from z, all positions together."""
+    count = np.zeros(len(sense), np.intp)
+    arrived = np.zeros(len(sense), bool)
+    for k in range(most):
+        y = argument(r, c * z)
+        off = z + sense * bearing(contacts, y)
+        step = solved(jacobian(contacts, r, y, sense, c), -off)
+        z = np.where(arrived[:, None], z, z + step)
+        largest = np.maximum(np.abs(y).max(axis=(-2, -1), initial=0.0), np.abs(z).max(axis=-1, initial=0.0))
+        now = np.abs(step).max(axis=-1, initial=0.0) <= ARRIVED * largest
+        count = np.where(arrived, count, k + (~now))
+        arrived |= now
+        if arrived.all():
+            break
+    y = argument(r, c * z)
+    determinant = np.linalg.det(np.nan_to_num(jacobian(contacts, r, y, sense, c)))
+    largest = np.abs(y).max(axis=(-2, -1), initial=0.0)
+    return _Try(np.where(arrived[:, None], z, np.nan), arrived, determinant, count, largest)
+
+
+def _continued(contacts: Contacts, r: Response, sense: Array, resting: Array) -> tuple[_Try, Array]:
+    """The branch from scale 0 to 1 and the scale it reaches."""
+    count = len(sense)
+    scale, step = np.zeros(count), np.full(count, 0.25)
+    found = _newton(contacts, r, sense, np.broadcast_to(strength(contacts, 0.0), sense.shape), np.zeros_like(sense))
+    z, determinant, iterations = found.z, found.determinant, found.iterations.copy()
+    while True:
+        on = np.flatnonzero((scale < 1) & (step > SMALLEST))
+        if not on.size:
+            break
+        aim = np.minimum(scale[on] + step[on], 1.0)
+        c = strength(contacts, aim[:, None], resting[on])
+        new = _newton(contacts, _at(r, on), sense[on], c, z[on], 10)
+        near = np.abs(new.z - z[on]).max(axis=-1, initial=0.0) <= 0.75 * new.largest
+        good = new.arrived & (new.determinant > 0) & near
+        iterations[on] += new.iterations
+        z[on[good]], determinant[on[good]], scale[on[good]] = new.z[good], new.determinant[good], aim[good]
+        step[on] = np.where(good, 2 * step[on], step[on] / 2)
+    return _Try(z, scale >= 1, determinant, iterations, np.zeros(count)), scale
