@@ -11,9 +11,11 @@ from numpy.typing import NDArray
 
 from dalembert.algebra import plane
 from dalembert.analysis import joints as table
+from dalembert.analysis.contacts import contacts
 from dalembert.core.assembly import Guess
 from dalembert.core.equilibrium import Known
 from dalembert.core.forcing import Couples, Forces, Forcing, Inertia, Resistances, Springs
+from dalembert.core.friction import Contacts
 from dalembert.core.layout import Layout
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, Schedule
@@ -42,6 +44,9 @@ class Compiled:
     forcing: Forcing
     known: Known
     joint_at: Array  # (joints, d) arm of j's point
+    damping: Resistances  # of the joints themselves, which the forcing has too
+    contacts: Contacts | None  # of the joints with friction; None without
+    contact_kinds: tuple[str, ...]
 
     @cached_property
     def targets(self) -> Array:
@@ -89,6 +94,8 @@ def compiled(
     reference = _references(m, index)
     constraints, freedoms = table.RowBuilder(len(links)), table.RowBuilder(len(links))
     names: list[tuple[str, str]] = []
+    pairs: list[tuple[int, int]] = []
+    arms: list[tuple[Array, Array]] = []
     for k, name in enumerate(joints):
         joint = m.joints[name]
         ends = (index[joint.links[0]], index[joint.links[1]])
@@ -96,12 +103,16 @@ def compiled(
         table.add_constraints(constraints, k, joint, ends, ui, uj)
         table.add_freedom(freedoms, k, joint, ends, ui, uj)
         names += [(name, freedom) for freedom in table.FREEDOMS[joint.type]]
+        pairs.append(ends)
+        arms.append((ui, uj))
     driven = np.array([names.index(_driven_freedom(m, d)) for d in schedule.names], np.intp)
+    fixed = constraints.rows()
+    touching, kinds = contacts(m, fixed, pairs, arms) or (None, ())
     layout = Layout(
         algebra=plane,
         links=len(links),
         joints=len(joints),
-        constraints=constraints.rows(),
+        constraints=fixed,
         freedoms=freedoms.rows(),
         driven=driven,
         length=characteristic_length(m) if like is None else like.layout.length,
@@ -110,7 +121,6 @@ def compiled(
     )
     drives = {name: schedule.position[:, k] for k, name in enumerate(schedule.names)}
     unknown = tuple(name for name, load in m.loads.items() if getattr(load, "unknown", False))
-    at = [np.subtract(m.joint_points(j)[1], reference[index[m.joints[j].links[1]]]) for j in joints]
     return Compiled(
         mechanism=m,
         schedule=schedule,
@@ -123,7 +133,10 @@ def compiled(
         guess=_guess(m, index, reference) if like is None else like.guess,
         forcing=_forcing(m, index, reference, names, drives, len(schedule.position)),
         known=_known(m, schedule, index, reference, unknown, drives),
-        joint_at=table.numbers(at).reshape(-1, 2),
+        joint_at=table.numbers([uj for _, uj in arms]).reshape(-1, 2),
+        damping=_in_freedoms(_damped(m, names)),
+        contacts=touching,
+        contact_kinds=kinds,
     )
 
 
@@ -133,17 +146,10 @@ def _refuse_unready(m: Mechanism) -> None:
         raise ModelError(
             "mechanisms in space cannot be analysed yet", "describe the plane mechanism", ("space",)
         )
-    switched_off = m.friction is not None and getattr(m.friction, "enabled", True) is False
     for name, joint in m.joints.items():
         if joint.type not in table.FREEDOMS:
             what = f"joint {name!r}: joints of type {joint.type!r} cannot be analysed yet"
             raise ModelError(what, "use " + ", ".join(table.FREEDOMS), ("joints", name, "type"))
-        if getattr(joint, "friction", None) is not None and not switched_off:
-            raise ModelError(
-                f"joint {name!r} has dry friction, which cannot be analysed yet",
-                "leave `friction` out or switch it off for the file with `friction: {enabled: false}`",
-                ("joints", name, "friction"),
-            )
 
 
 def _references(m: Mechanism, index: dict[str, int]) -> Array:
@@ -313,9 +319,19 @@ def _resistances(m: Mechanism, loads: dict[str, Any], freedoms: list[tuple[str, 
             rows.append(
                 (freedoms.index((load.joint, "turn")), stiffness, free, getattr(load, "damping", 0.0) or 0.0)
             )
-    for name, joint in m.joints.items():
-        for freedom, damping in joint_damping(joint).items():
-            rows.append((freedoms.index((name, freedom)), 0.0, 0.0, damping))
+    return _in_freedoms([*rows, *_damped(m, freedoms)])
+
+
+def _damped(m: Mechanism, freedoms: list[tuple[str, str]]) -> list[tuple[int, float, float, float]]:
+    """Row, no spring, and coefficient of each freedom that its joint damps."""
+    return [
+        (freedoms.index((name, freedom)), 0.0, 0.0, damping)
+        for name, joint in m.joints.items()
+        for freedom, damping in joint_damping(joint).items()
+    ]
+
+
+def _in_freedoms(rows: list[tuple[int, float, float, float]]) -> Resistances:
     columns = list(zip(*rows, strict=True)) if rows else [()] * 4
     return Resistances(np.array(columns[0], np.intp), *(table.numbers(c) for c in columns[1:]))
 

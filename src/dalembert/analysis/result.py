@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import xarray
 
     from dalembert.analysis.compile import Compiled
+    from dalembert.analysis.rubbing import Friction
     from dalembert.analysis.mobility import Mobility
     from dalembert.model import Mechanism, Schedule
 
@@ -54,6 +55,8 @@ class Result:
     unique_array: NDArray[np.bool_] | None = field(repr=False, default=None)  # (P, joints, 3)
     unique_unknowns: NDArray[np.bool_] | None = field(repr=False, default=None)  # (P, D asked + U)
     stability: tuple[str | None, ...] | None = None
+    friction: Friction | None = field(repr=False, default=None)
+    ends: tuple[tuple[Result, Result], ...] = field(repr=False, default=())
 
     # what was asked
 

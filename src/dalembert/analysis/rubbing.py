@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -19,7 +18,7 @@ from dalembert.core.equilibrium import (
     statement,
     unique,
 )
-from dalembert.core.forcing import Forcing, pair, summed
+from dalembert.core.forcing import Forcing, Source, pair, summed
 from dalembert.core.friction import Contacts, Response, Senses, argument, response, senses
 from dalembert.core.layout import Pose, System
 from dalembert.core.linear import Factor, PseudoInverse
@@ -89,7 +88,7 @@ class Forces(NamedTuple):
 
 
 class Setting(NamedTuple):
-    """A block of positions before its friction is known; ``still`` are the loads without inertia."""
+    """A block of positions before its friction is known, and what loads it by kind."""
 
     c: Compiled
     contacts: Contacts
@@ -99,8 +98,7 @@ class Setting(NamedTuple):
     moving: Motion
     rows: System
     solver: Factor
-    still: Array
-    inertia: bool
+    sources: dict[str, Source]
 
 
 def rubbing(s: Setting, w: Array) -> Forces:
@@ -144,9 +142,11 @@ def _locked(
 ) -> Flags:
     """Where friction turns the power of the unknowns round, also without inertia."""
     turned = _turned(s, stated, r, slip)
-    if not s.inertia or not turned.any():
+    if "inertia" not in s.sources or not turned.any():
         return turned
-    still = statement(s.c.layout, s.known, s.pose, s.rows, s.solver, s.still)
+    w = summed(s.c.layout, *(source for kind, source in s.sources.items() if kind != "inertia"))
+    w = np.broadcast_to(w, stated.w.shape)
+    still = statement(s.c.layout, s.known, s.pose, s.rows, s.solver, w)
     r = _response(s, along, still)
     return turned & _turned(s, still, r, slipping(s.contacts, r, told.sense, told.open))
 
@@ -269,11 +269,11 @@ def _summed(joint: NDArray[np.intp], joints: int, values: Array) -> Array:
 
 
 def _viscous(s: Setting) -> tuple[Array, Array, Array]:
-    """Force, moment and lost power of the joints' own damping; none without inertia."""
+    """Force, moment and lost power of the joints' own damping."""
     layout, own = s.c.layout, s.c.damping
     rows = system(layout.algebra, layout.freedoms, s.pose).rows(own.row)
     joint = layout.freedoms.joint[own.row]
-    rate = rates(rows, s.moving.twist) * (1.0 if s.inertia else 0.0)
+    rate = rates(rows, s.moving.twist)
     force, moment = _of_joints(rows, joint, layout.joints, -own.damping * rate)
     return force, moment, _summed(joint, layout.joints, own.damping * rate * rate)
 
@@ -299,4 +299,4 @@ def block_size(c: Compiled, most: int) -> int:
     return max(1, min(most, 10**7 // (c.contacts.count**2 * 3 + 1)))
 
 
-__all__ = ["Forces", "Friction", "Setting", "block_size", "joined", "replace", "rubbing"]
+__all__ = ["Forces", "Friction", "Setting", "block_size", "joined", "rubbing"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,6 +13,8 @@ from dalembert.analysis.compile import Compiled, compiled
 from dalembert.analysis.mobility import check_knowns
 from dalembert.analysis.positions import Positions, drive_text, open_sentence, positions
 from dalembert.analysis.result import Result
+from dalembert.analysis.rubbing import Forces, Setting, block_size, joined, rubbing
+from dalembert.analysis.verdicts import friction_checks
 from dalembert.core.equilibrium import balance, known_sources, motion, reactions, unique
 from dalembert.core.follow import BLOCK
 from dalembert.core.forcing import summed
@@ -72,105 +75,89 @@ def at_schedule(m: Mechanism, schedule: Schedule, inertia: bool, forces: bool = 
     followed = positions(c)
     if followed.path is None:
         return _nothing(followed, inertia)
-    parts = [
-        _block(followed.compiled, followed.path.pose, slice(k, k + BLOCK), inertia, forces)
-        for k in range(0, len(c.targets), BLOCK)
-    ]
-    return _result(
-        followed, _Arrays(*(_concatenated(column) for column in zip(*parts, strict=True))), inertia, forces
-    )
+    c, pose = followed.compiled, followed.path.pose
+    size = block_size(c, BLOCK)
+    parts = [_block(c, pose, slice(k, k + size), inertia, forces) for k in range(0, len(c.targets), size)]
+    moved = _Moved(*(np.concatenate(column) for column in zip(*(m for m, _ in parts), strict=True)))
+    return _result(followed, moved, joined([f for _, f in parts]), inertia, forces)
 
 
-class _Arrays(NamedTuple):
-    """Arrays of a block of positions, ground left out."""
+class _Moved(NamedTuple):
+    """Motion of a block of positions, ground left out."""
 
     point: Array
     turn: Array
     twist: Array
     acceleration: Array
-    force: Array
-    moment: Array
-    effort: Array
-    load: Array
-    residual: Array
-    power_balance: Array
     rcond: Array
-    force_rcond: Array
-    unique: Array | None
-    unique_unknowns: Array | None
 
 
-def _concatenated(parts: tuple[Any, ...]) -> Any:
-    return None if parts[0] is None else parts[0] if len(parts) == 1 else np.concatenate(parts)
-
-
-def _block(c: Compiled, whole: Pose, part: slice, inertia: bool, forces: bool) -> _Arrays:
+def _block(c: Compiled, whole: Pose, part: slice, inertia: bool, forces: bool) -> tuple[_Moved, Forces]:
     """Motion and forces of some positions."""
     layout, pose, schedule = c.layout, whole.at(part), c.schedule
     with np.errstate(all="ignore"):
         moving, rows, solver = motion(layout, pose, schedule.speed[part], schedule.acceleration[part])
-        count = len(pose.turn)
-        if not forces:
-            nan = np.full((count, layout.joints, 2), np.nan)
-            empty = np.full((count, len(layout.driven)), np.nan)
-            zero, load = np.zeros(count), np.full((count, len(c.unknown_loads)), np.nan)
-            found: tuple[Any, ...] = (
-                nan,
-                nan[..., 0],
-                empty,
-                load,
-                zero,
-                zero,
-                moving.rcond,
-                moving.rcond,
-                None,
-                None,
-            )
-        else:
-            found = _forces(c, pose, part, moving, rows, solver, inertia)
+        found = (
+            _forces(c, pose, part, moving, rows, solver, inertia) if forces else _no_forces(c, len(pose.turn))
+        )
     moved = (pose.point, pose.turn, moving.twist, moving.acceleration)
-    return _Arrays(*(a[:, :-1] for a in moved), *found)
+    return _Moved(*(a[:, :-1] for a in moved), moving.rcond), found
+
+
+def _no_forces(c: Compiled, count: int) -> Forces:
+    def nan(*shape: int) -> Array:
+        return np.full((count, *shape), np.nan)
+
+    layout, unknown = c.layout, len(c.unknown_loads)
+    reactions = nan(layout.joints, 2), nan(layout.joints)
+    return Forces(*reactions, nan(len(layout.driven)), nan(unknown), nan(), nan(), nan(), None, None)
 
 
 def _forces(
     c: Compiled, pose: Pose, part: slice, moving: Any, rows: Any, solver: Any, inertia: bool
-) -> tuple[Any, ...]:
+) -> Forces:
     layout = c.layout
     forcing, known = _sliced(c, part)
     sources = known_sources(layout, forcing, pose, moving, inertia)
     w = summed(layout, *sources.values())
     w = np.broadcast_to(w, (len(pose.turn), *w.shape[1:]))
+    if c.contacts is not None:
+        return rubbing(Setting(c, c.contacts, forcing, known, pose, moving, rows, solver, sources), w)
     found = balance(layout, forcing, known, pose, moving, rows, solver, w)
     force, couple = reactions(layout, rows, found)
     marks: tuple[Any, Any] = (None, None)
     if found.free is not None:
         marks = unique(layout, rows, found.free, layout.joints)
-    checks = (found.residual, found.power_balance, moving.rcond, found.rcond)
-    return (force, couple[..., 0], found.effort, found.load, *checks, *marks)
+    checks = (found.residual, found.power_balance, found.rcond)
+    return Forces(force, couple[..., 0], found.effort, found.load, *checks, *marks)
 
 
 def _sliced(c: Compiled, part: slice) -> tuple[Any, Any]:
     """Loads and given efforts of some positions."""
-    from dataclasses import replace
-
     f, k = c.forcing, c.known
     forces = replace(f.forces, value=f.forces.value[part])
     couples = replace(f.couples, value=f.couples.value[part])
     return replace(f, forces=forces, couples=couples), replace(k, effort=k.effort[part])
 
 
-def _result(followed: Positions, a: _Arrays, inertia: bool, forces: bool) -> Result:
+KEPT = ("ok", "redundant", "self_locking", "jammed", "at_rest")
+"""Statuses whose motion stands, and what numbers there are of the forces."""
+
+
+def _result(followed: Positions, moved: _Moved, f: Forces, inertia: bool, forces: bool) -> Result:
     c = followed.compiled
     assert followed.path is not None
-    status, reasons = _statuses(followed, a, forces)
-    lost = np.array([s not in ("ok", "redundant") for s in status])
+    status, reasons = _statuses(followed, moved, f, forces)
+    lost = np.array([s not in KEPT for s in status])
     open_ = ~followed.path.reached
-    _blank(open_, a.point, a.turn)
-    _blank(lost, a.twist, a.acceleration, a.force, a.moment, a.effort, a.load, a.residual, a.power_balance)
-    if not forces:
-        a = a._replace(residual=np.full(len(lost), np.nan), power_balance=np.full(len(lost), np.nan))
-    fields = a[:10]
-    return Result(c, inertia, followed.mobility, followed.mode, status, reasons, *fields, *a[12:])
+    _blank(open_, moved.point, moved.turn)
+    _blank(lost, moved.twist, moved.acceleration)
+    for part in (f, *f.ends):
+        _blank(lost, *part[:6], *(a for a in part.friction or () if a.dtype.kind == "f"))
+    made = (c, inertia, followed.mobility, followed.mode, status, reasons, *moved[:4])
+    result = Result(*made, *f[:6], *f[7:9], friction=f.friction)
+    ends = [Result(*made, *end[:6], *end[7:9], friction=end.friction) for end in f.ends]
+    return replace(result, ends=tuple(zip(ends[::2], ends[1::2], strict=True)))
 
 
 def _blank(where: NDArray[np.bool_], *arrays: Array) -> None:
@@ -179,23 +166,27 @@ def _blank(where: NDArray[np.bool_], *arrays: Array) -> None:
 
 
 def _statuses(
-    followed: Positions, a: _Arrays, forces: bool
+    followed: Positions, moved: _Moved, f: Forces, forces: bool
 ) -> tuple[tuple[str, ...], tuple[str | None, ...]]:
     """Status and sentence of each position: the first that applies."""
     c, path = followed.compiled, followed.path
     assert path is not None
     limit = singular_below(c.layout)
-    unbalanced = (a.force_rcond < limit) | ~(a.residual <= UNBALANCED)
-    partial = a.unique is not None and not a.unique.all()
+    unbalanced = (f.rcond < limit) | ~(f.residual <= UNBALANCED)
+    partial = f.unique is not None and not f.unique.all()
     checks: list[tuple[str, Any, Callable[[Any], str]]] = [
         ("not_assembled", ~path.reached, lambda k: open_sentence(c, path, k)),
-        ("singular", ~(a.rcond >= limit), lambda k: _singular_sentence(c, k)),
-        ("no_balance", unbalanced, lambda k: _no_balance_sentence(c)),
-        ("redundant", np.full(len(a.rcond), partial), lambda k: _redundant_sentence(followed)),
+        ("singular", ~(moved.rcond >= limit), lambda k: _singular_sentence(c, k)),
     ]
-    status = np.full(len(a.rcond), "ok", dtype=object)
-    reasons = np.full(len(a.rcond), None, dtype=object)
-    for code, mask, sentence in checks if forces else checks[:2]:
+    if forces:
+        checks += friction_checks(c, f, f.rcond >= limit)
+        checks += [
+            ("no_balance", unbalanced, lambda k: _no_balance_sentence(c)),
+            ("redundant", np.full(len(f.rcond), partial), lambda k: _redundant_sentence(followed)),
+        ]
+    status = np.full(len(moved.rcond), "ok", dtype=object)
+    reasons = np.full(len(moved.rcond), None, dtype=object)
+    for code, mask, sentence in checks:
         where = np.flatnonzero(mask & (status == "ok"))
         status[where] = code
         for run in np.split(where, np.flatnonzero(np.diff(where) > 1) + 1):

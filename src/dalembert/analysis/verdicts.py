@@ -1,0 +1,109 @@
+"""What friction does to whole arcs of positions, in sentences: jam, self-locking, efforts left open."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from dalembert.analysis.compile import Compiled
+    from dalembert.analysis.rubbing import Forces
+
+Array = NDArray[Any]
+Run = NDArray[np.intp]
+
+
+def friction_checks(
+    c: Compiled, f: Forces, solvable: Array
+) -> list[tuple[str, Any, Callable[[Any], str]]]:
+    """Status, positions and sentence of each thing that friction can do; none without friction."""
+    if f.friction is None:
+        return []
+    jammed = ~np.isnan(f.friction.critical)
+    return [
+        ("redundant", f.friction.blocked & solvable, lambda k: _blocked_sentence(c)),
+        ("at_rest", f.friction.open.any(axis=-1) & solvable, lambda k: _open_sentence(c, f, k)),
+        ("jammed", jammed & solvable, lambda k: _jam_sentence(c, f, k)),
+        ("self_locking", f.friction.locked & solvable, lambda k: _locked_sentence(c, f, k)),
+    ]
+
+
+def arc(c: Compiled, run: Run) -> str:
+    """' between 0 deg and 9 deg of O2', or ' at O2 = 9 deg'."""
+    from dalembert.analysis.positions import drive_text
+
+    ends = [(n, *(drive_text(c, int(run[e]), k) for e in (0, -1))) for k, n in enumerate(c.schedule.names)]
+    if not ends:
+        return ""
+    if len(run) == 1:
+        return " at " + " and ".join(f"{n} = {a}" for n, a, _ in ends)
+    return " between " + ", ".join(f"{a} and {b} of {n}" for n, a, b in ends)
+
+
+def _unknowns(c: Compiled) -> list[str]:
+    asked = [n for n, asked in zip(c.schedule.names, c.known.asked, strict=True) if asked]
+    return [*asked, *c.unknown_loads]
+
+
+def _jam_sentence(c: Compiled, f: Forces, run: Run) -> str:
+    assert f.friction is not None
+    scale = float(np.nanmin(f.friction.critical[run]))
+    return (
+        f"Friction jams the mechanism{arc(c, run)}: no effort moves it in this sense, whatever its size. "
+        f"It would move with less than {scale:.6g} times the coefficients of friction."
+    )
+
+
+def _locked_sentence(c: Compiled, f: Forces, run: Run) -> str:
+    assert f.friction is not None
+    names = _unknowns(c)
+    with_ = np.concatenate([f.effort[:, c.known.asked], f.load], axis=1)[run]
+    bare = np.concatenate([f.friction.bare_effort[:, c.known.asked], f.friction.bare_load], axis=1)[run]
+    worst = int(np.argmax(np.abs(with_ - bare).sum(axis=1)))
+    figures = ", ".join(
+        f"{name} needs {a:.6g} and without friction {b:.6g}"
+        for name, a, b in zip(names, with_[worst], bare[worst], strict=True)
+    )
+    where = "" if len(run) == 1 else f"{arc(c, run[[worst]])} "
+    return f"Self-locking{arc(c, run)}: the load cannot drive the machine against its friction;{where or ' '}{figures} (SI)."
+
+
+def _open_sentence(c: Compiled, f: Forces, run: Run) -> str:
+    assert f.friction is not None
+    open_ = f.friction.open[run]
+    names = ", ".join(_unknowns(c))
+    if not names:
+        return "Nothing moves in a structure: friction may take any part of the loads within its limits. Switch it off for the reactions without it."
+    if open_.all(axis=None) or not f.friction.sense[run].any():
+        held = f"At rest{arc(c, run)}: any value of {names} between the two impending motions holds the machine"
+        return held + _limits(c, f, run) + "."
+    joints = ", ".join(dict.fromkeys(c.joints[k] for k in c.contacts.joint[open_.any(axis=0)]))  # type: ignore[union-attr]
+    return (
+        f"No relative motion in {joints}{arc(c, run)}: the friction there may have any value within its limits, "
+        f"and {names} lies in an interval."
+    )
+
+
+def _limits(c: Compiled, f: Forces, run: Run) -> str:
+    """Which joints are at their limit at the ends of the first unknown."""
+    assert c.contacts is not None
+    parts = []
+    for end, name in zip(f.ends[:2], ("low", "high"), strict=False):
+        assert end.friction is not None
+        at_limit = (end.friction.sense[run] != 0).any(axis=0) & ~c.contacts.fixed
+        joints = ", ".join(dict.fromkeys(c.joints[k] for k in c.contacts.joint[at_limit]))
+        parts.append(f"at the {name} end friction is at its limit in {joints or 'no joint'}")
+    same = len(parts) == 2 and parts[0].split(" in ")[1] == parts[1].split(" in ")[1]
+    if same:
+        return f"; at both ends friction is at its limit in {parts[0].split(' in ')[1]}"
+    return "".join(f"; {part}" for part in parts)
+
+
+def _blocked_sentence(c: Compiled) -> str:
+    return (
+        "Friction follows reactions that statics does not determine here: constraints are redundant. "
+        "Free a constraint, or switch friction off."
+    )
