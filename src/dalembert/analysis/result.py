@@ -93,12 +93,14 @@ class Result:
     @cached_property
     def assumptions(self) -> dict[str, str]:
         """What the numbers rest on, each as a phrase."""
+        from dalembert.analysis import friction
+
         gravity = self.mechanism.gravity_vector
         shown = "none" if not any(gravity) else "[" + ", ".join(f"{c:.6g}" for c in gravity) + "] m/s2"
         return {
             "gravity": shown,
             "inertia": "on (D'Alembert)" if self.inertia else "off (static)",
-            "friction": "off",
+            "friction": friction.assumption(self),
         }
 
     @property
@@ -206,6 +208,34 @@ class Result:
     def _on_link(self, joint: str, on: str | None, force: Array) -> Array:
         link = on or self.mechanism.joints[joint].links[1]
         return force if link == "ground" else plane.unrotate(plane.rotation(self.angle(link)), force)
+
+    # friction
+
+    def friction_force(self, joint: str, on: str | None = None) -> Array:
+        """Dry friction's part of a joint's force on one of its links (P, 2), default on j, ground axes."""
+        k, sign = self._joint(joint, on)
+        return sign * (np.zeros_like(self.force_array[:, k]) if self.friction is None else self.friction.force[:, k])
+
+    def friction_moment(self, joint: str, on: str | None = None) -> Array:
+        """Dry friction's couple in a joint on one of its links (P,), default on j."""
+        k, sign = self._joint(joint, on)
+        return sign * (np.zeros(len(self.status)) if self.friction is None else self.friction.moment[:, k])
+
+    def power_lost(self, joint: str, kind: Literal["dry", "viscous", "all"] = "all") -> Array:
+        """Power that friction takes in a joint (P,), W."""
+        from dalembert.analysis import friction
+
+        self._joint(joint, None)
+        return friction.power_lost(self, joint, kind)
+
+    def interval(self, name: str) -> Array:
+        """Low and high end (P, 2) of an effort or unknown load that friction leaves open; equal where it does not.
+
+        ``ends`` holds for each of them the whole result at both ends.
+        """
+        from dalembert.analysis import friction
+
+        return friction.interval(self, name)
 
     # links
 
