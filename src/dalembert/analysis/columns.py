@@ -92,17 +92,17 @@ def reactions(result: Result, axes: Axes = "ground") -> Iterator[Reaction]:
         force, moment = result.reaction(joint, on, axes), result.reaction_moment(joint, on)
         least = None
         if not result.unique(joint).all():
-            least = _in_axes(result, on, result.least_norm(joint, on), axes)
+            least = in_axes(result, on, result.least_norm(joint, on), axes)
         yield Reaction(joint, on, by, force, moment, least)
 
 
-def _in_axes(result: Result, link: str, wrench: Array, axes: Axes) -> Array:
-    """(fx, fy, m) in ground axes, or in those of a link."""
+def in_axes(result: Result, link: str, wrench: Array, axes: Axes) -> Array:
+    """(fx, fy) or (fx, fy, m) in ground axes, or in those of a link."""
     if axes == "ground" or link == "ground":
         return wrench
     cos, sin = np.cos(result.angle(link)), np.sin(result.angle(link))
-    x, y, moment = np.moveaxis(wrench, -1, 0)
-    return np.stack([cos * x + sin * y, cos * y - sin * x, moment], axis=-1)
+    x, y, *moment = np.moveaxis(wrench, -1, 0)
+    return np.stack([cos * x + sin * y, cos * y - sin * x, *moment], axis=-1)
 
 
 LINK_VECTORS: dict[str, tuple[str, Callable[[Any, str], Array]]] = {
@@ -133,12 +133,44 @@ def columns(result: Result, axes: Axes = "ground") -> Iterator[Column]:
         yield Column(f"effort {drive}", drive_kinds(result, drive)["effort"], result.effort(drive))
     for load in result.unknown_loads:
         yield Column(f"unknown load {load}", load_kind(result, load), result.unknown_load(load))
+    for name, kind in unknown_kinds(result).items() if result.ends else ():
+        for k, end in enumerate(("low", "high")):
+            yield Column(f"{name} {end} end", kind, result.interval(name)[:, k])
     for reaction in reactions(result, axes):
         yield from _reaction_columns(reaction)
+    for joint in rubbing_joints(result):
+        yield from _friction_columns(result, joint)
     for link in result.links:
         yield from _link_columns(result, link)
     yield Column("residual", "number", result.residual)
     yield Column("power balance", "number", result.power_balance)
+
+
+def unknown_kinds(result: Result) -> dict[str, str]:
+    """Kind of every effort and load that was asked for."""
+    asked = result.compiled.known.asked
+    drives = [d for d, a in zip(result.drives, asked, strict=True) if a]
+    kinds = {d: drive_kinds(result, d)["effort"] for d in drives}
+    return kinds | {load: load_kind(result, load) for load in result.unknown_loads}
+
+
+def rubbing_joints(result: Result) -> list[str]:
+    """Joints with dry or viscous friction, where friction is on."""
+    if result.friction is None:
+        return []
+    joints = result.mechanism.joints
+    return [
+        n
+        for n in result.joints
+        if getattr(joints[n], "friction", None) or getattr(joints[n], "damping", None)
+    ]
+
+
+def _friction_columns(result: Result, joint: str) -> Iterator[Column]:
+    force, moment = result.friction_force(joint), result.friction_moment(joint)
+    name = f"friction {joint} on {result.mechanism.joints[joint].links[1]}"
+    yield from _wrench_columns(name, [force[:, 0], force[:, 1], moment])
+    yield Column(f"power lost {joint}", "power", result.power_lost(joint))
 
 
 def _reaction_columns(reaction: Reaction) -> Iterator[Column]:

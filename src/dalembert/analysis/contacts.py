@@ -20,7 +20,8 @@ Array = NDArray[Any]
 
 @dataclass(frozen=True)
 class Contact:
-    """One contact of a joint; the keys of ``core.friction.Contacts``. ``along``: kind of row and its numbers."""
+    """One contact of a joint; the keys of ``core.friction.Contacts``. ``along``: kind of row and its numbers;
+    ``led``: which contact tells its sense, 0 for itself and -1 for the one before."""
 
     kind: str
     along: tuple[type, dict[str, Any]]
@@ -33,6 +34,7 @@ class Contact:
     circle: bool = False
     signed: bool = False
     fixed: bool = False
+    led: int = 0
     reach: float = 0.0
 
 
@@ -99,6 +101,7 @@ def _stacked(rows: Rows, found: list[tuple[int, Contact, float, float]]) -> Cont
         circle=column("circle", bool),
         signed=column("signed", bool),
         fixed=column("fixed", bool),
+        led=np.arange(len(found)) + column("led", np.intp),
         reach=column("reach", float),
     )
 
@@ -115,9 +118,7 @@ def _of(m: Mechanism, joint: Any, first: int) -> Iterator[tuple[Contact, float, 
 
 
 def _pin(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:
-    yield Contact(
-        "pin", TURN, first, first + 1, lever=joint.friction.radius, circle=circle == "sin"
-    )
+    yield Contact("pin", TURN, first, first + 1, lever=joint.friction.radius, circle=circle == "sin")
 
 
 def _slider(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:
@@ -129,7 +130,7 @@ def _slider(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]
         tilt = 2 / (behind + ahead), -(ahead - behind) / (behind + ahead)
     yield Contact("guide", slide, first, couple=first + 1, tilt=tilt)
     if f.half_height:
-        yield Contact("faces", TURN, first, lever=f.half_height, signed=True)
+        yield Contact("faces", TURN, first, lever=f.half_height, signed=True, led=-1)
 
 
 def _slot(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:
@@ -154,7 +155,9 @@ def contact_arm(joint: Any) -> float:
         return float(joint.friction.arm)
     inner = joint.pitch_radii[0] < joint.pitch_radii[1]
     signs = (1, 1) if not joint.internal else ((1, -1) if inner else (-1, 1))
-    parts = [_path(r, joint.module, joint.pressure_angle, s) for r, s in zip(joint.pitch_radii, signs, strict=True)]
+    parts = [
+        _path(r, joint.module, joint.pressure_angle, s) for r, s in zip(joint.pitch_radii, signs, strict=True)
+    ]
     return sum(p * p for p in parts) / (2 * sum(parts))
 
 

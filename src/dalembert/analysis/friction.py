@@ -41,7 +41,10 @@ def interval(result: Result, name: str) -> Array:
     """Low and high end (P, 2) of an effort or unknown load; equal where it is a number."""
     unknowns = _unknown_names(result)
     if name not in unknowns:
-        raise ModelError(f"{name!r} is neither an effort nor a load that was asked for", f"there are: {', '.join(unknowns)}")
+        raise ModelError(
+            f"{name!r} is neither an effort nor a load that was asked for",
+            f"there are: {', '.join(unknowns)}",
+        )
 
     def value(r: Result) -> Array:
         return r.effort(name) if name in r.drives else r.unknown_load(name)
@@ -85,7 +88,15 @@ def bearing_contact(result: Result, joint: str, kind: str) -> int:
     for e, found in enumerate(result.compiled.contact_kinds):
         if result.joints[contacts.joint[e]] == joint and found == kind:
             return e
-    raise ModelError(f"joint {joint!r} has no friction of a {kind}", "ask a joint that has", ("joints", joint))
+    raise ModelError(
+        f"joint {joint!r} has no friction of a {kind}", "ask a joint that has", ("joints", joint)
+    )
+
+
+def bears_on_faces(result: Result, joint: str) -> bool:
+    """Whether a joint is a slider with friction."""
+    j = result.mechanism.joints[joint]
+    return result.friction is not None and j.type == "slider" and j.friction is not None
 
 
 @dataclass(frozen=True)
@@ -168,8 +179,12 @@ def friction_circles(result: Result, joint: str) -> FrictionCircle:
     size = np.hypot(force[:, 0], force[:, 1])
     unit = force / np.where(size > 0, size, 1.0)[:, None]
     # a couple m with the force F is the force on a line at arm p, p x F = m
-    offset = np.stack([unit[:, 1], -unit[:, 0]], axis=-1) * (f.cz[:, e] / np.where(size > 0, size, 1.0))[:, None]
-    reasons = tuple(_reason(i, j, rate, sense) for rate, sense in zip(f.rate[:, e], f.sense[:, e], strict=True))
+    offset = (
+        np.stack([unit[:, 1], -unit[:, 0]], axis=-1) * (f.cz[:, e] / np.where(size > 0, size, 1.0))[:, None]
+    )
+    reasons = tuple(
+        _reason(i, j, rate, sense) for rate, sense in zip(f.rate[:, e], f.sense[:, e], strict=True)
+    )
     return FrictionCircle(center, radius, Line(center + offset, unit), _others(result, joint), reasons)
 
 
@@ -187,7 +202,9 @@ def _reason(i: str, j: str, rate: float, sense: float) -> str:
         return f"{j} does not turn against {i}: any line that meets the circle may be taken"
     turns, against = ("counter-clockwise", "clockwise") if sense > 0 else ("clockwise", "counter-clockwise")
     verb = "turns" if rate else "is about to turn"
-    return f"{j} {verb} {turns} against {i}, so the reaction passes the pin on the side that turns {j} {against}"
+    return (
+        f"{j} {verb} {turns} against {i}, so the reaction passes the pin on the side that turns {j} {against}"
+    )
 
 
 def _others(result: Result, joint: str) -> tuple[Line, ...]:
@@ -263,6 +280,8 @@ def _center(result: Result, joint: str) -> Array:
 def friction_text(result: Result, joint: str) -> str:
     """The friction of a joint in words: 'mu 0.1, friction circle 2 mm'."""
     j = result.mechanism.joints[joint]
+    if getattr(j, "friction", None) is None:
+        return "viscous"
     text = f"mu {coefficient(result.mechanism, j):.6g}"
     radius = friction_circle_radius(result, joint)
     return f"{text}, friction circle {radius * 1e3:.6g} mm" if radius else text

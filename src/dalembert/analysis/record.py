@@ -18,10 +18,14 @@ from dalembert.analysis.columns import (
     Scale,
     UnitChoice,
     drive_kinds,
+    in_axes,
     load_kind,
     reactions,
+    rubbing_joints,
     scale,
+    unknown_kinds,
 )
+from dalembert.analysis.friction import bears_on_faces, guide_contact, joints_at_limit
 from dalembert.saving import new_file
 from dalembert.units import KINDS
 
@@ -93,18 +97,68 @@ def _fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], List
         out["efforts", drive] = numbers(drive_kinds(result, drive)["effort"], result.effort(drive))
     for load in result.unknown_loads:
         out["unknown_loads", load] = numbers(load_kind(result, load), result.unknown_load(load))
-    for r in reactions(result, axes):
-        out["reactions", r.joint, "force"] = numbers("force", r.force)
-        out["reactions", r.joint, "moment"] = numbers("moment", r.moment)
-        if r.least_norm is not None:
-            out["reactions", r.joint, "least_norm", "force"] = numbers("force", r.least_norm[:, :2])
-            out["reactions", r.joint, "least_norm", "moment"] = numbers("moment", r.least_norm[:, 2])
+    for name, kind in unknown_kinds(result).items() if result.ends else ():
+        group = "efforts" if name in result.drives else "unknown_loads"
+        out[group, name] = _ranges(out[group, name], numbers(kind, result.interval(name)), result.status)
+    out |= _reaction_fields(result, to, axes)
+    for name, ends in zip(unknown_kinds(result), result.ends, strict=False):
+        for which, end in zip(("low", "high"), ends, strict=True):
+            for path, lists in _reaction_fields(end, to, axes).items():
+                out["ends", name, which, *path] = lists
+            out["ends", name, which, "at_limit"] = _limits(end)
     for link in result.links:
         for name, (kind, read) in {**LINK_VECTORS, **LINK_NUMBERS}.items():
             out["links", link, name] = numbers(kind, read(result, link))
     out["residual",] = numbers("number", result.residual)
     out["power_balance",] = numbers("number", result.power_balance)
     return out
+
+
+def _reaction_fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], Lists]:
+    """Reactions, and what friction does in them."""
+
+    def numbers(kind: str, values: Array) -> Lists:
+        scaled = to(kind, values)
+        return lambda part: nulled(scaled[part])
+
+    out: dict[tuple[str, ...], Lists] = {}
+    for r in reactions(result, axes):
+        out["reactions", r.joint, "force"] = numbers("force", r.force)
+        out["reactions", r.joint, "moment"] = numbers("moment", r.moment)
+        if r.least_norm is not None:
+            out["reactions", r.joint, "least_norm", "force"] = numbers("force", r.least_norm[:, :2])
+            out["reactions", r.joint, "least_norm", "moment"] = numbers("moment", r.least_norm[:, 2])
+    for joint in rubbing_joints(result):
+        at = "reactions", joint, "friction"
+        force = in_axes(result, result.mechanism.joints[joint].links[1], result.friction_force(joint), axes)
+        out[*at, "force"] = numbers("force", force)
+        out[*at, "moment"] = numbers("moment", result.friction_moment(joint))
+        out[*at, "power_lost"] = numbers("power", result.power_lost(joint))
+        if bears_on_faces(result, joint):
+            contact = guide_contact(result, joint)
+            out["reactions", joint, "contact", "mode"] = _words(contact.mode)
+            out["reactions", joint, "contact", "lower"] = numbers("force", contact.lower)
+            out["reactions", joint, "contact", "upper"] = numbers("force", contact.upper)
+    return out
+
+
+def _words(words: tuple[str, ...]) -> Lists:
+    return lambda part: list(words[part])
+
+
+def _limits(end: Result) -> Lists:
+    """Joints whose friction is at its limit, position by position."""
+    return lambda part: [list(joints_at_limit(end, k)) for k in range(*part.indices(len(end.status)))]
+
+
+def _ranges(single: Lists, ends: Lists, status: tuple[str, ...]) -> Lists:
+    """The number, or `[low, high]` where friction leaves it open."""
+
+    def lists(part: slice) -> list[Any]:
+        rows = zip(single(part), ends(part), status[part], strict=True)
+        return [both if word == "at_rest" else number for number, both, word in rows]
+
+    return lists
 
 
 def nulled(values: Array) -> list[Any]:
@@ -134,6 +188,8 @@ def _record(result: Result, position: int, values: dict[tuple[str, ...], Any]) -
         by, on = result.mechanism.joints[joint].links
         record["reactions"][joint] = {"on": on, "by": by}
     for path, value in values.items():
+        if path[0] == "ends" and status != "at_rest":
+            continue
         place = record
         for key in path[:-1]:
             place = place.setdefault(key, {})

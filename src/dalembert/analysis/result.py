@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     import xarray
 
     from dalembert.analysis.compile import Compiled
-    from dalembert.analysis.rubbing import Friction
     from dalembert.analysis.mobility import Mobility
+    from dalembert.analysis.rubbing import Friction
     from dalembert.model import Mechanism, Schedule
 
 Array = NDArray[Any]
@@ -214,7 +214,9 @@ class Result:
     def friction_force(self, joint: str, on: str | None = None) -> Array:
         """Dry friction's part of a joint's force on one of its links (P, 2), default on j, ground axes."""
         k, sign = self._joint(joint, on)
-        return sign * (np.zeros_like(self.force_array[:, k]) if self.friction is None else self.friction.force[:, k])
+        return sign * (
+            np.zeros_like(self.force_array[:, k]) if self.friction is None else self.friction.force[:, k]
+        )
 
     def friction_moment(self, joint: str, on: str | None = None) -> Array:
         """Dry friction's couple in a joint on one of its links (P,), default on j."""

@@ -113,7 +113,7 @@ def rubbing(s: Setting, w: Array) -> Forces:
     open_ = np.flatnonzero(told.open.any(axis=-1))
     slip = slipping(contacts, r, told.sense, told.open)
     if open_.size:
-        slip.x[open_] = np.nan
+        slip.x[open_], slip.z[open_] = np.nan, np.nan
     locked = _locked(s, stated, along, told, r, slip)
     made = _Made(s, stated, along, told, blocked, locked, without_friction(contacts, r))
     if not open_.size:
@@ -137,9 +137,7 @@ def _blocked(contacts: Contacts, stated: Statement) -> Flags:
     return np.asarray(np.abs(stated.forces.null[..., read, :]).max(axis=(-2, -1), initial=0.0) > UNIQUE)
 
 
-def _locked(
-    s: Setting, stated: Statement, along: System, told: Senses, r: Response, slip: Slip
-) -> Flags:
+def _locked(s: Setting, stated: Statement, along: System, told: Senses, r: Response, slip: Slip) -> Flags:
     """Where friction turns the power of the unknowns round, also without inertia."""
     turned = _turned(s, stated, r, slip)
     if "inertia" not in s.sources or not turned.any():

@@ -14,7 +14,7 @@ from dalembert.analysis.mobility import check_knowns
 from dalembert.analysis.positions import Positions, drive_text, open_sentence, positions
 from dalembert.analysis.result import Result
 from dalembert.analysis.rubbing import Forces, Setting, block_size, joined, rubbing
-from dalembert.analysis.verdicts import friction_checks
+from dalembert.analysis.verdicts import friction_checks, refuse_friction
 from dalembert.core.equilibrium import balance, known_sources, motion, reactions, unique
 from dalembert.core.follow import BLOCK
 from dalembert.core.forcing import summed
@@ -55,6 +55,7 @@ def _analysed(m: Mechanism, count: int | None, strict: bool, inertia: bool, forc
     try:
         schedule = m.schedule(count)
         if schedule.unknown is not None:
+            refuse_friction(m)
             from dalembert.analysis.equilibria import equilibria
 
             result = equilibria(m, schedule, inertia)
@@ -100,8 +101,10 @@ def _block(c: Compiled, whole: Pose, part: slice, inertia: bool, forces: bool) -
         found = (
             _forces(c, pose, part, moving, rows, solver, inertia) if forces else _no_forces(c, len(pose.turn))
         )
-    moved = (pose.point, pose.turn, moving.twist, moving.acceleration)
-    return _Moved(*(a[:, :-1] for a in moved), moving.rcond), found
+    point, turn, twist, acceleration = (
+        a[:, :-1] for a in (pose.point, pose.turn, moving.twist, moving.acceleration)
+    )
+    return _Moved(point, turn, twist, acceleration, moving.rcond), found
 
 
 def _no_forces(c: Compiled, count: int) -> Forces:

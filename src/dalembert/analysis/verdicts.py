@@ -8,17 +8,29 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert.analysis.contacts import friction_on
+from dalembert.errors import ModelError
+
 if TYPE_CHECKING:
     from dalembert.analysis.compile import Compiled
     from dalembert.analysis.rubbing import Forces
+    from dalembert.model import Mechanism
 
 Array = NDArray[Any]
 Run = NDArray[np.intp]
 
 
-def friction_checks(
-    c: Compiled, f: Forces, solvable: Array
-) -> list[tuple[str, Any, Callable[[Any], str]]]:
+def refuse_friction(m: Mechanism) -> None:
+    """Equilibrium positions are points only without friction."""
+    if friction_on(m):
+        what = (
+            "a position is asked for and joints have friction: every position of whole arcs is an equilibrium"
+        )
+        remedy = "switch friction off, or ask for the interval of efforts at given positions"
+        raise ModelError(what, remedy, ("drives",))
+
+
+def friction_checks(c: Compiled, f: Forces, solvable: Array) -> list[tuple[str, Any, Callable[[Any], str]]]:
     """Status, positions and sentence of each thing that friction can do; none without friction."""
     if f.friction is None:
         return []
@@ -67,8 +79,8 @@ def _locked_sentence(c: Compiled, f: Forces, run: Run) -> str:
         f"{name} needs {a:.6g} and without friction {b:.6g}"
         for name, a, b in zip(names, with_[worst], bare[worst], strict=True)
     )
-    where = "" if len(run) == 1 else f"{arc(c, run[[worst]])} "
-    return f"Self-locking{arc(c, run)}: the load cannot drive the machine against its friction;{where or ' '}{figures} (SI)."
+    where = "" if len(run) == 1 else arc(c, run[[worst]])
+    return f"Self-locking{arc(c, run)}: the load cannot drive the machine against its friction;{where} {figures} (SI)."
 
 
 def _open_sentence(c: Compiled, f: Forces, run: Run) -> str:
@@ -76,9 +88,14 @@ def _open_sentence(c: Compiled, f: Forces, run: Run) -> str:
     open_ = f.friction.open[run]
     names = ", ".join(_unknowns(c))
     if not names:
-        return "Nothing moves in a structure: friction may take any part of the loads within its limits. Switch it off for the reactions without it."
+        return (
+            "Nothing moves in a structure: friction may take any part of the loads within its limits. "
+            "Switch it off for the reactions without it."
+        )
     if open_.all(axis=None) or not f.friction.sense[run].any():
-        held = f"At rest{arc(c, run)}: any value of {names} between the two impending motions holds the machine"
+        held = (
+            f"At rest{arc(c, run)}: any value of {names} between the two impending motions holds the machine"
+        )
         return held + _limits(c, f, run) + "."
     joints = ", ".join(dict.fromkeys(c.joints[k] for k in c.contacts.joint[open_.any(axis=0)]))  # type: ignore[union-attr]
     return (

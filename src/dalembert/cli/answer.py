@@ -15,7 +15,9 @@ from dalembert.analysis.columns import (
     load_kind,
     reactions,
     scale,
+    unknown_kinds,
 )
+from dalembert.cli.rubbing import ends_text, friction_table
 from dalembert.cli.text import number, table, tables, wrapped
 
 if TYPE_CHECKING:
@@ -84,8 +86,12 @@ def _one(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
         return
     if result.unknown_loads:
         yield _load_table(result, to)
-    if result.joints:
+    if status == "at_rest" and result.ends:
+        yield from _ends(result, to, axes)
+    elif result.joints:
         yield _reaction_table(result, to, axes)
+        if result.friction is not None:
+            yield friction_table(result, to)
     if result.links:
         yield _link_tables(result, to)
 
@@ -101,6 +107,8 @@ def _drive_table(result: Result, to: Printed) -> str:
             "effort": result.effort(drive),
         }
         cells = [f"{number(float(to(kinds[n], v[0])), 7)} {to.text(kinds[n])}" for n, v in values.items()]
+        if result.status[0] == "at_rest" and drive in unknown_kinds(result):
+            cells[-1] = ends_text(result, drive, to)
         rows.append([drive, *cells, *([result.stability[0] or "-"] if result.stability else [])])
     heads = [
         "drive",
@@ -114,12 +122,22 @@ def _drive_table(result: Result, to: Printed) -> str:
 
 
 def _load_table(result: Result, to: Printed) -> str:
-    rows = [
-        [name, f"{number(float(to(kind, result.unknown_load(name)[0])))} {to.text(kind)}"]
-        for name in result.unknown_loads
-        for kind in [load_kind(result, name)]
-    ]
+    def value(name: str) -> str:
+        if result.status[0] == "at_rest":
+            return ends_text(result, name, to)
+        kind = load_kind(result, name)
+        return f"{number(float(to(kind, result.unknown_load(name)[0])))} {to.text(kind)}"
+
+    rows = [[name, value(name)] for name in result.unknown_loads]
     return table(["unknown load", "value"], rows)
+
+
+def _ends(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
+    """Reactions at both ends of each unknown that friction leaves open."""
+    for name, ends in zip(unknown_kinds(result), result.ends, strict=True):
+        for which, end in zip(("low", "high"), ends, strict=True):
+            yield f"At the {which} end of {name}:"
+            yield _reaction_table(end, to, axes)
 
 
 def _reaction_table(result: Result, to: Printed, axes: Axes) -> str:

@@ -83,7 +83,7 @@ def _result(file: Path, static: bool, positions: int | None, friction: bool) -> 
         raise ModelError(f"--positions is {positions}", "give 1 or more")
     m = load(file)
     if not friction:
-        m = m.with_values({"friction": {"enabled": False}})
+        m = m.with_values({"friction.enabled": False})
     with _waiting(f"Solving {file}"):
         return solve(m, static=static, positions=positions)
 

@@ -45,6 +45,7 @@ class Contacts:
     circle (E,) strength lever sin(atan(mu)), else lever mu
     signed (E,) S is the first force with its sign: the couple of the two faces of a guide
     fixed (E,)  not friction: strength is the lever whatever the scale, sense -1
+    led (E,)    contact whose rate tells its sense: itself, or the slide to which a couple of faces belongs
     reach (E,)  where positive: its forces hold at this distance of the centres and fall as it grows
     """
 
@@ -61,6 +62,7 @@ class Contacts:
     circle: Flags
     signed: Flags
     fixed: Flags
+    led: Ints
     reach: Array
 
     @property
@@ -91,8 +93,8 @@ def senses(layout: Layout, contacts: Contacts, along: System, twist: Array) -> S
     rate = rates(along, twist)
     scaled = rate * np.where(contacts.rows.angular, layout.length, 1.0)
     fastest = np.abs(twist / layout.wrench_scale).max(axis=(-2, -1), initial=0.0)
-    still = (np.abs(scaled) <= STILL * fastest[..., None]) & ~contacts.fixed
-    sense = np.where(contacts.fixed, -1.0, np.where(still, 0.0, np.sign(rate)))
+    still = ((np.abs(scaled) <= STILL * fastest[..., None]) & ~contacts.fixed)[..., contacts.led]
+    sense = np.where(contacts.fixed, -1.0, np.where(still, 0.0, np.sign(rate)[..., contacts.led]))
     return Senses(sense, still, rate)
 
 
@@ -177,7 +179,10 @@ def jacobian(contacts: Contacts, r: Response, y: Array, sense: Array, c: Array) 
 
 
 def spread(contacts: Contacts, r: Response, c: Array) -> Array:
-    """Bound (...) of the spectral radius of the fixed point: below 1 there is one solution, at any smaller scale too."""
+    """Bound (...) of the spectral radius of the fixed point.
+
+    Below 1 there is one solution, at any smaller scale too.
+    """
     lever = np.maximum(np.hypot(r.h[..., 0, :, :], r.h[..., 1, :, :]), np.abs(r.h[..., 2, :, :]))
     lever = np.where(contacts.signed[:, None], np.abs(r.h[..., 0, :, :]), lever) * c[..., None, :]
     power, log, size = lever, np.zeros(lever.shape[:-2]), 1
@@ -186,4 +191,6 @@ def spread(contacts: Contacts, r: Response, c: Array) -> Array:
         power = power / largest[..., None, None]
         log = log + np.log(largest) / size
         power, size = power @ power, 2 * size
-    return np.asarray(np.exp(log + np.log(np.maximum(power.sum(axis=-1).max(axis=-1, initial=0.0), 1e-300)) / size))
+    return np.asarray(
+        np.exp(log + np.log(np.maximum(power.sum(axis=-1).max(axis=-1, initial=0.0), 1e-300)) / size)
+    )

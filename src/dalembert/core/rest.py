@@ -35,12 +35,13 @@ def extreme(layout: Any, contacts: Contacts, r: Response, known: Senses, unknown
     """The lowest (end -1) or highest (end 1) value of one of the multipliers."""
     g = np.broadcast_to(r.change[..., unknown, :], known.sense.shape)
     size = np.abs(g) * np.where(contacts.rows.angular, layout.length, 1.0)
-    moves = size > STILL * size.max(axis=-1, keepdims=True, initial=0.0)
-    sense = np.where(known.open, np.where(moves, -end * np.sign(g), 0.0), known.sense)
+    moves = (size > STILL * size.max(axis=-1, keepdims=True, initial=0.0))[..., contacts.led]
+    told = np.where(moves, -end * np.sign(g)[..., contacts.led], 0.0)
+    sense = np.where(known.open, told, known.sense)
     idle = known.open & ~moves
     found = slipping(contacts, r, sense, known.open)
     for _ in range(ROUNDS if idle.any() else 0):
-        new = np.where(idle, -end * _influence(contacts, r, found, sense, g), sense)
+        new = np.where(idle, -end * _influence(contacts, r, found, sense, g)[..., contacts.led], sense)
         if np.array_equal(new, sense):
             break
         sense, found = new, slipping(contacts, r, new, known.open)

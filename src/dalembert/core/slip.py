@@ -117,7 +117,9 @@ def _continued(contacts: Contacts, r: Response, sense: Array, resting: Array) ->
     """The branch from scale 0 to 1 and the scale it reaches."""
     count = len(sense)
     scale, step = np.zeros(count), np.full(count, 0.25)
-    found = _newton(contacts, r, sense, np.broadcast_to(strength(contacts, 0.0), sense.shape), np.zeros_like(sense))
+    found = _newton(
+        contacts, r, sense, np.broadcast_to(strength(contacts, 0.0), sense.shape), np.zeros_like(sense)
+    )
     z, determinant, iterations = found.z, found.determinant, found.iterations.copy()
     while True:
         on = np.flatnonzero((scale < 1) & (step > SMALLEST))

@@ -52,7 +52,8 @@ class PinFriction(Part):
         None, description="coefficient of friction; default the top level's"
     )
     static: Coefficient | None = Field(
-        None, description="coefficient at rest; default the joint's own coefficient, then the top level's static"
+        None,
+        description="coefficient at rest; default the joint's own coefficient, then the top level's static",
     )
     radius: Annotated[float, Scalar("length", "not negative")] = Field(
         description="radius of the pin, a length"
@@ -67,7 +68,8 @@ class GuideFriction(Part):
         None, description="coefficient of friction; default the top level's"
     )
     static: Coefficient | None = Field(
-        None, description="coefficient at rest; default the joint's own coefficient, then the top level's static"
+        None,
+        description="coefficient at rest; default the joint's own coefficient, then the top level's static",
     )
     guide: Annotated[tuple[float, float], Guide()] | None = Field(
         None, description="how far the guide reaches behind and ahead of j's point, two lengths"
@@ -84,7 +86,8 @@ class SlotFriction(Part):
         None, description="coefficient of friction; default the top level's"
     )
     static: Coefficient | None = Field(
-        None, description="coefficient at rest; default the joint's own coefficient, then the top level's static"
+        None,
+        description="coefficient at rest; default the joint's own coefficient, then the top level's static",
     )
     radius: Annotated[float, Scalar("length", "not negative")] | None = Field(
         None, description="radius of the pin in the slot, a length"
@@ -104,7 +107,8 @@ class GearFriction(Part):
         None, description="coefficient of friction; default the top level's"
     )
     static: Coefficient | None = Field(
-        None, description="coefficient at rest; default the joint's own coefficient, then the top level's static"
+        None,
+        description="coefficient at rest; default the joint's own coefficient, then the top level's static",
     )
     arm: Annotated[float, Scalar("length", "positive")] | None = Field(
         None, description="mean distance of the teeth's contact from the pitch point, a length"
