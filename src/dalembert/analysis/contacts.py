@@ -48,8 +48,8 @@ def friction_on(m: Mechanism) -> bool:
 
 def coefficient(m: Mechanism, joint: Any) -> float:
     """Coefficient of friction in motion."""
-    own = joint.friction.coefficient
-    return float(m.friction.coefficient if own is None else own)
+    own, top = joint.friction.coefficient, m.friction.coefficient
+    return float((top or 0.0) if own is None else own)
 
 
 def resting_coefficient(m: Mechanism, joint: Any) -> float:
@@ -57,7 +57,7 @@ def resting_coefficient(m: Mechanism, joint: Any) -> float:
     f, top = joint.friction, m.friction
     if f.static is not None or f.coefficient is not None:
         return float(f.coefficient if f.static is None else f.static)
-    return float(top.coefficient if top.static is None else top.static)
+    return float((top.coefficient or 0.0) if top.static is None else top.static)
 
 
 def circle(m: Mechanism, joint: Any) -> str:
@@ -77,7 +77,7 @@ def contacts(
         first = int(np.flatnonzero(constraints.joint == k)[0])
         for contact, mu, resting in _of(m, joint, first):
             kind, numbers = contact.along
-            arms = {} if kind is Turn else {"ui": points[k][0], "uj": points[k][1]}
+            arms: dict[str, Any] = {} if kind is Turn else {"ui": points[k][0], "uj": points[k][1]}
             rows.add(kind, k, ends[k], **arms, **numbers)
             found.append((k, contact, mu, resting))
     return _stacked(rows.rows(), found), tuple(contact.kind for _, contact, _, _ in found)

@@ -282,12 +282,11 @@ def joined(parts: list[Forces]) -> Forces:
         return parts[0]
     count = max(len(p.ends) for p in parts)
     ends = tuple(joined([p.ends[k] if p.ends else p for p in parts]) for k in range(count))
-    plain = [p._replace(ends=(), friction=None) for p in parts]
-    friction = None
-    if parts[0].friction is not None:
-        friction = Friction(*(np.concatenate(a) for a in zip(*(p.friction for p in parts), strict=True)))  # type: ignore[misc]
-    arrays = [None if a[0] is None else np.concatenate(a) for a in zip(*(p[:9] for p in plain), strict=True)]
-    return Forces(*arrays, friction, ends)  # type: ignore[arg-type]
+    friction = [p.friction for p in parts if p.friction is not None]
+    whole = Friction(*(np.concatenate(a) for a in zip(*friction, strict=True))) if friction else None
+    arrays = (None if a[0] is None else np.concatenate(a) for a in zip(*(p[:9] for p in parts), strict=True))
+    made: Any = Forces._make([*arrays, whole, ends])
+    return made  # type: ignore[no-any-return]
 
 
 def block_size(c: Compiled, most: int) -> int:
