@@ -19,7 +19,7 @@ from dalembert.core.equilibrium import (
     unique,
 )
 from dalembert.core.forcing import Forcing, Source, pair, summed
-from dalembert.core.friction import Contacts, Response, Senses, argument, response, senses
+from dalembert.core.friction import Contacts, Response, Senses, argument, bearing, response, senses
 from dalembert.core.layout import Pose, System
 from dalembert.core.linear import Factor, PseudoInverse
 from dalembert.core.rest import extreme
@@ -32,7 +32,7 @@ Array = NDArray[Any]
 Flags = NDArray[np.bool_]
 
 SAME = 1e-11
-"""Two ends closer than this part of the largest force are one."""
+"""A contact that carries less than this part of the largest force carries nothing."""
 
 POWERLESS = 1e-9
 """A power below this part of the powers of all loads has no sign."""
@@ -170,9 +170,7 @@ def _with_ends(made: _Made, r: Response, slip: Slip, told: Senses, open_: NDArra
     ]
     if not ends:
         return made.forces(r, slip, told.sense)
-    x = np.stack([end.slip.x for end in ends])
-    size = np.abs(x).max(axis=(0, 2), initial=0.0)
-    one = (np.abs(x - x[0]).max(axis=(0, 2), initial=0.0) <= SAME * size) & np.isfinite(size)
+    one = _idle(contacts, part, ends[0].slip, known)
     made.told.open[open_[one]] = False
     main = _put(slip, open_[one], ends[0].slip, one)
     whole = [
@@ -180,6 +178,13 @@ def _with_ends(made: _Made, r: Response, slip: Slip, told: Senses, open_: NDArra
         for end in ends
     ]
     return made.forces(r, main, told.sense)._replace(ends=tuple(whole))
+
+
+def _idle(contacts: Contacts, r: Response, slip: Slip, known: Senses) -> Flags:
+    """Where the contacts of unknown sense carry nothing, so that it does not matter."""
+    y = argument(r, slip.c * np.nan_to_num(slip.z))
+    carried = np.where(known.open, np.abs(bearing(contacts, y)), 0.0).max(axis=-1, initial=0.0)
+    return np.asarray(carried <= SAME * np.abs(y).max(axis=(-2, -1), initial=0.0))
 
 
 def _put(whole: Slip, where: NDArray[np.intp], part: Slip, which: Any) -> Slip:
