@@ -218,6 +218,12 @@ class Gear(JointPart):
                 "the pressure angle is not between 0 and 68 deg", "20 deg is usual", ("pressure_angle",)
             )
         _check_internal(self.internal, self.pitch_radii)
+        if self.friction is not None and self.friction.arm is None and self.teeth is None:
+            raise ModelError(
+                "its friction needs the arm of the teeth's contact",
+                "give arm, or the size as teeth and module",
+                ("friction",),
+            )
         return self
 
 
