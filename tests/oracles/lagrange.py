@@ -61,7 +61,9 @@ def solve(tree: Tree, guess: Array, inertia: bool = True) -> Answer:
     w = known(m, q, v, a if inertia else None)
     multipliers = _multipliers(all_rows, J, w, q)
     forces, moments, efforts = _reactions(all_rows, multipliers, q)
-    return Answer(m, q.astype(float), v.astype(float), a.astype(float), forces, moments, efforts, _condition(J, q))
+    return Answer(
+        m, q.astype(float), v.astype(float), a.astype(float), forces, moments, efforts, _condition(J, q)
+    )
 
 
 def quality(tree: Tree, pose: Array) -> tuple[float, Array, Array]:
