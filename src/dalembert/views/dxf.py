@@ -18,7 +18,7 @@ def write_dxf(scene: Scene, path: str | Path) -> None:
     import ezdxf
     from ezdxf import units
 
-    document = ezdxf.new("R2010", setup=True)  # type: ignore[attr-defined]
+    document = ezdxf.new("R2010", setup=True)
     document.units = units.MM
     space = document.modelspace()
     for item in scene.flat():
