@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +16,8 @@ from dalembert.views.scene import Arc, Arrow, Circle, Group, Item, Line, Point, 
 
 Array = NDArray[Any]
 
-GAPS = (0.9, 1.6, 2.6, 4.0, 6.0, 8.5, 12.0, 17.0, 24.0, 34.0, 48.0)
-"""Distances in mm at which a label is tried."""
+STAGES = ((0.9, 1.6), (2.6, 4.0), (6.0, 8.5), (12.0, 17.0), (24.0, 34.0, 48.0, 64.0))
+"""Distances in mm at which a label is tried, some at a time: a free place near ends the search."""
 
 LEADER = 5.0
 """Distance in mm beyond which a thin line leads from the label to its place."""
@@ -118,6 +118,16 @@ def overlapping(a: Array, b: Array) -> NDArray[np.bool_]:
     return np.asarray((upper > lower).all(axis=-1))
 
 
+class _Place(NamedTuple):
+    """A candidate: its cost, middle, box, the point it belongs to and the distance from it."""
+
+    cost: float
+    at: Array
+    box: Array
+    near: Array
+    gap: float
+
+
 class _Placer:
     """Finds places for labels one by one."""
 
@@ -126,27 +136,41 @@ class _Placer:
         self.boxes = np.array([item_box(i) for i in items if isinstance(i, Text)], float).reshape(-1, 4)
 
     def placed(self, label: Label) -> list[Item]:
+        """The text at its best place, with a leader where that is far."""
         bold = BOLD if label.role == "title" else 1.0
-        width, height = bold * text_width(label.text, label.size), 1.3 * label.size
-        at, near, gap = _candidates(label, width / 2, height / 2)
+        room = (bold * text_width(label.text, label.size) / 2 + 0.25, 0.65 * label.size + 0.25)
+        best = _Place(np.inf, np.zeros(2), np.zeros(4), np.zeros(2), 0.0)
+        for gaps in STAGES:
+            if best.cost > gaps[0]:
+                best = min(best, self._best(label, room, gaps), key=lambda place: place.cost)
+        x, y = best.at
         lift = 0.07 * label.size if "_{" in label.text else 0.0
-        room = np.array([width, height]) / 2 + 0.25
-        box = np.concatenate([at - room, at + room], axis=1)
-        cost = gap + self._preference(label, at, near)
-        cost += 60.0 * np.minimum(crossed(box, self.strokes).sum(axis=1), 3)
-        cost += np.where(overlapping(box, self.boxes).any(axis=1), 1000.0, 0.0)
-        if label.leads:
-            far = gap >= LEADER
-            cost += np.where(far & self._blocked(near, box), 300.0, 0.0)
-        best = int(cost.argmin())
-        x, y = at[best]
         text = Text((float(x), float(y + lift)), label.text, label.size, label.role)
         items: list[Item] = [text]
-        if label.leads and gap[best] >= LEADER:
-            items.append(_leader(near[best], box[best]))
+        if label.leads and best.gap >= LEADER:
+            items.append(_leader(best.near, best.box))
             self.strokes = np.concatenate([self.strokes, segments(items[1:])])
-        self.boxes = np.concatenate([self.boxes, box[best : best + 1]])
+        self.boxes = np.concatenate([self.boxes, best.box[None]])
         return items
+
+    def _best(self, label: Label, room: tuple[float, float], gaps: tuple[float, ...]) -> _Place:
+        """The cheapest candidate at some distances: near, in the preferred direction, over nothing."""
+        at, near, gap = _candidates(label, room[0] - 0.25, room[1] - 0.25, gaps)
+        box = np.concatenate([at - room, at + room], axis=1)
+        cost = gap + self._preference(label, at, near)
+        cost += 60.0 * np.minimum(crossed(box, self._close(box)).sum(axis=1), 3)
+        cost += np.where(overlapping(box, self.boxes).any(axis=1), 1000.0, 0.0)
+        if label.leads and gaps[-1] >= LEADER:
+            cost += np.where((gap >= LEADER) & self._blocked(near, box), 300.0, 0.0)
+        k = int(cost.argmin())
+        return _Place(float(cost[k]), at[k], box[k], near[k], float(gap[k]))
+
+    def _close(self, box: Array) -> Array:
+        """Strokes in the region of some boxes."""
+        low, high = box[:, :2].min(axis=0), box[:, 2:].max(axis=0)
+        ends = self.strokes
+        kept = (ends.max(axis=1) >= low).all(axis=1) & (ends.min(axis=1) <= high).all(axis=1)
+        return np.asarray(ends[kept])
 
     def _blocked(self, near: Array, box: Array) -> NDArray[np.bool_]:
         """Whether the straight way to a candidate crosses a text."""
@@ -163,12 +187,14 @@ class _Placer:
         return np.asarray(2.0 * (1 - np.cos(angle)))
 
 
-def _candidates(label: Label, half_width: float, half_height: float) -> tuple[Array, Array, Array]:
+def _candidates(
+    label: Label, half_width: float, half_height: float, distances: tuple[float, ...]
+) -> tuple[Array, Array, Array]:
     """Middles of boxes (B, 2) at distances ``gap`` around the points, and those points."""
     angles = np.arange(24) * (2 * math.pi / 24) + (label.prefer or 0.0)
     direction = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
     reach = np.clip(direction * 1.5, -1, 1) * np.array([half_width, half_height])
-    gaps = np.array(GAPS)
+    gaps = np.array(distances)
     near = np.array(label.near, float)
     at = near[:, None, None, :] + gaps[None, :, None, None] * direction + reach
     shape = at.shape[:-1]

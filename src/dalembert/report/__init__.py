@@ -1,0 +1,82 @@
+"""The worked solution of a result: a sheet of text, formulas, tables and drawings, and its writers.
+
+The package itself can be called: ``da.report(r).save("engine.pdf")``.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result import Result
+    from dalembert.views.notation import Notation
+
+FORMATS = (".pdf", ".html", ".tex", ".txt")
+
+
+class Report:
+    """A worked solution, ready to be written or shown in a notebook."""
+
+    def __init__(self, sheet: Any) -> None:
+        self.sheet = sheet
+
+    def to_bytes(self, kind: str) -> bytes:
+        """The report as `pdf`, `html`, `tex` or `txt`."""
+        if kind in ("pdf", "html"):
+            from dalembert.report.typst_writer import typst_bytes
+            from dalembert.saving import check_installed
+
+            check_installed("typst", f"writing {kind.upper()}", "report")
+            return typst_bytes(self.sheet, kind)
+        if kind == "tex":
+            from dalembert.report.latex_writer import latex_text
+
+            return latex_text(self.sheet).encode()
+        from dalembert.report.plain_writer import plain_text
+
+        return plain_text(self.sheet).encode()
+
+    def save(self, path: str | Path, overwrite: bool = False) -> None:
+        """Write .pdf, .html, .tex or .txt."""
+        from dalembert.errors import ModelError
+        from dalembert.saving import new_file
+
+        target = Path(path)
+        if target.suffix.lower() not in FORMATS:
+            raise ModelError(f"{target.name}: reports are not written as that", f"use one of {' '.join(FORMATS)}")
+        written = self.to_bytes(target.suffix.lower()[1:])
+        with new_file(target, overwrite) as temporary:
+            temporary.write_bytes(written)
+
+    def _repr_html_(self) -> str:
+        return self.to_bytes("html").decode()
+
+
+def report(
+    r: Result,
+    at: Any = None,
+    methods: Any = None,
+    notation: Notation | None = None,
+    about: str = "",
+) -> Report:
+    """The worked solution of one position of a result.
+
+    ``methods``: some of `matrix`, `graphical`, `superposition`, `virtual-work`; all by default. ``about``: a joint to
+    take moments about where a link has it.
+    """
+    from dalembert.report.working import METHODS, working
+
+    return Report(working(r, at, tuple(methods or METHODS), notation, about))
+
+
+class _Callable(ModuleType):
+    """The package `dalembert.report` shares its name with the function: calling it calls that."""
+
+    def __call__(self, *given: Any, **named: Any) -> Report:
+        return report(*given, **named)
+
+
+sys.modules[__name__].__class__ = _Callable

@@ -1,0 +1,137 @@
+r"""Formulas in one small notation, written as typst, LaTeX or plain text.
+
+`F_{12}`, `x^{2}`, Greek letters and functions by name, `"lbf·in"` for upright text, `frac(a; b)`.
+
+>>> plain('F_{I2} = -frac(W; g) a_{G} cdot 3 "lbf"')
+'F_I2 = −(W)/(g) a_G · 3 lbf'
+>>> latex('theta_{3} = 20.92 deg')
+'\\theta_{\\mathrm{3}} = 20.92 {}^\\circ'
+>>> typst('F_{12x} cos theta')
+'F_"12x" cos theta'
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import NamedTuple
+
+
+class Word(NamedTuple):
+    """A name in the three notations."""
+
+    typst: str
+    latex: str
+    plain: str
+
+
+WORDS: dict[str, Word] = {
+    **{
+        name: Word(name, "\\" + name, sign)
+        for name, sign in zip(
+            "alpha beta gamma delta theta omega phi eta mu".split(), "α β γ δ θ ω φ η μ".split(), strict=True
+        )
+    },
+    **{name: Word(name, "\\" + name, name) for name in ("cos", "sin", "tan")},
+    "sum": Word("sum", "\\sum", "Σ"),
+    "cdot": Word("dot.c", "\\cdot", "·"),
+    "times": Word("times", "\\times", "×"),
+    "deg": Word("degree", "{}^\\circ", "°"),
+    "dot": Word("dot", "\\dot", "d/dt "),
+    "quad": Word("quad", "\\quad", "   "),
+    "angle": Word("angle", "\\angle", "∠"),
+}
+
+_TOKEN = re.compile(r'"[^"]*"|[_^]\{[^}]*\}|frac\(|[A-Za-z]+|\d[\d.]*(?:e[−-]?\d+)?|\s+|.', re.DOTALL)
+
+
+def _written(text: str, atom: Callable[[str], str], fraction: Callable[[str, str], str]) -> str:
+    out, tokens = [], _TOKEN.findall(text)
+    while tokens:
+        token = tokens.pop(0)
+        if token == "frac(":
+            above, below = _inside(tokens)
+            out.append(fraction(_written(above, atom, fraction), _written(below, atom, fraction)))
+        else:
+            out.append(atom(token))
+    return re.sub(r" {2,}(?! )", " ", "".join(out)).strip()
+
+
+def _inside(tokens: list[str]) -> tuple[str, str]:
+    """The two parts of a fraction up to its closing bracket, which is taken off."""
+    parts, depth = ["", ""], 1
+    place = 0
+    while tokens:
+        token = tokens.pop(0)
+        depth += (token.endswith("(")) - (token == ")")
+        if not depth:
+            break
+        if token == ";" and depth == 1:
+            place = 1
+        else:
+            parts[place] += token
+    return parts[0].strip(), parts[1].strip()
+
+
+def typst(text: str) -> str:
+    """As typst's mathematics."""
+
+    def atom(token: str) -> str:
+        if token[0] == '"':
+            return f' upright("{token[1:-1]}")'
+        if token[0] in "_^" and len(token) > 1:
+            inside = token[2:-1]
+            return f'{token[0]}"{inside}"'
+        if token in WORDS:
+            return WORDS[token].typst
+        if token[0].isalpha() and len(token) > 1:
+            return f'"{token}"'
+        return {"−": "-", "·": "dot.c", "#": "\\#", "/": "\\/"}.get(token, token)
+
+    return _written(text, atom, lambda a, b: f"frac({a}, {b})")
+
+
+def latex(text: str) -> str:
+    """As LaTeX's mathematics."""
+
+    def atom(token: str) -> str:
+        if token[0] == '"':
+            return rf"\,\mathrm{{{_latex_text(token[1:-1])}}}"
+        if token[0] in "_^" and len(token) > 1:
+            return rf"{token[0]}{{\mathrm{{{_latex_text(token[2:-1])}}}}}"
+        if token in WORDS:
+            return WORDS[token].latex
+        if token[0].isalpha() and len(token) > 1:
+            return rf"\mathrm{{{token}}}"
+        return {"−": "-", "·": r"\cdot "}.get(token, token)
+
+    return _written(text, atom, lambda a, b: rf"\frac{{{a}}}{{{b}}}")
+
+
+_LATEX = {
+    "·": r"{\cdot}", "²": "^2", "³": "^3", "°": r"^\circ", "−": "-", "_": r"\_", "%": r"\%", "&": r"\&", "∥": r"\parallel",
+    "⊥": r"\perp", "#": r"\#",
+}  # fmt: skip
+
+
+def _latex_text(text: str) -> str:
+    return "".join(_LATEX.get(c, c) for c in text)
+
+
+def plain(text: str) -> str:
+    """As plain text."""
+
+    def atom(token: str) -> str:
+        if token[0] == '"':
+            return f" {token[1:-1]}"
+        if token[0] in "_^" and len(token) > 1:
+            return f"{token[0]}{token[2:-1]}" if token[0] == "_" else f"^{token[2:-1]}"
+        return WORDS[token].plain if token in WORDS else token.replace("-", "−")
+
+    return _written(text, atom, lambda a, b: f"({a})/({b})")
+
+
+def mixed(text: str, formula: Callable[[str], str], words: Callable[[str], str]) -> list[str]:
+    """Words and the formulas between dollar signs, each written."""
+    parts = text.split("$")
+    return [formula(p) if n % 2 else words(p) for n, p in enumerate(parts)]

@@ -1,0 +1,106 @@
+"""A report as data: blocks of text, formulas, tables, matrices and drawings; writers turn it into PDF, HTML, LaTeX, text."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from dalembert.views.scene import Scene
+
+
+@dataclass(frozen=True)
+class Heading:
+    """A heading of level 1 or 2."""
+
+    text: str
+    level: int = 1
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    """Words; formulas between dollar signs."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Working:
+    """An equation three times: in letters, with numbers, its result; empty ones are left out."""
+
+    letters: str
+    numbers: str = ""
+    result: str = ""
+
+
+@dataclass(frozen=True)
+class Equations:
+    """Equations one under the other."""
+
+    lines: tuple[Working, ...]
+
+
+@dataclass(frozen=True)
+class Table:
+    """Columns under their heads; cells may hold formulas between dollar signs. ``total`` sets the last row apart."""
+
+    heads: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    caption: str = ""
+    total: bool = False
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """A x = b with the unknowns' signs and their values."""
+
+    rows: tuple[tuple[str, ...], ...]
+    unknowns: tuple[str, ...]
+    right: tuple[str, ...]
+    values: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Figure:
+    """Drawings side by side."""
+
+    scenes: tuple[Scene, ...]
+    caption: str = ""
+
+
+Block = Heading | Paragraph | Equations | Table | Matrix | Figure
+
+
+@dataclass
+class Sheet:
+    """Title, source and blocks in order."""
+
+    title: str
+    source: str = ""
+    subtitle: str = ""
+    blocks: list[Block] = field(default_factory=list)
+
+    def heading(self, text: str, level: int = 1) -> None:
+        """A heading."""
+        self.blocks.append(Heading(text, level))
+
+    def text(self, text: str) -> None:
+        """A paragraph, if there is something to say."""
+        if text:
+            self.blocks.append(Paragraph(text))
+
+    def equations(self, lines: Sequence[Working]) -> None:
+        """Equations, if there are some."""
+        if lines:
+            self.blocks.append(Equations(tuple(lines)))
+
+    def table(
+        self, heads: Sequence[str], rows: Sequence[Sequence[str]], caption: str = "", total: bool = False
+    ) -> None:
+        """A table, if it has rows."""
+        if rows:
+            self.blocks.append(Table(tuple(heads), tuple(tuple(row) for row in rows), caption, total))
+
+    def figure(self, *scenes: Scene, caption: str = "") -> None:
+        """Drawings side by side."""
+        if scenes:
+            self.blocks.append(Figure(scenes, caption))
