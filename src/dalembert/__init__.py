@@ -78,6 +78,7 @@ if TYPE_CHECKING:
         watt_2,
         whitworth,
     )
+    from dalembert.report import report
     from dalembert.views import draw
     from dalembert.views.notation import Notation
     from dalembert.views.scene import Scene
@@ -134,6 +135,7 @@ _HOME = {
     "members": "analysis.members",
     "mobility": "analysis",
     "order_of_solution": "analysis.members",
+    "report": "report",
     "scissor": "model.library",
     "scotch_yoke": "model.library",
     "slider_crank": "model.library",
@@ -206,6 +208,7 @@ __all__ = [
     "members",
     "mobility",
     "order_of_solution",
+    "report",
     "scissor",
     "scotch_yoke",
     "slider_crank",

@@ -38,8 +38,8 @@ from tests.cli.conftest import Run
         ),
         (
             ["slove", "four_bar.yaml"],
-            'dalembert: unknown command "slove". Did you mean "solve"? Available commands: solve, draw, check,'
-            " validate, schema, new, convert, examples; see `dalembert --help`",
+            'dalembert: unknown command "slove". Did you mean "solve"? Available commands: solve, draw, report,'
+            " check, validate, schema, new, convert; see `dalembert --help`",
         ),
         (
             ["draw", "four_bar.yaml"],
@@ -47,7 +47,7 @@ from tests.cli.conftest import Run
         ),
         (
             ["report", "four_bar.yaml"],
-            "dalembert: report is not part of version 0.1.0; `dalembert --help` lists what is",
+            "dalembert: report needs --output; see `dalembert report --help`",
         ),
         (["check"], "check needs a file or a folder; for example: dalembert check four_bar.yaml"),
         (["examples", "four_bra"], "there is no example 'four_bra'; did you mean 'four_bar'?"),

@@ -147,6 +147,85 @@ def draw(
 
 @app.command(
     help_epilogue="""Examples:
+  dalembert report four_bar.yaml -o four_bar.pdf
+  dalembert report four_bar.yaml -o four_bar.html --method virtual-work --names
+  dalembert report engine.yaml -o engine.tex --at 60deg --units si --decimals 2"""
+)
+def report(
+    file: Path,
+    /,
+    *,
+    output: Annotated[Path, Parameter(name=["--output", "-o"])],
+    at: str | None = None,
+    positions: int | None = None,
+    static: Flag = False,
+    method: list[Literal["matrix", "graphical", "superposition", "virtual-work"]] | None = None,
+    units: Literal["si", "file"] = "file",
+    axes: Literal["ground", "link"] = "ground",
+    names: Flag = False,
+    on_by: Flag = False,
+    letter: str = "F",
+    figures: int = 4,
+    decimals: int | None = None,
+    clockwise: Flag = False,
+    about: str = "",
+    force: Flag = False,
+) -> int:
+    """Write the worked solution of FILE, step by step, with its drawings.
+
+    Parameters
+    ----------
+    file
+        Model file.
+    output
+        File to write; its ending names the format: .pdf, .html, .tex or .txt.
+    at
+        The position: its number from 1, or a value of the first drive such as 60deg; the first by default.
+    positions
+        Number of positions over the range of the drives, instead of the file's own count.
+    static
+        Leave inertia out, even where the file has speeds.
+    method
+        Methods to show, one or more (default: all).
+    units
+        Units of the numbers: the file's (default) or si.
+    axes
+        Axes of components: ground, or the link acted on.
+    names
+        Write links by their names, not by number.
+    on_by
+        Write F_ij for the force on i by j; without it, by i on j.
+    letter
+        Letter of the joint forces: F or G.
+    figures
+        Significant figures.
+    decimals
+        Decimals, in place of significant figures.
+    clockwise
+        Count moments positive clockwise.
+    about
+        Joint to take moments about, where a link has it.
+    force
+        Overwrite a file that exists.
+    """
+    from dalembert.cli.drawing import reported
+    from dalembert.views.notation import Notation
+
+    notation = Notation(
+        links="name" if names else "number",
+        order="on-by" if on_by else "by-on",
+        letter=letter,
+        units="SI" if units == "si" else "file",
+        figures=figures,
+        decimals=decimals,
+        torque=-1 if clockwise else 1,
+        axes=axes,
+    )
+    return reported(file, output, at, positions, static, method, notation, about, force)
+
+
+@app.command(
+    help_epilogue="""Examples:
   dalembert check four_bar.yaml
   dalembert check problems/ --all"""
 )
@@ -266,16 +345,10 @@ def emitted(text: str, output: Path | None, force: bool) -> int:
     return OK
 
 
-LATER = ("report",)
-"""Commands of the contract that this version does not have."""
-
-
 def command_line_error(error: CycloptsError, arguments: list[str]) -> str:
     """The sentence for a wrong command line, and where to read more."""
     asked: Any = arguments[0] if arguments else ""
-    if asked in LATER:
-        return f"dalembert: {asked} is not part of version {__version__}; `dalembert --help` lists what is"
     missing = isinstance(error, MissingArgumentError) and re.search(r"parameter (\S+) requires", str(error))
-    said = f"{asked} needs {missing[1]}" if missing else str(error).strip().rstrip(".")
+    said = f"{asked} needs {missing[1]}" if missing else str(error).strip().removesuffix(", ...").rstrip(".")
     command = f" {asked}" if asked in app and not asked.startswith("-") else ""
     return f"dalembert: {said[:1].lower() + said[1:]}; see `dalembert{command} --help`"

@@ -1,4 +1,4 @@
-"""`dalembert draw`: a file analysed and drawn."""
+"""`dalembert draw` and `report`: a file analysed, drawn and worked out on paper."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from dalembert.errors import ModelError
+from dalembert.saving import check_new
 
 OK, SOME_NOT_OK = 0, 1
 PICTURES = (".svg", ".pdf", ".png", ".dxf", ".gif", ".webp")
@@ -32,11 +33,35 @@ def drawn(
         raise ModelError(
             f"{output.name}: the ending names no kind of drawing", f"use one of {' '.join(PICTURES)}"
         )
+    check_new(output, force)
     if view == "charts" and positions is None:
         positions = _enough(file)
     result = solve(load(file), static=static, positions=positions)
     notation = draw.Notation(links="name" if names else "number")
     draw.view(result, view, at, notation).save(output, force, theme)
+    print(f"Written: {output}", file=sys.stderr)
+    return OK if result.ok.all() else SOME_NOT_OK
+
+
+def reported(
+    file: Path,
+    output: Path,
+    at: str | None,
+    positions: int | None,
+    static: bool,
+    methods: Any,
+    notation: Any,
+    about: str,
+    force: bool,
+) -> int:
+    """Write the worked solution; 1 where some position has a status other than ok."""
+    from dalembert.analysis import solve
+    from dalembert.model import load
+    from dalembert.report import report
+
+    check_new(output, force)
+    result = solve(load(file), static=static, positions=positions)
+    report(result, at, methods, notation, about).save(output, force)
     print(f"Written: {output}", file=sys.stderr)
     return OK if result.ok.all() else SOME_NOT_OK
 

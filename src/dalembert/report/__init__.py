@@ -46,7 +46,9 @@ class Report:
 
         target = Path(path)
         if target.suffix.lower() not in FORMATS:
-            raise ModelError(f"{target.name}: reports are not written as that", f"use one of {' '.join(FORMATS)}")
+            raise ModelError(
+                f"{target.name}: reports are not written as that", f"use one of {' '.join(FORMATS)}"
+            )
         written = self.to_bytes(target.suffix.lower()[1:])
         with new_file(target, overwrite) as temporary:
             temporary.write_bytes(written)
@@ -67,7 +69,8 @@ def report(
     ``methods``: some of `matrix`, `graphical`, `superposition`, `virtual-work`; all by default. ``about``: a joint to
     take moments about where a link has it.
     """
-    from dalembert.report.working import METHODS, working
+    from dalembert.report.chosen import METHODS
+    from dalembert.report.working import working
 
     return Report(working(r, at, tuple(methods or METHODS), notation, about))
 

@@ -36,7 +36,9 @@ def moment_point(r: Result, link: str, k: int, wanted: str = "") -> About:
     return About(joints[0], joint_place(r, joints[0])[k])
 
 
-def link_equations(r: Result, link: str, k: int, shown: Shown, wanted: str = "") -> tuple[list[Working], About]:
+def link_equations(
+    r: Result, link: str, k: int, shown: Shown, wanted: str = ""
+) -> tuple[list[Working], About]:
     """Sums of forces along x and y and of moments, each in letters, with numbers, and its value."""
     about = moment_point(r, link, k, wanted)
     terms = [_Term(r, a, k, shown, about) for a in on_link(actions(r), link)]
@@ -60,7 +62,7 @@ def _line(
 ) -> Working:
     largest = max((t.size(kind) for t in terms), default=0.0)
     shown_total = shown.notation.number(0.0 if abs(total) < 1e-9 * largest else total)
-    return Working(f"{left}: quad {letters} = 0", f"{numbers} = {shown_total} \"{shown.unit(kind)}\"")
+    return Working(f"{left}: quad {letters} = 0", f'{numbers} = {shown_total} "{shown.unit(kind)}"')
 
 
 def _joined(values: list[float], shown: Shown) -> str:

@@ -25,13 +25,19 @@ class Word(NamedTuple):
     plain: str
 
 
+_GREEK = {
+    "alpha": "α",
+    "beta": "β",
+    "gamma": "γ",
+    "delta": "δ",
+    "theta": "θ",
+    "omega": "ω",
+    "phi": "φ",
+    "mu": "μ",
+}
+
 WORDS: dict[str, Word] = {
-    **{
-        name: Word(name, "\\" + name, sign)
-        for name, sign in zip(
-            "alpha beta gamma delta theta omega phi eta mu".split(), "α β γ δ θ ω φ η μ".split(), strict=True
-        )
-    },
+    **{name: Word(name, "\\" + name, sign) for name, sign in _GREEK.items()},
     **{name: Word(name, "\\" + name, name) for name in ("cos", "sin", "tan")},
     "sum": Word("sum", "\\sum", "Σ"),
     "cdot": Word("dot.c", "\\cdot", "·"),
@@ -109,8 +115,8 @@ def latex(text: str) -> str:
 
 
 _LATEX = {
-    "·": r"{\cdot}", "²": "^2", "³": "^3", "°": r"^\circ", "−": "-", "_": r"\_", "%": r"\%", "&": r"\&", "∥": r"\parallel",
-    "⊥": r"\perp", "#": r"\#",
+    "·": r"{\cdot}", "²": "^2", "³": "^3", "°": r"^\circ", "−": "-", "_": r"\_", "%": r"\%", "&": r"\&",
+    "∥": r"\parallel", "⊥": r"\perp", "#": r"\#",
 }  # fmt: skip
 
 

@@ -45,7 +45,8 @@ def loops(r: Result, k: int) -> list[Loop]:
         for joint, (i, j) in edges.items():
             other = j if link == i else i if link == j else None
             if other is not None and other not in parent:
-                parent[other], _ = (joint, link), tree.add(joint)
+                parent[other] = (joint, link)
+                tree.add(joint)
                 queue.append(other)
     return [_loop(r, k, joint, parent) for joint in edges if joint not in tree and edges[joint][0] in parent]
 
@@ -129,7 +130,9 @@ def velocity_lines(loop: Loop, shown: Shown) -> list[Working]:
             turning = (-n if axis == 0 else c) * s.speed * s.length
             function = ("−", "sin") if axis == 0 else ("+", "cos")
             if s.speed:
-                letters.append(f"{function[0]} r_{{{s.name}}} omega_{{{s.name}}} {function[1]} theta_{{{s.name}}}")
+                letters.append(
+                    f"{function[0]} r_{{{s.name}}} omega_{{{s.name}}} {function[1]} theta_{{{s.name}}}"
+                )
                 numbers.append(_term(shown, "speed", turning))
                 total.append(turning)
             if s.slide is not None:
@@ -153,7 +156,9 @@ def acceleration_lines(loop: Loop, shown: Shown) -> list[Working]:
                 numbers.append(_term(shown, "acceleration", value))
                 total.append(value)
         largest = max(map(abs, total), default=0.0)
-        out.append(_closed(_first(letters), _first(numbers), math.fsum(total), largest, shown, "acceleration"))
+        out.append(
+            _closed(_first(letters), _first(numbers), math.fsum(total), largest, shown, "acceleration")
+        )
     return out
 
 
@@ -203,4 +208,4 @@ def _degrees(angle: float) -> str:
 
 def _closed(letters: str, numbers: str, total: float, largest: float, shown: Shown, kind: str) -> Working:
     value = 0.0 if abs(total) < 1e-9 * largest else total
-    return Working(f"{letters} = 0", f"{numbers} = {_num(shown, kind, value)} \"{shown.unit(kind)}\"")
+    return Working(f"{letters} = 0", f'{numbers} = {_num(shown, kind, value)} "{shown.unit(kind)}"')

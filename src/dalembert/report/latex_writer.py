@@ -17,16 +17,18 @@ HEAD = r"""\documentclass[a4paper,10pt]{article}
 
 _ESCAPED = {
     "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "#": r"\#", "_": r"\_", "{": r"\{", "}": r"\}", "~": r"\~{}",
-    "^": r"\^{}", "·": r"$\cdot$", "²": r"$^2$", "³": r"$^3$", "°": r"$^\circ$", "−": "$-$", "–": "--", "∠": r"$\angle$",
-    "∥": r"$\parallel$", "⊥": r"$\perp$", "→": r"$\to$", "α": r"$\alpha$", "ω": r"$\omega$", "θ": r"$\theta$",
-    "δ": r"$\delta$", "—": "---",
+    "^": r"\^{}", "·": r"$\cdot$", "²": r"$^2$", "³": r"$^3$", "°": r"$^\circ$", "−": "$-$", "–": "--",
+    "∠": r"$\angle$", "∥": r"$\parallel$", "⊥": r"$\perp$", "→": r"$\to$", "α": r"$\alpha$", "ω": r"$\omega$",
+    "θ": r"$\theta$", "δ": r"$\delta$", "—": "---",
 }  # fmt: skip
 
 
 def latex_text(sheet: Sheet) -> str:
     """The report as a LaTeX document."""
     body = "\n\n".join(_block(b) for b in sheet.blocks)
-    head = rf"\title{{{_words(sheet.title)}}}\author{{{_words(sheet.source)}}}\date{{{_words(sheet.subtitle)}}}"
+    head = (
+        rf"\title{{{_words(sheet.title)}}}\author{{{_words(sheet.source)}}}\date{{{_words(sheet.subtitle)}}}"
+    )
     return f"{HEAD}{head}\n\\begin{{document}}\n\\maketitle\n\n{body}\n\n\\end{{document}}\n"
 
 
@@ -78,7 +80,7 @@ def _matrix(b: Matrix) -> str:
 
     rows = r"\\".join("&".join(latex(c) for c in row) for row in b.rows)
     whole = rf"\begin{{bmatrix}}{rows}\end{{bmatrix}}{column(b.unknowns)}={column(b.right)}"
-    return rf"{{\scriptsize\[ {whole},\quad {column(b.unknowns)}={column(b.values)} \]}}"
+    return rf"{_words(b.caption)}{{\scriptsize\[ {whole},\quad {column(b.unknowns)}={column(b.values)} \]}}"
 
 
 def _figure(scene: object) -> str:

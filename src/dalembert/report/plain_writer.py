@@ -64,4 +64,4 @@ def _matrix(b: Matrix) -> str:
         [*(plain(c) for c in row), plain(right), plain(unknown), plain(value)]
         for row, right, unknown, value in zip(b.rows, b.right, b.unknowns, b.values, strict=True)
     ]
-    return _table([heads, *rows], "", False)
+    return textwrap.fill(b.caption, WIDTH) + "\n\n" + _table([heads, *rows], "", False)

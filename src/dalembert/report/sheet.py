@@ -1,4 +1,4 @@
-"""A report as data: blocks of text, formulas, tables, matrices and drawings; writers turn it into PDF, HTML, LaTeX, text."""
+"""A report as data: text, formulas, tables, matrices, drawings; writers make PDF, HTML, LaTeX or text of it."""
 
 from __future__ import annotations
 
@@ -51,12 +51,13 @@ class Table:
 
 @dataclass(frozen=True)
 class Matrix:
-    """A x = b with the unknowns' signs and their values."""
+    """A x = b with the unknowns' signs and their values, under some words."""
 
     rows: tuple[tuple[str, ...], ...]
     unknowns: tuple[str, ...]
     right: tuple[str, ...]
     values: tuple[str, ...]
+    caption: str = ""
 
 
 @dataclass(frozen=True)

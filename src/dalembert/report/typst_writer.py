@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from importlib import import_module
 from importlib.resources import files
 from typing import Any
 
@@ -17,8 +18,7 @@ WIDTH = 176.0
 
 def typst_bytes(sheet: Sheet, kind: str) -> bytes:
     """The report as `pdf` or `html`."""
-    import typst as engine
-
+    engine: Any = import_module("typst")
     pictures: dict[str, bytes] = {}
     tree = {
         "title": sheet.title,
@@ -52,6 +52,7 @@ def _block(b: Block, pictures: dict[str, bytes]) -> dict[str, Any]:
     if isinstance(b, Matrix):
         return {
             "kind": "matrix",
+            "caption": b.caption,
             "rows": [[typst(c) for c in row] for row in b.rows],
             **{n: [typst(c) for c in getattr(b, n)] for n in ("unknowns", "right", "values")},
         }
