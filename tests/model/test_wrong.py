@@ -160,6 +160,10 @@ NESTED = {
     "number": "links: {a: {mass: " + "9" * 900_000 + "}}",
     "expression": "links: {a: {}}\nloads: {F: {type: couple, on: a, value: " + "(" * 900_000 + "}}",
     "signs": "links: {a: {}}\nloads: {F: {type: couple, on: a, value: '" + "-" * 900 + "1'}}",
+    "tag": "a: !" + "x" * 900_000,
+    "anchor": "a: &" + "x" * 900_000,
+    "directive": "%" + "x" * 900_000,
+    "errors": "[links]\n" + "\n".join(f"a{i} = {{mass = 'x'}}" for i in range(40_000)),
     "unit": "links: {a: {mass: 1 " + "kg*" * 200_000 + "kg}}",
 }
 

@@ -102,9 +102,12 @@ class _Later:
 
     def __init__(self, find: Callable[[str], Lines], text: str) -> None:
         self.find, self.text = find, text
+        self.lines: Lines | None = None
 
     def __call__(self) -> Lines:
-        return self.find(self.text)
+        if self.lines is None:
+            self.lines = self.find(self.text)
+        return self.lines
 
 
 def _content(path: Path, name: str) -> bytes:

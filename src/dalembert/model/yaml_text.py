@@ -32,6 +32,7 @@ def read(text: str) -> tuple[Any, dict[Path, int]]:
     from ruamel.yaml import YAML
     from ruamel.yaml.error import MarkedYAMLError, YAMLError
 
+    _check_properties(text)
     builder = _Builder()
     try:
         for event in YAML(typ="safe", pure=True).parse(text):
@@ -48,6 +49,19 @@ def read(text: str) -> tuple[Any, dict[Path, int]]:
         said = str(error).split("\n")[0]
         raise at_line(f"it is not YAML: {said}", "check its characters and brackets", 1) from None
     return builder.root, builder.lines
+
+
+_LONG = re.compile(r"[!&*%][^\s,\[\]{}]{2000}")
+
+
+def _check_properties(text: str) -> None:
+    """Refuse long tags, anchors and directives, over which the parser takes its time."""
+    match = _LONG.search(text)
+    if match:
+        line = text.count("\n", 0, match.start()) + 1
+        raise at_line(
+            f"{shown(match[0])} is longer than any word of a model file", "put text in quotes", line
+        )
 
 
 def _problem(error: Any) -> str:
