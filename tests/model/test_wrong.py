@@ -163,7 +163,7 @@ NESTED = {
     "tag": "a: !" + "x" * 900_000,
     "anchor": "a: &" + "x" * 900_000,
     "directive": "%" + "x" * 900_000,
-    "errors": "[links]\n" + "\n".join(f"a{i} = {{mass = 'x'}}" for i in range(40_000)),
+    "errors": "[links]\n" + "\n".join(f"a{i} = {{mass = 'x'}}" for i in range(10_000)),
     "unit": "links: {a: {mass: 1 " + "kg*" * 200_000 + "kg}}",
 }
 
