@@ -63,3 +63,34 @@ def _rebuilt(part: Part, name: str, inner: Any, here: tuple[str, ...]) -> Any:
         raise ModelError(
             f"{'.'.join(here[:-1])}: {error.what}", error.remedy, (*here[:-1], *error.path)
         ) from None
+
+
+def found(part: Any, keys: Sequence[str], walked: tuple[str, ...] = ()) -> Any:
+    """The value at a path; raises ModelError where there is none."""
+    if not keys:
+        return part
+    here = (*walked, keys[0])
+    if isinstance(part, Part):
+        return found(getattr(part, _field(part, keys[0], here)), keys[1:], here)
+    if isinstance(part, Mapping):
+        _known(keys[0], list(part), here)
+        return found(part[keys[0]], keys[1:], here)
+    if isinstance(part, tuple):
+        _known(keys[0], [str(i) for i in range(len(part))], here)
+        return found(part[int(keys[0])], keys[1:], here)
+    raise ModelError(f"the path {'.'.join([*here, *keys[1:]])!r} goes into a single value", "leave out its end", walked)
+
+
+def placed(part: Any, keys: Sequence[str], value: Any, walked: tuple[str, ...] = ()) -> Any:
+    """The part with any value at an existing path, unchecked: also a symbol in place of a number."""
+    if not keys:
+        return value
+    here = (*walked, keys[0])
+    if isinstance(part, Part):
+        name = _field(part, keys[0], here)
+        return part.model_copy(update={name: placed(getattr(part, name), keys[1:], value, here)})
+    if isinstance(part, Mapping):
+        _known(keys[0], list(part), here)
+        return {**part, keys[0]: placed(part[keys[0]], keys[1:], value, here)}
+    index = int(keys[0])
+    return (*part[:index], placed(part[index], keys[1:], value, here), *part[index + 1 :])

@@ -1,0 +1,232 @@
+"""``da.compile``: an analysis of one structure as machine code, for any numbers in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from dalembert.analysis.batch import reduction
+from dalembert.analysis.batch.answer import CODES, BatchResult
+from dalembert.analysis.batch.course import Course
+from dalembert.analysis.batch.general import answered, quantity
+from dalembert.analysis.batch.tracing import Trace, traced
+from dalembert.errors import ModelError
+from dalembert.kernel.derivatives import gradients
+from dalembert.kernel.graph import Node
+from dalembert.kernel.program import Program
+from dalembert.model import Mechanism
+
+Array = NDArray[Any]
+FEW = 16
+"""Positions below which lanes are filled with designs instead of positions."""
+
+
+def compile(  # noqa: A001
+    mechanism: Mechanism,
+    vary: Sequence[str] = (),
+    outputs: Sequence[str] | None = None,
+    reduce: str | None = None,
+    derivatives: bool = False,
+    static: bool = False,
+    lanes: int | None = None,
+) -> Kernel:
+    """An analysis as machine code: for one structure, whatever the numbers at the paths in ``vary``.
+
+    outputs: names such as ``effort.O2``, ``reaction.A``, ``angle.coupler``; default all efforts and reactions.
+    reduce: over the positions, ``peak``, ``mean``, ``rms``, ``envelope``, ``argpeak``, ``norm8``; default none.
+    derivatives: exact ones of every output with respect to every number. static: leave inertia out.
+    lanes: values side by side (8 AVX-512, 4 AVX2, 2 NEON, 1 none); default as the processor has them.
+    Raises ModelError for what only the analyses can do (redundancy, unknown positions).
+
+    >>> m = da.four_bar()
+    >>> k = da.compile(m, vary=["links.coupler.mass"], outputs=["effort.O2"])  # doctest: +SKIP
+    >>> k([[1.0], [2.0]]).effort("O2").shape  # doctest: +SKIP
+    (2, 72)
+    """
+    reduction.check(reduce)
+    try:
+        trace = traced(mechanism, vary, mechanism.has_speeds and not static)
+    except ModelError as error:
+        raise error.located(mechanism.source) from None
+    names = tuple(outputs) if outputs is not None else tuple(trace.catalogue.defaults())
+    if derivatives and reduce == "argpeak":
+        raise ModelError(
+            "the place of a peak has no derivative", 'leave derivatives out, or reduce by "peak"'
+        )
+    kernel = Kernel(mechanism, trace, names, reduce, derivatives, lanes or _host_lanes())
+    kernel.warm()
+    return kernel
+
+
+def _host_lanes() -> int:
+    try:
+        from dalembert.kernel.machine import host_lanes
+
+        return host_lanes()
+    except ImportError:
+        raise ModelError("compiling needs llvmlite", "pip install 'dalembert[fast]'") from None
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """A compiled analysis; call it with values (design, number) in SI, in the order of ``numbers``."""
+
+    mechanism: Mechanism
+    trace: Trace
+    outputs: tuple[str, ...]
+    reduce: str | None
+    derivatives: bool
+    lanes: int
+
+    @property
+    def numbers(self) -> tuple[str, ...]:
+        """Paths of the numbers, one a column of the values."""
+        return tuple(n.path for n in self.trace.numbers)
+
+    @property
+    def nominal(self) -> Array:
+        """The numbers as the description has them."""
+        return np.array([n.value for n in self.trace.numbers])
+
+    @cached_property
+    def nodes(self) -> dict[str, list[Node]]:
+        """Components of each output."""
+        return {name: self.trace.catalogue.nodes(name) for name in self.outputs}
+
+    @cached_property
+    def rates(self) -> dict[str, list[list[Node]]]:
+        """Derivatives of each component of each output."""
+        graph = self.trace.catalogue.graph
+        inputs = self.number_nodes
+        flat = [n for nodes in self.nodes.values() for n in nodes]
+        found = iter(gradients(graph, flat, inputs))
+        return {name: [next(found) for _ in nodes] for name, nodes in self.nodes.items()}
+
+    @cached_property
+    def number_nodes(self) -> list[Node]:
+        graph = self.trace.catalogue.graph
+        inputs = {n.value: n for n in graph.nodes if n.op == "number"}
+        return [inputs[k] for k in range(len(self.trace.numbers))]
+
+    def program(self, nodes: Sequence[Node]) -> Program:
+        found = self.trace.catalogue.traced
+        return Program(self.trace.catalogue.graph, tuple(nodes), tuple(found.open), tuple(found.doubt))
+
+    @cached_property
+    def flat(self) -> list[Node]:
+        """Every value asked for at a position, derivatives behind the outputs."""
+        out = [n for nodes in self.nodes.values() for n in nodes]
+        if self.derivatives and self.reduce is None:
+            out += [n for rates in self.rates.values() for row in rates for n in row]
+        return out
+
+    @cached_property
+    def runner(self) -> Any:
+        """Grid, pairs and reductions, each compiled when first used."""
+        from dalembert.analysis.batch.runner import Runner
+
+        return Runner(self)
+
+    def warm(self) -> None:
+        """Compile now what the file's own positions need."""
+        self.runner.prepare(len(self.trace.course.schedule.position))
+
+    def course(self, positions: ArrayLike | None) -> Course:
+        """The mechanism at other positions than the file's."""
+        known = self.trace.course
+        if positions is None:
+            return known
+        given = np.asarray(positions, float)
+        drives = len(known.schedule.names)
+        given = given.reshape(-1, drives) if given.ndim < 2 else given
+        if given.ndim != 2 or given.shape[1] != drives or not len(given) or not np.isfinite(given).all():
+            raise ModelError(
+                f"positions of shape {np.shape(positions)} do not fit {drives} drive(s)",
+                "give (position, drive)",
+            )
+        for rate in (known.schedule.speed, known.schedule.acceleration):
+            if np.ptp(rate, axis=0).any():
+                raise ModelError(
+                    "the drives' speeds change along the file's positions", "leave positions out", ("drives",)
+                )
+        return known.at(given)
+
+    def __call__(
+        self,
+        values: ArrayLike | None = None,
+        positions: ArrayLike | None = None,
+        threads: int | None = None,
+        progress: Callable[[int, int], object] | None = None,
+        redo: bool = True,
+    ) -> BatchResult:
+        """Answers for many designs.
+
+        values: (design, number) in SI in the order of ``numbers``, default the description's own. positions: the
+        drives' values (position, drive), default the file's. threads: at most so many, default one a core.
+        progress: called with (designs done, designs). redo: ask the general executor where the kernel is not sure.
+        """
+        given = self._values(values)
+        course = self.course(positions)
+        code, arrays, rates = self.runner(given, course, threads, progress)
+        return self._finished(given, course, code, arrays, rates, redo)
+
+    def _values(self, values: ArrayLike | None) -> Array:
+        count = len(self.trace.numbers)
+        given = np.asarray(self.nominal if values is None else values, float)
+        given = (
+            given.reshape(1, -1)
+            if given.ndim < 2 and count != 1
+            else given.reshape(-1, count)
+            if count
+            else given
+        )
+        if given.ndim != 2 or given.shape[1] != count:
+            raise ModelError(
+                f"values of shape {np.shape(values)} do not fit {count} numbers",
+                "give (design, number) in the order of .numbers",
+            )
+        return given
+
+    def _finished(
+        self,
+        values: Array,
+        course: Course,
+        code: Any,
+        arrays: dict[str, Array],
+        rates: dict[str, Array],
+        redo: bool,
+    ) -> BatchResult:
+        undecided = code == CODES.index("undecided")
+        again = np.flatnonzero(undecided.reshape(len(code), -1).any(axis=1)) if redo else np.zeros(0, int)
+        for d in again:
+            self._redone(int(d), values, course, undecided, code, arrays, rates)
+        lost = code != 0
+        for found in (arrays, rates):
+            for array in found.values():
+                if array.dtype.kind == "f":
+                    array[lost] = np.nan
+        return BatchResult(self, values, course.schedule.position, code, arrays, rates, len(again))
+
+    def _redone(
+        self, d: int, values: Array, course: Course, undecided: Any, code: Any, arrays: Any, rates: Any
+    ) -> None:
+        marks, result = answered(
+            self.mechanism, self.trace.numbers, values[d], course.schedule, self.trace.inertia
+        )
+        if self.reduce is not None:
+            code[d] = marks.max()
+            if result is not None and not code[d]:
+                for name in self.outputs:
+                    found = reduction.reduced(self.reduce, quantity(result, name))
+                    arrays[name][d] = found.reshape(arrays[name][d].shape)
+            return
+        here = undecided[d]
+        code[d, here] = marks[here]
+        if result is not None:
+            for name in self.outputs:
+                arrays[name][d, here] = quantity(result, name)[here].reshape(arrays[name][d, here].shape)

@@ -1,0 +1,103 @@
+"""From a description to a traced analysis: the compile step on symbols, then the kernel's trace."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from dalembert.analysis.batch.course import Course, Inputs
+from dalembert.analysis.batch.outputs import Catalogue
+from dalembert.analysis.batch.symbols import Number, numbers, symbolic
+from dalembert.analysis.compile import compiled
+from dalembert.analysis.mobility import check_knowns
+from dalembert.analysis.positions import open_sentence
+from dalembert.errors import ModelError
+from dalembert.kernel.graph import Graph
+from dalembert.kernel.trace import Problem, trace
+from dalembert.model import Mechanism, Schedule
+
+
+@dataclass(frozen=True)
+class Trace:
+    """A traced analysis with the inputs it was traced on."""
+
+    course: Course
+    inputs: Inputs
+    numbers: tuple[Number, ...]
+    catalogue: Catalogue
+    inertia: bool
+
+
+def traced(m: Mechanism, vary: Iterable[str], inertia: bool) -> Trace:
+    """Everything an analysis computes, as nodes; raises ModelError for what the kernel leaves to the analyses."""
+    schedule = m.schedule()
+    if schedule.unknown is not None:
+        raise ModelError("equilibrium positions cannot be compiled", "give the drive positions", ("drives",))
+    course = Course(m, schedule)
+    check_knowns(course.compiled)
+    _check(course)
+    graph = Graph()
+    inputs = Inputs(graph, course)
+    where = numbers(m, vary)
+    description = symbolic(m, where, graph, inputs.load)
+    drives = inputs.drives(description)
+    like = course.followed.compiled
+    c = compiled(description, _symbolic(schedule, drives.position), like=like)
+    problem = Problem(
+        graph=graph,
+        layout=c.layout,
+        forcing=c.forcing,
+        known=c.known,
+        target=_targets(c.target, like.target, like.layout),
+        drives=drives,
+        first=inputs.drives(description, "common"),
+        guess=like.guess,
+        inertia=inertia,
+        path=inputs.path("channel"),
+        first_path=inputs.path("common"),
+        signs=inputs.signs,
+    )
+    return Trace(course, inputs, where, Catalogue(graph, c, _run(problem)), inertia)
+
+
+def _check(course: Course) -> None:
+    followed = course.followed
+    if followed.path is None:
+        raise ModelError(
+            open_sentence(course.compiled, None, np.arange(len(course.schedule.position))).rstrip(".")
+        )
+    if followed.mobility is not None and followed.mobility.redundant:
+        joints = ", ".join(followed.mobility.redundant_joints)
+        raise ModelError(
+            f"{followed.mobility.redundant} redundant constraint(s) among joints {joints}: not all reactions follow "
+            "from equilibrium, so it cannot be compiled",
+            "free a constraint, or use the analyses, which mark what is unique",
+            ("joints",),
+        )
+
+
+def _symbolic(schedule: Schedule, position: Any) -> Schedule:
+    row = position[None]
+    return Schedule(schedule.names, row, row, row)
+
+
+def _targets(symbolic: Any, known: Any, layout: Any) -> Any:
+    """Constants of the constraints; phases of meshes and rolling wheels are those of the known motion."""
+    from dalembert.core.assembly import phase_rows
+
+    out = np.array(symbolic, object)
+    rows = phase_rows(layout.constraints)
+    out[rows] = known[rows]
+    return out
+
+
+def _run(problem: Problem) -> Any:
+    try:
+        return trace(problem)
+    except ValueError as error:
+        if isinstance(error, ModelError):
+            raise
+        raise ModelError(f"the mechanism cannot be compiled: {error}", "use the analyses") from error

@@ -1,0 +1,272 @@
+"""A program as LLVM text: one vector instruction each, several positions (or designs) side by side.
+
+Two forms. ``grid``: lanes are neighbouring positions of one design, what does not change with the position is
+computed before the loop. ``pairs``: lanes are unrelated (design, position) pairs.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+
+from dalembert.kernel.emit_reduce import Reductions, Slots
+from dalembert.kernel.graph import POSITION, Node
+from dalembert.kernel.program import Program
+
+FAST = "reassoc nsz arcp contract"
+"""Fast-math flags: NaN stays NaN, infinity infinity."""
+
+
+WIDE = '"min-legal-vector-width"="512" "prefer-vector-width"="512"'
+"""Whole registers on processors that LLVM would rather use by halves."""
+
+
+def number(x: float) -> str:
+    """A constant in LLVM's hexadecimal form."""
+    return f"0x{struct.unpack('<Q', struct.pack('<d', x))[0]:016X}"
+
+
+class Text:
+    """Lines of one module, with the vector type and constants spelled out."""
+
+    def __init__(self, lanes: int) -> None:
+        self.lanes, self.lines = lanes, []
+        self.kind = "double" if lanes == 1 else f"<{lanes} x double>"
+        self.bit = "i1" if lanes == 1 else f"<{lanes} x i1>"
+        self.whole = "i64" if lanes == 1 else f"<{lanes} x i64>"
+        self.suffix = "f64" if lanes == 1 else f"v{lanes}f64"
+        self.count = 0
+
+    lines: list[str]
+
+    def put(self, line: str) -> None:
+        self.lines.append("  " + line)
+
+    def let(self, expression: str) -> str:
+        """A new value."""
+        self.count += 1
+        name = f"%t{self.count}"
+        self.put(f"{name} = {expression}")
+        return name
+
+    def splat(self, x: float) -> str:
+        if self.lanes == 1:
+            return number(x)
+        return "<" + ", ".join([f"double {number(x)}"] * self.lanes) + ">"
+
+    def broadcast(self, scalar: str) -> str:
+        """A scalar in every lane."""
+        if self.lanes == 1:
+            return scalar
+        one = self.let(f"insertelement {self.kind} poison, double {scalar}, i32 0")
+        zeros = f"<{self.lanes} x i32> zeroinitializer"
+        return self.let(f"shufflevector {self.kind} {one}, {self.kind} poison, {zeros}")
+
+    def load(self, base: str, offset: int | str, vector: bool = True) -> str:
+        place = self.let(f"getelementptr inbounds double, ptr {base}, i64 {offset}")
+        return self.let(f"load {self.kind if vector else 'double'}, ptr {place}, align 8")
+
+    def store(self, value: str, base: str, offset: int | str) -> None:
+        place = self.let(f"getelementptr inbounds double, ptr {base}, i64 {offset}")
+        self.put(f"store {self.kind} {value}, ptr {place}, align 8")
+
+    def operation(self, node: Node, a: str, b: str | None) -> str:
+        return _OPERATIONS[node.op](self, a, b or "")
+
+    def binary(self, op: str, a: str, b: str) -> str:
+        return self.let(f"{op} {FAST} {self.kind} {a}, {b}")
+
+    def call(self, name: str, *arguments: str) -> str:
+        given = ", ".join(f"{self.kind} {a}" for a in arguments)
+        return self.let(f"call {self.kind} @{name}({given})")
+
+    def intrinsic(self, name: str, *arguments: str) -> str:
+        return self.call(f"llvm.{name}.{self.suffix}", *arguments)
+
+    def select(self, test: str, a: str, b: str) -> str:
+        return self.let(f"select {self.bit} {test}, {self.kind} {a}, {self.kind} {b}")
+
+    def compare(self, how: str, a: str, b: str) -> str:
+        return self.let(f"fcmp {how} {self.kind} {a}, {b}")
+
+
+def _sign(t: Text, a: str, _: str) -> str:
+    one = t.intrinsic("copysign", t.splat(1.0), a)
+    return t.select(t.compare("oeq", a, t.splat(0.0)), t.splat(0.0), one)
+
+
+_OPERATIONS: dict[str, Callable[[Text, str, str], str]] = {
+    "add": lambda t, a, b: t.binary("fadd", a, b),
+    "sub": lambda t, a, b: t.binary("fsub", a, b),
+    "mul": lambda t, a, b: t.binary("fmul", a, b),
+    "inv": lambda t, a, b: t.binary("fdiv", t.splat(1.0), a),
+    "neg": lambda t, a, b: t.let(f"fneg {t.kind} {a}"),
+    "sqrt": lambda t, a, b: t.intrinsic("sqrt", a),
+    "abs": lambda t, a, b: t.intrinsic("fabs", a),
+    "rint": lambda t, a, b: t.intrinsic("rint", a),
+    "sign": _sign,
+    "sin": lambda t, a, b: t.call("sine", a),
+    "cos": lambda t, a, b: t.call("cosine", a),
+    "atan2": lambda t, a, b: t.call("angle", a, b),
+    "max": lambda t, a, b: t.select(t.compare("ogt", a, b), a, b),
+    "detach": lambda t, a, b: a,
+}
+
+
+def operations(t: Text, nodes: list[Node], names: dict[int, str]) -> None:
+    """Emit nodes in order; ``names`` holds the value of each by its index."""
+    for node in nodes:
+        assert node.a is not None
+        b = None if node.b is None else names[node.b.index]
+        names[node.index] = t.operation(node, names[node.a.index], b)
+
+
+def _flag(t: Text, nodes: tuple[Node, ...], names: dict[int, str], how: str) -> str | None:
+    found = None
+    for node in nodes:
+        bad = t.compare(how, names[node.index], t.splat(0.0))
+        found = bad if found is None else t.let(f"or {t.bit} {found}, {bad}")
+    return found
+
+
+def flags(t: Text, program: Program, names: dict[int, str]) -> tuple[str, str]:
+    """Lanes that do not close, and lanes in doubt."""
+    none = "false" if t.lanes == 1 else "zeroinitializer"
+    not_closed = _flag(t, program.open, names, "olt") or none
+    doubt = _flag(t, program.doubt, names, "ult") or none
+    return not_closed, doubt
+
+
+def _code(t: Text, program: Program, names: dict[int, str], place: str) -> None:
+    """Store 1 where the linkage does not close, 2 where in doubt, else 0."""
+    kind = "i8" if t.lanes == 1 else f"<{t.lanes} x i8>"
+    spelled = {k: str(k) if t.lanes == 1 else "<" + ", ".join([f"i8 {k}"] * t.lanes) + ">" for k in (0, 1, 2)}
+    not_closed, doubt = flags(t, program, names)
+    two = t.let(f"select {t.bit} {doubt}, {kind} {spelled[2]}, {kind} {spelled[0]}")
+    code = t.let(f"select {t.bit} {not_closed}, {kind} {spelled[1]}, {kind} {two}")
+    t.put(f"store {kind} {code}, ptr {place}, align 1")
+
+
+def head(t: Text, program: Program) -> dict[int, str]:
+    """Constants by node."""
+    return {n.index: t.splat(n.value) for n in program.constants}
+
+
+def grid(program: Program, lanes: int, reduce: Slots = ()) -> str:
+    """Function over designs and blocks of positions: see ``machine.Machine.grid``."""
+    t = Text(lanes)
+    names = head(t, program)
+    channels = [n for n in program.inputs if n.level & POSITION]
+    reductions = Reductions(t, program, reduce) if reduce else None
+    t.lines.append(
+        "define void @run(ptr noalias readonly %values, ptr noalias readonly %path, ptr noalias %out, "
+        "ptr noalias %code, i64 %numbers, i64 %channels, i64 %designs, i64 %blocks) " + WIDE + " {"
+    )
+    t.lines.append("entry:")
+    t.put(f"%row = mul i64 %blocks, {lanes}")
+    t.put(f"%line = mul i64 %channels, {lanes}")
+    t.put("%tail = mul i64 %blocks, %line")
+    t.put("%common = getelementptr inbounds double, ptr %path, i64 %tail")
+    if reductions:
+        t.put(f"%sheet = add i64 {reductions.width}, 0")
+    else:
+        t.put(f"%sheet = mul i64 %row, {len(program.outputs)}")
+    t.put("br label %design")
+    t.lines.append("design:")
+    t.put("%d = phi i64 [ 0, %entry ], [ %dnext, %done ]")
+    t.put("%dv = mul i64 %d, %numbers")
+    t.put("%mine = getelementptr inbounds double, ptr %values, i64 %dv")
+    for n in program.inputs:
+        if not n.level & POSITION:
+            base = "%mine" if n.op == "number" else "%common"
+            names[n.index] = t.broadcast(t.load(base, program.places[n.index], vector=False))
+    operations(t, program.design, names)
+    t.put("%ds = mul i64 %d, %sheet")
+    t.put("%page = getelementptr inbounds double, ptr %out, i64 %ds")
+    t.put("%dc = mul i64 %d, %row")
+    t.put("%marks = getelementptr inbounds i8, ptr %code, i64 %dc")
+    t.put("br label %start")
+    t.lines += ["start:", "  br label %loop", "loop:"]
+    t.put("%b = phi i64 [ 0, %start ], [ %bnext, %loop ]")
+    if reductions:
+        reductions.phis()
+    t.put("%bl = mul i64 %b, %line")
+    t.put("%here = getelementptr inbounds double, ptr %path, i64 %bl")
+    t.put(f"%at = mul i64 %b, {lanes}")
+    for n in channels:
+        names[n.index] = t.load("%here", program.places[n.index] * lanes)
+    operations(t, program.position, names)
+    if reductions:
+        reductions.update(names)
+    else:
+        for k, node in enumerate(program.outputs):
+            offset = t.let(f"mul i64 %row, {k}")
+            t.store(names[node.index], "%page", t.let(f"add i64 {offset}, %at"))
+        _code(t, program, names, t.let("getelementptr inbounds i8, ptr %marks, i64 %at"))
+    t.put("%bnext = add nuw i64 %b, 1")
+    t.put("%more = icmp ult i64 %bnext, %blocks")
+    t.put("br i1 %more, label %loop, label %done")
+    t.lines.append("done:")
+    if reductions:
+        reductions.store()
+    t.put("%dnext = add nuw i64 %d, 1")
+    t.put("%again = icmp ult i64 %dnext, %designs")
+    t.put("br i1 %again, label %design, label %exit")
+    t.lines += ["exit:", "  ret void", "}"]
+    return module(t, program, reductions.declarations() if reductions else [])
+
+
+def pairs(program: Program, lanes: int) -> str:
+    """Function over blocks of (design, position) pairs: see ``machine.Machine.pairs``."""
+    t = Text(lanes)
+    names = head(t, program)
+    t.lines.append(
+        "define void @run(ptr noalias readonly %values, ptr noalias readonly %path, ptr noalias %out, "
+        "ptr noalias %code, i64 %numbers, i64 %channels, i64 %designs, i64 %blocks) " + WIDE + " {"
+    )
+    t.lines.append("entry:")
+    t.put(f"%row = mul i64 %numbers, {lanes}")
+    t.put(f"%line = mul i64 %channels, {lanes}")
+    t.put("%tail = mul i64 %blocks, %line")
+    t.put("%common = getelementptr inbounds double, ptr %path, i64 %tail")
+    t.put("br label %loop")
+    t.lines.append("loop:")
+    t.put("%b = phi i64 [ 0, %entry ], [ %bnext, %loop ]")
+    t.put("%bv = mul i64 %b, %row")
+    t.put("%mine = getelementptr inbounds double, ptr %values, i64 %bv")
+    t.put("%bl = mul i64 %b, %line")
+    t.put("%here = getelementptr inbounds double, ptr %path, i64 %bl")
+    for n in program.inputs:
+        if n.op == "common":
+            names[n.index] = t.broadcast(t.load("%common", program.places[n.index], vector=False))
+        else:
+            names[n.index] = t.load(
+                "%here" if n.op == "channel" else "%mine", program.places[n.index] * lanes
+            )
+    operations(t, program.design, names)
+    operations(t, program.position, names)
+    t.put(f"%bo = mul i64 %b, {len(program.outputs) * lanes}")
+    t.put("%page = getelementptr inbounds double, ptr %out, i64 %bo")
+    for k, node in enumerate(program.outputs):
+        t.store(names[node.index], "%page", k * lanes)
+    t.put(f"%bc = mul i64 %b, {lanes}")
+    _code(t, program, names, t.let("getelementptr inbounds i8, ptr %code, i64 %bc"))
+    t.put("%bnext = add nuw i64 %b, 1")
+    t.put("%more = icmp ult i64 %bnext, %blocks")
+    t.put("br i1 %more, label %loop, label %exit")
+    t.lines += ["exit:", "  ret void", "}"]
+    return module(t, program)
+
+
+def module(t: Text, program: Program, declared: list[str] | None = None) -> str:
+    """The function with the elementary functions it calls."""
+    from dalembert.kernel.elementary import elementary
+
+    used = {n.op for n in program.order}
+    names = ("sqrt", "fabs", "rint", "fma")
+    declared = list(declared or [])
+    for name in names:
+        given = ", ".join([t.kind] * (3 if name == "fma" else 1))
+        declared.append(f"declare {t.kind} @llvm.{name}.{t.suffix}({given})")
+    declared.append(f"declare {t.kind} @llvm.copysign.{t.suffix}({t.kind}, {t.kind})")
+    return "\n".join([*declared, *elementary(t.lanes, used), *t.lines]) + "\n"

@@ -1,0 +1,356 @@
+"""Scalars that remember how they came about: what the core computes with when it is traced.
+
+Every operation is entered once (equal operations are one node), constants fold, and what is exactly zero stays a
+constant, so the sparsity of A survives by itself. numpy arrays of such scalars (``dtype=object``) run through the
+core unchanged.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
+
+INPUTS = ("number", "common", "channel")
+CONSTANT, DESIGN, POSITION = 0, 1, 2
+"""What a node depends on, as bits: nothing, the design's numbers, the position of the drives."""
+
+
+class Node:
+    """One operation. ``value`` is the number of a constant, or the place of an input."""
+
+    __slots__ = ("a", "b", "graph", "index", "level", "op", "value")
+
+    shape: tuple[int, ...] = ()
+    ndim = 0
+    dtype = np.dtype(object)
+
+    def __init__(self, graph: Graph, op: str, a: Node | None, b: Node | None, value: Any, level: int) -> None:
+        self.graph, self.op, self.a, self.b, self.value, self.level = graph, op, a, b, value, level
+        self.index = len(graph.nodes)
+        graph.nodes.append(self)
+
+    def __repr__(self) -> str:
+        return f"{self.op}#{self.index}"
+
+    def __add__(self, other: Any) -> Node:
+        if type(other) is not Node:
+            if isinstance(other, np.ndarray):
+                return NotImplemented
+            other = self.graph.constant(other)
+        return self.graph.add(self, other)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Node:
+        if type(other) is not Node:
+            if isinstance(other, np.ndarray):
+                return NotImplemented
+            other = self.graph.constant(other)
+        return self.graph.sub(self, other)
+
+    def __rsub__(self, other: Any) -> Node:
+        return self.graph.sub(self.graph.constant(other), self)
+
+    def __mul__(self, other: Any) -> Node:
+        if type(other) is not Node:
+            if isinstance(other, np.ndarray):
+                return NotImplemented
+            other = self.graph.constant(other)
+        return self.graph.mul(self, other)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Node:
+        if type(other) is not Node:
+            if isinstance(other, np.ndarray):
+                return NotImplemented
+            other = self.graph.constant(other)
+        return self.graph.div(self, other)
+
+    def __rtruediv__(self, other: Any) -> Node:
+        return self.graph.div(self.graph.constant(other), self)
+
+    def __neg__(self) -> Node:
+        return self.graph.neg(self)
+
+    def __pos__(self) -> Node:
+        return self
+
+    def __abs__(self) -> Node:
+        return self.graph.unary("abs", self)
+
+    def __pow__(self, power: Any) -> Node:
+        count = int(power)
+        if count != power or not 0 < abs(count) <= 16:
+            raise TypeError(f"a traced value to the power {power}")
+        out = self
+        for _ in range(abs(count) - 1):
+            out = out * self
+        return out if count > 0 else 1.0 / out
+
+    def sqrt(self) -> Node:
+        return self.graph.unary("sqrt", self)
+
+    def sin(self) -> Node:
+        return self.graph.unary("sin", self)
+
+    def cos(self) -> Node:
+        return self.graph.unary("cos", self)
+
+    def tan(self) -> Node:
+        return self.sin() / self.cos()
+
+    def sign(self) -> Node:
+        return self.graph.unary("sign", self)
+
+    def arctan2(self, other: Any) -> Node:
+        other = other if type(other) is Node else self.graph.constant(other)
+        return self.graph.binary("atan2", self, other)
+
+    def rint(self) -> Node:
+        return self.graph.unary("rint", self)
+
+    def conjugate(self) -> Node:
+        return self
+
+    def _decision(self) -> float:
+        """Decisions of structure (which wheel is larger) are taken at the file's own numbers."""
+        if self.level & POSITION:
+            raise TypeError(f"a traced value that changes along the motion has no truth: {self!r}")
+        return float(self.graph.evaluated([self], {})[0])
+
+    def __lt__(self, other: Any) -> bool:
+        return bool(self._decision() < float(other))
+
+    def __gt__(self, other: Any) -> bool:
+        return bool(self._decision() > float(other))
+
+    def __le__(self, other: Any) -> bool:
+        return bool(self._decision() <= float(other))
+
+    def __ge__(self, other: Any) -> bool:
+        return bool(self._decision() >= float(other))
+
+    def __bool__(self) -> bool:
+        """Not zero whatever the numbers."""
+        return self.op != "const" or self.value != 0
+
+    def __float__(self) -> float:
+        if self.op != "const":
+            raise TypeError("a traced value is no number")
+        return float(self.value)
+
+    __hash__ = object.__hash__
+
+
+class Graph:
+    """All nodes of one trace, in an order in which they can be computed."""
+
+    def __init__(self) -> None:
+        self.nodes: list[Node] = []
+        self.table: dict[Any, Node] = {}
+        self.count = {"number": 0, "common": 0, "channel": 0}
+        self.names: dict[int, str] = {}
+        self.nominal: dict[int, Any] = {}
+        self.samples: dict[int, Any] = {}
+        self.zero, self.one = self.constant(0.0), self.constant(1.0)
+
+    def constant(self, value: Any) -> Node:
+        number = float(value)
+        key = ("const", number, math.copysign(1.0, number)) if number == 0 else ("const", number)
+        node = self.table.get(key)
+        if node is None:
+            node = self.table[key] = Node(self, "const", None, None, number, CONSTANT)
+        return node
+
+    def input(self, kind: str, name: str, nominal: Any) -> Node:
+        """A value given from outside: a ``number`` of each design, one ``common`` to all, or a ``channel`` along the
+        positions. ``nominal`` is its value (or its values along the motion) in the file."""
+        node = Node(self, kind, None, None, self.count[kind], POSITION if kind == "channel" else DESIGN)
+        self.count[kind] += 1
+        self.names[node.index], self.nominal[node.index] = name, nominal
+        return node
+
+    def make(self, op: str, a: Node, b: Node | None = None) -> Node:
+        key = (op, a.index) if b is None else (op, a.index, b.index)
+        node = self.table.get(key)
+        if node is None:
+            level = a.level if b is None else a.level | b.level
+            node = self.table[key] = Node(self, op, a, b, None, level)
+        return node
+
+    def add(self, a: Node, b: Node) -> Node:
+        if a.op == "const":
+            if b.op == "const":
+                return self.constant(a.value + b.value)
+            if a.value == 0:
+                return b
+        elif b.op == "const" and b.value == 0:
+            return a
+        if b.op == "neg":
+            assert b.a is not None
+            return self.sub(a, b.a)
+        if a.op == "neg":
+            assert a.a is not None
+            return self.sub(b, a.a)
+        return self.make("add", a, b) if a.index <= b.index else self.make("add", b, a)
+
+    def sub(self, a: Node, b: Node) -> Node:
+        if a is b:
+            return self.zero
+        if b.op == "const":
+            if a.op == "const":
+                return self.constant(a.value - b.value)
+            if b.value == 0:
+                return a
+        elif a.op == "const" and a.value == 0:
+            return self.neg(b)
+        if b.op == "neg":
+            assert b.a is not None
+            return self.add(a, b.a)
+        if a.op == "neg":
+            assert a.a is not None
+            return self.neg(self.add(a.a, b))
+        return self.make("sub", a, b)
+
+    def mul(self, a: Node, b: Node) -> Node:
+        if a.op == "const":
+            a, b = b, a
+        if b.op == "const":
+            if a.op == "const":
+                return self.constant(a.value * b.value)
+            if b.value == 0:
+                return self.zero
+            if b.value == 1:
+                return a
+            if b.value == -1:
+                return self.neg(a)
+        if a.op == "neg":
+            assert a.a is not None
+            return self.neg(self.mul(a.a, b))
+        if b.op == "neg":
+            assert b.a is not None
+            return self.neg(self.mul(a, b.a))
+        return self.make("mul", a, b) if a.index <= b.index else self.make("mul", b, a)
+
+    def div(self, a: Node, b: Node) -> Node:
+        if a.op == "const" and a.value == 0:
+            return self.zero
+        if b.op == "const":
+            return (
+                self.constant(a.value / b.value)
+                if a.op == "const"
+                else self.mul(a, self.constant(1 / b.value))
+            )
+        return self.mul(a, self.inverse(b))
+
+    def inverse(self, a: Node) -> Node:
+        if a.op == "neg":
+            assert a.a is not None
+            return self.neg(self.inverse(a.a))
+        return self.make("inv", a)
+
+    def neg(self, a: Node) -> Node:
+        if a.op == "const":
+            return self.constant(-a.value)
+        if a.op == "neg":
+            assert a.a is not None
+            return a.a
+        return self.make("neg", a)
+
+    def unary(self, op: str, a: Node) -> Node:
+        if a.op == "const":
+            return self.constant(EVALUATE[op](a.value))
+        if op in ("abs", "cos") and a.op == "neg":
+            assert a.a is not None
+            a = a.a
+        return self.make(op, a)
+
+    def binary(self, op: str, a: Node, b: Node) -> Node:
+        if a.op == "const" and b.op == "const":
+            return self.constant(EVALUATE[op](a.value, b.value))
+        return self.make(op, a, b)
+
+    def detached(self, a: Node) -> Node:
+        """The same value, but a constant to derivatives."""
+        return a if a.level == CONSTANT else self.make("detach", a)
+
+    def evaluated(self, outputs: Iterable[Node], values: Mapping[int, Any]) -> list[Any]:
+        """Numbers of nodes with numpy; ``values`` (by index of the input node) replace the nominal ones."""
+        outputs = list(outputs)
+        done = {} if values else self.samples
+        with np.errstate(all="ignore"):
+            self._evaluate([n for n in self.order(outputs, done)], values, done)
+        return [done[node.index] for node in outputs]
+
+    def _evaluate(self, nodes: list[Node], values: Mapping[int, Any], done: dict[int, Any]) -> None:
+        for node in nodes:
+            if node.op == "const":
+                done[node.index] = node.value
+            elif node.op in INPUTS:
+                done[node.index] = values.get(node.index, self.nominal[node.index])
+            else:
+                assert node.a is not None
+                args = (done[node.a.index],) if node.b is None else (done[node.a.index], done[node.b.index])
+                done[node.index] = EVALUATE[node.op](*args)
+
+    def order(self, outputs: Iterable[Node], known: Mapping[int, Any] | None = None) -> list[Node]:
+        """Every node the outputs need, arguments first; those known already left out."""
+        needed: dict[int, Node] = {}
+        known = known or {}
+        stack = list(outputs)
+        while stack:
+            node = stack.pop()
+            if node.index not in needed and node.index not in known:
+                needed[node.index] = node
+                if node.a is not None:
+                    stack.append(node.a)
+                if node.b is not None:
+                    stack.append(node.b)
+        return [needed[k] for k in sorted(needed)]
+
+
+EVALUATE: dict[str, Callable[..., Any]] = {
+    "add": lambda a, b: a + b,
+    "sub": lambda a, b: a - b,
+    "mul": lambda a, b: a * b,
+    "neg": lambda a: -a,
+    "inv": lambda a: np.divide(1.0, a),
+    "sqrt": np.sqrt,
+    "abs": np.abs,
+    "sign": np.sign,
+    "sin": np.sin,
+    "cos": np.cos,
+    "atan2": np.arctan2,
+    "rint": np.rint,
+    "max": np.maximum,
+    "detach": lambda a: a,
+}
+"""What each operation computes."""
+
+
+def is_zero(x: Any) -> bool:
+    """Exactly zero, whatever the design and the position."""
+    return x.op == "const" and x.value == 0 if type(x) is Node else x == 0
+
+
+def unit_value(x: Any) -> float:
+    """1 or -1 where the value is exactly that, else 0."""
+    if type(x) is Node:
+        x = x.value if x.op == "const" else 0.0
+    return float(x) if x in (1.0, -1.0) else 0.0
+
+
+def traced(graph: Graph, array: Any) -> Array:
+    """An array of nodes: numbers become constants."""
+    source = np.asarray(array)
+    out = np.empty(source.shape, object)
+    for place, x in np.ndenumerate(source):
+        out[place] = x if type(x) is Node else graph.constant(x)
+    return out

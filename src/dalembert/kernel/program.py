@@ -1,0 +1,62 @@
+"""A traced analysis as a list of instructions: what is computed once a design, what at every position."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from dalembert.kernel.graph import CONSTANT, INPUTS, POSITION, Graph, Node
+
+
+@dataclass(frozen=True)
+class Program:
+    """Outputs as nodes of a graph, and the signs that say whether they are right.
+
+    ``open``: below zero the linkage does not close; ``doubt``: below zero, or no number, the general executor
+    decides.
+    """
+
+    graph: Graph
+    outputs: tuple[Node, ...]
+    open: tuple[Node, ...]
+    doubt: tuple[Node, ...]
+
+    @cached_property
+    def order(self) -> list[Node]:
+        """Every node needed, arguments first."""
+        return self.graph.order([*self.outputs, *self.open, *self.doubt])
+
+    @cached_property
+    def design(self) -> list[Node]:
+        """Operations that do not change with the position."""
+        return [n for n in self.order if n.a is not None and not n.level & POSITION]
+
+    @cached_property
+    def position(self) -> list[Node]:
+        """Operations of every position."""
+        return [n for n in self.order if n.a is not None and n.level & POSITION]
+
+    @cached_property
+    def inputs(self) -> list[Node]:
+        """Inputs in use."""
+        return [n for n in self.order if n.op in INPUTS]
+
+    def used(self, kind: str) -> list[Node]:
+        """Inputs of one kind in use: channel or common."""
+        return [n for n in self.inputs if n.op == kind]
+
+    @cached_property
+    def places(self) -> dict[int, int]:
+        """Where each input stands: numbers in the order of the values, the others packed."""
+        packed = {n.index: k for kind in ("channel", "common") for k, n in enumerate(self.used(kind))}
+        return packed | {n.index: n.value for n in self.inputs if n.op == "number"}
+
+    @cached_property
+    def constants(self) -> list[Node]:
+        """Constants in use."""
+        return [n for n in self.order if n.level == CONSTANT and n.a is None]
+
+    @property
+    def size(self) -> int:
+        """Scalar operations a position."""
+        return sum(1 for n in self.position if n.op not in ("neg", "detach"))

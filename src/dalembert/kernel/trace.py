@@ -1,0 +1,183 @@
+"""The core's equations traced once: from the drives' positions to every reaction, as nodes of one graph."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.core import forcing as fc
+from dalembert.core.assembly import phase_rows, without_phase
+from dalembert.core.constraints import measure
+from dalembert.core.equilibrium import Balance, Known, Statement, known_sources, motion, reactions, statement
+from dalembert.core.forcing import Forcing, pair, summed
+from dalembert.core.layout import Layout, Pose
+from dalembert.kernel.eliminate import Structural
+from dalembert.kernel.graph import CONSTANT, Graph, Node, traced
+from dalembert.kernel.newton import solver
+from dalembert.kernel.positions import Motion, Placed, positions
+
+Array = NDArray[Any]
+
+PASSES = 40
+"""Most repetitions for tooth forces that push centres which may move."""
+
+
+@dataclass(frozen=True)
+class Drives:
+    """Inputs of the drives as nodes (D,): position, its cosine and sine (turns), speed, acceleration."""
+
+    position: Array
+    cosine: Array
+    sine: Array
+    speed: Array
+    acceleration: Array
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A compiled mechanism whose numbers are nodes; ``guess`` and ``target`` as the general executor has them."""
+
+    graph: Graph
+    layout: Layout
+    forcing: Forcing
+    known: Known
+    target: Array
+    drives: Drives
+    first: Drives
+    guess: Any
+    inertia: bool
+    path: Any
+    first_path: Any
+    signs: Any
+
+
+@dataclass(frozen=True)
+class Traced:
+    """Everything that can be asked for, as nodes: arrays as in a ``Result`` without the position axis."""
+
+    pose: Pose
+    twist: Array
+    acceleration: Array
+    force: Array
+    moment: Array
+    effort: Array
+    load: Array
+    residual: Node
+    open: list[Node]
+    doubt: list[Node]
+    flips: bool
+
+
+def trace(p: Problem) -> Traced:
+    """Positions, motion and equilibrium of one position of one design."""
+    layout = replace(p.layout, solver=solver(p.graph))
+    target = _with_phase(p, layout)
+    placed = _placed(p, layout, target, p.drives, p.path)
+    pose = placed.pose
+    moving, rows, factors = motion(layout, pose, p.drives.speed, p.drives.acceleration)
+    w = summed(layout, *known_sources(layout, p.forcing, pose, moving, p.inertia).values())
+    s = statement(layout, p.known, pose, rows, factors, w)
+    x, total = _multipliers(p, layout, pose, s)
+    count, asked = layout.constraints.count, int(p.known.asked.sum())
+    effort = p.known.effort[0].astype(object)
+    effort[p.known.asked] = x[count : count + asked]
+    pushed = fc.separation(layout, pose, p.forcing.separation, x)
+    found = Balance(x[:count], effort, x[count + asked :], *(np.zeros(0),) * 3, None, pushed)
+    force, couple = reactions(layout, rows, found)
+    g = p.graph
+    return Traced(
+        pose=pose,
+        twist=traced(g, moving.twist),
+        acceleration=traced(g, moving.acceleration),
+        force=traced(g, force),
+        moment=traced(g, couple[..., 0]),
+        effort=traced(g, effort),
+        load=traced(g, found.load),
+        residual=_residual(g, layout, summed(layout, pair(s.unknown, x)), total),
+        open=placed.open,
+        doubt=[
+            *placed.doubt,
+            *_singular(g, factors),
+            *(_singular(g, s.forces) if s.forces is not factors else []),
+        ],
+        flips=placed.flips,
+    )
+
+
+def _placed(p: Problem, layout: Layout, target: Array, drives: Drives, path: Any) -> Placed:
+    """Poses at the drives' positions."""
+    count = layout.constraints.count
+    angular = layout.freedoms.angular[layout.driven]
+    turns = {int(r): (_cos(target[r]), _sin(target[r])) for r in np.flatnonzero(layout.constraints.angular)}
+    turns |= {count + k: (drives.cosine[k], drives.sine[k]) for k in np.flatnonzero(angular)}
+    whole = traced(p.graph, np.concatenate([target, drives.position]))
+    return positions(Motion(p.graph, layout, whole, turns, path, p.signs))
+
+
+def _cos(angle: Any) -> Any:
+    return angle.cos() if type(angle) is Node else np.cos(float(angle))
+
+
+def _sin(angle: Any) -> Any:
+    return angle.sin() if type(angle) is Node else np.sin(float(angle))
+
+
+def _with_phase(p: Problem, layout: Layout) -> Array:
+    """Targets of meshes and rolling wheels: their measures at the first position, of each design its own."""
+    rows = phase_rows(layout.constraints)
+    geometry = [a for f in layout.stack.families for n, a in vars(f).items() if n not in ("row", "i", "j")]
+    if not rows.size or not any(type(x) is Node for a in geometry for x in np.ravel(a)):
+        return p.target
+    free, target = without_phase(layout, p.target, p.guess, hold=True)
+    first = _placed(p, free, target, p.first, p.first_path)
+    out = p.target.astype(object)
+    out[rows] = measure(layout.algebra, layout.constraints, first.pose)[rows]
+    return out
+
+
+def _multipliers(p: Problem, layout: Layout, pose: Pose, s: Statement) -> tuple[Array, Array]:
+    """Multipliers and total wrenches; tooth forces push the wheels apart by the size of the tangential ones."""
+    x, total, tangent = s.forces.forces(-s.w.reshape(-1)), s.w, p.forcing.separation
+    if not tangent.size or not tangent.any():
+        return x, total
+    before = None
+    for _ in range(PASSES):
+        total = s.w + summed(layout, fc.separation_wrench(layout, pose, tangent, x))
+        x = s.forces.forces(-total.reshape(-1))
+        now = np.array(np.broadcast_arrays(*p.graph.evaluated(traced(p.graph, x), {})))
+        if before is not None and np.nanmax(np.abs(now - before)) <= 1e-15 * np.nanmax(np.abs(now)):
+            break
+        before = now
+    return x, total
+
+
+def _residual(graph: Graph, layout: Layout, reacted: Array, w: Array) -> Node:
+    """Largest out-of-balance force (moment over length) over the largest load."""
+    scale = layout.wrench_scale
+    out, size = traced(graph, (reacted + w) * scale), traced(graph, w * scale)
+    return _largest(graph, out) / (_largest(graph, size) + 1e-300)
+
+
+def _largest(graph: Graph, array: Array) -> Node:
+    top = graph.zero
+    for x in array.ravel():
+        top = graph.binary("max", top, abs(x))
+    return top
+
+
+NEAR = 1e-5
+"""Square of a pivot over its size in the file's own motion, below which a position is left to the general executor."""
+
+
+def _singular(graph: Graph, factors: Any) -> list[Node]:
+    assert isinstance(factors, Structural)
+    pivots = [p for p in factors.pivots if type(p) is Node and p.level != CONSTANT]
+    out = []
+    for pivot, sample in zip(pivots, graph.evaluated(pivots, {}), strict=True):
+        usual = float(np.nanquantile(np.abs(sample), 0.75))
+        if usual > 0:
+            out.append(pivot * pivot * (1 / usual**2) - NEAR)
+    return out
