@@ -25,6 +25,7 @@ if TYPE_CHECKING:
         statics,
     )
     from dalembert.analysis.answers import check_file
+    from dalembert.analysis.batch import BatchResult, Kernel, compile  # noqa: A004
     from dalembert.analysis.members import displaced_inertia, inertia_shares, members, order_of_solution
     from dalembert.analysis.superposition import superposition
     from dalembert.analysis.virtual_work import virtual_work
@@ -87,6 +88,7 @@ __version__ = "0.1.0"
 
 _HOME = {
     "Answer": "model",
+    "BatchResult": "analysis.batch",
     "Couple": "model",
     "Damper": "model",
     "Drive": "model",
@@ -94,6 +96,7 @@ _HOME = {
     "ForceLoad": "model",
     "FrictionDefaults": "model",
     "Gear": "model",
+    "Kernel": "analysis.batch",
     "GuideFriction": "model",
     "Link": "model",
     "Mechanism": "model",
@@ -118,6 +121,7 @@ _HOME = {
     "Weld": "model",
     "bucket": "model.library",
     "check_file": "analysis.answers",
+    "compile": "analysis.batch",
     "convert": "model",
     "crank_shaper": "model.library",
     "displaced_inertia": "analysis.members",
@@ -157,6 +161,7 @@ __all__ = [
     "STATUSES",
     "AnalysisError",
     "Answer",
+    "BatchResult",
     "Couple",
     "DalembertError",
     "Damper",
@@ -166,6 +171,7 @@ __all__ = [
     "FrictionDefaults",
     "Gear",
     "GuideFriction",
+    "Kernel",
     "Link",
     "Mechanism",
     "Mobility",
@@ -191,6 +197,7 @@ __all__ = [
     "__version__",
     "bucket",
     "check_file",
+    "compile",
     "convert",
     "crank_shaper",
     "displaced_inertia",

@@ -51,9 +51,9 @@ def modes(layout: Layout, target: Array, guess: Guess) -> Modes | None:
     The phase of a mesh (or of a rolling wheel) is that of this first pose: its row is left out here, and one wheel
     of it held at its given angle; where that does not close, wheels turn as little as possible from the start.
     """
-    found = _modes(layout, *without_phase(layout, target, guess, hold=True), guess)
+    found = _modes(layout, *_without_phase(layout, target, guess, hold=True), guess)
     if found is None and phase_rows(layout.constraints).size:
-        found = _modes(layout, *without_phase(layout, target, guess, hold=False), guess)
+        found = _modes(layout, *_without_phase(layout, target, guess, hold=False), guess)
     return found
 
 
@@ -81,20 +81,20 @@ def phase_rows(rows: Rows) -> NDArray[np.intp]:
     return np.concatenate([*found, np.zeros(0, np.intp)]).astype(np.intp)
 
 
-def without_phase(layout: Layout, target: Array, guess: Guess, hold: bool) -> tuple[Layout, Array]:
+def _without_phase(layout: Layout, target: Array, guess: Guess, hold: bool) -> tuple[Layout, Array]:
     """The layout and target without phase rows; with ``hold``, wheels held at their given angles, or at 0."""
     phased = phase_rows(layout.constraints)
     if not phased.size:
         return layout, target
     kept = np.setdiff1d(np.arange(layout.constraints.count), phased)
     target = np.concatenate([target[kept], target[layout.constraints.count :]])
-    free = _with_rows(layout, kept, [])
-    held = _held_wheels(layout, free, target, phased, guess) if hold else []
+    free = with_rows(layout, kept, [])
+    held = held_wheels(layout, free, target, phased, guess) if hold else []
     angles = np.nan_to_num(guess.turn[np.array(held, np.intp)])
-    return _with_rows(layout, kept, held), np.concatenate([target[: len(kept)], angles, target[len(kept) :]])
+    return with_rows(layout, kept, held), np.concatenate([target[: len(kept)], angles, target[len(kept) :]])
 
 
-def _with_rows(layout: Layout, kept: NDArray[np.intp], held: list[int]) -> Layout:
+def with_rows(layout: Layout, kept: NDArray[np.intp], held: list[int]) -> Layout:
     """The layout with some of its constraints, and rows that hold the angles of some links."""
     rows, count = layout.constraints, len(kept) + len(held)
     place, ground = np.arange(len(kept), count), np.full(len(held), layout.links)
@@ -104,7 +104,7 @@ def _with_rows(layout: Layout, kept: NDArray[np.intp], held: list[int]) -> Layou
     return replace(layout, constraints=Rows(count, rows.links, tuple(families), joint, angular))
 
 
-def _held_wheels(
+def held_wheels(
     layout: Layout, free: Layout, target: Array, phased: NDArray[np.intp], guess: Guess
 ) -> list[int]:
     """A link for each phase row that still turns where it is laid down: j, else i, else any; given angles first."""

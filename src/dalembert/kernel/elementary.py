@@ -116,4 +116,5 @@ def _angle(lanes: int) -> list[str]:
     a = t.select(steep, _exact(t, "fsub", t.splat(1.5707963267948966), a), a)
     left = t.compare("olt", "%x", t.splat(0.0))
     a = t.select(left, _exact(t, "fsub", t.splat(3.141592653589793), a), a)
-    return [*t.lines, f"  ret {t.kind} {t.intrinsic('copysign', a, '%y')}", "}"]
+    signed = t.intrinsic("copysign", a, "%y")
+    return [*t.lines, f"  ret {t.kind} {signed}", "}"]

@@ -207,7 +207,9 @@ class _Work:
 
     def choice(self, rows: set[int], columns: set[int]) -> tuple[int, int]:
         places = [(r, c) for r in sorted(rows) for c in self.rows[r] if c in columns]
-        sampled = self.graph.evaluated([self.rows[r][c] for r, c in places], {})
+        entries = [self.rows[r][c] for r, c in places]
+        nodes = [x if type(x) is Node else self.graph.constant(x) for x in entries]
+        sampled = np.broadcast_arrays(*self.graph.evaluated(nodes, {}))
         largest = {
             r: np.max([np.abs(s) for (q, _), s in zip(places, sampled, strict=True) if q == r], axis=0)
             for r in rows

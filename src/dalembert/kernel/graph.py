@@ -126,16 +126,16 @@ class Node:
         return float(self.graph.evaluated([self], {})[0])
 
     def __lt__(self, other: Any) -> bool:
-        return bool(self._decision() < float(other))
+        return bool(self._decision() < _number(other))
 
     def __gt__(self, other: Any) -> bool:
-        return bool(self._decision() > float(other))
+        return bool(self._decision() > _number(other))
 
     def __le__(self, other: Any) -> bool:
-        return bool(self._decision() <= float(other))
+        return bool(self._decision() <= _number(other))
 
     def __ge__(self, other: Any) -> bool:
-        return bool(self._decision() >= float(other))
+        return bool(self._decision() >= _number(other))
 
     def __bool__(self) -> bool:
         """Not zero whatever the numbers."""
@@ -286,7 +286,7 @@ class Graph:
         outputs = list(outputs)
         done = {} if values else self.samples
         with np.errstate(all="ignore"):
-            self._evaluate([n for n in self.order(outputs, done)], values, done)
+            self._evaluate(self.order(outputs, done), values, done)
         return [done[node.index] for node in outputs]
 
     def _evaluate(self, nodes: list[Node], values: Mapping[int, Any], done: dict[int, Any]) -> None:
@@ -333,6 +333,10 @@ EVALUATE: dict[str, Callable[..., Any]] = {
     "detach": lambda a: a,
 }
 """What each operation computes."""
+
+
+def _number(x: Any) -> float:
+    return x._decision() if type(x) is Node else float(x)
 
 
 def is_zero(x: Any) -> bool:

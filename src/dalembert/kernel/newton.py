@@ -39,20 +39,19 @@ class Found:
 
 def newton(m: Motion, guess: Pose, links: list[int]) -> Found:
     """Place some links; all others stand where the guess has them."""
-    pose, dq = guess, {}
+    pose = guess
     for _ in range(STEPS):
-        dq, _ = _step(m, pose, links)
-        pose = _moved(m, pose, dq, links)
+        pose = _moved(m, pose, _step(m, pose, links), links)
     still = _detached(m.graph, pose, links)
-    dq, pivots = _step(m, still, links)
+    dq = _step(m, still, links)
     pose = _moved(m, still, dq, links)
     last = _size(m.layout, [dq[k] for k in links])
     far = _size(m.layout, [_difference(pose, guess, k) for k in links])
-    return Found(pose, [LAST**2 - last, FAR**2 - far, *pivots])
+    return Found(pose, [LAST**2 - last, FAR**2 - far])
 
 
-def _step(m: Motion, pose: Pose, links: list[int]) -> tuple[dict[int, list[Any]], list[Node]]:
-    """Newton step of some links, and what tells that it is regular."""
+def _step(m: Motion, pose: Pose, links: list[int]) -> dict[int, list[Any]]:
+    """Newton step of some links."""
     layout = m.layout
     rows = stacked(layout, pose)
     missing = gap(layout, pose, m.target) / layout.row_scale
@@ -64,7 +63,7 @@ def _step(m: Motion, pose: Pose, links: list[int]) -> tuple[dict[int, list[Any]]
     ]
     factors = factored(m.graph, rows, kept, links)
     solution = factors.motion(np.array([missing[k] for k in kept], object))
-    return {link: list(solution[3 * n : 3 * n + 3]) for n, link in enumerate(links)}, []
+    return {link: list(solution[3 * n : 3 * n + 3]) for n, link in enumerate(links)}
 
 
 def _inside(m: Motion, rows: System, k: int, moving: set[int]) -> bool:

@@ -104,6 +104,20 @@ class Parts:
             self.part[x][link] = (v.turned(pose[0], rotation), v.plus(pose[1], v.turned(pose[0], point)))
             self.owner[link] = x
 
+    def join(self, x: int, *others: tuple[int, Place]) -> None:
+        """Parts with their poses in the axes of x become one with it; with the ground, if it is among them."""
+        ground = self.owner[self.ground]
+        at = next((pose for part, pose in others if part == ground), None)
+        if at is None:
+            for part, pose in others:
+                self.merge(x, part, pose)
+            return
+        back = _inverted(at)
+        self.merge(ground, x, back)
+        for part, pose in others:
+            if part != ground:
+                self.merge(ground, part, _composed(back, pose))
+
     # two parts
 
     def pairs(self) -> bool:
@@ -222,7 +236,8 @@ class Parts:
         return False
 
     def triple(self, a: int, b: int, c: int, found: dict[tuple[int, int], list[Relation]]) -> bool:
-        kinds = {pair: _kind(found[pair]) for pair in (tuple(sorted(p)) for p in combinations((a, b, c), 2))}
+        sides = [(min(p), max(p)) for p in combinations((a, b, c), 2)]
+        kinds = {pair: _kind(found[pair]) for pair in sides}
         slides = [pair for pair, kind in kinds.items() if kind == "slide"]
         if None in kinds.values() or len(slides) > 2:
             return False
@@ -231,7 +246,8 @@ class Parts:
         elif slides:
             self.one_slide(slides[0], next(k for k in (a, b, c) if k not in slides[0]), found)
         else:
-            self.three_pins(*self.base(a, b, c), found)
+            x, y, z = self.base(a, b, c)
+            self.three_pins(x, y, z, found)
         return True
 
     def pins(self, x: int, y: int, found: dict[tuple[int, int], list[Relation]]) -> tuple[Pair, Pair]:
@@ -255,8 +271,7 @@ class Parts:
 
         self.chosen(lambda sign: sides(sign)[0], x, y)
         ry, rz = sides(self.sign)
-        self.merge(x, y, (ry, v.minus(a, v.turned(ry, ya))))
-        self.merge(x, z, (rz, v.minus(b, v.turned(rz, zb))))
+        self.join(x, (y, (ry, v.minus(a, v.turned(ry, ya)))), (z, (rz, v.minus(b, v.turned(rz, zb)))))
 
     def one_slide(self, slide: tuple[int, int], y: int, found: dict[tuple[int, int], list[Relation]]) -> None:
         """Parts x and z slide on each other; y has a pin on each."""
@@ -279,8 +294,7 @@ class Parts:
 
         ry = self.chosen(rotation, x, y)
         at = v.plus(a, side(self.sign))
-        self.merge(x, z, (rz, v.minus(at, v.turned(rz, b))))
-        self.merge(x, y, (ry, v.minus(a, v.turned(ry, ya))))
+        self.join(x, (z, (rz, v.minus(at, v.turned(rz, b)))), (y, (ry, v.minus(a, v.turned(ry, ya)))))
 
     def two_slides(
         self,
@@ -302,19 +316,9 @@ class Parts:
         det = v.cross(n1, n2)
         self.regular(det)
         at = (c1 * n2[1] - c2 * n1[1]) / det, (n1[0] * c2 - n2[0] * c1) / det
-        poses = [
-            (rotations[0], v.minus(at, v.turned(rotations[0], yc))),
-            (rotations[1], v.minus(at, v.turned(rotations[1], zc))),
-        ]
-        ground = self.owner[self.ground]
-        if ground in (y, z):  # turn the answer round: the ground must be the part that others join
-            inverse = _inverted(poses[0] if ground == y else poses[1])
-            other, pose = (z, poses[1]) if ground == y else (y, poses[0])
-            self.merge(ground, x, inverse)
-            self.merge(ground, other, _composed(inverse, pose))
-            return
-        self.merge(x, y, poses[0])
-        self.merge(x, z, poses[1])
+        first = rotations[0], v.minus(at, v.turned(rotations[0], yc))
+        second = rotations[1], v.minus(at, v.turned(rotations[1], zc))
+        self.join(x, (y, first), (z, second))
 
     # the rest
 

@@ -40,21 +40,9 @@ def relations(layout: Layout, target: Any, turns: dict[int, Pair]) -> list[Relat
             kind = _KINDS[type(f)]
             if isinstance(f, Along) and not is_zero(f.pitch[k]):
                 kind = "roll"
-            out.append(
-                Relation(
-                    kind,
-                    int(f.i[k]),
-                    int(f.j[k]),
-                    *(NONE if isinstance(f, Turn) else (u[k][0], u[k][1]) for u in _arms(f)),
-                    (f.axis[k][0], f.axis[k][1]) if isinstance(f, Along) else NONE,
-                    target[rows[0]],
-                    turns.get(rows[0], NONE),
-                    (f.ri[k], f.rj[k]) if isinstance(f, Mesh) else NONE,
-                    rows,
-                )
-            )
+            ui, uj = (NONE, NONE) if isinstance(f, Turn) else ((u[k][0], u[k][1]) for u in (f.ui, f.uj))
+            axis = (f.axis[k][0], f.axis[k][1]) if isinstance(f, Along) else NONE
+            radii = (f.ri[k], f.rj[k]) if isinstance(f, Mesh) else NONE
+            i, j, goal, turn = int(f.i[k]), int(f.j[k]), target[rows[0]], turns.get(rows[0], NONE)
+            out.append(Relation(kind, i, j, ui, uj, axis, goal, turn, radii, rows))
     return out
-
-
-def _arms(f: Any) -> tuple[Any, Any]:
-    return (None, None) if isinstance(f, Turn) else (f.ui, f.uj)

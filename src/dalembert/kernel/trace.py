@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.core import forcing as fc
-from dalembert.core.assembly import phase_rows, without_phase
+from dalembert.core.assembly import held_wheels, phase_rows, with_rows
 from dalembert.core.constraints import measure
 from dalembert.core.equilibrium import Balance, Known, Statement, known_sources, motion, reactions, statement
 from dalembert.core.forcing import Forcing, pair, summed
@@ -38,7 +38,8 @@ class Drives:
 
 @dataclass(frozen=True)
 class Problem:
-    """A compiled mechanism whose numbers are nodes; ``guess`` and ``target`` as the general executor has them."""
+    """A compiled mechanism whose numbers are nodes; ``like`` is the same with the file's numbers, ``like_target`` its
+    stacked targets at the first position."""
 
     graph: Graph
     layout: Layout
@@ -47,6 +48,8 @@ class Problem:
     target: Array
     drives: Drives
     first: Drives
+    like: Layout
+    like_target: Array
     guess: Any
     inertia: bool
     path: Any
@@ -112,7 +115,7 @@ def _placed(p: Problem, layout: Layout, target: Array, drives: Drives, path: Any
     count = layout.constraints.count
     angular = layout.freedoms.angular[layout.driven]
     turns = {int(r): (_cos(target[r]), _sin(target[r])) for r in np.flatnonzero(layout.constraints.angular)}
-    turns |= {count + k: (drives.cosine[k], drives.sine[k]) for k in np.flatnonzero(angular)}
+    turns |= {count + int(k): (drives.cosine[k], drives.sine[k]) for k in np.flatnonzero(angular)}
     whole = traced(p.graph, np.concatenate([target, drives.position]))
     return positions(Motion(p.graph, layout, whole, turns, path, p.signs))
 
@@ -131,8 +134,12 @@ def _with_phase(p: Problem, layout: Layout) -> Array:
     geometry = [a for f in layout.stack.families for n, a in vars(f).items() if n not in ("row", "i", "j")]
     if not rows.size or not any(type(x) is Node for a in geometry for x in np.ravel(a)):
         return p.target
-    free, target = without_phase(layout, p.target, p.guess, hold=True)
-    first = _placed(p, free, target, p.first, p.first_path)
+    kept = np.setdiff1d(np.arange(layout.constraints.count), rows)
+    known = np.concatenate([p.like_target[kept], p.like_target[layout.constraints.count :]])
+    held = held_wheels(p.like, with_rows(p.like, kept, []), known, rows, p.guess)
+    angles = np.nan_to_num(p.guess.turn[np.array(held, np.intp)])
+    target = np.concatenate([p.target[kept], angles])
+    first = _placed(p, with_rows(layout, kept, held), target, p.first, p.first_path)
     out = p.target.astype(object)
     out[rows] = measure(layout.algebra, layout.constraints, first.pose)[rows]
     return out

@@ -78,7 +78,9 @@ def found(part: Any, keys: Sequence[str], walked: tuple[str, ...] = ()) -> Any:
     if isinstance(part, tuple):
         _known(keys[0], [str(i) for i in range(len(part))], here)
         return found(part[int(keys[0])], keys[1:], here)
-    raise ModelError(f"the path {'.'.join([*here, *keys[1:]])!r} goes into a single value", "leave out its end", walked)
+    raise ModelError(
+        f"the path {'.'.join([*here, *keys[1:]])!r} goes into a single value", "leave out its end", walked
+    )
 
 
 def placed(part: Any, keys: Sequence[str], value: Any, walked: tuple[str, ...] = ()) -> Any:

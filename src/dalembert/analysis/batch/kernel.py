@@ -146,7 +146,7 @@ class Kernel:
         given = given.reshape(-1, drives) if given.ndim < 2 else given
         if given.ndim != 2 or given.shape[1] != drives or not len(given) or not np.isfinite(given).all():
             raise ModelError(
-                f"positions of shape {np.shape(positions)} do not fit {drives} drive(s)",
+                f"positions of shape {given.shape} do not fit {drives} drive(s)",
                 "give (position, drive)",
             )
         for rate in (known.schedule.speed, known.schedule.acceleration):
@@ -187,7 +187,7 @@ class Kernel:
         )
         if given.ndim != 2 or given.shape[1] != count:
             raise ModelError(
-                f"values of shape {np.shape(values)} do not fit {count} numbers",
+                f"values of shape {np.shape(np.asarray(values))} do not fit {count} numbers",
                 "give (design, number) in the order of .numbers",
             )
         return given

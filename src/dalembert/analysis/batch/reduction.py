@@ -44,7 +44,7 @@ def finished(reduce: str, parts: list[Array], count: int) -> Array:
         return np.asarray(np.sqrt(parts[0] / count))
     if reduce == "norm8":
         return np.asarray((parts[0] / count) ** 0.125)
-    return parts[0]
+    return np.asarray(parts[0])
 
 
 def reduced(reduce: str, values: Array) -> Array:
@@ -59,4 +59,5 @@ def reduced(reduce: str, values: Array) -> Array:
     if reduce == "mean":
         return np.asarray(values.mean(axis=0))
     power = 2 if reduce == "rms" else 8
-    return np.asarray((values**power).mean(axis=0) ** (1 / power))
+    size = (values**power).mean(axis=0) ** (1 / power)
+    return np.asarray(size)

@@ -54,6 +54,8 @@ def traced(m: Mechanism, vary: Iterable[str], inertia: bool) -> Trace:
         target=_targets(c.target, like.target, like.layout),
         drives=drives,
         first=inputs.drives(description, "common"),
+        like=like.layout,
+        like_target=like.targets[course.first],
         guess=like.guess,
         inertia=inertia,
         path=inputs.path("channel"),
