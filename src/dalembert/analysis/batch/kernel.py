@@ -43,9 +43,11 @@ def compile(  # noqa: A001
     lanes: values side by side (8 AVX-512, 4 AVX2, 2 NEON, 1 none); default as the processor has them.
     Raises ModelError for what only the analyses can do (redundancy, unknown positions).
 
-    >>> m = da.four_bar()
-    >>> k = da.compile(m, vary=["links.coupler.mass"], outputs=["effort.O2"])  # doctest: +SKIP
-    >>> k([[1.0], [2.0]]).effort("O2").shape  # doctest: +SKIP
+    >>> import dalembert as da
+    >>> k = da.compile(da.four_bar(), vary=["links.coupler.mass"], outputs=["effort.O2"])
+    >>> k.numbers
+    ('links.coupler.mass',)
+    >>> k([[1.0], [2.0]]).effort("O2").shape
     (2, 72)
     """
     reduction.check(reduce)

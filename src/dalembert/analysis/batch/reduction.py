@@ -59,5 +59,5 @@ def reduced(reduce: str, values: Array) -> Array:
     if reduce == "mean":
         return np.asarray(values.mean(axis=0))
     power = 2 if reduce == "rms" else 8
-    size = (values**power).mean(axis=0) ** (1 / power)
-    return np.asarray(size)
+    mean: Array = (values**power).mean(axis=0)
+    return np.asarray(mean ** (1 / power))

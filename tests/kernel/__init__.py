@@ -1,0 +1,1 @@
+"""The kernel against the general executor, its derivatives, reductions, lanes, threads and memory."""

@@ -1,0 +1,72 @@
+"""Numbers of a description that may vary, and a kernel's answers beside those of the general executor."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+import dalembert as da
+from dalembert.analysis.batch.symbols import with_numbers
+
+NAMES = {
+    "links": ("mass", "inertia", "center"),
+    "joints": ("direction", "angle", "radius", "radii", "pressure_angle", "damping"),
+    "loads": ("stiffness", "free_length", "free_angle", "damping", "direction", "value", "at"),
+    "drives": ("speed", "acceleration", "effort"),
+}
+
+
+def every_number(m: Any) -> list[str]:
+    """Paths of all numbers that may vary."""
+    out = []
+    for group, keys in NAMES.items():
+        for name, part in getattr(m, group).items():
+            out += [f"{group}.{name}.{k}" for k in keys if _varies(getattr(part, k, None))]
+            points = getattr(part, "points", {})
+            out += [f"{group}.{name}.points.{p}" for p, at in points.items() if _varies(at)]
+    return out + (["gravity"] if isinstance(m.gravity, tuple) else [])
+
+
+def _varies(value: Any) -> bool:
+    if isinstance(value, tuple):
+        return bool(value) and all(isinstance(x, float) for x in value)
+    return isinstance(value, float)
+
+
+def geometric(path: str) -> bool:
+    """Whether a number moves joints: large changes of those may take gears apart or open a loop."""
+    return ".points." in path or (path.startswith("joints.") and not path.endswith("damping"))
+
+
+def changed(k: Any, seed: int, shape: float, rest: float = 0.3) -> np.ndarray:
+    """The description's numbers changed at random: geometry by ``shape``, the rest by ``rest`` (relative)."""
+    rng = np.random.default_rng(seed)
+    size = np.array([shape if geometric(n) else rest for n in k.numbers])
+    return k.nominal * (1 + size * rng.uniform(-1, 1, len(k.numbers)))
+
+
+def general(m: Any, k: Any, values: np.ndarray) -> Any:
+    """The general executor's answer for one design."""
+    design = with_numbers(m, k.trace.numbers, values.tolist())
+    return da.dynamics(design) if k.trace.inertia else da.statics(design)
+
+
+def difference(k: Any, r: Any, d: int, g: Any) -> float:
+    """Largest difference of efforts and reactions of design ``d``, over the largest force, moments over lengths;
+    infinite where one has a number and the other none."""
+    force = np.nanmax(np.abs(g.force_array), initial=1e-300)
+    scale, length = force, g.compiled.layout.length
+    pairs = [(r.reaction(j)[d], g.reaction(j), scale) for j in g.joints]
+    angular = g.compiled.layout.freedoms.angular[g.compiled.layout.driven]
+    pairs += [
+        (r.effort(n)[d], g.effort(n), scale * (length if a else 1))
+        for n, a in zip(g.drives, angular, strict=True)
+    ]
+    worst = 0.0
+    for mine, other, size in pairs:
+        if (np.isnan(mine) != np.isnan(other)).any():
+            return float("inf")
+        size = max(size, np.nanmax(np.abs(other), initial=0.0))
+        worst = max(worst, float(np.nanmax(np.abs(mine - other), initial=0.0)) / size)
+    return worst

@@ -1,0 +1,34 @@
+"""The kernel answers what the general executor answers (DESIGN: a test, on random mechanisms)."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from tests.kernel.comparing import changed, difference, every_number, general
+from tests.random_mechanisms import random_case, tree
+
+TOLERANCE = 1e-10
+
+
+def compared(seed: int) -> tuple[float, int]:
+    """Largest difference over two designs of a random mechanism, and how many the general executor redid."""
+    m = da.mechanism(tree(random_case(seed).drawing))
+    k = da.compile(m, vary=every_number(m))
+    values = np.stack([k.nominal, changed(k, seed, shape=1e-5)])
+    r = k(values)
+    return max(difference(k, r, d, general(m, k, values[d])) for d in range(2)), r.redone
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_random_mechanisms(seed: int) -> None:
+    worst, _ = compared(seed)
+    assert worst < TOLERANCE
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(12, 1000))
+def test_many_random_mechanisms(seed: int) -> None:
+    worst, _ = compared(seed)
+    assert worst < TOLERANCE
