@@ -53,7 +53,7 @@ def reduced(reduce: str, values: Array) -> Array:
     if reduce == "peak":
         return np.asarray(size.max(axis=0))
     if reduce == "argpeak":
-        return size.argmax(axis=0).astype(float)
+        return np.asarray(size.argmax(axis=0).astype(float))
     if reduce == "envelope":
         return np.stack([values.min(axis=0), values.max(axis=0)], axis=-1)
     if reduce == "mean":
