@@ -13,8 +13,11 @@ from tests.cli.conftest import Run
     ("arguments", "said"),
     [
         (["solve"], "dalembert: solve needs FILE; see `dalembert solve --help`"),
-        (["solve", "none.yaml"], "there is no file none.yaml; check the name and the folder"),
-        (["solve", "four_bar.yml"], "there is no file four_bar.yml; did you mean 'four_bar.yaml'?"),
+        (["solve", "none.yaml"], "none.yaml:1: there is no file none.yaml; check the name and the folder"),
+        (
+            ["solve", "four_bar.yml"],
+            "four_bar.yml:1: there is no file four_bar.yml; did you mean 'four_bar.yaml'?",
+        ),
         (
             ["solve", "four_bar.yaml", "--bogus"],
             "dalembert: unknown option: --bogus; see `dalembert solve --help`",

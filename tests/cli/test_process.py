@@ -25,7 +25,7 @@ def test_status_and_streams() -> None:
     assert "\x1b" not in done.stdout
     done = subprocess.run([*COMMAND, "solve", "none.yaml"], capture_output=True, text=True)
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "there is no file none.yaml; check the name and the folder\n"
+    assert done.stderr == "none.yaml:1: there is no file none.yaml; check the name and the folder\n"
 
 
 def test_a_reader_that_goes_away_is_no_error() -> None:

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.compile import Compiled
 from dalembert.analysis.mobility import Mobility, check_drives, mobility_at
-from dalembert.core.assembly import Modes, modes, phase_rows
-from dalembert.core.closure import CLOSED, closed, gap
+from dalembert.core.assembly import Modes, drawn, modes, phase_rows
+from dalembert.core.closure import least_gap
 from dalembert.core.constraints import measure
 from dalembert.core.course import Course, course
 from dalembert.core.follow import Path, path
@@ -163,46 +163,18 @@ def open_sentence(c: Compiled, found: Path | None, where: NDArray[np.intp]) -> s
     reached = np.flatnonzero(found.reached) if found is not None else np.zeros(0, np.intp)
     span = _span_text(c, where)
     if known is None or not reached.size:
-        return f"The linkage does not close {span}: no pose of the links was found that joins them all."
-    nearest = reached[np.argmin(np.abs(reached - middle))]
-    missing = _least_gap(c, known.at(nearest), c.targets[middle])
-    row = int(np.argmax(np.abs(missing[: len(c.target)])))
-    joint = c.joints[c.layout.constraints.joint[row]]
-    size = float(np.abs(missing).max())
-    return f"The linkage does not close {span}: at best {size:.3g} m stay open at joint {joint}."
-
-
-def _least_gap(c: Compiled, start: Pose, target: Array) -> Array:
-    """Gap left by the best pose near ``start``: damped least squares with the drives held."""
-    layout, pose = c.layout, start.at(None)
-    best = gap(layout, pose, target[None])[0]
-    tried, missing = closed(layout, pose, target[None], iterations=30)
-    if missing[0] <= CLOSED * layout.length:
-        return np.asarray(gap(layout, tried, target[None])[0])
-    return _levenberg(c, pose, target, best)
-
-
-def _levenberg(c: Compiled, pose: Pose, target: Array, best: Array) -> Array:
-    from dalembert.core.closure import moved
-    from dalembert.core.constraints import dense, stacked
-    from dalembert.core.factor import row_scale
-
-    layout, weight = c.layout, 1.0
-    stiff = np.concatenate([np.ones(len(c.target)), np.full(len(layout.driven), 1e3)])
-    for _ in range(60):
-        rows = stacked(layout, pose)
-        j = (dense(layout, rows)[0] * row_scale(layout, rows.angular)[:, None] * layout.column_scale) * stiff[
-            :, None
-        ]
-        right = j.T @ (gap(layout, pose, target[None])[0] * stiff)
-        dq = np.linalg.solve(j.T @ j + weight * np.eye(j.shape[1]), right) * layout.column_scale
-        trial = moved(layout, pose, dq.reshape(1, layout.links, -1))
-        new = gap(layout, trial, target[None])[0]
-        if np.linalg.norm(new * stiff) < np.linalg.norm(best * stiff):
-            pose, best, weight = trial, new, weight / 3
-        else:
-            weight *= 4
-    return best
+        start = drawn(c.layout, c.targets[middle], c.guess)
+    else:
+        start = known.at(reached[np.argmin(np.abs(reached - middle))])
+    missing = least_gap(c.layout, start, c.targets[middle])
+    at = c.layout.constraints.joint
+    gaps = {c.joints[k]: float(np.linalg.norm(missing[: len(c.target)][at == k])) for k in np.unique(at)}
+    total, widest = sum(gaps.values()), max(gaps, key=lambda name: gaps[name], default="")
+    drives = f", or give {' and '.join(c.schedule.names)} another range" if c.schedule.names else ""
+    return (
+        f"The linkage does not close {span}: its joints stay {total:.3g} m open in all, most at {widest}. "
+        f"Change a length or the assembly{drives}."
+    )
 
 
 def _span_text(c: Compiled, where: NDArray[np.intp]) -> str:

@@ -71,6 +71,12 @@ def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes |
     return _searched(layout, free, target, guess)
 
 
+def drawn(layout: Layout, target: Array, guess: Guess) -> Pose:
+    """The links laid down joint by joint (L+1, ...): the first start, before any correction."""
+    one = np.zeros((1, layout.links + 1))
+    return _laid(layout, target, guess, one, np.full((1, layout.constraints.count), layout.length)).at(0)
+
+
 def phase_rows(rows: Rows) -> NDArray[np.intp]:
     """Rows whose target is their measure at the first pose: meshes and rolling without slip."""
     found = [

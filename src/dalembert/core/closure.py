@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.constraints import measure, stacked
+from dalembert.core.constraints import dense, measure, stacked
 from dalembert.core.factor import displacement
 from dalembert.core.layout import Layout, Mesh, Pose
 
@@ -23,6 +23,9 @@ CLOSED = 1e-9
 FINE = 3e-8
 """A step below this, radians or characteristic lengths, is the last: what it leaves is its square. At a dead centre
 the gap vanishes long before the error of the pose, so it is the step that decides."""
+
+HELD = 1e3
+"""How much stiffer drives are than constraints where the least gap is looked for."""
 
 LONGEST_TURN = 0.5
 """No step turns a link further than this, radians, or moves it further than the characteristic length times this."""
@@ -113,3 +116,24 @@ def _closed(layout: Layout, pose: Pose, target: Array, iterations: int, polish: 
 def _put(pose: Pose, where: NDArray[np.intp], part: Pose) -> None:
     for whole, new in zip(pose, part, strict=True):
         whole[where] = new
+
+
+def least_gap(layout: Layout, start: Pose, target: Array, steps: int = 200) -> Array:
+    """The smallest gap (K + D) that poses near ``start`` (L+1, ...) leave, the drives held: damped least squares."""
+    stiff = np.concatenate([np.ones(layout.constraints.count), np.full(len(layout.driven), HELD)])
+    pose, best, damping = start.at(None), gap(layout, start.at(None), target[None])[0], 1.0
+    for _ in range(steps):
+        j = (
+            dense(layout, stacked(layout, pose))[0]
+            * (layout.row_scale * stiff)[:, None]
+            * layout.column_scale
+        )
+        normal = j.T @ j + damping * np.eye(j.shape[1])
+        dq = np.linalg.solve(normal, j.T @ (best * stiff)) * layout.column_scale
+        trial = moved(layout, pose, dq.reshape(1, layout.links, -1))
+        new = gap(layout, trial, target[None])[0]
+        if np.linalg.norm(new * stiff) < np.linalg.norm(best * stiff):
+            pose, best, damping = trial, new, damping / 3
+        else:
+            damping *= 4
+    return np.asarray(best)

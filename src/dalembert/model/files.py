@@ -121,14 +121,18 @@ def _content(path: Path, name: str) -> bytes:
         )
         content = b"" if kind else _first_bytes(path)
     except FileNotFoundError:
-        raise ModelError(f"there is no file {name}", _neighbour(path)) from None
+        raise ModelError(f"there is no file {name}", _neighbour(path), (), name, 1) from None
     except (OSError, ValueError) as error:
         said = getattr(error, "strerror", None) or error
         raise ModelError(
-            f"the file {name!r} cannot be read: {said}", "check its name and permissions"
+            f"the file {name!r} cannot be read: {said}",
+            "check its name and permissions",
+            (),
+            repr(name)[1:-1],
+            1,
         ) from None
     if kind:
-        raise ModelError(f"{name} is {kind}", "name a .yaml, .json or .toml file")
+        raise ModelError(f"{name} is {kind}", "name a .yaml, .json or .toml file", (), name, 1)
     if len(content) > LARGEST:
         raise ModelError(
             f"the file has more than {LARGEST} bytes", "give large tables fewer points", (), name, 1

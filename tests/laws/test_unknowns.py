@@ -1,0 +1,72 @@
+"""Turning the question round: what was given is found again; what is doubled is not unique; the rest stays."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from tests.laws.test_laws import TOLERANCE, dynamics, over
+from tests.random_mechanisms import random_case
+
+
+@over(10, 200)
+def test_a_force_is_found_from_the_effort_that_balances_it(seed: int) -> None:
+    """An effort made known and a force made unknown give back the force, if the drive feels it at all."""
+    case = random_case(seed)
+    r = dynamics(case.tree)
+    force, drive = case.tree["loads"]["F0"], next(iter(case.tree["drives"]))
+    size, direction = np.hypot(*force["value"]), np.degrees(np.arctan2(*force["value"][::-1]))
+    weighed = dynamics(_with_force(case.tree, [1000 * c for c in force["value"]])).effort(drive) - r.effort(
+        drive
+    )
+    if np.min(np.abs(weighed)) < 1e-3 * 999 * size:
+        return
+    made = _with_force(case.tree, "unknown", direction=float(direction))
+    made["drives"][drive]["effort"] = float(r.effort(drive)[0])
+    for other in made["drives"].values():
+        other["position"] = other["position"][0]
+    found = dynamics(made)
+    assert abs(found.unknown_load("F0")[0] - size) < 1e3 * TOLERANCE * case.answer.force_scale()
+    for joint in r.joints:
+        gap = np.max(np.abs(found.reaction(joint)[0] - r.reaction(joint)[0]))
+        assert gap < 1e3 * TOLERANCE * case.answer.force_scale(), joint
+
+
+def _with_force(tree: dict[str, Any], value: Any, **more: Any) -> dict[str, Any]:
+    made = deepcopy(tree)
+    made["loads"]["F0"] |= {"value": value, **more}
+    return made
+
+
+@over(10, 200)
+@pytest.mark.parametrize("kind", ["pin", "slider"])
+def test_a_doubled_joint_is_redundant_and_changes_nothing_else(seed: int, kind: str) -> None:
+    case = random_case(seed)
+    pins = [
+        name
+        for name, joint in case.tree["joints"].items()
+        if joint["type"] == kind and "damping" not in joint
+    ]
+    if not pins:
+        return
+    made, pin = deepcopy(case.tree), pins[-1]
+    made["joints"]["twin"] = deepcopy(made["joints"][pin])
+    single, double = dynamics(case.tree), da.dynamics(da.mechanism(made))
+    force = case.answer.force_scale()
+    assert set(double.status) == {"redundant"}
+    assert double.mobility.redundant == 2
+    assert {"twin", pin} <= set(double.mobility.redundant_joints)
+    for drive in single.drives:
+        assert np.max(np.abs(double.effort(drive) - single.effort(drive))) < 10 * TOLERANCE * force
+    for joint in single.joints:
+        if joint != pin:
+            assert np.max(np.abs(double.reaction(joint) - single.reaction(joint))) < 10 * TOLERANCE * force
+    assert np.all(np.isnan(double.reaction("twin")) | ~double.unique("twin")[:, :2])
+    half = double.least_norm("twin") - double.least_norm(pin)
+    assert np.max(np.abs(half)) < 10 * TOLERANCE * force
+    whole = (double.least_norm("twin") + double.least_norm(pin))[:, :2]
+    assert np.max(np.abs(whole - single.reaction(pin))) < 10 * TOLERANCE * force
