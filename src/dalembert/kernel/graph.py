@@ -251,6 +251,8 @@ class Graph:
         return self.mul(a, self.inverse(b))
 
     def inverse(self, a: Node) -> Node:
+        if a.op == "const":
+            return self.constant(1 / a.value)
         if a.op == "neg":
             assert a.a is not None
             return self.neg(self.inverse(a.a))
@@ -280,6 +282,26 @@ class Graph:
     def detached(self, a: Node) -> Node:
         """The same value, but a constant to derivatives."""
         return a if a.level == CONSTANT else self.make("detach", a)
+
+    def substituted(self, outputs: Iterable[Node], places: Mapping[int, Node]) -> list[Node]:
+        """The outputs with other nodes in the places of some (by their index)."""
+        outputs = list(outputs)
+        done = dict(places)
+        for node in self.order(outputs, places):
+            if node.a is None:
+                done[node.index] = node
+            else:
+                b = None if node.b is None else done[node.b.index]
+                done[node.index] = self.again(node.op, done[node.a.index], b)
+        return [done[node.index] for node in outputs]
+
+    def again(self, op: str, a: Node, b: Node | None) -> Node:
+        """An operation by its name, folded where it can be."""
+        if b is not None:
+            two = {"add": self.add, "sub": self.sub, "mul": self.mul}
+            return two[op](a, b) if op in two else self.binary(op, a, b)
+        one = {"neg": self.neg, "inv": self.inverse, "detach": self.detached}
+        return one[op](a) if op in one else self.unary(op, a)
 
     def evaluated(self, outputs: Iterable[Node], values: Mapping[int, Any]) -> list[Any]:
         """Numbers of nodes with numpy; ``values`` (by index of the input node) replace the nominal ones."""
@@ -330,6 +352,12 @@ EVALUATE: dict[str, Callable[..., Any]] = {
     "atan2": np.arctan2,
     "rint": np.rint,
     "max": np.maximum,
+    "min": np.minimum,
+    "exp": np.exp,
+    "log": np.log,
+    "asin": np.arcsin,
+    "acos": np.arccos,
+    "tan": np.tan,
     "detach": lambda a: a,
 }
 """What each operation computes."""

@@ -74,6 +74,7 @@ class Inputs:
     course: Course
     found: dict[Node, Callable[[Course], Any]] = field(default_factory=dict)
     named: dict[tuple[str, str], Node] = field(default_factory=dict)
+    varying: dict[str, Any] = field(default_factory=dict)
 
     def make(self, kind: str, name: str, value: Callable[[Course], Any]) -> Node:
         """An input, made once."""
@@ -97,7 +98,7 @@ class Inputs:
                 steady = np.ptp(getattr(self.course.schedule, rate)[:, k]) == 0
                 value = getattr(self.course.schedule, rate)[0, k]
                 node = given if isinstance(given, Node) else self.graph.constant(value) if steady else None
-                columns[rate].append(node or self._drive(kind, name, rate, k))
+                columns[rate].append(self._drive(kind, name, rate, k) if node is None else node)
         return Drives(*(np.array(column, object) for column in columns.values()))
 
     def _drive(self, kind: str, name: str, what: str, k: int) -> Node:
@@ -108,6 +109,7 @@ class Inputs:
 
     def load(self, name: str, varying: Any) -> Node:
         """A load that changes with the drives."""
+        self.varying[name] = varying
         return self.make(
             "channel", name, lambda c: np.broadcast_to(varying.at(c.drives), (len(c.schedule.position),))
         )

@@ -165,17 +165,36 @@ class Kernel:
         threads: int | None = None,
         progress: Callable[[int, int], object] | None = None,
         redo: bool = True,
+        device: str = "cpu",
     ) -> BatchResult:
         """Answers for many designs.
 
         values: (design, number) in SI in the order of ``numbers``, default the description's own. positions: the
         drives' values (position, drive), default the file's. threads: at most so many, default one a core.
         progress: called with (designs done, designs). redo: ask the general executor where the kernel is not sure.
+        device: ``cpu``, or ``cuda`` for an NVIDIA card through cupy.
         """
         given = self._values(values)
         course = self.course(positions)
-        code, arrays, rates = self.runner(given, course, threads, progress)
+        if device not in ("cpu", "cuda"):
+            raise ModelError(f"there is no device {device!r}", "there are: cpu, cuda")
+        try:
+            code, arrays, rates = self.runner(given, course, threads, progress, device)
+        except RuntimeError as error:
+            raise ModelError(f"device {device!r} cannot be used: {error}", 'use device="cpu"') from None
         return self._finished(given, course, code, arrays, rates, redo)
+
+    def to_c(self, name: str = "mechanism") -> str:
+        """C source, needing nothing but math.h, of a function of one position: numbers, drives' quantities, outputs."""
+        from dalembert.analysis.batch.export import c_source
+
+        return c_source(self, name)
+
+    def to_casadi(self, name: str = "mechanism") -> Any:
+        """casadi Function of (values, inputs) with the outputs by name; raises ModelError without casadi."""
+        from dalembert.analysis.batch.export import casadi_function
+
+        return casadi_function(self, name)
 
     def _values(self, values: ArrayLike | None) -> Array:
         count = len(self.trace.numbers)

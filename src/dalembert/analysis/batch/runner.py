@@ -86,18 +86,23 @@ class Runner:
         course: Course,
         threads: int | None,
         progress: Callable[[int, int], object] | None,
+        device: str = "cpu",
     ) -> Found:
-        way = self.way(len(course.schedule.position))
+        """Codes, arrays by output, gradients by output."""
+        few = "grid" if device == "cuda" else self.way(len(course.schedule.position))
+        way = "reduce" if self.k.reduce else few
         program, machine, slots = self.machine(way)
         columns, common = self.inputs(program, course)
-        if way == "reduce":
-            return self._run_reduced(
-                values, course, program, machine, slots, columns, common, threads, progress
-            )
-        if way == "grid":
-            out, code = self._run_grid(values, program, machine, (), columns, common, threads, progress)
-        else:
+        if device == "cuda":
+            from dalembert.kernel import cuda
+
+            out, code = cuda.run(program, slots, values, columns, common, progress)
+        elif way == "pairs":
             out, code = self._run_all_pairs(values, program, machine, columns, common, threads, progress)
+        else:
+            out, code = self._run_grid(values, program, machine, slots, columns, common, threads, progress)
+        if way == "reduce":
+            return self._reduced_result(values, course, slots, out, code, len(columns), threads)
         return self._named(out, code)
 
     def _run_grid(
@@ -184,20 +189,18 @@ class Runner:
                 place += len(nodes) * n
         return code, arrays, rates
 
-    def _run_reduced(
+    def _reduced_result(
         self,
         values: Array,
         course: Course,
-        program: Program,
-        machine: Machine,
         slots: Slots,
-        columns: Array,
-        common: Array,
+        out: Array,
+        code: NDArray[np.uint8],
+        count: int,
         threads: int | None,
-        progress: Any,
     ) -> Found:
-        out, code = self._run_grid(values, program, machine, slots, columns, common, threads, progress)
-        k, count = self.k, len(columns)
+        """Arrays by output: (design[, component][, side]) and gradients, from the parts of the reductions."""
+        k = self.k
         parts, places, slot = {}, {}, 0
         for key in slots:
             parts[key] = out[:, slot]
