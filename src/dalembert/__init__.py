@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.answers import check_file
     from dalembert.analysis.batch import BatchResult, Kernel, compile  # noqa: A004
     from dalembert.analysis.members import displaced_inertia, inertia_shares, members, order_of_solution
+    from dalembert.analysis.mistakes import check_answers
     from dalembert.analysis.superposition import superposition
     from dalembert.analysis.virtual_work import virtual_work
     from dalembert.model import (
@@ -120,6 +121,7 @@ _HOME = {
     "TorsionSpring": "model",
     "Weld": "model",
     "bucket": "model.library",
+    "check_answers": "analysis.mistakes",
     "check_file": "analysis.answers",
     "compile": "analysis.batch",
     "convert": "model",
@@ -196,6 +198,7 @@ __all__ = [
     "Weld",
     "__version__",
     "bucket",
+    "check_answers",
     "check_file",
     "compile",
     "convert",

@@ -244,6 +244,35 @@ def check(*files: Path, every: Every = False) -> int:
     return checked(files, every=every)
 
 
+@app.command(
+    name="check-answers",
+    help_epilogue="""Examples:
+  dalembert check-answers four_bar.yaml mine.yaml
+  dalembert check-answers four_bar.yaml --interactive
+
+The file of answers: {efforts: {O2: 243 lbf*in}, reactions: {A: 155 @ 220 deg}}, or a list as in a model file.""",
+)
+def check_answers(
+    file: Path, answers: Path | None = None, /, *, interactive: Flag = False, static: Flag = False
+) -> int:
+    """Compare your own figures with what is computed, and name the mistake that explains a difference.
+
+    Parameters
+    ----------
+    file
+        Model file.
+    answers
+        File of your figures.
+    interactive
+        Ask for them one by one.
+    static
+        Leave inertia out, even where the file has speeds.
+    """
+    from dalembert.cli.grading import graded
+
+    return graded(file, answers, interactive, static)
+
+
 @app.command(help_epilogue="Examples:\n  dalembert validate\n  dalembert validate > qualification.txt")
 def validate() -> int:
     """Qualify this installation: solve every bundled published problem and compare all answers."""
