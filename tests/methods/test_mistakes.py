@@ -147,7 +147,7 @@ MISTAKES: dict[str, tuple[Callable[[], tuple[str, str, str, str]], str]] = {
     "other assembly mode": (lambda: of_effort(ROCKER, other_mode_of(ROCKER)), "other assembly mode"),
     "other assembly mode, a joint": (lambda: of_joint(NORTON, "A", other_mode), "other assembly mode"),
     "a load left out": (lambda: of_effort(ROCKER, without("loads", "F3")), "load F3 is left out"),
-    "a couple the other way": (lambda: of_effort(NORTON, put("loads", "T_4", "value", value=-120)), "T_4 has the wrong"),
+    "a couple the other way": (lambda: of_effort(NORTON, put("loads", "T_4", "value", value=-120)), "T_4 has the"),
     "moment arm": (lambda: of_effort(NORTON, put("loads", "F_P", "at", value="B")), "moment arm of F_P"),
     "moment arm to the centre": (
         lambda: of_effort(NORTON, put("loads", "F_P", "at", value="center")),
