@@ -42,7 +42,7 @@ from tests.cli.conftest import Run
         (
             ["slove", "four_bar.yaml"],
             'dalembert: unknown command "slove". Did you mean "solve"? Available commands: solve, draw, report,'
-            " check, validate, schema, new, convert; see `dalembert --help`",
+            " check, check-answers, validate, schema, new; see `dalembert --help`",
         ),
         (
             ["draw", "four_bar.yaml"],
