@@ -33,6 +33,19 @@ NEWTON = 25
 ARRIVED = 1e-13
 """Change of a force, relative to the largest, below which it has."""
 
+ROUNDING = 1e-15
+"""So has it where what is left of the equations, relative to the largest force and by contact, is rounding: where the
+branch ends the changes do not get smaller than that times the condition."""
+
+LONGEST = 0.1
+"""Largest step of the friction scale."""
+
+BENT = 0.2
+"""How far Newton may end from where its first step led, by the length of that step."""
+
+SHORT = 1e-3
+"""A change below this part of the largest friction force may bend: the branch has a kink there."""
+
 SMALLEST = 1e-10
 """Step of the friction scale below which the branch has ended."""
 
@@ -54,11 +67,13 @@ class Slip(NamedTuple):
 
 
 class _Try(NamedTuple):
+    """Newton's answer; ``landing``, where its first step led."""
+
     z: Array
     arrived: Flags
     determinant: Array
     iterations: NDArray[np.intp]
-    largest: Array
+    landing: Array
 
 
 def without_friction(contacts: Contacts, r: Response) -> Array:
@@ -96,27 +111,29 @@ def _newton(contacts: Contacts, r: Response, sense: Array, c: Array, z: Array, m
     """Newton on z + s S(y0 + H c z) = 0 from z, all positions together."""
     count = np.zeros(len(sense), np.intp)
     arrived = np.zeros(len(sense), bool)
+    landing = z
     for k in range(most):
         y = argument(r, c * z)
         off = z + sense * bearing(contacts, y)
         step = solved(jacobian(contacts, r, y, sense, c), -off)
         z = np.where(arrived[:, None], z, z + step)
+        landing = z if k == 0 else landing
         largest = np.maximum(np.abs(y).max(axis=(-2, -1), initial=0.0), np.abs(z).max(axis=-1, initial=0.0))
-        now = np.abs(step).max(axis=-1, initial=0.0) <= ARRIVED * largest
+        left = np.abs(off).max(axis=-1, initial=0.0) <= ROUNDING * contacts.count * largest
+        now = left | (np.abs(step).max(axis=-1, initial=0.0) <= ARRIVED * largest)
         count = np.where(arrived, count, k + (~now))
         arrived |= now
         if arrived.all():
             break
     y = argument(r, c * z)
     determinant = np.linalg.det(np.nan_to_num(jacobian(contacts, r, y, sense, c)))
-    largest = np.abs(y).max(axis=(-2, -1), initial=0.0)
-    return _Try(np.where(arrived[:, None], z, np.nan), arrived, determinant, count, largest)
+    return _Try(np.where(arrived[:, None], z, np.nan), arrived, determinant, count, landing)
 
 
 def _continued(contacts: Contacts, r: Response, sense: Array, resting: Array) -> tuple[_Try, Array]:
     """The branch from scale 0 to 1 and the scale it reaches."""
     count = len(sense)
-    scale, step = np.zeros(count), np.full(count, 0.25)
+    scale, step = np.zeros(count), np.full(count, LONGEST)
     found = _newton(
         contacts, r, sense, np.broadcast_to(strength(contacts, 0.0), sense.shape), np.zeros_like(sense)
     )
@@ -128,9 +145,16 @@ def _continued(contacts: Contacts, r: Response, sense: Array, resting: Array) ->
         aim = np.minimum(scale[on] + step[on], 1.0)
         c = strength(contacts, aim[:, None], resting[on])
         new = _newton(contacts, _at(r, on), sense[on], c, z[on], 10)
-        near = np.abs(new.z - z[on]).max(axis=-1, initial=0.0) <= 0.75 * new.largest
-        good = new.arrived & (new.determinant > 0) & near
+        good = new.arrived & (new.determinant > 0) & _same_branch(z[on], new)
         iterations[on] += new.iterations
         z[on[good]], determinant[on[good]], scale[on[good]] = new.z[good], new.determinant[good], aim[good]
-        step[on] = np.where(good, 2 * step[on], step[on] / 2)
-    return _Try(z, scale >= 1, determinant, iterations, np.zeros(count)), scale
+        step[on] = np.where(good, np.minimum(2 * step[on], LONGEST), step[on] / 2)
+    return _Try(z, scale >= 1, determinant, iterations, z), scale
+
+
+def _same_branch(start: Array, new: _Try) -> Flags:
+    """Whether Newton went almost where its first step led, or went hardly anywhere."""
+    first, more, size = (
+        np.abs(a).max(axis=-1, initial=0.0) for a in (new.landing - start, new.z - new.landing, new.z)
+    )
+    return np.asarray((more <= BENT * first) | (first + more <= SHORT * size))
