@@ -37,7 +37,12 @@ def engine(
                 "O": pin("ground", "crank", 0.07),
                 "A": pin("crank", "rod", 0.06),
                 "B": pin("rod", "piston", 0.04),
-                "guide": {"type": "slider", "links": ["ground", "piston"], "at": ["O", "B"], "friction": sliding},
+                "guide": {
+                    "type": "slider",
+                    "links": ["ground", "piston"],
+                    "at": ["O", "B"],
+                    "friction": sliding,
+                },
             },
             "drives": {"O": {"position": position, "speed": f"{speed!r} rad/s"}},
             "loads": {"gas": {"type": "force", "on": "piston", "at": "B", "value": [-gas, 0]}},

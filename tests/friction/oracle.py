@@ -61,7 +61,16 @@ class _Problem:
         self.tree, self.m = tree, m
         self.rows = lagrange.rows(m, guess)
         every = [*self.rows, *lagrange._drive_rows(m)]
-        every = [Row(r.name, r.kind, r.joint, r.parameters, *(np.ravel(x)[:1] for x in (r.position, r.speed, r.acceleration))) for r in every]
+        every = [
+            Row(
+                r.name,
+                r.kind,
+                r.joint,
+                r.parameters,
+                *(np.ravel(x)[:1] for x in (r.position, r.speed, r.acceleration)),
+            )
+            for r in every
+        ]
         q = lagrange._closed(every, guess.astype(np.longdouble))
         J = lagrange._system(every, q, 0 * q)[1]
         v = lagrange._full(lagrange._solved(J, lagrange._stacked(every, "speed", q)))
@@ -86,7 +95,17 @@ class _Problem:
             spot = placed(q, j.j, j.at_j)
             rate = (_velocity(q, v, j.j, spot) - _velocity(q, v, j.i, spot))[0] @ e
             turn = float(v[0, j.j, 2] - v[0, j.i, 2])
-            out.append(_Joint(row, forces[row.name].T, moments[row.name], contact(row, q), np.sign(rate), np.sign(turn), e))
+            out.append(
+                _Joint(
+                    row,
+                    forces[row.name].T,
+                    moments[row.name],
+                    contact(row, q),
+                    np.sign(rate),
+                    np.sign(turn),
+                    e,
+                )
+            )
         return out
 
     def friction(self, x: Array, s: float) -> dict[str, tuple[Array, Array]]:
@@ -187,7 +206,11 @@ def compared(r: Any, b: Branch, m: Machine) -> float:
         dry = r.friction
         k = r.joints.index(j.name)
         off.append(np.max(np.abs(r.reaction(j.name)[0] - dry.viscous_force[0, k] - b.forces[j.name])) / force)
-        off.append(abs(r.reaction_moment(j.name)[0] - dry.viscous_moment[0, k] - b.moments[j.name]) / force / length)
+        off.append(
+            abs(r.reaction_moment(j.name)[0] - dry.viscous_moment[0, k] - b.moments[j.name]) / force / length
+        )
     for d in m.drives:
-        off.append(abs(r.effort(d.name)[0] - b.efforts[d.name]) / force / (length if d.freedom == "turn" else 1.0))
+        off.append(
+            abs(r.effort(d.name)[0] - b.efforts[d.name]) / force / (length if d.freedom == "turn" else 1.0)
+        )
     return float(max(off))

@@ -149,7 +149,9 @@ def test_an_eccentric_collar(e: float) -> None:
         (0.0, 1.0, "lower ahead, upper behind", 10.0, 10.0),
     ],
 )
-def test_the_four_contacts_of_a_guide(normal: float, couple: float, mode: str, lower: float, upper: float) -> None:
+def test_the_four_contacts_of_a_guide(
+    normal: float, couple: float, mode: str, lower: float, upper: float
+) -> None:
     r = da.statics(guided(normal, couple, 0.05, 0.05))
     contact = guide_contact(r, "guide")
     assert (contact.lower[0], contact.upper[0]) == pytest.approx((lower, upper), rel=1e-12, abs=1e-12)
@@ -170,7 +172,9 @@ def test_two_circles_joined_by_a_link_need_an_internal_tangent() -> None:
     """A rod between circles of 24 and 16 mm transmits nothing where it is shorter than 40 mm."""
     for length in (0.03, 0.0399, 0.0401, 0.06):
         m = engine(0.4, loads={"gas": {"type": "force", "on": "piston", "at": "B", "value": [-100, 0]}})
-        m = m.with_values({"links.rod.points.B": (length, 0.0), "joints.guide.friction": None, "joints.O.friction": None})
+        m = m.with_values(
+            {"links.rod.points.B": (length, 0.0), "joints.guide.friction": None, "joints.O.friction": None}
+        )
         m = m.with_values({"links.crank.points.A": (0.001, 0.0), "drives.O.position": 1.5})
         jams = da.statics(m).status == ("jammed",)
         assert jams == (length < 0.04), length

@@ -105,8 +105,7 @@ def rubbing(s: Setting, w: Array) -> Forces:
     """Forces with friction under the loads w (P, L, n)."""
     layout, contacts = s.c.layout, s.contacts
     stated = statement(layout, s.known, s.pose, s.rows, s.solver, w)
-    along = system(layout.algebra, contacts.rows, s.pose)
-    r = _response(s, along, stated)
+    along, r = touching(s, stated)
     told = senses(layout, contacts, along, s.moving.twist)
     blocked = _blocked(contacts, stated)
     r = r._replace(y=np.where(blocked[:, None, None], np.nan, r.y))
@@ -114,17 +113,19 @@ def rubbing(s: Setting, w: Array) -> Forces:
     slip = slipping(contacts, r, told.sense, told.open)
     if open_.size:
         slip.x[open_], slip.z[open_] = np.nan, np.nan
-    locked = _locked(s, stated, along, told, r, slip)
+    locked = _locked(s, stated, told, r, slip)
     made = _Made(s, stated, along, told, blocked, locked, without_friction(contacts, r))
     if not open_.size:
         return made.forces(r, slip, told.sense)
     return _with_ends(made, r, slip, told, open_)
 
 
-def _response(s: Setting, along: System, stated: Statement) -> Response:
+def touching(s: Setting, stated: Statement) -> tuple[System, Response]:
+    """What the contacts act along, and the response of the multipliers to them."""
     layout, contacts = s.c.layout, s.contacts
+    along = system(layout.algebra, contacts.rows, s.pose)
     distance = measure(layout.algebra, contacts.rows, s.pose)
-    return response(layout, contacts, along, distance, stated.forces, stated.w)
+    return along, response(layout, contacts, along, distance, stated.forces, stated.w)
 
 
 def _blocked(contacts: Contacts, stated: Statement) -> Flags:
@@ -137,7 +138,7 @@ def _blocked(contacts: Contacts, stated: Statement) -> Flags:
     return np.asarray(np.abs(stated.forces.null[..., read, :]).max(axis=(-2, -1), initial=0.0) > UNIQUE)
 
 
-def _locked(s: Setting, stated: Statement, along: System, told: Senses, r: Response, slip: Slip) -> Flags:
+def _locked(s: Setting, stated: Statement, told: Senses, r: Response, slip: Slip) -> Flags:
     """Where friction turns the power of the unknowns round, also without inertia."""
     turned = _turned(s, stated, r, slip)
     if "inertia" not in s.sources or not turned.any():
@@ -145,7 +146,7 @@ def _locked(s: Setting, stated: Statement, along: System, told: Senses, r: Respo
     w = summed(s.c.layout, *(source for kind, source in s.sources.items() if kind != "inertia"))
     w = np.broadcast_to(w, stated.w.shape)
     still = statement(s.c.layout, s.known, s.pose, s.rows, s.solver, w)
-    r = _response(s, along, still)
+    r = touching(s, still)[1]
     return turned & _turned(s, still, r, slipping(s.contacts, r, told.sense, told.open))
 
 

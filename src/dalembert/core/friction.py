@@ -172,9 +172,9 @@ def multiplier(r: Response, cz: Array) -> Array:
     return np.asarray(r.x + (r.change @ cz[..., None])[..., 0])
 
 
-def jacobian(contacts: Contacts, r: Response, y: Array, sense: Array, c: Array) -> Array:
-    """Derivative of z + s S(y) after z (..., E, E); its determinant is det(A + J) / det(A)."""
-    change = (slope(contacts, y)[..., None] * r.h).sum(axis=-3)
+def jacobian(contacts: Contacts, r: Response, steep: Array, sense: Array, c: Array) -> Array:
+    """Derivative of z + s S(y) after z (..., E, E) from the slope of S; its determinant is det(A + J) / det(A)."""
+    change = (steep[..., None] * r.h).sum(axis=-3)
     return np.asarray(np.eye(contacts.count) + sense[..., :, None] * change * c[..., None, :])
 
 

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.friction import STILL, Contacts, Response, Senses, argument, jacobian
+from dalembert.core.friction import STILL, Contacts, Response, Senses, argument, jacobian, slope
 from dalembert.core.linear import solved
 from dalembert.core.slip import Slip, slipping
 
@@ -51,7 +51,7 @@ def extreme(layout: Any, contacts: Contacts, r: Response, known: Senses, unknown
 def _influence(contacts: Contacts, r: Response, found: Slip, sense: Array, g: Array) -> Array:
     """Sign of the change of the unknown with each friction force, the other contacts following."""
     y = argument(r, found.c * np.nan_to_num(found.z))
-    j = jacobian(contacts, r, y, sense, found.c)
+    j = jacobian(contacts, r, slope(contacts, y), sense, found.c)
     a = solved(np.swapaxes(j, -1, -2), found.c * g)
     negligible = STILL * np.abs(a).max(axis=-1, keepdims=True, initial=0.0)
     return np.where(np.abs(a) > negligible, np.sign(np.nan_to_num(a)), 0.0)

@@ -19,6 +19,7 @@ from dalembert.core.friction import (
     bearing,
     jacobian,
     multiplier,
+    slope,
     spread,
     strength,
 )
@@ -103,30 +104,52 @@ def slipping(contacts: Contacts, r: Response, sense: Array, resting: Array) -> S
     return Slip(z, c, multiplier(r, c * z), determinant, count, critical, single)
 
 
+def roots(contacts: Contacts, r: Response, sense: Array, starts: Array) -> tuple[Array, Array, Array]:
+    """Where Newton arrives from many starts (P, E): c z, multipliers and determinants of those that do."""
+    c = np.broadcast_to(strength(contacts, 1.0), sense.shape)
+    found = _newton(contacts, r, sense, c, starts, most=4 * NEWTON)
+    cz = (c * found.z)[found.arrived]
+    return cz, multiplier(_at(r, found.arrived), cz), found.determinant[found.arrived]
+
+
 def _at(r: Response, where: Any) -> Response:
     return Response(*(a[where] for a in r))
 
 
-def _newton(contacts: Contacts, r: Response, sense: Array, c: Array, z: Array, most: int = NEWTON) -> _Try:
-    """Newton on z + s S(y0 + H c z) = 0 from z, all positions together."""
+def _newton(
+    contacts: Contacts,
+    r: Response,
+    sense: Array,
+    c: Array,
+    z: Array,
+    before: Array | None = None,
+    most: int = NEWTON,
+) -> _Try:
+    """Newton on z + s S(y0 + H c z) = 0 from z, all positions together.
+
+    S is homogeneous, so its slope at one y is all of it: S = slope . y. The first step takes the slope at ``before``,
+    the arguments of a solution close by, rather than at the start, which may lie behind a kink.
+    """
     count = np.zeros(len(sense), np.intp)
     arrived = np.zeros(len(sense), bool)
-    landing = z
+    y, landing = argument(r, c * z), z
     for k in range(most):
-        y = argument(r, c * z)
-        off = z + sense * bearing(contacts, y)
-        step = solved(jacobian(contacts, r, y, sense, c), -off)
+        steep = slope(contacts, y if k or before is None else before)
+        off = z + sense * (steep * y).sum(axis=-2)
+        step = solved(jacobian(contacts, r, steep, sense, c), -off)
         z = np.where(arrived[:, None], z, z + step)
         landing = z if k == 0 else landing
+        y = argument(r, c * z)
         largest = np.maximum(np.abs(y).max(axis=(-2, -1), initial=0.0), np.abs(z).max(axis=-1, initial=0.0))
-        left = np.abs(off).max(axis=-1, initial=0.0) <= ROUNDING * contacts.count * largest
-        now = left | (np.abs(step).max(axis=-1, initial=0.0) <= ARRIVED * largest)
-        count = np.where(arrived, count, k + (~now))
+        new = np.abs(z + sense * bearing(contacts, y)).max(axis=-1, initial=0.0)
+        now = (new <= ROUNDING * contacts.count * largest) | (
+            np.abs(step).max(axis=-1, initial=0.0) <= ARRIVED * largest
+        )
+        count = np.where(arrived, count, k + 1)
         arrived |= now
         if arrived.all():
             break
-    y = argument(r, c * z)
-    determinant = np.linalg.det(np.nan_to_num(jacobian(contacts, r, y, sense, c)))
+    determinant = np.linalg.det(np.nan_to_num(jacobian(contacts, r, slope(contacts, y), sense, c)))
     return _Try(np.where(arrived[:, None], z, np.nan), arrived, determinant, count, landing)
 
 
@@ -134,20 +157,22 @@ def _continued(contacts: Contacts, r: Response, sense: Array, resting: Array) ->
     """The branch from scale 0 to 1 and the scale it reaches."""
     count = len(sense)
     scale, step = np.zeros(count), np.full(count, LONGEST)
-    found = _newton(
-        contacts, r, sense, np.broadcast_to(strength(contacts, 0.0), sense.shape), np.zeros_like(sense)
-    )
+    c = np.array(np.broadcast_to(strength(contacts, 0.0), sense.shape))
+    found = _newton(contacts, r, sense, c, np.zeros_like(sense))
     z, determinant, iterations = found.z, found.determinant, found.iterations.copy()
     while True:
         on = np.flatnonzero((scale < 1) & (step > SMALLEST))
         if not on.size:
             break
         aim = np.minimum(scale[on] + step[on], 1.0)
-        c = strength(contacts, aim[:, None], resting[on])
-        new = _newton(contacts, _at(r, on), sense[on], c, z[on], 10)
+        part, raised = _at(r, on), strength(contacts, aim[:, None], resting[on])
+        before = argument(part, c[on] * z[on])
+        new = _newton(contacts, part, sense[on], raised, z[on], before, 10)
         good = new.arrived & (new.determinant > 0) & _same_branch(z[on], new)
         iterations[on] += new.iterations
-        z[on[good]], determinant[on[good]], scale[on[good]] = new.z[good], new.determinant[good], aim[good]
+        kept = on[good]
+        z[kept], determinant[kept] = new.z[good], new.determinant[good]
+        scale[kept], c[kept] = aim[good], raised[good]
         step[on] = np.where(good, np.minimum(2 * step[on], LONGEST), step[on] / 2)
     return _Try(z, scale >= 1, determinant, iterations, z), scale
 

@@ -1,0 +1,117 @@
+"""The taught iteration of friction as a table: solve, set friction by the reactions found, solve again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.core.equilibrium import known_sources, motion, statement
+from dalembert.core.forcing import summed
+from dalembert.core.friction import argument, bearing, multiplier, senses, strength
+from dalembert.errors import ModelError
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result import Result
+    from dalembert.core.friction import Contacts, Response
+
+Array = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class FixedPoint:
+    """Steps of the iteration at one position; step 0 is without friction.
+
+    unknowns: name -> its value at each step; friction: joint and kind -> force (N) or couple (N m) on j at each step
+    change: largest change of a friction force at each step, by the largest force; rate: what a step leaves of it, at
+    the end; below 1 it converges; arrived: whether it did
+    """
+
+    unknowns: dict[str, Array]
+    friction: dict[str, Array]
+    change: Array
+    rate: float
+    arrived: bool
+
+    @property
+    def steps(self) -> int:
+        """Steps made."""
+        return len(self.change) - 1
+
+    def rows(self) -> list[list[float]]:
+        """The table: step, unknowns, friction, change."""
+        columns = [np.arange(len(self.change)), *self.unknowns.values(), *self.friction.values(), self.change]
+        return [[float(v) for v in row] for row in zip(*columns, strict=True)]
+
+
+def fixed_point(r: Result, position: int = 0, most: int = 1000, tolerance: float = 1e-12) -> FixedPoint:
+    """The iteration at one position of a result with friction (counted from 0).
+
+    It gets slower with mu r / l and may diverge where there is a solution: it is for reading, not how the answer was
+    found.
+    """
+    contacts, problem, sense = stated(r, position)
+    c = strength(contacts, 1.0)[None]
+    z = np.where(contacts.fixed, -sense * bearing(contacts, problem.y), 0.0)
+    x, forces, change = [problem.x[0]], [(c * z)[0]], [np.nan]
+    for _ in range(most):
+        new = -sense * bearing(contacts, argument(problem, c * z))
+        size = np.abs(problem.y).max() + np.abs(new).max()
+        change.append(float(np.abs(new - z).max() / size))
+        z = new
+        x.append(multiplier(problem, c * z)[0])
+        forces.append((c * z)[0])
+        if change[-1] <= tolerance or not np.isfinite(change[-1]) or np.abs(z).max() > 1e12 * size:
+            break
+    rate = (
+        float((change[-1] / change[max(1, len(change) - 6)]) ** (1 / max(1, min(5, len(change) - 2))))
+        if len(change) > 2
+        else 0.0
+    )
+    return FixedPoint(
+        _unknowns(r, np.array(x)),
+        _forces(r, contacts, np.array(forces)),
+        np.array(change),
+        rate,
+        change[-1] <= tolerance,
+    )
+
+
+def stated(r: Result, position: int) -> tuple[Contacts, Response, Array]:
+    """Contacts, their response and senses (1, E) at one position."""
+    from dalembert.analysis.freedoms import whole_pose
+    from dalembert.analysis.rubbing import Setting, touching
+    from dalembert.analysis.solve import _sliced
+
+    c = r.compiled
+    if c.contacts is None:
+        raise ModelError("this result has no friction", "give a joint `friction`, and do not switch it off")
+    part = slice(position, position + 1)
+    pose = whole_pose(c.layout, r.point_array[part], r.turn_array[part])
+    forcing, known = _sliced(c, part)
+    moving, rows, solver = motion(c.layout, pose, r.schedule.speed[part], r.schedule.acceleration[part])
+    sources = known_sources(c.layout, forcing, pose, moving, r.inertia)
+    w = summed(c.layout, *sources.values())
+    w = np.broadcast_to(w, (1, *w.shape[1:]))
+    s = Setting(c, c.contacts, forcing, known, pose, moving, rows, solver, sources)
+    along, problem = touching(s, statement(c.layout, known, pose, rows, solver, w))
+    told = senses(c.layout, c.contacts, along, moving.twist)
+    if told.open.any():
+        raise ModelError(
+            "the machine is at rest here: the senses of friction are not given", "give the drive a speed"
+        )
+    return c.contacts, problem, told.sense
+
+
+def _unknowns(r: Result, x: Array) -> dict[str, Array]:
+    count, asked = r.compiled.layout.constraints.count, r.compiled.known.asked
+    names = [*(d for d, a in zip(r.drives, asked, strict=True) if a), *r.unknown_loads]
+    return {name: x[:, count + k] for k, name in enumerate(names)}
+
+
+def _forces(r: Result, contacts: Contacts, cz: Array) -> dict[str, Array]:
+    kinds = r.compiled.contact_kinds
+    names = [f"{r.joints[k]} {kind}" for k, kind in zip(contacts.joint, kinds, strict=True)]
+    return {name: cz[:, e] for e, name in enumerate(names) if not contacts.fixed[e]}
