@@ -61,16 +61,7 @@ class _Problem:
         self.tree, self.m = tree, m
         self.rows = lagrange.rows(m, guess)
         every = [*self.rows, *lagrange._drive_rows(m)]
-        every = [
-            Row(
-                r.name,
-                r.kind,
-                r.joint,
-                r.parameters,
-                *(np.ravel(x)[:1] for x in (r.position, r.speed, r.acceleration)),
-            )
-            for r in every
-        ]
+        every = [_first(row) for row in every]
         q = lagrange._closed(every, guess.astype(np.longdouble))
         J = lagrange._system(every, q, 0 * q)[1]
         v = lagrange._full(lagrange._solved(J, lagrange._stacked(every, "speed", q)))
@@ -163,7 +154,7 @@ class _Problem:
             push(w, many, j.row.joint.i, spot, -force)
             w[:, j.row.joint.j, 2] += couple
             w[:, j.row.joint.i, 2] -= couple
-        return (flat @ self.A.T + self.w + lagrange._flat(w)).reshape(x.shape[:-1] + (-1,))
+        return (flat @ self.A.T + self.w + lagrange._flat(w)).reshape((*x.shape[:-1], -1))
 
     def jacobian(self, x: Array, s: float) -> Array:
         """By central differences."""
@@ -190,6 +181,12 @@ class _Problem:
         moments = {j.row.name: j.moment @ x + found[j.row.name][1] for j in self.joints}
         efforts = dict(zip(self.drives, x[len(x) - len(self.drives) :], strict=True))
         return forces, moments, efforts
+
+
+def _first(row: Row) -> Row:
+    """The row at the first position."""
+    prescribed = (np.ravel(x)[:1] for x in (row.position, row.speed, row.acceleration))
+    return Row(row.name, row.kind, row.joint, row.parameters, *prescribed)
 
 
 def _velocity(q: Array, v: Array, link: int, spot: Array) -> Array:

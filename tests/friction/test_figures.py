@@ -197,7 +197,7 @@ def test_superposition_fails_and_scaling_holds() -> None:
 
 @pytest.mark.parametrize("method", ["superposition", "virtual_work"])
 def test_superposition_is_refused(method: str) -> None:
-    with pytest.raises(da.ModelError, match="forces do not add|friction"):
+    with pytest.raises(da.ModelError, match="friction"):
         getattr(da, method)(da.statics(engine()))
 
 

@@ -49,8 +49,9 @@ def other_solutions(r: Result, position: int = 0) -> list[Solution]:
     z, x, determinant = roots(contacts, many, np.broadcast_to(sense, starts.shape), starts)
     count, asked = r.compiled.layout.constraints.count, r.compiled.known.asked
     names = [*(d for d, a in zip(r.drives, asked, strict=True) if a), *r.unknown_loads]
-    kept_now = None if r.friction is None else r.friction.cz[position]
-    kept = [] if r.friction is None or np.isnan(r.friction.cz[position]).any() else [kept_now]
+    assert r.friction is not None
+    physical = r.friction.cz[position]
+    kept: list[Array] = [] if np.isnan(physical).any() else [physical]
     found: list[Solution] = []
     for k in range(len(z)):
         if all(np.abs(z[k] - other).max() > DISTINCT * np.abs(other).max() for other in kept):

@@ -107,14 +107,8 @@ def _cycle(r: Result) -> tuple[float, float, float, dict[str, float]]:
     weight = durations(r)
     lost = {joint: _work(r.power_lost(joint), weight) for joint in r.joints}
     drives = _work((r.effort_array * r.schedule.speed).sum(axis=-1), weight)
-    loads = _work(
-        sum(
-            (r.load_array[:, k] * load_rate(r, n) for k, n in enumerate(r.unknown_loads)),
-            np.zeros(len(weight)),
-        ),
-        weight,
-    )
-    total, own = sum(lost.values()), drives + loads
+    loads = (_work(r.load_array[:, k] * load_rate(r, n), weight) for k, n in enumerate(r.unknown_loads))
+    total, own = sum(lost.values()), drives + sum(loads)
     put_in = max(own, total - own)
     if not put_in > 0:
         return float("nan"), put_in, total, dict.fromkeys(lost, float("nan"))

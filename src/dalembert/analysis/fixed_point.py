@@ -65,18 +65,17 @@ def fixed_point(r: Result, position: int = 0, most: int = 1000, tolerance: float
         forces.append((c * z)[0])
         if change[-1] <= tolerance or not np.isfinite(change[-1]) or np.abs(z).max() > 1e12 * size:
             break
-    rate = (
-        float((change[-1] / change[max(1, len(change) - 6)]) ** (1 / max(1, min(5, len(change) - 2))))
-        if len(change) > 2
-        else 0.0
-    )
+    found = np.array(change)
+    arrived = bool(found[-1] <= tolerance)
     return FixedPoint(
-        _unknowns(r, np.array(x)),
-        _forces(r, contacts, np.array(forces)),
-        np.array(change),
-        rate,
-        change[-1] <= tolerance,
+        _unknowns(r, np.array(x)), _forces(r, contacts, np.array(forces)), found, _rate(found), arrived
     )
+
+
+def _rate(change: Array) -> float:
+    """What a step leaves of the change, over the last five."""
+    last = change[1:][-6:]
+    return float((last[-1] / last[0]) ** (1 / (len(last) - 1))) if len(last) > 1 and last[0] > 0 else 0.0
 
 
 def stated(r: Result, position: int) -> tuple[Contacts, Response, Array]:
