@@ -12,6 +12,7 @@ from dalembert.analysis.batch.course import Course, Inputs
 from dalembert.analysis.batch.outputs import Catalogue
 from dalembert.analysis.batch.symbols import Number, numbers, symbolic
 from dalembert.analysis.compile import compiled
+from dalembert.analysis.contacts import friction_on
 from dalembert.analysis.mobility import check_knowns
 from dalembert.analysis.positions import open_sentence
 from dalembert.errors import ModelError
@@ -36,6 +37,9 @@ def traced(m: Mechanism, vary: Iterable[str], inertia: bool) -> Trace:
     schedule = m.schedule()
     if schedule.unknown is not None:
         raise ModelError("equilibrium positions cannot be compiled", "give the drive positions", ("drives",))
+    if friction_on(m):
+        remedy = "use the analyses, or switch it off with friction: {enabled: false}"
+        raise ModelError("joints have friction, which cannot be compiled", remedy, ("joints",))
     course = Course(m, schedule)
     check_knowns(course.compiled)
     _check(course)
