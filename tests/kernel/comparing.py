@@ -22,7 +22,8 @@ def every_number(m: Any) -> list[str]:
     out = []
     for group, keys in NAMES.items():
         for name, part in getattr(m, group).items():
-            out += [f"{group}.{name}.{k}" for k in keys if _varies(getattr(part, k, None))]
+            lawful = getattr(part, "law", None) is not None
+            out += [f"{group}.{name}.{k}" for k in keys if _varies(getattr(part, k, None)) and not lawful]
             points = getattr(part, "points", {})
             out += [f"{group}.{name}.points.{p}" for p, at in points.items() if _varies(at)]
     return out + (["gravity"] if isinstance(m.gravity, tuple) else [])

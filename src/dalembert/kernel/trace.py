@@ -12,7 +12,7 @@ from dalembert.core import forcing as fc
 from dalembert.core.assembly import _held_wheels as held_wheels
 from dalembert.core.assembly import _with_rows as with_rows
 from dalembert.core.assembly import phase_rows
-from dalembert.core.constraints import measure
+from dalembert.core.constraints import measure, span
 from dalembert.core.equilibrium import Balance, Known, Statement, known_sources, motion, reactions, statement
 from dalembert.core.forcing import Forcing, pair, summed
 from dalembert.core.layout import Layout, Pose
@@ -79,7 +79,7 @@ class Traced:
 def trace(p: Problem) -> Traced:
     """Positions, motion and equilibrium of one position of one design."""
     layout = replace(p.layout, solver=solver(p.graph))
-    target = _with_phase(p, layout)
+    target, apart = _with_phase(p, layout)
     placed = _placed(p, layout, target, p.drives, p.path)
     pose = placed.pose
     moving, rows, factors = motion(layout, pose, p.drives.speed, p.drives.acceleration)
@@ -104,6 +104,7 @@ def trace(p: Problem) -> Traced:
         residual=_residual(g, layout, summed(layout, pair(s.unknown, x)), total),
         open=placed.open,
         doubt=[
+            *apart,
             *placed.doubt,
             *_singular(g, factors),
             *(_singular(g, s.forces) if s.forces is not factors else []),
@@ -130,12 +131,13 @@ def _sin(angle: Any) -> Any:
     return angle.sin() if type(angle) is Node else np.sin(float(angle))
 
 
-def _with_phase(p: Problem, layout: Layout) -> Array:
-    """Targets of meshes and rolling wheels: their measures at the first position, of each design its own."""
+def _with_phase(p: Problem, layout: Layout) -> tuple[Array, list[Node]]:
+    """Targets of meshes and rolling wheels: their measures at the first position, of each design its own; and what
+    is negative where wheels do not meet there."""
     rows = phase_rows(layout.constraints)
     geometry = [a for f in layout.stack.families for n, a in vars(f).items() if n not in ("row", "i", "j")]
     if not rows.size or not any(type(x) is Node for a in geometry for x in np.ravel(a)):
-        return p.target
+        return p.target, []
     kept = np.setdiff1d(np.arange(layout.constraints.count), rows)
     known = np.concatenate([p.like_target[kept], p.like_target[layout.constraints.count :]])
     held = held_wheels(p.like, with_rows(p.like, kept, []), known, rows, p.guess)
@@ -144,7 +146,23 @@ def _with_phase(p: Problem, layout: Layout) -> Array:
     first = _placed(p, with_rows(layout, kept, held), target, p.first, p.first_path)
     out = p.target.astype(object)
     out[rows] = measure(layout.algebra, layout.constraints, first.pose)[rows]
-    return out
+    return out, _apart(p, layout, first)
+
+
+def _apart(p: Problem, layout: Layout, first: Placed) -> list[Node]:
+    """Wheels in mesh stand at the sum of their pitch radii, and the first position must be right itself."""
+    out = [*first.doubt, *first.open]
+    for f in fc.meshes(layout):
+        line = span(layout.algebra, f, first.pose)
+        for k in range(len(f.i)):
+            wanted = traced(p.graph, f.ri[k] + f.rj[k]).item()
+            distance = (line[k] * line[k]).sum().sqrt()
+            out.append(MESH * wanted - abs(distance - wanted))
+    return [n for n in out if n.level != CONSTANT]
+
+
+MESH = 1e-3
+"""Relative error of a centre distance that a mesh forgives, as the general executor has it."""
 
 
 def _multipliers(p: Problem, layout: Layout, pose: Pose, s: Statement) -> tuple[Array, Array]:

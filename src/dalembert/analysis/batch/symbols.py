@@ -28,11 +28,19 @@ def numbers(m: Mechanism, vary: Iterable[str]) -> tuple[Number, ...]:
     """The numbers behind dotted paths, vectors as their components `.0` and `.1`."""
     out: list[Number] = []
     for path in vary:
-        out += _numbers(path, found(m, path.split(".")))
+        value = found(m, path.split("."))
+        _refuse_law(m, path)
+        out += _numbers(path, value)
     double = next((n.path for k, n in enumerate(out) if n.path in {o.path for o in out[:k]}), None)
     if double:
         raise ModelError(f"{double!r} is varied twice", "name it once")
     return tuple(out)
+
+
+def _refuse_law(m: Mechanism, path: str) -> None:
+    keys = path.split(".")
+    if keys[0] == "drives" and len(keys) > 1 and m.drives[keys[1]].law is not None and keys[-1] != "effort":
+        raise ModelError(f"{path!r} follows from the drive's law of motion", "leave it out, or the law")
 
 
 def _numbers(path: str, value: Any) -> list[Number]:
