@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 import dalembert as da
-from dalembert.analysis.batch.symbols import with_numbers
+from dalembert.analysis.batch.symbols import geometric, with_numbers
 
 NAMES = {
     "links": ("mass", "inertia", "center"),
@@ -33,11 +33,6 @@ def _varies(value: Any) -> bool:
     if isinstance(value, tuple):
         return bool(value) and all(isinstance(x, float) for x in value)
     return isinstance(value, float)
-
-
-def geometric(path: str) -> bool:
-    """Whether a number moves joints: large changes of those may take gears apart or open a loop."""
-    return ".points." in path or (path.startswith("joints.") and not path.endswith("damping"))
 
 
 def changed(k: Any, seed: int, shape: float, rest: float = 0.3) -> np.ndarray:

@@ -14,6 +14,7 @@ from dalembert.analysis.batch import reduction
 from dalembert.analysis.batch.answer import CODES, BatchResult
 from dalembert.analysis.batch.course import Course
 from dalembert.analysis.batch.general import answered, quantity
+from dalembert.analysis.batch.symbols import geometric
 from dalembert.analysis.batch.tracing import Trace, traced
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
@@ -182,6 +183,7 @@ class Kernel:
             code, arrays, rates = self.runner(given, course, threads, progress, device)
         except RuntimeError as error:
             raise ModelError(f"device {device!r} cannot be used: {error}", 'use device="cpu"') from None
+        code[self._flipped(given)] = CODES.index("undecided")
         return self._finished(given, course, code, arrays, rates, redo)
 
     def to_c(self, name: str = "mechanism") -> str:
@@ -196,16 +198,19 @@ class Kernel:
 
         return casadi_function(self, name)
 
+    def _flipped(self, values: Array) -> NDArray[np.bool_]:
+        """Designs of other geometry than the file's, where the file's own motion passes change points: a parallelogram
+        passes them, its neighbours do not, so each is left to the general executor."""
+        if not self.trace.catalogue.traced.flips:
+            return np.zeros(len(values), bool)
+        moves = [geometric(path) for path in self.numbers]
+        return np.asarray((values != self.nominal)[:, moves].any(axis=1))
+
     def _values(self, values: ArrayLike | None) -> Array:
         count = len(self.trace.numbers)
         given = np.asarray(self.nominal if values is None else values, float)
-        given = (
-            given.reshape(1, -1)
-            if given.ndim < 2 and count != 1
-            else given.reshape(-1, count)
-            if count
-            else given
-        )
+        if given.ndim < 2:  # one design, or many of one number
+            given = given.reshape(-1, 1) if count == 1 else given.reshape(1, -1)
         if given.ndim != 2 or given.shape[1] != count:
             raise ModelError(
                 f"values of shape {np.shape(np.asarray(values))} do not fit {count} numbers",

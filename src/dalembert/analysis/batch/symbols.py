@@ -64,6 +64,12 @@ def _numbers(path: str, value: Any) -> list[Number]:
     raise ModelError(f"{path!r} is no number", "name a number, or a vector of numbers, of the description")
 
 
+def geometric(path: str) -> bool:
+    """Whether the number at a path places joints."""
+    keys = path.split(".")
+    return "points" in keys[2:3] or (keys[0] == "joints" and keys[-1] != "damping" and "damping" not in keys)
+
+
 def with_numbers(m: Mechanism, where: Iterable[Number], values: Iterable[Any]) -> Any:
     """The description with other numbers, or symbols, in their places; not checked again."""
     for number, value in zip(where, values, strict=True):

@@ -1,0 +1,61 @@
+"""Derivatives against differences of sixth order, of values and of reductions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from tests.kernel.comparing import every_number
+from tests.kernel.machines import KINDS, four_bar
+from tests.random_mechanisms import random_case, tree
+
+WEIGHTS = {1: 3 / 4, 2: -3 / 20, 3: 1 / 60}
+"""Of the central difference of sixth order."""
+
+
+def differences(k: Any, output: str, n: int) -> tuple[np.ndarray, float]:
+    """d output / d number n at the description's own numbers, and how far rounding can move it."""
+    at = k.nominal
+    h = 1e-3 * max(abs(at[n]), 2e-2)
+    steps = np.stack([at + s * j * h * (np.arange(len(at)) == n) for j in WEIGHTS for s in (1, -1)])
+    value = k(steps).value(output)
+    slope = sum(w * (value[2 * i] - value[2 * i + 1]) for i, w in enumerate(WEIGHTS.values())) / h
+    return np.asarray(slope), 1e-14 * float(np.abs(value).max()) / h
+
+
+def checked(m: Any, outputs: list[str], reduce: str | None = None, tolerance: float = 1e-7) -> None:
+    vary = every_number(m)
+    k = da.compile(m, vary=vary, outputs=outputs, reduce=reduce, derivatives=True)
+    plain = da.compile(m, vary=vary, outputs=outputs, reduce=reduce)
+    r = k()
+    for output in outputs:
+        exact = r.gradient(output)[0]
+        for n in range(len(k.numbers)):
+            found, rounding = differences(plain, output, n)
+            allowed = tolerance * np.abs(exact[..., n]).max() + rounding
+            assert np.abs(found - exact[..., n]).max() <= allowed, k.numbers[n]
+
+
+@pytest.mark.parametrize("kind", ["pin-pin-pin", "pin-slider-pin", "slots", "no closed form", "two drives"])
+def test_kinds_of_groups(kind: str) -> None:
+    m = KINDS[kind]()
+    checked(m, [f"effort.{next(iter(m.drives))}"])
+
+
+def test_every_load() -> None:
+    checked(four_bar(8), ["effort.O2", "reaction.A", "angle.rocker"])
+
+
+@pytest.mark.parametrize("reduce", ["peak", "mean", "rms", "envelope", "norm8"])
+def test_reductions(reduce: str) -> None:
+    checked(four_bar(24), ["effort.O2", "magnitude.B"], reduce, tolerance=1e-6)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(20))
+def test_random_mechanisms(seed: int) -> None:
+    m = da.mechanism(tree(random_case(seed).drawing))
+    checked(m, [f"effort.{next(iter(m.drives))}"], tolerance=1e-6)

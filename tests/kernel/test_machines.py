@@ -1,0 +1,126 @@
+"""Every kind of two-link group, joint and load with large changes of all numbers; statuses where there is no answer."""
+
+from __future__ import annotations
+
+import copy
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from tests.kernel.comparing import changed, difference, every_number, general
+from tests.kernel.machines import KINDS, four_bar, four_bar_tree
+
+TOLERANCE = 1e-10
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_kinds_of_groups(kind: str) -> None:
+    m = KINDS[kind]()
+    k = da.compile(m, vary=every_number(m))
+    values = np.stack([k.nominal, changed(k, 1, shape=0.03), changed(k, 2, shape=0.03)])
+    r = k(values)
+    assert r.redone == 0
+    assert r.ok[0].all()
+    assert max(difference(k, r, d, general(m, k, values[d])) for d in range(3)) < TOLERANCE
+
+
+def test_every_load() -> None:
+    m = four_bar()
+    k = da.compile(m, vary=[*every_number(m), "gravity"][:-1])
+    values = np.stack([changed(k, seed, shape=0.03) for seed in range(3)])
+    r = k(values)
+    assert max(difference(k, r, d, general(m, k, values[d])) for d in range(3)) < TOLERANCE
+
+
+def test_statics_and_motion() -> None:
+    """Without inertia, and quantities of the links."""
+    m = four_bar()
+    outputs = [
+        "angle.rocker",
+        "speed.coupler",
+        "acceleration.rocker",
+        "point.coupler.P",
+        "point_velocity.coupler.P",
+    ]
+    outputs += ["center_acceleration.coupler", "position.rocker", "effort.O2", "residual"]
+    r, g = da.compile(m, outputs=outputs, static=True)(), da.statics(m)
+    assert np.abs(r.angle("rocker")[0] - g.angle("rocker")).max() < 1e-12
+    assert np.abs(r.speed("coupler")[0] - g.speed("coupler")).max() < 1e-10
+    assert np.abs(r.acceleration("rocker")[0] / g.acceleration("rocker") - 1).max() < 1e-9
+    assert np.abs(r.point("coupler", "P")[0] - g.point("coupler", "P")).max() < 1e-12
+    assert np.abs(r.point_velocity("coupler", "P")[0] - g.point_velocity("coupler", "P")).max() < 1e-11
+    assert np.abs(r.center_acceleration("coupler")[0] - g.center_acceleration("coupler")).max() < 1e-8
+    assert np.abs(r.position("rocker")[0] - g.position("rocker")).max() < 1e-12
+    assert np.abs(r.effort("O2")[0] - g.effort("O2")).max() < 1e-10 * np.abs(g.effort("O2")).max()
+    assert r.value("residual").max() < 1e-13
+
+
+def test_known_effort_and_unknown_load() -> None:
+    tree = four_bar_tree()
+    tree["drives"]["O2"]["effort"] = "2 + cos(O2)"
+    tree["loads"]["T"]["value"] = "unknown"
+    m = da.mechanism(tree)
+    k = da.compile(m, vary=["links.coupler.mass", "loads.F.value"])
+    r, g = k(), da.dynamics(m)
+    assert (
+        np.abs(r.unknown_load("T")[0] - g.unknown_load("T")).max() < 1e-10 * np.abs(g.unknown_load("T")).max()
+    )
+
+
+@pytest.mark.parametrize(("crank", "rocker", "angle"), [(0.1, 0.1, 0), (0.2, 0.2, 80), (0.25, 0.2, 80)])
+def test_statuses(crank: float, rocker: float, angle: float) -> None:
+    """A parallelogram at its change points, and linkages that do not close all round."""
+    tree = copy.deepcopy(four_bar_tree(36))
+    tree["links"]["ground"]["points"]["O4"] = [0.3, 0]
+    tree["links"]["crank"]["points"]["A"] = [crank, 0]
+    tree["links"]["coupler"]["points"]["B"] = [0.3 if crank == 0.1 else 0.25, 0]
+    tree["links"]["rocker"]["points"]["B"] = [rocker, 0]
+    tree["drives"]["O2"]["position"] = {"from": 60, "to": 420, "count": 36}
+    tree["assembly"] = {"coupler": 0 if crank == 0.1 else 20, "rocker": angle or 60}
+    m = da.mechanism(tree)
+    k = da.compile(m, vary=["links.coupler.points.B", "links.coupler.mass"])
+    values = np.stack([k.nominal, k.nominal * [0.99, 1, 1], k.nominal * [1, 1, 2]])
+    r = k(values)
+    for d in range(3):
+        g = general(m, k, values[d])
+        assert tuple(r.status[d]) == g.status
+        assert difference(k, r, d, g) < 1e-9
+
+
+def test_other_positions() -> None:
+    m = four_bar(12)
+    k = da.compile(m)
+    q = np.linspace(0.3, 2.0, 40)
+    r = k(positions=q)
+    tree = four_bar_tree()
+    tree["drives"]["O2"]["position"] = np.degrees(q).tolist()
+    g = da.dynamics(da.mechanism(tree))
+    assert np.abs(r.effort("O2")[0] - g.effort("O2")).max() < 1e-10 * np.abs(g.effort("O2")).max()
+
+
+def test_refusals() -> None:
+    m = da.four_bar()
+    for text, arguments in (
+        ("there is no output 'torque.O2'", {"outputs": ["torque.O2"]}),
+        ("there is no reduction 'largest'", {"reduce": "largest"}),
+        ("there is no 'masss' in links.crank", {"vary": ["links.crank.masss"]}),
+        ("'title' is 'Four-bar linkage', which is no number", {"vary": ["title"]}),
+        ("the place of a peak has no derivative", {"reduce": "argpeak", "derivatives": True}),
+    ):
+        with pytest.raises(da.ModelError, match=text):
+            da.compile(m, **arguments)
+    k = da.compile(m, vary=["links.crank.mass"], outputs=["effort.O2"])
+    with pytest.raises(da.ModelError, match="do not fit 1 number"):
+        k(np.zeros((3, 2)))
+    with pytest.raises(da.ModelError, match="was not compiled"):
+        k().reaction("A")
+
+
+def test_redundancy_is_refused_with_its_joints() -> None:
+    tree = four_bar_tree()
+    tree["links"]["bar"] = {"points": {"A": [0, 0], "B": [0.32, 0]}}
+    tree["joints"]["A2"] = {"type": "pin", "links": ["crank", "bar"], "at": ["A", "A"]}
+    tree["joints"]["B2"] = {"type": "pin", "links": ["bar", "rocker"], "at": ["B", "B"]}
+    with pytest.raises(da.ModelError, match="redundant"):
+        da.compile(da.mechanism(tree))

@@ -1,0 +1,209 @@
+"""Lanes, threads, parts, progress and interruption, reductions, memory, and the same text through a C compiler."""
+
+from __future__ import annotations
+
+import ctypes
+import resource
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.analysis.batch.export import plain
+from dalembert.analysis.batch.reduction import PARTS, reduced
+from dalembert.kernel import batch, cuda, emit_c
+from dalembert.kernel.machine import host_lanes
+from tests.kernel.comparing import changed
+from tests.kernel.machines import KINDS, four_bar
+
+VARY = ["links.crank.points.A", "links.rocker.points.B", "links.coupler.mass", "drives.O2.speed"]
+OUTPUTS = ["effort.O2", "reaction.A", "magnitude.B"]
+
+
+def designs(k: Any, count: int) -> np.ndarray:
+    return np.stack([changed(k, seed, shape=0.02) for seed in range(count)])
+
+
+@pytest.mark.parametrize("lanes", [1, 2, 4, 8])
+@pytest.mark.parametrize("kind", ["pin-pin-pin", "no closed form"])
+def test_lanes_give_the_same(lanes: int, kind: str) -> None:
+    """Also more lanes than the processor has: the compiler splits them."""
+    m = KINDS[kind]()
+    drive = next(iter(m.drives))
+    one = da.compile(m, outputs=[f"effort.{drive}"], lanes=1)().effort(drive)
+    many = da.compile(m, outputs=[f"effort.{drive}"], lanes=lanes)().effort(drive)
+    assert np.abs(one - many).max() < 1e-12 * np.abs(one).max()
+
+
+def test_the_processor_s_own_lanes() -> None:
+    assert host_lanes() in (2, 4, 8)
+    assert da.compile(da.four_bar()).lanes == host_lanes()
+
+
+def test_few_positions_fill_lanes_with_designs() -> None:
+    k = da.compile(four_bar(40), vary=VARY, outputs=OUTPUTS)
+    values = designs(k, 21)
+    whole = k(values)
+    few = k(values, positions=whole.positions[[3, 17, 30]])
+    for output in OUTPUTS:
+        assert (
+            np.abs(few.value(output) - whole.value(output)[:, [3, 17, 30]]).max()
+            < 1e-11 * np.abs(few.value(output)).max()
+        )
+
+
+@pytest.mark.parametrize("reduce", PARTS)
+def test_reductions(reduce: str) -> None:
+    m = four_bar(37)
+    k, whole = (da.compile(m, vary=VARY, outputs=OUTPUTS, reduce=r) for r in (reduce, None))
+    values = designs(k, 9)
+    few, all_ = k(values), whole(values)
+    for output in OUTPUTS:
+        expected = reduced(reduce, np.moveaxis(all_.value(output), 1, 0))
+        assert few.value(output).shape == expected.shape
+        assert np.allclose(few.value(output), expected, rtol=1e-12)
+
+
+def test_a_design_that_does_not_close_is_alone() -> None:
+    m = four_bar(36)
+    k = da.compile(m, vary=["links.rocker.points.B"], outputs=["effort.O2"], reduce="peak")
+    values = np.stack([k.nominal, [0.08, 0.0], [np.nan, 0.0], k.nominal])
+    r = k(values)
+    assert list(r.status) == ["ok", "not_assembled", "failed", "ok"]
+    assert np.isnan(r.effort("O2")[1:3]).all()
+    assert r.effort("O2")[0] == r.effort("O2")[3]
+    assert r.problems()[0][:2] == (1, "not_assembled")
+
+
+@pytest.mark.parametrize("threads", [1, 2, 5])
+def test_threads_parts_and_progress(threads: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    k = da.compile(four_bar(24), vary=VARY, outputs=OUTPUTS, reduce="peak")
+    values = designs(k, 100)
+    expected = k(values, threads=1)
+    monkeypatch.setattr(batch, "WORK", 24 * 7)
+    seen: list[tuple[int, int]] = []
+    r = k(values, threads=threads, progress=lambda *done: seen.append(done))
+    assert (r.effort("O2") == expected.effort("O2")).all()
+    assert seen[-1] == (100, 100)
+    assert seen == sorted(seen)
+    assert len(seen) > 10 or threads > 1
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_interruption(threads: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    k = da.compile(four_bar(24), vary=VARY, outputs=OUTPUTS, reduce="peak")
+    monkeypatch.setattr(batch, "WORK", 24)
+    values, done = np.repeat(k.nominal[None], 5000, axis=0), []
+
+    def stop(count: int, of: int) -> None:
+        done.append(count)
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        k(values, threads=threads, progress=stop)
+    assert len(done) == 1
+
+
+def test_changing_numbers_does_not_compile_again() -> None:
+    k = da.compile(four_bar(360), vary=VARY, outputs=OUTPUTS)
+    k(designs(k, 2))
+    start = time.perf_counter()
+    for seed in range(20):
+        k(changed(k, seed, shape=0.02))
+    assert time.perf_counter() - start < 1.0
+
+
+def test_memory_is_that_of_values_and_answers() -> None:
+    k = da.compile(four_bar(24), vary=VARY, outputs=["effort.O2"], reduce="peak")
+    values = np.repeat(k.nominal[None], 400_000, axis=0)
+    k(values[:1000])
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    k(values)
+    grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) * (
+        1 if sys.platform == "darwin" else 1024
+    )
+    assert grown < 100e6
+
+
+def shared(tmp_path: Path, text: str, name: str) -> ctypes.CDLL:
+    compiler = shutil.which("cc")
+    if compiler is None:
+        pytest.skip("there is no C compiler")
+    source, library = tmp_path / f"{name}.c", tmp_path / f"{name}.so"
+    source.write_text(text)
+    subprocess.run([compiler, "-O1", "-shared", "-fPIC", "-o", str(library), str(source), "-lm"], check=True)
+    return ctypes.CDLL(str(library))
+
+
+def pointer(a: np.ndarray) -> ctypes.c_void_p:
+    return a.ctypes.data_as(ctypes.c_void_p)
+
+
+@pytest.mark.parametrize("reduce", [None, "peak", "envelope", "rms"])
+@pytest.mark.parametrize("kind", ["pin-pin-pin", "no closed form", "slots"])
+def test_the_card_s_text_compiled_as_c(kind: str, reduce: str | None, tmp_path: Path) -> None:
+    """The text for CUDA, compiled by the system's C compiler, gives what the machine code gives."""
+    m = KINDS[kind]()
+    drive = next(iter(m.drives))
+    k = da.compile(m, vary=["links.ground.points.O2"], outputs=[f"effort.{drive}"], reduce=reduce)
+    program, _, slots = k.runner.machine("reduce" if reduce else "grid")
+    columns, common = k.runner.inputs(program, k.trace.course)
+    library = shared(tmp_path, cuda.source(program, slots), "card")
+    values = np.ascontiguousarray(k.nominal[None] + np.array([[0.0, 0.0], [1e-3, -2e-3]]))
+    width = emit_c.width(slots) if slots else len(program.outputs) * len(columns)
+    out, code = np.zeros((2, width)), np.zeros(2 * len(columns), np.uint8)
+    counts = [ctypes.c_longlong(n) for n in (2, columns.shape[1], 2, len(columns))]
+    entry = library.reduced if slots else library.grid
+    arrays = (values, np.ascontiguousarray(columns), np.append(common, 0.0), out, code)
+    entry(*(pointer(a) for a in arrays), *counts)
+    found, expected = out, k(values).value(f"effort.{drive}")
+    if reduce == "rms":
+        found = np.sqrt(out / len(columns))
+    assert np.abs(found.ravel() - expected.ravel()).max() < 1e-11 * np.abs(expected).max()
+
+
+def test_cuda_without_a_card_is_refused() -> None:
+    try:
+        cuda.card()
+    except RuntimeError:
+        with pytest.raises(da.ModelError, match="device 'cuda' cannot be used"):
+            da.compile(da.four_bar())(device="cuda")
+    else:
+        k = da.compile(da.four_bar())
+        assert np.allclose(k(device="cuda").effort("O2"), k().effort("O2"), rtol=1e-11)
+
+
+def test_c_function(tmp_path: Path) -> None:
+    """An exported function computes cosines and expressions itself."""
+    tree = four_bar(24)
+    k = da.compile(tree, vary=VARY, outputs=OUTPUTS, derivatives=True)
+    program = plain(k)
+    given = [program.graph.names[n.index] for n in program.used("channel")]
+    assert "position O2" in given
+    assert not [name for name in given if name.startswith(("cos", "sin", "loads.P"))]
+    library = shared(tmp_path, k.to_c("four_bar"), "alone")
+    r, q = k(), k.trace.course.schedule.position[7, 0]
+    channels = np.array([float(k.trace.inputs.found[n](k.trace.course)[7]) for n in program.used("channel")])
+    assert q in channels
+    out = np.zeros(len(program.outputs))
+    assert library.four_bar(pointer(k.nominal.copy()), pointer(channels), pointer(out)) == 0
+    assert abs(out[0] - r.effort("O2")[0, 7]) < 1e-12 * abs(out[0])
+    assert abs(out[4] / r.gradient("effort.O2")[0, 7, 0] - 1) < 1e-9
+
+
+def test_casadi_function() -> None:
+    pytest.importorskip("casadi")
+    k = da.compile(four_bar(24), vary=VARY, outputs=["effort.O2", "reaction.A"])
+    f, r = k.to_casadi(), k()
+    program = plain(k)
+    channels = [float(k.trace.inputs.found[n](k.trace.course)[5]) for n in program.used("channel")]
+    effort, reaction, mark = f(k.nominal, channels)
+    assert abs(float(effort) - r.effort("O2")[0, 5]) < 1e-10
+    assert np.abs(np.array(reaction).ravel() - r.reaction("A")[0, 5]).max() < 1e-9
+    assert float(mark) == 0
