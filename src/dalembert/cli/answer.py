@@ -207,7 +207,7 @@ def _many(result: Result, to: Printed, axes: Axes, every: bool) -> Iterator[str]
     shown = (
         range(count)
         if every or count <= MANY
-        else np.unique(np.linspace(0, count - 1, MANY).round().astype(int))
+        else sorted(set(np.linspace(0, count - 1, MANY).round().astype(int).tolist()))
     )
     heads, values = _series(result, to, axes)
     rows = []
