@@ -147,3 +147,24 @@ def test_loads_come_before_joints_in_a_polygon() -> None:
     from dalembert.analysis.actions import actions
 
     assert [a.kind for a in forces_of(actions(r), "coupler", 0)] == ["load", "inertia", "joint", "joint"]
+
+
+@pytest.mark.parametrize("kind", ["svg", "gif", "webp"])
+def test_animations(kind: str, tmp_path: Path) -> None:
+    if kind != "svg":
+        pytest.importorskip("matplotlib")
+        pytest.importorskip("PIL")
+    animation = da.draw.animation(result("four_bar", positions=4))
+    animation.save(tmp_path / f"a.{kind}")
+    content = (tmp_path / f"a.{kind}").read_bytes()
+    if kind == "svg":
+        assert content.count(b"<animate ") == 4
+        assert b"<script" not in content
+    for scene in animation.frames:
+        for arrow in scene.arrows():
+            assert arrow.length * animation.scales["force"] == pytest.approx(arrow.value, rel=1e-9)
+
+
+def test_an_animation_needs_positions() -> None:
+    with pytest.raises(da.ModelError, match="two solved positions"):
+        da.draw.animation(result("four_bar"))

@@ -16,7 +16,7 @@ from dalembert.report.sheet import Equations, Figure, Matrix, Sheet, Table
 from dalembert.report.working import working
 from dalembert.views.canvas import text_over_lines, text_overlaps
 
-SEEDS = sorted(name for name in cases() if name.startswith("seed-"))
+GALLERY = [*sorted(name for name in cases() if name.startswith("seed-")), *examples()]
 
 
 def result(name: str, **options: Any) -> Any:
@@ -68,8 +68,8 @@ def test_the_nine_equations_hold() -> None:
         assert sum(a * x for a, x in zip(row, values, strict=True)) == pytest.approx(b, abs=1e-7)
 
 
-@pytest.mark.parametrize("name", SEEDS)
-def test_a_report_of_every_seed(name: str) -> None:
+@pytest.mark.parametrize("name", GALLERY)
+def test_every_report_of_the_gallery(name: str) -> None:
     sheet = working(result(name))
     for b in blocks(sheet, Figure):
         for scene in b.scenes:

@@ -108,7 +108,7 @@ def draw(
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"])],
     view: Literal[
-        "mechanism", "free-bodies", "force-polygons", "motion", "charts", "superposition", "all"
+        "mechanism", "free-bodies", "force-polygons", "motion", "charts", "superposition", "animation", "all"
     ] = "all",
     at: str | None = None,
     positions: int | None = None,
@@ -124,7 +124,7 @@ def draw(
     file
         Model file.
     output
-        File to write; its ending names the format: .svg, .pdf, .png, .dxf, or .gif for an animation.
+        File to write; its ending names the format: .svg, .pdf, .png, .dxf; .gif or .webp for an animation.
     view
         What to draw.
     at

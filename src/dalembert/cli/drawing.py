@@ -34,11 +34,14 @@ def drawn(
             f"{output.name}: the ending names no kind of drawing", f"use one of {' '.join(PICTURES)}"
         )
     check_new(output, force)
-    if view == "charts" and positions is None:
-        positions = _enough(file)
+    if positions is None and (view == "charts" or _moves(view, output)):
+        positions = _enough(file, 36 if _moves(view, output) else 72)
     result = solve(load(file), static=static, positions=positions)
     notation = draw.Notation(links="name" if names else "number")
-    draw.view(result, view, at, notation).save(output, force, theme)
+    if _moves(view, output):
+        draw.animation(result, notation).save(output, force, theme)
+    else:
+        draw.view(result, view, at, notation).save(output, force, theme)
     print(f"Written: {output}", file=sys.stderr)
     return OK if result.ok.all() else SOME_NOT_OK
 
@@ -66,9 +69,14 @@ def reported(
     return OK if result.ok.all() else SOME_NOT_OK
 
 
-def _enough(file: Path) -> int | None:
-    """Charts of a file with one position show a whole turn."""
+def _moves(view: str, output: Path) -> bool:
+    """Whether an animation is asked for."""
+    return view == "animation" or output.suffix.lower() in (".gif", ".webp")
+
+
+def _enough(file: Path, count: int) -> int | None:
+    """Charts and animations of a file with one position show a whole turn."""
     from dalembert.model import load
 
     m = load(file)
-    return 72 if len(m.schedule().position) == 1 and m.drives else None
+    return count if len(m.schedule().position) == 1 and m.drives else None

@@ -20,16 +20,16 @@ def typst_bytes(sheet: Sheet, kind: str) -> bytes:
     """The report as `pdf` or `html`."""
     engine: Any = import_module("typst")
     pictures: dict[str, bytes] = {}
-    tree = {
+    tree: dict[str, Any] = {
         "title": sheet.title,
         "source": sheet.source,
         "subtitle": sheet.subtitle,
         "blocks": [_block(b, pictures) for b in sheet.blocks],
     }
     template = files("dalembert.report").joinpath("template.typ").read_text(encoding="utf-8")
-    inputs = {"main.typ": template.encode(), "sheet.json": json.dumps(tree).encode(), **pictures}
+    tree["style"] = files("dalembert.report").joinpath("page.css").read_text(encoding="utf-8")
     out = engine.compile(
-        {("main" if name == "main.typ" else name): data for name, data in inputs.items()},
+        {"main": template.encode(), "sheet.json": json.dumps(tree).encode(), **pictures},
         format=kind,
         sys_inputs={"target": "html" if kind == "html" else "paged"},
     )

@@ -13,9 +13,11 @@ first drive; the first solved position by default.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 from dalembert.views import charts as _charts
+from dalembert.views.animation import Animation, animation_scene
 from dalembert.views.free_body import components_scene, free_body_scene
 from dalembert.views.mechanism import mechanism_scene, place_title, position_at
 from dalembert.views.motion import instant_centers_scene, motion_polygon_scene
@@ -101,6 +103,11 @@ def force_polygons(r: Result, at: Any = None, notation: Notation | None = None) 
     )
 
 
+def beside(scenes: Sequence[Scene], title: str = "", width: float = 240.0) -> Scene:
+    """Drawings as panels in rows no wider than ``width`` mm."""
+    return stacked(scenes, title=title, width=width)
+
+
 def superposition(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
     """Force polygons of the chain for one source at a time, then for all together."""
     from dalembert.analysis.superposition import superposition as split
@@ -122,6 +129,11 @@ def motion(r: Result, at: Any = None, notation: Notation | None = None) -> Scene
     if r.drives:
         scenes.append(instant_centers_scene(r, k, notation))
     return stacked(scenes, title=_title(r, k, "Motion", notation))
+
+
+def animation(r: Result, notation: Notation | None = None, seconds: float = 4.0) -> Animation:
+    """The mechanism in motion with its forces; ``save`` writes .svg, .gif or .webp."""
+    return animation_scene(r, notation, seconds)
 
 
 def view(r: Result, which: View = "all", at: Any = None, notation: Notation | None = None) -> Scene:
@@ -158,9 +170,12 @@ def _title(r: Result, k: int, what: str, notation: Notation | None) -> str:
 
 
 __all__ = [
+    "Animation",
     "Notation",
     "Scene",
     "acceleration_polygon",
+    "animation",
+    "beside",
     "charts",
     "components",
     "force_chain",

@@ -13,7 +13,7 @@ from dalembert.views import symbols
 from dalembert.views.canvas import Canvas
 from dalembert.views.frame import Frame, fitted, force_scale
 from dalembert.views.notation import Notation, Shown
-from dalembert.views.outline import GROUND, draw_joint, every_place, link_points, link_shape
+from dalembert.views.outline import GROUND, draw_joint, every_place, link_points, link_shape, rail
 from dalembert.views.scene import Arrow, Line, Point, Scene
 
 if TYPE_CHECKING:
@@ -47,11 +47,18 @@ def mechanism_scene(
     draw_links(canvas, r, k, frame)
     canvas_names(canvas, r, k, frame, shown)
     kinds = ("load", "spring", "effort", "weight", "inertia", "damper") if forces else ("load", "effort")
-    some = [a for a in actions(r) if a.kind in kinds and a.link != GROUND]
+    some = [a for a in actions(r) if a.kind in kinds and _once(r, a)]
     per_mm = draw_actions(canvas, r, some, k, frame, shown, 22.0)
     notes, scales = stated(shown, frame, per_mm)
     heading = title if title is not None else r.mechanism.title or "Mechanism"
     return canvas.scene(place_title(r, k, heading, shown), notes=notes, scales=scales)
+
+
+def _once(r: Result, a: Action) -> bool:
+    """Whether an action is drawn in the whole mechanism: not on the ground, an effort on one of its links."""
+    if a.kind != "effort" or a.by == GROUND:
+        return a.link != GROUND
+    return a.link != GROUND and a.link == r.mechanism.joints[r.mechanism.drives[a.of].joint or a.of].links[1]
 
 
 def stated(shown: Shown, frame: Frame | None, per_mm: float | None) -> tuple[list[str], dict[str, float]]:
@@ -111,6 +118,8 @@ def draw_traces(canvas: Canvas, r: Result, frame: Frame) -> None:
 def draw_links(canvas: Canvas, r: Result, k: int, frame: Frame) -> None:
     """Links, springs, joints and mass centres."""
     m = r.mechanism
+    for name in r.joints:
+        canvas.add(*rail(r, name, k, frame))
     for link in r.links:
         canvas.add(*link_shape(r, link, k, frame))
     for name, load in m.loads.items():
@@ -188,9 +197,16 @@ def draw_actions(
 
 
 def draw_force(
-    canvas: Canvas, r: Result, a: Action, k: int, frame: Frame, shown: Shown, per_mm: float, values: bool
+    canvas: Canvas,
+    r: Result,
+    a: Action,
+    k: int,
+    frame: Frame,
+    shown: Shown,
+    per_mm: float,
+    values: bool | None,
 ) -> None:
-    """An arrow that leaves its point, or ends there where it pushes into the link."""
+    """An arrow that leaves its point, or ends there where it pushes inwards; ``values`` None leaves it unnamed."""
     at, (fx, fy) = frame(a.at[k]), map(float, a.force[k])
     dx, dy = fx / per_mm, fy / per_mm
     size = math.hypot(fx, fy)
@@ -199,6 +215,8 @@ def draw_force(
     canvas.add(Arrow(tail, head, role_of(a.kind), a.of, "force", size))
     free = tail if inward else head
     side = (free[0] - at[0], free[1] - at[1])
+    if values is None:
+        return
     name = shown.symbol(a)
     text = f"{name} = {shown.text('force', size)}" if values else name
     along = [(at[0] + t * side[0], at[1] + t * side[1]) for t in (1.0, 0.8, 0.6)]
@@ -215,13 +233,15 @@ def _pushes(r: Result, a: Action, k: int) -> bool:
 
 
 def draw_couple(
-    canvas: Canvas, r: Result, a: Action, k: int, frame: Frame, shown: Shown, values: bool
+    canvas: Canvas, r: Result, a: Action, k: int, frame: Frame, shown: Shown, values: bool | None
 ) -> None:
     """A curved arrow about its place; the sense is drawn, the size written."""
     at, value = frame(a.at[k]), float(a.couple[k])
     radius = 4.6 if a.kind != "inertia" else 3.4
     role = role_of(a.kind)
     canvas.add(*symbols.couple(at, value, radius, role, a.of, value))
+    if values is None:
+        return
     name = shown.joint_moment(a.of, a.link) if a.kind == "joint" else shown.symbol(_turning(a))
     text = f"{name} = {shown.text('moment', abs(value) * shown.notation.torque)}" if values else name
     spots = [(at[0] + radius * math.cos(t), at[1] + radius * math.sin(t)) for t in np.arange(8) * math.pi / 4]

@@ -41,7 +41,7 @@ def _figure(scene: Scene, theme: str, bounds: Box) -> Any:
 
     left, bottom, right, top = bounds
     left, bottom, right, top = left - MARGIN, bottom - MARGIN, right + MARGIN, top + MARGIN
-    paper = BACKGROUND[theme] or "white"
+    paper = BACKGROUND[theme]
     figure = Figure(figsize=((right - left) / 25.4, (top - bottom) / 25.4), facecolor=paper)
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0), frameon=False)
     axes.set_xlim(left, right)

@@ -107,6 +107,18 @@ def _turn(a: Point, b: Point, c: Point) -> float:
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
+def rail(r: Result, name: str, k: int, frame: Frame) -> list[Item]:
+    """The rail of a slider on a moving link, from that link's point to the block."""
+    joint = r.mechanism.joints[name]
+    if joint.type != "slider" or joint.links[0] == GROUND:
+        return []
+    ends = [
+        frame(link_place(r, link, u)[k])
+        for link, u in zip(joint.links, r.mechanism.joint_points(name), strict=True)
+    ]
+    return [Line(tuple(ends), "link")] if math.dist(*ends) > 0.5 else []
+
+
 def draw_joint(canvas: Canvas, r: Result, name: str, k: int, frame: Frame) -> None:
     """The symbol of a joint."""
     joint = r.mechanism.joints[name]
@@ -138,6 +150,9 @@ def _draw_slide(canvas: Canvas, r: Result, name: str, k: int, frame: Frame, at: 
     low, high = _slot_range(r, name, k)
     start = np.array(link_place(r, i, r.mechanism.joint_points(name)[0])[k])
     a, b = frame(start + low * e), frame(start + high * e)
+    if GROUND in (i, j):
+        middle = ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
+        canvas.add(*symbols.guide(middle, angle, math.dist(a, b) + 8.0))
     canvas.add(*symbols.slot(((a[0] + b[0]) / 2, (a[1] + b[1]) / 2), angle, math.dist(a, b)))
     canvas.add(*symbols.pin(at))
 

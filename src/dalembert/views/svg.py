@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from html import escape
 
-from dalembert.views.lettering import SMALL, pieces
+from dalembert.views.lettering import SMALL, Box, pieces
 from dalembert.views.scene import Arc, Arrow, Circle, Group, Item, Line, Point, Polygon, Scene, Text
 from dalembert.views.themes import BACKGROUND, FONT, THEMES, Look
 
@@ -16,18 +17,23 @@ HEAD = 3.0
 
 def svg_text(scene: Scene, theme: str = "light") -> str:
     """The drawing as a standalone SVG."""
-    left, bottom, right, top = scene.bounds
+    return page(scene.bounds, scene.title, theme, lambda writer: "".join(map(writer.item, scene.items)))
+
+
+def page(bounds: Box, title: str, theme: str, drawn: Callable[[Writer], str]) -> str:
+    """An SVG that shows some bounds, filled by what is drawn with the writer."""
+    left, bottom, right, top = bounds
     width, height = right - left + 2 * MARGIN, top - bottom + 2 * MARGIN
     prefix = theme[0]
-    writer = _Writer(left - MARGIN, top + MARGIN, prefix)
-    body = "".join(writer.item(item) for item in scene.items)
+    writer = Writer(left - MARGIN, top + MARGIN, prefix)
+    body = drawn(writer)
     style = "".join(_rule(prefix, role, THEMES[theme][role]) for role in sorted(writer.roles))
     paper = BACKGROUND[theme]
-    back = f'<rect width="{width:.2f}" height="{height:.2f}" fill="{paper}"/>' if paper else ""
+    back = f'<rect width="{width:.2f}" height="{height:.2f}" fill="{paper}"/>'
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.2f}mm" height="{height:.2f}mm" '
         f'viewBox="0 0 {width:.2f} {height:.2f}" font-family="{FONT}">'
-        f"<title>{escape(scene.title)}</title><style>{style}</style>{back}{body}</svg>\n"
+        f"<title>{escape(title)}</title><style>{style}</style>{back}{body}</svg>\n"
     )
 
 
@@ -42,7 +48,7 @@ def _rule(prefix: str, role: str, look: Look) -> str:
     )
 
 
-class _Writer:
+class Writer:
     """Primitives to elements; page coordinates have y down from the top."""
 
     def __init__(self, left: float, top: float, prefix: str) -> None:

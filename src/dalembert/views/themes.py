@@ -100,7 +100,7 @@ THEMES: dict[str, dict[str, Look]] = {
 }
 """Theme -> role -> look."""
 
-BACKGROUND = {"light": None, "dark": _DARK["paper"], "print": None}
-"""Colour of the paper; None leaves it clear."""
+BACKGROUND = {"light": PAPER, "dark": _DARK["paper"], "print": PAPER}
+"""Colour of the paper, so that a drawing reads on any page."""
 
 FONT = "'DejaVu Sans', 'Helvetica Neue', Arial, sans-serif"

@@ -1,0 +1,76 @@
+"""Drawings and worked solutions of bundled problems: `make gallery` writes them to build/gallery with an index page.
+
+`python docs/gallery.py figures` writes the pictures that the documentation shows.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from html import escape
+from pathlib import Path
+
+import dalembert as da
+from dalembert.bundled import cases, examples
+
+ROOT = Path(__file__).resolve().parents[1]
+OUT = ROOT / "build" / "gallery"
+FIGURES = ROOT / "docs" / "figures"
+VIEWS = ("mechanism", "free-bodies", "force-polygons", "motion")
+
+PAGE = """<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>dalembert: gallery</title>
+<style>body{{font:16px/1.4 sans-serif;max-width:75rem;margin:2rem auto;padding:0 1rem}}
+img{{max-width:100%;max-height:24rem;margin:0 1rem 1rem 0;vertical-align:top}}</style>
+<h1>Gallery</h1>{body}</html>
+"""
+
+
+def shown() -> dict[str, Path]:
+    """The examples of the source documents, and the bundled examples."""
+    seeds = {name: path for name, path in cases().items() if name.startswith("seed-")}
+    return seeds | {f"example-{name}": path for name, path in examples().items()}
+
+
+def built(name: str, path: Path) -> Iterator[str]:
+    """Write one problem's files; yields its part of the index."""
+    r = da.solve(da.load(path))
+    report = da.report(r)
+    yield f"<h2>{escape(name)}</h2><p>{escape(r.mechanism.title)}: "
+    for kind in ("pdf", "html", "tex", "txt"):
+        report.save(OUT / f"{name}.{kind}", overwrite=True)
+        yield f'<a href="{name}.{kind}">{kind}</a> '
+    yield "</p>"
+    views = [*VIEWS, "charts"] if len(r.status) > 7 else VIEWS
+    for view in views:
+        da.draw.view(r, view).save(OUT / f"{name}-{view}.svg", overwrite=True)
+        yield f'<img src="{name}-{view}.svg" alt="{view}">'
+
+
+def gallery() -> None:
+    """All of them, and the index."""
+    OUT.mkdir(parents=True, exist_ok=True)
+    parts = []
+    for name, path in shown().items():
+        try:
+            parts += list(built(name, path))
+            print(f"{name}: written")
+        except da.ModelError as error:
+            print(f"{name}: {error}")
+    (OUT / "index.html").write_text(PAGE.format(body="".join(parts)), encoding="utf-8")
+    print(f"{OUT / 'index.html'}")
+
+
+def figures() -> None:
+    """The pictures of the documentation."""
+    FIGURES.mkdir(parents=True, exist_ok=True)
+    r = da.dynamics(da.load(examples()["four_bar"]))
+    both = da.draw.beside([da.draw.mechanism(r), da.draw.force_chain(r)], title="Four-bar linkage: forces")
+    both.save(FIGURES / "four_bar.svg", overwrite=True)
+    slider = da.statics(da.load(cases()["seed-002-5-slider-crank-force-on-rod"]))
+    da.draw.free_bodies(slider).save(FIGURES / "free_bodies.svg", overwrite=True)
+    da.draw.lines_of_action(slider, "rod").save(FIGURES / "lines_of_action.svg", overwrite=True)
+    da.draw.motion(r).save(FIGURES / "motion.svg", overwrite=True)
+
+
+if __name__ == "__main__":
+    figures() if sys.argv[1:] == ["figures"] else gallery()
