@@ -16,8 +16,11 @@ from dalembert.views.scene import Arc, Arrow, Circle, Group, Item, Line, Point, 
 
 Array = NDArray[Any]
 
-STAGES = ((0.9, 1.6), (2.6, 4.0), (6.0, 8.5), (12.0, 17.0), (24.0, 34.0, 48.0, 64.0))
+STAGES = ((0.9, 1.6), (2.6, 4.0), (6.0, 8.5), (12.0, 17.0), (24.0, 34.0, 48.0))
 """Distances in mm at which a label is tried, some at a time: a free place near ends the search."""
+
+TAKEN = 1000.0
+"""Cost of a place over a stroke or a text, or whose leader would cross a text."""
 
 LEADER = 5.0
 """Distance in mm beyond which a thin line leads from the label to its place."""
@@ -62,9 +65,14 @@ class Canvas:
     def scene(self, title: str = "", heading: bool = True, notes: Sequence[str] = (), **given: Any) -> Scene:
         """The finished drawing, with its title above and notes below."""
         placer = _Placer(self.items)
+        left_over = []
         for label in self._labels:
-            self.items += placer.placed(label)
+            items = placer.placed(label)
+            self.items += items
+            left_over += [] if items else [label.text]
         self._labels = []
+        if left_over:
+            notes = [*notes, f"Without room for a label: {', '.join(left_over)}"]
         if heading:
             self._headed(title, notes)
         return Scene(tuple(self.items), title, **given)
@@ -136,13 +144,15 @@ class _Placer:
         self.boxes = np.array([item_box(i) for i in items if isinstance(i, Text)], float).reshape(-1, 4)
 
     def placed(self, label: Label) -> list[Item]:
-        """The text at its best place, with a leader where that is far."""
+        """The text at its best place, with a leader where that is far; nothing where every place is taken."""
         bold = BOLD if label.role == "title" else 1.0
         room = (bold * text_width(label.text, label.size) / 2 + 0.25, 0.65 * label.size + 0.25)
         best = _Place(np.inf, np.zeros(2), np.zeros(4), np.zeros(2), 0.0)
         for gaps in STAGES:
             if best.cost > gaps[0]:
                 best = min(best, self._best(label, room, gaps), key=lambda place: place.cost)
+        if best.cost >= TAKEN:
+            return []
         x, y = best.at
         lift = 0.07 * label.size if "_{" in label.text else 0.0
         text = Text((float(x), float(y + lift)), label.text, label.size, label.role)
@@ -158,10 +168,10 @@ class _Placer:
         at, near, gap = _candidates(label, room[0] - 0.25, room[1] - 0.25, gaps)
         box = np.concatenate([at - room, at + room], axis=1)
         cost = gap + self._preference(label, at, near)
-        cost += 60.0 * np.minimum(crossed(box, self._close(box)).sum(axis=1), 3)
-        cost += np.where(overlapping(box, self.boxes).any(axis=1), 1000.0, 0.0)
+        cost += np.where(crossed(box, self._close(box)).any(axis=1), TAKEN, 0.0)
+        cost += np.where(overlapping(box, self.boxes).any(axis=1), TAKEN, 0.0)
         if label.leads and gaps[-1] >= LEADER:
-            cost += np.where((gap >= LEADER) & self._blocked(near, box), 300.0, 0.0)
+            cost += np.where((gap >= LEADER) & self._blocked(near, box), TAKEN, 0.0)
         k = int(cost.argmin())
         return _Place(float(cost[k]), at[k], box[k], near[k], float(gap[k]))
 

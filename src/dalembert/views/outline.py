@@ -27,6 +27,9 @@ def link_points(r: Result, link: str, k: int) -> dict[str, tuple[float, float]]:
         for end, u in zip(joint.links, m.joint_points(name), strict=True):
             if end == link and not _slides_on(joint, end):
                 places.setdefault(name, link_place(r, link, u)[k])
+    for name, joint in m.joints.items():
+        if joint.type in ("slider", "slot") and joint.links[0] == link != GROUND:
+            places[f"{name} sliding"] = link_place(r, joint.links[1], m.joint_points(name)[1])[k]
     for name, load in m.loads.items():
         if load.type == "force" and load.on == link:
             places.setdefault(name, link_place(r, link, _spot(r, load))[k])
