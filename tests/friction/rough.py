@@ -8,15 +8,17 @@ from typing import Any
 import numpy as np
 
 import dalembert as da
-from tests.random_mechanisms import random_mechanism, tree
+from tests.random_mechanisms import Rigid, random_mechanism, tree
 
 Array = np.ndarray[Any, Any]
 ROUGH = ("pin", "slider", "slot", "gear")
 
 
-def rough_tree(seed: int, most: float = 0.6, links: tuple[int, int] = (2, 12)) -> dict[str, Any]:
+def rough_tree(
+    seed: int, most: float = 0.6, links: tuple[int, int] = (2, 12), motion: Rigid | None = None
+) -> dict[str, Any]:
     """The model tree of a random mechanism with friction in most of its joints; coefficients up to ``most``."""
-    made = tree(random_mechanism(seed, links))
+    made = tree(random_mechanism(seed, links), motion=motion)
     rng = np.random.default_rng(seed + 77)
     made["friction"] = {"circle": str(rng.choice(["sin", "tan"])), "coefficient": float(rng.uniform(0, most))}
     for joint in made["joints"].values():
@@ -52,7 +54,8 @@ def unlawful(r: Any) -> Array:
     Everything is read from the result's public numbers: reactions, parts of friction, relative rates.
     """
     m, off = r.mechanism, np.zeros(len(r.status))
-    largest = np.nanmax([np.hypot(*r.reaction(j).T) for j in r.joints], axis=0)
+    sizes = np.array([np.hypot(*r.reaction(j).T) for j in r.joints])
+    largest = np.where(np.isnan(sizes).all(axis=0), np.nan, np.nan_to_num(sizes).max(axis=0))
     length = r.compiled.layout.length
     for name, joint in m.joints.items():
         for gap, scale in _gaps(r, name, joint, length):

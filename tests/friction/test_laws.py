@@ -1,0 +1,282 @@
+"""Laws of friction on random mechanisms with coefficients up to 0.6, and the energy of whole cycles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from copy import deepcopy
+from functools import wraps
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from tests.friction.oracle import branch, compared
+from tests.friction.rough import rough, rough_tree, unlawful
+from tests.laws.measures import joint_wrenches, known_wrenches
+from tests.oracles.reading import machine
+from tests.random_mechanisms import Rigid, pose_array, random_mechanism
+
+SOLVED = ("ok", "self_locking")
+OFF = {"enabled": False, "coefficient": 0.1}
+VERDICTS = (*SOLVED, "jammed", "at_rest", "not_assembled", "singular", "redundant")
+
+
+def over(quick: int, long: int) -> Callable[..., Any]:
+    """A law on the first seeds, one test each, and with the mark ``long`` on the rest, a block of 50 a test."""
+    blocks = [
+        pytest.param(range(s, min(s + 50, long)), marks=pytest.mark.long) for s in range(quick, long, 50)
+    ]
+
+    def decorated(law: Callable[[int], None]) -> Callable[..., None]:
+        @wraps(law)
+        def each(seed: int | range) -> None:
+            for s in [seed] if isinstance(seed, int) else seed:
+                law(s)
+
+        return pytest.mark.parametrize("seed", [*range(quick), *blocks])(each)
+
+    return decorated
+
+
+def solved(r: Any) -> Any:
+    return np.array([s in SOLVED for s in r.status])
+
+
+@over(24, 1000)
+def test_solved_or_a_verdict_and_no_wrong_number(seed: int) -> None:
+    """Links balance, every contact obeys its law; what is not solved has no number, and a sentence."""
+    r = da.dynamics(rough(seed))
+    assert set(r.status) <= set(VERDICTS)
+    good = solved(r)
+    if good.any() and r.friction is not None:
+        assert np.max(unlawful(r)[good]) < 1e-9
+        assert np.max(r.residual[good]) < 1e-9
+        assert np.max(r.power_balance[good]) < 1e-9
+        assert all(np.min(r.power_lost(j)[good]) > -1e-9 * scale(r) for j in r.joints)
+    for k in np.flatnonzero(~good):
+        assert r.reasons[k]
+        if r.status[k] != "redundant" and r.drives:
+            assert np.isnan([r.effort(d)[k] for d in r.drives]).all()
+
+
+def scale(r: Any) -> float:
+    """Largest force times the fastest relative rate."""
+    return float(np.nanmax(np.abs(r.force_array)) * np.nanmax(np.abs(r.twist_array)) + 1e-300)
+
+
+@over(8, 200)
+def test_links_balance(seed: int) -> None:
+    tree = rough_tree(seed)
+    r = da.dynamics(rough(seed))
+    good = solved(r)
+    if not good.all() or r.friction is None:
+        return
+    for joint in tree["joints"].values():
+        joint.pop("damping", None)  # a reaction with friction has the viscous part in it
+    answer: Any = SimpleNamespace(machine=machine(tree))
+    out = (joint_wrenches(r, answer) + known_wrenches(r, answer))[:, 1:]
+    assert np.max(np.abs(out)) < 1e-9 * np.max(np.abs(r.force_array)) * max(
+        1.0, np.max(np.abs(r.point_array))
+    )
+
+
+@over(8, 200)
+def test_the_oracle_follows_the_same_branch(seed: int) -> None:
+    tree, drawing = rough_tree(seed), random_mechanism(seed, (2, 12))
+    r = da.dynamics(rough(seed))
+    if r.friction is None or r.status[0] not in (*SOLVED, "jammed"):
+        return
+    found = branch(tree, pose_array(drawing))
+    if r.status[0] == "jammed":
+        assert found.scale == pytest.approx(r.friction.critical[0], abs=2e-5)
+        return
+    assert found.scale == 1
+    assert compared(r, found, machine(tree)) < 1e-9
+
+
+@over(6, 100)
+def test_a_batch_is_a_loop(seed: int) -> None:
+    """Each position with the first one alone, which sets the phase of meshes."""
+    whole = da.dynamics(rough(seed))
+    for k in range(1, len(whole.status)):
+        tree = rough_tree(seed)
+        for drive in tree["drives"].values():
+            drive["position"] = [drive["position"][0], drive["position"][k]]
+        two = da.dynamics(da.mechanism(tree))
+        assert two.status == (whole.status[0], whole.status[k])
+        close = {"rtol": 1e-8, "atol": 1e-9 * finite_forces(whole), "equal_nan": True}
+        assert all(np.allclose(two.reaction(j)[1], whole.reaction(j)[k], **close) for j in whole.joints)
+
+
+@over(6, 100)
+def test_reversing_the_motion_reverses_the_senses(seed: int) -> None:
+    r, tree = da.statics(rough(seed)), rough_tree(seed)
+    if r.friction is None:
+        return
+    for drive in tree["drives"].values():
+        turns = isinstance(drive["speed"], str)
+        value = -float(str(drive["speed"]).split()[0])
+        drive["speed"] = f"{value!r} rad/s" if turns else value
+    back = da.statics(da.mechanism(tree))
+    told = ~r.friction.open & ~r.compiled.contacts.fixed
+    assert np.array_equal(back.friction.sense[told], -r.friction.sense[told])
+
+
+@over(8, 200)
+def test_no_coefficient_is_no_friction(seed: int) -> None:
+    tree = rough_tree(seed, most=0.0)
+    r, plain = da.dynamics(da.mechanism(tree)), da.dynamics(da.mechanism({**tree, "friction": OFF}))
+    assert plain.friction is None
+    for name in r.drives:
+        good = solved(r)
+        assert np.allclose(
+            r.effort(name)[good], plain.effort(name)[good], rtol=1e-9, atol=1e-9 * forces(plain)
+        )
+
+
+@over(8, 200)
+def test_small_coefficients_go_to_no_friction(seed: int) -> None:
+    """The change of the efforts is linear in a small coefficient: halving it halves the change."""
+    changes = []
+    plain = da.dynamics(da.mechanism({**rough_tree(seed), "friction": OFF}))
+    for part in (1e-4, 5e-5):
+        tree = rough_tree(seed)
+        for joint in tree["joints"].values():
+            if "friction" in joint:
+                joint["friction"]["coefficient"] = part * joint["friction"].get("coefficient", 0.3)
+        r = da.dynamics(da.mechanism(tree))
+        good = solved(r)
+        changes.append(np.array([r.effort(d)[good] - plain.effort(d)[good] for d in r.drives]))
+    if changes[0].size and np.max(np.abs(changes[0])) > 1e-8 * forces(plain):
+        assert np.max(np.abs(changes[0] - 2 * changes[1])) < 0.02 * np.max(np.abs(changes[0]))
+
+
+def forces(r: Any) -> float:
+    """Largest force times (at least one) metre."""
+    return float(np.nanmax(np.abs(r.force_array))) * max(1.0, r.compiled.layout.length)
+
+
+@over(8, 200)
+def test_scaling_all_loads_scales_everything(seed: int) -> None:
+    k = 3.7
+    tree = rough_tree(seed)
+    r, larger = da.dynamics(da.mechanism(tree)), da.dynamics(da.mechanism(_scaled(tree, k)))
+    assert larger.status == r.status
+    close = {"rtol": 1e-8, "atol": 1e-8 * finite_forces(r), "equal_nan": True}
+    for joint in r.joints:
+        assert np.allclose(larger.reaction(joint), k * r.reaction(joint), **close)
+    for drive in r.drives:
+        assert np.allclose(larger.effort(drive), k * r.effort(drive), **close)
+
+
+def finite_forces(r: Any) -> float:
+    return forces(r) if np.isfinite(r.force_array).any() else 1.0
+
+
+def _scaled(tree: dict[str, Any], k: float) -> dict[str, Any]:
+    """All masses, loads, stiffnesses and dampings times k."""
+    out = deepcopy(tree)
+    for link in out["links"].values():
+        for key in ("mass", "inertia"):
+            if key in link:
+                link[key] *= k
+    for part in (*out["loads"].values(), *out["joints"].values()):
+        for key in ("value", "stiffness", "damping"):
+            if key in part:
+                part[key] = _times(part[key], k)
+    return out
+
+
+def _times(value: Any, k: float) -> Any:
+    if isinstance(value, dict):
+        return {key: _times(v, k) for key, v in value.items()}
+    if isinstance(value, list):
+        return [k * v for v in value]
+    if isinstance(value, str):
+        number, unit = value.split()
+        return f"{float(number) * k!r} {unit}"
+    return k * value
+
+
+@over(6, 100)
+def test_moving_the_machine_turns_the_forces(seed: int) -> None:
+    motion = Rigid(1.1, 300.0, -200.0)
+    tree = rough_tree(seed)
+    r, moved = da.dynamics(da.mechanism(tree)), da.dynamics(da.mechanism(rough_tree(seed, motion=motion)))
+    assert moved.status == r.status
+    c, s = np.cos(motion.turn), np.sin(motion.turn)
+    for joint in r.joints:
+        force = r.reaction(joint)
+        turned = np.stack([c * force[:, 0] - s * force[:, 1], s * force[:, 0] + c * force[:, 1]], -1)
+        assert np.allclose(
+            moved.reaction(joint), turned, rtol=1e-7, atol=1e-8 * finite_forces(r), equal_nan=True
+        )
+
+
+CYCLES = """
+    four_bar slider_crank inverted_slider_crank whitworth crank_shaper scotch_yoke watt_1 watt_2 stephenson_1
+    stephenson_2 stephenson_3 toggle_press
+"""
+
+
+@pytest.mark.parametrize("template", CYCLES.split())
+def test_energy_of_a_whole_cycle(template: str) -> None:
+    """Input power = power against the loads + losses of the joints + change of kinetic energy, and over the cycle."""
+    r = da.dynamics(cycle(template))
+    good = solved(r)
+    assert good.all(), r.problems()
+    given = sum(r.effort(d) * r.drive_speed(d) for d in r.drives) + load_power(r)
+    lost = sum(r.power_lost(j) for j in r.joints)
+    largest = np.max(np.abs(given)) + np.max(np.abs(lost))
+    assert np.min(lost) > 0
+    assert np.max(np.abs(given - lost - kinetic_rate(r))) < 1e-9 * largest
+    assert abs(np.sum(given - lost - kinetic_rate(r))) < 1e-9 * largest * len(good)
+
+
+def cycle(template: str) -> Any:
+    """A library mechanism with friction in all pins and guides, light enough to run, over one turn."""
+    tree = getattr(da, template)().to_tree()
+    tree["friction"] = {"coefficient": 0.08, "circle": "sin"}
+    for joint in tree["joints"].values():
+        if joint["type"] == "pin":
+            joint["friction"] = {"radius": "6 mm"}
+        if joint["type"] == "slider":
+            joint["friction"] = {"guide": ["40 mm", "60 mm"], "half_height": "10 mm"}
+        if joint["type"] == "slot":
+            joint["friction"] = {"radius": "6 mm"}
+    for drive in tree["drives"].values():
+        drive["position"] = {"from": "3.7 deg", "to": "363.7 deg", "count": 90}
+    return da.mechanism(tree)
+
+
+def load_power(r: Any) -> Any:
+    """Power of forces, couples and weights on the links."""
+    m, power = r.mechanism, np.zeros(len(r.status))
+    drives = {d: r.drive_position(d) for d in r.drives}
+    for load in m.loads.values():
+        if load.type == "couple":
+            value = load.value.at(drives) if hasattr(load.value, "at") else load.value
+            power = power + value * r.speed(load.on)
+            continue
+        assert load.type == "force"
+        fx, fy = load.force(drives)
+        force = np.stack(np.broadcast_arrays(fx * np.ones(len(power)), fy * np.ones(len(power))), -1)
+        if load.axes == "link":
+            c, s = np.cos(r.angle(load.on)), np.sin(r.angle(load.on))
+            force = np.stack([c * force[:, 0] - s * force[:, 1], s * force[:, 0] + c * force[:, 1]], -1)
+        power = power + (force * r.point_velocity(load.on, load.at)).sum(-1)
+    for link in r.links:
+        power = power + m.mass(link) * (r.center_velocity(link) * np.array(m.gravity_vector)).sum(-1)
+    return power
+
+
+def kinetic_rate(r: Any) -> Any:
+    """Rate of kinetic energy: m v . a + I omega alpha, over all links."""
+    m = r.mechanism
+    return sum(
+        m.mass(k) * (r.center_velocity(k) * r.center_acceleration(k)).sum(-1)
+        + m.inertia(k) * r.speed(k) * r.acceleration(k)
+        for k in r.links
+    )
