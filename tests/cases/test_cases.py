@@ -42,6 +42,9 @@ def test_every_answer_has_its_reason_and_every_case_its_source(path: Path) -> No
 @every_case
 def test_bodies_balance_and_power_agrees(path: Path) -> None:
     result = solve(load(path))
-    assert result.ok.all(), result.problems()
-    assert np.nanmax(result.residual) < 1e-9
-    assert np.nanmax(result.power_balance) < 1e-9
+    claimed = {answer.value for answer in result.mechanism.answers if answer.quantity == "status"}
+    assert set(result.status) <= {"ok", *claimed}, result.problems()
+    whole = [result] if np.isfinite(result.residual).any() else [end for ends in result.ends for end in ends]
+    for solved in whole:
+        assert np.max(solved.residual, initial=0.0, where=np.isfinite(solved.residual)) < 1e-9
+        assert np.max(solved.power_balance, initial=0.0, where=np.isfinite(solved.power_balance)) < 1e-9

@@ -20,7 +20,7 @@ PUBLISHED_NAMES = """
 
 SEEDS, PUBLISHED = SEED_NAMES.split(), PUBLISHED_NAMES.split()
 
-IN_PART = {"002-7"}
+IN_PART: set[str] = set()
 """Problems of which one part is a file and another waits."""
 
 

@@ -124,11 +124,11 @@ def _pin(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:
 def _slider(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:
     f = joint.friction
     slide = (Along, {"axis": table.direction(joint), "pitch": 0.0})
-    tilt = (0.0, 0.0)
+    couple, tilt = -1, (0.0, 0.0)
     if f.guide is not None:
         behind, ahead = f.guide
-        tilt = 2 / (behind + ahead), -(ahead - behind) / (behind + ahead)
-    yield Contact("guide", slide, first, couple=first + 1, tilt=tilt)
+        couple, tilt = first + 1, (2 / (behind + ahead), -(ahead - behind) / (behind + ahead))
+    yield Contact("guide", slide, first, couple=couple, tilt=tilt)
     if f.half_height:
         yield Contact("faces", TURN, first, lever=f.half_height, signed=True, led=-1)
 

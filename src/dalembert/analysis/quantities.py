@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.columns import drive_kinds, load_kind
+from dalembert.analysis.friction import guide_contact
 from dalembert.errors import ModelError
 from dalembert.wording import closest
 
@@ -73,6 +74,25 @@ def _on(r: Result, a: Answer, joint: str) -> str | None:
     return j if a.by == i else i
 
 
+def _end(k: int, loads: bool) -> Read:
+    """Low (0) or high (1) end of what friction leaves open."""
+
+    def read(r: Result, a: Answer) -> Series:
+        name = _name(a, r.unknown_loads if loads else r.drives, "unknown load" if loads else "drive")
+        kind = load_kind(r, name) if loads else drive_kinds(r, name)["effort"]
+        return Series(kind, r.interval(name)[:, k])
+
+    return read
+
+
+def _friction(kind: str, name: str) -> Read:
+    return lambda r, a: Series(kind, getattr(r, name)(_name(a, r.joints, "joint")))
+
+
+def _face(name: str) -> Read:
+    return lambda r, a: Series("force", getattr(guide_contact(r, _name(a, r.joints, "joint")), name))
+
+
 def _of_link(kind: str, name: str) -> Read:
     return lambda r, a: Series(kind, getattr(r, name)(_name(a, r.links, "link")))
 
@@ -118,6 +138,15 @@ QUANTITIES: dict[str, Read] = {
     "turn": _of_freedom("turn", 0),
     "turn_speed": _of_freedom("turn", 1),
     "turn_acceleration": _of_freedom("turn", 2),
+    "effort_low": _end(0, False),
+    "effort_high": _end(1, False),
+    "unknown_load_low": _end(0, True),
+    "unknown_load_high": _end(1, True),
+    "friction_force": _friction("force", "friction_force"),
+    "friction_moment": _friction("moment", "friction_moment"),
+    "power_lost": _friction("power", "power_lost"),
+    "lower_face": _face("lower"),
+    "upper_face": _face("upper"),
     "residual": lambda r, a: Series("number", r.residual),
     "power_balance": lambda r, a: Series("number", r.power_balance),
 }
