@@ -24,6 +24,7 @@ if TYPE_CHECKING:
         solve,
         statics,
     )
+    from dalembert.analysis.actions import forces_on
     from dalembert.analysis.answers import check_file
     from dalembert.analysis.batch import BatchResult, Kernel, compile  # noqa: A004
     from dalembert.analysis.members import displaced_inertia, inertia_shares, members, order_of_solution
@@ -130,6 +131,7 @@ _HOME = {
     "draw": "views",
     "dynamics": "analysis",
     "five_bar": "model.library",
+    "forces_on": "analysis.actions",
     "four_bar": "model.library",
     "inertia_shares": "analysis.members",
     "inverted_slider_crank": "model.library",
@@ -207,6 +209,7 @@ __all__ = [
     "draw",
     "dynamics",
     "five_bar",
+    "forces_on",
     "four_bar",
     "inertia_shares",
     "inverted_slider_crank",

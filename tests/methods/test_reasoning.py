@@ -116,3 +116,36 @@ def test_given_effort_and_unknown_load() -> None:
     assert any(s.startswith("effort of") for s in parts.sources)
     assert (parts.gap < CLOSE).all()
     assert (da.virtual_work(r).gap < CLOSE).all()
+
+
+ROUGH = """
+units: {length: m, force: N}
+links:
+  ground: {points: {O: [0, 0]}}
+  crank: {points: {O: [0, 0], A: [0.3, 0]}}
+  rod: {points: {A: [0, 0], B: [1.25, 0]}}
+  piston: {points: {B: [0, 0]}}
+joints:
+  O: {type: pin, links: [ground, crank], friction: {coefficient: 0.4, radius: 0.07}}
+  A: {type: pin, links: [crank, rod], friction: {coefficient: 0.4, radius: 0.06}}
+  B: {type: pin, links: [rod, piston], friction: {coefficient: 0.4, radius: 0.04}}
+  guide: {type: slider, links: [ground, piston], at: [O, B], friction: {coefficient: 0.07}}
+drives: {O: {position: 50 deg, speed: 1 rad/s}}
+loads: {F: {type: force, on: piston, at: B, value: [-22089, 0]}}
+"""
+
+
+def test_friction_is_refused_by_superposition_and_shown_by_itself() -> None:
+    r = da.dynamics(da.loads(ROUGH))
+    with pytest.raises(da.ModelError, match="superposition is refused: with dry friction"):
+        da.superposition(r)
+    with pytest.raises(da.ModelError, match="virtual work is refused"):
+        da.virtual_work(r)
+    found = da.forces_on(r, "piston")
+    assert [a.of for a in found["friction"]] == ["B", "guide"]
+    assert found["friction"][1].force[0] == pytest.approx(r.friction_force("guide")[0])
+    for link in r.links:
+        some = on_link(actions(r), link)
+        assert np.abs(sum(a.force for a in some)).max() < 1e-9
+        assert np.abs(sum(a.moment(r.center(link)) for a in some)).max() < 1e-9
+    assert da.members(r)["rod"].kind == "two-force"

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result import Result
 
 Array = NDArray[Any]
-Kind = Literal["joint", "effort", "load", "weight", "spring", "damper", "inertia"]
+Kind = Literal["joint", "friction", "effort", "load", "weight", "spring", "damper", "inertia"]
 GROUND = "ground"
 
 
@@ -78,20 +78,40 @@ def actions(r: Result) -> tuple[Action, ...]:
     return (*joint_actions(r), *effort_actions(r), *known_actions(r), *unknown_load_actions(r))
 
 
+def forces_on(r: Result, link: str) -> dict[str, tuple[Action, ...]]:
+    """What acts on a link by class: `joint`, `applied` (loads, weights, springs, efforts), `friction`, `inertia`.
+
+    >>> import dalembert as da
+    >>> from dalembert.bundled import examples
+    >>> found = da.forces_on(da.dynamics(da.load(examples()["four_bar"])), "coupler")
+    >>> {name: [a.of for a in some] for name, some in found.items()}
+    {'joint': ['A', 'B'], 'applied': ['F_P'], 'friction': [], 'inertia': ['coupler', 'coupler']}
+    """
+    classes = {"joint": "joint", "friction": "friction", "damper": "friction", "inertia": "inertia"}
+    out: dict[str, list[Action]] = {"joint": [], "applied": [], "friction": [], "inertia": []}
+    for a in on_link(actions(r), link):
+        out[classes.get(a.kind, "applied")].append(a)
+    return {name: tuple(some) for name, some in out.items()}
+
+
 def on_link(all_of_them: tuple[Action, ...], link: str) -> tuple[Action, ...]:
     """Those on one link."""
     return tuple(a for a in all_of_them if a.link == link)
 
 
 def joint_actions(r: Result) -> tuple[Action, ...]:
-    """Reactions of all joints, on both links."""
+    """Reactions of all joints, on both links; the part of dry friction by itself."""
     out = []
     for joint in r.joints:
         i, j = r.mechanism.joints[joint].links
         at = joint_place(r, joint)
         for on, by in ((j, i), (i, j)):
             least = r.least_norm(joint, on)
-            out.append(Action(joint, "joint", "", on, by, at, least[..., :2], least[..., 2]))
+            rub, turn = r.friction_force(joint, on), r.friction_moment(joint, on)
+            rest = (least[..., :2] - rub, least[..., 2] - turn)
+            out.append(Action(joint, "joint", "", on, by, at, *rest))
+            if rub.any() or turn.any():
+                out.append(Action(joint, "friction", "", on, by, at, rub, turn))
     return tuple(out)
 
 

@@ -110,6 +110,7 @@ def members(r: Result, limit: float = NOTHING) -> dict[str, Member]:
 
 
 def _member(r: Result, link: str, some: Sequence[Action], floor: float) -> Member:
+    some = [a for a in some if a.kind != "friction"]
     forces = [a for a in some if a.kind == "joint" or np.nanmax(magnitude(a.force), initial=0.0) > floor]
     length = r.compiled.layout.length
     couples = [

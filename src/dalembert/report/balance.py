@@ -118,7 +118,7 @@ class _Term:
     def place(self) -> str:
         """Index of the arm: the joint, the load's own index, or G."""
         a = self.action
-        if a.kind == "joint":
+        if a.kind in ("joint", "friction"):
             return a.of
         if a.kind in ("load", "spring", "damper"):
             return self.symbol.partition("_{")[2].rstrip("}") or a.of

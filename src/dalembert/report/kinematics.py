@@ -124,7 +124,7 @@ def velocity_lines(loop: Loop, shown: Shown) -> list[Working]:
     """Time derivative of the position's sums."""
     out = []
     for axis in (0, 1):
-        letters, numbers, total, largest = [], [], [], 0.0
+        letters, total = [], []
         for s in _moving(loop):
             c, n = math.cos(s.angle), math.sin(s.angle)
             turning = (-n if axis == 0 else c) * s.speed * s.length
@@ -133,15 +133,12 @@ def velocity_lines(loop: Loop, shown: Shown) -> list[Working]:
                 letters.append(
                     f"{function[0]} r_{{{s.name}}} omega_{{{s.name}}} {function[1]} theta_{{{s.name}}}"
                 )
-                numbers.append(_term(shown, "speed", turning))
                 total.append(turning)
             if s.slide is not None:
                 along = (c if axis == 0 else n) * s.slide[0]
                 letters.append(f"+ v_{{{s.name}}} {'cos' if axis == 0 else 'sin'} theta_{{{s.name}}}")
-                numbers.append(_term(shown, "speed", along))
                 total.append(along)
-        largest = max(map(abs, total), default=0.0)
-        out.append(_closed(_first(letters), _first(numbers), math.fsum(total), largest, shown, "speed"))
+        out.append(_summed(letters, total, shown, "speed"))
     return out
 
 
@@ -149,11 +146,10 @@ def acceleration_lines(loop: Loop, shown: Shown) -> list[Working]:
     """Second derivative of the position's sums."""
     out = []
     for axis in (0, 1):
-        letters, numbers, total = [], [], []
+        letters, total = [], []
         for s in _moving(loop):
             for text, value in _accelerations(s, axis):
                 letters.append(text)
-                numbers.append(_term(shown, "acceleration", value))
                 total.append(value)
         largest = max(map(abs, total), default=0.0)
         out.append(
@@ -187,8 +183,12 @@ def _moving(loop: Loop) -> list[Vector]:
     return [s for s in loop.sides if s.speed or s.acceleration or s.slide is not None]
 
 
-def _term(shown: Shown, kind: str, value: float) -> str:
-    return f"{'−' if value < 0 else '+'} {_num(shown, kind, abs(value))}"
+def _summed(letters: list[str], values: list[float], shown: Shown, kind: str) -> Working:
+    """Terms in letters and their values, and the sum; rounding noise is 0."""
+    largest = max(map(abs, values), default=0.0)
+    kept = [v if abs(v) > 1e-9 * largest else 0.0 for v in values]
+    numbers = [f"{'−' if v < 0 else '+'} {_num(shown, kind, abs(v))}" for v in kept]
+    return _closed(_first(letters), _first(numbers), math.fsum(values), largest, shown, kind)
 
 
 def _first(parts: list[str]) -> str:

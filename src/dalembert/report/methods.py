@@ -41,7 +41,7 @@ def superposition(sheet: Sheet, c: Chosen) -> None:
         parts = split(r)
     except ModelError as error:
         sheet.heading("Superposition")
-        sheet.text(f"{error.what}.")
+        sheet.text(f"{error.what[:1].upper()}{error.what[1:]}.")
         return
     if len(parts.sources) < 2:
         return
@@ -102,7 +102,7 @@ def virtual_work(sheet: Sheet, c: Chosen) -> None:
     try:
         found = by_virtual_work(r)
     except ModelError as error:
-        sheet.text(f"{error.what}.")
+        sheet.text(f"{error.what[:1].upper()}{error.what[1:]}.")
         return
     for n, drive in enumerate(r.drives):
         kind = drive_kinds(r, drive)["effort"]

@@ -95,7 +95,8 @@ def _answers(sheet: Sheet, c: Chosen) -> None:
         on = j if j != "ground" else i
         f = r.reaction(joint, on)[k]
         moment = float(r.reaction_moment(joint, on)[k])
-        a = next(a for a in actions(r) if a.kind == "joint" and a.of == joint and a.link == on)
+        part = next(a for a in actions(r) if a.kind == "joint" and a.of == joint and a.link == on)
+        a = replace(part, force=r.reaction(joint, on))
         along = components_along(r, a, k) if np.isfinite(f).all() else (math.nan, math.nan)
         largest = float(np.nanmax(np.abs(r.force_array[k]), initial=0.0)) * 1e-10
         rows.append(

@@ -131,6 +131,9 @@ class Shown:
             return (
                 f"{'T' if turning else 'F'}_{{{self.pair(a.by or GROUND, a.link)}{'' if turning else ',d'}}}"
             )
+        if a.kind == "friction":
+            pair = self.pair(a.by or GROUND, a.link)
+            return f"{'M' if turning else self.notation.letter}_{{f{pair}}}"
         if a.kind == "weight":
             return f"W_{{{self.link(a.link)}}}"
         if a.kind == "inertia":
