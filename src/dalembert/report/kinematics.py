@@ -151,10 +151,7 @@ def acceleration_lines(loop: Loop, shown: Shown) -> list[Working]:
             for text, value in _accelerations(s, axis):
                 letters.append(text)
                 total.append(value)
-        largest = max(map(abs, total), default=0.0)
-        out.append(
-            _closed(_first(letters), _first(numbers), math.fsum(total), largest, shown, "acceleration")
-        )
+        out.append(_summed(letters, total, shown, "acceleration"))
     return out
 
 
