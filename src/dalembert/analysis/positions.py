@@ -17,7 +17,7 @@ from dalembert.core.constraints import measure
 from dalembert.core.course import Course, course
 from dalembert.core.follow import Path, path
 from dalembert.core.layout import Mesh, Pose
-from dalembert.core.rank import rank, well_driven
+from dalembert.core.rank import held, rank
 from dalembert.errors import ModelError
 
 Array = NDArray[Any]
@@ -50,7 +50,7 @@ def positions(c: Compiled) -> Positions:
     along = course(c.layout, c.targets)
     start = along.at(place)
     here = general = first.pose.at(0)
-    if c.schedule.names and not well_driven(c.layout, general):
+    if c.schedule.names and not held(c.layout, general):
         ahead, beside = _beside(c, along, start, first)
         general = general if beside is None else beside.pose.at(0)
         if beside is not None and len(c.targets) > 1:

@@ -18,8 +18,9 @@ from dalembert.core.layout import Layout
 
 Array = NDArray[Any]
 
-STRAIGHT = 0.9
-"""Cosine of the largest change of direction between two positions that is not a break."""
+STRAIGHT = 0.999
+"""Cosine of the largest change of direction between two positions that is not a break: a few hundredths of the
+travel, which the march's predictor may be off by."""
 
 
 @dataclass(frozen=True)

@@ -35,12 +35,15 @@ def singular_below(layout: Layout) -> float:
     return SINGULAR / max(1.0, layout.links / 10) ** 3
 
 
-def well_driven(layout: Layout, pose: Pose) -> bool:
-    """Constraints and drives fix every link once, neither more nor less: the common case, asked cheaply."""
-    if layout.stack.count != layout.unknowns:
-        return False
+def held(layout: Layout, pose: Pose) -> bool:
+    """Constraints and drives leave no link free at this pose."""
     rcond = factor(layout, stacked(layout, pose.at(None))).rcond[0]
     return bool(rcond > singular_below(layout))
+
+
+def well_driven(layout: Layout, pose: Pose) -> bool:
+    """Constraints and drives fix every link once, neither more nor less: the common case, asked cheaply."""
+    return layout.stack.count == layout.unknowns and held(layout, pose)
 
 
 TOLERANCE = 1e-7
