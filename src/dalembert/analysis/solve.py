@@ -69,7 +69,12 @@ def _analysed(m: Mechanism, count: int | None, strict: bool, inertia: bool, forc
 
 
 def at_schedule(m: Mechanism, schedule: Schedule, inertia: bool, forces: bool = True) -> Result:
-    """Analysis at the positions of a schedule."""
+    """Analysis at the positions of a schedule. What overflows or has no value becomes a status, not a warning."""
+    with np.errstate(all="ignore"):
+        return _at_schedule(m, schedule, inertia, forces)
+
+
+def _at_schedule(m: Mechanism, schedule: Schedule, inertia: bool, forces: bool) -> Result:
     c = compiled(m, schedule)
     if forces:
         check_knowns(c)
