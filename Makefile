@@ -1,7 +1,7 @@
 # make run        a private environment in .venv, then the first example solved and printed
 # make test       the same environment with what the tests need; ruff, mypy --strict, pytest
 # make gallery    drawings and worked solutions of the bundled problems, in build/gallery
-# make test-long  the long tests too, in one run
+# make test-long  the long tests too, on two cores; make test-exhaustive all there are (over an hour)
 # Needs nothing but make and Python 3.11 or newer.
 
 VENV ?= .venv
@@ -15,7 +15,7 @@ FIND_PYTHON = for p in $(PYTHON) python3 python3.14 python3.13 python3.12 python
   echo "dalembert needs Python 3.11 or newer with its venv module; none was found." \
        "Install it, or name it: make $(MAKECMDGOALS) PYTHON=/path/to/python3" >&2; exit 1
 
-.PHONY: run test test-long lint gallery clean
+.PHONY: run test test-long test-exhaustive lint gallery clean
 
 run: $(VENV)/.run
 	@$(BIN)/dalembert solve examples/four_bar.yaml
@@ -24,7 +24,10 @@ test: lint
 	@$(BIN)/python -m pytest $(PYTEST_ARGS)
 
 test-long: lint
-	@$(BIN)/python -m pytest -m "long or not long" $(PYTEST_ARGS)
+	@$(BIN)/python -m pytest -m "not exhaustive" -n 2 $(PYTEST_ARGS)
+
+test-exhaustive: lint
+	@$(BIN)/python -m pytest -m "" -n 2 $(PYTEST_ARGS)
 
 gallery: $(VENV)/.test
 	@$(BIN)/python docs/gallery.py

@@ -8,8 +8,6 @@ import sys
 import time
 from pathlib import Path
 
-import pytest
-
 from dalembert.bundled import examples
 
 COMMAND = [sys.executable, "-m", "dalembert"]
@@ -47,15 +45,3 @@ def test_interruption_is_quiet(tmp_path: Path) -> None:
         _, err = process.communicate(timeout=30)
         assert (process.returncode, err) == (130, b"")
     assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.long
-@pytest.mark.parametrize(("arguments", "seconds"), [(["--help"], 0.5), (["solve", FOUR_BAR], 0.8)])
-def test_it_starts_fast(arguments: list[str], seconds: float) -> None:
-    """The best of five, from process start to its end: the machine may be busy with other things."""
-    best = float("inf")
-    for _ in range(5):
-        started = time.perf_counter()
-        subprocess.run([*COMMAND, *arguments], capture_output=True, check=True)
-        best = min(best, time.perf_counter() - started)
-    assert best < seconds

@@ -27,8 +27,16 @@ def test_random_mechanisms(seed: int) -> None:
     assert worst < TOLERANCE
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("seed", range(12, 1000))
+LONG, ALL = range(12, 150), range(150, 1000)
+
+
+@pytest.mark.parametrize(
+    "seed",
+    [
+        *(pytest.param(s, marks=pytest.mark.long) for s in LONG),
+        *(pytest.param(s, marks=pytest.mark.exhaustive) for s in ALL),
+    ],
+)
 def test_many_random_mechanisms(seed: int) -> None:
     worst, _ = compared(seed)
     assert worst < TOLERANCE

@@ -68,8 +68,13 @@ def test_a_changed_tree_is_refused_or_answered_honestly(seed: int) -> None:
     check(mutated(bases()[seed % len(bases())], seed))
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("block", range(100))
+@pytest.mark.parametrize(
+    "block",
+    [
+        *(pytest.param(b, marks=pytest.mark.long) for b in range(10)),
+        *(pytest.param(b, marks=pytest.mark.exhaustive) for b in range(10, 100)),
+    ],
+)
 def test_a_hundred_thousand_changed_trees(block: int) -> None:
     for seed in range(1000 * (block + 1), 1000 * (block + 2)):
         check(mutated(bases()[seed % len(bases())], seed))

@@ -42,11 +42,14 @@ from tests.random_mechanisms import (
 )  # fmt: skip
 
 TOLERANCE = 1e-9
+LONG = 200
 
 
 def over(quick: int, long: int = 1000) -> Callable[..., Any]:
-    """A law on the first seeds, one test each, and with the mark ``long`` on the rest, a block of 50 a test."""
-    blocks = [pytest.param(range(s, s + 50), marks=pytest.mark.long) for s in range(quick, long, 50)]
+    """A law on the first seeds, one test each; on more with the mark ``long``, on the rest with ``exhaustive``, a
+    block of 50 a test."""
+    marks = pytest.mark.long, pytest.mark.exhaustive
+    blocks = [pytest.param(range(s, s + 50), marks=marks[s >= LONG]) for s in range(quick, long, 50)]
 
     def decorated(law: Callable[..., None]) -> Callable[..., None]:
         @wraps(law)
