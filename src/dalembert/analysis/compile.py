@@ -153,9 +153,10 @@ def _refuse_unready(m: Mechanism) -> None:
 
 
 def _references(m: Mechanism, index: dict[str, int]) -> Array:
-    """Reference point of each link: its point of the first joint, so that arms stay short and many are zero."""
+    """Reference point of each link: its point of the first joint, one with the ground before others, so that arms stay
+    short and many, and many velocities, are zero."""
     reference: dict[int, Any] = {}
-    for name, joint in m.joints.items():
+    for name, joint in sorted(m.joints.items(), key=lambda item: GROUND not in item[1].links):
         for link, u in zip(joint.links, m.joint_points(name), strict=True):
             reference.setdefault(index[link], u)
     return table.numbers([reference.get(k, (0.0, 0.0)) for k in range(len(index))])

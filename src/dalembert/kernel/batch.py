@@ -33,6 +33,11 @@ def path_array(columns: Array, common: Array, lanes: int, weighted: bool) -> tup
     return np.concatenate([out.ravel(), common]), blocks
 
 
+def row_length(blocks: int, lanes: int) -> int:
+    """Numbers from one output to the next in the results of a grid: an odd number of vectors."""
+    return (blocks | 1) * lanes
+
+
 def run_grid(
     machine: Machine,
     program: Program,

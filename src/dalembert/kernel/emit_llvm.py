@@ -17,7 +17,7 @@ FAST = "reassoc nsz arcp contract"
 """Fast-math flags: NaN stays NaN, infinity infinity."""
 
 
-WIDE = '"min-legal-vector-width"="512" "prefer-vector-width"="512"'
+WIDE = '"min-legal-vector-width"="512" "prefer-vector-width"="512" alignstack(64) "stackrealign"'
 """Whole registers on processors that LLVM would rather use by halves."""
 
 
@@ -163,7 +163,8 @@ def grid(program: Program, lanes: int, reduce: Slots = ()) -> str:
         "ptr noalias %code, i64 %numbers, i64 %channels, i64 %designs, i64 %blocks) " + WIDE + " {"
     )
     t.lines.append("entry:")
-    t.put(f"%row = mul i64 %blocks, {lanes}")
+    t.put("%odd = or i64 %blocks, 1")  # rows an odd number of vectors apart share no cache sets
+    t.put(f"%row = mul i64 %odd, {lanes}")
     t.put(f"%line = mul i64 %channels, {lanes}")
     t.put("%tail = mul i64 %blocks, %line")
     t.put("%common = getelementptr inbounds double, ptr %path, i64 %tail")

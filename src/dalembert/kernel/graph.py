@@ -266,6 +266,12 @@ class Graph:
             return a.a
         return self.make("neg", a)
 
+    def known(self, node: Any, same: Any) -> None:
+        """From now on the operation that made ``node`` gives ``same``, which is equal to it by what is known."""
+        if type(node) is Node and node.a is not None and type(same) is Node and node is not same:
+            key = (node.op, node.a.index) if node.b is None else (node.op, node.a.index, node.b.index)
+            self.table[key] = same
+
     def unary(self, op: str, a: Node) -> Node:
         if a.op == "const":
             return self.constant(EVALUATE[op](a.value))

@@ -193,7 +193,7 @@ class Parts:
                 length2 = v.dot(arm, arm)
                 h = self.root(length2 - k * k, length2)
                 w = v.plus(v.times(k, axis), v.times(sign * h, v.across(axis)))
-                return v.times(1.0 / length2, v.unturned(arm, w))
+                return self.onto(arm, length2, w)
             d = v.minus(pj, px)
             k = slot.target + v.dot(axis, v.minus(pi, py))
             d2 = v.dot(d, d)
@@ -267,7 +267,7 @@ class Parts:
 
         def sides(sign: Any) -> tuple[Pair, Pair]:
             e = v.plus(v.times(t, d), v.times(sign * h, v.across(d)))
-            return v.times(1.0 / p2, v.unturned(p, e)), v.times(1.0 / q2, v.unturned(q, v.minus(e, d)))
+            return self.onto(p, p2, e), self.onto(q, q2, v.minus(e, d))
 
         self.chosen(lambda sign: sides(sign)[0], x, y)
         ry, rz = sides(self.sign)
@@ -290,7 +290,7 @@ class Parts:
             return v.plus(v.times(k, n), v.times(sign * h, v.across(n)))
 
         def rotation(sign: Any) -> Pair:
-            return v.times(1.0 / p2, v.unturned(p, side(sign)))
+            return self.onto(p, p2, side(sign))
 
         ry = self.chosen(rotation, x, y)
         at = v.plus(a, side(self.sign))
@@ -321,6 +321,13 @@ class Parts:
         self.join(x, (y, first), (z, second))
 
     # the rest
+
+    def onto(self, u: Pair, length2: Any, w: Pair) -> Pair:
+        """The rotation that turns a vector u, of known square, into w of the same length."""
+        r = v.unturned(v.times(1.0 / length2, u), w)
+        for node, same in zip(v.turned(r, u), w, strict=True):
+            self.graph.known(node, same)
+        return r
 
     def root(self, square: Any, scale: Any) -> Any:
         """Square root of what is negative where the linkage does not close."""

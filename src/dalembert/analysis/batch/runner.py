@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from dalembert.analysis.batch import reduction
 from dalembert.analysis.batch.course import Course
 from dalembert.kernel import emit_llvm
-from dalembert.kernel.batch import path_array, run_grid, run_pairs
+from dalembert.kernel.batch import path_array, row_length, run_grid, run_pairs
 from dalembert.kernel.emit_reduce import PLACED, SUMS, Slots, width
 from dalembert.kernel.graph import Node
 from dalembert.kernel.machine import Machine, compiled
@@ -119,7 +119,7 @@ class Runner:
         """Results (design, output, position) or (design, slot), and codes."""
         weighted = any(p in SUMS for _, p in slots)
         path = path_array(columns, common, machine.lanes, weighted)
-        count, row = len(values), path[1] * machine.lanes
+        count, row = len(values), row_length(path[1], machine.lanes)
         shape: tuple[int, ...] = (count, width(slots)) if slots else (count, len(program.outputs), row)
         out, code = np.empty(shape), np.empty((count,) if slots else (count, row), np.uint8)
         channels = columns.shape[1] + weighted
