@@ -27,7 +27,7 @@ def graphical(sheet: Sheet, c: Chosen) -> None:
     lines = [
         draw.lines_of_action(r, link, at, c.notation)
         for link, m in found.items()
-        if m.kind in ("three-force", "four-force")
+        if m.kind in ("three-force", "four-force", "two-force with couple")
     ]
     polygons = [draw.force_polygon(r, link, at, c.notation) for link, m in found.items() if len(m.forces) > 1]
     sheet.figure(*lines, *polygons, *([draw.force_chain(r, at, c.notation)] if len(r.links) > 1 else []))

@@ -60,6 +60,8 @@ def inertia(sheet: Sheet, c: Chosen) -> None:
     sheet.heading("Inertia forces")
     lines = [line for link in heavy for line in _inertia_lines(c, link)]
     sheet.equations(lines)
+    displaced = [k for k in heavy if r.mechanism.inertia(k) and float(r.acceleration(k)[c.k])]
+    sheet.figure(*(draw.displaced_inertia(r, k, c.k + 1, c.notation) for k in displaced[:3]))
     shares = inertia_shares(r) if not r.compiled.forcing.separation.any() else ()
     if shares:
         least = max(s.share for s in shares)

@@ -41,6 +41,8 @@ def working(
     if r.status[c.k] not in ("ok", "redundant"):
         sheet.heading("No answer")
         sheet.text(f"{r.status[c.k]}: {r.reasons[c.k]}")
+        if r.status[c.k] == "at_rest":
+            sheet.equations(_intervals(c))
         return sheet
     motion(sheet, c)
     inertia(sheet, c)
@@ -55,6 +57,16 @@ def working(
     cycle(sheet, c)
     checks(sheet, c)
     return sheet
+
+
+def _intervals(c: Chosen) -> list[Working]:
+    """What friction leaves open: every effort or unknown load between the two impending motions."""
+    r, shown, out = c.r, c.shown, []
+    kinds = {d: drive_kinds(r, d)["effort"] for d in r.drives} | {u: load_kind(r, u) for u in r.unknown_loads}
+    for name, kind in kinds.items():
+        low, high = (shown.number(kind, float(v)) for v in r.interval(name)[c.k])
+        out.append(Working(f'"{name}": quad {low} "to" {high} "{shown.unit(kind)}"'))
+    return out
 
 
 def _where(c: Chosen) -> str:

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from dalembert.views import charts as _charts
 from dalembert.views.animation import Animation, animation_scene
 from dalembert.views.free_body import components_scene, free_body_scene
+from dalembert.views.inertia import displaced_inertia_scene
 from dalembert.views.mechanism import mechanism_scene, place_title, position_at
 from dalembert.views.motion import instant_centers_scene, motion_polygon_scene
 from dalembert.views.notation import Notation, Shown
@@ -108,6 +109,11 @@ def beside(scenes: Sequence[Scene], title: str = "", width: float = 240.0) -> Sc
     return stacked(scenes, title=title, width=width)
 
 
+def displaced_inertia(r: Result, link: str, at: Any = None, notation: Notation | None = None) -> Scene:
+    """The inertia force of a link on its displaced line, with its offset h."""
+    return displaced_inertia_scene(r, _link(r, link), position_at(r, at), notation)
+
+
 def superposition(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
     """Force polygons of the chain for one source at a time, then for all together."""
     from dalembert.analysis.superposition import superposition as split
@@ -178,6 +184,7 @@ __all__ = [
     "beside",
     "charts",
     "components",
+    "displaced_inertia",
     "force_chain",
     "force_polygon",
     "force_polygons",

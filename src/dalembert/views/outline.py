@@ -78,6 +78,9 @@ def wheels(r: Result, name: str, joint: Any, k: int) -> list[tuple[tuple[float, 
 def link_shape(r: Result, link: str, k: int, frame: Frame) -> list[Item]:
     """A bar, or an area with its outline for more than two points; the block of a slider is a symbol."""
     places = list(dict.fromkeys(_rounded(frame(p)) for p in link_points(r, link, k).values()))
+    if len(places) == 1 and r.mechanism.mass(link):
+        center = frame(r.center(link)[k])
+        return [Line((places[0], center), "link")] if math.dist(places[0], center) > 0.5 else []
     hull = convex(places)
     if len(hull) >= 3:
         return [Polygon(tuple(hull), "link-area")]

@@ -201,6 +201,8 @@ def _meeting(
 ) -> list[str]:
     """Marks of concurrency, and what to say of it."""
     names = [shown.symbol(a).replace("_{", "").replace("}", "") for a in mine]
+    if len(mine) == 2:
+        return _arm(canvas, mine, k, frame, shown)
     if len(mine) == 3:
         point = concurrency(mine, k)
         if point is None:
@@ -219,6 +221,38 @@ def _meeting(
                 f"{names[0]}, {names[1]} meet in P, {names[2]}, {names[3]} in Q; PQ carries both resultants."
             ]
     return []
+
+
+def arm_of_couple(two: Sequence[Action], k: int) -> float:
+    """Distance in metres of the lines of two equal and opposite forces."""
+    (fx, fy), line = two[0].force[k], two[1].at[k] - two[0].at[k]
+    size = float(np.hypot(fx, fy))
+    return abs(float(line[0] * fy - line[1] * fx)) / size if size else 0.0
+
+
+def _arm(canvas: Canvas, mine: Sequence[Action], k: int, frame: Frame, shown: Shown) -> list[str]:
+    """The arm of the couple that two parallel forces make, with its length."""
+    h = arm_of_couple(mine, k)
+    if frame.length(h) < 0.5:
+        return []
+    f = mine[0].force[k]
+    across = np.array([-f[1], f[0]]) / float(np.hypot(*f))
+    start = np.asarray(mine[0].at[k])
+    end = start + across * float((mine[1].at[k] - start) @ across)
+    canvas.add(Line((frame(end), frame(mine[1].at[k])), "construction"))
+    dimension(canvas, frame(start), frame(end), f"h = {shown.text('length', h)}")
+    size = float(np.hypot(*f))
+    words = f"Two equal and opposite forces {shown.text('force', size)} at h = {shown.text('length', h)}"
+    return [f"{words} make the couple {shown.text('moment', size * h * shown.notation.torque)}."]
+
+
+def dimension(canvas: Canvas, a: Point, b: Point, text: str) -> None:
+    """A dimension line between two places."""
+    middle = ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
+    canvas.add(
+        Arrow(middle, a, "dimension", kind="dimension"), Arrow(middle, b, "dimension", kind="dimension")
+    )
+    canvas.label(text, middle, size=2.8, role="note")
 
 
 def _mark(canvas: Canvas, at: Point, span: tuple[float, ...], name: str) -> None:
