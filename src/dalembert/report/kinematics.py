@@ -122,9 +122,10 @@ def position_lines(loop: Loop, shown: Shown) -> list[Working]:
 
 def velocity_lines(loop: Loop, shown: Shown) -> list[Working]:
     """Time derivative of the position's sums."""
-    out = []
+    out: list[tuple[list[str], list[float]]] = []
     for axis in (0, 1):
-        letters, total = [], []
+        letters: list[str] = []
+        total: list[float] = []
         for s in _moving(loop):
             c, n = math.cos(s.angle), math.sin(s.angle)
             turning = (-n if axis == 0 else c) * s.speed * s.length
@@ -138,21 +139,22 @@ def velocity_lines(loop: Loop, shown: Shown) -> list[Working]:
                 along = (c if axis == 0 else n) * s.slide[0]
                 letters.append(f"+ v_{{{s.name}}} {'cos' if axis == 0 else 'sin'} theta_{{{s.name}}}")
                 total.append(along)
-        out.append(_summed(letters, total, shown, "speed"))
-    return out
+        out.append((letters, total))
+    return _summed(out, shown, "speed")
 
 
 def acceleration_lines(loop: Loop, shown: Shown) -> list[Working]:
     """Second derivative of the position's sums."""
-    out = []
+    out: list[tuple[list[str], list[float]]] = []
     for axis in (0, 1):
-        letters, total = [], []
+        letters: list[str] = []
+        total: list[float] = []
         for s in _moving(loop):
             for text, value in _accelerations(s, axis):
                 letters.append(text)
                 total.append(value)
-        out.append(_summed(letters, total, shown, "acceleration"))
-    return out
+        out.append((letters, total))
+    return _summed(out, shown, "acceleration")
 
 
 def _accelerations(s: Vector, axis: int) -> list[tuple[str, float]]:
@@ -180,12 +182,15 @@ def _moving(loop: Loop) -> list[Vector]:
     return [s for s in loop.sides if s.speed or s.acceleration or s.slide is not None]
 
 
-def _summed(letters: list[str], values: list[float], shown: Shown, kind: str) -> Working:
-    """Terms in letters and their values, and the sum; rounding noise is 0."""
-    largest = max(map(abs, values), default=0.0)
-    kept = [v if abs(v) > 1e-9 * largest else 0.0 for v in values]
-    numbers = [f"{'−' if v < 0 else '+'} {_num(shown, kind, abs(v))}" for v in kept]
-    return _closed(_first(letters), _first(numbers), math.fsum(values), largest, shown, kind)
+def _summed(axes: list[tuple[list[str], list[float]]], shown: Shown, kind: str) -> list[Working]:
+    """Terms in letters and their values along both axes, and the sums; rounding noise is 0."""
+    largest = max((abs(v) for _, values in axes for v in values), default=0.0)
+    out = []
+    for letters, values in axes:
+        kept = [v if abs(v) > 1e-9 * largest else 0.0 for v in values]
+        numbers = [f"{'−' if v < 0 else '+'} {_num(shown, kind, abs(v))}" for v in kept]
+        out.append(_closed(_first(letters), _first(numbers), math.fsum(values), largest, shown, kind))
+    return out
 
 
 def _first(parts: list[str]) -> str:
