@@ -106,9 +106,8 @@ def four_bars() -> None:
         print(
             f"four-bar, 9 outputs, 24 numbers varied, {k.program(k.flat).size} operations, {k.lanes} lanes:"
         )
-        print(
-            f"    {mine / count * 1e9:6.2f} ns a position; by hand in C {other / count * 1e9:.2f}; ratio {mine / other:.2f}"
-        )
+        mine, other = mine / count * 1e9, other / count * 1e9
+        print(f"    {mine:6.2f} ns a position; by hand in C {other:.2f}; ratio {mine / other:.2f}")
     torque = da.compile(m, vary=list(FOUR_BAR), outputs=["effort.O2"])
     slopes = da.compile(m, vary=list(FOUR_BAR), outputs=["effort.O2"], derivatives=True)
     peak = da.compile(m, vary=list(FOUR_BAR), outputs=["effort.O2", "magnitude.A"], reduce="peak")
