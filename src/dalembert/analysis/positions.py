@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.compile import Compiled
 from dalembert.analysis.mobility import Mobility, check_drives, mobility_at
-from dalembert.core.assembly import Modes, drawn, modes, phase_rows
-from dalembert.core.closure import least_gap
+from dalembert.core.assembly import Guess, Modes, drawn, modes, phase_rows
+from dalembert.core.closure import CLOSED, closed, least_gap
 from dalembert.core.constraints import measure
 from dalembert.core.course import Course, course
 from dalembert.core.follow import Path, path
@@ -79,11 +79,20 @@ def _beside(c: Compiled, along: Course, start: float, first: Modes) -> tuple[flo
     if along.end > 0:
         step = min(0.02, along.end / 2)
         ahead = start + step if start + step <= along.end else start - step
-        return ahead, modes(c.layout, along.target(ahead)[0], near)
+        return ahead, _in_phase(c, along.target(ahead)[0], near)
     angular = c.layout.freedoms.angular[c.layout.driven]
     nudge = np.concatenate([np.zeros(len(c.target)), 0.05 * np.where(angular, 1.0, c.layout.length)])
-    sides = (modes(c.layout, c.targets[0] + sign * nudge, near) for sign in (1, -1))
+    sides = (_in_phase(c, c.targets[0] + sign * nudge, near) for sign in (1, -1))
     return start, next((found for found in sides if found is not None), None)
+
+
+def _in_phase(c: Compiled, target: Array, near: Guess) -> Modes | None:
+    """Modes near a pose, the first of them with its meshes in the phase they already have."""
+    found = modes(c.layout, target, near)
+    if found is None or not phase_rows(c.layout.constraints).size:
+        return found
+    pose, missing = closed(c.layout, found.pose.at(slice(0, 1)), target[None])
+    return found._replace(pose=pose) if missing[0] <= CLOSED * c.layout.length else None
 
 
 def _with_phase(c: Compiled, first: Pose) -> Compiled:
