@@ -104,7 +104,7 @@ def _drive_table(result: Result, to: Printed) -> str:
             "position": result.drive_position(drive),
             "speed": result.drive_speed(drive),
             "acceleration": result.drive_acceleration(drive),
-            "effort": result.effort(drive),
+            "effort": significant(result, kinds["effort"], result.effort(drive)),
         }
         cells = [f"{number(float(to(kinds[n], v[0])), 7)} {to.text(kinds[n])}" for n, v in values.items()]
         if result.status[0] == "at_rest" and drive in unknown_kinds(result):
@@ -146,7 +146,8 @@ def _reaction_table(result: Result, to: Printed, axes: Axes) -> str:
     heads += [f"direction\n{angle}", f"moment\n{moment}"]
     rows, least = [], []
     for r in reactions(result, axes):
-        rows.append([r.joint, r.by, r.on, *_wrench(r.force[0], r.moment[0], to)])
+        f, m = significant(result, "force", r.force[0]), significant(result, "moment", r.moment[0])
+        rows.append([r.joint, r.by, r.on, *_wrench(f, float(m), to)])
         if r.least_norm is not None:
             least.append([r.joint, r.by, r.on, *_wrench(r.least_norm[0, :2], r.least_norm[0, 2], to)])
     where = "ground axes" if axes == "ground" else "the axes of link j"
@@ -236,8 +237,25 @@ def _series(result: Result, to: Printed, axes: Axes) -> tuple[list[str], list[An
     for r in reactions(result, axes):
         named.append((f"|F| {r.joint}", "force", np.hypot(r.force[:, 0], r.force[:, 1])))
     return [f"{name}\n{to.text(kind)}" for name, kind, _ in named], [
-        to(kind, values) for _, kind, values in named
+        to(kind, significant(result, kind, values)) for _, kind, values in named
     ]
+
+
+def significant(result: Result, kind: str, values: Any) -> Any:
+    """Forces and moments, those that are nothing but rounding beside the largest of the whole result as 0.
+
+    >>> from dalembert.analysis import statics
+    >>> from dalembert.model.library import four_bar
+    >>> significant(statics(four_bar()), "force", np.array([1e-30, 5.0]))
+    array([0., 5.])
+    """
+    if kind not in ("force", "moment"):
+        return values
+    parts = (result.force_array, result.moment_array, result.effort_array)
+    largest = max(
+        (float(np.nanmax(np.abs(a), initial=0.0)) for a in parts if np.isfinite(a).any()), default=0.0
+    )
+    return np.where(np.abs(values) < 1e-14 * largest, 0.0, values)
 
 
 def _peak_table(result: Result, to: Printed, axes: Axes) -> str:

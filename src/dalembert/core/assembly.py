@@ -23,6 +23,10 @@ STARTS = 64
 FEW = 40
 """Links up to which every start is worth its cost; of more, starts are few and laid down link by link only."""
 
+NEAR = 0.35
+"""A mode this close to the given angles, radians, is taken without a look for others; two modes that both are stand
+near a dead centre, where Newton from the given angles goes to the nearer one."""
+
 LOOSE = 1e-6
 """Part of a link's turn that the constraints leave, above which it can be held."""
 
@@ -64,7 +68,7 @@ def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes |
     given = np.isfinite(guess.turn[:-1])
     if missing[0] <= CLOSED * layout.length:
         off = np.abs(_turned(pose.turn[0, :-1] - guess.turn[:-1])[given]).max(initial=0.0)
-        if given.any() and off < 0.1:
+        if given.any() and off < NEAR:
             return Modes(_reduced(layout, pose), "given")
         if not given.any() and distance(layout, pose, drawn)[0] < SAME:
             return Modes(_reduced(layout, pose), "drawn")
