@@ -61,3 +61,10 @@ def test_the_guide_has_every_status() -> None:
     page = (ROOT / "docs" / "statuses.md").read_text(encoding="utf-8")
     for code, status in STATUSES.items():
         assert f"| `{code}` | {status.sentence} | {status.remedy}".rstrip() in page
+
+
+def test_the_page_on_friction_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    failed, tried = doctest.testfile(str(ROOT / "docs" / "friction.md"), module_relative=False)
+    assert tried > 3
+    assert failed == 0

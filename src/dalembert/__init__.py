@@ -27,6 +27,10 @@ if TYPE_CHECKING:
     from dalembert.analysis.actions import forces_on
     from dalembert.analysis.answers import check_file
     from dalembert.analysis.batch import BatchResult, Kernel, compile  # noqa: A004
+    from dalembert.analysis.branches import other_solutions
+    from dalembert.analysis.efficiency import efficiency
+    from dalembert.analysis.fixed_point import fixed_point
+    from dalembert.analysis.friction import friction_circles, guide_contact
     from dalembert.analysis.members import displaced_inertia, inertia_shares, members, order_of_solution
     from dalembert.analysis.mistakes import check_answers
     from dalembert.analysis.superposition import superposition
@@ -40,6 +44,7 @@ if TYPE_CHECKING:
         ForceLoad,
         FrictionDefaults,
         Gear,
+        GearFriction,
         GuideFriction,
         Link,
         Mechanism,
@@ -98,8 +103,9 @@ _HOME = {
     "ForceLoad": "model",
     "FrictionDefaults": "model",
     "Gear": "model",
-    "Kernel": "analysis.batch",
+    "GearFriction": "model",
     "GuideFriction": "model",
+    "Kernel": "analysis.batch",
     "Link": "model",
     "Mechanism": "model",
     "Mobility": "analysis",
@@ -130,9 +136,13 @@ _HOME = {
     "displaced_inertia": "analysis.members",
     "draw": "views",
     "dynamics": "analysis",
+    "efficiency": "analysis.efficiency",
     "five_bar": "model.library",
+    "fixed_point": "analysis.fixed_point",
     "forces_on": "analysis.actions",
     "four_bar": "model.library",
+    "friction_circles": "analysis.friction",
+    "guide_contact": "analysis.friction",
     "inertia_shares": "analysis.members",
     "inverted_slider_crank": "model.library",
     "json_schema": "model",
@@ -143,6 +153,7 @@ _HOME = {
     "members": "analysis.members",
     "mobility": "analysis",
     "order_of_solution": "analysis.members",
+    "other_solutions": "analysis.branches",
     "report": "report",
     "scissor": "model.library",
     "scotch_yoke": "model.library",
@@ -174,6 +185,7 @@ __all__ = [
     "ForceLoad",
     "FrictionDefaults",
     "Gear",
+    "GearFriction",
     "GuideFriction",
     "Kernel",
     "Link",
@@ -208,9 +220,13 @@ __all__ = [
     "displaced_inertia",
     "draw",
     "dynamics",
+    "efficiency",
     "five_bar",
+    "fixed_point",
     "forces_on",
     "four_bar",
+    "friction_circles",
+    "guide_contact",
     "inertia_shares",
     "inverted_slider_crank",
     "json_schema",
@@ -221,6 +237,7 @@ __all__ = [
     "members",
     "mobility",
     "order_of_solution",
+    "other_solutions",
     "report",
     "scissor",
     "scotch_yoke",

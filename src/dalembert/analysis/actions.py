@@ -291,6 +291,8 @@ class _Builder:
             damped = joint_damping(described)
             rows += [(joint, "damper", f"damping of {joint}", joint, freedom) for freedom in damped]
         for k, (of, kind, source, joint, freedom) in enumerate(rows):
+            if self.r.friction is not None and of == joint:
+                continue  # with friction a reaction has the viscous part in it
             place = joint_place(self.r, joint)
             for end in (k, k + len(rows)):
                 link = int(one.link[end])

@@ -22,6 +22,7 @@ from dalembert.analysis.columns import (
     load_kind,
     reactions,
     scale,
+    unknown_kinds,
 )
 from dalembert.analysis.record import BLOCK, nulled, to_dict, to_json, write_json
 from dalembert.errors import ModelError
@@ -153,6 +154,7 @@ def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -
     to = scale(result, units)
     data: dict[str, Any] = {"status": ("position", np.array(result.status, dtype=str))}
     data |= _drive_arrays(result, to) | _joint_arrays(result, to, axes) | _link_arrays(result, to)
+    data |= _friction_arrays(result, to)
     for load in result.unknown_loads:
         kind = load_kind(result, load)
         data[f"unknown_load_{load}"] = (
@@ -203,6 +205,25 @@ def _joint_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
         "reaction_on": ("joint", [r.on for r in found]),
         "reaction_by": ("joint", [r.by for r in found]),
     }
+
+
+def _friction_arrays(result: Result, to: Scale) -> dict[str, Any]:
+    """What dry friction does in each joint, on j, the power that all friction takes, and ends that it leaves open."""
+    if result.friction is None:
+        return {}
+    force = to("force", np.stack([result.friction_force(j) for j in result.joints], axis=1))
+    moment = to("moment", np.stack([result.friction_moment(j) for j in result.joints], axis=1))
+    lost = to("power", np.stack([result.power_lost(j) for j in result.joints], axis=1))
+    out: dict[str, Any] = {
+        "friction_force": (("position", "joint", "component"), force, {"units": to.text("force")}),
+        "friction_moment": (("position", "joint"), moment, {"units": to.text("moment")}),
+        "power_lost": (("position", "joint"), lost, {"units": to.text("power")}),
+    }
+    for name, kind in unknown_kinds(result).items() if result.ends else ():
+        for k, end in enumerate(("low", "high")):
+            values = to(kind, result.interval(name)[:, k])
+            out[f"{name}_{end}_end"] = ("position", values, {"units": to.text(kind)})
+    return out
 
 
 def _link_arrays(result: Result, to: Scale) -> dict[str, Any]:

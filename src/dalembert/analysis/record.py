@@ -187,6 +187,8 @@ def _record(result: Result, position: int, values: dict[tuple[str, ...], Any]) -
     for joint in result.joints:
         by, on = result.mechanism.joints[joint].links
         record["reactions"][joint] = {"on": on, "by": by}
+    if result.friction is not None:
+        record["friction"] = _solution(result, position)
     for path, value in values.items():
         if path[0] == "ends" and status != "at_rest":
             continue
@@ -195,6 +197,20 @@ def _record(result: Result, position: int, values: dict[tuple[str, ...], Any]) -
             place = place.setdefault(key, {})
         place[path[-1]] = value
     return record
+
+
+def _solution(result: Result, position: int) -> dict[str, Any]:
+    """How sure the branch is: det(A + J) / det(A), whether no other exists, and the scale at which it jams."""
+    f = result.friction
+    assert f is not None
+    determinant, critical = nulled(np.array([f.determinant[position], f.critical[position]]))
+    if result.status[position] == "at_rest":
+        determinant = None
+    return {
+        "determinant_ratio": determinant,
+        "only_solution": bool(f.single[position]),
+        "critical_scale": critical,
+    }
 
 
 def write_json(result: Result, stream: IO[str], units: UnitChoice = "SI", axes: Axes = "ground") -> None:

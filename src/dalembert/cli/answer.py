@@ -17,7 +17,7 @@ from dalembert.analysis.columns import (
     scale,
     unknown_kinds,
 )
-from dalembert.cli.rubbing import ends_text, friction_table
+from dalembert.cli.rubbing import branch_note, ends_text, friction_table, with_ends
 from dalembert.cli.text import number, table, tables, wrapped
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ def answer_text(
         parts += _one(result, to, axes)
     else:
         parts += _many(result, to, axes, every)
-    parts += [problems_text(result, to), checks_text(result)]
+    parts += [problems_text(result, to), wrapped(branch_note(result)), checks_text(result)]
     return "\n\n".join(part for part in parts if part)
 
 
@@ -215,7 +215,10 @@ def _many(result: Result, to: Printed, axes: Axes, every: bool) -> Iterator[str]
     for k in shown:
         mark = [] if result.ok.all() else [result.status[k]]
         stability = [result.stability[k] or "-"] if result.stability else []
-        rows.append([str(k + 1), *mark, *stability, *(number(float(v[k]), 5) for v in values)])
+        cells = [number(float(v[k]), 5) for v in values]
+        if result.status[k] == "at_rest":
+            cells = with_ends(result, to, k, cells)
+        rows.append([str(k + 1), *mark, *stability, *cells])
     first = ["no.", *([] if result.ok.all() else ["status"]), *(["stability"] if result.stability else [])]
     drives = len(result.drives)
     yield tables([*first, *heads], rows, len(first) + drives)

@@ -115,6 +115,7 @@ def draw(
     static: Flag = False,
     theme: Literal["light", "dark", "print"] = "light",
     names: Flag = False,
+    no_friction: Flag = False,
     force: Flag = False,
 ) -> int:
     """Draw FILE to scale: the mechanism, free bodies, force polygons, charts.
@@ -137,12 +138,14 @@ def draw(
         Colours for light paper, for a dark screen, or black and white for print.
     names
         Write links by their names, not by number.
+    no_friction
+        Leave friction out.
     force
         Overwrite a file that exists.
     """
     from dalembert.cli.drawing import drawn
 
-    return drawn(file, output, view, at, positions, static, theme, names, force)
+    return drawn(file, output, view, at, positions, static, theme, names, force, not no_friction)
 
 
 @app.command(
@@ -169,6 +172,7 @@ def report(
     decimals: int | None = None,
     clockwise: Flag = False,
     about: str = "",
+    no_friction: Flag = False,
     force: Flag = False,
 ) -> int:
     """Write the worked solution of FILE, step by step, with its drawings.
@@ -205,6 +209,8 @@ def report(
         Count moments positive clockwise.
     about
         Joint to take moments about, where a link has it.
+    no_friction
+        Leave friction out.
     force
         Overwrite a file that exists.
     """
@@ -221,7 +227,7 @@ def report(
         torque=-1 if clockwise else 1,
         axes=axes,
     )
-    return reported(file, output, at, positions, static, method, notation, about, force)
+    return reported(file, output, at, positions, static, method, notation, about, force, not no_friction)
 
 
 @app.command(
@@ -229,7 +235,7 @@ def report(
   dalembert check four_bar.yaml
   dalembert check problems/ --all"""
 )
-def check(*files: Path, every: Every = False) -> int:
+def check(*files: Path, every: Every = False, no_friction: Flag = False) -> int:
     """Compare the answers that stand in model files with what is computed.
 
     Parameters
@@ -238,10 +244,12 @@ def check(*files: Path, every: Every = False) -> int:
         Model files, or folders of them.
     every
         Print every answer of many files, not only one line a file and what disagrees.
+    no_friction
+        Leave friction out.
     """
     from dalembert.cli.checking import checked
 
-    return checked(files, every=every)
+    return checked(files, every=every, friction=not no_friction)
 
 
 @app.command(
@@ -253,7 +261,13 @@ def check(*files: Path, every: Every = False) -> int:
 The file of answers: {efforts: {O2: 243 lbf*in}, reactions: {A: 155 @ 220 deg}}, or a list as in a model file.""",
 )
 def check_answers(
-    file: Path, answers: Path | None = None, /, *, interactive: Flag = False, static: Flag = False
+    file: Path,
+    answers: Path | None = None,
+    /,
+    *,
+    interactive: Flag = False,
+    static: Flag = False,
+    no_friction: Flag = False,
 ) -> int:
     """Compare your own figures with what is computed, and name the mistake that explains a difference.
 
@@ -270,7 +284,7 @@ def check_answers(
     """
     from dalembert.cli.grading import graded
 
-    return graded(file, answers, interactive, static)
+    return graded(file, answers, interactive, static, not no_friction)
 
 
 @app.command(help_epilogue="Examples:\n  dalembert validate\n  dalembert validate > qualification.txt")

@@ -18,12 +18,12 @@ if TYPE_CHECKING:
 ENDINGS = (".yaml", ".yml", ".json", ".toml")
 
 
-def checked(files: Sequence[Path], every: bool) -> int:
+def checked(files: Sequence[Path], every: bool, friction: bool = True) -> int:
     """Compare the answers of files and folders; 1 where one disagrees, 2 where a file is wrong."""
     if not files:
         raise ModelError("check needs a file or a folder", "for example: dalembert check four_bar.yaml")
     found = list(_model_files(files))
-    rows, wrong = _compared(found)
+    rows, wrong = _compared(found, friction)
     if rows or not wrong:
         print(_text(rows, every or len(found) == 1))
     return 2 if wrong else 0 if all(row.ok for row in rows) else 1
@@ -56,9 +56,10 @@ def _model_files(named: Iterable[Path]) -> Iterator[Path]:
             yield path
 
 
-def _compared(files: Sequence[Path]) -> tuple[list[Row], int]:
+def _compared(files: Sequence[Path], friction: bool = True) -> tuple[list[Row], int]:
     """Rows of all files, and how many files are wrong; what is wrong is said at once."""
-    from dalembert.analysis.answers import check_file
+    from dalembert.analysis.answers import check
+    from dalembert.cli.rubbing import loaded
 
     rows: list[Row] = []
     wrong = 0
@@ -66,7 +67,7 @@ def _compared(files: Sequence[Path]) -> tuple[list[Row], int]:
         for path in files:
             step(path.name)
             try:
-                rows += check_file(path)
+                rows += check(loaded(path, friction), path.stem)
             except ModelError as error:
                 print(error, file=sys.stderr)
                 wrong += 1

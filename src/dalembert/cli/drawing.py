@@ -23,10 +23,11 @@ def drawn(
     theme: Literal["light", "dark", "print"],
     names: bool,
     force: bool,
+    friction: bool = True,
 ) -> int:
     """Draw a file; 1 where some position has a status other than ok."""
     from dalembert.analysis import solve
-    from dalembert.model import load
+    from dalembert.cli.rubbing import loaded
     from dalembert.views import draw
 
     if output.suffix.lower() not in PICTURES:
@@ -36,7 +37,7 @@ def drawn(
     check_new(output, force)
     if positions is None and (view == "charts" or _moves(view, output)):
         positions = _enough(file, 36 if _moves(view, output) else 72)
-    result = solve(load(file), static=static, positions=positions)
+    result = solve(loaded(file, friction), static=static, positions=positions)
     notation = draw.Notation(links="name" if names else "number")
     if _moves(view, output):
         draw.animation(result, notation).save(output, force, theme)
@@ -56,14 +57,15 @@ def reported(
     notation: Any,
     about: str,
     force: bool,
+    friction: bool = True,
 ) -> int:
     """Write the worked solution; 1 where some position has a status other than ok."""
     from dalembert.analysis import solve
-    from dalembert.model import load
+    from dalembert.cli.rubbing import loaded
     from dalembert.report import report
 
     check_new(output, force)
-    result = solve(load(file), static=static, positions=positions)
+    result = solve(loaded(file, friction), static=static, positions=positions)
     report(result, at, methods, notation, about).save(output, force)
     print(f"Written: {output}", file=sys.stderr)
     return OK if result.ok.all() else SOME_NOT_OK

@@ -12,13 +12,13 @@ if TYPE_CHECKING:
     from dalembert.analysis.mistakes import Verdict
 
 
-def graded(file: Path, answers: Path | None, interactive: bool, static: bool) -> int:
+def graded(file: Path, answers: Path | None, interactive: bool, static: bool, friction: bool = True) -> int:
     """Compare figures with what is computed; 1 where one is not right."""
     from dalembert.analysis.mistakes import check_answers, figures
-    from dalembert.model import load
+    from dalembert.cli.rubbing import loaded
     from dalembert.model.files import read_file
 
-    m = load(file)
+    m = loaded(file, friction)
     if interactive:
         tree: Any = _asked(m, static)
     elif answers is None:

@@ -11,7 +11,18 @@ from dalembert.analysis.friction import bears_on_faces, friction_text, guide_con
 from dalembert.cli.text import number, tables
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from dalembert.analysis import Result
+    from dalembert.model import Mechanism
+
+
+def loaded(file: Path, friction: bool) -> Mechanism:
+    """The mechanism of a file, with its friction or without."""
+    from dalembert.model import load
+
+    m = load(file)
+    return m if friction else m.with_values({"friction.enabled": False})
 
 
 def ends_text(result: Result, name: str, to: Any, position: int = 0) -> str:
@@ -19,6 +30,32 @@ def ends_text(result: Result, name: str, to: Any, position: int = 0) -> str:
     kind = unknown_kinds(result)[name]
     low, high = (number(float(v)) for v in to(kind, result.interval(name)[position]))
     return f"{low} to {high} {to.text(kind)}"
+
+
+def with_ends(result: Result, to: Any, position: int, cells: list[str]) -> list[str]:
+    """A row of the table of positions with intervals where friction leaves efforts and unknown loads open."""
+    names = [*result.drives, *result.unknown_loads]
+    out = list(cells)
+    for k, name in enumerate(names, len(result.drives)):
+        if result.ends and name in unknown_kinds(result):
+            ends = to(unknown_kinds(result)[name], result.interval(name)[position])
+            out[k] = " to ".join(number(float(end), 5) for end in ends)
+    return out
+
+
+def branch_note(result: Result) -> str:
+    """Where the solution is the physical one of possibly several."""
+    f = result.friction
+    if f is None:
+        return ""
+    several = ~f.single & np.isfinite(f.cz).all(axis=-1) & np.isnan(f.critical)
+    if not several.any():
+        return ""
+    which = "here" if len(several) == 1 else f"at {int(several.sum())} positions"
+    return (
+        f"Friction is so strong {which} that its equations may have other solutions: given is the physical one, "
+        "continued from no friction (`dalembert.other_solutions` seeks the others)."
+    )
 
 
 def friction_table(result: Result, to: Any) -> str:

@@ -77,13 +77,11 @@ def _check_targets(wanted: Wanted) -> None:
 
 def _result(file: Path, static: bool, positions: int | None, friction: bool) -> Result:
     from dalembert.analysis import solve
-    from dalembert.model import load
+    from dalembert.cli.rubbing import loaded
 
     if positions is not None and positions < 1:
         raise ModelError(f"--positions is {positions}", "give 1 or more")
-    m = load(file)
-    if not friction:
-        m = m.with_values({"friction.enabled": False})
+    m = loaded(file, friction)
     with _waiting(f"Solving {file}"):
         return solve(m, static=static, positions=positions)
 

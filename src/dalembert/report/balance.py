@@ -162,7 +162,12 @@ class _Unknown(NamedTuple):
 
 
 def matrix_equation(r: Result, k: int, shown: Shown, wanted: str = "") -> Matrix | None:
-    """A x = b of all links about their moment points, knowns on the right; None where it is too large or not square."""
+    """A x = b of all links about their moment points, knowns on the right.
+
+    None where it is too large or not square, and with friction, which is not linear in the unknowns.
+    """
+    if r.friction is not None:
+        return None
     unknowns = _unknowns(r, k, shown)
     if len(unknowns) > MOST or len(unknowns) != 3 * len(r.links) or r.compiled.forcing.separation.any():
         return None
