@@ -1,0 +1,198 @@
+"""What a result with friction answers: ends at rest, losses, efficiency, other solutions, the taught table, JSON, CLI."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.cli import main
+from tests.friction.engines import engine, pushed_slider
+from tests.friction.test_laws import CYCLES, cycle, solved
+
+CASES = Path(__file__).parents[2] / "cases"
+
+
+@pytest.mark.parametrize("template", CYCLES.split())
+def test_the_ends_at_rest_are_the_two_slow_motions(template: str) -> None:
+    m = cycle(template)
+    drive = next(iter(m.drives))
+    slow = [da.statics(m.with_values({f"drives.{drive}.speed": v})) for v in (-1.0, 1.0)]
+    rest = da.statics(m.with_values({f"drives.{drive}.speed": 0.0, f"drives.{drive}.acceleration": 0.0}))
+    held = np.array([s == "at_rest" for s in rest.status])
+    assert set(rest.status) <= {"at_rest", "ok"}  # ok where nothing is loaded, on an idle stroke
+    scale = np.max(np.abs(rest.interval(drive)))
+    for k, r in enumerate(slow):
+        good = solved(r)
+        assert np.allclose(rest.interval(drive)[good, k], r.effort(drive)[good], rtol=1e-9, atol=1e-9 * scale)
+    bare = da.statics(m.with_values({"friction.enabled": False})).effort(drive)
+    low, high = rest.interval(drive).T
+    assert held.sum() > 20
+    assert np.all((low < bare)[held] & (bare < high)[held])
+
+
+def test_an_end_that_no_effort_reaches_is_null() -> None:
+    r = da.statics(pushed_slider(1.2, speed=0.0))
+    assert r.status == ("at_rest",)
+    low, high = r.interval("rod")[0]
+    assert low == pytest.approx(64.28243465, rel=1e-8)
+    assert np.isnan(high)
+
+
+def test_efficiency_of_the_engine() -> None:
+    r = da.statics(engine())
+    e = da.efficiency(r)
+    assert e.reverse[0] == pytest.approx(0.7699204238, rel=1e-9)
+    assert e.forward[0] == pytest.approx(5873.13620695 / 7304.0150358, rel=1e-9)
+    assert e.cycle == pytest.approx(0.7699204238, rel=1e-9)
+    assert sum(e.share.values()) == pytest.approx(1 - e.cycle, rel=1e-9)
+    assert sum(float(r.power_lost(j)[0]) for j in r.joints) == pytest.approx(e.lost, rel=1e-12)
+
+
+def test_efficiency_of_a_screw_thread_on_its_incline() -> None:
+    """A block on an incline of lead angle l: tan l / tan(l + phi) up, tan(l - phi) / tan l back."""
+    for mu, lead in ((0.1, 20.0), (0.3, 7.0)):
+        m = pushed_slider(mu, angle=0.0).with_values({"joints.guide.direction": np.radians(lead)})
+        m = m.with_values({"loads.Q.value": (0.0, -100.0)})
+        e = da.efficiency(da.statics(m))
+        phi, tilt = np.arctan(mu), np.radians(lead)
+        assert e.forward[0] == pytest.approx(np.tan(tilt) / np.tan(tilt + phi), rel=1e-9)
+        assert e.reverse[0] == pytest.approx(np.tan(tilt - phi) / np.tan(tilt), rel=1e-9)
+
+
+def test_other_solutions_beyond_the_fold() -> None:
+    assert da.other_solutions(da.statics(pushed_slider(0.5))) == []
+    (other,) = da.other_solutions(da.statics(pushed_slider(1.2, speed=-1.0)))
+    assert other.unknowns["rod"] == pytest.approx(-707.1068, rel=1e-6)
+    assert other.determinant == pytest.approx(-0.2, rel=1e-9)
+
+
+def test_the_taught_table() -> None:
+    table = da.fixed_point(da.statics(engine()))
+    assert table.unknowns["O"][0] == pytest.approx(-5873.13620695, rel=1e-9)
+    assert table.unknowns["O"][-1] == pytest.approx(-4521.8475172, rel=1e-9)
+    assert table.arrived
+    assert table.steps == len(table.rows()) - 1
+    slow = da.fixed_point(da.statics(pushed_slider(0.9)))
+    assert slow.arrived
+    assert slow.rate == pytest.approx(0.9, rel=1e-4)
+    assert not da.fixed_point(da.statics(pushed_slider(1.2, speed=-1.0))).arrived
+
+
+def test_the_tangents_not_taken() -> None:
+    """Four common tangents of the circles at A and B: each touches both; the one taken is that of the forces."""
+    r = da.statics(engine())
+    a = da.friction_circles(r, "A")
+    b = da.friction_circles(r, "B")
+    lines = [a.taken, *a.others]
+    angles = set()
+    for line in lines:
+        for circle in (a, b):
+            arm = circle.center[0] - line.point[0]
+            distance = abs(arm[0] * line.direction[0, 1] - arm[1] * line.direction[0, 0])
+            assert distance == pytest.approx(circle.radius, rel=1e-9)
+        angles.add(round(float(np.arctan2(*line.direction[0, ::-1])), 6))
+    assert len(angles) == 4
+    assert a.reasons[0].startswith("rod turns clockwise against crank")
+
+
+def test_json_with_friction(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["solve", str(CASES / "seed-002-7a-engine-friction-circles.yaml"), "--json", "-"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["friction"] is True
+    assert answer["assumptions"]["friction"] == "on, friction circles of mu R"
+    (position,) = answer["positions"]
+    guide = position["reactions"]["guide"]
+    assert guide["friction"]["force"][0] == pytest.approx(guide["force"][0])
+    assert guide["contact"]["lower"] == pytest.approx(guide["force"][1])
+    a = position["reactions"]["A"]
+    assert a["moment"] == pytest.approx(0.024 * np.hypot(*a["force"]))
+    assert position["friction"]["only_solution"] is True
+    assert position["friction"]["determinant_ratio"] == pytest.approx(1.0157986424, rel=1e-9)
+    assert position["friction"]["critical_scale"] is None
+
+
+def test_json_at_rest(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["solve", str(CASES / "seed-002-7d-engine-at-rest.yaml"), "--json", "-"]) == 1
+    (position,) = json.loads(capsys.readouterr().out)["positions"]
+    assert position["status"] == "at_rest"
+    assert position["efforts"]["O"] == pytest.approx([-7304.0150358, -4521.8475172], rel=1e-9)
+    assert position["reactions"]["A"]["force"] == [None, None]
+    low = position["ends"]["O"]["low"]
+    assert low["at_limit"] == ["O", "A", "B", "guide"]
+    assert np.hypot(*low["reactions"]["A"]["force"]) == pytest.approx(22973.74855761, rel=1e-9)
+
+
+def test_no_friction_on_the_command_line(capsys: pytest.CaptureFixture[str]) -> None:
+    path = str(CASES / "seed-002-7a-engine-friction-circles.yaml")
+    assert main(["solve", path, "--json", "-", "--no-friction"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["friction"] is False
+    assert answer["assumptions"]["friction"] == "off (switched off)"
+    assert answer["positions"][0]["efforts"]["O"] == pytest.approx(-5873.13620695, rel=1e-9)
+    assert answer["positions"][0]["reactions"]["A"]["moment"] == 0
+
+
+def test_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    main(["solve", str(CASES / "seed-002-7d-engine-at-rest.yaml")])
+    out = capsys.readouterr().out
+    assert "-7304.02 to -4521.85 N*m" in out
+    assert "At the low end of O:" in out
+    main(["solve", str(CASES / "seed-002-7g-engine-guide-100-mm.yaml")])
+    out = capsys.readouterr().out
+    assert "mu 0.07, lower ahead, upper behind" in out
+    assert "mu 0.4, friction circle 28 mm" in out
+
+
+def test_arrays_with_friction() -> None:
+    r = da.statics(engine())
+    data = r.to_xarray()
+    assert float(data.power_lost.sum()) == pytest.approx(1351.2886897555459, rel=1e-9)
+    assert data.friction_force.attrs["units"] == "N"
+    assert any(name.startswith("friction A on rod") for name in r.to_dataframe().columns)
+    rest = da.statics(engine(speed=0.0)).to_xarray()
+    assert float(rest.O_low_end[0]) == pytest.approx(-7304.0150358, rel=1e-9)
+
+
+def test_gears_with_friction() -> None:
+    """Two wheels on fixed centres: the input torque grows by the couple of both wheels' teeth."""
+    m = da.mechanism(
+        {
+            "links": {
+                "ground": {"points": {"O": [0, 0], "P": [0.15, 0]}},
+                "pinion": {"points": {"O": [0, 0]}},
+                "wheel": {"points": {"P": [0, 0]}},
+            },
+            "joints": {
+                "O": {"type": "pin", "links": ["ground", "pinion"]},
+                "P": {"type": "pin", "links": ["ground", "wheel"]},
+                "mesh": {
+                    "type": "gear",
+                    "links": ["pinion", "wheel"],
+                    "at": ["O", "P"],
+                    "radii": [0.05, 0.1],
+                    "friction": {"coefficient": 0.1, "arm": 0.004},
+                },
+            },
+            "drives": {"O": {"position": 0, "speed": "10 rad/s"}},
+            "loads": {"load": {"type": "couple", "on": "wheel", "value": 60}},
+        }
+    )
+    r = da.statics(m)
+    # wheel turns at -5 rad/s; relative turn -15 rad/s; couple +m on the wheel, -m on the pinion
+    arm = 0.1 * 0.004 / np.cos(np.radians(20))
+    tangential = 60 / (0.1 - arm)
+    assert r.effort("O")[0] == pytest.approx(tangential * (0.05 + arm), rel=1e-9)
+    assert r.power_lost("mesh")[0] == pytest.approx(tangential * arm * 15, rel=1e-9)
+
+
+def test_the_arm_of_full_depth_teeth() -> None:
+    from dalembert.analysis.contacts import contact_arm
+
+    gear = da.Gear(links=("a", "b"), teeth=(20, 40), module=0.005, friction={"coefficient": 0.1})
+    ra, rb, m, alpha = 0.05, 0.1, 0.005, np.radians(20)
+    parts = [np.sqrt((r + m) ** 2 - (r * np.cos(alpha)) ** 2) - r * np.sin(alpha) for r in (ra, rb)]
+    assert contact_arm(gear) == pytest.approx((parts[0] ** 2 + parts[1] ** 2) / 2 / sum(parts), rel=1e-12)
