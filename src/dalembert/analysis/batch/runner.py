@@ -30,6 +30,7 @@ class Runner:
     def __init__(self, kernel: Any) -> None:
         self.k = kernel
         self.machine = cache(self._machine)
+        self.last: tuple[Program, Course, Array, Array] | None = None
 
     def _machine(self, kind: str) -> tuple[Program, Machine, Slots]:
         """Program and machine code of one way to run it."""
@@ -73,7 +74,13 @@ class Runner:
         self.machine(self.way(positions))
 
     def inputs(self, program: Program, course: Course) -> tuple[Array, Array]:
-        """Channels (position, channel) and common inputs that a program uses."""
+        """Channels (position, channel) and common inputs that a program uses; those of the last call are kept."""
+        last = self.last
+        if last is None or last[0] is not program or last[1] is not course:
+            self.last = last = program, course, *self._inputs(program, course)
+        return last[2], last[3]
+
+    def _inputs(self, program: Program, course: Course) -> tuple[Array, Array]:
         found = self.k.trace.inputs.found
         columns = [np.asarray(found[n](course), float) for n in program.used("channel")]
         common = np.array([float(found[n](course)) for n in program.used("common")])
