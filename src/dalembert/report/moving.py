@@ -84,8 +84,8 @@ def _inertia_lines(c: Chosen, link: str) -> list[Working]:
         Working(
             f"F_{{I{n}}} = −m_{{{n}}} a_{{G{n}}}",
             f"−{number('mass', m)} ({number('acceleration', float(a[0]))}, {number('acceleration', float(a[1]))})",
-            f'({number("force", fx)}, {number("force", fy)}) = {number("force", size)} "{shown.unit("force")}" '
-            f"angle {angle:.2f} deg".replace("-", "−"),
+            f'({number("force", fx)}, {number("force", fy)}) = {number("force", size)} "{shown.unit("force")}"'
+            + (f" angle {angle:.2f} deg".replace("-", "−") if size > 0 else ""),
         )
     ]
     if inertia and float(r.acceleration(link)[k]):

@@ -13,7 +13,7 @@ from dalembert.views import symbols
 from dalembert.views.canvas import Canvas
 from dalembert.views.frame import Frame, fitted, force_scale
 from dalembert.views.mechanism import draw_actions, role_of, stated, unit_size
-from dalembert.views.notation import Notation, Shown
+from dalembert.views.notation import Notation, Shown, own_name
 from dalembert.views.outline import link_points, link_shape, wheels
 from dalembert.views.scene import Arrow, Line, Point, Scene
 
@@ -101,7 +101,7 @@ def _distances(r: Result, link: str, k: int, shown: Shown) -> str:
     places = link_points(r, link, k)
     first = names[0] if names else ""
     parts = [
-        f"{first}–{n} = {shown.text('length', math.dist(places[first], places[n]))}"
+        f"{first}–{own_name(n) if n in r.mechanism.loads else n} = {shown.text('length', math.dist(places[first], places[n]))}"
         for n in names[1:]
         if math.dist(places[first], places[n]) > 0
     ]

@@ -21,7 +21,10 @@ _ASCII = (
 )
 _WIDTHS = {chr(32 + k): int(w) / 1000 for k, w in enumerate(_ASCII.split())}
 _OTHER = 0.75
-_NARROW = {"·": 0.318, "²": 0.401, "³": 0.401, "°": 0.5}
+_BEYOND = {
+    "·": 0.318, "²": 0.401, "³": 0.401, "°": 0.5, "−": 0.838, "–": 0.5, "—": 1.0, "→": 0.838, "∠": 0.896, "∥": 0.5,
+    "⊥": 0.838, "α": 0.659, "θ": 0.612, "ω": 0.837, "φ": 0.66, "μ": 0.636, "δ": 0.612, "Σ": 0.632, "Δ": 0.684,
+}  # fmt: skip
 
 
 class Piece(NamedTuple):
@@ -37,9 +40,11 @@ def pieces(text: str) -> list[Piece]:
     >>> pieces("F_{12} = 3")
     [Piece(text='F', level=0), Piece(text='12', level=-1), Piece(text=' = 3', level=0)]
     """
-    out = []
+    out: list[Piece] = []
     for plain, sign, small in re.findall(r"([^_^]+|[_^](?!\{))|([_^])\{([^}]*)\}", text):
-        if plain:
+        if plain and out and out[-1].level == 0:
+            out[-1] = Piece(out[-1].text + plain, 0)
+        elif plain:
             out.append(Piece(plain, 0))
         elif small:
             out.append(Piece(small, -1 if sign == "_" else 1))
@@ -53,7 +58,7 @@ def plain(text: str) -> str:
 
 def letters_width(letters: str) -> float:
     """Width of letters over the size."""
-    return sum(_WIDTHS.get(c) or _NARROW.get(c, _OTHER) for c in letters)
+    return sum(_WIDTHS.get(c) or _BEYOND.get(c, _OTHER) for c in letters)
 
 
 def text_width(text: str, size: float) -> float:
