@@ -187,3 +187,24 @@ def test_displaced_inertia_of_the_book() -> None:
     for arrow in scene.arrows():
         if arrow.kind != "dimension":
             assert arrow.length * scene.scales[arrow.kind] == pytest.approx(arrow.value, rel=1e-9)
+
+
+def test_positions_by_number_and_by_value() -> None:
+    r = result("four_bar", positions=36)
+    assert da.draw.mechanism(r, at="70 deg").title.endswith("O2 = 70.00°")
+    assert da.draw.mechanism(r, at=2).title.endswith("O2 = 70.00°")
+    assert da.draw.mechanism(r, at="72 deg").title.endswith("O2 = 70.00°")
+    with pytest.raises(da.ModelError, match="no position has O2 = 90 deg; the nearest is 60"):
+        da.draw.mechanism(result("four_bar"), at="90 deg")
+
+
+def test_the_command_goes_to_a_position(tmp_path: Path) -> None:
+    from dalembert.cli import main
+
+    path = tmp_path / "a.svg"
+    given = ["draw", str(examples()["four_bar"]), "--view", "mechanism", "--at", "90deg", "-o", str(path)]
+    assert main(given) == 0
+    whole = result("four_bar", positions=36)
+    assert f"{whole.effort('O2')[3] / 0.1129848290276167:.1f} lbf·in" in path.read_text(
+        encoding="utf-8"
+    ).replace("−", "-")

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from dalembert.errors import ModelError
 from dalembert.saving import check_new
+
+if TYPE_CHECKING:
+    from dalembert.analysis import Result
+    from dalembert.model import Mechanism
 
 OK, SOME_NOT_OK = 0, 1
 PICTURES = (".svg", ".pdf", ".png", ".dxf", ".gif", ".webp")
@@ -26,7 +31,6 @@ def drawn(
     friction: bool = True,
 ) -> int:
     """Draw a file; 1 where some position has a status other than ok."""
-    from dalembert.analysis import solve
     from dalembert.cli.rubbing import loaded
     from dalembert.views import draw
 
@@ -37,7 +41,7 @@ def drawn(
     check_new(output, force)
     if positions is None and (view == "charts" or _moves(view, output)):
         positions = _enough(file, 36 if _moves(view, output) else 72)
-    result = solve(loaded(file, friction), static=static, positions=positions)
+    result, at = _solved(loaded(file, friction), at, static, positions)
     notation = draw.Notation(links="name" if names else "number")
     if _moves(view, output):
         draw.animation(result, notation).save(output, force, theme)
@@ -60,15 +64,56 @@ def reported(
     friction: bool = True,
 ) -> int:
     """Write the worked solution; 1 where some position has a status other than ok."""
-    from dalembert.analysis import solve
     from dalembert.cli.rubbing import loaded
     from dalembert.report import report
 
     check_new(output, force)
-    result = solve(loaded(file, friction), static=static, positions=positions)
+    result, at = _solved(loaded(file, friction), at, static, positions)
     report(result, at, methods, notation, about).save(output, force)
     print(f"Written: {output}", file=sys.stderr)
     return OK if result.ok.all() else SOME_NOT_OK
+
+
+def _solved(m: Mechanism, at: str | None, static: bool, positions: int | None) -> tuple[Result, str | None]:
+    """The result and the position asked for; a drive's value that the file has not is gone to from its first one."""
+    from dalembert.analysis import solve
+
+    if at is None or at.strip().isdigit() or positions is not None or len(m.drives) != 1:
+        return solve(m, static=static, positions=positions), at
+    values = _way(m, at)
+    if values is None:
+        return solve(m, static=static), at
+    return solve(_moved(m, values), static=static), None
+
+
+def _moved(m: Mechanism, values: list[float]) -> Mechanism:
+    """The mechanism at the last of some positions of its drive, in the assembly mode that leads there."""
+    from dalembert.analysis import kinematics
+
+    path = f"drives.{next(iter(m.drives))}.position"
+    r = kinematics(m.with_values({path: values}))
+    angles = {link: float(r.angle(link)[-1]) for link in r.links}
+    there = {path: values[-1]} | ({"assembly": angles} if all(map(math.isfinite, angles.values())) else {})
+    return m.with_values(there)
+
+
+def _way(m: Mechanism, at: str) -> list[float] | None:
+    """Positions in small steps from the file's only one to a value of its drive; None where the file has more."""
+    import numpy as np
+
+    from dalembert.units import file_units, quantity
+
+    schedule = m.schedule()
+    if schedule.position.shape != (1, 1) or schedule.unknown is not None:
+        return None
+    drive = m.drives[schedule.names[0]]
+    slides = (drive.freedom or m.joints[drive.joint or schedule.names[0]].freedoms[0]) == "slide"
+    start = float(schedule.position[0, 0])
+    end = quantity(at, "length" if slides else "angle", file_units(m.units))
+    if abs(end - start) < 1e-9:
+        return None
+    count = 40 if slides else max(2, int(np.ceil(abs(end - start) / 0.05)) + 1)
+    return [float(v) for v in np.linspace(start, end, count)]
 
 
 def _moves(view: str, output: Path) -> bool:

@@ -100,8 +100,12 @@ def _distances(r: Result, link: str, k: int, shown: Shown) -> str:
     names = [n for n in link_points(r, link, k) if " " not in n]
     places = link_points(r, link, k)
     first = names[0] if names else ""
+
+    def sign(name: str) -> str:
+        return own_name(name) if name in r.mechanism.loads else name
+
     parts = [
-        f"{first}–{own_name(n) if n in r.mechanism.loads else n} = {shown.text('length', math.dist(places[first], places[n]))}"
+        f"{first}–{sign(n)} = {shown.text('length', math.dist(places[first], places[n]))}"
         for n in names[1:]
         if math.dist(places[first], places[n]) > 0
     ]

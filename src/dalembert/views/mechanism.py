@@ -273,6 +273,12 @@ def position_at(r: Result, at: Any = None) -> int:
 
     kind = drive_kinds(r, r.drives[0])["position"]
     wanted = quantity(at, kind, file_units(r.mechanism.units))
-    away = r.drive_position(r.drives[0]) - wanted
+    values = r.drive_position(r.drives[0])
+    away = values - wanted
     away = np.abs(np.angle(np.exp(1j * away))) if kind == "angle" else np.abs(away)
-    return int(np.nanargmin(away))
+    k = int(np.nanargmin(away))
+    if away[k] > 1e-6 + (0.5 * float(np.abs(np.diff(values)).max()) if len(values) > 1 else 0.0):
+        nearest = Shown(r, Notation()).text(kind, float(values[k]))
+        what = f"no position has {r.drives[0]} = {at}; the nearest is {nearest}"
+        raise ModelError(what, "solve the mechanism there: give the drive that position, or more positions")
+    return k
