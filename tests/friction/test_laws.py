@@ -12,6 +12,9 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.fixed_point import posed
+from dalembert.core.friction import Response
+from dalembert.core.slip import slipping
 from tests.friction.oracle import branch, compared
 from tests.friction.rough import rough, rough_tree, unlawful
 from tests.laws.measures import joint_wrenches, known_wrenches
@@ -213,6 +216,31 @@ def test_moving_the_machine_turns_the_forces(seed: int) -> None:
         assert np.allclose(
             moved.reaction(joint), turned, rtol=1e-7, atol=1e-8 * finite_forces(r), equal_nan=True
         )
+
+
+@over(6, 60)
+def test_no_friction_within_its_limits_leaves_the_interval(seed: int) -> None:
+    """At rest, with friction anywhere within its limits in every joint, each effort is between its ends."""
+    tree = rough_tree(seed, most=0.15, links=(2, 8))
+    for drive in tree["drives"].values():
+        drive["speed"] = "0 rad/s" if isinstance(drive["speed"], str) else 0.0
+        drive["acceleration"] = "0 rad/s^2" if isinstance(drive["acceleration"], str) else 0.0
+        drive["position"] = drive["position"][0]
+    r = da.statics(da.mechanism(tree))
+    if r.status != ("at_rest",) or not all(np.isfinite(r.interval(d)).all() for d in r.drives):
+        return
+    contacts, problem, told = posed(r, 0)
+    rng = np.random.default_rng(seed)
+    count = 40
+    part = np.where(contacts.fixed, -1.0, rng.uniform(-1, 1, (count, contacts.count))[:, contacts.led])
+    many = Response(*(np.broadcast_to(a, (count, *a.shape[1:])) for a in problem))
+    x = slipping(contacts, many, part, np.broadcast_to(told.open, part.shape)).x
+    first = r.compiled.layout.constraints.count
+    for k, drive in enumerate(r.drives):
+        low, high = r.interval(drive)[0]
+        room = 1e-9 * (high - low) + 1e-12 * forces(r.ends[0][0])
+        assert low - room <= np.min(x[:, first + k])
+        assert np.max(x[:, first + k]) <= high + room
 
 
 CYCLES = """

@@ -1,4 +1,4 @@
-"""What a result with friction answers: ends at rest, losses, efficiency, other solutions, the taught table, JSON, CLI."""
+"""What a result with friction answers: ends at rest, losses, efficiency, other solutions, tables, JSON."""
 
 from __future__ import annotations
 
@@ -145,6 +145,13 @@ def test_printed(capsys: pytest.CaptureFixture[str]) -> None:
     out = capsys.readouterr().out
     assert "mu 0.07, lower ahead, upper behind" in out
     assert "mu 0.4, friction circle 28 mm" in out
+
+
+def test_the_taught_table_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    main(["solve", str(CASES / "seed-002-7a-engine-friction-circles.yaml"), "--method", "fixed-point"])
+    out = capsys.readouterr().out
+    assert "1     -4486.6005" in out
+    assert "The taught iteration arrives after 11 steps; each step leaves 0.0588 of the" in out
 
 
 def test_arrays_with_friction() -> None:

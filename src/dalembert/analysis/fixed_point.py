@@ -15,7 +15,7 @@ from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
-    from dalembert.core.friction import Contacts, Response
+    from dalembert.core.friction import Contacts, Response, Senses
 
 Array = NDArray[Any]
 
@@ -79,7 +79,16 @@ def _rate(change: Array) -> float:
 
 
 def stated(r: Result, position: int) -> tuple[Contacts, Response, Array]:
-    """Contacts, their response and senses (1, E) at one position."""
+    """Contacts, their response and senses (1, E) at one position; refused at rest."""
+    contacts, problem, told = posed(r, position)
+    if told.open.any():
+        what = "the machine is at rest here: the senses of friction are not given"
+        raise ModelError(what, "give the drive a speed")
+    return contacts, problem, told.sense
+
+
+def posed(r: Result, position: int) -> tuple[Contacts, Response, Senses]:
+    """The same, at rest too."""
     from dalembert.analysis.freedoms import whole_pose
     from dalembert.analysis.rubbing import Setting, touching
     from dalembert.analysis.solve import _sliced
@@ -97,11 +106,7 @@ def stated(r: Result, position: int) -> tuple[Contacts, Response, Array]:
     s = Setting(c, c.contacts, forcing, known, pose, moving, rows, solver, sources)
     along, problem = touching(s, statement(c.layout, known, pose, rows, solver, w))
     told = senses(c.layout, c.contacts, along, moving.twist)
-    if told.open.any():
-        raise ModelError(
-            "the machine is at rest here: the senses of friction are not given", "give the drive a speed"
-        )
-    return c.contacts, problem, told.sense
+    return c.contacts, problem, told
 
 
 def _unknowns(r: Result, x: Array) -> dict[str, Array]:

@@ -60,6 +60,15 @@ def _unknowns(c: Compiled) -> list[str]:
     return [*asked, *c.unknown_loads]
 
 
+def _units(c: Compiled) -> list[str]:
+    """SI units of the unknowns."""
+    turns = c.layout.freedoms.angular[c.layout.driven][c.known.asked]
+    return [
+        *("N m" if turn else "N" for turn in turns),
+        *("N m" if couple else "N" for couple in c.known.couple),
+    ]
+
+
 def _jam_sentence(c: Compiled, f: Forces, run: Run) -> str:
     assert f.friction is not None
     scale = float(np.nanmin(f.friction.critical[run]))
@@ -76,11 +85,11 @@ def _locked_sentence(c: Compiled, f: Forces, run: Run) -> str:
     bare = np.concatenate([f.friction.bare_effort[:, c.known.asked], f.friction.bare_load], axis=1)[run]
     worst = int(np.argmax(np.abs(with_ - bare).sum(axis=1)))
     figures = ", ".join(
-        f"{name} needs {a:.6g} and without friction {b:.6g}"
-        for name, a, b in zip(names, with_[worst], bare[worst], strict=True)
+        f"{name} needs {a:.6g} {unit} and without friction {b:.6g}"
+        for name, unit, a, b in zip(names, _units(c), with_[worst], bare[worst], strict=True)
     )
     where = "" if len(run) == 1 else arc(c, run[[worst]])
-    return f"Self-locking{arc(c, run)}: the load cannot drive the machine against its friction;{where} {figures} (SI)."
+    return f"Self-locking{arc(c, run)}: the load cannot drive the machine against its friction;{where} {figures}."
 
 
 def _open_sentence(c: Compiled, f: Forces, run: Run) -> str:

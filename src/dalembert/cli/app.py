@@ -52,7 +52,7 @@ def solve(
     csv: Target = None,
     xlsx: Path | None = None,
     netcdf: Path | None = None,
-    method: Literal["matrix", "superposition", "virtual-work"] = "matrix",
+    method: Literal["matrix", "superposition", "virtual-work", "fixed-point"] = "matrix",
     units: Literal["si", "file"] | None = None,
     axes: Literal["ground", "link"] = "ground",
     no_friction: Flag = False,
@@ -78,7 +78,7 @@ def solve(
     netcdf
         Write labelled arrays for xarray and other readers of netCDF.
     method
-        How the forces are found.
+        How the forces are found; fixed-point shows the taught iteration of friction at the first position.
     units
         Units of what is printed (default: those of the file) and written (default: si).
     axes

@@ -91,6 +91,10 @@ def by_method(method: str, result: Result, units: Literal["SI", "file"]) -> tupl
     if method == "matrix":
         return result, ""
     from dalembert.cli.methods import superposition_text, virtual_work_answer
+    from dalembert.cli.rubbing import fixed_point_text
+
+    if method == "fixed-point":
+        return result, fixed_point_text(result)
 
     if method == "virtual-work":
         return virtual_work_answer(result, units)

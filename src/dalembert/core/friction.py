@@ -95,7 +95,7 @@ def senses(layout: Layout, contacts: Contacts, along: System, twist: Array) -> S
     fastest = np.abs(twist / layout.wrench_scale).max(axis=(-2, -1), initial=0.0)
     still = ((np.abs(scaled) <= STILL * fastest[..., None]) & ~contacts.fixed)[..., contacts.led]
     sense = np.where(contacts.fixed, -1.0, np.where(still, 0.0, np.sign(rate)[..., contacts.led]))
-    return Senses(sense, still, rate)
+    return Senses(sense, still & (strength(contacts, 1.0, True) > 0), rate)
 
 
 def strength(contacts: Contacts, scale: Array | float, resting: Array | bool = False) -> Array:
