@@ -152,12 +152,9 @@ def head(t: Text, program: Program) -> dict[int, str]:
     return {n.index: t.splat(n.value) for n in program.constants}
 
 
-def grid(program: Program, lanes: int, reduce: Slots = ()) -> str:
-    """Function over designs and blocks of positions: see ``machine.Machine.grid``."""
-    t = Text(lanes)
-    names = head(t, program)
-    channels = [n for n in program.inputs if n.level & POSITION]
-    reductions = Reductions(t, program, reduce) if reduce else None
+def _design(t: Text, program: Program, names: dict[int, str], reductions: Reductions | None) -> None:
+    """Everything up to the loop over the positions: one turn a design, with what does not change along them."""
+    lanes = t.lanes
     t.lines.append(
         "define void @run(ptr noalias readonly %values, ptr noalias readonly %path, ptr noalias %out, "
         "ptr noalias %code, i64 %numbers, i64 %channels, i64 %designs, i64 %blocks) " + WIDE + " {"
@@ -188,6 +185,15 @@ def grid(program: Program, lanes: int, reduce: Slots = ()) -> str:
     t.put("%marks = getelementptr inbounds i8, ptr %code, i64 %dc")
     t.put("br label %start")
     t.lines += ["start:", "  br label %loop", "loop:"]
+
+
+def grid(program: Program, lanes: int, reduce: Slots = ()) -> str:
+    """Function over designs and blocks of positions: see ``machine.Machine.grid``."""
+    t = Text(lanes)
+    names = head(t, program)
+    channels = [n for n in program.inputs if n.level & POSITION]
+    reductions = Reductions(t, program, reduce) if reduce else None
+    _design(t, program, names, reductions)
     t.put("%b = phi i64 [ 0, %start ], [ %bnext, %loop ]")
     if reductions:
         reductions.phis()

@@ -15,7 +15,7 @@ from dalembert.kernel.eliminate import Row, Structural, structural
 from dalembert.kernel.graph import Graph, Node, is_zero
 
 if TYPE_CHECKING:
-    from dalembert.kernel.positions import Motion
+    from dalembert.kernel.parts import Motion
 
 Array = NDArray[Any]
 

@@ -19,7 +19,8 @@ from dalembert.core.layout import Layout, Pose
 from dalembert.kernel.eliminate import Structural
 from dalembert.kernel.graph import CONSTANT, Graph, Node, traced
 from dalembert.kernel.newton import solver
-from dalembert.kernel.positions import Motion, Placed, positions
+from dalembert.kernel.parts import Motion, Placed
+from dalembert.kernel.positions import positions
 
 Array = NDArray[Any]
 
