@@ -98,13 +98,13 @@ def _without_phase(layout: Layout, target: Array, guess: Guess, hold: bool) -> t
         return layout, target
     kept = np.setdiff1d(np.arange(layout.constraints.count), phased)
     target = np.concatenate([target[kept], target[layout.constraints.count :]])
-    free = _with_rows(layout, kept, [])
-    held = _held_wheels(layout, free, target, phased, guess) if hold else []
+    free = with_rows(layout, kept, [])
+    held = held_wheels(layout, free, target, phased, guess) if hold else []
     angles = np.nan_to_num(guess.turn[np.array(held, np.intp)])
-    return _with_rows(layout, kept, held), np.concatenate([target[: len(kept)], angles, target[len(kept) :]])
+    return with_rows(layout, kept, held), np.concatenate([target[: len(kept)], angles, target[len(kept) :]])
 
 
-def _with_rows(layout: Layout, kept: NDArray[np.intp], held: list[int]) -> Layout:
+def with_rows(layout: Layout, kept: NDArray[np.intp], held: list[int]) -> Layout:
     """The layout with some of its constraints, and rows that hold the angles of some links."""
     rows, count = layout.constraints, len(kept) + len(held)
     place, ground = np.arange(len(kept), count), np.full(len(held), layout.links)
@@ -114,7 +114,7 @@ def _with_rows(layout: Layout, kept: NDArray[np.intp], held: list[int]) -> Layou
     return replace(layout, constraints=Rows(count, rows.links, tuple(families), joint, angular))
 
 
-def _held_wheels(
+def held_wheels(
     layout: Layout, free: Layout, target: Array, phased: NDArray[np.intp], guess: Guess
 ) -> list[int]:
     """A link for each phase row that still turns where it is laid down: j, else i, else any; given angles first."""

@@ -9,9 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.core import forcing as fc
-from dalembert.core.assembly import _held_wheels as held_wheels
-from dalembert.core.assembly import _with_rows as with_rows
-from dalembert.core.assembly import phase_rows
+from dalembert.core.assembly import held_wheels, phase_rows, with_rows
 from dalembert.core.constraints import measure, span
 from dalembert.core.equilibrium import Balance, Known, Statement, known_sources, motion, reactions, statement
 from dalembert.core.forcing import Forcing, pair, summed
