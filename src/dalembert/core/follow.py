@@ -196,9 +196,9 @@ def path(layout: Layout, first: Pose, along: Course, start: float, period: Array
 
 
 def _both_ways(layout: Layout, first: Pose, along: Course, start: float, count: int) -> Path:
-    forward = _filled(layout, along, march(layout, first, along, start), count)
-    backward = _filled(layout, along, march(layout, first, along, start, backward=True), count)
-    return _joined(forward, backward)
+    ways = [False] * (start < along.end or start <= 0) + [True] * (start > 0)
+    found = [_filled(layout, along, march(layout, first, along, start, back), count) for back in ways]
+    return found[0] if len(found) == 1 else _joined(*found)
 
 
 def _around(layout: Layout, along: Course, period: Array, known: Path) -> Path:
