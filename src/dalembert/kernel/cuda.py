@@ -23,7 +23,7 @@ def card() -> Any:
     try:
         import cupy
     except ImportError:
-        raise RuntimeError("cupy is not installed") from None
+        raise RuntimeError("cupy is not installed (pip install cupy-cuda12x)") from None
     try:
         count = cupy.cuda.runtime.getDeviceCount()
     except cupy.cuda.runtime.CUDARuntimeError as error:
