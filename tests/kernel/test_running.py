@@ -42,7 +42,8 @@ def test_lanes_give_the_same(lanes: int, kind: str) -> None:
 
 def test_the_processor_s_own_lanes() -> None:
     assert host_lanes() in (2, 4, 8)
-    assert da.compile(da.four_bar()).lanes == host_lanes()
+    assert da.compile(da.four_bar()).lanes == 2 * host_lanes()
+    assert da.compile(da.four_bar(), derivatives=True, vary=["links.crank.mass"]).lanes == host_lanes()
 
 
 def test_few_positions_fill_lanes_with_designs() -> None:

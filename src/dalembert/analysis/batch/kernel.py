@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -23,8 +23,10 @@ from dalembert.kernel.program import Program
 from dalembert.model import Mechanism
 
 Array = NDArray[Any]
-FEW = 16
-"""Positions below which lanes are filled with designs instead of positions."""
+
+
+SMALL = 250
+"""Operations below which two registers side by side are faster than one: the waiting of one fills the other."""
 
 
 def compile(  # noqa: A001
@@ -62,6 +64,8 @@ def compile(  # noqa: A001
             "the place of a peak has no derivative", 'leave derivatives out, or reduce by "peak"'
         )
     kernel = Kernel(mechanism, trace, names, reduce, derivatives, lanes or _host_lanes())
+    if lanes is None and not derivatives and kernel.program(kernel.flat).size < SMALL:
+        kernel = replace(kernel, lanes=2 * kernel.lanes)
     kernel.warm()
     return kernel
 
