@@ -112,7 +112,7 @@ def rubbing(s: Setting, w: Array) -> Forces:
     open_ = np.flatnonzero(told.open.any(axis=-1))
     slip = slipping(contacts, r, told.sense, told.open)
     if open_.size:
-        slip.x[open_], slip.z[open_] = np.nan, np.nan
+        slip.x[open_], slip.z[open_], slip.critical[open_] = np.nan, np.nan, np.nan
     locked = _locked(s, stated, told, r, slip)
     made = _Made(s, stated, along, told, blocked, locked, without_friction(contacts, r))
     if not open_.size:
