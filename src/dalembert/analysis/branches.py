@@ -47,6 +47,7 @@ def other_solutions(r: Result, position: int = 0) -> list[Solution]:
     starts = size * rng.uniform(-1, 1, (STARTS, contacts.count))
     many = Response(*(np.broadcast_to(a, (STARTS, *a.shape[1:])) for a in problem))
     z, x, determinant = roots(contacts, many, np.broadcast_to(sense, starts.shape), starts)
+    z = np.where(contacts.fixed, 0.0, z)
     count, asked = r.compiled.layout.constraints.count, r.compiled.known.asked
     names = [*(d for d, a in zip(r.drives, asked, strict=True) if a), *r.unknown_loads]
     assert r.friction is not None

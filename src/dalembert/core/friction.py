@@ -31,6 +31,10 @@ STILL = 1e-9
 """A relative rate below this part of the fastest one of the machine counts as zero."""
 
 
+NOTHING = 1e-14
+"""A force below this part of the largest is rounding: its direction means nothing."""
+
+
 @dataclass(frozen=True)
 class Contacts:
     """The contacts of a mechanism, E of them.
@@ -149,10 +153,11 @@ def bearing(contacts: Contacts, y: Array) -> Array:
 
 
 def slope(contacts: Contacts, y: Array) -> Array:
-    """Derivative of S after y (..., 3, E); one of its branches where two meet."""
+    """Derivative of S after y (..., 3, E); one of its branches where two meet, 0 where a contact carries nothing."""
     force, tilting = np.hypot(y[..., 0, :], y[..., 1, :]), np.abs(y[..., 2, :])
-    tilted = (tilting > force) & ~contacts.signed
-    plain = ~tilted & ~contacts.signed
+    bears = np.maximum(force, tilting) > NOTHING * np.abs(y).max(axis=(-2, -1), initial=0.0)[..., None]
+    tilted = (tilting > force) & ~contacts.signed & bears
+    plain = (tilting <= force) & ~contacts.signed & bears
     safe = np.where(force > 0, force, 1.0)
     parts = [
         np.where(contacts.signed, 1.0, np.where(plain, y[..., 0, :] / safe, 0.0)),
