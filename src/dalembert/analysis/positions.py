@@ -25,6 +25,9 @@ Array = NDArray[Any]
 SAMPLES = 12
 """Positions at which a first pose is sought when the first of the list does not close."""
 
+FARTHEST = 1e4
+"""Longest way between two positions that is followed, in radians or characteristic lengths."""
+
 MESH = 1e-3
 """Relative error of a centre distance that a mesh of gears forgives."""
 
@@ -48,6 +51,7 @@ def positions(c: Compiled) -> Positions:
     place, first = found
     c = _wound(_with_phase(c, first.pose.at(0)), first.pose.at(0))
     along = course(c.layout, c.targets)
+    _refuse_endless(c, along)
     start = along.at(place)
     here = general = first.pose.at(0)
     if c.schedule.names and not held(c.layout, general):
@@ -135,6 +139,20 @@ def _check_meshes(c: Compiled, first: Pose) -> None:
                     f"gear {name!r}: centres {found:.6g} m apart, but pitch radii {radii} need {wanted:.6g} m"
                 )
                 raise ModelError(what, "change the radii or move a centre", ("joints", name))
+
+
+def _refuse_endless(c: Compiled, along: Course) -> None:
+    """Nobody waits for a motion of millions of turns between two positions: it is a slip of the pen or of the unit."""
+    steps = np.diff(along.s)
+    if not steps.size or (steps <= FARTHEST).all():
+        return
+    k = int(np.argmax(~(steps <= FARTHEST)))
+    moved = np.abs(np.diff(c.schedule.position[along.order[k : k + 2]], axis=0))[0]
+    drive = int(np.argmax(moved))
+    texts = [drive_text(c, int(place), drive) for place in along.order[k : k + 2]]
+    what = f"drive {c.schedule.names[drive]!r} goes from {texts[0]} to {texts[1]} between two positions"
+    remedy = f"check the position and its unit; {FARTHEST:.0e} rad or link lengths at a time can be followed"
+    raise ModelError(what, remedy, ("drives", c.schedule.names[drive], "position"))
 
 
 def _refuse_overdriven(c: Compiled) -> None:

@@ -118,6 +118,10 @@ def _put(pose: Pose, where: NDArray[np.intp], part: Pose) -> None:
         whole[where] = new
 
 
+LEAST = 1e-10
+"""Damping of least squares below which a singular matrix could no longer be solved."""
+
+
 def least_gap(layout: Layout, start: Pose, target: Array, steps: int = 200) -> Array:
     """The smallest gap (K + D) that poses near ``start`` (L+1, ...) leave, the drives held: damped least squares."""
     stiff = np.concatenate([np.ones(layout.constraints.count), np.full(len(layout.driven), HELD)])
@@ -133,7 +137,7 @@ def least_gap(layout: Layout, start: Pose, target: Array, steps: int = 200) -> A
         trial = moved(layout, pose, dq.reshape(1, layout.links, -1))
         new = gap(layout, trial, target[None])[0]
         if np.linalg.norm(new * stiff) < np.linalg.norm(best * stiff):
-            pose, best, damping = trial, new, damping / 3
+            pose, best, damping = trial, new, max(damping / 3, LEAST)
         else:
             damping *= 4
     return np.asarray(best)
