@@ -10,6 +10,7 @@ s  parameter of the course
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -196,9 +197,28 @@ def path(layout: Layout, first: Pose, along: Course, start: float, period: Array
 
 
 def _both_ways(layout: Layout, first: Pose, along: Course, start: float, count: int) -> Path:
+    """The first ``count`` positions of the list, from the pose at ``start``.
+
+    Positions passed but not trusted, near dead centres, are marched to once more, each made a station of its own.
+    """
+    result, passed = _marched(layout, first, along, start, count)
+    lost = passed & (along.order < count)
+    lost[lost] = ~result.reached[along.order[lost]]
+    if not lost.any():
+        return result
+    landing = replace(along, breaks=np.union1d(along.breaks, along.s[lost]))
+    return _joined(result, _marched(layout, first, landing, start, count)[0])
+
+
+def _marched(
+    layout: Layout, first: Pose, along: Course, start: float, count: int
+) -> tuple[Path, NDArray[np.bool_]]:
+    """Positions reached by marching both ways, and which places of the course the marches passed."""
     ways = [False] * (start < along.end or start <= 0) + [True] * (start > 0)
-    found = [_filled(layout, along, march(layout, first, along, start, back), count) for back in ways]
-    return found[0] if len(found) == 1 else _joined(*found)
+    pieces = [march(layout, first, along, start, back) for back in ways]
+    found = [_filled(layout, along, piece, count) for piece in pieces]
+    passed = np.any([(along.s >= p.s[0]) & (along.s <= p.s[-1]) for p in pieces], axis=0)
+    return (found[0] if len(found) == 1 else _joined(*found)), passed
 
 
 def _around(layout: Layout, along: Course, period: Array, known: Path) -> Path:
