@@ -21,7 +21,7 @@ run: $(VENV)/.run
 	@$(BIN)/dalembert solve examples/four_bar.yaml
 
 test: lint
-	@$(BIN)/python -m pytest $(PYTEST_ARGS)
+	@$(BIN)/python -m pytest -n 2 $(PYTEST_ARGS)
 
 test-long: lint
 	@$(BIN)/python -m pytest -m "not exhaustive" -n 2 $(PYTEST_ARGS)
