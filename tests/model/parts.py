@@ -145,8 +145,8 @@ def mechanisms(draw: st.DrawFn) -> Mechanism:
         units={"length": draw(st.sampled_from(["m", "in"])), "angle": draw(st.sampled_from(["deg", "rad"]))},
         gravity=draw(st.sampled_from([None, "standard"]) | vectors),
         g=draw(st.none() | positive),
-        links={"ground": Link(points={"P": draw(vectors)}), "a": draw(links()), "b": draw(links())}
-        | {draw(names): Link()},
+        links={draw(names): Link()}
+        | {"ground": Link(points={"P": draw(vectors)}), "a": draw(links()), "b": draw(links())},
         joints=draw(joints()),
         drives=draw(drives()),
         loads=draw(loads()),
