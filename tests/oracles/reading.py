@@ -122,7 +122,7 @@ def _joint(name: str, tree: Tree, links: tuple[str, ...], points: dict[str, Any]
 
 
 def _drives(tree: Tree) -> tuple[Drive, ...]:
-    drives = [_drive(name, t, tree["joints"]) for name, t in tree.get("drives", {}).items()]
+    drives = [drive(name, t, tree["joints"]) for name, t in tree.get("drives", {}).items()]
     count = max((len(d.position) for d in drives), default=1)
     return tuple(
         Drive(
@@ -135,7 +135,7 @@ def _drives(tree: Tree) -> tuple[Drive, ...]:
     )
 
 
-def _drive(name: str, tree: Tree, joints: Tree) -> Drive:
+def drive(name: str, tree: Tree, joints: Tree) -> Drive:
     joint = tree.get("joint", name)
     freedom = tree.get("freedom") or {"slider": "slide"}.get(joints[joint]["type"], "turn")
     bare = 1.0 if freedom == "slide" else pi / 180

@@ -1,0 +1,290 @@
+"""Any mechanism in space in natural coordinates: the origin and the three axes of each link, 12 numbers a link.
+
+Every point and every axis of a link is then linear in the coordinates, every constraint (rigidity too) a dot product of
+two of them, and the mass matrix is constant: no rotation is parametrised, no angular velocity and no gyroscopic term
+appears (Garcia de Jalon and Bayo, Kinematic and Dynamic Simulation of Multibody Systems, 1994, chapter 2).
+
+Q (P, 4 L, 3): rows of link k are its origin and axes; a functional s (4 L,) gives the vector s Q; a row of constraints
+is (s1 Q) . (s2 Q) - d with s2 and d jets, M Q'' = F + J' lambda.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from tests.oracles.jets import Jet
+from tests.oracles.reading import Array, Tree, drive, number
+from tests.oracles.space.moving import frame
+
+
+@dataclass(frozen=True)
+class Row:
+    """(s1 Q) . (s2 Q) - d = 0, part of a joint, of a drive or, without a name, of a rigid link."""
+
+    name: str
+    s1: Array
+    s2: Array | Jet
+    d: float | Jet = 0.0
+
+
+@dataclass
+class Natural:
+    """The answer: coordinates (P, 4 L, 3) and rates; reactions on j at j's point; efforts; rows left over."""
+
+    links: tuple[str, ...]
+    q: Array
+    v: Array
+    a: Array
+    forces: dict[str, Array] = field(default_factory=dict)
+    moments: dict[str, Array] = field(default_factory=dict)
+    efforts: dict[str, Array] = field(default_factory=dict)
+
+
+class Machine:
+    """A tree (SI, degrees) in functionals."""
+
+    def __init__(self, tree: Tree) -> None:
+        self.tree = tree
+        self.links = ("ground", *(name for name in tree["links"] if name != "ground"))
+        self.size = 4 * len(self.links)
+        drives = {name: drive(name, t, tree["joints"]) for name, t in tree.get("drives", {}).items()}
+        self.count = max((len(d.position) for d in drives.values()), default=1)
+        self.drives = drives
+        self.joint_rows = [row for name in tree["joints"] for row in self._joint(name)]
+        self.drive_rows = [self._driven(name) for name in drives]
+        self.rows = [*self._rigid(), *self.joint_rows, *self.drive_rows]
+
+    def functional(self, link: str, local: Any, point: bool) -> Array:
+        s = np.zeros(self.size)
+        k = 4 * self.links.index(link)
+        s[k], s[k + 1 : k + 4] = float(point), local
+        return s
+
+    def point(self, link: str, name: str | list[float]) -> Array:
+        local = self.tree["links"].get(link, {}).get("points", {})[name] if isinstance(name, str) else name
+        return self.functional(link, local, True)
+
+    def ends(self, name: str) -> tuple[str, str, Array, Array]:
+        """Links i and j of a joint and the functionals of its points."""
+        t = self.tree["joints"][name]
+        at = t.get("at", name)
+        names = [at, at] if isinstance(at, str) else at
+        i, j = t["links"]
+        return i, j, self.point(i, names[0]), self.point(j, names[1])
+
+    def axes(self, name: str) -> tuple[list[Array], list[Array]]:
+        """Functionals of the local axes x, y, z on i and on j."""
+        t = self.tree["joints"][name]
+        return tuple(  # type: ignore[return-value]
+            [self.functional(link, u, False) for u in local_axes(t, side).T]
+            for link, side in zip(t["links"], "ij", strict=True)
+        )
+
+    def _rigid(self) -> list[Row]:
+        e = np.eye(self.size)
+        spots = [
+            (4 * k + a, 4 * k + b) for k in range(1, len(self.links)) for a in (1, 2, 3) for b in range(a, 4)
+        ]
+        return [Row("", e[a], e[b], float(a == b)) for a, b in spots]
+
+    def _joint(self, name: str) -> list[Row]:
+        _, _, p_i, p_j = self.ends(name)
+        (xi, yi, zi), (xj, yj, zj) = self.axes(name)
+        gap = p_j - p_i
+        pairs = {
+            "weld": [(gap, xi), (gap, yi), (gap, zi), (xj, yi), (xj, zi), (yj, zi)],
+            "revolute": [(gap, xi), (gap, yi), (gap, zi), (zj, xi), (zj, yi)],
+            "prismatic": [(gap, yi), (gap, zi), (xj, yi), (xj, zi), (yj, zi)],
+            "cylindrical": [(gap, yi), (gap, zi), (xj, yi), (xj, zi)],
+            "slotted_cylinder": [(gap, yi), (gap, zi), (zj, xi), (zj, yi)],
+            "universal": [(gap, xi), (gap, yi), (gap, zi), (zj, zi)],
+            "spherical": [(gap, xi), (gap, yi), (gap, zi)],
+            "plane": [(gap, xi), (xj, yi), (xj, zi)],
+            "cylinder_between_planes": [(gap, xi), (zj, xi)],
+            "sphere_in_cylinder": [(gap, yi), (gap, zi)],
+            "sphere_between_planes": [(gap, xi)],
+        }[self.tree["joints"][name]["type"]]
+        return [Row(name, a, b) for a, b in pairs]
+
+    def _driven(self, name: str) -> Row:
+        d = self.drives[name]
+        (p, v, a) = (np.broadcast_to(x, (self.count,)) for x in (d.position, d.speed, d.acceleration))
+        (xi, yi, _), (xj, _, _) = self.axes(d.joint)
+        if d.freedom == "slide":
+            _, _, p_i, p_j = self.ends(d.joint)
+            return Row(name, p_j - p_i, xi, Jet(p, v, a))
+        c, s = np.cos(p)[:, None], np.sin(p)[:, None]
+        across, along = c * yi - s * xi, c * xi + s * yi
+        v, a = v[:, None], a[:, None]
+        return Row(name, xj, Jet(across, -v * along, -a * along - v**2 * across))
+
+
+def local_axes(joint: Tree, side: str) -> Array:
+    """The joint's axes as columns, in the axes of link `side`; the other axis is any where only one is given."""
+    main = "z" if joint["type"] in ("revolute", "universal") else "x"
+    given = joint.get("axes", {}).get(side, {main: joint.get("axis", [1.0, 0.0, 0.0])})
+    if "x" in given and "z" in given:
+        return frame(given["z"], given["x"])
+    u = next(iter(given.values()))
+    helper = np.eye(3)[np.argmin(np.abs(u))]
+    return frame(u, helper) if "z" in given else np.roll(frame(u, helper), 1, axis=-1)
+
+
+def solve(m: Machine, guess: Array, inertia: bool = True) -> Natural:
+    """The answer at every position, from coordinates that nearly close."""
+    q = guess.copy()
+    for _ in range(8):
+        phi, J, _, _ = system(m.rows, q, 0 * q)
+        q[:, 4:] -= _solved(J, phi).reshape(q[:, 4:].shape)
+    _, J, rate, _ = system(m.rows, q, 0 * q)
+    v = _with_ground(_solved(_still(m, J, q), _padded(m, -rate)), q)
+    _, J, _, drift = system(m.rows, q, v)
+    a = _with_ground(_solved(_still(m, J, q), _padded(m, -drift)), q)
+    found = Natural(m.links, q, v, a)
+    wanted = _momentum(m, a if inertia else 0 * a) - _forces(m, q)
+    multipliers = _solved(np.swapaxes(J, -1, -2), wanted[:, 4:].reshape(len(q), -1))
+    _reactions(m, found, multipliers)
+    return found
+
+
+def system(rows: list[Row], q: Array, v: Array) -> tuple[Array, Array, Array, Array]:
+    """phi (P, R), J (P, R, 12 L), rates of phi at Q' = 0, and second rates at Q'' = 0."""
+    phi, J, rate, drift = [], [], [], []
+    for row in rows:
+        s2 = row.s2 if isinstance(row.s2, Jet) else Jet(row.s2[None], 0 * row.s2[None], 0 * row.s2[None])
+        d = row.d if isinstance(row.d, Jet) else Jet(np.full(1, row.d), np.zeros(1), np.zeros(1))
+        a, a_v = row.s1 @ q, row.s1 @ v
+        b, b_v = _of(s2.x, q), _of(s2.x, v)
+        phi.append(_dot(a, b) - d.x)
+        J.append(row.s1[None, :, None] * b[:, None] + s2.x[..., None] * a[:, None])
+        rate.append(_dot(a, _of(s2.v, q)) - d.v)
+        turning = _dot(a_v, _of(s2.v, q)) * 2 + _dot(a, _of(s2.a, q) + 2 * _of(s2.v, v))
+        drift.append(2 * _dot(a_v, b_v) + turning - d.a)
+    shape = (len(q), len(rows), -1)
+    full = np.stack([j + np.zeros_like(q) for j in J], 1)
+    return np.stack(phi, 1), full[:, :, 4:].reshape(shape), np.stack(rate, 1), np.stack(drift, 1)
+
+
+def _of(s: Array, q: Array) -> Array:
+    return np.einsum("...n,...nk->...k", s, q)
+
+
+def _dot(a: Array, b: Array) -> Array:
+    return np.sum(a * b, -1)
+
+
+def _solved(J: Array, right: Array) -> Array:
+    return np.einsum("...ij,...j->...i", np.linalg.pinv(J, rcond=1e-11), right)
+
+
+def _with_ground(x: Array, q: Array) -> Array:
+    out = np.zeros_like(q)
+    out[:, 4:] = x.reshape(q[:, 4:].shape)
+    return out
+
+
+def idle(m: Machine) -> list[tuple[str, Array]]:
+    """Links held by two spheres only, with the functional of the line between them."""
+    out = []
+    for link in m.links[1:]:
+        held = [(name, t) for name, t in m.tree["joints"].items() if link in t["links"]]
+        if [t["type"] for _, t in held] == ["spherical", "spherical"]:
+            p, r = (m.ends(name)[2 + t["links"].index(link)] for name, t in held)
+            out.append((link, r - p))
+    return out
+
+
+def _still(m: Machine, J: Array, q: Array) -> Array:
+    """J with a row w . u = 1/2 sum (u x c) . c' for each link that could spin idly; its drift is zero."""
+    rows = []
+    for link, line in idle(m):
+        k = 4 * m.links.index(link)
+        row = np.zeros_like(q)
+        row[:, k + 1 : k + 4] = np.cross((line @ q)[:, None], q[:, k + 1 : k + 4])
+        rows.append(row[:, 4:].reshape(len(q), 1, -1))
+    return np.concatenate([J, *rows], 1)
+
+
+def _padded(m: Machine, right: Array) -> Array:
+    return np.concatenate([right, np.zeros((len(right), len(idle(m))))], 1)
+
+
+def _momentum(m: Machine, a: Array) -> Array:
+    """M Q'': the moments of zeroth, first and second order of each link's mass."""
+    out = np.zeros_like(a)
+    for k, link in enumerate(m.links):
+        t = m.tree["links"].get(link, {})
+        mass, center = number(t.get("mass", 0.0)), np.asarray(t.get("center", [0.0, 0.0, 0.0]), float)
+        about = np.asarray(t.get("inertia", [0.0, 0.0, 0.0]), float)
+        about = np.diag(about) if about.ndim == 1 else about
+        second = 0.5 * np.trace(about) * np.eye(3) - about + mass * np.outer(center, center)
+        first = mass * center
+        block = np.block([[np.array([[mass]]), first[None]], [first[:, None], second]])
+        out[:, 4 * k : 4 * k + 4] = block @ a[:, 4 * k : 4 * k + 4]
+    return out
+
+
+def _forces(m: Machine, q: Array) -> Array:
+    """Weights, forces and couples on the coordinates; a couple M is 1/2 M x c on each axis c."""
+    gravity = m.tree.get("gravity", "none")
+    g = np.zeros(3) if gravity == "none" else np.asarray(gravity, float)
+    out = _momentum(m, np.stack([g if k % 4 == 0 else 0 * g for k in range(m.size)])[None] + 0 * q)
+    for load in m.tree.get("loads", {}).values():
+        k = 4 * m.links.index(load["on"])
+        value = np.asarray(load["value"], float)
+        if load.get("axes", "ground") == "link":
+            value = np.einsum("k,...kn->...n", value, q[:, k + 1 : k + 4])
+        if load["type"] == "couple":
+            out[:, k + 1 : k + 4] += 0.5 * np.cross((value + 0 * q[:, 0])[:, None], q[:, k + 1 : k + 4])
+        else:
+            out += m.point(load["on"], load["at"])[:, None] * (value + 0 * q[:, 0])[:, None]
+    return out
+
+
+def _reactions(m: Machine, found: Natural, multipliers: Array) -> None:
+    rigid = len(m.rows) - len(m.joint_rows) - len(m.drive_rows)
+    size = multipliers.shape[0], m.size, 3
+    pushes = {name: np.zeros(size) for name in m.tree["joints"]}
+    for k, row in enumerate(m.joint_rows):
+        b, a = np.asarray(row.s2) @ found.q, row.s1 @ found.q
+        gradient = row.s1[None, :, None] * b[:, None] + np.asarray(row.s2)[None, :, None] * a[:, None]
+        pushes[row.name] += multipliers[:, rigid + k, None, None] * gradient
+    for name, push in pushes.items():
+        _, j, _, p_j = m.ends(name)
+        k = 4 * m.links.index(j)
+        force = push[:, k]
+        about_origin = np.sum(np.cross(found.q[:, k + 1 : k + 4], push[:, k + 1 : k + 4]), 1)
+        arm = p_j @ found.q - found.q[:, k]
+        found.forces[name], found.moments[name] = force, about_origin - np.cross(arm, force)
+    for k, name in enumerate(m.drives):
+        found.efforts[name] = multipliers[:, rigid + len(m.joint_rows) + k]
+
+
+def mobility(m: Machine, q: Array) -> tuple[int, int, float]:
+    """Freedoms and redundant constraints without drives at one pose (4 L, 3), and the gap in the singular values.
+
+    The gap: the smallest singular value counted over the largest not counted (over the largest of all if none is left).
+    """
+    held = m.rows[: len(m.rows) - len(m.drive_rows)]
+    _, J, _, _ = system(held, q[None], 0 * q[None])
+    J = J[0]
+    values = np.linalg.svd(J, compute_uv=False)
+    small = values < 1e-8 * values[0]
+    rank = int(np.sum(~small))
+    gap = values[~small][-1] / (values[small][0] if small.any() else 1e-16 * values[0])
+    return J.shape[1] - rank, len(held) - rank, float(gap)
+
+
+def coordinates(m: Machine, poses: dict[str, Any]) -> Array:
+    """Q of the poses of a hand solution."""
+    count = max(len(pose.origin.x) for pose in poses.values())
+    q = np.zeros((count, m.size, 3))
+    q[:, 1:4] = np.eye(3)
+    for link, pose in poses.items():
+        k = 4 * m.links.index(link)
+        q[:, k] = pose.origin.x
+        q[:, k + 1 : k + 4] = np.swapaxes(pose.rotation.x, -1, -2)
+    return q
