@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import stat
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -22,37 +23,40 @@ def check_installed(package: str, what: str, extra: str = "results") -> None:
 
 def check_new(path: Path, overwrite: bool) -> None:
     """Raise where a file exists that is not to be overwritten."""
-    if path.exists() and not overwrite:
+    if os.path.exists(path) and not overwrite:
         raise ModelError(
             f"{path} exists", "name another file, or overwrite it: --force, in Python overwrite=True"
         )
 
 
 @contextmanager
-def new_file(path: str | Path, overwrite: bool = False) -> Iterator[Path]:
-    """A temporary file beside `path` that takes its place when all is written; an existing one is kept."""
-    target = Path(path)
-    check_new(target, overwrite)
+def new_file(path: str | os.PathLike[str], overwrite: bool = False) -> Iterator[Path]:
+    """A temporary file beside `path` that takes its place when all is written; an existing one is kept.
+
+    What is overwritten keeps its permissions, and a symbolic link goes on pointing where it did.
+    """
+    asked = Path(path)
+    check_new(asked, overwrite)
     try:
+        target = Path(os.path.realpath(asked))
         handle, name = tempfile.mkstemp(target.suffix, f".{target.stem}.", target.parent)
         os.close(handle)
-    except OSError as error:
-        raise _unwritable(target, error) from None
+    except (OSError, ValueError) as error:  # a ValueError where the name has the character 0
+        raise _unwritable(asked, error) from None
     temporary = Path(name)
     try:
         yield temporary
-        temporary.chmod(0o666 & ~_umask())
+        temporary.chmod(stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask())
         temporary.replace(target)
     except OSError as error:
-        raise _unwritable(target, error) from None
+        raise _unwritable(asked, error) from None
     finally:
         temporary.unlink(missing_ok=True)
 
 
-def _unwritable(target: Path, error: OSError) -> ModelError:
-    return ModelError(
-        f"cannot write {target}: {(error.strerror or str(error)).lower()}", "name a file that can be written"
-    )
+def _unwritable(path: Path, error: OSError | ValueError) -> ModelError:
+    said = (getattr(error, "strerror", None) or str(error)).lower()
+    return ModelError(f"cannot write {path}: {said}", "name a file that can be written")
 
 
 def _umask() -> int:

@@ -10,6 +10,7 @@ from typing import Any
 from dalembert.errors import ModelError
 from dalembert.model.mechanism import Mechanism, mechanism
 from dalembert.model.source import Lines, Source
+from dalembert.saving import new_file
 from dalembert.wording import closest
 
 LARGEST = 1_000_000
@@ -189,17 +190,14 @@ def save_tree(tree: Mapping[str, Any], path: FilePath, overwrite: bool = False) 
     text = tree_text(tree, _format(path))
     try:
         content = text.encode("utf-8")
-        with Path(path).open("wb" if overwrite else "xb") as file:
-            file.write(content)
-    except FileExistsError:
+    except UnicodeEncodeError as error:
+        half = text[error.start]
         raise ModelError(
-            f"there is a file {os.fspath(path)} already", "name another, or say overwrite"
+            f"cannot write {os.fspath(path)}: a text in it has {half!r}, half a character",
+            "write that text anew",
         ) from None
-    except (OSError, ValueError) as error:
-        said = getattr(error, "strerror", None) or error
-        raise ModelError(
-            f"{os.fspath(path)} cannot be written: {said}", "name another folder or file"
-        ) from None
+    with new_file(path, overwrite) as temporary:
+        temporary.write_bytes(content)
 
 
 def tree_text(tree: Mapping[str, Any], form: str = "yaml") -> str:
