@@ -1,4 +1,4 @@
-"""Tables: through their points, straight or smooth between them, periodic over a turn, nothing outside."""
+"""Tables: through their points, straight or smooth between them, periodic over turns, nothing outside."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ import math
 import numpy as np
 import pytest
 
+from dalembert.analysis import dynamics
 from dalembert.errors import ModelError
-from dalembert.model import Table, loads
+from dalembert.model import Mechanism, Table, loads
 from tests.model.parts import FOUR_BAR
 
 X, Y = (0.0, 1.0, 2.5, 4.0), (1.0, 3.0, -2.0, 1.0)
@@ -68,3 +69,24 @@ def test_in_a_file_the_units_are_the_files_or_their_own() -> None:
     )[0]
     assert bare == pytest.approx(np.array([0, 0.5, 1 / 90]) * 4.4482216152605, abs=1e-12)
     assert said == pytest.approx(bare, abs=1e-12)
+
+
+def with_table(table: str, drive: str = "position: 60 deg") -> Mechanism:
+    text = FOUR_BAR.replace("value: 80 @ 330", f"direction: 0, value: {{against: O2, {table}}}")
+    return loads(text.replace("position: 60 deg", drive).replace(", acceleration: -40 rad/s^2", ""))
+
+
+@pytest.mark.parametrize("periodic", ["true", "720 deg", "2 turn"])
+def test_a_table_may_repeat_after_several_turns(periodic: str) -> None:
+    table = f"x: [0, 200, 360, 500, 720], y: [300, 900, 0, -200, 300], periodic: {periodic}"
+    r = dynamics(with_table(table, "position: {from: -720, to: 2160, count: 48}"))
+    effort = r.effort("O2").reshape(4, 2, 6)
+    assert effort[1:] == pytest.approx(np.broadcast_to(effort[0], (3, 2, 6)), rel=1e-9)
+    assert np.abs(effort[0, 1] - effort[0, 0]).max() > 0.1 * np.abs(effort).max()
+
+
+@pytest.mark.parametrize(("x", "turns"), [("0, 300", 1), ("-180, 180", 1), ("180, 900", 2), ("0, 3 turn", 3)])
+def test_periodic_true_is_the_whole_turns_a_table_goes_over(x: str, turns: int) -> None:
+    table = with_table(f"x: [{x}], y: [1, 1], periodic: true").loads["F_P"].value  # type: ignore[union-attr]
+    assert isinstance(table, Table)
+    assert table.period == pytest.approx(2 * math.pi * turns)

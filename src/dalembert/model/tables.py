@@ -125,7 +125,7 @@ def _check_period(table: Table) -> None:
     if not table.period > 0 or span > table.period * (1 + SLACK):
         raise ModelError(
             f"a periodic table goes over {table._said(span)} and repeats after {table._said(table.period)}",
-            "leave out the points beyond one period",
+            "leave out the points beyond one period, or give a longer one, as in `periodic: 20 mm` or `720 deg`",
             ("periodic",),
         )
     size = max(abs(y) for y in table.y)

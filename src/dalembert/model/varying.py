@@ -12,7 +12,7 @@ from pydantic import ValidationInfo
 from dalembert.errors import ModelError
 from dalembert.model.expressions import Expression, parsed
 from dalembert.model.part import Reading, mapping, reading
-from dalembert.model.tables import Table
+from dalembert.model.tables import SLACK, Table
 from dalembert.model.values import NUMBER_OR_TEXT, JsonSchema, Value, at_item, name, numbers, written
 from dalembert.units import KINDS, NUMBER, check_unit, quantity
 from dalembert.wording import shown
@@ -51,7 +51,7 @@ def varying_schema() -> JsonSchema:
             "interpolate": {"enum": ["linear", "cubic"], "description": "between the points; default linear"},
             "periodic": {
                 "type": ["boolean", "number", "string"],
-                "description": "true: repeats every turn (along a slide: after its length); or the period",
+                "description": "true: after a turn, or the whole turns x goes over (a slide: all of x); or the period",
             },
         },
         "required": ["against", "x", "y"],
@@ -158,7 +158,11 @@ def _period(value: object, along: str, x: tuple[float, ...], rules: Reading) -> 
         return None
     if value is not True:
         return quantity(value, along, rules.units)
-    return 2 * math.pi if along == "angle" else x[-1] - x[0]
+    span = x[-1] - x[0]
+    if along == "length":
+        return span
+    turns = max(round(span / (2 * math.pi)), 1)
+    return span if abs(span - 2 * math.pi * turns) <= SLACK * span else 2 * math.pi
 
 
 def varying_tree(value: Varying, kind: str) -> Any:
