@@ -37,7 +37,7 @@ CLOSE, POOR, STEPS = 0.01, 0.1, 5
 """Newton's step over the travel at which it may stop, the whole correction that is refused, most steps."""
 
 FAR = 4 * STRIDE
-"""Longest travel of a link between stations."""
+"""Longest travel of a link between stations: radians, or lengths over the machine's reach."""
 
 BLOCK = 2048
 """Positions corrected at once: enough to hide the cost of a numpy call, few enough to stay in the cache."""
@@ -153,11 +153,24 @@ def _station(
         dq = _twist(layout, _corrections(layout, pose, gap(layout, pose, there), slope))
         pose = moved(layout, pose, dq[:1, :-1])
         travel = distance(layout, pose, poses[-1].at(None))[0]
-        if not distance(layout, pose, guess)[0] <= POOR * travel + 1e-6 or travel > FAR:
+        if not distance(layout, pose, guess)[0] <= POOR * travel + 1e-6 or _is_far(
+            layout, poses[-1], pose.at(0)
+        ):
             return None
         if largest(layout, dq[:1])[0] <= CLOSE * travel + 1e-9:
             return pose.at(0), dq[1]
     return None
+
+
+def _is_far(layout: Layout, before: Pose, after: Pose) -> bool:
+    """Whether a link travelled too far between two poses (L+1, ...) for all branches to be told apart.
+
+    Shifts are compared with the reach of the moving links, not with one link's length: what stands at the end of a
+    long chain goes far by the chain's turns alone.
+    """
+    reach = max(np.ptp(before.point[:-1], axis=0).max(initial=0.0), layout.length)
+    shift = np.abs(after.point - before.point).max() / reach
+    return bool(max(shift, np.abs(after.turn - before.turn).max()) > FAR)
 
 
 def _predicted(layout: Layout, s: list[float], poses: list[Pose], rates: list[Array], ahead: float) -> Pose:
