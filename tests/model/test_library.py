@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from dalembert.analysis import solve
+from dalembert.core import follow
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, loads
 from dalembert.model.library import (
@@ -166,6 +167,20 @@ def test_scissor_is_lifted_by_its_formula(stages: int, drive: str) -> None:
     exact = force if drive == "slide" else -force * 1.2 * np.sin(alpha)
     assert r.effort("base_roller" if drive == "slide" else "base_pin") == pytest.approx(exact, rel=1e-10)
     assert r.position("platform")[:, 1] == pytest.approx(stages * 1.2 * np.sin(alpha), rel=1e-12)
+
+
+def test_a_long_chain_takes_no_more_stations_than_a_short_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    march, stations = follow.march, []
+
+    def counted(*given: Any) -> follow.March:
+        stations.append(march(*given))
+        return stations[-1]
+
+    monkeypatch.setattr(follow, "march", counted)
+    for stages in (5, 60):
+        assert set(solve(scissor(stages, positions=7)).status) == {"ok"}
+    short, long = (len(m.s) for m in stations)
+    assert long <= short
 
 
 @pytest.mark.long
