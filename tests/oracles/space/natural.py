@@ -133,12 +133,49 @@ def local_axes(joint: Tree, side: str) -> Array:
     return frame(u, helper) if "z" in given else np.roll(frame(u, helper), 1, axis=-1)
 
 
+def closed(m: Machine, guess: Array, rcond: float = 1e-11) -> tuple[Array, float]:
+    """Coordinates by Newton's method from others that nearly close, and the largest gap left."""
+    q = guess.copy()
+    for _ in range(10):
+        phi, J, _, _ = system(m.rows, q, 0 * q)
+        gap = float(np.max(np.abs(phi)))
+        if gap < 5e-15:
+            break
+        q[:, 4:] -= _solved(J, phi, rcond).reshape(q[:, 4:].shape)
+    return q, gap
+
+
+def drawn(m: Machine) -> Array:
+    """All links' axes in ground's (4 L, 3)."""
+    return np.tile(np.vstack([np.zeros((1, 3)), np.eye(3)]), (len(m.links), 1))
+
+
+def followed(tree: Tree) -> tuple[Machine, Array, list[float]]:
+    """A linkage drawn with all links' axes in ground's, followed along its drives' positions one by one.
+
+    Redundant constraints: singular values below 1e-5 belong to rows that agree once the linkage closes.
+    """
+    whole = Machine(tree)
+    q = drawn(whole)[None]
+    path, gaps = [], []
+    for k in range(whole.count):
+        at = {
+            name: {**tree["drives"][name], "position": f"{d.position[k]} {_unit(d.freedom)}"}
+            for name, d in whole.drives.items()
+        }
+        q, gap = closed(Machine({**tree, "drives": at}), q, 1e-5)
+        path.append(q[0])
+        gaps.append(gap)
+    return whole, np.array(path), gaps
+
+
+def _unit(freedom: str) -> str:
+    return "m" if freedom == "slide" else "rad"
+
+
 def solve(m: Machine, guess: Array, inertia: bool = True) -> Natural:
     """The answer at every position, from coordinates that nearly close."""
-    q = guess.copy()
-    for _ in range(8):
-        phi, J, _, _ = system(m.rows, q, 0 * q)
-        q[:, 4:] -= _solved(J, phi).reshape(q[:, 4:].shape)
+    q, _ = closed(m, guess)
     _, J, rate, _ = system(m.rows, q, 0 * q)
     v = _with_ground(_solved(_still(m, J, q), _padded(m, -rate)), q)
     _, J, _, drift = system(m.rows, q, v)
@@ -176,8 +213,8 @@ def _dot(a: Array, b: Array) -> Array:
     return np.sum(a * b, -1)
 
 
-def _solved(J: Array, right: Array) -> Array:
-    return np.einsum("...ij,...j->...i", np.linalg.pinv(J, rcond=1e-11), right)
+def _solved(J: Array, right: Array, rcond: float = 1e-11) -> Array:
+    return np.einsum("...ij,...j->...i", np.linalg.pinv(J, rcond=rcond), right)
 
 
 def _with_ground(x: Array, q: Array) -> Array:
