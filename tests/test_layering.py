@@ -28,12 +28,13 @@ MAY_IMPORT = {
     "kernel": {"algebra", "core", "kernel"},
     "model": BASE | {"model"},
     "analysis": ANALYSIS,
-    "views": ANALYSIS - {"core", "kernel"} | {"views"},
-    "report": ANALYSIS - {"core", "kernel"} | {"views", "report"},
+    "wrench": BASE | {"algebra", "model", "analysis", "wrench"},
+    "views": ANALYSIS - {"core", "kernel"} | {"wrench", "views"},
+    "report": ANALYSIS - {"core", "kernel"} | {"wrench", "views", "report"},
     "study": ANALYSIS | {"study"},
     "web": ANALYSIS | {"views", "report", "study", "web"},
     "cli": ANALYSIS - {"core", "kernel"} | {"", "views", "report", "study", "web", "cli"},
-    "__init__": ANALYSIS | {"views", "report", "study"},
+    "__init__": ANALYSIS | {"wrench", "views", "report", "study"},
     "__main__": {"cli"},
 }
 """Part of the package -> the parts it may import; '' is the package itself, for its version."""

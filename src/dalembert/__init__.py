@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from dalembert.errors import STATUSES, AnalysisError, DalembertError, ModelError
 
 if TYPE_CHECKING:
+    from dalembert import wrench
     from dalembert.analysis import (
         Mobility,
         Result,
@@ -169,8 +170,12 @@ _HOME = {
     "watt_1": "model.library",
     "watt_2": "model.library",
     "whitworth": "model.library",
+    "wrench": "wrench",
 }
 """Public name -> the package it is imported from when it is first asked for."""
+
+_PACKAGES = ("wrench",)
+"""Public names that are packages themselves."""
 
 __all__ = [
     "STATUSES",
@@ -253,13 +258,15 @@ __all__ = [
     "watt_1",
     "watt_2",
     "whitworth",
+    "wrench",
 ]
 
 
 def __getattr__(name: str) -> Any:
     if name not in _HOME:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    value = getattr(import_module(f"{__name__}.{_HOME[name]}"), name)
+    home = import_module(f"{__name__}.{_HOME[name]}")
+    value = home if name in _PACKAGES else getattr(home, name)
     globals()[name] = value
     return value
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert.algebra.lines import meeting_point
 from dalembert.analysis.actions import Action, actions, magnitude, on_link, slide_direction
 
 if TYPE_CHECKING:
@@ -231,17 +232,10 @@ def displaced_inertia(r: Result, link: str) -> Displaced:
 
 def concurrency(some: Sequence[Action], k: int) -> tuple[float, float] | None:
     """Where the lines of action of forces meet at position k: least squares; None where they are parallel."""
-    rows, right = [], []
-    for a in some:
-        f, at = a.force[k], a.at[k]
-        size = float(np.hypot(*f))
-        if size > 0:
-            rows.append([-f[1] / size, f[0] / size])
-            right.append((-f[1] * at[0] + f[0] * at[1]) / size)
-    if len(rows) < 2:
+    if not some:
         return None
-    point, _, rank, values = np.linalg.lstsq(np.array(rows), np.array(right), rcond=None)
-    return (float(point[0]), float(point[1])) if rank == 2 and values[1] > 1e-6 * values[0] else None
+    found = meeting_point(np.array([a.at[k] for a in some]), np.array([a.force[k] for a in some]))
+    return None if found is None else (float(found[0][0]), float(found[0][1]))
 
 
 def components_along(r: Result, a: Action, k: int) -> tuple[float, float]:

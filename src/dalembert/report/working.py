@@ -11,6 +11,7 @@ import numpy as np
 from dalembert.analysis.actions import actions
 from dalembert.analysis.columns import drive_kinds, load_kind
 from dalembert.analysis.members import components_along
+from dalembert.analysis.which import position_at
 from dalembert.report import balance
 from dalembert.report.chosen import METHODS, Chosen, Method, as_formula
 from dalembert.report.given import knowns
@@ -18,7 +19,6 @@ from dalembert.report.methods import checks, cycle, graphical, superposition, vi
 from dalembert.report.moving import inertia, motion
 from dalembert.report.sheet import Sheet, Working
 from dalembert.views import draw
-from dalembert.views.mechanism import position_at
 from dalembert.views.notation import Notation, Shown, own_name
 
 if TYPE_CHECKING:

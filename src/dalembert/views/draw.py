@@ -16,11 +16,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
+from dalembert.analysis.which import position_at
 from dalembert.views import charts as _charts
 from dalembert.views.animation import Animation, animation_scene
 from dalembert.views.free_body import components_scene, free_body_scene
 from dalembert.views.inertia import displaced_inertia_scene
-from dalembert.views.mechanism import mechanism_scene, place_title, position_at
+from dalembert.views.mechanism import mechanism_scene, place_title
 from dalembert.views.motion import instant_centers_scene, motion_polygon_scene
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.polygons import force_chain_scene, force_polygon_scene, lines_of_action_scene

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dalembert.analysis.actions import Action, actions, link_place
-from dalembert.units import quantity
 from dalembert.views import symbols
 from dalembert.views.canvas import Canvas
 from dalembert.views.frame import Frame, fitted, force_scale
@@ -252,33 +251,3 @@ def _turning(a: Action) -> Action:
     from dataclasses import replace
 
     return replace(a, force=np.zeros_like(a.force))
-
-
-def position_at(r: Result, at: Any = None) -> int:
-    """Index from 0 of a position given by its number from 1, or nearest to a value of the first drive (`60 deg`)."""
-    if at is None:
-        good = np.flatnonzero(r.ok)
-        return int(good[0]) if len(good) else 0
-    from dalembert.errors import ModelError
-
-    if isinstance(at, int) or (isinstance(at, str) and at.strip().isdigit()):
-        n = int(at)
-        if not 1 <= n <= len(r.status):
-            raise ModelError(f"there is no position {n}", f"number one from 1 to {len(r.status)}")
-        return n - 1
-    if not r.drives:
-        raise ModelError("there is no drive whose position could be named", "number the position")
-    from dalembert.analysis.columns import drive_kinds
-    from dalembert.units import file_units
-
-    kind = drive_kinds(r, r.drives[0])["position"]
-    wanted = quantity(at, kind, file_units(r.mechanism.units))
-    values = r.drive_position(r.drives[0])
-    away = values - wanted
-    away = np.abs(np.angle(np.exp(1j * away))) if kind == "angle" else np.abs(away)
-    k = int(np.nanargmin(away))
-    if away[k] > 1e-6 + (0.5 * float(np.abs(np.diff(values)).max()) if len(values) > 1 else 0.0):
-        nearest = Shown(r, Notation()).text(kind, float(values[k]))
-        what = f"no position has {r.drives[0]} = {at}; the nearest is {nearest}"
-        raise ModelError(what, "solve the mechanism there: give the drive that position, or more positions")
-    return k

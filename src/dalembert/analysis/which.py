@@ -1,0 +1,40 @@
+"""Which position of a result is meant: by its number, or by the value of its first drive."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.analysis.columns import drive_kinds, scale
+from dalembert.errors import ModelError
+from dalembert.units import file_units, quantity
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result import Result
+
+
+def position_at(r: Result, at: Any = None) -> int:
+    """Index from 0 of a position given by its number from 1, or nearest to a value of the first drive (`60 deg`)."""
+    if at is None:
+        good = np.flatnonzero(r.ok)
+        return int(good[0]) if len(good) else 0
+    if isinstance(at, int) or (isinstance(at, str) and at.strip().isdigit()):
+        n = int(at)
+        if not 1 <= n <= len(r.status):
+            raise ModelError(f"there is no position {n}", f"number one from 1 to {len(r.status)}")
+        return n - 1
+    if not r.drives:
+        raise ModelError("there is no drive whose position could be named", "number the position")
+    kind = drive_kinds(r, r.drives[0])["position"]
+    wanted = quantity(at, kind, file_units(r.mechanism.units))
+    values = r.drive_position(r.drives[0])
+    away = values - wanted
+    away = np.abs(np.angle(np.exp(1j * away))) if kind == "angle" else np.abs(away)
+    k = int(np.nanargmin(away))
+    if away[k] > 1e-6 + (0.5 * float(np.abs(np.diff(values)).max()) if len(values) > 1 else 0.0):
+        shown = scale(r, "file")
+        nearest = f"{float(shown(kind, values[k])):.6g} {shown.text(kind)}"
+        what = f"no position has {r.drives[0]} = {at}; the nearest is {nearest}"
+        raise ModelError(what, "solve the mechanism there: give the drive that position, or more positions")
+    return k

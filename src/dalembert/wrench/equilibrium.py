@@ -1,0 +1,86 @@
+"""Is a force system in equilibrium, and what is missing where it is not."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from dalembert.units import Units
+from dalembert.wrench.forces import Couple, Force
+from dalembert.wrench.reading import Array, fixed
+from dalembert.wrench.system import System
+
+
+@dataclass(frozen=True, eq=False)
+class Balance:
+    """Sums of forces (N) and of moments (N m) about ``at`` (m), and their largest part of what acts.
+
+    ``residual`` is the larger of |sum of forces| / largest force and |sum of moments| / (largest force x length).
+    """
+
+    holds: bool
+    residual: float
+    force: Array
+    moment: Array
+    at: Array
+    missing: tuple[Force | Couple, ...]
+    sentence: str
+
+
+def balance(system: System, tolerance: float, length: float | None) -> Balance:
+    """The check of equilibrium of a system.
+
+    >>> balance(System(Force([0, 10]), Force([0, -10], at=[2, 0])), 1e-9, None).sentence
+    'Not in equilibrium: the forces balance, the moments do not. A couple of 20 N*m is missing.'
+    """
+    at = system.middle
+    force, moment = system.resultant, system._moment(at)
+    largest, moment_scale = system.scales(length)
+    parts = _part(force, largest), _part(moment, moment_scale)
+    residual = max(parts)
+    holds = residual <= tolerance
+    missing = system.equilibrant(tolerance, length)
+    if holds:
+        sentence = f"In equilibrium: {residual:.1g} of the largest force is left."
+    else:
+        sentence = f"Not in equilibrium: {_which(parts, tolerance)}. {_missing(system, missing)}"
+    return Balance(holds, residual, force, fixed(moment), at, missing, sentence)
+
+
+def _part(sum_of: Array, scale: float) -> float:
+    size = float(np.linalg.norm(sum_of))
+    return size / scale if scale > 0 else 0.0 if size == 0 else np.inf
+
+
+def _which(parts: tuple[float, float], tolerance: float) -> str:
+    force, moment = (part <= tolerance for part in parts)
+    if force:
+        return "the forces balance, the moments do not"
+    if moment:
+        return "the moments about the middle balance, the forces do not"
+    return "neither forces nor moments balance"
+
+
+def _missing(system: System, parts: tuple[Force | Couple, ...]) -> str:
+    said = " and ".join(_said(part, system.units) for part in parts)
+    return f"{said[0].upper()}{said[1:]} {'is' if len(parts) == 1 else 'are'} missing."
+
+
+def _said(part: Force | Couple, units: Units) -> str:
+    if isinstance(part, Couple):
+        return f"a couple of {listed(part.vector, 'moment', units)}"
+    place = listed(part.at, "length", units)
+    return f"a force of {listed(part.vector, 'force', units)} on the line through {place}"
+
+
+def listed(values: Array, kind: str, units: Units) -> str:
+    """Components with their unit, five figures: `[3, 4] N`.
+
+    >>> listed(np.array([3.0, 4.0]), "force", Units(force="kN"))
+    '[0.003, 0.004] kN'
+    """
+    floor = 1e-12 * float(np.abs(values).max(initial=0.0))
+    shown = [f"{units.unit(kind).of_si(0.0 if abs(v) < floor else float(v)):.5g}" for v in values]
+    numbers = shown[0] if len(shown) == 1 else f"[{', '.join(shown)}]"
+    return f"{numbers} {units.text(kind)}"

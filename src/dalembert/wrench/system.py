@@ -1,0 +1,231 @@
+"""A force system: forces and couples on one link, or on anything taken as rigid."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.errors import AnalysisError, ModelError
+from dalembert.units import Units, file_units
+from dalembert.wording import closest
+from dalembert.wrench import reading
+from dalembert.wrench.forces import ALGEBRA, Axis, Couple, Force, moment_about, value_of
+from dalembert.wrench.reading import Array, UnitNames, Vector, fixed
+
+if TYPE_CHECKING:
+    from dalembert.wrench.equilibrium import Balance
+
+EXACT = 1e-9
+"""Below this part of the largest force (of force times length) a force (a moment) counts as zero."""
+
+
+@dataclass(frozen=True, eq=False)
+class ForceCouple:
+    """The force (N) at a point (m) and the couple (N m) that a system is equivalent to; ``vector`` is the couple's."""
+
+    at: Array
+    force: Array
+    vector: Array
+
+    @property
+    def couple(self) -> Any:
+        """The couple: a number in the plane, a vector (3,) in space."""
+        return value_of(self.vector)
+
+    @property
+    def parts(self) -> tuple[Force, Couple]:
+        """The same as a force and a couple."""
+        return Force(self.force, self.at, "R"), Couple(self.vector, "M")
+
+    def moved(self, at: Vector) -> ForceCouple:
+        """The same at another point B: M_B = M_A + (A - B) x F."""
+        place = reading.vector(at, "length", dimension=len(self.force))
+        arm = self.at - place
+        return ForceCouple(place, self.force, fixed(self.vector + ALGEBRA[len(arm)].cross(arm, self.force)))
+
+
+@dataclass(frozen=True, eq=False)
+class CentralAxis:
+    """The line on which a system is a force and a couple along it, the least couple of all points.
+
+    ``moment`` (N m) is that couple along the force, positive by the right hand, 0 in the plane; ``pitch`` (m) is
+    moment over force. ``axis.point`` is the axis' point nearest to the middle of the system.
+    """
+
+    axis: Axis
+    force: Array
+    moment: float
+    pitch: float
+
+
+class System:
+    """Forces and couples, all of the plane or all of space; ``units`` are those it is shown in (default SI).
+
+    >>> s = System(Force([10, 0], at=[0, 2]), Force([0, 10], at=[3, 0]), Couple(5))
+    >>> s.resultant, s.moment([0, 0]), s.kind()
+    (array([10., 10.]), 15.0, 'single force')
+    """
+
+    def __init__(self, *parts: Force | Couple, title: str = "", units: UnitNames = None) -> None:
+        dimensions = {part.dimension for part in parts}
+        if len(dimensions) > 1:
+            raise ModelError(
+                "the system has parts in the plane and parts in space",
+                "give all vectors 2 components, or all 3",
+            )
+        if not parts:
+            raise ModelError("the system has no force and no couple", "give it at least one")
+        self.parts = parts
+        self.title = title
+        self.units = Units() if units is None else file_units(units)
+        self.dimension: int = dimensions.pop()
+
+    # what it is made of
+
+    @property
+    def forces(self) -> tuple[Force, ...]:
+        """Its forces."""
+        return tuple(part for part in self.parts if isinstance(part, Force))
+
+    @property
+    def couples(self) -> tuple[Couple, ...]:
+        """Its couples."""
+        return tuple(part for part in self.parts if isinstance(part, Couple))
+
+    def __iter__(self) -> Iterator[Force | Couple]:
+        return iter(self.parts)
+
+    def __len__(self) -> int:
+        return len(self.parts)
+
+    def __getitem__(self, name: str) -> Force | Couple:
+        found = [part for part in self.parts if part.name == name]
+        if not found:
+            names = [part.name for part in self.parts if part.name]
+            raise ModelError(f"the system has no part {name!r}", closest(name, names))
+        return found[0]
+
+    def __add__(self, other: System | Force | Couple) -> System:
+        more = other.parts if isinstance(other, System) else (other,)
+        return System(*self.parts, *more, title=self.title, units=self.units)
+
+    def __neg__(self) -> System:
+        return System(*(-part for part in self.parts), title=self.title, units=self.units)
+
+    def __repr__(self) -> str:
+        where = "plane" if self.dimension == 2 else "space"
+        return f"System({len(self.forces)} forces and {len(self.couples)} couples in {where})"
+
+    # its size
+
+    @property
+    def middle(self) -> Array:
+        """The mean of the points of application (m)."""
+        points = [f.at for f in self.forces]
+        return fixed(np.mean(points, axis=0) if points else np.zeros(self.dimension))
+
+    @property
+    def length(self) -> float:
+        """Characteristic length (m): the diagonal of the box around the points of application."""
+        points = [f.at for f in self.forces]
+        return float(np.linalg.norm(np.ptp(points, axis=0))) if points else 0.0
+
+    def scales(self, length: float | None = None) -> tuple[float, float]:
+        """Largest force and largest moment (N, N m) that zero is judged against.
+
+        The force is the largest of all forces and of couples over the length; the moment is that force times the
+        length. At one point, without a length: the largest force and the largest couple.
+        """
+        reach = self.length if length is None else length
+        force = max((f.size for f in self.forces), default=0.0)
+        couple = max((c.size for c in self.couples), default=0.0)
+        if reach == 0:
+            return force, couple
+        largest = max(force, couple / reach)
+        return largest, largest * reach
+
+    # what it comes to
+
+    @property
+    def resultant(self) -> Array:
+        """The sum of all forces (N)."""
+        return fixed(sum((f.vector for f in self.forces), np.zeros(self.dimension)))
+
+    def moment(self, about: Vector | Axis | None = None) -> Any:
+        """Sum of the moments about a point (default the origin) or an axis, couples included, N m.
+
+        A number in the plane, a vector (3,) about a point in space, a number about an axis.
+        """
+        return moment_about(self, about)
+
+    def _moment(self, about: Array) -> Array:
+        zero = np.zeros(ALGEBRA[self.dimension].n - self.dimension)
+        return np.asarray(
+            sum((f._moment(about) for f in self.forces), zero) + sum(c.vector for c in self.couples)
+        )
+
+    def reduced(self, at: Vector | None = None) -> ForceCouple:
+        """The force and couple at a point (default the origin) that the system is equivalent to."""
+        d = self.dimension
+        place = fixed(np.zeros(d)) if at is None else reading.vector(at, "length", dimension=d)
+        return ForceCouple(place, self.resultant, fixed(self._moment(place)))
+
+    def central_axis(self, tolerance: float = EXACT, length: float | None = None) -> CentralAxis:
+        """The axis on which force and couple are parallel: r = F x M / F^2 from the point of M; pitch F . M / F^2.
+
+        In the plane it is the line of action of the resultant. Raises AnalysisError where the resultant is zero.
+
+        >>> s = System(Force([0, 0, 5]), Force([0, 10, 0], at=[2, 0, 0]), Couple([0, 4, 0]))
+        >>> c = s.central_axis()
+        >>> c.axis.crossing(z=0).round(3), round(c.moment, 3)
+        (array([1.44, 0.  , 0.  ]), 12.522)
+        """
+        force, at = self.resultant, self.middle
+        size = float(np.linalg.norm(force))
+        if size <= tolerance * self.scales(length)[0]:
+            what = {"couple": "a couple", "zero": "in equilibrium"}[self.kind(tolerance, length)]
+            raise AnalysisError(
+                f"The resultant force is zero, so there is no central axis: the system is {what}."
+            )
+        moment = self._moment(at)
+        point = at - ALGEBRA[self.dimension].spin(moment, force) / size**2
+        along = float(moment @ force) / size if self.dimension == 3 else 0.0
+        return CentralAxis(Axis(point, force), force, along, along / size)
+
+    def kind(self, tolerance: float = EXACT, length: float | None = None) -> str:
+        """What it reduces to: `zero`, `couple`, `single force`, or in space `wrench` (force and couple along it)."""
+        largest, moment_scale = self.scales(length)
+        size = float(np.linalg.norm(self.resultant))
+        if size <= tolerance * largest:
+            moment = float(np.linalg.norm(self._moment(self.middle)))
+            return "zero" if moment <= tolerance * moment_scale else "couple"
+        couple = abs(self.central_axis(tolerance, length).moment)
+        return "single force" if couple <= tolerance * moment_scale else "wrench"
+
+    def equilibrant(
+        self, tolerance: float = EXACT, length: float | None = None
+    ) -> tuple[Force | Couple, ...]:
+        """What brings it to equilibrium: nothing, a couple, a force on its line, or a force and a couple along it."""
+        kind = self.kind(tolerance, length)
+        if kind == "zero":
+            return ()
+        if kind == "couple":
+            return (Couple(-self._moment(self.middle), "E"),)
+        found = self.central_axis(tolerance, length)
+        force = Force(-found.force, found.axis.point, "E")
+        return (
+            (force,) if kind == "single force" else (force, Couple(-found.moment * found.axis.direction, "E"))
+        )
+
+    def equilibrium(self, tolerance: float = EXACT, length: float | None = None) -> Balance:
+        """Whether it is in equilibrium, how far from it, and what is missing.
+
+        ``tolerance`` is the part of the largest force that may be left, of a moment the part of force times ``length``
+        (m, default the system's own); about 1e-3 suits printed figures.
+        """
+        from dalembert.wrench.equilibrium import balance
+
+        return balance(self, tolerance, length)

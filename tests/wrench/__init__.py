@@ -1,0 +1,1 @@
+"""Force systems: laws on random ones, problems of books, messages, drawings."""
