@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import pytest
 
 from dalembert.wrench import Couple, Force, System
 
-SEEDS = range(40)
+SEEDS = [*range(6), *(pytest.param(s, marks=pytest.mark.long) for s in range(6, 100))]
 DIMENSIONS = (2, 3)
 
 

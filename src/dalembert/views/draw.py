@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from dalembert.analysis.which import position_at
 from dalembert.views import charts as _charts
 from dalembert.views.animation import Animation, animation_scene
+from dalembert.views.camera import CAMERAS, Camera
 from dalembert.views.free_body import components_scene, free_body_scene
 from dalembert.views.inertia import displaced_inertia_scene
 from dalembert.views.mechanism import mechanism_scene, place_title
@@ -29,6 +30,7 @@ from dalembert.views.scene import Scene, stacked
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
+    from dalembert.wrench import System
 
 View = Literal["mechanism", "free-bodies", "force-polygons", "charts", "motion", "all"]
 
@@ -126,6 +128,33 @@ def superposition(r: Result, at: Any = None, notation: Notation | None = None) -
     )
 
 
+def force_system(
+    s: System,
+    at: Any = None,
+    notation: Notation | None = None,
+    camera: Camera | str = "isometric",
+) -> Scene:
+    """A force system of `da.wrench` with its resultant on the central axis; in the plane with its force polygon.
+
+    ``at`` adds the force and couple at that point (m). ``camera``, in space: isometric, front, side, top, or a
+    `Camera`.
+    """
+    from dalembert.errors import ModelError
+    from dalembert.views import force_system as drawn
+    from dalembert.wording import closest
+
+    if isinstance(camera, str):
+        if camera not in CAMERAS:
+            raise ModelError(f"there is no view {camera!r}", closest(camera, list(CAMERAS)))
+        camera = CAMERAS[camera]
+    scenes = [drawn.force_system_scene(s, notation, camera)]
+    if s.dimension == 2 and len(s.forces) > 1:
+        scenes.append(drawn.force_system_polygon_scene(s, notation))
+    if at is not None:
+        scenes.append(drawn.reduced_scene(s, at, notation, camera))
+    return scenes[0] if len(scenes) == 1 else stacked(scenes, title=s.title or "Force system", width=240.0)
+
+
 def motion(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
     """Velocity and acceleration polygons and instant centres."""
     k = position_at(r, at)
@@ -177,7 +206,9 @@ def _title(r: Result, k: int, what: str, notation: Notation | None) -> str:
 
 
 __all__ = [
+    "CAMERAS",
     "Animation",
+    "Camera",
     "Notation",
     "Scene",
     "acceleration_polygon",
@@ -189,6 +220,7 @@ __all__ = [
     "force_chain",
     "force_polygon",
     "force_polygons",
+    "force_system",
     "free_bodies",
     "free_body",
     "instant_centers",

@@ -11,7 +11,7 @@ from dalembert.analysis.actions import Action, actions, link_place
 from dalembert.views import symbols
 from dalembert.views.canvas import Canvas
 from dalembert.views.frame import Frame, fitted, force_scale
-from dalembert.views.notation import Notation, Shown
+from dalembert.views.notation import Figures, Notation, Shown
 from dalembert.views.outline import GROUND, draw_joint, every_place, link_points, link_shape, rail
 from dalembert.views.scene import Arrow, Line, Point, Scene
 
@@ -60,7 +60,7 @@ def _once(r: Result, a: Action) -> bool:
     return a.link != GROUND and a.link == r.mechanism.joints[r.mechanism.drives[a.of].joint or a.of].links[1]
 
 
-def stated(shown: Shown, frame: Frame | None, per_mm: float | None) -> tuple[list[str], dict[str, float]]:
+def stated(shown: Figures, frame: Frame | None, per_mm: float | None) -> tuple[list[str], dict[str, float]]:
     """The scales as a note and as numbers."""
     notes, scales = [], {}
     if frame is not None:
@@ -87,8 +87,7 @@ def place_title(r: Result, k: int, heading: str, shown: Shown) -> str:
 
 def unit_size(r: Result, kind: str, notation: Notation | None = None) -> float:
     """Size in SI of the reader's unit of a kind."""
-    shown = Shown(r, notation or Notation())
-    return 1.0 / abs(shown.value(kind, 1.0))
+    return Shown(r, notation or Notation()).size(kind)
 
 
 def whole_frame(r: Result, k: int, width: float, height: float) -> Frame:

@@ -55,15 +55,12 @@ class Notation:
         return f"{value:.{max(self.figures - 1 - power, 0)}f}".replace("-", "−")
 
 
-class Shown:
-    """Numbers, units and symbols of one result in a notation."""
+class Figures:
+    """Numbers and units in a notation; ``units`` are the reader's own."""
 
-    def __init__(self, r: Result, notation: Notation) -> None:
-        self.r, self.notation = r, notation
-        self.scale = Scale(None if notation.units == "SI" else r.mechanism.units)
-        self.order = (GROUND, *r.links)
-
-    # numbers
+    def __init__(self, units: object, notation: Notation) -> None:
+        self.notation = notation
+        self.scale = Scale(None if notation.units == "SI" else units)
 
     def unit(self, kind: str) -> str:
         """Unit of a kind as the reader writes it: N·m."""
@@ -93,7 +90,22 @@ class Shown:
         size, angle = math.hypot(*force), math.degrees(math.atan2(force[1], force[0]))
         return f"{self.text('force', size)} ∠ {angle:.2f}°".replace("-", "−")
 
-    # symbols
+    def size(self, kind: str) -> float:
+        """Size in SI of the reader's unit of a kind."""
+        return 1.0 / abs(self.value(kind, 1.0))
+
+    def symbol(self, a: Action) -> str:
+        """Sign of an action: its own name."""
+        return own_name(a.of)
+
+
+class Shown(Figures):
+    """Numbers, units and symbols of one result in a notation."""
+
+    def __init__(self, r: Result, notation: Notation) -> None:
+        super().__init__(r.mechanism.units, notation)
+        self.r = r
+        self.order = (GROUND, *r.links)
 
     def link(self, link: str) -> str:
         """A link's number or name."""

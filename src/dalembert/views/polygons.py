@@ -14,7 +14,7 @@ from dalembert.analysis.members import concurrency, members, order_of_solution
 from dalembert.views.canvas import Canvas
 from dalembert.views.frame import Frame, force_scale
 from dalembert.views.mechanism import draw_actions, draw_links, role_of, stated, unit_size, whole_frame
-from dalembert.views.notation import Notation, Shown
+from dalembert.views.notation import Figures, Notation, Shown
 from dalembert.views.scene import Arrow, Circle, Line, Point, Polygon, Scene
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ def force_polygon_scene(
         [float(np.hypot(*a.force[k])) for a in mine], LONGEST, unit_size(r, "force", shown.notation)
     )
     canvas = Canvas()
-    gap = _polygon(canvas, mine, k, shown, per_mm, (0.0, 0.0))[1]
+    gap = draw_polygon(canvas, mine, k, shown, per_mm, (0.0, 0.0))[1]
     heading = f"Force polygon of link {shown.heading(link)}" + (f": {case} alone" if case else "")
     if not mine:
         canvas.label("no forces", (0.0, 0.0))
@@ -80,10 +80,16 @@ def _gap_text(gap: float, mine: Sequence[Action], k: int) -> str:
     return f"closure gap {gap / largest:.0e} of the largest force" if largest else "no forces"
 
 
-def _polygon(
-    canvas: Canvas, mine: Sequence[Action], k: int, shown: Shown, per_mm: float, start: Point, skip: str = ""
+def draw_polygon(
+    canvas: Canvas,
+    mine: Sequence[Action],
+    k: int,
+    shown: Figures,
+    per_mm: float,
+    start: Point,
+    skip: str = "",
 ) -> tuple[dict[str, tuple[Point, Point]], float]:
-    """Draw forces head to tail from a start; returns where each lies (by joint), and the gap in newtons."""
+    """Draw forces head to tail from a start; returns where each lies (by name), and the gap in newtons."""
     at, edges = start, {}
     outline: list[Point] = [start]
     total = np.zeros(2)
@@ -111,7 +117,7 @@ def _middle(mine: Sequence[Action], k: int, per_mm: float, start: Point) -> Poin
 
 
 def _edge_label(
-    canvas: Canvas, a: Action, k: int, shown: Shown, tail: Point, head: Point, middle: Point
+    canvas: Canvas, a: Action, k: int, shown: Figures, tail: Point, head: Point, middle: Point
 ) -> None:
     size = float(np.hypot(*a.force[k]))
     spots = [
@@ -143,10 +149,12 @@ def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case:
         if shared is not None:
             head = placed[shared.of][1]
             mine = [shared, *(a for a in mine if a is not shared)]
-            edges, gap = _polygon(canvas, mine, k, shown, per_mm, head, shared.of)
+            edges, gap = draw_polygon(canvas, mine, k, shown, per_mm, head, shared.of)
         else:
             low = Scene(tuple(canvas.items)).bounds[1] if canvas.items else bottom
-            edges, gap = _polygon(canvas, mine, k, shown, per_mm, (0.0, low - 12.0 if canvas.items else 0.0))
+            edges, gap = draw_polygon(
+                canvas, mine, k, shown, per_mm, (0.0, low - 12.0 if canvas.items else 0.0)
+            )
         placed |= {name: edge for name, edge in edges.items() if name not in placed}
         worst, everything = max(worst, gap), [*everything, *mine]
     notes, scales = stated(shown, None, per_mm)

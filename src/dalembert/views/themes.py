@@ -43,6 +43,7 @@ _LIGHT: dict[str, Look] = {
     "axis-arrow": Look(GREY, 0.25, (), GREY),
     "construction": Look("#7d8894", 0.18, (1.6, 1.0)),
     "resultant": Look("#7d8894", 0.3, (2.4, 0.8)),
+    "resultant-force": Look(INK, 0.65, (), INK),
     "leader": Look("#9aa4af", 0.15),
     "dimension": Look(GREY, 0.18, (), GREY),
     "axis": Look(GREY, 0.25),

@@ -95,6 +95,16 @@ class System:
         """Its couples."""
         return tuple(part for part in self.parts if isinstance(part, Couple))
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """A name for each part: its own, else F1, F2, ... and M1, M2, ... in their order."""
+        counts, out = {"F": 0, "M": 0}, []
+        for part in self.parts:
+            letter = "F" if isinstance(part, Force) else "M"
+            counts[letter] += 1
+            out.append(part.name or f"{letter}{counts[letter]}")
+        return tuple(out)
+
     def __iter__(self) -> Iterator[Force | Couple]:
         return iter(self.parts)
 
