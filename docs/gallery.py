@@ -70,6 +70,28 @@ def figures() -> None:
     da.draw.free_bodies(slider).save(FIGURES / "free_bodies.svg", overwrite=True)
     da.draw.lines_of_action(slider, "rod").save(FIGURES / "lines_of_action.svg", overwrite=True)
     da.draw.motion(r).save(FIGURES / "motion.svg", overwrite=True)
+    force_systems()
+
+
+def force_systems() -> None:
+    """The pictures of the page on force systems."""
+    w = da.wrench
+    forces = [
+        w.Force([40, 0], at=[-7, 0]),
+        w.Force([0, 50], at=[-5, 4]),
+        w.Force("60 @ 135", at=[-7, 4]),
+        w.Force("80 @ 30", at=[0, 0]),
+    ]
+    plate = w.System(*forces, w.Couple(140), title="A plate with four forces and a couple")
+    da.draw.force_system(plate).save(FIGURES / "force_system.svg", overwrite=True)
+    box = w.System(
+        w.Force.along("20 kN", [0, 0, 0], [8, 4, 4]),
+        w.Force.along("10 kN", [8, 0, 0], [8, 4, 0]),
+        w.Force([0, 0, "30 kN"], at=[0, 4, 0]),
+        title="Forces on the edges of a box",
+        units={"force": "kN"},
+    )
+    da.draw.force_system(box, at=[0, 0, 0]).save(FIGURES / "wrench.svg", overwrite=True)
 
 
 if __name__ == "__main__":

@@ -63,8 +63,10 @@ def test_the_guide_has_every_status() -> None:
         assert f"| `{code}` | {status.sentence} | {status.remedy}".rstrip() in page
 
 
-def test_the_page_on_friction_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("page", ["friction.md", "force-systems.md"])
+def test_pages_run(page: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)
-    failed, tried = doctest.testfile(str(ROOT / "docs" / "friction.md"), module_relative=False)
+    flags = doctest.NORMALIZE_WHITESPACE
+    failed, tried = doctest.testfile(str(ROOT / "docs" / page), module_relative=False, optionflags=flags)
     assert tried > 3
     assert failed == 0

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
     from dalembert.views.notation import Notation
+    from dalembert.wrench import System
 
 FORMATS = (".pdf", ".html", ".tex", ".txt")
 
@@ -53,22 +54,32 @@ class Report:
         with new_file(target, overwrite) as temporary:
             temporary.write_bytes(written)
 
+    def __str__(self) -> str:
+        return self.to_bytes("txt").decode()
+
     def _repr_html_(self) -> str:
         return self.to_bytes("html").decode()
 
 
 def report(
-    r: Result,
+    r: Result | System,
     at: Any = None,
     methods: Any = None,
     notation: Notation | None = None,
     about: str = "",
 ) -> Report:
-    """The worked solution of one position of a result.
+    """The worked solution of one position of a result, or of a force system of `da.wrench`.
 
     ``methods``: some of `matrix`, `graphical`, `superposition`, `virtual-work`; all by default. ``about``: a joint to
-    take moments about where a link has it.
+    take moments about where a link has it. Of a force system ``at`` is the point to take moments about (m), and
+    methods do not apply.
     """
+    from dalembert.wrench import System
+
+    if isinstance(r, System):
+        from dalembert.report.force_system import force_system_sheet
+
+        return Report(force_system_sheet(r, at, notation))
     from dalembert.report.chosen import METHODS
     from dalembert.report.working import working
 
