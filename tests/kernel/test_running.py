@@ -16,8 +16,10 @@ import pytest
 import dalembert as da
 from dalembert.analysis.batch.export import plain
 from dalembert.analysis.batch.reduction import PARTS, reduced
-from dalembert.kernel import batch, cuda, emit_c
-from dalembert.kernel.machine import host_lanes
+from dalembert.kernel import batch, cuda, emit_c, emit_llvm
+from dalembert.kernel.graph import Graph
+from dalembert.kernel.machine import aligned, compiled, host_lanes
+from dalembert.kernel.program import Program
 from tests.kernel.comparing import changed
 from tests.kernel.machines import KINDS, four_bar
 
@@ -40,10 +42,42 @@ def test_lanes_give_the_same(lanes: int, kind: str) -> None:
     assert np.abs(one - many).max() < 1e-12 * np.abs(one).max()
 
 
-def test_the_processor_s_own_lanes() -> None:
+def test_the_processor_s_own_lanes(monkeypatch: pytest.MonkeyPatch) -> None:
     assert host_lanes() in (2, 4, 8)
     assert da.compile(da.four_bar()).lanes == 2 * host_lanes()
-    assert da.compile(da.four_bar(), derivatives=True, vary=["links.crank.mass"]).lanes == host_lanes()
+    monkeypatch.setattr(sys.modules["dalembert.analysis.batch.kernel"], "SMALL", 10)
+    assert da.compile(da.four_bar()).lanes == host_lanes()
+
+
+@pytest.mark.parametrize("lanes", [1, 4, 8, 16])
+def test_inverses_are_good_to_two_units_in_the_last_place(lanes: int) -> None:
+    """1/x and 1/sqrt(x), from the processor's estimates where it has them; no number where there is none."""
+    graph = Graph()
+    x = graph.input("channel", "x", np.ones(1))
+    program = Program(graph, (graph.inverse(x), graph.unary("rsqrt", x)), (), ())
+    rng = np.random.default_rng(5)
+    given = np.exp(rng.uniform(-300, 300, 4000)) * np.where(np.arange(4000) % 4 == 3, -1, 1)
+    given[[10, 20]] = [0.0, np.nan]
+    path, blocks = batch.path_array(given[:, None], np.zeros(0), lanes, weighted=False)
+    out = np.empty((2, batch.row_length(blocks, lanes)))
+    code = np.empty(out.shape[1], np.uint8)
+    compiled(emit_llvm.grid(program, lanes), lanes)(np.zeros(1), path, out, code, (0, 1, 1, blocks))
+    found = out[:, :4000]
+    with np.errstate(all="ignore"):
+        expected = np.stack([1 / given, 1 / np.sqrt(given)])
+    right = np.isfinite(expected)
+    assert not np.isfinite(found[~right]).any()
+    assert (np.abs(found[right] / expected[right] - 1) <= 4.5e-16).all()
+
+
+@pytest.mark.parametrize("positions", [1, 20, 33])
+def test_results_begin_at_a_line_of_the_cache(positions: int) -> None:
+    k = da.compile(four_bar(40), vary=VARY, outputs=OUTPUTS)
+    program, machine, _ = k.runner.machine("grid")
+    columns, common = k.runner.inputs(program, k.trace.course)
+    path, _ = batch.path_array(columns[:positions], common, machine.lanes, weighted=False)
+    for a in (path, aligned((3, 5)), aligned((7,)), k(designs(k, 2)).effort("O2")):
+        assert a.__array_interface__["data"][0] % 64 == 0
 
 
 def test_few_positions_fill_lanes_with_designs() -> None:

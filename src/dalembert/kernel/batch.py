@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.kernel.machine import Machine, blocked
+from dalembert.kernel.machine import Machine, aligned, blocked
 from dalembert.kernel.program import Program
 
 Array = NDArray[Any]
@@ -30,7 +30,9 @@ def path_array(columns: Array, common: Array, lanes: int, weighted: bool) -> tup
     if weighted:
         weight = (np.arange(blocks * lanes) < count).astype(float).reshape(blocks, 1, lanes)
         out = np.concatenate([out, weight], axis=1)
-    return np.concatenate([out.ravel(), common]), blocks
+    whole = aligned((out.size + len(common),))
+    whole[: out.size], whole[out.size :] = out.ravel(), common
+    return whole, blocks
 
 
 def row_length(blocks: int, lanes: int) -> int:

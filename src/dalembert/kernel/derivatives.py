@@ -39,6 +39,8 @@ def _partials(graph: Graph, n: Node) -> tuple[Node | float, Node | float]:
         return -(n * n), 0.0
     if n.op == "sqrt":
         return 0.5 / n, 0.0
+    if n.op == "rsqrt":
+        return -0.5 * (n * n * n), 0.0
     if n.op == "abs":
         return a.sign(), 0.0
     if n.op == "sin":

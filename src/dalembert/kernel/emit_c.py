@@ -43,6 +43,8 @@ def statement(node: Node, name: Callable[[Node], str]) -> str:
         right = f"{a} {_BINARY[node.op]} {name(node.b)}"
     elif node.op == "inv":
         right = f"1 / {a}"
+    elif node.op == "rsqrt":
+        right = f"1 / sqrt({a})"
     elif node.op in ("neg", "detach"):
         right = f"-{a}" if node.op == "neg" else a
     else:

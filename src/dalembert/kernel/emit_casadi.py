@@ -48,5 +48,5 @@ def _value(ca: Any, node: Node, program: Program, v: Any, c: Any, done: dict[int
         two |= {"atan2": lambda: ca.atan2(a, b), "max": lambda: ca.fmax(a, b), "min": lambda: ca.fmin(a, b)}
         return two[node.op]()
     one = {"neg": lambda: -a, "inv": lambda: 1 / a, "abs": lambda: ca.fabs(a), "detach": lambda: a}
-    one |= {"rint": lambda: ca.floor(a + 0.5)}
+    one |= {"rint": lambda: ca.floor(a + 0.5), "rsqrt": lambda: 1 / ca.sqrt(a)}
     return one[node.op]() if node.op in one else getattr(ca, node.op)(a)

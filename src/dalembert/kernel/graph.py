@@ -351,6 +351,7 @@ EVALUATE: dict[str, Callable[..., Any]] = {
     "neg": lambda a: -a,
     "inv": lambda a: np.divide(1.0, a),
     "sqrt": np.sqrt,
+    "rsqrt": lambda a: np.divide(1.0, np.sqrt(a)),
     "abs": np.abs,
     "sign": np.sign,
     "sin": np.sin,

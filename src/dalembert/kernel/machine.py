@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import ctypes
+import math
 import platform
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
@@ -53,14 +54,25 @@ class Machine:
     def __call__(
         self, values: Array, path: Array, out: Array, code: Array, counts: tuple[int, int, int, int]
     ) -> None:
-        function = _prototype()(self.address)
-        pointers = (values.ctypes.data, path.ctypes.data, out.ctypes.data, code.ctypes.data)
-        function(*pointers, *counts)
+        self.function(*(a.__array_interface__["data"][0] for a in (values, path, out, code)), *counts)
+
+    @cached_property
+    def function(self) -> Any:
+        """The function for ctypes: four addresses, four counts."""
+        return ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4, *[ctypes.c_int64] * 4)(self.address)
 
 
-@cache
-def _prototype() -> Any:
-    return ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4, *[ctypes.c_int64] * 4)
+def aligned(shape: tuple[int, ...]) -> Array:
+    """An empty array that begins at a line of the cache: a register's worth stored across two lines takes twice as
+    long."""
+    count = math.prod(shape)
+    whole = np.empty(count + LINE // 8)
+    first = -whole.__array_interface__["data"][0] % LINE // 8
+    return whole[first : first + count].reshape(shape)
+
+
+LINE = 64
+"""Bytes of a line of the cache."""
 
 
 def compiled(text: str, lanes: int) -> Machine:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from dalembert.core.layout import Layout, Pose
 from dalembert.kernel import vectors as v
-from dalembert.kernel.graph import CONSTANT, Graph, Node
+from dalembert.kernel.graph import CONSTANT, POSITION, Graph, Node
 from dalembert.kernel.relations import Relation, relations
 from dalembert.kernel.vectors import Pair
 
@@ -155,14 +155,29 @@ class Parts:
         return r
 
     def root(self, square: Any, scale: Any) -> Any:
-        """Square root of what is negative where the linkage does not close."""
+        """Square root of what is negative where the linkage does not close; its inverse is computed with it."""
         if not isinstance(square, Node):
             square = self.graph.constant(square)
-        if square.level != CONSTANT:
-            small = DEAD * scale
-            self.out.open.append(square + small)
-            self.out.doubt.append(square - small)
-        return square.sqrt()
+        if square.level == CONSTANT:
+            return square.sqrt()
+        small = DEAD * scale
+        self.out.open.append(square + small)
+        self.out.doubt.append(square - small)
+        inverse = self.graph.unary("rsqrt", square)
+        root = square * inverse
+        self.graph.known(root * root, square)
+        self.graph.known(1.0 / root, inverse)
+        return root
+
+    def crossed(self, a: Pair, b: Pair, product: Any) -> None:
+        """What the products a x b and b x a are: determinants of the group, which need not be computed again."""
+        self.graph.known(v.cross(a, b), product)
+        self.graph.known(v.cross(b, a), -product)
+
+    def longer(self, a: Any, b: Any) -> bool:
+        """Whether one square is larger than another at the file's numbers; no, where they change along the motion."""
+        moving = any(type(x) is Node and x.level & POSITION for x in (a, b))
+        return not moving and bool(a > b)
 
     def regular(self, det: Any) -> None:
         if isinstance(det, Node) and det.level != CONSTANT:

@@ -125,15 +125,24 @@ class Groups(Parts):
         (a, ya), (b, zb), (yc, zc) = self.pins(x, y, found), self.pins(x, z, found), self.pins(y, z, found)
         d, p, q = v.minus(b, a), v.minus(yc, ya), v.minus(zc, zb)
         d2, p2, q2 = v.dot(d, d), v.dot(p, p), v.dot(q, q)
+        if self.longer(p2, q2):
+            self.three_pins(x, z, y, found)
+            return
+        foot = 0.5 * d2 + 0.5 * (p2 - q2)
+        area = self.root(p2 * d2 - foot * foot, p2 * d2)  # twice that of the triangle of d, p and q
         over = 1.0 / d2
-        t = 0.5 * (over * (p2 - q2) + 1.0)
-        h = self.root(over * p2 - t * t, 1.0)
+        along, aside = over * foot, over * area
+
+        def legs(sign: Any) -> tuple[Pair, Pair]:
+            e = v.plus(v.times(along, d), v.times(sign * aside, v.across(d)))
+            return e, v.minus(e, d)
 
         def sides(sign: Any) -> tuple[Pair, Pair]:
-            e = v.plus(v.times(t, d), v.times(sign * h, v.across(d)))
-            return self.onto(p, p2, e), self.onto(q, q2, v.minus(e, d))
+            e, s = legs(sign)
+            return self.onto(p, p2, e), self.onto(q, q2, s)
 
         self.chosen(lambda sign: sides(sign)[0], x, y)
+        self.crossed(*legs(self.sign), self.sign * area)
         ry, rz = sides(self.sign)
         self.join(x, (y, (ry, v.minus(a, v.turned(ry, ya)))), (z, (rz, v.minus(b, v.turned(rz, zb)))))
 

@@ -25,7 +25,7 @@ from dalembert.model import Mechanism
 Array = NDArray[Any]
 
 
-SMALL = 250
+SMALL = 1500
 """Operations below which two registers side by side are faster than one: the waiting of one fills the other."""
 
 
@@ -64,7 +64,7 @@ def compile(  # noqa: A001
             "the place of a peak has no derivative", 'leave derivatives out, or reduce by "peak"'
         )
     kernel = Kernel(mechanism, trace, names, reduce, derivatives, lanes or _host_lanes())
-    if lanes is None and not derivatives and kernel.program(kernel.flat).size < SMALL:
+    if lanes is None and kernel.program(kernel.flat).size < SMALL:
         kernel = replace(kernel, lanes=2 * kernel.lanes)
     kernel.warm()
     return kernel

@@ -15,7 +15,7 @@ from dalembert.kernel import emit_llvm
 from dalembert.kernel.batch import path_array, row_length, run_grid, run_pairs
 from dalembert.kernel.emit_reduce import PLACED, SUMS, Slots, width
 from dalembert.kernel.graph import Node
-from dalembert.kernel.machine import Machine, compiled
+from dalembert.kernel.machine import Machine, aligned, compiled
 from dalembert.kernel.program import Program
 
 Array = NDArray[Any]
@@ -128,7 +128,7 @@ class Runner:
         path = path_array(columns, common, machine.lanes, weighted)
         count, row = len(values), row_length(path[1], machine.lanes)
         shape: tuple[int, ...] = (count, width(slots)) if slots else (count, len(program.outputs), row)
-        out, code = np.empty(shape), np.empty((count,) if slots else (count, row), np.uint8)
+        out, code = aligned(shape), np.empty((count,) if slots else (count, row), np.uint8)
         channels = columns.shape[1] + weighted
         run_grid(machine, program, values, path, channels, out, code, threads, progress)
         if slots:
