@@ -42,6 +42,11 @@ def rotate(r: Array, u: Array) -> Array:
     return _pair(c * x - s * y, s * x + c * y)
 
 
+def rotate_couple(r: Array, couple: Array) -> Array:
+    """Ground components of a couple (..., 1) given in rotated axes: the same."""
+    return couple
+
+
 def unrotate(r: Array, v: Array) -> Array:
     """Components in rotated axes of a vector v given in ground axes."""
     c, s, x, y = r[..., 0], r[..., 1], v[..., 0], v[..., 1]
@@ -93,3 +98,51 @@ def dot(a: Array, b: Array) -> Array:
     4.0
     """
     return np.asarray((a * b).sum(axis=-1))
+
+
+# the coordinates that a motion is interpolated in
+
+
+def turned(turn: Array, r: Array, w: Array) -> tuple[Array, Array]:
+    """Angles (..., L+1) and rotations after the moving links' turns w (..., L, 1)."""
+    turn, r = turn.copy(), r.copy()
+    turn[..., :-1] += w[..., 0]
+    r[..., :-1, :] = rotation(turn[..., :-1])
+    return turn, r
+
+
+def coordinates(point: Array, turn: Array, r: Array) -> Array:
+    """Coordinates (..., 3) of poses that change smoothly: points and angles."""
+    return np.concatenate([point, turn[..., None]], axis=-1)
+
+
+def coordinate_rates(r: Array, twist: Array) -> Array:
+    """Rates (..., 3) of the coordinates at twists (..., 3): the twists themselves."""
+    return twist
+
+
+def from_coordinates(q: Array, turn: Array) -> tuple[Array, Array, Array]:
+    """Points, angles and rotations of coordinates (..., 3)."""
+    return q[..., :d].copy(), q[..., -1].copy(), rotation(q[..., -1])
+
+
+def apart(a: Array, b: Array, turn_a: Array, turn_b: Array) -> Array:
+    """Angle (..., L+1) between poses, whole turns included; ``a`` and ``b``, their rotations, are not needed."""
+    return np.asarray(np.abs(turn_a - turn_b))
+
+
+def with_ground(turn: Array, r: Array) -> tuple[Array, Array]:
+    """Angles and rotations of the moving links and of the ground."""
+    turn = np.concatenate([turn, np.zeros_like(turn[..., :1])], axis=-1)
+    return turn, rotation(turn)
+
+
+def without_ground(turn: Array) -> Array:
+    """Angles of the moving links."""
+    return np.asarray(turn[..., :-1])
+
+
+def unturned(count: int, links: int) -> tuple[Array, Array]:
+    """Angles and rotations of ``count`` poses of ``links`` links that are not turned."""
+    turn = np.zeros((count, links))
+    return turn, rotation(turn)

@@ -1,6 +1,7 @@
-"""Rigid-body algebra of space: twists (vx, vy, vz, wx, wy, wz), wrenches (forces, moments).
+"""Rigid-body algebra of space: twists (vx, vy, vz, wx, wy, wz), wrenches (forces, moments), rotations as matrices.
 
-Every function takes arrays with any leading axes and the components last. Only arithmetic is used.
+Every function takes arrays with any leading axes and the components last. A rotation (..., 9) is a matrix row by row
+that turns link components into ground components. Only arithmetic, ``cos``, ``sin`` and roots are used.
 """
 
 from __future__ import annotations
@@ -18,6 +19,101 @@ d = 3
 n = 6
 """Components of a twist or wrench."""
 
+IDENTITY = np.eye(3).ravel()
+"""The rotation that turns nothing."""
+
+
+def _vector(x: Array, y: Array, z: Array) -> Array:
+    """Three components as the last axis (faster than numpy.stack)."""
+    out = np.empty((*np.shape(x), 3), np.result_type(x, y, z))
+    out[..., 0], out[..., 1], out[..., 2] = x, y, z
+    return out
+
+
+def matrix(r: Array) -> Array:
+    """The rotation as matrices (..., 3, 3).
+
+    >>> matrix(IDENTITY).tolist()
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+    """
+    return np.asarray(r.reshape((*r.shape[:-1], 3, 3)))
+
+
+def rotation(turn: Array, axis: Any = (0.0, 0.0, 1.0)) -> Array:
+    """Rotation (..., 9) by an angle (...) about an axis (..., 3) of any length.
+
+    >>> rotation(np.array(np.pi / 2)).round(12).tolist()
+    [0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+    """
+    axis = np.asarray(axis)
+    return exp(axis / np.sqrt(dot(axis, axis))[..., None] * np.asarray(turn)[..., None])
+
+
+def exp(w: Array) -> Array:
+    """Rotation (..., 9) by the vector w (..., 3): about its direction by its length (Rodrigues' formula).
+
+    >>> exp(np.array([0.0, 0.0, np.pi])).round(12).tolist()[0]
+    -1.0
+    """
+    square = dot(w, w)
+    angle = np.sqrt(square)
+    small = square < 1e-8
+    safe = np.where(small, 1.0, angle)
+    s = np.where(small, 1 - square / 6, np.sin(angle) / safe)
+    c = np.where(small, 0.5 - square / 24, (1 - np.cos(angle)) / (safe * safe))
+    x, y, z = w[..., 0], w[..., 1], w[..., 2]
+    out = np.empty((*square.shape, 9), w.dtype)
+    diagonal = 1 - c * square
+    for k, u in enumerate((x, y, z)):
+        out[..., 4 * k] = diagonal + c * u * u
+    for (k, m), one, two, three in (((1, 3), x, y, z), ((5, 7), y, z, x), ((6, 2), z, x, y)):
+        out[..., k] = c * one * two - s * three
+        out[..., m] = c * one * two + s * three
+    return out
+
+
+def rotate(r: Array, u: Array) -> Array:
+    """Ground components of a vector u given in rotated axes."""
+    x, y, z = u[..., 0], u[..., 1], u[..., 2]
+    return _vector(*(r[..., k] * x + r[..., k + 1] * y + r[..., k + 2] * z for k in (0, 3, 6)))
+
+
+def rotate_couple(r: Array, couple: Array) -> Array:
+    """Ground components of a couple (..., 3) given in rotated axes."""
+    return rotate(r, couple)
+
+
+def unrotate(r: Array, v: Array) -> Array:
+    """Components in rotated axes of a vector v given in ground axes."""
+    x, y, z = v[..., 0], v[..., 1], v[..., 2]
+    return _vector(*(r[..., k] * x + r[..., k + 3] * y + r[..., k + 6] * z for k in range(3)))
+
+
+def least_turn(a: Array, b: Array) -> Array:
+    """The rotation (..., 9) by the smallest angle that brings the unit vector a (..., 3) onto b.
+
+    >>> least_turn(np.array([1.0, 0.0, 0.0]), np.array([0.0, 1.0, 0.0])).tolist()
+    [0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+    """
+    v, c = cross(a, b), dot(a, b)
+    opposite = c < -1 + 1e-9
+    x, y, z = v[..., 0], v[..., 1], v[..., 2]
+    zero = np.zeros_like(c)
+    skew = matrix(np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=-1))
+    r = np.eye(3) + skew + skew @ skew / np.where(opposite, 1.0, 1 + c)[..., None, None]
+    if np.any(opposite):  # half a turn about any axis across
+        e = np.eye(3)[np.abs(a).argmin(axis=-1)]
+        n = e - dot(a, e)[..., None] * a
+        n = n / np.sqrt(dot(n, n))[..., None]
+        r = np.where(opposite[..., None, None], 2 * n[..., :, None] * n[..., None, :] - np.eye(3), r)
+    return r.reshape((*r.shape[:-2], 9))
+
+
+def compose(a: Array, b: Array) -> Array:
+    """The rotation b followed by a: the product of their matrices."""
+    out: Array = matrix(a) @ matrix(b)
+    return out.reshape((*out.shape[:-2], 9))
+
 
 def cross(r: Array, f: Array) -> Array:
     """Moment (..., 3) of a force f with arm r.
@@ -27,9 +123,85 @@ def cross(r: Array, f: Array) -> Array:
     """
     x, y, z = r[..., 0], r[..., 1], r[..., 2]
     fx, fy, fz = f[..., 0], f[..., 1], f[..., 2]
-    return np.stack([y * fz - z * fy, z * fx - x * fz, x * fy - y * fx], axis=-1)
+    return _vector(y * fz - z * fy, z * fx - x * fz, x * fy - y * fx)
 
 
 def spin(w: Array, r: Array) -> Array:
     """Velocity omega x r of a point with arm r on a link turning at w (..., 3)."""
     return cross(w, r)
+
+
+def centripetal(w: Array, r: Array) -> Array:
+    """Acceleration omega x (omega x r) towards the axis."""
+    return np.asarray(dot(w, r)[..., None] * w - dot(w, w)[..., None] * r)
+
+
+def gyroscopic(r: Array, w: Array, inertia: Array) -> Array:
+    """Moment omega x (I omega) (..., 3); inertia (..., 9) about the mass centre in link axes, r the link's rotation."""
+    return cross(w, _through(r, w, inertia))
+
+
+def angular_momentum_rate(r: Array, alpha: Array, inertia: Array) -> Array:
+    """I alpha about the mass centre (..., 3); inertia as in ``gyroscopic``."""
+    return _through(r, alpha, inertia)
+
+
+def _through(r: Array, w: Array, inertia: Array) -> Array:
+    """I w in ground axes of an inertia in link axes."""
+    return rotate(r, rotate(inertia, unrotate(r, w)))
+
+
+def dot(a: Array, b: Array) -> Array:
+    """Plain dot product of the components; of a twist and a wrench it is power."""
+    return np.asarray((a * b).sum(axis=-1))
+
+
+# the coordinates that a motion is interpolated in
+
+
+def turned(turn: Array, r: Array, w: Array) -> tuple[Array, Array]:
+    """Followed angles, as they are, and rotations (..., L+1, 9) after the moving links' turns w (..., L, 3)."""
+    r = r.copy()
+    r[..., :-1, :] = compose(exp(w), r[..., :-1, :])
+    return turn, r
+
+
+def coordinates(point: Array, turn: Array, r: Array) -> Array:
+    """Coordinates (..., 12) of poses that change smoothly: points and rotations."""
+    return np.concatenate([point, r], axis=-1)
+
+
+def coordinate_rates(r: Array, twist: Array) -> Array:
+    """Rates (..., 12) of the coordinates at twists (..., 6): those of a rotation are omega x its columns."""
+    w = np.broadcast_to(twist[..., None, d:], (*twist.shape[:-1], 3, 3))
+    columns = np.swapaxes(matrix(r), -1, -2)
+    turning = np.swapaxes(cross(w, columns), -1, -2)
+    return np.concatenate([twist[..., :d], turning.reshape((*twist.shape[:-1], 9))], axis=-1)
+
+
+def from_coordinates(q: Array, turn: Array) -> tuple[Array, Array, Array]:
+    """Points, followed angles (those given) and rotations of coordinates (..., 12) that are nearly rotations."""
+    r = matrix(q[..., d:])
+    for _ in range(3):  # each step squares the distance from the nearest rotation
+        r = 1.5 * r - 0.5 * r @ (np.swapaxes(r, -1, -2) @ r)
+    return q[..., :d].copy(), turn.copy(), r.reshape((*r.shape[:-2], 9))
+
+
+def apart(a: Array, b: Array, turn_a: Array, turn_b: Array) -> Array:
+    """Angle (..., L+1) between rotations a and b: its chord, 2 sin of half of it."""
+    return np.asarray(np.sqrt(((a - b) ** 2).sum(axis=-1) / 2))
+
+
+def unturned(count: int, links: int) -> tuple[Array, Array]:
+    """Followed angles and rotations of ``count`` poses of ``links`` links that are not turned."""
+    return np.zeros((count, 0)), np.tile(IDENTITY, (count, links, 1))
+
+
+def with_ground(turn: Array, r: Array) -> tuple[Array, Array]:
+    """Followed angles, as they are, and rotations of the moving links and of the ground."""
+    return turn, np.concatenate([r, np.broadcast_to(IDENTITY, (*r.shape[:-2], 1, 9))], axis=-2)
+
+
+def without_ground(turn: Array) -> Array:
+    """Followed angles, as they are: they belong to no link."""
+    return turn

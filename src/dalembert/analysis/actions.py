@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.freedoms import whole_pose
 from dalembert.analysis.joints import signed_radii
-from dalembert.core.constraints import arm
 from dalembert.core.equilibrium import Motion, known_sources, motion
 from dalembert.core.forcing import Source
+from dalembert.core.geometry import arm
 from dalembert.core.layout import Pose, System
 from dalembert.core.linear import Factor
 
@@ -64,7 +64,7 @@ class State(NamedTuple):
 def state(r: Result) -> State:
     """Pose and motion of the links of a result, ready for the core's functions."""
     c = r.compiled
-    pose = whole_pose(c.layout, r.point_array, r.turn_array)
+    pose = whole_pose(r)
     with np.errstate(all="ignore"):
         moving, rows, solver = motion(c.layout, pose, c.schedule.speed, c.schedule.acceleration)
     return State(pose, moving, rows, solver)
@@ -180,7 +180,7 @@ def slide_direction(r: Result, joint: str) -> Array:
 
 def unknown_load_actions(r: Result) -> tuple[Action, ...]:
     """Loads that were asked for, with the values found."""
-    from dalembert.analysis.compile import point_of
+    from dalembert.analysis.loads import point_of
 
     out, known = [], r.compiled.known
     for k, name in enumerate(r.unknown_loads):
@@ -280,7 +280,7 @@ class _Builder:
                 self.add(name, kind, name, one, place, self.arm(link, u), "force")
 
     def resistances(self, loads: list[tuple[str, Any]], one: Source) -> None:
-        from dalembert.analysis.compile import joint_damping
+        from dalembert.analysis.loads import joint_damping
 
         rows: list[tuple[str, Kind, str, str, str]] = [
             (name, "spring" if load.type == "torsion_spring" else "damper", name, load.joint, "turn")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert.analysis.wrenches import Axes
 from dalembert.units import KINDS, file_units
 
 if TYPE_CHECKING:
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[Any]
 UnitChoice = Literal["SI", "file"]
-Axes = Literal["ground", "link"]
 
 LENGTHWISE = {"position": "length", "speed": "speed", "acceleration": "acceleration", "effort": "force"}
 ANGULAR = {

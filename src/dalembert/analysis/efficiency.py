@@ -95,7 +95,7 @@ def load_rate(r: Result, name: str) -> Array:
     if load.type == "couple":
         return r.speed(load.on)
     from dalembert.algebra import plane
-    from dalembert.analysis.compile import point_of
+    from dalembert.analysis.loads import point_of
 
     velocity = r._velocity(load.on, point_of(r.mechanism, load.on, load.at))
     angle = load.direction + (r.angle(load.on) if load.axes == "link" else 0.0) * np.ones(len(r.status))

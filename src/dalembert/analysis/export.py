@@ -14,7 +14,6 @@ from dalembert.analysis.columns import (
     EFFORT,
     LINK_NUMBERS,
     LINK_VECTORS,
-    Axes,
     Scale,
     UnitChoice,
     columns,
@@ -25,6 +24,7 @@ from dalembert.analysis.columns import (
     unknown_kinds,
 )
 from dalembert.analysis.record import BLOCK, nulled, to_dict, to_json, write_json
+from dalembert.analysis.wrenches import Axes
 from dalembert.errors import ModelError
 from dalembert.saving import check_installed, new_file
 

@@ -97,7 +97,7 @@ def posed(r: Result, position: int) -> tuple[Contacts, Response, Senses]:
     if c.contacts is None:
         raise ModelError("this result has no friction", "give a joint `friction`, and do not switch it off")
     part = slice(position, position + 1)
-    pose = whole_pose(c.layout, r.point_array[part], r.turn_array[part])
+    pose = whole_pose(r, part)
     forcing, known = _sliced(c, part)
     moving, rows, solver = motion(c.layout, pose, r.schedule.speed[part], r.schedule.acceleration[part])
     sources = known_sources(c.layout, forcing, pose, moving, r.inertia)

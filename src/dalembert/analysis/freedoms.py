@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 Array = NDArray[Any]
 
 
-def whole_pose(layout: Any, point: Array, turn: Array) -> Pose:
-    """Pose of the moving links with the ground added."""
-    point = with_ground(point)
-    turn = np.concatenate([turn, np.zeros_like(turn[..., :1])], axis=-1)
-    return Pose(point, turn, layout.algebra.rotation(turn))
+def whole_pose(result: Result, part: Any = slice(None)) -> Pose:
+    """Poses of the links at some positions, the ground added."""
+    turn, rotation = result.turn_array[part], result.rotation_array[part]
+    g = result.compiled.layout.algebra
+    return Pose(with_ground(result.point_array[part]), *g.with_ground(turn, rotation))
 
 
 def freedom_motion(result: Result, joint: str, kind: str) -> tuple[Array, Array, Array]:
@@ -33,7 +33,7 @@ def freedom_motion(result: Result, joint: str, kind: str) -> tuple[Array, Array,
         raise ModelError(f"joint {joint!r} has no freedom {kind!r}", f"there is: {has}")
     row = c.freedoms.index((joint, kind))
     g, freedoms = c.layout.algebra, c.layout.freedoms
-    pose = whole_pose(c.layout, result.point_array, result.turn_array)
+    pose = whole_pose(result)
     twist = with_ground(result.twist_array)
     rows = system(g, freedoms, pose)
     second = rates(rows, with_ground(result.acceleration_array)) + drift(g, freedoms, pose, twist)

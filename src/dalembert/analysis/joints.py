@@ -12,7 +12,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.layout import Along, Distance, Family, Meet, Mesh, Rows, Turn
+from dalembert.core.layout import (
+    Along,
+    Angle,
+    Distance,
+    Family,
+    Idle,
+    Meet,
+    Mesh,
+    Perpendicular,
+    Rows,
+    Turn,
+)
 
 Array = NDArray[Any]
 Vector = tuple[float, float]
@@ -28,26 +39,35 @@ FREEDOMS: dict[str, tuple[str, ...]] = {
 """Freedoms of j in i that a drive, a spring or a damper can act on."""
 
 
+ANGULAR = (Turn, Angle, Perpendicular, Idle)
+"""Families whose measure is an angle and whose wrench is a couple."""
+
+
 class RowBuilder:
     """Collects rows one by one, then groups them into families."""
 
-    def __init__(self, links: int) -> None:
-        self.links = links
+    def __init__(self, links: int, dimension: int = 2) -> None:
+        self.links, self.dimension, self.counted = links, dimension, 0
         self.targets: list[float] = []
         self._joint: list[int] = []
         self._angular: list[bool] = []
         self._families: dict[type, list[dict[str, Any]]] = {}
 
     def add(self, kind: type, joint: int, ends: tuple[int, int], target: float = 0.0, **numbers: Any) -> int:
-        """One row (two for ``Meet``) between links i and j; returns its place."""
-        count = 2 if kind is Meet else 1
+        """One row (one a ground axis for ``Meet``) between links i and j; returns its place."""
+        count = self.dimension if kind is Meet else 1
         first = len(self.targets)
-        row: Any = (first, first + 1) if kind is Meet else first
+        row: Any = tuple(range(first, first + count)) if kind is Meet else first
         self.targets += [target] * count
         self._joint += [joint] * count
-        self._angular += [kind is Turn] * count
+        self._angular += [kind in ANGULAR] * count
         self._families.setdefault(kind, []).append({"row": row, "i": ends[0], "j": ends[1], **numbers})
         return first
+
+    def followed(self) -> int:
+        """The place of another relative angle whose whole turns are counted."""
+        self.counted += 1
+        return self.counted - 1
 
     def rows(self) -> Rows:
         """All of them, frozen."""
@@ -59,7 +79,7 @@ class RowBuilder:
 def _family(kind: type, entries: list[dict[str, Any]]) -> Family:
     columns: dict[str, Any] = {}
     for name in entries[0]:
-        whole = name in ("row", "i", "j")
+        whole = name in ("row", "i", "j", "count")
         values = [e[name] for e in entries]
         columns[name] = np.array(values, np.intp) if whole else numbers(values)
     family: Family = kind(**columns)

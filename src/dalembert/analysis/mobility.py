@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from dalembert.analysis.compile import Compiled
 from dalembert.core.layout import Pose
 from dalembert.core.rank import Rank, rank, well_driven
@@ -18,12 +16,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Mobility:
-    """Freedoms of the mechanism, how many drives it has, redundant constraints and the joints they are in."""
+    """Freedoms of the mechanism, how many drives it has, redundant constraints and the joints they are in.
+
+    ``passive`` are links whose spin moves nothing else; it is not counted.
+    """
 
     freedoms: int
     drives: int
     redundant: int
     redundant_joints: tuple[str, ...]
+    passive: tuple[str, ...] = ()
 
     @property
     def sentence(self) -> str:
@@ -33,11 +35,12 @@ class Mobility:
         'mobility 1, driven by 1 drive, no redundant constraint'
         """
         drives = _count(self.drives, "drive") if self.drives else "no drive"
-        if not self.redundant:
-            return f"mobility {self.freedoms}, driven by {drives}, no redundant constraint"
-        where = ", ".join(self.redundant_joints)
         more = _count(self.redundant, "redundant constraint")
-        return f"mobility {self.freedoms}, driven by {drives}, {more} among joints {where}"
+        where = f" among joints {', '.join(self.redundant_joints)}" if self.redundant else ""
+        spin = (
+            f"; {' and '.join(self.passive)} could spin between ball joints: no spin" if self.passive else ""
+        )
+        return f"mobility {self.freedoms}, driven by {drives}, {more}{where}{spin}"
 
 
 def mobility(m: Mechanism) -> Mobility:
@@ -64,12 +67,11 @@ def mobility_at(c: Compiled, pose: Pose, special: bool = False) -> Mobility:
     """
     drives = len(c.schedule.names)
     if well_driven(c.layout, pose):
-        return Mobility(c.layout.unknowns - c.layout.constraints.count, drives, 0, ())
+        return Mobility(c.layout.unknowns - c.layout.constraints.count, drives, 0, (), c.passive)
     found = rank(c.layout, pose)
-    joints = tuple(
-        dict.fromkeys(c.joints[c.layout.constraints.joint[k]] for k in np.flatnonzero(found.repeated))
-    )
-    result = Mobility(found.freedoms, drives, found.redundant, joints if found.redundant else ())
+    at = c.layout.constraints.joint[found.repeated]
+    joints = tuple(dict.fromkeys(c.joints[k] for k in at[at >= 0])) if found.redundant else ()
+    result = Mobility(found.freedoms, drives, found.redundant, joints, c.passive)
     if not (special and found.freedoms == drives):
         check_drives(c, found, result)
     return result

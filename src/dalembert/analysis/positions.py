@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.compile import Compiled
 from dalembert.analysis.mobility import Mobility, check_drives, mobility_at
-from dalembert.core.assembly import Guess, Modes, drawn, modes, phase_rows
+from dalembert.core.assembly import Guess, Modes, phase_rows
 from dalembert.core.closure import CLOSED, closed, least_gap
 from dalembert.core.constraints import measure
 from dalembert.core.course import Course, course
+from dalembert.core.drawing import Drawing
 from dalembert.core.follow import Path, path
 from dalembert.core.layout import Mesh, Pose
 from dalembert.core.rank import held, rank
@@ -69,7 +70,7 @@ def _first(c: Compiled) -> tuple[int, Modes] | None:
     """The first position that closes, and its modes."""
     count = len(c.targets)
     for k in np.unique(np.linspace(0, count - 1, min(count, SAMPLES)).astype(int)):
-        found = modes(c.layout, c.targets[k], c.guess)
+        found = c.guess.modes(c.layout, c.targets[k])
         if found is not None:
             return int(k), found
     return None
@@ -78,8 +79,7 @@ def _first(c: Compiled) -> tuple[int, Modes] | None:
 def _beside(c: Compiled, along: Course, start: float, first: Modes) -> tuple[float, Modes | None]:
     """The mode nearest to the first pose a little further on: the first may be a change point, which says nothing of
     the mobility, and from which the motion cannot be taken up."""
-    turn = np.where(np.isfinite(c.guess.turn), c.guess.turn, first.pose.turn[0])
-    near = replace(c.guess, turn=turn, point=np.full_like(c.guess.point, np.nan))
+    near = c.guess.near(first.pose.at(0))
     if along.end > 0:
         step = min(0.02, along.end / 2)
         ahead = start + step if start + step <= along.end else start - step
@@ -90,9 +90,9 @@ def _beside(c: Compiled, along: Course, start: float, first: Modes) -> tuple[flo
     return start, next((found for found in sides if found is not None), None)
 
 
-def _in_phase(c: Compiled, target: Array, near: Guess) -> Modes | None:
+def _in_phase(c: Compiled, target: Array, near: Guess | Drawing) -> Modes | None:
     """Modes near a pose, the first of them with its meshes in the phase they already have."""
-    found = modes(c.layout, target, near)
+    found = near.modes(c.layout, target)
     if found is None or not phase_rows(c.layout.constraints).size:
         return found
     pose, missing = closed(c.layout, found.pose.at(slice(0, 1)), target[None])
@@ -158,7 +158,7 @@ def _refuse_endless(c: Compiled, along: Course) -> None:
 def _refuse_overdriven(c: Compiled) -> None:
     """Nothing closes: perhaps because there are more drives than freedoms."""
     layout = replace(c.layout, driven=np.zeros(0, np.intp))
-    found = modes(layout, c.target, c.guess)
+    found = c.guess.modes(layout, c.target)
     if found is None:
         return
     free = rank(layout, found.pose.at(0))
@@ -190,7 +190,7 @@ def open_sentence(c: Compiled, found: Path | None, where: NDArray[np.intp]) -> s
     reached = np.flatnonzero(found.reached) if found is not None else np.zeros(0, np.intp)
     span = _span_text(c, where)
     if known is None or not reached.size:
-        start = drawn(c.layout, c.targets[middle], c.guess)
+        start = c.guess.start(c.layout, c.targets[middle])
     else:
         start = known.at(reached[np.argmin(np.abs(reached - middle))])
     missing = least_gap(c.layout, start, c.targets[middle])

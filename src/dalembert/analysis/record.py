@@ -14,7 +14,6 @@ from dalembert.analysis.columns import (
     DRIVE_NUMBERS,
     LINK_NUMBERS,
     LINK_VECTORS,
-    Axes,
     Scale,
     UnitChoice,
     drive_kinds,
@@ -26,6 +25,7 @@ from dalembert.analysis.columns import (
     unknown_kinds,
 )
 from dalembert.analysis.friction import bears_on_faces, guide_contact, joints_at_limit
+from dalembert.analysis.wrenches import Axes
 from dalembert.saving import new_file
 from dalembert.units import KINDS
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.algebra import plane
+from dalembert.analysis.wrenches import Axes, axes_of, unique_in, wrench
 from dalembert.errors import STATUSES, ModelError
 
 if TYPE_CHECKING:
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from dalembert.model import Mechanism, Schedule
 
 Array = NDArray[Any]
-Axes = Literal["ground", "link"]
 
 
 @dataclass(frozen=True)
@@ -43,17 +42,19 @@ class Result:
     status: tuple[str, ...]
     reasons: tuple[str | None, ...]
     point_array: Array = field(repr=False)  # (P, L, 2) links' reference points
-    turn_array: Array = field(repr=False)  # (P, L)
-    twist_array: Array = field(repr=False)  # (P, L, 3)
-    acceleration_array: Array = field(repr=False)  # (P, L, 3)
-    force_array: Array = field(repr=False)  # (P, joints, 2) on j
-    moment_array: Array = field(repr=False)  # (P, joints)
+    turn_array: Array = field(repr=False)  # (P, L) links' angles; in space (P, T) the followed relative ones
+    rotation_array: Array = field(repr=False)  # (P, L, 2) cosine and sine; in space (P, L, 9) matrices
+    twist_array: Array = field(repr=False)  # (P, L, 3); in space 6
+    acceleration_array: Array = field(repr=False)  # (P, L, 3); in space 6
+    force_array: Array = field(repr=False)  # (P, joints, 2) on j; in space 3
+    moment_array: Array = field(repr=False)  # (P, joints); in space (P, joints, 3)
     effort_array: Array = field(repr=False)  # (P, D)
     load_array: Array = field(repr=False)  # (P, U)
     residual: Array = field(repr=False)
     power_balance: Array = field(repr=False)
     unique_array: NDArray[np.bool_] | None = field(repr=False, default=None)  # (P, joints, 3)
     unique_unknowns: NDArray[np.bool_] | None = field(repr=False, default=None)  # (P, D asked + U)
+    unique_in: NDArray[np.bool_] | None = field(repr=False, default=None)  # in space (P, joints, 3, 6): AXES
     stability: tuple[str | None, ...] | None = None
     friction: Friction | None = field(repr=False, default=None)
     ends: tuple[tuple[Result, Result], ...] = field(repr=False, default=())
@@ -167,34 +168,40 @@ class Result:
     # reactions
 
     def reaction(self, joint: str, on: str | None = None, axes: Axes = "ground") -> Array:
-        """Force of a joint on one of its links (P, 2), default on j; NaN in components that are not unique.
+        """Force of a joint on one of its links (P, d), default on j; NaN in components that are not unique.
 
         Asking ``on`` the other link changes the sign, nothing else. ``axes="link"`` gives components in the axes of
-        the link acted on.
+        the link acted on, in space ``axes="joint"`` in the joint's own.
         """
-        k, sign = self._joint(joint, on)
-        if axes == "link":
-            return self._on_link(
-                joint, on, sign * np.where(self.unique(joint)[..., :2], self.force_array[..., k, :], np.nan)
-            )
-        return np.where(self.unique(joint)[..., :2], sign * self.force_array[..., k, :], np.nan)
+        self._joint(joint, on)
+        return wrench(self, joint, on, axes)[..., : self._d]
 
-    def reaction_moment(self, joint: str, on: str | None = None) -> Array:
-        """Moment of a joint on one of its links about j's point of the joint (P,); 0 for pins and slots."""
-        k, sign = self._joint(joint, on)
-        return np.where(self.unique(joint)[..., 2], sign * self.moment_array[..., k], np.nan)
+    def reaction_moment(self, joint: str, on: str | None = None, axes: Axes = "ground") -> Array:
+        """Moment of a joint on one of its links about j's point of the joint: (P,), in space (P, 3)."""
+        self._joint(joint, on)
+        if self._d == 2:
+            return wrench(self, joint, on, "ground")[..., 2]
+        return wrench(self, joint, on, axes)[..., 3:]
 
     def unique(self, joint: str) -> NDArray[np.bool_]:
-        """Which of (fx, fy, m) of a joint statics alone determines (P, 3)."""
-        k, _ = self._joint(joint, None)
-        if self.unique_array is None:
-            return np.ones((*self.moment_array.shape[:-1], 3), bool)
-        return np.asarray(self.unique_array[..., k, :])
+        """Which components of a joint's force and moment, in ground axes, statics alone determines (P, n)."""
+        self._joint(joint, None)
+        return unique_in(self, joint, "ground")
 
-    def least_norm(self, joint: str, on: str | None = None) -> Array:
-        """(fx, fy, m) of a joint with the smallest sum of squares where they are not unique (P, 3)."""
-        k, sign = self._joint(joint, on)
-        return sign * np.concatenate([self.force_array[..., k, :], self.moment_array[..., k, None]], axis=-1)
+    def least_norm(self, joint: str, on: str | None = None, axes: Axes = "ground") -> Array:
+        """Force and moment of a joint with the smallest sum of squares where they are not unique (P, n)."""
+        self._joint(joint, on)
+        return wrench(self, joint, on, axes, least=True)
+
+    def joint_axes(self, joint: str) -> Array:
+        """In space: a joint's own axes x, y, z (P, 3, 3), a row each, in ground axes."""
+        self._joint(joint, None)
+        return axes_of(self, joint, "joint")
+
+    @property
+    def _d(self) -> int:
+        """Components of a force."""
+        return int(self.compiled.layout.algebra.d)
 
     def _joint(self, joint: str, on: str | None) -> tuple[int, float]:
         k = _index(self.joints, joint, "joint")
@@ -204,10 +211,6 @@ class Result:
                 f"joint {joint!r} does not act on {on!r}", f"it joins {i} and {j}", ("joints", joint)
             )
         return k, -1.0 if on == i else 1.0
-
-    def _on_link(self, joint: str, on: str | None, force: Array) -> Array:
-        link = on or self.mechanism.joints[joint].links[1]
-        return force if link == "ground" else plane.unrotate(plane.rotation(self.angle(link)), force)
 
     # friction
 
@@ -242,24 +245,37 @@ class Result:
     # links
 
     def angle(self, link: str) -> Array:
-        """Angle of a link's x axis to ground's (P,), followed through whole turns."""
+        """Angle of a link's x axis to ground's (P,), followed through whole turns; in space ask ``rotation``."""
+        if self._d == 3:
+            raise ModelError(f"link {link!r} has no single angle in space", "ask its rotation")
         return np.asarray(self.turn_array[..., self._link(link)])
 
+    def rotation(self, link: str) -> Array:
+        """Matrices (P, d, d) that turn components in a link's axes into components in ground axes."""
+        r = self.rotation_array[..., self._link(link), :]
+        if self._d == 2:
+            r = np.stack([r[..., 0], -r[..., 1], r[..., 1], r[..., 0]], axis=-1)
+        return np.asarray(r.reshape((*r.shape[:-1], self._d, self._d)))
+
     def speed(self, link: str) -> Array:
-        """Angular velocity of a link (P,), rad/s."""
-        return np.asarray(self.twist_array[..., self._link(link), 2])
+        """Angular velocity of a link (P,), in space (P, 3), rad/s."""
+        return self._turning(self.twist_array, link)
 
     def acceleration(self, link: str) -> Array:
-        """Angular acceleration of a link (P,), rad/s2."""
-        return np.asarray(self.acceleration_array[..., self._link(link), 2])
+        """Angular acceleration of a link (P,), in space (P, 3), rad/s2."""
+        return self._turning(self.acceleration_array, link)
+
+    def _turning(self, rates: Array, link: str) -> Array:
+        turning = rates[..., self._link(link), self._d :]
+        return np.asarray(turning[..., 0] if self._d == 2 else turning)
 
     def position(self, link: str) -> Array:
-        """Origin of a link's axes (P, 2)."""
-        return self._place(link, np.zeros(2))
+        """Origin of a link's axes (P, d)."""
+        return self._place(link, np.zeros(self._d))
 
     def velocity(self, link: str) -> Array:
-        """Velocity of the origin of a link's axes (P, 2)."""
-        return self._velocity(link, np.zeros(2))
+        """Velocity of the origin of a link's axes (P, d)."""
+        return self._velocity(link, np.zeros(self._d))
 
     def center(self, link: str) -> Array:
         """Mass centre of a link (P, 2)."""
@@ -289,26 +305,26 @@ class Result:
         return _index(self.links, link, "link")
 
     def _point(self, link: str, name: str) -> Array:
-        from dalembert.analysis.compile import point_of
+        from dalembert.analysis.loads import point_of
 
         return point_of(self.mechanism, link, name)
 
     def _arm(self, link: str, u: Array) -> tuple[int, Array]:
-        k = self._link(link)
-        return k, plane.rotate(plane.rotation(self.turn_array[..., k]), u - self.compiled.layout.reference[k])
+        k, c = self._link(link), self.compiled
+        return k, c.layout.algebra.rotate(self.rotation_array[..., k, :], u - c.layout.reference[k])
 
     def _place(self, link: str, u: Array) -> Array:
         k, r = self._arm(link, u)
         return np.asarray(self.point_array[..., k, :] + r + self.compiled.origin)
 
     def _velocity(self, link: str, u: Array) -> Array:
-        k, r = self._arm(link, u)
-        return np.asarray(self.twist_array[..., k, :2] + plane.spin(self.twist_array[..., k, 2:], r))
+        (k, r), g = self._arm(link, u), self.compiled.layout.algebra
+        return np.asarray(self.twist_array[..., k, : g.d] + g.spin(self.twist_array[..., k, g.d :], r))
 
     def _acceleration(self, link: str, u: Array) -> Array:
-        k, r = self._arm(link, u)
-        a = self.acceleration_array[..., k, :2] + plane.spin(self.acceleration_array[..., k, 2:], r)
-        return np.asarray(a + plane.centripetal(self.twist_array[..., k, 2:], r))
+        (k, r), g = self._arm(link, u), self.compiled.layout.algebra
+        rate, w = self.acceleration_array[..., k, :], self.twist_array[..., k, g.d :]
+        return np.asarray(rate[..., : g.d] + g.spin(rate[..., g.d :], r) + g.centripetal(w, r))
 
     # joints' freedoms
 
@@ -324,8 +340,8 @@ class Result:
         """Largest magnitude over the solved positions, and the position (from 0) where it occurs."""
         found: Mapping[str, Any] = {
             "effort": lambda: np.abs(self.effort(of)),
-            "reaction": lambda: np.hypot(*np.moveaxis(self.reaction(of), -1, 0)),
-            "moment": lambda: np.abs(self.reaction_moment(of)),
+            "reaction": lambda: np.linalg.norm(self.reaction(of), axis=-1),
+            "moment": lambda: _size(self.reaction_moment(of), self._d),
         }
         values = found[quantity]()
         if np.isnan(values).all():
@@ -369,6 +385,11 @@ class Result:
         from dalembert.analysis import export
 
         export.to_netcdf(self, path, overwrite=overwrite, units=units)
+
+
+def _size(moment: Array, d: int) -> Array:
+    """Magnitudes (P,) of moments (P,) or (P, 3)."""
+    return np.asarray(np.abs(moment) if d == 2 else np.linalg.norm(moment, axis=-1))
 
 
 def _index(names: tuple[str, ...], name: str, kind: str) -> int:

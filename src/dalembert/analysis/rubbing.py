@@ -15,6 +15,7 @@ from dalembert.core.equilibrium import (
     Statement,
     checked,
     reactions,
+    shifts,
     statement,
     unique,
 )
@@ -85,6 +86,7 @@ class Forces(NamedTuple):
     unique_unknowns: Array | None
     friction: Friction | None = None
     ends: tuple[Forces, ...] = ()
+    unique_in: Array | None = None
 
 
 class Setting(NamedTuple):
@@ -216,11 +218,12 @@ class _Made(NamedTuple):
         total = self.stated.w + summed(layout, pair(self.along, cz))
         found = checked(layout, s.forcing, s.known, s.pose, s.moving, self.stated, slip.x, total)
         bare = checked(layout, s.forcing, s.known, s.pose, s.moving, self.stated, self.bare, self.stated.w)
-        force, couple = reactions(layout, s.rows, found)
+        force, couple = reactions(layout, s.pose, s.rows, found)
         friction = self._friction(r, slip, sense, cz, bare.effort, bare.load)
         marks: tuple[Any, Any] = (None, None)
         if found.free is not None:
-            marks = unique(layout, s.rows, found.free, layout.joints)
+            shift, others = shifts(layout, s.pose, s.rows, found.free)
+            marks = unique(shift), others
         force = force + friction.force + friction.viscous_force
         moment = couple[..., 0] + friction.moment + friction.viscous_moment
         checks = (found.residual, found.power_balance, found.rcond)
@@ -291,7 +294,8 @@ def joined(parts: list[Forces]) -> Forces:
     friction = [p.friction for p in parts if p.friction is not None]
     whole = Friction(*(np.concatenate(a) for a in zip(*friction, strict=True))) if friction else None
     arrays = (None if a[0] is None else np.concatenate(a) for a in zip(*(p[:9] for p in parts), strict=True))
-    made: Any = Forces._make([*arrays, whole, ends])
+    inside = [p.unique_in for p in parts if p.unique_in is not None]
+    made: Any = Forces._make([*arrays, whole, ends, np.concatenate(inside) if inside else None])
     return made  # type: ignore[no-any-return]
 
 

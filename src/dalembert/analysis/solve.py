@@ -15,7 +15,8 @@ from dalembert.analysis.positions import Positions, drive_text, open_sentence, p
 from dalembert.analysis.result import Result
 from dalembert.analysis.rubbing import Forces, Setting, block_size, joined, rubbing
 from dalembert.analysis.verdicts import friction_checks, refuse_friction
-from dalembert.core.equilibrium import balance, known_sources, motion, reactions, unique
+from dalembert.analysis.wrenches import in_axes
+from dalembert.core.equilibrium import balance, known_sources, motion, reactions, shifts, unique
 from dalembert.core.follow import BLOCK
 from dalembert.core.forcing import summed
 from dalembert.core.layout import Pose
@@ -93,6 +94,7 @@ class _Moved(NamedTuple):
 
     point: Array
     turn: Array
+    rotation: Array
     twist: Array
     acceleration: Array
     rcond: Array
@@ -104,12 +106,15 @@ def _block(c: Compiled, whole: Pose, part: slice, inertia: bool, forces: bool) -
     with np.errstate(all="ignore"):
         moving, rows, solver = motion(layout, pose, schedule.speed[part], schedule.acceleration[part])
         found = (
-            _forces(c, pose, part, moving, rows, solver, inertia) if forces else _no_forces(c, len(pose.turn))
+            _forces(c, pose, part, moving, rows, solver, inertia)
+            if forces
+            else _no_forces(c, len(pose.point))
         )
-    point, turn, twist, acceleration = (
-        a[:, :-1] for a in (pose.point, pose.turn, moving.twist, moving.acceleration)
+    point, rotation, twist, acceleration = (
+        a[:, :-1] for a in (pose.point, pose.rotation, moving.twist, moving.acceleration)
     )
-    return _Moved(point, turn, twist, acceleration, moving.rcond), found
+    turn = layout.algebra.without_ground(pose.turn)
+    return _Moved(point, turn, rotation, twist, acceleration, moving.rcond), found
 
 
 def _no_forces(c: Compiled, count: int) -> Forces:
@@ -117,8 +122,13 @@ def _no_forces(c: Compiled, count: int) -> Forces:
         return np.full((count, *shape), np.nan)
 
     layout, unknown = c.layout, len(c.unknown_loads)
-    reactions = nan(layout.joints, 2), nan(layout.joints)
+    reactions = nan(layout.joints, layout.algebra.d), nan(layout.joints, *_couple_shape(c))
     return Forces(*reactions, nan(len(layout.driven)), nan(unknown), nan(), nan(), nan(), None, None)
+
+
+def _couple_shape(c: Compiled) -> tuple[int, ...]:
+    """A moment is one number in the plane, three in space."""
+    return () if c.layout.algebra.d == 2 else (3,)
 
 
 def _forces(
@@ -128,16 +138,21 @@ def _forces(
     forcing, known = _sliced(c, part)
     sources = known_sources(layout, forcing, pose, moving, inertia)
     w = summed(layout, *sources.values())
-    w = np.broadcast_to(w, (len(pose.turn), *w.shape[1:]))
+    w = np.broadcast_to(w, (len(pose.point), *w.shape[1:]))
     if c.contacts is not None:
         return rubbing(Setting(c, c.contacts, forcing, known, pose, moving, rows, solver, sources), w)
     found = balance(layout, forcing, known, pose, moving, rows, solver, w)
-    force, couple = reactions(layout, rows, found)
+    force, couple = reactions(layout, pose, rows, found)
     marks: tuple[Any, Any] = (None, None)
+    inside = None
     if found.free is not None:
-        marks = unique(layout, rows, found.free, layout.joints)
+        shift, others = shifts(layout, pose, rows, found.free)
+        marks = unique(shift), others
+        if c.geometries:
+            inside = np.stack([unique(turned) for turned in in_axes(c, pose, shift)], axis=-2)
     checks = (found.residual, found.power_balance, found.rcond)
-    return Forces(force, couple[..., 0], found.effort, found.load, *checks, *marks)
+    moment = couple.reshape((*couple.shape[:-1], *_couple_shape(c)))
+    return Forces(force, moment, found.effort, found.load, *checks, *marks, unique_in=inside)
 
 
 def _sliced(c: Compiled, part: slice) -> tuple[Any, Any]:
@@ -158,12 +173,12 @@ def _result(followed: Positions, moved: _Moved, f: Forces, inertia: bool, forces
     status, reasons = _statuses(followed, moved, f, forces)
     lost = np.array([s not in KEPT for s in status])
     open_ = ~followed.path.reached
-    _blank(open_, moved.point, moved.turn)
+    _blank(open_, moved.point, moved.turn, moved.rotation)
     _blank(lost, moved.twist, moved.acceleration)
     for part in (f, *f.ends):
         _blank(lost, *part[:6], *(a for a in part.friction or () if a.dtype.kind == "f"))
-    made = (c, inertia, followed.mobility, followed.mode, status, reasons, *moved[:4])
-    result = Result(*made, *f[:6], *f[7:9], friction=f.friction)
+    made = (c, inertia, followed.mobility, followed.mode, status, reasons, *moved[:5])
+    result = Result(*made, *f[:6], *f[7:9], friction=f.friction, unique_in=f.unique_in)
     ends = [Result(*made, *end[:6], *end[7:9], friction=end.friction) for end in f.ends]
     return replace(result, ends=tuple(zip(ends[::2], ends[1::2], strict=True)))
 
@@ -212,6 +227,12 @@ def _singular_sentence(c: Compiled, where: NDArray[np.intp]) -> str:
 def _no_balance_sentence(c: Compiled) -> str:
     given = ", ".join(n for n, asked in zip(c.schedule.names, c.known.asked, strict=True) if not asked)
     unknown = ", ".join(c.unknown_loads)
+    if c.passive:
+        links = " or ".join(c.passive)
+        return (
+            f"The loads have no equilibrium here: they turn {links} about the line of two ball joints, which nothing "
+            "holds. Put a universal joint in place of one of them, or bring the mass centre onto the line."
+        )
     if unknown:
         return f"The unknown {unknown} cannot balance the given effort of {given}: it has no power here."
     return "The loads have no equilibrium here."
@@ -230,13 +251,15 @@ def _redundant_sentence(followed: Positions) -> str:
 def _nothing(followed: Positions, inertia: bool) -> Result:
     """No position closes."""
     c = followed.compiled
-    count, links, joints = len(c.targets), len(c.links), len(c.joints)
+    g, count, links, joints = c.layout.algebra, len(c.targets), len(c.links), len(c.joints)
 
     def nan(*shape: int) -> Array:
         return np.full((count, *shape), np.nan)
 
     sentence = open_sentence(c, None, np.arange(count))
-    arrays = (nan(links, 2), nan(links), nan(links, 3), nan(links, 3), nan(joints, 2), nan(joints))
+    turn, rotation = (np.full_like(a, np.nan) for a in g.unturned(count, links))
+    reactions = nan(joints, g.d), nan(joints, *_couple_shape(c))
+    arrays = (nan(links, g.d), turn, rotation, nan(links, g.n), nan(links, g.n), *reactions)
     unknowns = (nan(len(c.schedule.names)), nan(len(c.unknown_loads)), nan(), nan())
     status = ("not_assembled",) * count
     return Result(c, inertia, None, None, status, (sentence,) * count, *arrays, *unknowns)

@@ -146,7 +146,7 @@ def _answered(r: Result, at: State, w: Array, given: int | None = None) -> tuple
     with np.errstate(all="ignore"):
         known = replace(c.known, effort=effort)
         found = balance(c.layout, c.forcing, known, at.pose, at.moving, at.rows, at.solver, w)
-        force, couple = reactions(c.layout, at.rows, found)
+        force, couple = reactions(c.layout, at.pose, at.rows, found)
     return force, couple[..., 0], found.effort, found.load
 
 

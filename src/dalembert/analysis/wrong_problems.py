@@ -192,13 +192,11 @@ def _link_changes(r: Result, link: str) -> Iterator[tuple[str, dict[str, Any]]]:
 
 def _other_modes(r: Result) -> Iterator[dict[str, float]]:
     """Angles of the links in the other assembly modes of the first position."""
-    from dalembert.core.assembly import modes
+    from dalembert.core.assembly import Guess
 
     c = r.compiled
-    free = replace(
-        c.guess, turn=np.full_like(c.guess.turn, np.nan), point=np.full_like(c.guess.point, np.nan)
-    )
-    found = modes(c.layout, c.targets[0], free)
+    shape = np.shape(c.layout.reference)
+    found = Guess(np.full(shape[0], np.nan), np.full(shape, np.nan)).modes(c.layout, c.targets[0])
     if found is None:
         return
     for turn in found.pose.turn[:, :-1]:

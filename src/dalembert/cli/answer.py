@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.columns import (
-    Axes,
     Scale,
     UnitChoice,
     drive_kinds,
@@ -17,6 +16,7 @@ from dalembert.analysis.columns import (
     scale,
     unknown_kinds,
 )
+from dalembert.analysis.wrenches import Axes
 from dalembert.cli.rubbing import branch_note, ends_text, friction_table, with_ends
 from dalembert.cli.text import number, table, tables, wrapped
 

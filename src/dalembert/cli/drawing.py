@@ -107,7 +107,11 @@ def _way(m: Mechanism, at: str) -> list[float] | None:
     if schedule.position.shape != (1, 1) or schedule.unknown is not None:
         return None
     drive = m.drives[schedule.names[0]]
-    slides = (drive.freedom or m.joints[drive.joint or schedule.names[0]].freedoms[0]) == "slide"
+    slides = (
+        not drive.turns
+        if drive.freedom
+        else m.joints[drive.joint or schedule.names[0]].freedoms[0] == "slide"
+    )
     start = float(schedule.position[0, 0])
     end = quantity(at, "length" if slides else "angle", file_units(m.units))
     if abs(end - start) < 1e-9:

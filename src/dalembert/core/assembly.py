@@ -41,6 +41,19 @@ class Guess:
     turn: Array
     point: Array
 
+    def modes(self, layout: Layout, target: Array) -> Modes | None:
+        """The ways the linkage closes at a target (K + D,); None if no start closes."""
+        return modes(layout, target, self)
+
+    def start(self, layout: Layout, target: Array) -> Pose:
+        """The links laid down joint by joint (L+1, ...): before any correction."""
+        return drawn(layout, target, self)
+
+    def near(self, pose: Pose) -> Guess:
+        """The guess with what it leaves open taken from a pose (L+1, ...), and no points."""
+        turn = np.where(np.isfinite(self.turn), self.turn, pose.turn)
+        return Guess(turn, np.full_like(self.point, np.nan))
+
 
 class Modes(NamedTuple):
     """The ways the linkage closes at the first position: poses (M, L+1, ...), the chosen one first."""

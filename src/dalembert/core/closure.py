@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from dalembert.core.constraints import dense, measure, stacked
 from dalembert.core.factor import displacement
 from dalembert.core.layout import Layout, Mesh, Pose
+from dalembert.core.turning import settled
 
 Array = NDArray[Any]
 
@@ -63,17 +64,16 @@ def largest(layout: Layout, dq: Array) -> Array:
 def moved(layout: Layout, pose: Pose, dq: Array) -> Pose:
     """The pose after a small displacement of the moving links (..., L, n)."""
     g = layout.algebra
-    point, turn, rotation = pose.point.copy(), pose.turn.copy(), pose.rotation.copy()
+    point = pose.point.copy()
     point[..., :-1, :] += dq[..., : g.d]
-    turn[..., :-1] += dq[..., -1]
-    rotation[..., :-1, :] = g.rotation(turn[..., :-1])
-    return Pose(point, turn, rotation)
+    return Pose(point, *g.turned(pose.turn, pose.rotation, dq[..., g.d :]))
 
 
 def distance(layout: Layout, a: Pose, b: Pose) -> Array:
     """Largest displacement of a link between two poses: radians, or lengths over the characteristic length (...)."""
     shift = np.abs(a.point - b.point).max(axis=(-2, -1)) / layout.length
-    return np.asarray(np.maximum(shift, np.abs(a.turn - b.turn).max(axis=-1)))
+    turned = layout.algebra.apart(a.rotation, b.rotation, a.turn, b.turn).max(axis=-1)
+    return np.asarray(np.maximum(shift, turned))
 
 
 def closed(
@@ -110,7 +110,7 @@ def _closed(layout: Layout, pose: Pose, target: Array, iterations: int, polish: 
         active = active[~last if polish else left > CLOSED * layout.length]
         if not active.size:
             break
-    return pose, size
+    return settled(layout, pose), size
 
 
 def _put(pose: Pose, where: NDArray[np.intp], part: Pose) -> None:

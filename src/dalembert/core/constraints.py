@@ -11,14 +11,31 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.layout import Along, Distance, Family, Layout, Meet, Mesh, Pose, Rows, System, Turn
+from dalembert.core import turning
+from dalembert.core.geometry import arm, point_motion, span, span_motion
+from dalembert.core.layout import (
+    Along,
+    Angle,
+    Distance,
+    Family,
+    Helix,
+    Idle,
+    Layout,
+    Meet,
+    Mesh,
+    Perpendicular,
+    Pose,
+    Rows,
+    System,
+    Turn,
+)
 
 Array = NDArray[Any]
 
 
 def measure(g: Any, rows: Rows, pose: Pose) -> Array:
     """Value of each row (..., K): lengths and angles that constraints hold at their targets."""
-    out = np.zeros((*pose.turn.shape[:-1], rows.count), pose.point.dtype)
+    out = np.zeros((*pose.point.shape[:-2], rows.count), pose.point.dtype)
     for family in rows.families:
         out[..., family.row] = _MEASURES[type(family)](g, family, pose)
     return out
@@ -26,7 +43,7 @@ def measure(g: Any, rows: Rows, pose: Pose) -> Array:
 
 def wrenches(g: Any, rows: Rows, pose: Pose) -> tuple[Array, Array]:
     """Wrench of each row on i and on j per unit of multiplier, each about its link's reference point: (..., K, n)."""
-    shape = (*pose.turn.shape[:-1], rows.count, g.n)
+    shape = (*pose.point.shape[:-2], rows.count, g.n)
     on_i, on_j = np.zeros(shape, pose.point.dtype), np.zeros(shape, pose.point.dtype)
     for family in rows.families:
         _WRENCHES[type(family)](g, family, pose, on_i, on_j)
@@ -35,7 +52,7 @@ def wrenches(g: Any, rows: Rows, pose: Pose) -> tuple[Array, Array]:
 
 def drift(g: Any, rows: Rows, pose: Pose, twist: Array) -> Array:
     """Second derivative of each measure at zero acceleration (..., K); ``twist`` (..., L+1, n)."""
-    out = np.zeros((*pose.turn.shape[:-1], rows.count), pose.point.dtype)
+    out = np.zeros((*pose.point.shape[:-2], rows.count), pose.point.dtype)
     for family in rows.families:
         if not isinstance(family, Turn):
             out[..., family.row] = _DRIFTS[type(family)](g, family, pose, twist)
@@ -67,18 +84,6 @@ def rates(rows: System, twist: Array) -> Array:
     return np.asarray((rows.on_i * twist[..., rows.i, :] + rows.on_j * twist[..., rows.j, :]).sum(axis=-1))
 
 
-def arm(g: Any, pose: Pose, link: NDArray[np.intp], u: Array) -> Array:
-    """Ground components of link vectors u (..., k, d)."""
-    rotated: Array = g.rotate(pose.rotation[..., link, :], u)
-    return rotated
-
-
-def span(g: Any, f: Any, pose: Pose) -> Array:
-    """P_j - P_i."""
-    pi, pj = pose.point[..., f.i, :], pose.point[..., f.j, :]
-    return np.asarray((pj + arm(g, pose, f.j, f.uj)) - (pi + arm(g, pose, f.i, f.ui)))
-
-
 def _relative_turn(f: Any, pose: Pose) -> Array:
     return np.asarray(pose.turn[..., f.j] - pose.turn[..., f.i])
 
@@ -102,6 +107,10 @@ _MEASURES: dict[type[Family], Any] = {
     Turn: lambda g, f, pose: _relative_turn(f, pose),
     Mesh: _mesh_measure,
     Distance: lambda g, f, pose: _unit(span(g, f, pose))[1],
+    Perpendicular: turning.perpendicular,
+    Angle: turning.angle,
+    Helix: turning.helix,
+    Idle: turning.idle,
 }
 
 
@@ -148,33 +157,24 @@ _WRENCHES: dict[type[Family], Any] = {
     Turn: _turn_wrench,
     Mesh: _mesh_wrench,
     Distance: _distance_wrench,
+    Perpendicular: turning.perpendicular_wrench,
+    Angle: turning.angle_wrench,
+    Helix: turning.helix_wrench,
+    Idle: turning.idle_wrench,
 }
-
-
-def _point_motion(g: Any, pose: Pose, twist: Array, link: NDArray[np.intp], r: Array) -> tuple[Array, Array]:
-    """Velocity, and acceleration at zero link accelerations, of the points with arms r."""
-    v, w = twist[..., link, : g.d], twist[..., link, g.d :]
-    return v + g.spin(w, r), g.centripetal(w, r)
-
-
-def _span_motion(g: Any, f: Any, pose: Pose, twist: Array) -> tuple[Array, Array]:
-    """First and second rate of P_j - P_i, the second at zero link accelerations."""
-    vi, ai = _point_motion(g, pose, twist, f.i, arm(g, pose, f.i, f.ui))
-    vj, aj = _point_motion(g, pose, twist, f.j, arm(g, pose, f.j, f.uj))
-    return vj - vi, aj - ai
 
 
 def _along_drift(g: Any, f: Along, pose: Pose, twist: Array) -> Array:
     rj = arm(g, pose, f.j, f.uj)
-    vj, aj = _point_motion(g, pose, twist, f.j, rj)
-    vi, ai = _point_motion(g, pose, twist, f.i, pose.point[..., f.j, :] + rj - pose.point[..., f.i, :])
+    vj, aj = point_motion(g, pose, twist, f.j, rj)
+    vi, ai = point_motion(g, pose, twist, f.i, pose.point[..., f.j, :] + rj - pose.point[..., f.i, :])
     coriolis = 2 * g.spin(twist[..., f.i, g.d :], vj - vi)
     return np.asarray(g.dot(arm(g, pose, f.i, f.axis), aj - ai - coriolis))
 
 
 def _mesh_drift(g: Any, f: Mesh, pose: Pose, twist: Array) -> Array:
     line = span(g, f, pose)
-    rate, second = _span_motion(g, f, pose, twist)
+    rate, second = span_motion(g, f, pose, twist)
     square = g.dot(line, line)
     phi_rate = g.cross(line, rate)[..., 0] / square
     return np.asarray(
@@ -184,14 +184,18 @@ def _mesh_drift(g: Any, f: Mesh, pose: Pose, twist: Array) -> Array:
 
 def _distance_drift(g: Any, f: Distance, pose: Pose, twist: Array) -> Array:
     e, length = _unit(span(g, f, pose))
-    rate, second = _span_motion(g, f, pose, twist)
+    rate, second = span_motion(g, f, pose, twist)
     along = g.dot(e, rate)
     return np.asarray(g.dot(e, second) + (g.dot(rate, rate) - along * along) / length)
 
 
 _DRIFTS: dict[type[Family], Any] = {
-    Meet: lambda g, f, pose, twist: _span_motion(g, f, pose, twist)[1],
+    Meet: lambda g, f, pose, twist: span_motion(g, f, pose, twist)[1],
     Along: _along_drift,
     Mesh: _mesh_drift,
     Distance: _distance_drift,
+    Perpendicular: turning.perpendicular_drift,
+    Angle: turning.angle_drift,
+    Helix: turning.helix_drift,
+    Idle: turning.idle_drift,
 }

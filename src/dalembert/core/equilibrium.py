@@ -7,6 +7,7 @@ V   twists of the links per unit speed of each drive, the others held: virtual v
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -14,10 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.core import forcing as fc
-from dalembert.core.constraints import arm, drift, rates, stacked
+from dalembert.core.constraints import drift, rates, stacked
 from dalembert.core.factor import factor
 from dalembert.core.forcing import Forcing, Source, pair, summed
-from dalembert.core.layout import Layout, Pose, System
+from dalembert.core.geometry import arm
+from dalembert.core.layout import Helix, Layout, Pose, Rows, System
 from dalembert.core.linear import Factor, PseudoInverse
 
 Array = NDArray[Any]
@@ -29,7 +31,7 @@ class Known:
     """What is given of the drives' efforts and what is asked of loads.
 
     effort (P, D), NaN where unknown by ``asked`` (D,); unknown loads: unit force ``direction`` (U, d) at ``at`` on
-    ``link``, in link axes where ``follows``, or a unit couple where ``couple``.
+    ``link``, in link axes where ``follows``, or a unit couple ``about`` (U, n - d) where ``couple``.
     """
 
     asked: NDArray[np.bool_]
@@ -37,6 +39,7 @@ class Known:
     link: Ints
     at: Array
     direction: Array
+    about: Array
     follows: NDArray[np.bool_]
     couple: NDArray[np.bool_]
 
@@ -76,7 +79,7 @@ def motion(layout: Layout, pose: Pose, speed: Array, acceleration: Array) -> tup
     """Velocities and accelerations from the drives' speeds and accelerations (..., D): A^T v = rates."""
     rows = stacked(layout, pose)
     solver = factor(layout, rows)
-    count, lead = layout.constraints.count, pose.turn.shape[:-1]
+    count, lead = layout.constraints.count, pose.point.shape[:-2]
 
     def twists(right: Array) -> Array:
         solved = solver.motion(right)
@@ -103,7 +106,7 @@ def known_sources(
     sources = {
         "weight": fc.weight(layout, forcing.inertia, pose),
         "force": fc.force_wrench(layout, forcing.forces, pose),
-        "couple": fc.couple_wrench(layout, forcing.couples),
+        "couple": fc.couple_wrench(layout, forcing.couples, pose),
         "spring": fc.spring_wrench(layout, forcing.springs, pose, twist),
         "resistance": fc.resistance_wrench(layout, forcing.resistances, pose, twist),
     }
@@ -160,6 +163,9 @@ def checked(
 ) -> Balance:
     """Multipliers x by what they mean, with the residual and virtual power under total wrenches (..., L, n)."""
     count, asked = layout.constraints.count, int(known.asked.sum())
+    if layout.constraints.idle.size:
+        x = x.copy()
+        x[..., layout.constraints.idle] = 0.0
     effort = np.broadcast_to(known.effort, (*x.shape[:-1], len(known.asked))).copy()
     effort[..., known.asked] = x[..., count : count + asked]
     sources = [pair(s.unknown, x)]
@@ -185,8 +191,9 @@ def load_rows(layout: Layout, known: Known, pose: Pose) -> System:
     r = arm(g, pose, known.link, known.at)
     turned = g.rotate(pose.rotation[..., known.link, :], known.direction)
     force = np.where(known.follows[:, None], turned, known.direction)
-    wrench = np.concatenate([np.broadcast_to(force, r.shape), g.cross(r, force)], axis=-1)
-    wrench = np.where(known.couple[:, None], np.eye(g.n)[-1], wrench)
+    turned = g.rotate_couple(pose.rotation[..., known.link, :], known.about)
+    about = np.where(known.follows[:, None], turned, known.about)
+    wrench = np.concatenate([np.broadcast_to(force, r.shape), g.cross(r, force) + about], axis=-1)
     ground = np.full(size, layout.links)
     return System(ground, known.link, known.couple, np.zeros_like(wrench), wrench)
 
@@ -239,7 +246,16 @@ def _power(
     return np.asarray(np.abs(power / np.where(reference > 0, reference, 1.0)).max(axis=-1))
 
 
-def reactions(layout: Layout, rows: System, found: Balance) -> tuple[Array, Array]:
+def _screwed(g: Any, constraints: Rows, pose: Pose, rows: System) -> Iterator[tuple[int, Array]]:
+    """Row of each screw and the couple that its force comes with, at j's point."""
+    for f in constraints.families:
+        if isinstance(f, Helix):
+            about = g.cross(arm(g, pose, f.j, f.uj), rows.on_j[..., f.row, : g.d])
+            for k, row in enumerate(f.row):
+                yield int(row), rows.on_j[..., row, g.d :] - about[..., k, :]
+
+
+def reactions(layout: Layout, pose: Pose, rows: System, found: Balance) -> tuple[Array, Array]:
     """Force (..., joints, d) and couple (..., joints, n - d) of each joint on its link j, at j's point (contact)."""
     g, constraints = layout.algebra, layout.constraints
     lead = found.constraint.shape[:-1]
@@ -249,24 +265,35 @@ def reactions(layout: Layout, rows: System, found: Balance) -> tuple[Array, Arra
     for k, joint in enumerate(constraints.joint):
         multiplier = found.constraint[..., k, None]
         if constraints.angular[k]:
-            couple[..., joint, :] += multiplier * rows.on_j[..., k, g.d :]
+            couple[..., max(joint, 0), :] += (joint >= 0) * multiplier * rows.on_j[..., k, g.d :]
         else:
             force[..., joint, :] += multiplier * rows.on_j[..., k, : g.d]
+    for row, part in _screwed(g, constraints, pose, rows):
+        couple[..., constraints.joint[row], :] += found.constraint[..., row, None] * part
     for f, pushed in zip(fc.meshes(layout), found.separation, strict=True):
         for k, row in enumerate(f.row):
             force[..., constraints.joint[row], :] += pushed[..., k, :]
     return force, couple
 
 
-def unique(layout: Layout, rows: System, free: Array, joints: int) -> tuple[Array, Array]:
-    """Which reaction components (..., joints, n), and which other unknowns (..., X - K), no free multiplier changes."""
+def unique(shift: Array) -> Array:
+    """Which reaction components (..., joints, n) no free multiplier changes, of their ``shifts``."""
+    return np.asarray(np.abs(shift).max(axis=-1, initial=0.0) < UNIQUE)
+
+
+def shifts(layout: Layout, pose: Pose, rows: System, free: Array) -> tuple[Array, Array]:
+    """Change of the reactions (..., joints, n, X) with each free multiplier, and which other unknowns (..., X - K)
+    none of them changes."""
     g, constraints = layout.algebra, layout.constraints
-    shift = np.zeros((*free.shape[:-2], joints, g.n, free.shape[-1]))
+    shift = np.zeros((*free.shape[:-2], layout.joints, g.n, free.shape[-1]))
     for k, joint in enumerate(constraints.joint):
-        part = slice(g.d, None) if constraints.angular[k] else slice(None, g.d)
-        shift[..., joint, part, :] += rows.on_j[..., k, part, None] * free[..., k, None, :]
+        if joint >= 0:
+            part = slice(g.d, None) if constraints.angular[k] else slice(None, g.d)
+            shift[..., joint, part, :] += rows.on_j[..., k, part, None] * free[..., k, None, :]
+    for row, couple in _screwed(g, constraints, pose, rows):
+        shift[..., constraints.joint[row], g.d :, :] += couple[..., None] * free[..., row, None, :]
     others = free[..., constraints.count :, :]
-    return np.abs(shift).max(axis=-1) < UNIQUE, np.abs(others).max(axis=-1, initial=0.0) < UNIQUE
+    return shift, np.abs(others).max(axis=-1, initial=0.0) < UNIQUE
 
 
 UNIQUE = 1e-8

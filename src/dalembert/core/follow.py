@@ -21,6 +21,7 @@ from dalembert.core.constraints import dense, stacked
 from dalembert.core.course import Course, course
 from dalembert.core.factor import SPARSE, displacement
 from dalembert.core.layout import Layout, Pose
+from dalembert.core.turning import settled
 
 Array = NDArray[Any]
 
@@ -74,11 +75,12 @@ def interpolated(layout: Layout, s: Array, nodes: Nodes) -> Pose:
     first = np.clip(np.searchsorted(nodes.s, s) - count // 2, 0, len(nodes.s) - count)
     index = first[:, None] + np.arange(count)
     value, slope = _hermite(s, nodes.s[index])
-    q = np.concatenate([nodes.pose.point, nodes.pose.turn[..., None]], axis=-1)
     weights = np.concatenate([value, slope], axis=1)
-    q = np.concatenate([q[index], nodes.rate[index]], axis=1)
+    q, rate = g.coordinates(*nodes.pose), g.coordinate_rates(nodes.pose.rotation, nodes.rate)
+    q = np.concatenate([q[index], rate[index]], axis=1)
     q = (weights[:, None] @ q.reshape((*q.shape[:2], -1))).reshape((len(s), *q.shape[2:]))
-    return Pose(q[..., : g.d].copy(), q[..., -1].copy(), g.rotation(q[..., -1]))
+    nearest = index[np.arange(len(s)), np.abs(s[:, None] - nodes.s[index]).argmin(axis=1)]
+    return settled(layout, Pose(*g.from_coordinates(q, nodes.pose.turn[nearest])))
 
 
 def _hermite(s: Array, nodes: Array) -> tuple[Array, Array]:
@@ -158,7 +160,7 @@ def _station(
         ):
             return None
         if largest(layout, dq[:1])[0] <= CLOSE * travel + 1e-9:
-            return pose.at(0), dq[1]
+            return settled(layout, pose).at(0), dq[1]
     return None
 
 
@@ -248,9 +250,8 @@ def _around(layout: Layout, along: Course, period: Array, known: Path) -> Path:
 def _filled(layout: Layout, along: Course, piece: March, count: int) -> Path:
     """The first ``count`` positions of the list, where they lie within a march, by interpolation and correction."""
     inside = (along.s >= piece.s[0] - 1e-12) & (along.s <= piece.s[-1] + 1e-12) & (along.order < count)
-    links = piece.pose.turn.shape[-1]
-    turn, point = np.full((count, links), np.nan), np.full((count, links, layout.algebra.d), np.nan)
-    found = Path(Pose(point, turn, layout.algebra.rotation(turn)), np.zeros(count, bool))
+    nowhere = Pose(*(np.full((count, *part.shape[1:]), np.nan) for part in piece.pose))
+    found = Path(nowhere, np.zeros(count, bool))
     for low, high in zip(along.breaks[:-1], along.breaks[1:], strict=True) if along.end > 0 else [(0.0, 0.0)]:
         which = np.flatnonzero((piece.s >= low - 1e-12) & (piece.s <= high + 1e-12))
         places = np.flatnonzero(inside & (along.s >= low - 1e-12) & (along.s <= high + 1e-12))
@@ -334,6 +335,6 @@ def _entry(layout: Layout, target: Array, known: Path, sign: float) -> Pose | No
 def orientation(layout: Layout, pose: Pose) -> Array:
     """Sign of det J: it tells the two sides of a dead centre apart. 0 where J is not square or too large to ask."""
     if layout.redundant or layout.unknowns > SPARSE or layout.stack.count != layout.unknowns:
-        return np.zeros(len(pose.turn))
+        return np.zeros(len(pose.point))
     sign, _ = np.linalg.slogdet(dense(layout, stacked(layout, pose)))
     return np.asarray(sign)

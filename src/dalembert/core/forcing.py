@@ -12,7 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.constraints import arm, measure, rates, span, system
+from dalembert.core.constraints import measure, rates, system
+from dalembert.core.geometry import arm, span
 from dalembert.core.layout import Layout, Mesh, Pose, System
 
 Array = NDArray[Any]
@@ -45,10 +46,11 @@ class Forces:
 
 @dataclass(frozen=True)
 class Couples:
-    """Couples (P, k, n - d) on links."""
+    """Couples (P, k, n - d) on links, in link axes where ``follows``."""
 
     link: Ints
     value: Array
+    follows: NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -154,10 +156,12 @@ def force_wrench(layout: Layout, forces: Forces, pose: Pose) -> Source:
     return Source(forces.link, _wrench(g, r, np.where(forces.follows[:, None], turned, forces.value)))
 
 
-def couple_wrench(layout: Layout, couples: Couples) -> Source:
+def couple_wrench(layout: Layout, couples: Couples, pose: Pose) -> Source:
     """Couples on links."""
-    zero = np.zeros((*couples.value.shape[:-1], layout.algebra.d))
-    return Source(couples.link, np.concatenate([zero, couples.value], axis=-1))
+    turned = layout.algebra.rotate_couple(pose.rotation[..., couples.link, :], couples.value)
+    value = np.where(couples.follows[:, None], turned, couples.value)
+    zero = np.zeros((*value.shape[:-1], layout.algebra.d))
+    return Source(couples.link, np.concatenate([zero, value], axis=-1))
 
 
 def spring_wrench(layout: Layout, springs: Springs, pose: Pose, twist: Array) -> Source:

@@ -27,8 +27,9 @@ Ints = NDArray[np.intp]
 class Pose(NamedTuple):
     """Where the links are, ground included as the last one.
 
-    point (..., L+1, d) reference points in ground axes; turn (..., L+1) angles, not reduced to one turn; rotation
-    (..., L+1, 2) their cosines and sines.
+    point (..., L+1, d) reference points in ground axes. In the plane turn (..., L+1) are the links' angles, not reduced
+    to one turn, and rotation (..., L+1, 2) their cosines and sines. In space rotation (..., L+1, 9) are matrices, and
+    turn (..., T) the relative angles of the rows that count whole turns, near enough to know them by.
     """
 
     point: Array
@@ -104,7 +105,64 @@ class Distance:
     uj: Array
 
 
-Family = Meet | Along | Turn | Mesh | Distance
+@dataclass(frozen=True)
+class Perpendicular:
+    """In space: a direction of i and one of j at a right angle. Measure a . p; a pure couple along p x a."""
+
+    row: Ints
+    i: Ints
+    j: Ints
+    a: Array  # (k, 3) unit vector in i's axes
+    p: Array  # (k, 3) unit vector in j's axes
+
+
+@dataclass(frozen=True)
+class Angle:
+    """In space: angle of the direction p of j about the axis a of i, from b of i; a pure couple.
+
+    Measure atan2(p . (a x b), p . b), whole turns counted in ``turn`` of the pose at ``count``.
+    """
+
+    row: Ints
+    i: Ints
+    j: Ints
+    a: Array
+    b: Array  # (k, 3) at a right angle to a
+    p: Array
+    count: Ints
+
+
+@dataclass(frozen=True)
+class Helix:
+    """In space: coordinate of j's point along the axis a of i, plus pitch times the angle about it (``Angle``)."""
+
+    row: Ints
+    i: Ints
+    j: Ints
+    ui: Array
+    uj: Array
+    a: Array
+    b: Array
+    p: Array
+    pitch: Array  # (k,) length a radian
+    count: Ints
+
+
+@dataclass(frozen=True)
+class Idle:
+    """In space: spin of j about a direction p of its own, set to none.
+
+    Its measure is 0 wherever it stands: the link stands as ``drawn``, turned by the least angle that points p right.
+    """
+
+    row: Ints
+    i: Ints
+    j: Ints
+    p: Array
+    drawn: Array  # (k, 9)
+
+
+Family = Meet | Along | Turn | Mesh | Distance | Perpendicular | Angle | Helix | Idle
 
 
 @dataclass(frozen=True)
@@ -114,8 +172,14 @@ class Rows:
     count: int
     links: int
     families: tuple[Family, ...]
-    joint: Ints  # (K,) joint of each row
+    joint: Ints  # (K,) joint of each row, -1 where it belongs to none
     angular: NDArray[np.bool_]  # (K,) the measure is an angle, the wrench a couple
+
+    @cached_property
+    def idle(self) -> Ints:
+        """Rows of spins set to none: what they carry, nothing carries."""
+        found = [f.row for f in self.families if isinstance(f, Idle)]
+        return np.concatenate([*found, np.zeros(0, np.intp)]).astype(np.intp)
 
     @cached_property
     def ends(self) -> tuple[Ints, Ints]:

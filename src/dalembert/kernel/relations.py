@@ -40,7 +40,8 @@ def relations(layout: Layout, target: Any, turns: dict[int, Pair]) -> list[Relat
             kind = _KINDS[type(f)]
             if isinstance(f, Along) and not is_zero(f.pitch[k]):
                 kind = "roll"
-            ui, uj = (NONE, NONE) if isinstance(f, Turn) else ((u[k][0], u[k][1]) for u in (f.ui, f.uj))
+            arms = (f.ui, f.uj) if isinstance(f, Meet | Along | Distance | Mesh) else ()
+            ui, uj = ((u[k][0], u[k][1]) for u in arms) if arms else (NONE, NONE)
             axis = (f.axis[k][0], f.axis[k][1]) if isinstance(f, Along) else NONE
             radii = (f.ri[k], f.rj[k]) if isinstance(f, Mesh) else NONE
             i, j, goal, turn = int(f.i[k]), int(f.j[k]), target[rows[0]], turns.get(rows[0], NONE)

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from dalembert.core import forcing as fc
 from dalembert.core.assembly import held_wheels, phase_rows, with_rows
-from dalembert.core.constraints import measure, span
+from dalembert.core.constraints import measure
 from dalembert.core.equilibrium import Balance, Known, Statement, known_sources, motion, reactions, statement
 from dalembert.core.forcing import Forcing, pair, summed
+from dalembert.core.geometry import span
 from dalembert.core.layout import Layout, Pose
 from dalembert.kernel.eliminate import Structural
 from dalembert.kernel.graph import CONSTANT, Graph, Node, traced
@@ -90,7 +91,7 @@ def trace(p: Problem) -> Traced:
     effort[p.known.asked] = x[count : count + asked]
     pushed = fc.separation(layout, pose, p.forcing.separation, x)
     found = Balance(x[:count], effort, x[count + asked :], *(np.zeros(0),) * 3, None, pushed)
-    force, couple = reactions(layout, rows, found)
+    force, couple = reactions(layout, pose, rows, found)
     g = p.graph
     return Traced(
         pose=pose,

@@ -10,7 +10,7 @@ from dalembert.model.drives import Drive, Range
 from dalembert.model.expressions import Expression
 from dalembert.model.files import convert, load, loads, read_file, read_text, save_tree, tree_text
 from dalembert.model.friction import FrictionDefaults, GearFriction, GuideFriction, PinFriction, SlotFriction
-from dalembert.model.joints import Gear, Joint, Pin, Rolling, Slider, Slot, SpaceJoint, Weld
+from dalembert.model.joints import Gear, Joint, Pin, Rolling, Slider, Slot, Weld
 from dalembert.model.laws import Rise, TimeTable
 from dalembert.model.link import Link, Offset
 from dalembert.model.loads import Couple, Damper, ForceLoad, Load, Spring, TorsionDamper, TorsionSpring
@@ -18,6 +18,7 @@ from dalembert.model.mechanism import Mechanism, mechanism
 from dalembert.model.messages import ModelErrors
 from dalembert.model.schedule import Schedule
 from dalembert.model.schema import json_schema
+from dalembert.model.space_joints import SpaceJoint
 from dalembert.model.tables import Table
 from dalembert.model.varying import Varying, value_at
 

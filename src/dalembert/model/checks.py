@@ -6,9 +6,10 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from dalembert.errors import ModelError
-from dalembert.model.joints import JointPart, SpaceJoint
+from dalembert.model.joint_part import JointPart
 from dalembert.model.link import CENTER, Link, Offset
 from dalembert.model.loads import Couple, Damper, ForceLoad, Spring, TorsionDamper, TorsionSpring
+from dalembert.model.space_joints import SpaceJoint
 from dalembert.model.tables import Table
 from dalembert.model.varying import Varying
 from dalembert.wording import closest
@@ -211,6 +212,14 @@ def _components(
         "at": getattr(load, "at", None),
         "direction": getattr(load, "direction", None),
     }
+    if isinstance(load, Couple) and load.components is None and (m.dimension == 3) != bool(load.direction):
+        yield ModelError(
+            f"{user} needs a direction in space"
+            if m.dimension == 3
+            else f"{user} has a direction in the plane",
+            "write direction: [0, 0, 1], or value: [x, y, z]" if m.dimension == 3 else "leave it out",
+            path,
+        )
     for key, vector in vectors.items():
         if isinstance(vector, tuple) and len(vector) != m.dimension:
             yield ModelError(

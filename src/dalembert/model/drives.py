@@ -151,7 +151,12 @@ class Interval(DriveValue):
 
 def kind_of(freedom: str | None, what: str) -> str:
     """The kind of a drive's numbers; `what` is speed, acceleration, effort or, for the position, nothing."""
-    return (SLIDE if freedom == "slide" else TURN)[what]
+    return (SLIDE if slides(freedom) else TURN)[what]
+
+
+def slides(freedom: str | None) -> bool:
+    """Whether a freedom is a length."""
+    return (freedom or "").startswith("slide")
 
 
 def implied_freedom(keys: Mapping[str, Any]) -> str | None:
@@ -186,7 +191,7 @@ class Drive(Part):
     """
 
     joint: Name | None = Field(None, description="the joint it drives; default the drive's own name")
-    freedom: Literal["turn", "slide", "turn1", "turn2"] | None = Field(
+    freedom: Literal["turn", "slide", "turn1", "turn2", "slide1", "slide2"] | None = Field(
         None, description="which freedom of the joint; needed where it has several"
     )
     position: Annotated[Positions, PositionValue()] | None = Field(
@@ -226,7 +231,7 @@ class Drive(Part):
     @property
     def turns(self) -> bool:
         """Whether its freedom is an angle."""
-        return self.freedom != "slide"
+        return not slides(self.freedom)
 
     @property
     def effort_unit(self) -> str:
@@ -270,7 +275,7 @@ class Drive(Part):
                 "its position is unknown and its effort is not given",
                 "write effort: 0, or the effort that holds it",
             )
-        if self.freedom == "slide" and self.range is None:
+        if slides(self.freedom) and self.range is None:
             raise ModelError(
                 "its position along a slide is unknown without a range", "write range: [0 mm, 100 mm]"
             )

@@ -9,37 +9,20 @@ from pydantic import Field, StrictBool, ValidationInfo, model_validator
 
 from dalembert.errors import ModelError
 from dalembert.model.friction import GearFriction, GuideFriction, PinFriction, SlotFriction
-from dalembert.model.part import Part, mapping, reading
+from dalembert.model.joint_part import JointPart
+from dalembert.model.part import mapping, reading
+from dalembert.model.space_joints import SPACE_FREEDOMS, Frames, Matrix, SpaceJoint, frames
 from dalembert.model.values import (
     NUMBER_OR_TEXT,
-    Components,
     JsonSchema,
     Scalar,
-    TwoNames,
     Value,
-    Vector,
     at_item,
-    name,
     numbers,
-    pair_of_names,
     signed,
     written,
 )
 from dalembert.units import quantity
-
-
-class At(Value):
-    """The name of a point, or `[point of i, point of j]`."""
-
-    def read(self, value: Any, info: ValidationInfo) -> str | tuple[str, str]:
-        return pair_of_names(value) if isinstance(value, (list, tuple)) else name(value)
-
-    def write(self, value: str | tuple[str, str]) -> Any:
-        return value if isinstance(value, str) else list(value)
-
-    def json_schema(self) -> JsonSchema:
-        names = {"type": ["string", "integer"]}
-        return {"anyOf": [names, {"type": "array", "items": names, "minItems": 2, "maxItems": 2}]}
 
 
 class Pair(Value):
@@ -100,38 +83,6 @@ SlideDamping = Annotated[float, Scalar("damping", "not negative")]
 _DIRECTION = "of the slide, an angle in i's axes; default 0"
 
 
-class JointPart(Part):
-    """What all joints have: the links i and j, and the point on each."""
-
-    FREEDOMS: ClassVar[tuple[str, ...]] = ()
-
-    type: str
-    links: TwoNames = Field(description="[i, j]: motion and reaction are those of j against i")
-    at: Annotated[str | tuple[str, str], At()] | None = Field(
-        None, description="point of both links, or [point of i, point of j]; default the joint's own name"
-    )
-
-    @property
-    def freedoms(self) -> tuple[str, ...]:
-        """The freedoms of j in i that a drive can prescribe."""
-        return self.FREEDOMS
-
-    def point_names(self, own: str) -> tuple[str, str]:
-        """The names of its points on i and on j; `own` is the joint's name."""
-        if isinstance(self.at, tuple):
-            return self.at
-        point = self.at or own
-        return point, point
-
-    @model_validator(mode="after")
-    def _two_links(self) -> Self:
-        if self.links[0] == self.links[1]:
-            raise ModelError(
-                f"it connects link {self.links[0]!r} with itself", "name two different links", ("links",)
-            )
-        return self
-
-
 class Pin(JointPart):
     """A turning joint.
 
@@ -173,6 +124,14 @@ class Weld(JointPart):
 
     type: Literal["weld"] = "weld"
     angle: Angle = Field(0.0, description="of j's axes to i's, default 0")
+    axes: Frames | None = Field(
+        None, description="in space: local axes on both links, which are held together"
+    )
+
+    @property
+    def frames(self) -> tuple[Matrix, Matrix]:
+        """In space: its local axes in i's and in j's axes, a column each."""
+        return frames(self.axes, None, "")
 
 
 class Gear(JointPart):
@@ -264,70 +223,6 @@ class Rolling(JointPart):
         if self.radii is not None:
             _check_internal(self.internal, self.radii)
         return self
-
-
-class Frame(Part):
-    """Local axes of a joint on one link, in space."""
-
-    x: Annotated[Vector, Components("number")] | None = Field(None, description="direction of local x")
-    z: Annotated[Vector, Components("number")] | None = Field(None, description="direction of local z")
-
-
-class Frames(Part):
-    """Local axes of a joint on its two links."""
-
-    i: Frame = Field(description="in i's axes")
-    j: Frame = Field(description="in j's axes")
-
-
-SPACE_FREEDOMS: dict[str, tuple[str, ...]] = {
-    "revolute": ("turn",),
-    "prismatic": ("slide",),
-    "screw": ("turn", "slide"),
-    "cylindrical": ("slide", "turn"),
-    "universal": ("turn1", "turn2"),
-    "spherical": ("turn",),
-    "plane": ("turn",),
-    "sphere_between_planes": (),
-    "sphere_in_cylinder": ("slide",),
-    "cylinder_between_planes": (),
-    "slotted_sphere": (),
-    "torus": (),
-    "slotted_cylinder": ("slide", "turn"),
-    "slotted_sphere_in_cylinder": ("slide",),
-}
-"""Joint in space -> freedoms that a drive can prescribe."""
-
-
-class SpaceJoint(JointPart):
-    """A joint in space, described by its local axes."""
-
-    type: Literal[
-        "revolute",
-        "prismatic",
-        "screw",
-        "cylindrical",
-        "universal",
-        "spherical",
-        "plane",
-        "sphere_between_planes",
-        "sphere_in_cylinder",
-        "cylinder_between_planes",
-        "slotted_sphere",
-        "torus",
-        "slotted_cylinder",
-        "slotted_sphere_in_cylinder",
-    ]
-    axes: Frames | None = Field(None, description="{i: {x: [...], z: [...]}, j: {...}} in link axes")
-    axis: Annotated[Vector, Components("number")] | None = Field(
-        None, description="the joint's axis, the same components in both links"
-    )
-    lead: Annotated[float, Scalar("length")] | None = Field(None, description="of a screw, length a turn")
-
-    @property
-    def freedoms(self) -> tuple[str, ...]:
-        """The freedoms of j in i that a drive can prescribe."""
-        return SPACE_FREEDOMS[self.type]
 
 
 PLANE_FREEDOMS: dict[str, tuple[str, ...]] = {

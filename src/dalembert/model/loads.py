@@ -10,6 +10,7 @@ from pydantic import Field, ValidationInfo, model_validator
 from dalembert.errors import ModelError
 from dalembert.model.part import Part, Reading, reading
 from dalembert.model.values import (
+    Components,
     JsonSchema,
     Name,
     Scalar,
@@ -218,12 +219,36 @@ class Couple(Part):
     value: Annotated[Varying | tuple[Varying, ...] | Literal["unknown"], CoupleValue()] = Field(
         description="a moment, or unknown; in space a vector"
     )
-    axes: Literal["ground", "link"] = Field("ground", description="in space: the axes of value")
+    direction: Annotated[Vector, Components("number")] | None = Field(
+        None, description="in space: the axis of a single value or of an unknown couple, a vector in `axes`"
+    )
+    axes: Literal["ground", "link"] = Field("ground", description="in space: the axes of value and direction")
+
+    @model_validator(mode="after")
+    def _one_meaning(self) -> Self:
+        if self.direction is not None and isinstance(self.value, tuple):
+            raise ModelError("a vector needs no direction", "leave the direction out", ("direction",))
+        if self.direction is not None and not any(self.direction):
+            raise ModelError("its direction is 0", "write one of its components other than 0", ("direction",))
+        return self
 
     @property
     def unknown(self) -> bool:
         """Whether it is asked for."""
         return isinstance(self.value, str)
+
+    @property
+    def axis(self) -> Vector:
+        """Unit vector of a single value in space; 1 in the plane."""
+        if self.direction is None:
+            return (1.0,)
+        length = sum(x * x for x in self.direction) ** 0.5
+        return tuple(x / length for x in self.direction)
+
+    @property
+    def components(self) -> tuple[Varying, ...] | None:
+        """Its components in `axes`, if it is given as a vector."""
+        return self.value if isinstance(self.value, tuple) else None
 
     @property
     def varying(self) -> tuple[Varying, ...]:

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from dalembert.errors import ModelError
-from dalembert.model.drives import Drive
-from dalembert.model.joints import JointPart, freedoms
+from dalembert.model.drives import Drive, slides
+from dalembert.model.joint_part import JointPart
+from dalembert.model.joints import freedoms
 from dalembert.model.messages import place, together
 
 SECTIONS = ("joints", "drives", "loads", "assembly", "answers", "title", "source")
@@ -29,7 +30,7 @@ def refuse_empty(tree: Any, path: tuple[str | int, ...] = ()) -> None:
 def drive_freedoms(tree: Mapping[str, Any]) -> dict[str, str]:
     """Drive -> `turn` or `slide`, where it is known."""
     found = {name: freedom for name, _, freedom, _ in _drives(tree)}
-    return {name: "slide" if freedom == "slide" else "turn" for name, freedom in found.items() if freedom}
+    return {name: "slide" if slides(freedom) else "turn" for name, freedom in found.items() if freedom}
 
 
 def with_freedoms(tree: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -144,7 +144,7 @@ def _table(value: Mapping[str, Any], kind: str, rules: Reading) -> Table:
 def _along(x: object, freedom: str | None) -> str:
     """Whether a table's x are angles or lengths: the drive's freedom says; without one, their unit."""
     if freedom:
-        return "length" if freedom == "slide" else "angle"
+        return "length" if (freedom or "").startswith("slide") else "angle"
     first = x[0] if isinstance(x, (list, tuple)) and x else 0
     try:
         quantity(first, "angle")

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.actions import state
-from dalembert.analysis.compile import point_of
+from dalembert.analysis.loads import point_of
 from dalembert.views.canvas import Canvas
 from dalembert.views.frame import force_scale
 from dalembert.views.mechanism import canvas_names, draw_links, stated, unit_size, whole_frame

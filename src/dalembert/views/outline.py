@@ -46,7 +46,7 @@ def _slides_on(joint: Any, link: str) -> bool:
 
 
 def _spot(r: Result, load: Any) -> Any:
-    from dalembert.analysis.compile import point_of
+    from dalembert.analysis.loads import point_of
 
     return point_of(r.mechanism, load.on, load.at)
 

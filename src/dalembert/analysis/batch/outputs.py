@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.algebra import plane
-from dalembert.analysis.compile import Compiled, point_of
+from dalembert.analysis.compile import Compiled
+from dalembert.analysis.loads import point_of
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, traced
 from dalembert.kernel.trace import Traced

@@ -1,0 +1,185 @@
+"""Joints of a description as rows for the core: constraints, freedoms by name, contacts, and the first guess."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.algebra import plane, space
+from dalembert.analysis import joints as table
+from dalembert.analysis import pairs
+from dalembert.analysis.contacts import contacts
+from dalembert.core.assembly import Guess
+from dalembert.core.drawing import Drawing
+from dalembert.core.friction import Contacts
+from dalembert.core.layout import Idle, Rows
+from dalembert.errors import ModelError
+from dalembert.model import Mechanism, Schedule
+from dalembert.model.assembly import SpacePose
+from dalembert.model.space_joints import BALLS
+
+Array = NDArray[Any]
+
+
+class Jointing(Protocol):
+    """Rows and names of all joints; arms (ui, uj) of each from its links' reference points."""
+
+    constraints: table.RowBuilder
+    freedoms: table.RowBuilder
+    names: list[tuple[str, str]]
+    arms: list[tuple[Array, Array]]
+    geometries: tuple[pairs.Geometry, ...]
+    passive: tuple[str, ...]
+
+    def contacts(self, fixed: Rows) -> tuple[Contacts, tuple[str, ...]] | None: ...
+
+    def guess(self) -> Guess | Drawing: ...
+
+
+class _Joints:
+    """What both kinds of joints have in common."""
+
+    def __init__(self, m: Mechanism, schedule: Schedule, index: dict[str, int], reference: Array) -> None:
+        self.m, self.schedule, self.index, self.reference = m, schedule, index, reference
+        links = len(index) - 1
+        self.constraints = table.RowBuilder(links, m.dimension)
+        self.freedoms = table.RowBuilder(links, m.dimension)
+        self.names: list[tuple[str, str]] = []
+        self.ends: list[tuple[int, int]] = []
+        self.arms: list[tuple[Array, Array]] = []
+        self.geometries: tuple[pairs.Geometry, ...] = ()
+        for k, (name, joint) in enumerate(m.joints.items()):
+            ends = (index[joint.links[0]], index[joint.links[1]])
+            ui, uj = (np.subtract(u, reference[e]) for u, e in zip(m.joint_points(name), ends, strict=True))
+            self.ends.append(ends)
+            self.arms.append((ui, uj))
+            self.add(k, name, joint)
+        self.passive = self.add_passive()
+
+    def add(self, k: int, name: str, joint: Any) -> None:
+        """The rows of one joint."""
+        raise NotImplementedError
+
+    def add_passive(self) -> tuple[str, ...]:
+        """Rows that hold freedoms which move nothing else; the names of their links."""
+        return ()
+
+
+class PlaneJoints(_Joints):
+    """Joints of the plane."""
+
+    def add(self, k: int, name: str, joint: Any) -> None:
+        """The rows of one joint."""
+        if joint.type not in table.FREEDOMS:
+            what = f"joint {name!r}: joints of type {joint.type!r} cannot be analysed yet"
+            raise ModelError(what, "use " + ", ".join(table.FREEDOMS), ("joints", name, "type"))
+        table.add_constraints(self.constraints, k, joint, self.ends[k], *self.arms[k])
+        table.add_freedom(self.freedoms, k, joint, self.ends[k], *self.arms[k])
+        self.names += [(name, freedom) for freedom in table.FREEDOMS[joint.type]]
+
+    def contacts(self, fixed: Rows) -> tuple[Contacts, tuple[str, ...]] | None:
+        """The contacts of the joints with friction."""
+        return contacts(self.m, fixed, self.ends, self.arms)
+
+    def guess(self) -> Guess:
+        """Angles and places of the links that the file gives."""
+        m, index, reference = self.m, self.index, self.reference
+        turn, point = np.full(len(index), np.nan), np.full((len(index), 2), np.nan)
+        for link, given in m.assembly.items():
+            k = index[link]
+            if isinstance(given, float):
+                turn[k] = given
+                continue
+            if not isinstance(given, tuple):
+                raise ModelError(
+                    "a pose in space means nothing in the plane", "give an angle", ("assembly", link)
+                )
+            x, y, angle = given
+            turn[k] = angle
+            arm = plane.rotate(plane.rotation(np.array(angle)), reference[k])
+            point[k] = np.array([x, y]) + arm - reference[-1]
+        return Guess(turn, point)
+
+
+class SpaceJoints(_Joints):
+    """Joints in space."""
+
+    def add(self, k: int, name: str, joint: Any) -> None:
+        """The rows of one joint."""
+        at = pairs.geometry(joint, *self.arms[k])
+        self.geometries += (at,)
+        pairs.add_constraints(self.constraints, k, joint, self.ends[k], at)
+        drive = next((d for d in self.m.drives if self.m.drive_joint(d) == name), None)
+        axis = self.m.drives[drive].axis if drive else None
+        self.freedoms.counted = max(self.freedoms.counted, self.constraints.counted)
+        found = pairs.add_freedom(self.freedoms, k, joint, self.ends[k], at, axis)
+        self.constraints.counted = self.freedoms.counted
+        self.names += [(name, freedom) for freedom in found]
+
+    def add_passive(self) -> tuple[str, ...]:
+        """Links that can spin about the line of their two ball joints: set to no spin."""
+        driven = {self.m.drive_joint(d) for d in self.m.drives}
+        found = []
+        for link, number in self.index.items():
+            ends = [
+                (name, joint, joint.links.index(link))
+                for name, joint in self.m.joints.items()
+                if link in joint.links
+            ]
+            balls = [joint.type in BALLS and name not in driven for name, joint, _ in ends]
+            if link == "ground" or len(ends) != 2 or not all(balls):
+                continue
+            a, b = (np.asarray(self.m.joint_points(name)[side]) for name, _, side in ends)
+            if np.linalg.norm(b - a) == 0:
+                raise ModelError(
+                    f"the two ball joints of link {link!r} have their centres in one point",
+                    "place them apart",
+                    ("joints", ends[1][0]),
+                )
+            line = (b - a) / np.linalg.norm(b - a)
+            given = self.m.assembly.get(link)
+            drawn = space.IDENTITY
+            if isinstance(given, SpacePose):
+                drawn = space.rotation(np.array(given.angle), given.axis)
+            self.constraints.add(Idle, -1, (len(self.index) - 1, number), p=line, drawn=drawn)
+            found.append(link)
+        return tuple(found)
+
+    def contacts(self, fixed: Rows) -> tuple[Contacts, tuple[str, ...]] | None:
+        """Friction in space is not there yet."""
+        for name, joint in self.m.joints.items():
+            if getattr(joint, "friction", None) is not None and self.m.friction.enabled:
+                raise ModelError(
+                    f"joint {name!r} has friction, which is not analysed in space yet",
+                    "leave it out",
+                    ("joints", name),
+                )
+        return None
+
+    def guess(self) -> Drawing:
+        """Poses of the links that the file gives, and how the joints let the others be laid."""
+        count = len(self.index)
+        rotation, point = np.full((count, 9), np.nan), np.full((count, 3), np.nan)
+        for link, given in self.m.assembly.items():
+            if not isinstance(given, SpacePose):
+                raise ModelError(
+                    "a pose in space needs a position, an axis and an angle",
+                    "write {position: [0, 0, 0], axis: [0, 0, 1], angle: 30 deg}",
+                    ("assembly", link),
+                )
+            k = self.index[link]
+            rotation[k] = space.rotation(np.array(given.angle), given.axis)
+            point[k] = (
+                np.array(given.position) + space.rotate(rotation[k], self.reference[k]) - self.reference[-1]
+            )
+        hinges = []
+        for k, (name, joint) in enumerate(self.m.joints.items()):
+            drives = {
+                str(self.m.drives[d].freedom or "turn"): n
+                for n, d in enumerate(self.schedule.names)
+                if self.m.drive_joint(d) == name
+            }
+            hinges.append(pairs.hinge(joint, self.ends[k], self.geometries[k], drives))
+        return Drawing(rotation, point, tuple(hinges))

@@ -1,0 +1,214 @@
+"""Joints in space as rows: the table of pairs, each with the forces and moments it carries in its local axes.
+
+To add a pair, add its row to ``PAIRS`` (and its name and freedoms to the model's table). Local axes are x, y, z;
+those of THEORY.md 3. A pair that blocks one turn only does so between a direction of i and one of j, as a pin in a
+slot does: with x blocked, y of i and z of j stay at a right angle.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.algebra import space
+from dalembert.analysis.joints import RowBuilder, numbers
+from dalembert.core.drawing import Hinge
+from dalembert.core.layout import Along, Angle, Helix, Meet, Perpendicular
+from dalembert.model.space_joints import BALLS
+
+Array = NDArray[Any]
+AXES = "xyz"
+
+
+class Pair(NamedTuple):
+    """Local axes along which a joint carries forces, and about which moments; how j slides and turns in i.
+
+    slides: axes of i, in the order of the freedoms; turns: axes about which j's axes are those of i turned one after
+    the other, the first fixed in i, a second one in j.
+    """
+
+    forces: str
+    moments: str
+    slides: str = ""
+    turns: str = ""
+
+
+PAIRS: dict[str, Pair] = {
+    "weld": Pair("xyz", "xyz"),
+    "revolute": Pair("xyz", "xy", turns="z"),
+    "prismatic": Pair("yz", "xyz", slides="x"),
+    "screw": Pair("xyz", "yz", turns="x"),
+    "cylindrical": Pair("yz", "yz", slides="x", turns="x"),
+    "universal": Pair("xyz", "x", turns="yz"),
+    "spherical": Pair("xyz", "", turns="xyz"),
+    "plane": Pair("x", "yz", slides="yz", turns="x"),
+    "sphere_between_planes": Pair("x", "", slides="yz", turns="xyz"),
+    "sphere_in_cylinder": Pair("yz", "", slides="x", turns="xyz"),
+    "cylinder_between_planes": Pair("x", "y", slides="yz", turns="xz"),
+    "slotted_sphere": Pair("xyz", "x", turns="yz"),
+    "torus": Pair("xyz", "x", turns="yz"),
+    "slotted_cylinder": Pair("yz", "xy", slides="x", turns="z"),
+    "slotted_sphere_in_cylinder": Pair("yz", "x", slides="x", turns="yz"),
+}
+"""The classic table; ``blocked`` of a slotted sphere turns the local axes of its moment and turns."""
+
+
+class Geometry(NamedTuple):
+    """A joint in space at its two links: points (3,) and local axes (3, 3), a row each, in link axes."""
+
+    ui: Array
+    uj: Array
+    on_i: Array
+    on_j: Array
+
+
+def pair_of(joint: Any) -> Pair:
+    """The row of the table, with the blocked axis of a slotted sphere in its place."""
+    pair = PAIRS[joint.type]
+    blocked = getattr(joint, "blocked", None) or "x"
+    if blocked == "x":
+        return pair
+    k = AXES.index(blocked)
+    return pair._replace(moments=blocked, turns=AXES[(k + 1) % 3] + AXES[(k + 2) % 3])
+
+
+def geometry(joint: Any, ui: Array, uj: Array) -> Geometry:
+    """Points and local axes; of a universal joint y is the pin of i and z that of j."""
+    on_i, on_j = (np.array(f) for f in joint.frames)
+    if joint.type == "universal":
+        on_i = _with_pin(on_i[2], 1, on_j[2])
+        on_j = _with_pin(on_j[2], 2, on_i[1])
+    return Geometry(ui, uj, on_i, on_j)
+
+
+def _with_pin(pin: Array, place: int, other: Array) -> Array:
+    """Local axes with a pin at y (1) or z (2), and the other one's components, made square, at the other place."""
+    across = other - (other @ pin) * pin
+    if np.linalg.norm(across) < 0.1:
+        across = np.eye(3)[np.abs(pin).argmin()]
+        across = across - (across @ pin) * pin
+    across /= np.linalg.norm(across)
+    y, z = (pin, across) if place == 1 else (across, pin)
+    return np.array([np.cross(y, z), y, z])
+
+
+def add_constraints(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], at: Geometry) -> None:
+    """Rows of a joint's constraints: forces along local axes of i, then moments."""
+    pair = pair_of(joint)
+    if joint.type == "screw":
+        for axis in (1, 2):
+            rows.add(Along, index, ends, ui=at.ui, uj=at.uj, axis=at.on_i[axis], pitch=0.0)
+        about = _about(at, 0)
+        pitch = -joint.lead / (2 * np.pi)
+        rows.add(Helix, index, ends, ui=at.ui, uj=at.uj, pitch=pitch, count=rows.followed(), **about)
+    elif pair.forces == AXES:
+        rows.add(Meet, index, ends, ui=at.ui, uj=at.uj)
+    else:
+        for axis in (AXES.index(name) for name in pair.forces):
+            rows.add(Along, index, ends, ui=at.ui, uj=at.uj, axis=at.on_i[axis], pitch=0.0)
+    for name in pair.moments:
+        a, p = _moment(pair, AXES.index(name), at)
+        rows.add(Perpendicular, index, ends, a=a, p=p)
+
+
+def _moment(pair: Pair, about: int, at: Geometry) -> tuple[Array, Array]:
+    """Directions a of i and p of j whose right angle blocks the turn about a local axis: p x a points along it."""
+    after, last = (about + 1) % 3, (about + 2) % 3
+    if len(pair.turns) == 1:  # the shared axis of j stays across the third axis of i
+        shared = AXES.index(pair.turns)
+        third = 3 - shared - about
+        sign = 1.0 if third == last else -1.0
+        return sign * at.on_i[third], at.on_j[shared]
+    if len(pair.turns) == 2:
+        first, second = (AXES.index(name) for name in pair.turns)
+        sign = -1.0 if first == after else 1.0
+        return sign * at.on_i[first], at.on_j[second]
+    return at.on_i[last], at.on_j[after]
+
+
+def _about(at: Geometry, axis: int) -> dict[str, Any]:
+    """Angle of j's local axes to i's about an axis both share."""
+    after = (axis + 1) % 3
+    return {"a": at.on_i[axis], "b": at.on_i[after], "p": at.on_j[after]}
+
+
+def add_freedom(
+    rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], at: Geometry, axis: Any = None
+) -> list[str]:
+    """Rows of a joint's freedoms; the names of those it has, that of a sphere only about a drive's ``axis``."""
+    pair, names = pair_of(joint), []
+    for name in joint.freedoms if joint.type != "weld" else ():
+        if name.startswith("slide"):
+            along = at.on_i[AXES.index(pair.slides[int(name[5:] or 1) - 1] if pair.slides else "x")]
+            rows.add(Along, index, ends, ui=at.ui, uj=at.uj, axis=along, pitch=0.0)
+        elif joint.type in BALLS:
+            if axis is None:
+                continue
+            rows.add(Angle, index, ends, count=rows.followed(), **_about_vector(np.asarray(axis, float)))
+        elif name == "turn2":
+            first, second = (AXES.index(k) for k in pair.turns)
+            # seen from j, i's first axis turns the other way about j's second one
+            a, p = -at.on_j[second], at.on_i[first]
+            rows.add(Angle, index, ends[::-1], count=rows.followed(), a=a, b=at.on_j[first], p=p)
+        elif name == "turn1":
+            first, second = (AXES.index(k) for k in pair.turns)
+            a, p = at.on_i[first], at.on_j[second]
+            rows.add(Angle, index, ends, count=rows.followed(), a=a, b=at.on_i[second], p=p)
+        else:
+            rows.add(Angle, index, ends, count=rows.followed(), **_about(at, AXES.index(pair.turns)))
+        names.append(name)
+    return names
+
+
+def _about_vector(axis: Array) -> dict[str, Any]:
+    """Angle about any axis of i, of directions with the same components in both links."""
+    a = axis / np.linalg.norm(axis)
+    b = np.cross(a, np.eye(3)[np.abs(a).argmin()])
+    b /= np.linalg.norm(b)
+    return {"a": a, "b": b, "p": b}
+
+
+def hinge(joint: Any, ends: tuple[int, int], at: Geometry, drives: dict[str, int]) -> Hinge:
+    """How the joint lets one link be laid by the other; ``drives`` are the drives' numbers by freedom."""
+    pair = pair_of(joint)
+    names = (
+        [n for n in joint.freedoms if n.startswith("slide") and pair.slides] if joint.type != "weld" else []
+    )
+    turning = (
+        ["turn"]
+        if len(pair.turns) == 1
+        else ["turn1", "turn2"]
+        if len(pair.turns) == 2
+        else [""] * len(pair.turns)
+    )
+    driven = tuple(drives.get(name, -1) for name in [*names, *turning])
+    return Hinge(
+        *ends,
+        at.ui,
+        at.uj,
+        numbers(at.on_i.T.ravel()),
+        numbers(at.on_j.T.ravel()),
+        tuple(AXES.index(k) for k in pair.slides),
+        tuple(AXES.index(k) for k in pair.turns),
+        driven,
+        AXES.index(pair.turns) if len(pair.turns) == 1 else -1,
+    )
+
+
+def local_axes(joint: Any, at: Geometry, on_i: Array, on_j: Array) -> Array:
+    """The joint's local axes at poses of its links (..., 3, 3), a row each, in ground axes; rotations (..., 9) given.
+
+    They are those of i, but where a turn is blocked between a direction of i and one of j: both, and their normal.
+    """
+    pair = pair_of(joint)
+    if len(pair.turns) == 2:
+        first, second = (AXES.index(name) for name in pair.turns)
+        n, p = space.rotate(on_i, at.on_i[first]), space.rotate(on_j, at.on_j[second])
+        third = 3 - first - second
+        axes = np.empty((*n.shape[:-1], 3, 3))
+        axes[..., first, :], axes[..., second, :] = n, p
+        axes[..., third, :] = space.cross(n, p) * (1.0 if (second - first) % 3 == 1 else -1.0)
+        return axes
+    return np.stack([space.rotate(on_i, e) for e in at.on_i], axis=-2)

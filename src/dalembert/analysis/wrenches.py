@@ -1,0 +1,100 @@
+"""Reactions of a result in any axes: ground's, those of the link acted on, in space the joint's own.
+
+A wrench is (force, moment about j's point of the joint): three numbers in the plane, six in space.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.algebra import plane
+from dalembert.analysis.pairs import local_axes
+from dalembert.core.layout import Pose
+from dalembert.errors import ModelError
+
+if TYPE_CHECKING:
+    from dalembert.analysis.compile import Compiled
+    from dalembert.analysis.result import Result
+
+Array = NDArray[Any]
+Axes = Literal["ground", "link", "joint"]
+
+PLACES = ("i", "j", "joint")
+"""Axes other than ground's in which uniqueness is known: of both links of each joint, and its own."""
+
+
+def in_axes(c: Compiled, pose: Pose, shift: Array) -> Iterator[Array]:
+    """Changes (P, joints, 6, X) of the reactions in the axes of link i, of link j, and of the joint."""
+    rows = c.layout.constraints
+    ends = {int(k): (int(i), int(j)) for k, i, j in zip(rows.joint, *rows.ends, strict=True) if k >= 0}
+    for place in PLACES:
+        turned = np.empty_like(shift)
+        for k in range(c.layout.joints):
+            axes = _axes(c, k, pose.rotation, place, ends.get(k, (0, 0)))
+            for part in (slice(0, 3), slice(3, 6)):
+                turned[:, k, part] = axes @ shift[:, k, part]
+        yield turned
+
+
+def _axes(c: Compiled, k: int, rotation: Array, place: str, ends: tuple[int, int]) -> Array:
+    """Axes (P, 3, 3), a row each, in ground axes, from the rotations (P, L+1, 9) of all links."""
+    i, j = rotation[..., ends[0], :], rotation[..., ends[1], :]
+    if place == "joint":
+        return local_axes(c.mechanism.joints[c.joints[k]], c.geometries[k], i, j)
+    r = i if place == "i" else j
+    return np.swapaxes(r.reshape((*r.shape[:-1], 3, 3)), -1, -2)
+
+
+def axes_of(result: Result, joint: str, place: str) -> Array:
+    """Axes (P, 3, 3), a row each, in ground axes, of a joint in space: of its link "i" or "j", or its own "joint"."""
+    c = result.compiled
+    if not c.geometries:
+        raise ModelError("a joint of the plane has no axes of its own", "take ground's or the link's")
+    index = {name: k for k, name in enumerate(c.links)} | {"ground": len(c.links)}
+    i, j = (index[name] for name in c.mechanism.joints[joint].links)
+    _, rotation = c.layout.algebra.with_ground(result.turn_array, result.rotation_array)
+    return _axes(c, c.joints.index(joint), rotation, place, (i, j))
+
+
+def wrench(result: Result, joint: str, on: str | None, axes: Axes, least: bool = False) -> Array:
+    """Wrench of a joint on one of its links (P, n), default on j, NaN in components that are not unique.
+
+    ``least`` gives least-norm numbers in their places.
+    """
+    g, k = result.compiled.layout.algebra, result.joints.index(joint)
+    by, to = result.mechanism.joints[joint].links
+    moment = result.moment_array[..., k, None] if g.d == 2 else result.moment_array[..., k, :]
+    whole = (-1.0 if on == by else 1.0) * np.concatenate([result.force_array[..., k, :], moment], axis=-1)
+    link = on or to
+    if g.d == 2:
+        if not least:
+            whole = np.where(result.unique(joint), whole, np.nan)
+        if axes == "joint":
+            return axes_of(result, joint, axes)
+        return whole if axes == "ground" or link == "ground" else _turned(result, link, whole)
+    place = "ground" if axes == "ground" else "joint" if axes == "joint" else "i" if link == by else "j"
+    if place != "ground":
+        turn = axes_of(result, joint, place)
+        whole = np.concatenate(
+            [(turn @ whole[..., part, None])[..., 0] for part in (slice(0, 3), slice(3, 6))], axis=-1
+        )
+    return whole if least else np.where(unique_in(result, joint, place), whole, np.nan)
+
+
+def unique_in(result: Result, joint: str, place: str) -> NDArray[np.bool_]:
+    """Which components (P, n) of a joint's wrench statics alone determines, in the axes of a place."""
+    k = result.joints.index(joint)
+    if result.unique_array is None:
+        return np.ones((*result.force_array.shape[:-2], result.compiled.layout.algebra.n), bool)
+    if place == "ground" or result.unique_in is None:
+        return np.asarray(result.unique_array[..., k, :])
+    return np.asarray(result.unique_in[..., k, PLACES.index(place), :])
+
+
+def _turned(result: Result, link: str, whole: Array) -> Array:
+    force = plane.unrotate(plane.rotation(result.angle(link)), whole[..., :2])
+    return np.concatenate([force, whole[..., 2:]], axis=-1)

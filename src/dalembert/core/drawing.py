@@ -1,0 +1,201 @@
+"""The first pose in space: as drawn and followed from there, or near the given poses, or from many starts at once.
+
+Drawn means: every link's axes parallel to the ground's, its points laid joint by joint, the drives at 0. From there
+the motion is followed to the first position. Where that fails, links are laid by random values of their joints'
+freedoms, always the same ones.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.core.assembly import SAME, STARTS, Modes
+from dalembert.core.closure import CLOSED, closed, distance
+from dalembert.core.course import course
+from dalembert.core.follow import path
+from dalembert.core.layout import Angle, Helix, Layout, Pose
+
+Array = NDArray[Any]
+
+
+class Hinge(NamedTuple):
+    """How a joint lets j be laid by i: local axes on both links (9,), and the axes of its slides and turns in order.
+
+    The local axes of j are those of i turned about ``turns`` one after the other; ``drives`` (slides, then turns) are
+    the drives that prescribe them, -1 where none does; ``parallel`` is the axis that both links share, -1 for none.
+    """
+
+    i: int
+    j: int
+    ui: Array
+    uj: Array
+    frame_i: Array
+    frame_j: Array
+    slides: tuple[int, ...]
+    turns: tuple[int, ...]
+    drives: tuple[int, ...]
+    parallel: int
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """What is given of the first pose: rotations (L+1, 9) and reference points (L+1, 3), NaN where nothing is."""
+
+    rotation: Array
+    point: Array
+    hinges: tuple[Hinge, ...]
+
+    @property
+    def given(self) -> NDArray[np.bool_]:
+        """Which links have a given pose (L+1,)."""
+        return np.asarray(np.isfinite(self.rotation).all(axis=-1))
+
+    def modes(self, layout: Layout, target: Array) -> Modes | None:
+        """The way the linkage closes at a target (K + D,); None if no start closes."""
+        if self.given.any():
+            found = self._near(layout, target)
+            return found or self._searched(layout, target)
+        return self._as_drawn(layout, target) or self._near(layout, target) or self._searched(layout, target)
+
+    def start(self, layout: Layout, target: Array) -> Pose:
+        """The links laid down as drawn, given or driven (L+1, ...): before any correction."""
+        return self._laid(layout, target, np.zeros((1, self._values)), driven=bool(self.given.any())).at(0)
+
+    def near(self, pose: Pose) -> Drawing:
+        """The drawing with every link given at a pose (L+1, ...)."""
+        return replace(self, rotation=pose.rotation, point=pose.point)
+
+    @property
+    def _values(self) -> int:
+        return sum(len(h.drives) for h in self.hinges)
+
+    def _as_drawn(self, layout: Layout, target: Array) -> Modes | None:
+        """From the drawing at drives 0 to the target."""
+        zero = target.copy()
+        zero[layout.constraints.count :] = 0.0
+        pose = self._closed(layout, self._laid(layout, zero, np.zeros((1, self._values)), driven=False), zero)
+        if pose is None:
+            return None
+        if np.any(zero != target):
+            way = path(layout, pose.at(0), course(layout, np.stack([zero, target])), 0.0)
+            if not way.reached[1]:
+                return None
+            pose = way.pose.at(slice(1, 2))
+        return Modes(pose, "drawn")
+
+    def _near(self, layout: Layout, target: Array) -> Modes | None:
+        pose = self._closed(
+            layout, self._laid(layout, target, np.zeros((1, self._values)), driven=True), target
+        )
+        return None if pose is None else Modes(pose, "given" if self.given.any() else "drawn")
+
+    def _closed(self, layout: Layout, start: Pose, target: Array) -> Pose | None:
+        """Starts (S, ...) corrected; those that close with parallel axes parallel, None where none does."""
+        wanted = np.broadcast_to(target, (len(start.point), len(target))).copy()
+        pose, missing = closed(layout, start, wanted, iterations=60)
+        good = (missing <= CLOSED * layout.length) & self._upright(layout, pose)
+        return pose.at(np.flatnonzero(good)) if good.any() else None
+
+    def _searched(self, layout: Layout, target: Array) -> Modes | None:
+        """Every mode that random starts find, the one that is turned least from the drawn or given poses first."""
+        steps = np.modf(np.sqrt(np.arange(2, 2 + self._values) + 0.5) * 1.6180339887)[0]
+        values = np.modf(0.5 + np.arange(STARTS)[:, None] * steps)[0] * 2 * np.pi - np.pi
+        pose = self._closed(layout, self._laid(layout, target, values, driven=True), target)
+        if pose is None:
+            return None
+        drawn = self.start(layout, target)
+        away = ((pose.rotation - drawn.rotation) ** 2).sum(axis=(-2, -1)).round(9)
+        pose = pose.at(np.argsort(away, kind="stable"))
+        kept: list[int] = []
+        for k in range(len(pose.point)):
+            others = pose.at(np.array(kept, np.intp))
+            if not kept or distance(layout, pose.at(k), others).min() > SAME:
+                kept.append(k)
+        return Modes(pose.at(np.array(kept)), "nearest" if self.given.any() else "search")
+
+    def _upright(self, layout: Layout, pose: Pose) -> NDArray[np.bool_]:
+        """Poses whose shared axes point the same way on both links, not against each other."""
+        g, good = layout.algebra, np.ones(len(pose.point), bool)
+        for h in self.hinges:
+            for axis in range(3) if not h.turns else [h.parallel] * (h.parallel >= 0):
+                on_i = g.rotate(pose.rotation[:, h.i], g.matrix(h.frame_i)[:, axis])
+                on_j = g.rotate(pose.rotation[:, h.j], g.matrix(h.frame_j)[:, axis])
+                good &= g.dot(on_i, on_j) > 0
+        return good
+
+    def _laid(self, layout: Layout, target: Array, values: Array, driven: bool) -> Pose:
+        """Starting poses (S, L+1, ...) by values (S, V) of the joints' freedoms, or of the drives where ``driven``."""
+        g, count = layout.algebra, len(values)
+        drives = target[layout.constraints.count :]
+        pose = Pose(np.full((count, layout.links + 1, 3), np.nan), *g.unturned(count, layout.links + 1))
+        turn = _counters(layout, count, drives if driven else np.zeros_like(drives))
+        pose.point[:, -1] = 0.0
+        given = self.given
+        pose.rotation[:, given], pose.point[:, given] = self.rotation[given], self.point[given]
+        placed = {*np.flatnonzero(given).tolist(), layout.links}
+        by_values = bool(np.any(values)) or driven
+        while len(placed) <= layout.links:
+            grown, first = False, 0
+            for h in self.hinges:
+                part = values[:, first : first + len(h.drives)].copy()
+                first += len(h.drives)
+                if (h.i in placed) == (h.j in placed):
+                    continue
+                if driven:
+                    part[:, np.array(h.drives) >= 0] = drives[[d for d in h.drives if d >= 0]]
+                _place(layout, h, pose, part, h.i in placed, by_values)
+                placed |= {h.i, h.j}
+                grown = True
+            if not grown:
+                lone = min(set(range(layout.links)) - placed)
+                pose.point[:, lone] = 0.0
+                placed.add(lone)
+        return pose._replace(turn=turn)
+
+
+def _counters(layout: Layout, count: int, drives: Array) -> Array:
+    """Followed angles (count, T): the drives' positions, 0 of the others."""
+    families = [
+        f
+        for rows in (layout.freedoms, layout.constraints)
+        for f in rows.families
+        if isinstance(f, Angle | Helix)
+    ]
+    turn = np.zeros((count, max((int(f.count.max()) + 1 for f in families), default=0)))
+    for f in families:
+        if isinstance(f, Angle):
+            for d, row in enumerate(layout.driven):
+                turn[:, f.count[f.row == row]] = drives[d]
+    return turn
+
+
+def _place(layout: Layout, h: Hinge, pose: Pose, values: Array, forward: bool, by_values: bool) -> None:
+    """Lay one link of a hinge by the other; the rotation stays as drawn unless values are asked for."""
+    g, size = layout.algebra, layout.length / np.pi
+    known, new = (h.i, h.j) if forward else (h.j, h.i)
+    if by_values:
+        relative = np.broadcast_to(h.frame_i, (len(values), 9))
+        for k, axis in enumerate(h.turns, start=len(h.slides)):
+            relative = g.compose(relative, g.rotation(values[:, k], np.eye(3)[axis]))
+        relative = g.compose(relative, _inverse(g, h.frame_j))
+        if not forward:
+            relative = _inverse(g, relative)
+        pose.rotation[:, new] = g.compose(pose.rotation[:, known], relative)
+    ri, rj = g.rotate(pose.rotation[:, h.i], h.ui), g.rotate(pose.rotation[:, h.j], h.uj)
+    offset = np.zeros_like(ri)
+    for k, axis in enumerate(h.slides):
+        e = g.rotate(pose.rotation[:, h.i], g.matrix(h.frame_i)[:, axis])
+        offset = offset + e * (values[:, k, None] if h.drives[k] >= 0 else values[:, k, None] * size)
+    if forward:
+        pose.point[:, new] = pose.point[:, known] + ri + offset - rj
+    else:
+        pose.point[:, new] = pose.point[:, known] + rj - offset - ri
+
+
+def _inverse(g: Any, r: Array) -> Array:
+    turned: Array = np.swapaxes(g.matrix(r), -1, -2)
+    return turned.reshape((*turned.shape[:-2], 9))

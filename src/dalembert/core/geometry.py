@@ -1,0 +1,37 @@
+"""Points of links at a pose: arms, spans between points of two links, and how they move."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.core.layout import Pose
+
+Array = NDArray[Any]
+
+
+def arm(g: Any, pose: Pose, link: NDArray[np.intp], u: Array) -> Array:
+    """Ground components of link vectors u (..., k, d)."""
+    rotated: Array = g.rotate(pose.rotation[..., link, :], u)
+    return rotated
+
+
+def span(g: Any, f: Any, pose: Pose) -> Array:
+    """P_j - P_i."""
+    pi, pj = pose.point[..., f.i, :], pose.point[..., f.j, :]
+    return np.asarray((pj + arm(g, pose, f.j, f.uj)) - (pi + arm(g, pose, f.i, f.ui)))
+
+
+def point_motion(g: Any, pose: Pose, twist: Array, link: NDArray[np.intp], r: Array) -> tuple[Array, Array]:
+    """Velocity, and acceleration at zero link accelerations, of the points with arms r."""
+    v, w = twist[..., link, : g.d], twist[..., link, g.d :]
+    return v + g.spin(w, r), g.centripetal(w, r)
+
+
+def span_motion(g: Any, f: Any, pose: Pose, twist: Array) -> tuple[Array, Array]:
+    """First and second rate of P_j - P_i, the second at zero link accelerations."""
+    vi, ai = point_motion(g, pose, twist, f.i, arm(g, pose, f.i, f.ui))
+    vj, aj = point_motion(g, pose, twist, f.j, arm(g, pose, f.j, f.uj))
+    return vj - vi, aj - ai

@@ -1,0 +1,57 @@
+"""What all joints have: two links and a point on each."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import Field, ValidationInfo, model_validator
+
+from dalembert.errors import ModelError
+from dalembert.model.part import Part
+from dalembert.model.values import JsonSchema, TwoNames, Value, name, pair_of_names
+
+
+class At(Value):
+    """The name of a point, or `[point of i, point of j]`."""
+
+    def read(self, value: Any, info: ValidationInfo) -> str | tuple[str, str]:
+        return pair_of_names(value) if isinstance(value, (list, tuple)) else name(value)
+
+    def write(self, value: str | tuple[str, str]) -> Any:
+        return value if isinstance(value, str) else list(value)
+
+    def json_schema(self) -> JsonSchema:
+        names = {"type": ["string", "integer"]}
+        return {"anyOf": [names, {"type": "array", "items": names, "minItems": 2, "maxItems": 2}]}
+
+
+class JointPart(Part):
+    """What all joints have: the links i and j, and the point on each."""
+
+    FREEDOMS: ClassVar[tuple[str, ...]] = ()
+
+    type: str
+    links: TwoNames = Field(description="[i, j]: motion and reaction are those of j against i")
+    at: Annotated[str | tuple[str, str], At()] | None = Field(
+        None, description="point of both links, or [point of i, point of j]; default the joint's own name"
+    )
+
+    @property
+    def freedoms(self) -> tuple[str, ...]:
+        """The freedoms of j in i that a drive can prescribe."""
+        return self.FREEDOMS
+
+    def point_names(self, own: str) -> tuple[str, str]:
+        """The names of its points on i and on j; `own` is the joint's name."""
+        if isinstance(self.at, tuple):
+            return self.at
+        point = self.at or own
+        return point, point
+
+    @model_validator(mode="after")
+    def _two_links(self) -> Self:
+        if self.links[0] == self.links[1]:
+            raise ModelError(
+                f"it connects link {self.links[0]!r} with itself", "name two different links", ("links",)
+            )
+        return self
