@@ -33,7 +33,7 @@ MAY_IMPORT = {
     "report": ANALYSIS - {"core", "kernel"} | {"wrench", "views", "report"},
     "study": ANALYSIS | {"study"},
     "web": ANALYSIS | {"views", "report", "study", "web"},
-    "cli": ANALYSIS - {"core", "kernel"} | {"", "views", "report", "study", "web", "cli"},
+    "cli": ANALYSIS - {"core", "kernel"} | {"", "wrench", "views", "report", "study", "web", "cli"},
     "__init__": ANALYSIS | {"wrench", "views", "report", "study"},
     "__main__": {"cli"},
 }

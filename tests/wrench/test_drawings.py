@@ -89,7 +89,7 @@ def test_a_free_body_of_a_result() -> None:
     r = da.dynamics(da.load(examples()["four_bar"]))
     scene = da.draw.force_system(da.wrench.on(r, "coupler"))
     texts = [t.text for t in scene.texts()]
-    assert "A = 154.8 lbf" in texts
+    assert "F_{A} = 154.8 lbf" in texts
     assert any(t.startswith("The system is in equilibrium") for t in texts)
     assert "The polygon is closed: the forces balance." in texts
 

@@ -9,13 +9,10 @@ from typing import Annotated, Any, Literal
 from cyclopts import App, CycloptsError, MissingArgumentError, Parameter
 
 from dalembert import __version__
+from dalembert.cli import systems
+from dalembert.cli.options import Every, Flag, Output, Target
 
 OK, SOME_NOT_OK = 0, 1
-
-Flag = Annotated[bool, Parameter(negative=())]
-Every = Annotated[bool, Parameter(name="--all", negative=())]
-Target = Annotated[Path | None, Parameter(allow_leading_hyphen=True)]
-Output = Annotated[Path | None, Parameter(name=["--output", "-o"])]
 
 app = App(
     name="dalembert",
@@ -373,6 +370,9 @@ def examples(name: str = "", /, *, output: Output = None, force: Flag = False) -
     from dalembert.cli.describing import example_list, example_text
 
     return emitted(example_text(name) if name else example_list(), output, force)
+
+
+app.command(systems.wrench, help_epilogue=systems.EXAMPLES)
 
 
 def emitted(text: str, output: Path | None, force: bool) -> int:

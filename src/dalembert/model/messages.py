@@ -19,6 +19,8 @@ SINGULAR = {
     "joints": "joint",
     "drives": "drive",
     "loads": "load",
+    "forces": "force",
+    "couples": "couple",
     "answers": "answer",
 }
 """Collection -> what one of its members is called."""

@@ -24,8 +24,10 @@ MOMENT_TERMS = {2: ("x F_y − y F_x",), 3: ("y F_z − z F_y", "z F_x − x F_z
 def force_system_sheet(s: System, at: Any = None, notation: Notation | None = None) -> Sheet:
     """How the answers about a force system come out, with moments about a point (default the origin)."""
     shown = Figures(s.units, notation or Notation())
-    sheet = Sheet(s.title or "Force system", "", f"{'Plane' if s.dimension == 2 else 'Space'}, {_count(s)}")
-    work = _Work(s, s.reduced(at).at, shown, sheet)
+    sheet = Sheet(
+        s.title or "Force system", s.source, f"{'Plane' if s.dimension == 2 else 'Space'}, {_count(s)}"
+    )
+    work = _Work(s, s.point(at), shown, sheet)
     work.given()
     sheet.figure(draw.force_system(s, notation=notation))
     work.resultant()
@@ -52,6 +54,8 @@ class _Work:
         self.named = list(zip(s.names, s.parts, strict=True))
         self.largest, self.moment_scale = s.scales()
         self.reduced = s.reduced(at)
+        self.name = s.point_name(at)
+        self.about = f"M_{{{self.name}}}"
 
     # numbers in the reader's units, rounding noise shown as 0
 
@@ -136,8 +140,8 @@ class _Work:
     def moments(self) -> None:
         self.sheet.heading("Moments")
         self.sheet.text(
-            f"About O at {self.point(self.at)}; {', '.join(self.axes)} are measured from there. The moment of a force "
-            "is the sum of the moments of its components (Varignon)."
+            f"About {self.name} at {self.point(self.at)}; {', '.join(self.axes)} are measured from there. "
+            "The moment of a force is the sum of the moments of its components (Varignon)."
         )
         rows = []
         for name, part in self.named:
@@ -159,7 +163,9 @@ class _Work:
 
     def reduction(self) -> None:
         self.sheet.heading("What the system comes to")
-        self.sheet.text(f"At O: the force $R$ and the couple $M_{{O}}$. Lines of action: {self._lie()}.")
+        self.sheet.text(
+            f"At {self.name}: the force $R$ and the couple ${self.about}$. Lines of action: {self._lie()}."
+        )
         kind = self.s.kind()
         if kind in ("zero", "couple"):
             words = {
@@ -169,11 +175,19 @@ class _Work:
             self.sheet.text(words[kind])
             return
         (self._line if self.d == 2 else self._screw)(kind)
-        middle = self.s.middle
-        there, again = self.s._moment(middle), self.reduced.moved(middle).vector
+        self._check()
+
+    def _check(self) -> None:
+        """The moment about another point, from all parts and from the reduction."""
+        place = self.s.middle
+        if np.allclose(place, self.at):
+            place = place + (self.s.length or 1.0) * np.eye(self.d)[0]
+        other = self.s.point_name(place, "P", self.name)
+        there, again = self.s._moment(place), self.reduced.moved(place).vector
+        unit = self.shown.unit("moment")
         self.sheet.text(
-            f"Check at another point P, {self.point(middle)}: from all parts M = {self._vector(there)}, "
-            f"from R and M at O by $M_{{O}} + (O − P) times R$: {self._vector(again)} {self.shown.unit('moment')}."
+            f"Check at another point {other}, {self.point(place)}: from all parts M = {self._vector(there)}, from R "
+            f"and M at {self.name} by ${self.about} + ({self.name} − {other}) times R$: {self._vector(again)} {unit}."
         )
 
     def _lie(self) -> str:
@@ -190,27 +204,27 @@ class _Work:
     def _line(self, kind: str) -> None:
         """The line of action of a plane resultant."""
         r, m = self.s.resultant, float(self.reduced.vector[0])
-        size, found = float(np.linalg.norm(r)), self.s.central_axis().axis
+        size, found = math.hypot(*r), self.s.central_axis().axis
         self.sheet.text(
             "The force is not zero: the system is a single force R on a line that makes the same moment."
         )
         distance = f"{self.length(m / size)} {self.unit('length')}"
         lines = [
-            Working("d = M_{O} / R", f"{self.moment(m)} / {self.force(size)}", distance),
-            Working(f"x R_{{y}} − y R_{{x}} = M_{{O}}: quad {self._equation(r, m)}"),
+            Working(f"d = {self.about} / R", f"{self.moment(m)} / {self.force(size)}", distance),
+            Working(f"x R_{{y}} − y R_{{x}} = {self.about}: quad {self._equation(r, m)}"),
         ]
         self.sheet.equations(lines)
         cuts = [self._cut(found, name) for name in ("y", "x")]
         self.sheet.text(
-            "Looking along R, the line passes O at the distance d, to the right where d is positive. "
-            f"Measured from O it {' and '.join(c for c in cuts if c)}."
+            f"Looking along R, the line passes {self.name} at the distance d, to the right where d is positive. "
+            f"Measured from {self.name} it {' and '.join(c for c in cuts if c)}."
         )
 
     def _equation(self, r: Array, m: float) -> str:
         return f"{self.force(r[1])} x − {_bracketed(self.force(r[0]))} y = {self.moment(m)}"
 
     def _cut(self, axis: Any, name: str) -> str:
-        """Where a line crosses the axes or planes through O."""
+        """Where a line crosses the axes or planes through the point."""
         k = self.axes.index(name)
         if abs(axis.direction[k]) < 1e-9:
             return ""
@@ -223,29 +237,33 @@ class _Work:
     def _screw(self, kind: str) -> None:
         """The central axis of a system in space."""
         r, m = self.s.resultant, self.reduced.vector
-        size, found = float(np.linalg.norm(r)), self.s.central_axis()
+        size, found = math.hypot(*r), self.s.central_axis()
         moment, force, length = self.unit("moment"), self.unit("force"), self.unit("length")
         product = _joined(
             [f"{self.force(a)} cdot {_bracketed(self.moment(b))}" for a, b in zip(r, m, strict=True)]
         )
         value = self.shown.value("force", 1.0) * self.shown.value("moment", float(r @ m))
-        foot = np.cross(r, m) / size**2
+        foot = np.cross(r / size, m) / size
         lines = [
-            Working("R cdot M_{O}", product, f"{self.shown.notation.number(value)} {force} {moment}"),
-            Working("M = R cdot M_{O} / R", "", f"{self.moment(found.moment)} {moment}"),
+            Working(f"R cdot {self.about}", product, f"{self.shown.notation.number(value)} {force} {moment}"),
+            Working(f"M = R cdot {self.about} / R", "", f"{self.moment(found.moment)} {moment}"),
             Working("p = M / R", "", f"{self.length(found.pitch)} {length}"),
-            Working(f"r = R times M_{{O}} / R^{{2}} = ({', '.join(self.length(x) for x in foot)}) {length}"),
+            Working(
+                f"r = R times {self.about} / R^{{2}} = ({', '.join(self.length(x) for x in foot)}) {length}"
+            ),
         ]
+        both = f"R and ${self.about}$"
         words = {
-            "single force": "R and $M_{O}$ are perpendicular: the system is a single force R on the line through r.",
-            "wrench": "R and $M_{O}$ are not perpendicular: the system is a wrench, R and a couple M along it, on the "
+            "single force": f"{both} are perpendicular: the system is a single force R on the line through r.",
+            "wrench": f"{both} are not perpendicular: the system is a wrench, R and a couple M along it, on the "
             "central axis through r; p is its pitch. M and p are positive by the right hand along R.",
         }
         self.sheet.text(words[kind])
         self.sheet.equations(lines)
         cuts = [c for c in (self._cut(found.axis, name) for name in "xyz") if c]
         self.sheet.text(
-            f"r is the point of the axis nearest to O. Measured from O the axis {'; it '.join(cuts)}."
+            f"r is the point of the axis nearest to {self.name}. "
+            f"Measured from {self.name} the axis {'; it '.join(cuts)}."
         )
 
     def equilibrium(self) -> None:

@@ -34,6 +34,7 @@ def force_system_scene(s: System, notation: Notation | None = None, camera: Came
     """Forces at their points, couples beside them, the resultant on its line; lengths and forces to scale."""
     d = Drawing(s, Figures(s.units, notation or Notation()), camera)
     d.axes()
+    d.points()
     d.given()
     notes = [d.said(), *d.resultant()]
     d.couples(s.couples, [n for n, p in zip(s.names, s.parts, strict=True) if isinstance(p, Couple)])
@@ -50,11 +51,12 @@ def reduced_scene(
     d.axes()
     for f in s.forces:
         d.canvas.add(Circle(d.place(f.at), 0.6, "center"))
+    d.points()
     d.canvas.add(Circle(d.place(found.at), 0.8, "mark"))
     force, couple = found.parts
     d.force("R", force, "resultant-force")
     d.couple("M", couple, d.place(found.at), "resultant-force")
-    return d.scene(f"Force and couple at {d.coordinates(found.at)}", [d.reduction(found)])
+    return d.scene(f"Force and couple at {d.named(found.at)}", [d.reduction(found)])
 
 
 def force_system_polygon_scene(s: System, notation: Notation | None = None) -> Scene:
@@ -63,7 +65,7 @@ def force_system_polygon_scene(s: System, notation: Notation | None = None) -> S
     resultant, names = s.resultant, dict(zip(s.parts, s.names, strict=True))
     mine = [_action(names[f], f) for f in s.forces if f.size > 0]
     largest = max([f.size for f in s.forces], default=0.0)
-    size = float(np.linalg.norm(resultant))
+    size = math.hypot(*resultant)
     per_mm = force_scale([largest, size], LONGEST, shown.size("force"))
     canvas = Canvas()
     draw_polygon(canvas, mine, 0, shown, per_mm, (0.0, 0.0))
@@ -97,13 +99,20 @@ class Drawing:
         self.central = s.central_axis() if self.kind in ("single force", "wrench") else None
         origin = np.zeros(s.dimension)
         self.origin = origin if self.near(origin) and not len(more) else None
-        places = [f.at for f in s.forces] + list(more) + ([] if self.origin is None else [self.origin])
+        places = (
+            [f.at for f in s.forces]
+            + [p for p in s.points.values() if self.near(p)]
+            + list(more)
+            + ([] if self.origin is None else [self.origin])
+        )
         if self.central is not None and self.near(self.central.axis.point) and not len(more):
             places.append(self.central.axis.point)
         self.places = np.array(places or [origin])
-        size = shown.size("length")
-        self.frame = fitted([self.seen(p) for p in self.places], WIDTH, HEIGHT, size)
-        sizes = [f.size for f in s.forces] + [float(np.linalg.norm(s.resultant))]
+        seen = [self.seen(p) for p in self.places]
+        if float(np.ptp(seen, axis=0).max()) <= 1e-9 * float(np.abs(self.places).max()):
+            seen = seen[:1]  # one behind the other
+        self.frame = fitted(seen, WIDTH, HEIGHT, shown.size("length"))
+        sizes = [f.size for f in s.forces] + [math.hypot(*s.resultant)]
         self.per_mm = force_scale(sizes, 26.0, shown.size("force"))
         turning = [c.size for c in s.couples] + [abs(self.central.moment) if self.central else 0.0]
         turning += [float(np.linalg.norm(s.reduced(p).vector)) for p in more]
@@ -133,6 +142,11 @@ class Drawing:
         floor = 1e-9 * max(self.s.length, float(np.abs(p).max()))
         numbers = ", ".join(self.shown.number("length", float(x), floor) for x in p)
         return f"({numbers}) {self.shown.unit('length')}"
+
+    def named(self, p: Array) -> str:
+        """A place in words, by its name where it has one."""
+        name = self.s.point_name(p, "")
+        return f"{name} {self.coordinates(p)}".strip()
 
     # what is drawn
 
@@ -164,6 +178,13 @@ class Drawing:
             foot = np.array([p[0], p[1], z])
             if p[2] > z:
                 self.canvas.add(Line((self.place(p), self.place(foot)), "grid"))
+
+    def points(self) -> None:
+        """Named points."""
+        for name, p in ((n, p) for n, p in self.s.points.items() if self.near(p)):
+            at = self.place(p)
+            self.canvas.add(Circle(at, 0.6, "center"))
+            self.canvas.label(name, at, size=3.2, role="title")
 
     def given(self) -> None:
         """All forces at their points, the farthest first; in space with the box of their components."""
@@ -322,7 +343,7 @@ class Drawing:
         texts, scales = stated(self.shown, self.frame, self.per_mm if self.s.forces else None)
         if self.camera is not None:
             texts, scales = self._seen_scales(texts[0], scales)
-        numbers: dict[str, Any] = {"kind": self.kind, "resultant": float(np.linalg.norm(self.s.resultant))}
+        numbers: dict[str, Any] = {"kind": self.kind, "resultant": math.hypot(*self.s.resultant)}
         if self.central is not None:
             numbers |= {"moment": self.central.moment, "pitch": self.central.pitch}
         return self.canvas.scene(title, notes=[*notes, *texts], scales=scales, numbers=numbers)

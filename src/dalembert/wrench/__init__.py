@@ -15,6 +15,7 @@ array([-0.9704,  0.    ])
 
 from dalembert.wrench.arrangement import arrangement, concurrency, parallel_center
 from dalembert.wrench.equilibrium import Balance
+from dalembert.wrench.files import load, loads
 from dalembert.wrench.forces import Axis, Couple, Force, components
 from dalembert.wrench.result import on
 from dalembert.wrench.system import CentralAxis, ForceCouple, System
@@ -30,6 +31,8 @@ __all__ = [
     "arrangement",
     "components",
     "concurrency",
+    "load",
+    "loads",
     "on",
     "parallel_center",
 ]

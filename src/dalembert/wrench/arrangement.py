@@ -39,7 +39,7 @@ def concurrency(system: System, tolerance: float = EXACT) -> Array | None:
     forces = [f for f in system.forces if f.size > 0]
     if len(forces) < 2:
         return None
-    found = meeting_point(np.array([f.at for f in forces]), np.array([f.vector for f in forces]))
+    found = meeting_point(np.array([f.at for f in forces]), np.array([f.line.direction for f in forces]))
     if found is None:
         return None
     point, away = found

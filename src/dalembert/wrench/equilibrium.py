@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -49,7 +50,7 @@ def balance(system: System, tolerance: float, length: float | None) -> Balance:
 
 
 def _part(sum_of: Array, scale: float) -> float:
-    size = float(np.linalg.norm(sum_of))
+    size = math.hypot(*sum_of)
     return size / scale if scale > 0 else 0.0 if size == 0 else np.inf
 
 

@@ -62,12 +62,14 @@ class Axis:
         k = names.index(name)
         if abs(self.direction[k]) < 1e-12:
             raise ModelError(f"the line runs at a constant {name}", "cut it at another coordinate")
-        step = (number(value, "length") - self.point[k]) / self.direction[k]
-        return fixed(self.point + step * self.direction)
+        wanted = number(value, "length")
+        place = self.point + (wanted - self.point[k]) / self.direction[k] * self.direction
+        place[k] = wanted
+        return fixed(place)
 
     def distance(self, of: Vector) -> float:
         """Distance of a point from the line, m."""
-        return float(np.linalg.norm(reading.vector(of, "length") - self.foot(of)))
+        return math.hypot(*(reading.vector(of, "length") - self.foot(of)))
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -175,7 +177,7 @@ class Force:
     @property
     def size(self) -> float:
         """Magnitude, N."""
-        return float(np.linalg.norm(self.vector))
+        return math.hypot(*self.vector)
 
     @property
     def cosines(self) -> Array:
@@ -283,7 +285,7 @@ class Couple:
     @property
     def size(self) -> float:
         """Magnitude, N m."""
-        return float(np.linalg.norm(self.vector))
+        return math.hypot(*self.vector)
 
     def __neg__(self) -> Couple:
         return Couple(-self.vector, self.name, self.kind)
@@ -326,8 +328,8 @@ def components(force: Vector, *axes: Vector | Number) -> Array:
     if len(unit) > len(f) or not len(unit) or np.linalg.svd(unit, compute_uv=False)[-1] < 1e-9:
         raise ModelError("the axes do not point in independent directions", f"give up to {len(f)} that do")
     found = np.linalg.lstsq(unit.T, f, rcond=None)[0]
-    left = float(np.linalg.norm(f - found @ unit))
-    if left > 1e-9 * float(np.linalg.norm(f)):
+    left = math.hypot(*(f - found @ unit))
+    if left > 1e-9 * math.hypot(*f):
         raise ModelError(
             f"the force does not lie in the axes' {'plane' if len(unit) == 2 else 'line'}: {left:.4g} N are left",
             f"give {len(f)} axes",

@@ -22,6 +22,10 @@ Vector = Sequence[Number] | Array | str
 UnitNames = Units | dict[str, str] | None
 
 
+LARGEST = 1e60
+"""Largest number in SI, of a moment its square: products of a few stay finite."""
+
+
 def number(value: Any, kind: str, units: UnitNames = None) -> float:
     """A number in SI: bare numbers are SI and radians, or in `units`; a bare angle within a text is in degrees.
 
@@ -29,7 +33,11 @@ def number(value: Any, kind: str, units: UnitNames = None) -> float:
     (2.5, 2000.0, 3.141592653589793)
     """
     plain = value.item() if isinstance(value, np.generic) else value
-    return quantity(plain, kind, _rules(plain, units))
+    found = quantity(plain, kind, _rules(plain, units))
+    largest = LARGEST**2 if kind == "moment" else LARGEST
+    if abs(found) > largest:
+        raise ModelError(f"{shown(plain)} is too large", f"write a number below {largest:g}")
+    return found
 
 
 def vector(value: Vector, kind: str, units: UnitNames = None, dimension: int | None = None) -> Array:
@@ -39,7 +47,8 @@ def vector(value: Vector, kind: str, units: UnitNames = None, dimension: int | N
     array([   0., 2000.])
     """
     if isinstance(value, str) and "@" in value:
-        return fixed(components_of(value, kind, Reading(_rules(value, units), dimension=dimension)))
+        found = components_of(value, kind, Reading(_rules(value, units), dimension=dimension))
+        return fixed([number(x, kind) for x in found])
     if isinstance(value, str):
         items: Sequence[Any] = _items(value)
         units = _rules(value, units)
@@ -63,7 +72,7 @@ def direction(value: Vector | Number, dimension: int | None = None) -> Array:
     if one:
         raise ModelError(f"{shown(value)} is no direction in space", "write [x, y, z]")
     along = vector(value, "number", dimension=dimension)  # type: ignore[arg-type]
-    length = float(np.linalg.norm(along))
+    length = math.hypot(*along)
     if length == 0:
         raise ModelError("a vector of length 0 has no direction", "write one along the line")
     return fixed(along / length)

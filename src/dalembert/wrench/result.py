@@ -20,16 +20,16 @@ if TYPE_CHECKING:
 def on(r: Result, *links: str, at: Any = None) -> System:
     """Everything that acts on a link at a position, or on some links taken as one: N, N m, m, ground axes.
 
-    Reactions, loads, weights, efforts and, in dynamics, D'Alembert's inertia forces: a system in equilibrium. Joints
-    between the links named are inside and left out. ``at`` is a position by its number from 1, or a value of the
-    first drive; by default the first solved one. Where reactions are not unique the least-norm ones stand, and the
-    title says so. Raises AnalysisError where the position has no answer.
+    Reactions (F_A and M_A in joint A), loads, weights, efforts and, in dynamics, D'Alembert's inertia forces: a system
+    in equilibrium, its joints as points. Joints between the links named are inside and left out. ``at`` is a position
+    by its number from 1, or a value of the first drive; by default the first solved one. Where reactions are not
+    unique the least-norm ones stand, and the title says so. Raises AnalysisError where the position has no answer.
 
     >>> import dalembert as da
     >>> from dalembert.bundled import examples
     >>> rod = da.wrench.on(da.dynamics(da.load(examples()["four_bar"])), "coupler")
     >>> [part.name for part in rod], rod.equilibrium().holds
-    (['A', 'B', 'F_P', 'inertia force of coupler', 'inertia couple of coupler'], True)
+    (['F_A', 'F_B', 'F_P', 'inertia force of coupler', 'inertia couple of coupler'], True)
     """
     for link in links:
         if link not in r.links:
@@ -42,16 +42,19 @@ def on(r: Result, *links: str, at: Any = None) -> System:
     outside = [a for a in actions(r) if a.link in links and a.by not in links]
     title = " and ".join(links) + (f", position {k + 1}" if len(r.status) > 1 else "")
     title += ", least-norm reactions" if r.status[k] == "redundant" else ""
-    return System(*(part for a in outside for part in _parts(a, k)), title=title, units=r.mechanism.units)
+    parts = [part for a in outside for part in _parts(a, k)]
+    points = {a.of: a.at[k] for a in outside if a.kind == "joint"}
+    return System(*parts, title=title, units=r.mechanism.units, points=points)
 
 
 def _parts(a: Action, k: int) -> list[Force | Couple]:
     """An action at position k as a force and a couple, those that are not zero; a joint's force always."""
     name = a.source or {"effort": f"effort of {a.of}", "friction": f"friction in {a.of}"}.get(a.kind, a.of)
+    letters = ("F_", "M_") if a.kind == "joint" else ("", "")
     couple = np.atleast_1d(a.couple[k])
     out: list[Force | Couple] = []
     if a.force[k].any() or a.kind == "joint":
-        out.append(Force(a.force[k], a.at[k], name, a.kind))
+        out.append(Force(a.force[k], a.at[k], letters[0] + name, a.kind))
     if couple.any():
-        out.append(Couple(couple, name, a.kind))
+        out.append(Couple(couple, letters[1] + name, a.kind))
     return out

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -64,12 +65,21 @@ class CentralAxis:
 class System:
     """Forces and couples, all of the plane or all of space; ``units`` are those it is shown in (default SI).
 
+    ``points`` names places (m), for drawings and as points to take moments about.
+
     >>> s = System(Force([10, 0], at=[0, 2]), Force([0, 10], at=[3, 0]), Couple(5))
     >>> s.resultant, s.moment([0, 0]), s.kind()
     (array([10., 10.]), 15.0, 'single force')
     """
 
-    def __init__(self, *parts: Force | Couple, title: str = "", units: UnitNames = None) -> None:
+    def __init__(
+        self,
+        *parts: Force | Couple,
+        title: str = "",
+        units: UnitNames = None,
+        points: Mapping[str, Vector] | None = None,
+        source: str = "",
+    ) -> None:
         dimensions = {part.dimension for part in parts}
         if len(dimensions) > 1:
             raise ModelError(
@@ -79,9 +89,12 @@ class System:
         if not parts:
             raise ModelError("the system has no force and no couple", "give it at least one")
         self.parts = parts
-        self.title = title
+        self.title, self.source = title, source
         self.units = Units() if units is None else file_units(units)
         self.dimension: int = dimensions.pop()
+        self.points = {
+            name: reading.vector(p, "length", dimension=self.dimension) for name, p in (points or {}).items()
+        }
 
     # what it is made of
 
@@ -120,10 +133,14 @@ class System:
 
     def __add__(self, other: System | Force | Couple) -> System:
         more = other.parts if isinstance(other, System) else (other,)
-        return System(*self.parts, *more, title=self.title, units=self.units)
+        return self._of(*self.parts, *more)
 
     def __neg__(self) -> System:
-        return System(*(-part for part in self.parts), title=self.title, units=self.units)
+        return self._of(*(-part for part in self.parts))
+
+    def _of(self, *parts: Force | Couple) -> System:
+        """Other parts under the same title, in the same units, with the same points."""
+        return System(*parts, title=self.title, units=self.units, points=self.points, source=self.source)
 
     def __repr__(self) -> str:
         where = "plane" if self.dimension == 2 else "space"
@@ -141,7 +158,7 @@ class System:
     def length(self) -> float:
         """Characteristic length (m): the diagonal of the box around the points of application."""
         points = [f.at for f in self.forces]
-        return float(np.linalg.norm(np.ptp(points, axis=0))) if points else 0.0
+        return math.hypot(*np.ptp(points, axis=0)) if points else 0.0
 
     def scales(self, length: float | None = None) -> tuple[float, float]:
         """Largest force and largest moment (N, N m) that zero is judged against.
@@ -164,12 +181,32 @@ class System:
         """The sum of all forces (N)."""
         return fixed(sum((f.vector for f in self.forces), np.zeros(self.dimension)))
 
+    def point(self, at: Vector | None) -> Array:
+        """A point (m): by its components, in a text in the system's units; by its name; the origin."""
+        if at is None:
+            return fixed(np.zeros(self.dimension))
+        if isinstance(at, str) and at in self.points:
+            return self.points[at]
+        if isinstance(at, str) and "[" not in at and "@" not in at:
+            raise ModelError(f"the system has no point {at!r}", closest(at, list(self.points)))
+        units = self.units if isinstance(at, str) else None
+        return reading.vector(at, "length", units, self.dimension)
+
+    def point_name(self, at: Vector | None, other: str = "O", taken: str | None = None) -> str:
+        """The name of a point among the system's; else one that no point has, and that is not taken."""
+        place = self.point(at)
+        for name, p in self.points.items():
+            if bool((p == place).all()):
+                return name
+        free = (name for name in (other, *"OPQSTUVW") if name not in {*self.points, taken})
+        return next(free, other)
+
     def moment(self, about: Vector | Axis | None = None) -> Any:
         """Sum of the moments about a point (default the origin) or an axis, couples included, N m.
 
         A number in the plane, a vector (3,) about a point in space, a number about an axis.
         """
-        return moment_about(self, about)
+        return moment_about(self, about if isinstance(about, Axis) else self.point(about))
 
     def _moment(self, about: Array) -> Array:
         zero = np.zeros(ALGEBRA[self.dimension].n - self.dimension)
@@ -179,8 +216,7 @@ class System:
 
     def reduced(self, at: Vector | None = None) -> ForceCouple:
         """The force and couple at a point (default the origin) that the system is equivalent to."""
-        d = self.dimension
-        place = fixed(np.zeros(d)) if at is None else reading.vector(at, "length", dimension=d)
+        place = self.point(at)
         return ForceCouple(place, self.resultant, fixed(self._moment(place)))
 
     def central_axis(self, tolerance: float = EXACT, length: float | None = None) -> CentralAxis:
@@ -194,23 +230,24 @@ class System:
         (array([1.44, 0.  , 0.  ]), 12.522)
         """
         force, at = self.resultant, self.middle
-        size = float(np.linalg.norm(force))
+        size = math.hypot(*force)
         if size <= tolerance * self.scales(length)[0]:
             what = {"couple": "a couple", "zero": "in equilibrium"}[self.kind(tolerance, length)]
             raise AnalysisError(
                 f"The resultant force is zero, so there is no central axis: the system is {what}."
             )
         moment = self._moment(at)
-        point = at - ALGEBRA[self.dimension].spin(moment, force) / size**2
-        along = float(moment @ force) / size if self.dimension == 3 else 0.0
+        unit = force / size
+        point = at - ALGEBRA[self.dimension].spin(moment, unit) / size
+        along = float(moment @ unit) if self.dimension == 3 else 0.0
         return CentralAxis(Axis(point, force), force, along, along / size)
 
     def kind(self, tolerance: float = EXACT, length: float | None = None) -> str:
         """What it reduces to: `zero`, `couple`, `single force`, or in space `wrench` (force and couple along it)."""
         largest, moment_scale = self.scales(length)
-        size = float(np.linalg.norm(self.resultant))
+        size = math.hypot(*self.resultant)
         if size <= tolerance * largest:
-            moment = float(np.linalg.norm(self._moment(self.middle)))
+            moment = math.hypot(*self._moment(self.middle))
             return "zero" if moment <= tolerance * moment_scale else "couple"
         couple = abs(self.central_axis(tolerance, length).moment)
         return "single force" if couple <= tolerance * moment_scale else "wrench"
