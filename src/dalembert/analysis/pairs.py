@@ -197,13 +197,14 @@ def hinge(joint: Any, ends: tuple[int, int], at: Geometry, drives: dict[str, int
     )
 
 
-def local_axes(joint: Any, at: Geometry, on_i: Array, on_j: Array) -> Array:
+def local_axes(joint: Any, at: Geometry, on_i: Array, on_j: Array, moment: bool = False) -> Array:
     """The joint's local axes at poses of its links (..., 3, 3), a row each, in ground axes; rotations (..., 9) given.
 
-    They are those of i, but where a turn is blocked between a direction of i and one of j: both, and their normal.
+    They are those of i, but where a turn is blocked between a direction of i and one of j: both, and their normal. A
+    slotted sphere in a cylinder has them for its moment only; its forces keep to the cylinder.
     """
     pair = pair_of(joint)
-    if len(pair.turns) == 2:
+    if len(pair.turns) == 2 and (moment or joint.type != "slotted_sphere_in_cylinder"):
         first, second = (AXES.index(name) for name in pair.turns)
         n, p = space.rotate(on_i, at.on_i[first]), space.rotate(on_j, at.on_j[second])
         third = 3 - first - second

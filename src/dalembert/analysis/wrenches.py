@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 Array = NDArray[Any]
 Axes = Literal["ground", "link", "joint"]
 
+PARTS = (slice(0, 3), slice(3, 6))
+"""Force and moment of a wrench in space."""
+
 PLACES = ("i", "j", "joint")
 """Axes other than ground's in which uniqueness is known: of both links of each joint, and its own."""
 
@@ -34,30 +37,35 @@ def in_axes(c: Compiled, pose: Pose, shift: Array) -> Iterator[Array]:
     for place in PLACES:
         turned = np.empty_like(shift)
         for k in range(c.layout.joints):
-            axes = _axes(c, k, pose.rotation, place, ends.get(k, (0, 0)))
-            for part in (slice(0, 3), slice(3, 6)):
+            for part in PARTS:
+                axes = _axes(c, k, pose.rotation, place, ends.get(k, (0, 0)), part is PARTS[1])
                 turned[:, k, part] = axes @ shift[:, k, part]
         yield turned
 
 
-def _axes(c: Compiled, k: int, rotation: Array, place: str, ends: tuple[int, int]) -> Array:
+def _axes(
+    c: Compiled, k: int, rotation: Array, place: str, ends: tuple[int, int], moment: bool = False
+) -> Array:
     """Axes (P, 3, 3), a row each, in ground axes, from the rotations (P, L+1, 9) of all links."""
     i, j = rotation[..., ends[0], :], rotation[..., ends[1], :]
     if place == "joint":
-        return local_axes(c.mechanism.joints[c.joints[k]], c.geometries[k], i, j)
+        return local_axes(c.mechanism.joints[c.joints[k]], c.geometries[k], i, j, moment)
     r = i if place == "i" else j
     return np.swapaxes(r.reshape((*r.shape[:-1], 3, 3)), -1, -2)
 
 
-def axes_of(result: Result, joint: str, place: str) -> Array:
-    """Axes (P, 3, 3), a row each, in ground axes, of a joint in space: of its link "i" or "j", or its own "joint"."""
+def axes_of(result: Result, joint: str, place: str, moment: bool = False) -> Array:
+    """Axes (P, 3, 3), a row each, in ground axes, of a joint in space: of its link "i" or "j", or its own "joint".
+
+    Those of its ``moment`` are others in one pair only (``pairs.local_axes``).
+    """
     c = result.compiled
     if not c.geometries:
         raise ModelError("a joint of the plane has no axes of its own", "take ground's or the link's")
     index = {name: k for k, name in enumerate(c.links)} | {"ground": len(c.links)}
     i, j = (index[name] for name in c.mechanism.joints[joint].links)
     _, rotation = c.layout.algebra.with_ground(result.turn_array, result.rotation_array)
-    return _axes(c, c.joints.index(joint), rotation, place, (i, j))
+    return _axes(c, c.joints.index(joint), rotation, place, (i, j), moment)
 
 
 def wrench(result: Result, joint: str, on: str | None, axes: Axes, least: bool = False) -> Array:
@@ -78,10 +86,9 @@ def wrench(result: Result, joint: str, on: str | None, axes: Axes, least: bool =
         return whole if axes == "ground" or link == "ground" else _turned(result, link, whole)
     place = "ground" if axes == "ground" else "joint" if axes == "joint" else "i" if link == by else "j"
     if place != "ground":
-        turn = axes_of(result, joint, place)
-        whole = np.concatenate(
-            [(turn @ whole[..., part, None])[..., 0] for part in (slice(0, 3), slice(3, 6))], axis=-1
-        )
+        turns = [axes_of(result, joint, place, moment) for moment in (False, True)]
+        parts = zip(turns, PARTS, strict=True)
+        whole = np.concatenate([(turn @ whole[..., part, None])[..., 0] for turn, part in parts], axis=-1)
     return whole if least else np.where(unique_in(result, joint, place), whole, np.nan)
 
 

@@ -99,11 +99,16 @@ def _mesh_measure(g: Any, f: Mesh, pose: Pose) -> Array:
     return np.asarray(f.ri * (pose.turn[..., f.i] - phi) + f.rj * (pose.turn[..., f.j] - phi))
 
 
+def _along_measure(g: Any, f: Along, pose: Pose) -> Array:
+    along: Array = g.dot(arm(g, pose, f.i, f.axis), span(g, f, pose))
+    if f.pitch.dtype != object and not f.pitch.any():
+        return along
+    return along + f.pitch * _relative_turn(f, pose)
+
+
 _MEASURES: dict[type[Family], Any] = {
     Meet: span,
-    Along: lambda g, f, pose: (
-        g.dot(arm(g, pose, f.i, f.axis), span(g, f, pose)) + f.pitch * _relative_turn(f, pose)
-    ),
+    Along: _along_measure,
     Turn: lambda g, f, pose: _relative_turn(f, pose),
     Mesh: _mesh_measure,
     Distance: lambda g, f, pose: _unit(span(g, f, pose))[1],

@@ -22,6 +22,10 @@ from dalembert.core.layout import Angle, Helix, Layout, Pose
 Array = NDArray[Any]
 
 
+ALONG = 1e-9
+"""How far the cosine between two shared axes may be from 1 to count as parallel."""
+
+
 class Hinge(NamedTuple):
     """How a joint lets j be laid by i: local axes on both links (9,), and the axes of its slides and turns in order.
 
@@ -174,10 +178,10 @@ def _counters(layout: Layout, count: int, drives: Array) -> Array:
 
 
 def _place(layout: Layout, h: Hinge, pose: Pose, values: Array, forward: bool, by_values: bool) -> None:
-    """Lay one link of a hinge by the other; the rotation stays as drawn unless values are asked for."""
+    """Lay one link of a hinge by the other; the rotation stays as drawn unless values are asked for, or the joint does not allow it."""
     g, size = layout.algebra, layout.length / np.pi
     known, new = (h.i, h.j) if forward else (h.j, h.i)
-    if by_values:
+    if by_values or not _as_drawn(g, h, pose):
         relative = np.broadcast_to(h.frame_i, (len(values), 9))
         for k, axis in enumerate(h.turns, start=len(h.slides)):
             relative = g.compose(relative, g.rotation(values[:, k], np.eye(3)[axis]))
@@ -194,6 +198,16 @@ def _place(layout: Layout, h: Hinge, pose: Pose, values: Array, forward: bool, b
         pose.point[:, new] = pose.point[:, known] + ri + offset - rj
     else:
         pose.point[:, new] = pose.point[:, known] + rj - offset - ri
+
+
+def _as_drawn(g: Any, h: Hinge, pose: Pose) -> bool:
+    """Whether the joint lets its links stand as they are drawn, as far as its axes say."""
+    axes = [h.parallel] * (h.parallel >= 0) if h.turns else [0, 1, 2]
+    on_i, on_j = (
+        [g.rotate(pose.rotation[0, link], g.matrix(frame)[:, axis]) for axis in axes]
+        for link, frame in ((h.i, h.frame_i), (h.j, h.frame_j))
+    )
+    return all(g.dot(a, b) > 1 - ALONG for a, b in zip(on_i, on_j, strict=True))
 
 
 def _inverse(g: Any, r: Array) -> Array:

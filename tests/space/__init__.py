@@ -1,0 +1,1 @@
+"""Space: pairs, laws, lifted plane mechanisms, overconstrained linkages."""
