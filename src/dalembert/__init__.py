@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.efficiency import efficiency
     from dalembert.analysis.fixed_point import fixed_point
     from dalembert.analysis.friction import friction_circles, guide_contact
+    from dalembert.analysis.lift import lifted
     from dalembert.analysis.members import displaced_inertia, inertia_shares, members, order_of_solution
     from dalembert.analysis.mistakes import check_answers
     from dalembert.analysis.superposition import superposition
@@ -58,6 +59,7 @@ if TYPE_CHECKING:
         Slider,
         Slot,
         SlotFriction,
+        SpaceJoint,
         Spring,
         Table,
         TimeTable,
@@ -122,6 +124,7 @@ _HOME = {
     "Slider": "model",
     "Slot": "model",
     "SlotFriction": "model",
+    "SpaceJoint": "model",
     "Spring": "model",
     "Table": "model",
     "TimeTable": "model",
@@ -148,6 +151,7 @@ _HOME = {
     "inverted_slider_crank": "model.library",
     "json_schema": "model",
     "kinematics": "analysis",
+    "lifted": "analysis.lift",
     "load": "model",
     "loads": "model",
     "mechanism": "model",
@@ -209,6 +213,7 @@ __all__ = [
     "Slider",
     "Slot",
     "SlotFriction",
+    "SpaceJoint",
     "Spring",
     "Table",
     "TimeTable",
@@ -236,6 +241,7 @@ __all__ = [
     "inverted_slider_crank",
     "json_schema",
     "kinematics",
+    "lifted",
     "load",
     "loads",
     "mechanism",

@@ -45,7 +45,9 @@ def test_the_classic_table(kind: str) -> None:
 
 @pytest.mark.parametrize("seed", range(5))
 @pytest.mark.parametrize(("kind", "keys"), CASES)
-def test_freedoms_and_constraints_are_reciprocal_and_complete(kind: str, keys: dict[str, str], seed: int) -> None:
+def test_freedoms_and_constraints_are_reciprocal_and_complete(
+    kind: str, keys: dict[str, str], seed: int
+) -> None:
     rng = np.random.default_rng(seed)
     c, pose = placed(body_on(kind, rng, **keys), rng)
     g, rows = c.layout.algebra, c.layout.constraints
@@ -106,7 +108,9 @@ def test_rows_are_the_derivatives_of_their_measures(kind: str, keys: dict[str, s
     for rows in (c.layout.constraints, c.layout.freedoms):
         there = [measure(g, rows, moved(pose, twist, sign * step))[0] for sign in (-1, 0, 1)]
         at = system(g, rows, pose).on_j[0] @ twist
-        assert (there[2] - there[0]) / (2 * step) == pytest.approx(_swapped(rows, at, c, pose, twist), abs=1e-6)
+        assert (there[2] - there[0]) / (2 * step) == pytest.approx(
+            _swapped(rows, at, c, pose, twist), abs=1e-6
+        )
         second = (there[2] - 2 * there[1] + there[0]) / step**2
         assert second == pytest.approx(drift(g, rows, pose, whole)[0], abs=1e-6)
 

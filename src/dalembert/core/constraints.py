@@ -103,7 +103,7 @@ def _along_measure(g: Any, f: Along, pose: Pose) -> Array:
     along: Array = g.dot(arm(g, pose, f.i, f.axis), span(g, f, pose))
     if f.pitch.dtype != object and not f.pitch.any():
         return along
-    return along + f.pitch * _relative_turn(f, pose)
+    return np.asarray(along + f.pitch * _relative_turn(f, pose))
 
 
 _MEASURES: dict[type[Family], Any] = {

@@ -178,7 +178,7 @@ def _counters(layout: Layout, count: int, drives: Array) -> Array:
 
 
 def _place(layout: Layout, h: Hinge, pose: Pose, values: Array, forward: bool, by_values: bool) -> None:
-    """Lay one link of a hinge by the other; the rotation stays as drawn unless values are asked for, or the joint does not allow it."""
+    """Lay one link of a hinge by the other; as drawn where the joint allows it and no values are asked for."""
     g, size = layout.algebra, layout.length / np.pi
     known, new = (h.i, h.j) if forward else (h.j, h.i)
     if by_values or not _as_drawn(g, h, pose):

@@ -1,0 +1,203 @@
+"""A plane mechanism as one in space: every link in a plane of its own, so that bearing moments come out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any, Literal
+
+import numpy as np
+
+from dalembert.errors import ModelError
+from dalembert.model import Mechanism
+from dalembert.wording import closest
+
+UP = [0.0, 0.0, 1.0]
+Freed = Literal["cylindrical", "spherical"]
+
+
+def lifted(
+    m: Mechanism,
+    offsets: Mapping[str, Any] | None = None,
+    become: Mapping[str, Freed] | None = None,
+) -> Mechanism:
+    """The plane mechanism in space, its plane as x and y.
+
+    ``offsets`` are heights z of links (their points and mass centres; default 0) and of joints (the middle of the
+    bearing; default halfway between its two links), in metres or as texts with units. Pins become revolutes, sliders
+    prismatic joints, slots slotted cylinders. Each closed loop is then redundant three times; ``become`` names pins
+    to be made cylindrical (free to slide along z) or spherical, so that all reactions follow from statics.
+
+    Moments of inertia about axes in the plane do no work in a plane motion; half the plane one is written for both.
+    Forces and efforts in the plane are those of the plane mechanism. Raises ModelError for what has no counterpart.
+
+    >>> import dalembert as da
+    >>> from dalembert.model.library import four_bar
+    >>> m = da.lifted(four_bar(), {"coupler": "20 mm"}, {"B": "spherical", "O4": "cylindrical"})
+    >>> da.mobility(m).sentence
+    'mobility 1, driven by 1 drive, no redundant constraint'
+    """
+    if m.space != "plane":
+        raise ModelError("the mechanism is in space already", "lift one of the plane", ("space",))
+    return _Lift(m, dict(offsets or {}), dict(become or {})).mechanism()
+
+
+class _Lift:
+    """One mechanism being lifted."""
+
+    def __init__(self, m: Mechanism, offsets: dict[str, Any], become: dict[str, Freed]) -> None:
+        from dalembert.units import quantity
+
+        self.m, self.become = m, become
+        known = [*m.links, *m.joints]
+        for name in offsets:
+            if name not in known:
+                raise ModelError(f"there is no link or joint {name!r} to offset", closest(name, known))
+        for name, kind in become.items():
+            if name not in m.joints or m.joints[name].type != "pin":
+                pins = [n for n, joint in m.joints.items() if joint.type == "pin"]
+                raise ModelError(f"{name!r} is no pin that could become {kind}", closest(name, pins))
+            if kind not in ("cylindrical", "spherical"):
+                raise ModelError(f"a pin cannot become {kind!r}", "write cylindrical or spherical")
+        heights = {name: quantity(value, "length", None) for name, value in offsets.items()}
+        self.link = {name: heights.get(name, 0.0) for name in m.links}
+        self.joint = {
+            name: heights.get(name, sum(self.link[link] for link in joint.links) / 2)
+            for name, joint in m.joints.items()
+        }
+        self.extra: dict[str, dict[str, list[float]]] = {name: {} for name in m.links}
+
+    def mechanism(self) -> Mechanism:
+        """The lifted mechanism."""
+        from dalembert.model.mechanism import mechanism
+
+        m = self.m
+        joints = {name: self._joint(name) for name in m.joints}
+        tree = {
+            "title": m.title,
+            "source": m.source_text,
+            "space": "space",
+            "units": {"angle": "rad"},
+            "gravity": [*m.gravity_vector, 0.0] if any(m.gravity_vector) else "none",
+            "g": m.g,
+            "links": {name: self._link(name) for name in m.links},
+            "joints": joints,
+            "drives": {name: self._drive(name) for name in m.drives},
+            "loads": {name: self._load(name) for name in m.loads},
+            "assembly": self._assembly(),
+        }
+        return mechanism(tree)
+
+    def _at(self, vector: Any, height: float) -> list[float]:
+        return [float(vector[0]), float(vector[1]), height]
+
+    def _link(self, name: str) -> dict[str, Any]:
+        m, z = self.m, self.link[name]
+        points = {point: self._at(at, z) for point, at in m.points(name).items()} | self.extra[name]
+        if name == "ground":
+            return {"points": points}
+        about = float(m.inertia(name) or 0.0)
+        inertia = [about / 2, about / 2, about]
+        return {
+            "points": points,
+            "mass": m.mass(name),
+            "center": self._at(m.center(name), z),
+            "inertia": inertia,
+        }
+
+    def _joint(self, name: str) -> dict[str, Any]:
+        joint = self.m.joints[name]
+        kinds: dict[str, Any] = {
+            "pin": self._pin,
+            "slider": self._slider,
+            "slot": self._slot,
+            "weld": self._weld,
+        }
+        if joint.type not in kinds:
+            what = f"joint {name!r}: a {joint.type} joint has no counterpart that could be lifted"
+            raise ModelError(what, "lift a mechanism of pins, sliders, slots and welds", ("joints", name))
+        if getattr(joint, "friction", None) is not None and self.m.friction.enabled:
+            what = f"joint {name!r} has friction, which is not lifted"
+            raise ModelError(what, "switch it off with friction: {enabled: false}", ("joints", name))
+        at = [
+            self._point(link, point, name)
+            for link, point in zip(joint.links, joint.point_names(name), strict=True)
+        ]
+        return {"links": list(joint.links), "at": at, **kinds[joint.type](name, joint)}
+
+    def _point(self, link: str, point: str, joint: str) -> str:
+        """A point of the link at the joint's height: its own, or another one beside it."""
+        height = self.joint[joint]
+        if height == self.link[link]:
+            return point
+        name = f"{point} in {joint}"
+        while name in self.m.points(link):
+            name += "'"
+        place = self.m.center(link) if point == "center" else self.m.point(link, point)
+        self.extra[link][name] = self._at(place, height)
+        return name
+
+    def _pin(self, name: str, joint: Any) -> dict[str, Any]:
+        kind = self.become.get(name, "revolute")
+        driven = any(self.m.drive_joint(d) == name for d in self.m.drives)
+        if kind == "spherical" and (driven or joint.damping):
+            raise ModelError(
+                f"the turn of joint {name!r} is driven or damped", "make it cylindrical", ("joints", name)
+            )
+        damping = {"damping": {"turn": joint.damping}} if joint.damping else {}
+        return {"type": kind, **({} if kind == "spherical" else {"axis": UP}), **damping}
+
+    def _slider(self, name: str, joint: Any) -> dict[str, Any]:
+        damping = {"damping": {"slide": joint.damping}} if joint.damping else {}
+        axes = {"i": _axes(joint.direction), "j": _axes(-joint.angle)}
+        return {"type": "prismatic", "axes": axes, **damping}
+
+    def _slot(self, name: str, joint: Any) -> dict[str, Any]:
+        damping = {k: v for k, v in zip(("slide", "turn"), joint.damping, strict=True) if v}
+        axes = {"i": _axes(joint.direction), "j": _axes(0.0)}
+        return {"type": "slotted_cylinder", "axes": axes, **({"damping": damping} if damping else {})}
+
+    def _weld(self, name: str, joint: Any) -> dict[str, Any]:
+        return {"type": "weld", "axes": {"i": _axes(joint.angle), "j": _axes(0.0)}}
+
+    def _drive(self, name: str) -> dict[str, Any]:
+        tree = self.m.drives[name].model_dump(mode="json", by_alias=True)
+        joint = self.m.joints[self.m.drive_joint(name)]
+        return {**tree, "freedom": self.m.drives[name].freedom or joint.freedoms[0]}
+
+    def _load(self, name: str) -> dict[str, Any]:
+        load: Any = self.m.loads[name]
+        tree = dict(load.model_dump(mode="json", by_alias=True))
+        if load.type == "force":
+            if load.components is not None:
+                tree["value"] = [*tree["value"], 0.0]
+            elif load.direction is not None:
+                tree["direction"] = [math.cos(load.direction), math.sin(load.direction), 0.0]
+            if not isinstance(load.at, str):
+                tree["at"] = self._at(load.at, self.link[load.on])
+        elif load.type == "couple":
+            tree["direction"] = UP
+        return tree
+
+    def _assembly(self) -> dict[str, Any]:
+        """Poses of the links where the plane mechanism first closes."""
+        from dalembert.analysis.solve import kinematics
+
+        result = kinematics(self.m)
+        found = np.flatnonzero(np.isfinite(result.point_array).all(axis=(1, 2)))
+        if not found.size:
+            return {}
+        k = int(found[0])
+        return {
+            link: {
+                "position": self._at(result.position(link)[k], 0.0),
+                "axis": UP,
+                "angle": float(result.angle(link)[k]),
+            }
+            for link in result.links
+        }
+
+
+def _axes(angle: float) -> dict[str, list[float]]:
+    """Local x at an angle in the plane, z across it."""
+    return {"x": [math.cos(angle), math.sin(angle), 0.0], "z": UP}
