@@ -20,7 +20,7 @@ PUBLISHED_NAMES = """
 
 SEEDS, PUBLISHED = SEED_NAMES.split(), PUBLISHED_NAMES.split()
 
-IN_PART: set[str] = set()
+IN_PART = {"SP-01", "SP-12"}
 """Problems of which one part is a file and another waits."""
 
 

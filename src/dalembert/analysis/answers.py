@@ -106,7 +106,7 @@ def named(answer: Answer) -> str:
     parts += [f"on {answer.on}"] if answer.on else [f"by {answer.by}"] if answer.by else []
     text = " ".join(parts)
     where = "" if answer.at is None else _at_text(answer.at)
-    axes = "link axes" if answer.axes == "link" else ""
+    axes = "" if answer.axes == "ground" else f"{answer.axes} axes"
     return ", ".join(part for part in (text, answer.component, axes, where, answer.extreme) if part)
 
 
@@ -217,7 +217,7 @@ def target(value: Any, series: Series, units: Units, key: str) -> Target:
     vectorial = series.values.ndim == 2
     try:
         read = (
-            vector(value, series.kind, Reading(units, dimension=2))
+            vector(value, series.kind, Reading(units, dimension=series.values.shape[-1]))
             if vectorial
             else quantity(value, series.kind, units)
         )

@@ -146,7 +146,7 @@ def add_freedom(
         elif joint.type in BALLS:
             if axis is None:
                 continue
-            rows.add(Angle, index, ends, count=rows.followed(), **_about_vector(np.asarray(axis, float)))
+            rows.add(Angle, index, ends, count=rows.followed(), **_about_vector(np.asarray(axis, float), at))
         elif name == "turn2":
             first, second = (AXES.index(k) for k in pair.turns)
             # seen from j, i's first axis turns the other way about j's second one
@@ -162,12 +162,12 @@ def add_freedom(
     return names
 
 
-def _about_vector(axis: Array) -> dict[str, Any]:
-    """Angle about any axis of i, of directions with the same components in both links."""
+def _about_vector(axis: Array, at: Geometry) -> dict[str, Any]:
+    """Angle about any axis of i, of directions with the same components in the joint's local axes of both links."""
     a = axis / np.linalg.norm(axis)
     b = np.cross(a, np.eye(3)[np.abs(a).argmin()])
     b /= np.linalg.norm(b)
-    return {"a": a, "b": b, "p": b}
+    return {"a": a, "b": b, "p": at.on_j.T @ (at.on_i @ b)}
 
 
 def hinge(joint: Any, ends: tuple[int, int], at: Geometry, drives: dict[str, int]) -> Hinge:

@@ -21,7 +21,7 @@ Array = NDArray[Any]
 
 
 class Series(NamedTuple):
-    """Values of a quantity over the positions, SI: numbers (P,) or vectors (P, 2), of a kind of ``units.KINDS``."""
+    """Values of a quantity over the positions, SI: numbers (P,) or vectors (P, d), of a kind of ``units.KINDS``."""
 
     kind: str
     values: Array
@@ -61,7 +61,7 @@ def _reaction(r: Result, a: Answer) -> Series:
 
 def _moment(r: Result, a: Answer) -> Series:
     joint = _name(a, r.joints, "joint")
-    return Series("moment", r.reaction_moment(joint, _on(r, a, joint)))
+    return Series("moment", r.reaction_moment(joint, _on(r, a, joint), a.axes))
 
 
 def _on(r: Result, a: Answer, joint: str) -> str | None:
@@ -167,23 +167,22 @@ WHOLE: dict[str, Callable[[Result], int | None]] = {
 
 
 def component(series: Series, name: str | None) -> Series:
-    """One component of a vector: x, y, magnitude or direction; the series itself without a name."""
+    """One component of a vector: x, y, in space z, magnitude, in the plane direction; all without a name."""
     if name is None:
         return series
     if series.values.ndim == 1:
         if name == "magnitude":
             return Series(series.kind, np.abs(series.values))
         raise ModelError(f"a number has no component {name!r}", "leave it out", ("component",))
-    x, y = series.values[:, 0], series.values[:, 1]
-    if name == "direction":
-        return Series("angle", np.arctan2(y, x))
-    parts = {"x": x, "y": y, "magnitude": np.hypot(x, y)}
+    parts = dict(zip("xyz", series.values.T, strict=False)) | {"magnitude": size(series)}
+    if name == "direction" and "z" not in parts:
+        return Series("angle", np.arctan2(parts["y"], parts["x"]))
     if name not in parts:
-        known = [*parts, "direction"]
+        known = [*parts] if "z" in parts else [*parts, "direction"]
         raise ModelError(f"there is no component {name!r}", closest(name, known), ("component",))
     return Series(series.kind, parts[name])
 
 
 def size(series: Series) -> Array:
     """Numbers to compare positions by: the value, or the magnitude of a vector."""
-    return series.values if series.values.ndim == 1 else np.hypot(series.values[:, 0], series.values[:, 1])
+    return series.values if series.values.ndim == 1 else np.linalg.norm(series.values, axis=-1)

@@ -172,7 +172,8 @@ def _is_far(layout: Layout, before: Pose, after: Pose) -> bool:
     """
     reach = max(np.ptp(before.point[:-1], axis=0).max(initial=0.0), layout.length)
     shift = np.abs(after.point - before.point).max() / reach
-    return bool(max(shift, np.abs(after.turn - before.turn).max()) > FAR)
+    turned = layout.algebra.apart(after.rotation, before.rotation, after.turn, before.turn).max()
+    return bool(max(shift, turned) > FAR)
 
 
 def _predicted(layout: Layout, s: list[float], poses: list[Pose], rates: list[Array], ahead: float) -> Pose:

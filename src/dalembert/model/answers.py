@@ -71,7 +71,10 @@ class Answer(Part):
     component: Literal["x", "y", "z", "magnitude", "direction"] | None = Field(
         None, description="of a vector; without it the whole vector"
     )
-    axes: Literal["ground", "link"] = Field("ground", description="the axes of a vector")
+    axes: Literal["ground", "link", "joint"] = Field(
+        "ground",
+        description="the axes of a reaction: ground's, of the link it acts on, in space the joint's own",
+    )
     value: Any = Field(None, description="as published: number, text with unit, [x, y], r @ angle, a status")
     exact: Any = Field(None, description="the exact value, computed independently; checked to 1e-7")
     tolerance: Any = Field(None, description="relative, 0.3 %, or a quantity; default 1e-6 relative")

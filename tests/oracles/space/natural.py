@@ -281,6 +281,24 @@ def _forces(m: Machine, q: Array) -> Array:
     return out
 
 
+def unique(m: Machine, path: Array) -> dict[str, Array]:
+    """Which components of each joint's force and moment (P, 6), in ground axes, the equations determine.
+
+    Those that every set of multipliers without any load on the coordinates leaves at zero.
+    """
+    _, J, _, _ = system(m.rows, path, 0 * path)
+    out: dict[str, list[Array]] = {name: [] for name in m.tree["joints"]}
+    for q, jacobian in zip(path, J, strict=True):
+        _, values, right = np.linalg.svd(jacobian.T)
+        null = right[int(np.sum(values > 1e-9 * values[0])) :]
+        found = Natural(m.links, np.repeat(q[None], len(null), 0), 0 * q[None], 0 * q[None])
+        _reactions(m, found, null)
+        for name, masks in out.items():
+            both = np.concatenate([found.forces[name], found.moments[name]], -1)
+            masks.append(np.all(np.abs(both) < 1e-9, 0))
+    return {name: np.array(masks) for name, masks in out.items()}
+
+
 def _reactions(m: Machine, found: Natural, multipliers: Array) -> None:
     rigid = len(m.rows) - len(m.joint_rows) - len(m.drive_rows)
     size = multipliers.shape[0], m.size, 3

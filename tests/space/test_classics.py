@@ -1,0 +1,49 @@
+"""Classic overconstrained linkages: mobility and redundancy as in the literature, efforts and unique components."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from tests.oracles.space import natural
+from tests.oracles.space.classics import CLASSICS
+
+STEPS = 3
+SCREWED = [name for name, c in CLASSICS.items() if any(j.type == "screw" for j in c.joints.values())]
+
+
+@pytest.mark.parametrize("name", CLASSICS)
+def test_mobility_is_the_published_one_along_the_motion(name: str) -> None:
+    classic = CLASSICS[name]
+    r = da.kinematics(da.mechanism(classic.tree(STEPS if classic.drives else 1)))
+    assert r.mobility is not None
+    assert (r.mobility.freedoms, r.mobility.redundant) == (classic.freedoms, classic.redundant)
+    assert r.mobility.drives == len(classic.drives)
+    assert set(r.status) <= {"ok", "redundant"}, r.problems()
+    assert np.isfinite(r.position(classic.links[-1])).all()
+
+
+@pytest.mark.parametrize("name", [n for n, c in CLASSICS.items() if n not in SCREWED and c.drives])
+def test_motion_efforts_and_unique_components_are_those_of_natural_coordinates(name: str) -> None:
+    classic = CLASSICS[name]
+    tree = classic.tree(STEPS)
+    r = da.dynamics(da.mechanism(tree))
+    m, path, _ = natural.followed(tree)
+    expected = natural.solve(m, path)
+    for link in classic.links[1:]:
+        k = 4 * m.links.index(link)
+        np.testing.assert_allclose(r.position(link), expected.q[:, k], atol=1e-12)
+        np.testing.assert_allclose(
+            r.rotation(link), np.swapaxes(expected.q[:, k + 1 : k + 4], 1, 2), atol=1e-12
+        )
+    forces = np.array(list(expected.forces.values()))
+    largest = np.max(np.abs(forces))
+    for drive, effort in expected.efforts.items():
+        np.testing.assert_allclose(r.effort(drive), effort, rtol=0, atol=1e-10 * largest)
+    for joint, mask in natural.unique(m, path).items():
+        np.testing.assert_array_equal(r.unique(joint), mask, err_msg=joint)
+        both = np.concatenate([expected.forces[joint], expected.moments[joint]], -1)
+        found = np.concatenate([r.reaction(joint), r.reaction_moment(joint)], -1)
+        np.testing.assert_allclose(found[mask], both[mask], rtol=0, atol=1e-10 * largest, err_msg=joint)
+        assert np.isnan(found[~mask]).all()
