@@ -70,6 +70,8 @@ def figures() -> None:
     da.draw.free_bodies(slider).save(FIGURES / "free_bodies.svg", overwrite=True)
     da.draw.lines_of_action(slider, "rod").save(FIGURES / "lines_of_action.svg", overwrite=True)
     da.draw.motion(r).save(FIGURES / "motion.svg", overwrite=True)
+    rubbing = da.statics(da.load(cases()["seed-002-7g-engine-guide-100-mm"]))
+    da.draw.mechanism(rubbing).save(FIGURES / "friction.svg", overwrite=True)
     force_systems()
 
 

@@ -29,9 +29,10 @@ if TYPE_CHECKING:
     from dalembert.analysis.answers import check_file
     from dalembert.analysis.batch import BatchResult, Kernel, compile  # noqa: A004
     from dalembert.analysis.branches import other_solutions
+    from dalembert.analysis.circles import friction_circles
     from dalembert.analysis.efficiency import efficiency
     from dalembert.analysis.fixed_point import fixed_point
-    from dalembert.analysis.friction import friction_circles, guide_contact
+    from dalembert.analysis.friction import guide_contact
     from dalembert.analysis.lift import lifted
     from dalembert.analysis.members import displaced_inertia, inertia_shares, members, order_of_solution
     from dalembert.analysis.mistakes import check_answers
@@ -145,7 +146,7 @@ _HOME = {
     "fixed_point": "analysis.fixed_point",
     "forces_on": "analysis.actions",
     "four_bar": "model.library",
-    "friction_circles": "analysis.friction",
+    "friction_circles": "analysis.circles",
     "guide_contact": "analysis.friction",
     "inertia_shares": "analysis.members",
     "inverted_slider_crank": "model.library",

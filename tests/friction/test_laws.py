@@ -69,6 +69,14 @@ def scale(r: Any) -> float:
     return float(np.nanmax(np.abs(r.force_array)) * np.nanmax(np.abs(r.twist_array)) + 1e-300)
 
 
+@over(24, 200)
+def test_virtual_work_with_the_losses_of_friction(seed: int) -> None:
+    r = da.dynamics(rough(seed))
+    good = solved(r)
+    if good.any() and r.drives:
+        assert np.max(da.virtual_work(r).gap[good]) < 1e-10
+
+
 @over(8, 200)
 def test_links_balance(seed: int) -> None:
     tree = rough_tree(seed)

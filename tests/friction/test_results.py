@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.bundled import examples
 from dalembert.cli import main
 from tests.friction.engines import engine, pushed_slider
 from tests.friction.test_laws import CYCLES, cycle, solved
@@ -203,3 +204,53 @@ def test_the_arm_of_full_depth_teeth() -> None:
     ra, rb, m, alpha = 0.05, 0.1, 0.005, np.radians(20)
     parts = [np.sqrt((r + m) ** 2 - (r * np.cos(alpha)) ** 2) - r * np.sin(alpha) for r in (ra, rb)]
     assert contact_arm(gear) == pytest.approx((parts[0] ** 2 + parts[1] ** 2) / 2 / sum(parts), rel=1e-12)
+
+
+def test_each_effort_has_an_interval_of_its_own() -> None:
+    """Five-bar robot: at an end of one effort the other one has one of its own interval, and all is balanced."""
+    m = da.load(examples()["two_drives"])
+    rub = {f"joints.{n}.friction": {"coefficient": 0.2, "radius": 0.01} for n in m.joints}
+    r = da.statics(m.with_values(rub))
+    assert set(r.status) == {"at_rest"}
+    for n, name in enumerate(("O2", "O5")):
+        low, high = r.interval(name).T
+        for end, value in zip(r.ends[n], (low, high), strict=True):
+            assert end.effort(name) == pytest.approx(value)
+            assert np.max(end.residual) < 1e-9
+            other = "O5" if name == "O2" else "O2"
+            least, most = r.interval(other).T
+            room = 1e-9 * np.abs(most)
+            assert np.all((least - room <= end.effort(other)) & (end.effort(other) <= most + room))
+    assert r.reasons[0] == (
+        "At rest between 120 deg and 95 deg of O2, 60 deg and 50 deg of O5: O2 and O5 each lie in an interval of their "
+        "own. At its ends the machine is about to move with the other drives held, and what else was asked for has the "
+        "value given there; not every combination of values within the intervals holds the machine. For O2, at both "
+        "ends friction is at its limit in O2, A, C, B. For O5, at both ends friction is at its limit in A, C, B, O5."
+    )
+
+
+def test_a_structure_with_friction_says_what_can_be_asked() -> None:
+    m = da.load(examples()["truss"])
+    r = da.statics(m.with_values({"joints.A.friction": {"coefficient": 0.2, "radius": 0.01}}))
+    assert r.status == ("at_rest",)
+    assert r.reasons[0] == (
+        "Nothing moves in a structure: it holds any load, and friction may take any part of it within its limits. "
+        "Switch it off for the reactions without it. To ask what friction holds, leave out the joint in whose place it "
+        "is to hold, and give the freedom that this leaves a drive without speed."
+    )
+    with pytest.raises(da.ModelError, match="a structure holds any load: leave out the joint"):
+        da.statics(m.with_values({"loads.at_B": {"type": "couple", "on": "AB", "value": "unknown"}}))
+
+
+def test_printed_efficiency_and_virtual_work(capsys: pytest.CaptureFixture[str]) -> None:
+    main(["solve", str(CASES / "seed-002-7a-engine-friction-circles.yaml"), "--method", "virtual-work"])
+    out = " ".join(capsys.readouterr().out.split())
+    assert (
+        "Efficiency, without inertia: 80.41 % where the drive moves the load; 76.99 % where the load" in out
+    )
+    assert "friction in A 0 0 530.68 0 0 -1.1569 -613.96" in out
+    assert "with friction virtual work checks that answer, it is no independent solution." in out
+    main(["solve", str(CASES / "seed-002-7d-engine-at-rest.yaml"), "--method", "virtual-work"])
+    out = capsys.readouterr().out
+    assert "At the low end of O:" in out
+    assert "O = -7304.02 N*m" in out

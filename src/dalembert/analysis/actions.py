@@ -30,7 +30,8 @@ class Action:
     """A force (P, 2) at a point (P, 2) and a couple (P,) on a link, all in ground axes.
 
     ``source`` is the contribution it belongs to in a superposition, empty for joints' reactions; ``by`` the link
-    that exerts it, where it is one; ``of`` the joint, drive or load.
+    that exerts it, where it is one; ``of`` the joint, drive or load. ``part`` of a joint's reaction, empty where it is
+    whole: `normal` where dry friction along a slide is by itself, `ahead` or `behind` at a corner of a guide.
     """
 
     of: str
@@ -41,6 +42,7 @@ class Action:
     at: Array
     force: Array
     couple: Array
+    part: str = ""
 
     def moment(self, about: Array) -> Array:
         """Moment (P,) about a point (P, 2): couple + r x F."""
@@ -75,7 +77,17 @@ def actions(r: Result) -> tuple[Action, ...]:
 
     Units N, N m, m; the sum over a link is zero (ground aside) at every solved position.
     """
-    return (*joint_actions(r), *effort_actions(r), *known_actions(r), *unknown_load_actions(r))
+    return (*joint_actions(r), *other_actions(r))
+
+
+def whole_actions(r: Result) -> tuple[Action, ...]:
+    """The same with dry friction inside the reactions, at the joints' own places."""
+    return (*joint_actions(r, split=False), *other_actions(r))
+
+
+def other_actions(r: Result) -> tuple[Action, ...]:
+    """Everything but the reactions of joints."""
+    return (*effort_actions(r), *known_actions(r), *unknown_load_actions(r))
 
 
 def forces_on(r: Result, link: str) -> dict[str, tuple[Action, ...]]:
@@ -99,8 +111,8 @@ def on_link(all_of_them: tuple[Action, ...], link: str) -> tuple[Action, ...]:
     return tuple(a for a in all_of_them if a.link == link)
 
 
-def joint_actions(r: Result) -> tuple[Action, ...]:
-    """Reactions of all joints, on both links; the part of dry friction by itself."""
+def joint_actions(r: Result, split: bool = True) -> tuple[Action, ...]:
+    """Reactions of all joints, on both links; ``split`` takes the part of dry friction by itself."""
     out = []
     for joint in r.joints:
         i, j = r.mechanism.joints[joint].links
@@ -108,10 +120,31 @@ def joint_actions(r: Result) -> tuple[Action, ...]:
         for on, by in ((j, i), (i, j)):
             least = r.least_norm(joint, on)
             rub, turn = r.friction_force(joint, on), r.friction_moment(joint, on)
-            rest = (least[..., :2] - rub, least[..., 2] - turn)
-            out.append(Action(joint, "joint", "", on, by, at, *rest))
-            if rub.any() or turn.any():
-                out.append(Action(joint, "friction", "", on, by, at, rub, turn))
+            if not split or not (rub.any() or turn.any()):
+                out.append(Action(joint, "joint", "", on, by, at, least[..., :2], least[..., 2]))
+                continue
+            part = "normal" if rub.any() else ""
+            out.append(
+                Action(joint, "joint", "", on, by, at, least[..., :2] - rub, least[..., 2] - turn, part)
+            )
+            out.append(Action(joint, "friction", "", on, by, at, rub, turn))
+    return tuple(out)
+
+
+def friction_actions(r: Result) -> tuple[Action, ...]:
+    """Dry friction and, beside it, damping of each joint on j, exerted by i, at j's point."""
+    if r.friction is None:
+        return ()
+    f, out = r.friction, []
+    for k, joint in enumerate(r.joints):
+        i, j = r.mechanism.joints[joint].links
+        at = joint_place(r, joint)
+        for source, force, couple in (
+            (f"friction in {joint}", f.force[:, k], f.moment[:, k]),
+            (f"damping of {joint}", f.viscous_force[:, k], f.viscous_moment[:, k]),
+        ):
+            if force.any() or couple.any():
+                out.append(Action(joint, "friction", source, j, i, at, force, couple))
     return tuple(out)
 
 

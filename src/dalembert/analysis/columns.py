@@ -158,12 +158,10 @@ def rubbing_joints(result: Result) -> list[str]:
     """Joints with dry or viscous friction, where friction is on."""
     if result.friction is None:
         return []
+    from dalembert.analysis.loads import joint_damping
+
     joints = result.mechanism.joints
-    return [
-        n
-        for n in result.joints
-        if getattr(joints[n], "friction", None) or getattr(joints[n], "damping", None)
-    ]
+    return [n for n in result.joints if getattr(joints[n], "friction", None) or joint_damping(joints[n])]
 
 
 def _friction_columns(result: Result, joint: str) -> Iterator[Column]:

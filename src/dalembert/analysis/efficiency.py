@@ -143,7 +143,8 @@ def _steps(r: Result) -> Array:
     if r.compiled.period is not None:
         target = r.compiled.period[len(r.compiled.target) + k]
         position, speed = np.append(position, position[0] + target), np.append(speed, speed[0])
-    return np.asarray(np.abs(2 * np.diff(position) / (speed[1:] + speed[:-1])))
+    twice = speed[1:] + speed[:-1]
+    return np.asarray(np.abs(2 * np.diff(position) / np.where(twice != 0, twice, np.nan)))
 
 
 def _work(power: Array, weight: Array) -> float:

@@ -15,7 +15,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.algebra.lines import meeting_point
-from dalembert.analysis.actions import Action, actions, magnitude, on_link, slide_direction
+from dalembert.analysis.actions import (
+    Action,
+    actions,
+    magnitude,
+    on_link,
+    slide_direction,
+    whole_actions,
+)
+from dalembert.analysis.friction import friction_circle_radius
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
@@ -32,7 +40,8 @@ KINDS = {2: "two-force", 3: "three-force", 4: "four-force"}
 class Member:
     """A link's class: what acts on it, and for a two-force member its tension (P,), negative in compression.
 
-    ``forces`` and ``couples`` name what acts: joints, loads, `weight`, `inertia`.
+    ``forces`` and ``couples`` name what acts: joints, loads, `weight`, `inertia`. ``circles``: joints whose reaction
+    dry friction moves off the pin's centre, onto a tangent of its friction circle.
     """
 
     link: str
@@ -40,6 +49,7 @@ class Member:
     forces: tuple[str, ...]
     couples: tuple[str, ...]
     tension: Array | None
+    circles: tuple[str, ...] = ()
 
     def state(self, k: int) -> str:
         """`tension`, `compression` or nothing, at position k."""
@@ -52,7 +62,25 @@ class Member:
         """Why it has this class."""
         what = _listed(self.forces) or "no force"
         couples = f"; couples: {_listed(self.couples)}" if self.couples else "; no couple"
-        return f"{self.link}: {self.kind} member (forces: {what}{couples})"
+        words = f"{self.link}: {self.kind} member (forces: {what}{couples})"
+        return f"{words}; {self.touching}" if self.circles else words
+
+    @property
+    def touching(self) -> str:
+        """Where friction puts the lines of the reactions; empty without friction circles."""
+        if not self.circles:
+            return ""
+        at = f"the friction circle{'s' if len(self.circles) > 1 else ''} at {_listed(self.circles)}"
+        if self.kind == "two-force" and len(self.circles) > 1:
+            return f"both forces lie on one common tangent of {at}"
+        if self.kind == "two-force":
+            return f"both forces lie on one line, which touches {at} and passes the other pin's centre"
+        each = f"each reaction touches {at}" if len(self.circles) > 1 else f"the reaction touches {at}"
+        joints = [f for f in self.forces if f in self.circles]
+        if len(self.forces) > len(joints) == 2:
+            rest = _listed([*(f for f in self.forces if f not in joints), *self.couples])
+            return f"not a two-force member, as {rest} acts too: {each}, on different lines"
+        return each
 
 
 @dataclass(frozen=True)
@@ -104,27 +132,31 @@ def members(r: Result, limit: float = NOTHING) -> dict[str, Member]:
     >>> {name: member.kind for name, member in found.items()}
     {'crank': 'two-force with couple', 'coupler': 'two-force', 'rocker': 'three-force'}
     """
-    everything = actions(r)
+    everything, split = whole_actions(r), actions(r)
     largest = max((float(np.nanmax(magnitude(a.force), initial=0.0)) for a in everything), default=0.0)
     floor = limit * largest
-    return {link: _member(r, link, on_link(everything, link), floor) for link in r.links}
+    return {
+        link: _member(r, link, on_link(everything, link), on_link(split, link), floor) for link in r.links
+    }
 
 
-def _member(r: Result, link: str, some: Sequence[Action], floor: float) -> Member:
-    some = [a for a in some if a.kind != "friction"]
+def _member(r: Result, link: str, some: Sequence[Action], split: Sequence[Action], floor: float) -> Member:
+    """The class of a link from its forces with friction in them, and from its couples without friction's."""
     forces = [a for a in some if a.kind == "joint" or np.nanmax(magnitude(a.force), initial=0.0) > floor]
     length = r.compiled.layout.length
     couples = [
         a
-        for a in some
+        for a in split
         if np.nanmax(np.abs(a.couple), initial=0.0) > floor * length
+        and a.kind != "friction"
         and not (a.kind == "joint" and r.mechanism.joints[a.of].type == "slider")
     ]
     kind = KINDS.get(len(forces), "general")
     if couples:
         kind = "two-force with couple" if kind == "two-force" else "general"
     tension = _tension(forces) if kind == "two-force" else None
-    return Member(link, kind, tuple(map(_name, forces)), tuple(map(_name, couples)), tension)
+    circles = tuple(a.of for a in forces if a.kind == "joint" and friction_circle_radius(r, a.of))
+    return Member(link, kind, tuple(map(_name, forces)), tuple(map(_name, couples)), tension, circles)
 
 
 def _name(a: Action) -> str:
@@ -132,10 +164,9 @@ def _name(a: Action) -> str:
 
 
 def _tension(two: Sequence[Action]) -> Array:
-    """Pull along the line from the first point to the second (P,)."""
-    line = two[1].at - two[0].at
-    length = magnitude(line)
-    return np.asarray((two[1].force * line).sum(axis=-1) / np.where(length > 0, length, 1.0))
+    """Pull from the first point towards the second (P,); with friction its line passes beside them."""
+    along = (two[1].force * (two[1].at - two[0].at)).sum(axis=-1)
+    return np.asarray(magnitude(two[1].force) * np.sign(along))
 
 
 def _listed(names: Sequence[str]) -> str:
@@ -247,19 +278,32 @@ def components_along(r: Result, a: Action, k: int) -> tuple[float, float]:
 
 
 def inertia_shares(r: Result) -> tuple[Share, ...]:
-    """How much of every effort and joint force is inertia's, over the cycle, the largest first."""
+    """How much of every effort and joint force is inertia's, over the cycle, the largest first.
+
+    Where forces add it is inertia's part of the superposition, else the difference to the answer without inertia.
+    """
+    efforts, forces = _parts_of_inertia(r)
+    out = []
+    for k, drive in enumerate(r.drives):
+        out.append(_share(drive, "effort", np.abs(r.effort_array[:, k]), np.abs(efforts[:, k])))
+    for k, joint in enumerate(r.joints):
+        whole, part = magnitude(r.force_array[:, k, :]), magnitude(forces[:, k, :])
+        out.append(_share(joint, "reaction", whole, part))
+    return tuple(sorted(out, key=lambda s: -s.share))
+
+
+def _parts_of_inertia(r: Result) -> tuple[Array, Array]:
+    """Inertia's part of the efforts (P, D) and joint forces (P, J, 2)."""
+    if r.friction is not None or r.compiled.forcing.separation.any():
+        from dalembert.analysis.solve import at_schedule
+
+        still = at_schedule(r.mechanism, r.schedule, inertia=False)
+        return r.effort_array - still.effort_array, r.force_array - still.force_array
     from dalembert.analysis.superposition import superposition
 
     parts = superposition(r)
     which = [k for k, s in enumerate(parts.sources) if s.startswith("inertia")]
-    out = []
-    for k, drive in enumerate(r.drives):
-        part = np.abs(parts.efforts[which][..., k].sum(axis=0))
-        out.append(_share(drive, "effort", np.abs(r.effort_array[:, k]), part))
-    for k, joint in enumerate(r.joints):
-        part = magnitude(parts.force[which][..., k, :].sum(axis=0))
-        out.append(_share(joint, "reaction", magnitude(r.force_array[:, k, :]), part))
-    return tuple(sorted(out, key=lambda s: -s.share))
+    return parts.efforts[which].sum(axis=0), parts.force[which].sum(axis=0)
 
 
 def _share(of: str, quantity: str, whole: Array, part: Array) -> Share:

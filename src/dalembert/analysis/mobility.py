@@ -101,13 +101,18 @@ def check_knowns(c: Compiled) -> None:
     unknown = len(c.unknown_loads)
     if given == unknown:
         return
-    efforts = _count(given, "drive effort") + (" is" if given == 1 else " are") + " given"
+    efforts = _count(given, "drive effort") + (" is" if given <= 1 else " are") + " given"
     loads = _count(unknown, "load") + (" is" if unknown == 1 else " are") + " unknown"
     if given > unknown:
         more = _count(given - unknown, "load")
         remedy = f"make {more} unknown (`value: unknown` with a direction) or leave the efforts out"
         raise ModelError(f"{efforts} but {loads}", remedy, ("drives",))
     remedy = f"give the effort of {_count(unknown - given, 'drive')} or the values of the loads"
+    if not c.schedule.names:
+        remedy = (
+            "a structure holds any load: leave out the joint in whose place the load is to hold, and give the freedom "
+            "that this leaves a drive with `effort: 0`"
+        )
     raise ModelError(f"{loads} but {efforts}", remedy, ("loads", c.unknown_loads[0]))
 
 

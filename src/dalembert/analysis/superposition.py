@@ -96,7 +96,7 @@ def superposition(r: Result) -> Superposition:
     >>> f"{float(sum(parts.effort('O2').values())[0]):.4f} N m, gap below 1e-11: {bool(parts.gap.max() < 1e-11)}"
     '27.4822 N m, gap below 1e-11: True'
     """
-    refuse_nonlinear(r, "superposition")
+    refuse_nonlinear(r)
     at = state(r)
     known = known_actions(r, at)
     sources = tuple(dict.fromkeys(a.source for a in known))
@@ -110,16 +110,16 @@ def superposition(r: Result) -> Superposition:
     return Superposition(r, sources, *(np.stack(p) for p in zip(*parts, strict=True)))
 
 
-def refuse_nonlinear(r: Result, method: str) -> None:
+def refuse_nonlinear(r: Result) -> None:
     """Forces that depend on other forces' magnitudes do not add."""
     if not r.assumptions.get("friction", "off").startswith("off"):
         raise ModelError(
-            f"{method} is refused: with dry friction the forces do not add, as its size goes with |F|",
+            "superposition is refused: with dry friction the forces do not add, as its size goes with |F|",
             "leave friction out with --no-friction, or use --method matrix",
         )
-    if method == "superposition" and r.compiled.forcing.separation.any():
+    if r.compiled.forcing.separation.any():
         raise ModelError(
-            f"{method} is refused: the separating force of gear teeth goes with |F|, so the parts do not add",
+            "superposition is refused: the separating force of gear teeth goes with |F|, so the parts do not add",
             "use --method matrix, or set pressure_angle: 0 deg",
         )
 

@@ -95,29 +95,48 @@ def _locked_sentence(c: Compiled, f: Forces, run: Run) -> str:
 def _open_sentence(c: Compiled, f: Forces, run: Run) -> str:
     assert f.friction is not None
     open_ = f.friction.open[run]
-    names = ", ".join(_unknowns(c))
+    names = _unknowns(c)
     if not names:
         return (
-            "Nothing moves in a structure: friction may take any part of the loads within its limits. "
-            "Switch it off for the reactions without it."
+            "Nothing moves in a structure: it holds any load, and friction may take any part of it within its limits. "
+            "Switch it off for the reactions without it. To ask what friction holds, leave out the joint in whose "
+            "place it is to hold, and give the freedom that this leaves a drive without speed."
         )
     if open_.all(axis=None) or not f.friction.sense[run].any():
-        held = (
-            f"At rest{arc(c, run)}: any value of {names} between the two impending motions holds the machine"
-        )
-        return held + _limits(c, f, run) + "."
+        return _rest_sentence(c, f, run, names)
     joints = ", ".join(dict.fromkeys(c.joints[k] for k in c.contacts.joint[open_.any(axis=0)]))  # type: ignore[union-attr]
+    verb = "lies in an interval" if len(names) == 1 else "each lie in an interval of their own"
     return (
         f"No relative motion in {joints}{arc(c, run)}: the friction there may have any value within its limits, "
-        f"and {names} lies in an interval."
+        f"and {_and(names)} {verb}."
     )
 
 
-def _limits(c: Compiled, f: Forces, run: Run) -> str:
-    """Which joints are at their limit at the ends of the first unknown."""
+def _rest_sentence(c: Compiled, f: Forces, run: Run, names: list[str]) -> str:
+    """At rest: what holds the machine, and where friction is at its limit."""
+    if len(names) == 1:
+        held = f"any value of {names[0]} between the two impending motions holds the machine"
+        return f"At rest{arc(c, run)}: {held}{_limits(c, f.ends[:2], run)}."
+    limits = "".join(
+        f" For {name}{_limits(c, f.ends[2 * n : 2 * n + 2], run).replace(';', ',', 1)}."
+        for n, name in enumerate(names)
+    )
+    return (
+        f"At rest{arc(c, run)}: {_and(names)} each lie in an interval of their own. At its ends the machine is about "
+        "to move with the other drives held, and what else was asked for has the value given there; not every "
+        f"combination of values within the intervals holds the machine.{limits}"
+    )
+
+
+def _and(names: list[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+
+
+def _limits(c: Compiled, ends: tuple[Forces, ...], run: Run) -> str:
+    """Which joints are at their limit at the ends of an unknown."""
     assert c.contacts is not None
     parts = []
-    for end, name in zip(f.ends[:2], ("low", "high"), strict=False):
+    for end, name in zip(ends, ("low", "high"), strict=False):
         assert end.friction is not None
         at_limit = (end.friction.sense[run] != 0).any(axis=0) & ~c.contacts.fixed
         joints = ", ".join(dict.fromkeys(c.joints[k] for k in c.contacts.joint[at_limit]))

@@ -17,7 +17,14 @@ from dalembert.analysis.columns import (
     unknown_kinds,
 )
 from dalembert.analysis.wrenches import Axes
-from dalembert.cli.rubbing import branch_note, ends_text, friction_table, with_ends
+from dalembert.cli.rubbing import (
+    branch_note,
+    cycle_text,
+    efficiency_note,
+    ends_text,
+    friction_table,
+    with_ends,
+)
 from dalembert.cli.text import number, table, tables, wrapped
 
 if TYPE_CHECKING:
@@ -90,8 +97,9 @@ def _one(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
         yield from _ends(result, to, axes)
     elif result.joints:
         yield _reaction_table(result, to, axes)
-        if result.friction is not None:
+        if result.friction is not None and np.isfinite(result.friction.cz[0]).all():
             yield friction_table(result, to)
+            yield wrapped(efficiency_note(result))
     if result.links:
         yield _link_tables(result, to)
 
@@ -226,6 +234,7 @@ def _many(result: Result, to: Printed, axes: Axes, every: bool) -> Iterator[str]
         yield f"{len(rows)} of {count} positions are shown; --all prints every one, --csv FILE writes them."
     if count > 2:
         yield _peak_table(result, to, axes)
+        yield cycle_text(result, to)
 
 
 def _series(result: Result, to: Printed, axes: Axes) -> tuple[list[str], list[Any]]:

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.columns import UnitChoice, drive_kinds, load_kind
+from dalembert.analysis.friction import unknown_names
 from dalembert.cli.answer import Printed, printed
-from dalembert.cli.text import number, table
+from dalembert.cli.text import number, table, wrapped
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
@@ -59,11 +60,39 @@ def virtual_work_answer(result: Result, units: UnitChoice) -> tuple[Result, str]
     from dalembert.analysis.virtual_work import virtual_work
 
     found, to, k = virtual_work(result), printed(result, units), _first(result)
-    blocks = [_powers(found, n, k, to) for n in range(len(result.drives))]
-    gap = float(np.nanmax(found.gap, initial=0.0))
-    words = f"No reaction appears. The matrix answer agrees within {gap:.1e}."
+    blocks = _all_powers(found, k, to)
+    if result.status[k] == "at_rest":
+        blocks = []
+        for name, pair in zip(unknown_names(result), result.ends, strict=True):
+            for which, end in zip(("low", "high"), pair, strict=True):
+                at_end = virtual_work(end)
+                known = bool(np.isfinite(at_end.effort[k]).all())
+                blocks.append(f"At the {which} end of {name}:" + ("" if known else " no value"))
+                blocks += _all_powers(at_end, k, to) if known else []
     where = f" at position {k + 1} of {len(result.status)}" if len(result.status) > 1 else ""
-    return found.answer, "\n\n".join([f"Virtual work{where}", *blocks, words])
+    return found.answer, "\n\n".join([f"Virtual work{where}", *blocks, *_agreement(found)])
+
+
+def _agreement(found: Any) -> list[str]:
+    """How far the matrix answer is off, and what that shows."""
+    words = []
+    if not found.independent:
+        words.append(
+            "The work of friction contains the reactions of the matrix answer: with friction virtual work checks "
+            "that answer, it is no independent solution."
+        )
+    if np.isfinite(found.gap).any():
+        gap = f"{float(np.nanmax(found.gap)):.1e}"
+        words.append(
+            f"No reaction appears. The matrix answer agrees within {gap}."
+            if found.independent
+            else f"They agree within {gap}."
+        )
+    return [wrapped(" ".join(words))] if words else []
+
+
+def _all_powers(found: Any, k: int, to: Printed) -> list[str]:
+    return [_powers(found, n, k, to) for n in range(len(found.result.drives))]
 
 
 def _powers(found: Any, drive: int, k: int, to: Printed) -> str:
@@ -73,8 +102,9 @@ def _powers(found: Any, drive: int, k: int, to: Printed) -> str:
     kind = "moment" if angular else "force"
     unit = "1 rad" if angular else "1 m"
     rows = []
+    fastest = float(np.abs(found.velocity[:, k, drive]).max(initial=0.0))
     for a, v, w, p in zip(found.actions, found.velocity, found.spin, found.power, strict=True):
-        speed, force = v[k, drive], a.force[k]
+        speed, force = np.where(np.abs(v[k, drive]) > 1e-13 * fastest, v[k, drive], 0.0), a.force[k]
         per = to("length", 1.0) if angular else 1.0
         cells = [force[0] * to("force", 1.0), force[1] * to("force", 1.0), a.couple[k] * to("moment", 1.0)]
         moved = [speed[0] * per, speed[1] * per, w[k, drive] * (1.0 if angular else 1 / to("length", 1.0))]

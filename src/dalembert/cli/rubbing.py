@@ -59,6 +59,47 @@ def branch_note(result: Result) -> str:
     )
 
 
+NOTHING = 1e-9
+"""An efficiency below this is rounding."""
+
+
+def efficiency_note(result: Result) -> str:
+    """Efficiency at a single position in both senses; without speed there is none."""
+    from dalembert.analysis.efficiency import efficiency
+
+    if not (result.schedule.speed != 0).any():
+        return ""
+    found = efficiency(result)
+    senses = ((found.forward[0], "drive moves the load"), (found.reverse[0], "load moves the drive"))
+    parts = [
+        f"{number(100 * float(value), 4)} % where the {words}"
+        for value, words in senses
+        if np.isfinite(value)
+    ]
+    return f"Efficiency, without inertia: {'; '.join(parts)}." if parts else ""
+
+
+def cycle_text(result: Result, to: Any) -> str:
+    """What each joint's friction takes over all positions, and the efficiency."""
+    from dalembert.analysis.efficiency import efficiency
+
+    if result.friction is None or not (result.schedule.speed != 0).any():
+        return ""
+    found = efficiency(result)
+    if not np.isfinite(found.cycle):
+        return ""
+    unit = to("moment", 1.0)
+    rows = [
+        [joint, number(share * found.put_in * unit), f"{number(100 * share, 4)} %"]
+        for joint, share in found.share.items()
+        if joint in rubbing_joints(result)
+    ]
+    heads = ["friction over\nthe positions", f"work lost\n{to.text('moment')}", "of the work\nput in"]
+    cycle = 0.0 if abs(found.cycle) < NOTHING else 100 * found.cycle
+    words = f"Efficiency over the positions, inertia and all: {number(cycle, 4)} %."
+    return f"{tables(heads, rows, 1)}\n{words}"
+
+
 MOST_STEPS = 24
 """Steps of the taught iteration that are printed."""
 

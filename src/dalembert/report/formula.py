@@ -38,7 +38,7 @@ _GREEK = {
 
 WORDS: dict[str, Word] = {
     **{name: Word(name, "\\" + name, sign) for name, sign in _GREEK.items()},
-    **{name: Word(name, "\\" + name, name) for name in ("cos", "sin", "tan")},
+    **{name: Word(name, "\\" + name, name) for name in ("cos", "sin", "tan", "arcsin", "arctan")},
     "sum": Word("sum", "\\sum", "Σ"),
     "cdot": Word("dot.c", "\\cdot", "·"),
     "times": Word("times", "\\times", "×"),

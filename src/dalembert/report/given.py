@@ -8,7 +8,7 @@ from dalembert.analysis.actions import actions
 from dalembert.analysis.columns import drive_kinds
 from dalembert.report.chosen import Chosen, as_formula
 from dalembert.report.sheet import Sheet
-from dalembert.views import draw
+from dalembert.views.mechanism import mechanism_scene
 from dalembert.views.notation import Shown, own_name
 
 
@@ -42,7 +42,7 @@ def knowns(sheet: Sheet, c: Chosen) -> None:
     sheet.table(["Load", "Type", "Value"], loads)
     assumed = "; ".join(f"{name} {value}" for name, value in r.assumptions.items())
     sheet.text(f"Assumptions: {assumed}. {_convention(c)}")
-    sheet.figure(draw.mechanism(r, c.k + 1, c.notation))
+    sheet.figure(mechanism_scene(r, c.k, c.notation, friction=False))
 
 
 def _convention(c: Chosen) -> str:

@@ -22,6 +22,8 @@ def graphical(sheet: Sheet, c: Chosen) -> None:
     found = members(r)
     kinds = [f"{shown.heading(link)}: {m.kind} {m.state(c.k)}".strip() for link, m in found.items()]
     sheet.text(f"Classes of the links. {'; '.join(kinds)}.")
+    touching = [f"{shown.heading(link)}: {m.touching}" for link, m in found.items() if m.touching]
+    sheet.text(f"With friction: {'; '.join(touching)}." if touching else "")
     sheet.text(f"Order of solution: {'; then '.join(step.why for step in order_of_solution(r, found))}.")
     at = c.k + 1
     lines = [
@@ -98,17 +100,21 @@ def virtual_work(sheet: Sheet, c: Chosen) -> None:
     r, shown, k = c.r, c.shown, c.k
     if not r.drives:
         return
-    sheet.heading("Virtual work, the independent check")
-    try:
-        found = by_virtual_work(r)
-    except ModelError as error:
-        sheet.text(f"{error.what[:1].upper()}{error.what[1:]}.")
-        return
+    found = by_virtual_work(r)
+    if found.independent:
+        sheet.heading("Virtual work, the independent check")
+    else:
+        sheet.heading("Virtual work, a check")
+        sheet.text(
+            "The work of friction contains the joint forces found above: with friction virtual work checks that "
+            "solution, it is no independent one."
+        )
+    idle = "no reaction does work" if found.independent else "of the reactions friction alone does work"
     for n, drive in enumerate(r.drives):
         kind = drive_kinds(r, drive)["effort"]
         angular = kind == "moment"
         unit = "rad" if angular else shown.unit("length")
-        sheet.text(f"Displacements for one {unit} of drive {drive}; no reaction does work.")
+        sheet.text(f"Displacements for one {unit} of drive {drive}; {idle}.")
         length = shown.value("length", 1.0)
         move, turn = (length, 1.0) if angular else (1.0, 1.0 / length)
         rows = []
@@ -118,18 +124,13 @@ def virtual_work(sheet: Sheet, c: Chosen) -> None:
             dx, dy = (
                 shown.notation.number(float(x) * move if abs(float(x)) > 1e-12 else 0.0) for x in v[k, n]
             )
-            rows.append(
-                [
-                    source_sign(c, a.source),
-                    _pair_of(shown, "force", a.force[k])
-                    if force
-                    else shown.number("moment", float(a.couple[k])),
-                    f"({dx}, {dy})"
-                    if force
-                    else shown.notation.number(float(w[k, n]) * turn * c.notation.torque),
-                    shown.number(kind, float(p[k, n]) * c.notation.torque**angular, 1e-12 * largest),
-                ]
-            )
+            acts = [_pair_of(shown, "force", a.force[k])] if force else []
+            moves = [f"({dx}, {dy})"] if force else []
+            if a.couple[k] or not force:
+                acts.append(shown.number("moment", float(a.couple[k])))
+                moves.append(shown.notation.number(float(w[k, n]) * turn * c.notation.torque))
+            work = shown.number(kind, float(p[k, n]) * c.notation.torque**angular, 1e-12 * largest)
+            rows.append([source_sign(c, a.source), " and ".join(acts), " and ".join(moves), work])
         total = float(found.power[:, k, n].sum())
         rows.append(["sum", "", "", shown.number(kind, total * c.notation.torque**angular)])
         heads = ["Load", "Force or couple", "Displacement or turn", f"Work ({shown.unit(kind)})"]

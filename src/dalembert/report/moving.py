@@ -62,7 +62,7 @@ def inertia(sheet: Sheet, c: Chosen) -> None:
     sheet.equations(lines)
     displaced = [k for k in heavy if r.mechanism.inertia(k) and float(r.acceleration(k)[c.k])]
     sheet.figure(*(draw.displaced_inertia(r, k, c.k + 1, c.notation) for k in displaced[:3]))
-    shares = inertia_shares(r) if not r.compiled.forcing.separation.any() else ()
+    shares = inertia_shares(r)
     if shares:
         least = max(s.share for s in shares)
         worst = shares[0]

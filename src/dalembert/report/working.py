@@ -12,17 +12,21 @@ from dalembert.analysis.actions import actions
 from dalembert.analysis.columns import drive_kinds, load_kind
 from dalembert.analysis.members import components_along
 from dalembert.analysis.which import position_at
-from dalembert.report import balance
+from dalembert.report import balance, rubbing
 from dalembert.report.chosen import METHODS, Chosen, Method, as_formula
 from dalembert.report.given import knowns
 from dalembert.report.methods import checks, cycle, graphical, superposition, virtual_work
 from dalembert.report.moving import inertia, motion
 from dalembert.report.sheet import Sheet, Working
-from dalembert.views import draw
+from dalembert.views import draw, rest
 from dalembert.views.notation import Notation, Shown, own_name
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
+
+
+ANSWERED = ("ok", "redundant", "self_locking")
+"""Statuses whose forces are worked out."""
 
 
 def working(
@@ -38,14 +42,18 @@ def working(
     m = r.mechanism
     sheet = Sheet(m.title or "Force analysis", m.source_text, _where(c))
     knowns(sheet, c)
-    if r.status[c.k] not in ("ok", "redundant"):
+    if rest.open_at(r, c.k):
+        rubbing.at_rest(sheet, c, _joint_forces)
+        return sheet
+    if r.status[c.k] not in ANSWERED:
         sheet.heading("No answer")
         sheet.text(f"{r.status[c.k]}: {r.reasons[c.k]}")
-        if r.status[c.k] == "at_rest":
-            sheet.equations(_intervals(c))
         return sheet
+    if r.reasons[c.k]:
+        sheet.text(f"{r.status[c.k]}: {r.reasons[c.k]}")
     motion(sheet, c)
     inertia(sheet, c)
+    rubbing.friction(sheet, c)
     _bodies(sheet, c)
     _answers(sheet, c)
     if "graphical" in methods:
@@ -57,16 +65,6 @@ def working(
     cycle(sheet, c)
     checks(sheet, c)
     return sheet
-
-
-def _intervals(c: Chosen) -> list[Working]:
-    """What friction leaves open: every effort or unknown load between the two impending motions."""
-    r, shown, out = c.r, c.shown, []
-    kinds = {d: drive_kinds(r, d)["effort"] for d in r.drives} | {u: load_kind(r, u) for u in r.unknown_loads}
-    for name, kind in kinds.items():
-        low, high = (shown.number(kind, float(v)) for v in r.interval(name)[c.k])
-        out.append(Working(f'"{name}": quad {low} "to" {high} "{shown.unit(kind)}"'))
-    return out
 
 
 def _where(c: Chosen) -> str:
@@ -84,6 +82,11 @@ def _bodies(sheet: Sheet, c: Chosen) -> None:
     sheet.figure(*(draw.free_body(r, link, c.k + 1, c.notation) for link in r.links))
     if "matrix" not in c.methods:
         return
+    if r.friction is not None:
+        sheet.text(
+            "A reaction on its friction circle is the same as the force at the pin's centre and the couple "
+            "$M_{f} = ± r F$; on a guide $N$ is the normal force and $F_{f}$ the friction. So the equations are:"
+        )
     for link in r.links:
         lines, about = balance.link_equations(r, link, c.k, shown, c.about)
         place = "the mass centre G" if about.name == "G" else f"joint {about.name}"
@@ -98,8 +101,13 @@ def _bodies(sheet: Sheet, c: Chosen) -> None:
 
 
 def _answers(sheet: Sheet, c: Chosen) -> None:
-    r, shown, k = c.r, c.shown, c.k
     sheet.heading("Joint forces and efforts")
+    _joint_forces(sheet, c)
+
+
+def _joint_forces(sheet: Sheet, c: Chosen) -> None:
+    """Table of the joint forces, then the efforts and unknown loads."""
+    r, shown, k = c.r, c.shown, c.k
     unit = shown.unit("force")
     rows = []
     for joint in r.joints:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.actions import actions
+from dalembert.analysis.actions import whole_actions
 from dalembert.analysis.columns import drive_kinds
 from dalembert.errors import ModelError
 from dalembert.saving import check_installed, new_file
@@ -133,7 +133,9 @@ def animation_scene(
     which = solved[np.unique(np.linspace(0, len(solved) - 1, min(most, len(solved))).astype(int))]
     shown = Shown(r, notation or Notation())
     frame = whole_frame(r, int(which[0]), 110.0, 85.0)
-    some = [a for a in actions(r) if a.kind in ("load", "effort", "spring", "joint") and a.link != "ground"]
+    some = [
+        a for a in whole_actions(r) if a.kind in ("load", "effort", "spring", "joint") and a.link != "ground"
+    ]
     sizes = [float(np.nanmax(np.hypot(*a.force.T), initial=0.0)) for a in some]
     per_mm = force_scale(sizes, LONGEST, unit_size(r, "force", shown.notation))
     still = Canvas()

@@ -13,7 +13,7 @@ first drive; the first solved position by default.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 from dalembert.analysis.which import position_at
@@ -26,6 +26,7 @@ from dalembert.views.mechanism import mechanism_scene, place_title
 from dalembert.views.motion import instant_centers_scene, motion_polygon_scene
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.polygons import force_chain_scene, force_polygon_scene, lines_of_action_scene
+from dalembert.views.rest import at_both_ends
 from dalembert.views.scene import Scene, stacked
 
 if TYPE_CHECKING:
@@ -37,12 +38,14 @@ View = Literal["mechanism", "free-bodies", "force-polygons", "charts", "motion",
 
 def mechanism(r: Result, at: Any = None, notation: Notation | None = None, forces: bool = False) -> Scene:
     """The mechanism with the field's symbols, its loads and traces."""
-    return mechanism_scene(r, position_at(r, at), notation, forces)
+    k = position_at(r, at)
+    return _whole(r, k, notation, lambda end: mechanism_scene(end, k, notation, forces))
 
 
 def free_body(r: Result, link: str, at: Any = None, notation: Notation | None = None) -> Scene:
     """One link with everything that acts on it, to scale."""
-    return free_body_scene(r, _link(r, link), position_at(r, at), notation)
+    k = position_at(r, at)
+    return _whole(r, k, notation, lambda end: free_body_scene(end, _link(r, link), k, notation))
 
 
 def components(r: Result, link: str, at: Any = None, notation: Notation | None = None) -> Scene:
@@ -94,17 +97,24 @@ def charts(r: Result, notation: Notation | None = None) -> Scene:
 def free_bodies(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
     """All links as free bodies, one force scale."""
     k = position_at(r, at)
-    scenes = [free_body_scene(r, link, k, notation) for link in r.links]
-    return stacked(scenes, title=_title(r, k, "Free bodies", notation))
+    title = _title(r, k, "Free bodies", notation)
+
+    def drawn(end: Result) -> Scene:
+        return stacked([free_body_scene(end, link, k, notation) for link in r.links], title=title)
+
+    return _whole(r, k, notation, drawn, title)
 
 
 def force_polygons(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
     """Polygons of each link, then of the chain."""
     k = position_at(r, at)
-    scenes = [force_polygon_scene(r, link, k, notation) for link in r.links]
-    return stacked(
-        [*scenes, force_chain_scene(r, k, notation)], title=_title(r, k, "Force polygons", notation)
-    )
+    title = _title(r, k, "Force polygons", notation)
+
+    def drawn(end: Result) -> Scene:
+        scenes = [force_polygon_scene(end, link, k, notation) for link in r.links]
+        return stacked([*scenes, force_chain_scene(end, k, notation)], title=title)
+
+    return _whole(r, k, notation, drawn, title)
 
 
 def beside(scenes: Sequence[Scene], title: str = "", width: float = 240.0) -> Scene:
@@ -199,6 +209,13 @@ def _link(r: Result, link: str) -> str:
     if link not in r.links:
         raise ModelError(f"there is no link {link!r}", closest(link, list(r.links)))
     return link
+
+
+def _whole(
+    r: Result, k: int, notation: Notation | None, drawn: Callable[[Result], Scene], title: str = ""
+) -> Scene:
+    """A drawing of the result, or of both ends where friction leaves it open."""
+    return at_both_ends(r, k, Shown(r, notation or Notation()), drawn, title or r.mechanism.title)
 
 
 def _title(r: Result, k: int, what: str, notation: Notation | None) -> str:

@@ -7,11 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.actions import Action, actions, on_link
+from dalembert.analysis.actions import Action, on_link, whole_actions
+from dalembert.analysis.circles import friction_circles
+from dalembert.analysis.lines import acting_lines
 from dalembert.analysis.members import components_along, members
 from dalembert.views import symbols
 from dalembert.views.canvas import Canvas
+from dalembert.views.circles import circled, draw_circles
+from dalembert.views.details import detail_scenes, with_details
 from dalembert.views.frame import Frame, fitted, force_scale
+from dalembert.views.guides import guide_block, guided
 from dalembert.views.mechanism import draw_actions, role_of, stated, unit_size
 from dalembert.views.notation import Notation, Shown, own_name
 from dalembert.views.outline import link_points, link_shape, wheels
@@ -29,10 +34,12 @@ def free_body_scene(
 ) -> Scene:
     """One link with all joint forces, loads, weights, inertia forces and couples at a position."""
     shown = Shown(r, notation or Notation())
-    everything = actions(r) if some is None else some
-    frame = _frame(r, link, k, shown)
+    everything = acting_lines(r, k) if some is None else some
+    frame = _frame(r, link, k, shown, everything)
     canvas = Canvas()
     _draw_link(canvas, r, link, k, frame, shown)
+    joints = [n for n in r.joints if link in r.mechanism.joints[n].links]
+    draw_circles(canvas, r, k, frame, circled(r, joints), link)
     mine = list(on_link(everything, link))
     per_mm = draw_actions(canvas, r, mine, k, frame, shown, LONGEST, common_scale(r, everything, k, shown))
     notes, scales = stated(shown, frame, per_mm)
@@ -41,7 +48,10 @@ def free_body_scene(
         part for part in (member.kind, "member", member.state(k) and f"in {member.state(k)}") if part
     )
     notes = [f"{kind[0].upper()}{kind[1:]}. {_distances(r, link, k, shown)}".strip(), *notes]
-    return canvas.scene(f"Link {shown.heading(link)}", notes=notes, scales=scales)
+    if member.touching:
+        notes.insert(1, f"{member.touching[0].upper()}{member.touching[1:]}.")
+    scene = canvas.scene(f"Link {shown.heading(link)}", notes=notes, scales=scales)
+    return with_details(scene, detail_scenes(r, k, frame, shown, link, words=False))
 
 
 def common_scale(
@@ -52,12 +62,17 @@ def common_scale(
     return force_scale(sizes, longest, unit_size(r, "force", shown.notation))
 
 
-def _frame(r: Result, link: str, k: int, shown: Shown) -> Frame:
+def _frame(r: Result, link: str, k: int, shown: Shown, some: tuple[Action, ...]) -> Frame:
+    """A frame that holds the link's points, wheels, friction circles and the places of its reactions."""
     places = [*link_points(r, link, k).values()]
     if r.mechanism.mass(link):
         places.append(tuple(r.center(link)[k]))
     for center, radius in _own_wheels(r, link, k):
         places += [(center[0] - radius, center[1] - radius), (center[0] + radius, center[1] + radius)]
+    places += [tuple(a.at[k]) for a in on_link(some, link) if a.kind == "joint"]
+    for name in circled(r, [n for n in r.joints if link in r.mechanism.joints[n].links]):
+        (x, y), radius = friction_circles(r, name).center[k], friction_circles(r, name).radii[k]
+        places += [(x - radius, y - radius), (x + radius, y + radius)]
     return fitted(places, 46.0, 40.0, unit_size(r, "length", shown.notation))
 
 
@@ -80,7 +95,9 @@ def _draw_link(canvas: Canvas, r: Result, link: str, k: int, frame: Frame, shown
             continue
         end = joint.links.index(link)
         at = frame(r._place(link, np.asarray(m.joint_points(name)[end], float))[k])
-        if joint.type == "slider" and end == 1:
+        if name in guided(r, [name]) and end == 1:
+            canvas.add(guide_block(r, name, k, frame))
+        elif joint.type == "slider" and end == 1:
             angle = float(r.angle(link)[k]) - float(getattr(joint, "angle", 0.0) or 0.0)
             canvas.add(*symbols.slider(at, angle))
         canvas.add(*(symbols.pin(at) if joint.type != "weld" else symbols.weld(at)))
@@ -119,10 +136,10 @@ def _distances(r: Result, link: str, k: int, shown: Shown) -> str:
 def components_scene(r: Result, link: str, k: int, notation: Notation | None = None) -> Scene:
     """Joint forces of a link resolved along and across it."""
     shown = Shown(r, notation or Notation())
-    frame = _frame(r, link, k, shown)
+    everything = whole_actions(r)
+    frame = _frame(r, link, k, shown, everything)
     canvas = Canvas()
     _draw_link(canvas, r, link, k, frame, shown)
-    everything = actions(r)
     per_mm = common_scale(r, everything, k, shown)
     angle = float(r.angle(link)[k])
     along, across = (math.cos(angle), math.sin(angle)), (-math.sin(angle), math.cos(angle))

@@ -8,15 +8,22 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.actions import Action, actions, link_place
+from dalembert.analysis.circles import two_pins
 from dalembert.views import symbols
 from dalembert.views.canvas import Canvas
+from dalembert.views.circles import circled, draw_circles
+from dalembert.views.details import detail_scenes, with_details
 from dalembert.views.frame import Frame, fitted, force_scale
+from dalembert.views.guides import guided
 from dalembert.views.notation import Figures, Notation, Shown
 from dalembert.views.outline import GROUND, draw_joint, every_place, link_points, link_shape, rail
 from dalembert.views.scene import Arrow, Line, Point, Scene
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
+
+OWN = "Friction circles to scale; dash-dotted: the line of each reaction."
+TAKEN = f"{OWN[:-1]}, of a two-force link on both circles; faint: the common tangents not taken."
 
 ROLES = {"joint": "joint-force", "spring": "load", "damper": "friction"}
 
@@ -34,23 +41,32 @@ def mechanism_scene(
     width: float = 120.0,
     height: float = 90.0,
     title: str | None = None,
+    friction: bool = True,
+    details: bool = True,
 ) -> Scene:
     """The mechanism at one position: links, joints, mass centres, traces, loads; with ``forces`` the efforts too.
 
-    Lengths and forces are to scale, both stated below.
+    Lengths and forces are to scale, both stated below. With ``friction`` (where there is some) the friction circles
+    with the lines of the reactions, and with ``details`` pins and guides at a larger scale.
     """
     shown = Shown(r, notation or Notation())
     frame = whole_frame(r, k, width, height)
     canvas = Canvas()
     draw_traces(canvas, r, frame)
     draw_links(canvas, r, k, frame)
+    rubs = friction and r.friction is not None
+    if rubs:
+        draw_circles(canvas, r, k, frame, circled(r, r.joints))
     canvas_names(canvas, r, k, frame, shown)
     kinds = ("load", "spring", "effort", "weight", "inertia", "damper") if forces else ("load", "effort")
     some = [a for a in actions(r) if a.kind in kinds and _once(r, a)]
     per_mm = draw_actions(canvas, r, some, k, frame, shown, 22.0)
     notes, scales = stated(shown, frame, per_mm)
     heading = title if title is not None else r.mechanism.title or "Mechanism"
-    return canvas.scene(place_title(r, k, heading, shown), notes=notes, scales=scales)
+    if rubs and circled(r, r.joints):
+        notes = [TAKEN if any(two_pins(r, n) for n in circled(r, r.joints)) else OWN, *notes]
+    scene = canvas.scene(place_title(r, k, heading, shown), notes=notes, scales=scales)
+    return with_details(scene, detail_scenes(r, k, frame, shown) if rubs and details else [])
 
 
 def _once(r: Result, a: Action) -> bool:
@@ -222,7 +238,9 @@ def draw_force(
 
 
 def _pushes(r: Result, a: Action, k: int) -> bool:
-    """Whether a force points from its place towards the middle of its link."""
+    """Whether a force points from its place towards the middle of its link; what bears on a guide always pushes."""
+    if a.kind == "joint" and guided(r, [a.of]):
+        return True
     places = list(link_points(r, a.link, k).values())
     if len(places) < 2:
         return False

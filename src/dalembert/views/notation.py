@@ -71,6 +71,10 @@ class Figures:
         sign = self.notation.torque if kind == "moment" else 1
         return sign * float(value if kind in RADIANS else self.scale(kind, value))
 
+    def size(self, kind: str) -> float:
+        """Size in SI of the reader's unit of a kind."""
+        return 1.0 / abs(self.value(kind, 1.0))
+
     def number(self, kind: str, value: float, floor: float = 0.0) -> str:
         """The number in the reader's unit; rounding noise below ``floor`` (SI) is 0."""
         return self.notation.number(self.value(kind, 0.0 if abs(value) < floor else value))
@@ -89,10 +93,6 @@ class Figures:
         """A vector as magnitude and direction."""
         size, angle = math.hypot(*force), math.degrees(math.atan2(force[1], force[0]))
         return f"{self.text('force', size)} ∠ {angle:.2f}°".replace("-", "−")
-
-    def size(self, kind: str) -> float:
-        """Size in SI of the reader's unit of a kind."""
-        return 1.0 / abs(self.value(kind, 1.0))
 
     def symbol(self, a: Action) -> str:
         """Sign of an action: its own name."""
@@ -138,7 +138,7 @@ class Shown(Figures):
         """Sign of an action: F_{12}, T_{12}, W_{3}, F_{I3}, T_{I3}, or the load's own name."""
         turning = not a.force.any()
         if a.kind == "joint":
-            return self.reaction(a.of, a.link)
+            return self._part(self.reaction(a.of, a.link), a.part)
         if a.kind == "effort":
             return (
                 f"{'T' if turning else 'F'}_{{{self.pair(a.by or GROUND, a.link)}{'' if turning else ',d'}}}"
@@ -151,6 +151,12 @@ class Shown(Figures):
         if a.kind == "inertia":
             return f"{'T' if turning else 'F'}_{{I{self.link(a.link)}}}"
         return own_name(a.of)
+
+    def _part(self, sign: str, part: str) -> str:
+        """N_{14} for the normal part of F_{14}; F_{14,ahead} at a corner."""
+        if part == "normal":
+            return "N" + sign.removeprefix(self.notation.letter)
+        return f"{sign[:-1]},{part}}}" if part else sign
 
     def joint_moment(self, joint: str, on: str) -> str:
         """Sign of a joint's couple on a link: M_{14}."""

@@ -148,12 +148,13 @@ def _draw_slide(canvas: Canvas, r: Result, name: str, k: int, frame: Frame, at: 
     angle = math.atan2(float(e[1]), float(e[0]))
     if joint.type == "slider":
         if GROUND in (i, j):
-            canvas.add(*symbols.guide(at, angle, 13.0))
+            side = -1.0 if math.cos(angle) > -1e-9 else 1.0
+            canvas.add(*symbols.guide(at, angle, 13.0, side))
         canvas.add(*symbols.slider(at, angle))
         if len([n for n, d in r.mechanism.joints.items() if j in d.links and d.type == "pin"]):
             return
         return
-    low, high = _slot_range(r, name, k)
+    low, high = _slot_range(r, name, frame)
     start = np.array(link_place(r, i, r.mechanism.joint_points(name)[0])[k])
     a, b = frame(start + low * e), frame(start + high * e)
     if GROUND in (i, j):
@@ -163,11 +164,11 @@ def _draw_slide(canvas: Canvas, r: Result, name: str, k: int, frame: Frame, at: 
     canvas.add(*symbols.pin(at))
 
 
-def _slot_range(r: Result, name: str, k: int) -> tuple[float, float]:
+def _slot_range(r: Result, name: str, frame: Frame) -> tuple[float, float]:
     """Values that the slide takes over the cycle, with a little room, metres."""
     values = r.freedom(name, "slide")[0]
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
-    room = 0.08 * r.compiled.layout.length
+    room = min(0.08 * r.compiled.layout.length, 12.0 * frame.per_mm)
     return low - room, high + room
 
 

@@ -9,9 +9,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.actions import Action, actions, effort_actions, joint_actions, known_actions, on_link
+from dalembert.analysis.actions import (
+    Action,
+    effort_actions,
+    joint_actions,
+    known_actions,
+    on_link,
+    whole_actions,
+)
+from dalembert.analysis.circles import friction_circles
+from dalembert.analysis.lines import acting_lines
 from dalembert.analysis.members import concurrency, members, order_of_solution
 from dalembert.views.canvas import Canvas
+from dalembert.views.circles import circled, draw_circle
 from dalembert.views.frame import Frame, force_scale
 from dalembert.views.mechanism import draw_actions, draw_links, role_of, stated, unit_size, whole_frame
 from dalembert.views.notation import Figures, Notation, Shown
@@ -27,7 +37,7 @@ LONGEST = 42.0
 def case_actions(r: Result, case: str | None = None) -> tuple[Action, ...]:
     """All actions, or those of one sub-case of the superposition: one source and what it causes."""
     if case is None:
-        return actions(r)
+        return whole_actions(r)
     from dalembert.analysis.superposition import superposition
 
     parts = superposition(r)
@@ -188,11 +198,13 @@ def lines_of_action_scene(
     Of four forces the lines meet in pairs; the line through the two meeting points carries both resultants.
     """
     shown = Shown(r, notation or Notation())
-    some = case_actions(r, case)
+    some = acting_lines(r, k) if case is None else case_actions(r, case)
     mine = forces_of(some, link, k)
     frame = whole_frame(r, k, 90.0, 70.0)
     canvas = Canvas()
     draw_links(canvas, r, k, frame)
+    for name in circled(r, [a.of for a in mine if a.kind == "joint"]):
+        draw_circle(canvas, friction_circles(r, name), k, frame)
     span = Scene(tuple(canvas.items)).bounds
     notes = _meeting(canvas, mine, k, frame, span, shown)
     for a in mine:

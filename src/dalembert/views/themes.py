@@ -37,6 +37,10 @@ _LIGHT: dict[str, Look] = {
     "inertia": Look("#1a7f4b", 0.45, (), "#1a7f4b"),
     "effort": Look("#7a2fa0", 0.5, (), "#7a2fa0"),
     "friction": Look("#b85c00", 0.45, (), "#b85c00"),
+    "friction-circle": Look("#b85c00", 0.3),
+    "journal": Look(GREY, 0.2),
+    "line-of-action": Look("#1c56a8", 0.22, (4.0, 0.7, 0.7, 0.7)),
+    "faint": Look("#b3bcc6", 0.18),
     "velocity": Look("#0f7d8c", 0.4, (), "#0f7d8c"),
     "acceleration": Look("#9a3b8f", 0.4, (), "#9a3b8f"),
     "gap": Look("#c1272d", 0.3, (0.6, 0.6), "#c1272d"),
@@ -74,6 +78,7 @@ _DARK_STROKES = {
     "#0f7d8c": "#59cbd9",
     "#9a3b8f": "#e58ada",
     "#d5dbe1": "#323d48",
+    "#b3bcc6": "#4c5864",
     "#356": "#9fc1e0",
 }
 _BLACK = ("text", "title", "link", "link-area", "pin", "block", "mark")
@@ -88,7 +93,7 @@ def _dark(look: Look) -> Look:
 def _print(role: str, look: Look) -> Look:
     black = "#000000"
     fill = look.fill if look.fill in ("none", PAPER) else "#f0f0f0" if look.fill in _DARK_FILLS else black
-    grey = look.stroke in ("#d5dbe1", "#9aa4af")
+    grey = look.stroke in ("#d5dbe1", "#9aa4af", "#b3bcc6")
     return look._replace(
         stroke="#999999" if grey else black, fill=fill, dash=_PRINT_DASH.get(role, look.dash)
     )

@@ -1,0 +1,51 @@
+"""Drawings at rest: friction leaves the forces open, so that both impending motions are drawn, one under the other."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from dalembert.analysis.columns import unknown_kinds
+from dalembert.analysis.friction import joints_at_limit, unknown_names
+from dalembert.views.notation import Shown
+from dalembert.views.scene import Scene, Text, stacked
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result import Result
+
+
+def end_words(r: Result, name: str, end: Result, which: str, k: int, shown: Shown) -> str:
+    """'Low end of O, −7304 N·m: friction is at its limit in O, A, B, guide'; or that there is no value."""
+    value = float((end.effort(name) if name in r.drives else end.unknown_load(name))[k])
+    if not math.isfinite(value):
+        return f"{which} end of {name}: no value is large enough to move the mechanism in this sense"
+    figure = shown.text(unknown_kinds(r)[name], value)
+    joints = ", ".join(joints_at_limit(end, k))
+    return f"{which} end of {name}, {figure}: friction is at its limit in {joints or 'no joint'}"
+
+
+def ends(r: Result, k: int, shown: Shown) -> list[tuple[str, Result, bool]]:
+    """Both ends of every unknown at a position: in words, the result there, and whether it has a value."""
+    out = []
+    for name, pair in zip(unknown_names(r), r.ends, strict=True):
+        for which, end in zip(("Low", "High"), pair, strict=True):
+            words = end_words(r, name, end, which, k, shown)
+            out.append((words, end, "no value" not in words))
+    return out
+
+
+def open_at(r: Result, k: int) -> bool:
+    """Whether friction leaves the forces open at a position, with ends to show."""
+    return r.status[k] == "at_rest" and bool(r.ends)
+
+
+def at_both_ends(r: Result, k: int, shown: Shown, drawn: Callable[[Result], Scene], title: str) -> Scene:
+    """What ``drawn`` makes of the result, or of its ends where friction leaves it open."""
+    if not open_at(r, k):
+        return drawn(r)
+    scenes = []
+    for words, end, known in ends(r, k, shown):
+        scenes.append(Scene((Text((0.0, 0.0), words, 3.6, "title", "start"),), words))
+        scenes += [drawn(end)] if known else []
+    return stacked(scenes, title=title, width=0.0)
