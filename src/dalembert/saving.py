@@ -22,7 +22,11 @@ def check_installed(package: str, what: str, extra: str = "results") -> None:
 
 
 def check_new(path: Path, overwrite: bool) -> None:
-    """Raise where a file exists that is not to be overwritten."""
+    """Raise where a file cannot be new: before the work, not behind it."""
+    if os.path.isdir(path):
+        raise ModelError(f"{path} is a folder", "name a file in it")
+    if not os.path.isdir(path.parent):
+        raise ModelError(f"cannot write {path}: there is no folder {path.parent}", "make it, or name another")
     if os.path.exists(path) and not overwrite:
         raise ModelError(
             f"{path} exists", "name another file, or overwrite it: --force, in Python overwrite=True"

@@ -31,12 +31,25 @@ def closest(word: str, choices: list[str], most: int = 12) -> str:
     >>> closest("rodd", ["crank", "rod"])
     "did you mean 'rod'?"
     """
+    near = nearest(word, choices)
+    if near:
+        return f"did you mean {near!r}?"
+    if len(choices) < 2:
+        return f"there is only {choices[0]!r}" if choices else "there is none"
+    return f"choose among {', '.join(choices[:most])}" + (", ..." if len(choices) > most else "")
+
+
+def nearest(word: str, choices: list[str]) -> str:
+    """The choice that is meant; nothing where none is near.
+
+    >>> nearest("pni", ["slider", "pin"]), nearest("Crank", ["crank"]), nearest("beam", ["crank"])
+    ('pin', 'crank', '')
+    """
     import difflib
 
     folded = {choice.lower(): choice for choice in reversed(choices)}
     near = difflib.get_close_matches(word.lower(), list(folded), 1, 0.7)
     if near:
-        return f"did you mean {folded[near[0]]!r}?"
-    if len(choices) < 2:
-        return f"there is only {choices[0]!r}" if choices else "there is none"
-    return f"choose among {', '.join(choices[:most])}" + (", ..." if len(choices) > most else "")
+        return folded[near[0]]
+    same = [choice for key, choice in folded.items() if sorted(key) == sorted(word.lower())]
+    return same[0] if same else ""

@@ -237,10 +237,10 @@ def test_files_are_never_overwritten_unless_told(run: Run, folder: Path) -> None
 
 def test_a_folder_that_is_not_there(run: Run) -> None:
     ran = run("solve", "four_bar.yaml", "--csv", "nowhere/out.csv")
-    assert ran.status == 2
-    assert (
-        ran.err
-        == "cannot write nowhere/out.csv: no such file or directory; name a file that can be written\n"
+    assert ran == (
+        2,
+        "",
+        "cannot write nowhere/out.csv: there is no folder nowhere; make it, or name another\n",
     )
 
 

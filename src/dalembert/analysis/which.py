@@ -29,12 +29,22 @@ def position_at(r: Result, at: Any = None) -> int:
     kind = drive_kinds(r, r.drives[0])["position"]
     wanted = quantity(at, kind, file_units(r.mechanism.units))
     values = r.drive_position(r.drives[0])
-    away = values - wanted
-    away = np.abs(np.angle(np.exp(1j * away))) if kind == "angle" else np.abs(away)
-    k = int(np.nanargmin(away))
-    if away[k] > 1e-6 + (0.5 * float(np.abs(np.diff(values)).max()) if len(values) > 1 else 0.0):
+    k, near = _nearest(values, wanted, kind == "angle")
+    if not near:
         shown = scale(r, "file")
         nearest = f"{float(shown(kind, values[k])):.6g} {shown.text(kind)}"
         what = f"no position has {r.drives[0]} = {at}; the nearest is {nearest}"
         raise ModelError(what, "solve the mechanism there: give the drive that position, or more positions")
     return k
+
+
+def _nearest(values: Any, wanted: float, turns: bool) -> tuple[int, bool]:
+    """Index of the nearest value, and whether it is within half a step; whole cycles away is the same place."""
+    away, step = np.abs(values - wanted), float(np.nanmax(np.abs(np.diff(values)), initial=0.0))
+    near = 1e-6 + 0.5 * step
+    if turns and np.nanmin(away) > near:
+        swept = float(np.nanmax(values) - np.nanmin(values)) + step
+        cycle = 2 * np.pi * max(1, round(swept / (2 * np.pi)))
+        away = np.abs(away - cycle * np.round(away / cycle))
+    k = int(np.nanargmin(away))
+    return k, bool(away[k] <= near)

@@ -25,7 +25,7 @@ from dalembert.cli.rubbing import (
     friction_table,
     with_ends,
 )
-from dalembert.cli.text import number, table, tables, wrapped
+from dalembert.cli.text import number, table, tables, with_unit, wrapped
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
@@ -95,7 +95,7 @@ def _one(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
         yield _load_table(result, to)
     if status == "at_rest" and result.ends:
         yield from _ends(result, to, axes)
-    elif result.joints:
+    elif result.joints and not _without_reactions(result):
         yield _reaction_table(result, to, axes)
         if result.friction is not None and np.isfinite(result.friction.cz[0]).all():
             yield friction_table(result, to)
@@ -114,7 +114,7 @@ def _drive_table(result: Result, to: Printed) -> str:
             "acceleration": result.drive_acceleration(drive),
             "effort": significant(result, kinds["effort"], result.effort(drive)),
         }
-        cells = [f"{number(float(to(kinds[n], v[0])), 7)} {to.text(kinds[n])}" for n, v in values.items()]
+        cells = [with_unit(float(to(kinds[n], v[0])), to.text(kinds[n]), 7) for n, v in values.items()]
         if result.status[0] == "at_rest" and drive in unknown_kinds(result):
             cells[-1] = ends_text(result, drive, to)
         rows.append([drive, *cells, *([result.stability[0] or "-"] if result.stability else [])])
@@ -134,7 +134,7 @@ def _load_table(result: Result, to: Printed) -> str:
         if result.status[0] == "at_rest":
             return ends_text(result, name, to)
         kind = load_kind(result, name)
-        return f"{number(float(to(kind, result.unknown_load(name)[0])))} {to.text(kind)}"
+        return with_unit(float(to(kind, result.unknown_load(name)[0])), to.text(kind))
 
     rows = [[name, value(name)] for name in result.unknown_loads]
     return table(["unknown load", "value"], rows)
@@ -174,38 +174,38 @@ def _wrench(force: Any, moment: float, to: Printed) -> list[str]:
     return [number(v) for v in (x, y, size, direction, float(to("moment", moment)))]
 
 
-def rounded(vector: Any) -> list[float]:
-    """Components of a vector; what is nothing but rounding beside its largest is 0.
+def rounded(vector: Any, beside: float = 0.0) -> list[float]:
+    """Components of a vector; what is nothing but rounding beside its largest, or beside another size, is 0.
 
-    >>> rounded([1e-17, 3.0])
-    [0.0, 3.0]
+    >>> rounded([1e-17, 3.0]), rounded([1e-17], 3.0)
+    ([0.0, 3.0], [0.0])
     """
-    size = float(np.nanmax(np.abs(vector))) if np.isfinite(vector).any() else 0.0
+    size = max(_largest(vector), beside)
     return [0.0 if abs(float(v)) < 1e-12 * size else float(v) for v in vector]
 
 
+def _largest(values: Any) -> float:
+    return float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0
+
+
 def _link_tables(result: Result, to: Printed) -> str:
-    units = [
-        to.text(kind) for kind in ("angle", "angular_speed", "angular_acceleration", "length", "acceleration")
+    def of_all(question: Any) -> Any:
+        return np.array([np.atleast_1d(question(link)[0]) for link in result.links])
+
+    columns = [
+        (["angle"], "angle", of_all(result.angle)),
+        (["speed"], "angular_speed", of_all(result.speed)),
+        (["acceler."], "angular_acceleration", of_all(result.acceleration)),
+        (["center x", "center y"], "length", of_all(result.center)),
+        (["its acc. x", "its acc. y"], "acceleration", of_all(result.center_acceleration)),
     ]
-    heads = ["link", f"angle\n{units[0]}", f"speed\n{units[1]}", f"acceler.\n{units[2]}"]
-    heads += [
-        f"center x\n{units[3]}",
-        f"center y\n{units[3]}",
-        f"its acc. x\n{units[4]}",
-        f"its acc. y\n{units[4]}",
-    ]
-    rows = []
-    for link in result.links:
-        values = [
-            to("angle", result.angle(link)[0]),
-            to("angular_speed", result.speed(link)[0]),
-            to("angular_acceleration", result.acceleration(link)[0]),
-            *rounded(to("length", result.center(link)[0])),
-            *rounded(to("acceleration", result.center_acceleration(link)[0])),
-        ]
-        rows.append([link, *(number(float(v), 5) for v in values)])
-    return tables(heads, rows, 1)
+    heads, cells = ["link"], [[link] for link in result.links]
+    for names, kind, values in columns:
+        heads += [f"{name}\n{to.text(kind)}" for name in names]
+        size = 1.0 if kind == "angle" else _largest(values)
+        for row, vector in zip(cells, values, strict=True):
+            row += [number(float(v), 5) for v in to(kind, np.array(rounded(vector, size)))]
+    return tables(heads, cells, 1)
 
 
 # many positions
@@ -246,11 +246,16 @@ def _series(result: Result, to: Printed, axes: Axes) -> tuple[list[str], list[An
         named.append((f"effort {drive}", drive_kinds(result, drive)["effort"], result.effort(drive)))
     for load in result.unknown_loads:
         named.append((load, load_kind(result, load), result.unknown_load(load)))
-    for r in reactions(result, axes):
+    for r in () if _without_reactions(result) else reactions(result, axes):
         named.append((f"|F| {r.joint}", "force", np.hypot(r.force[:, 0], r.force[:, 1])))
     return [f"{name}\n{to.text(kind)}" for name, kind, _ in named], [
         to(kind, significant(result, kind, values)) for _, kind, values in named
     ]
+
+
+def _without_reactions(result: Result) -> bool:
+    """Whether the method has found none, as virtual work does, where there is an answer."""
+    return bool(result.ok.any()) and not np.isfinite(result.force_array).any()
 
 
 def significant(result: Result, kind: str, values: Any) -> Any:

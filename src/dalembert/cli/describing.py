@@ -7,7 +7,44 @@ from pathlib import Path
 
 from dalembert.cli.text import table
 from dalembert.errors import ModelError
+from dalembert.saving import check_new, new_file
 from dalembert.wording import closest
+
+YAML = (".yaml", ".yml")
+
+
+def begun(template: str, output: Path | None, force: bool) -> int:
+    """A template printed or written; without a name, the list of them."""
+    if not template:
+        return emitted(template_list(), output, force)
+    return _model_file(template_file(template), output, force)
+
+
+def example_copied(name: str, output: Path | None, force: bool) -> int:
+    """An example printed or written; without a name, the list of them."""
+    if not name:
+        return emitted(example_list(), output, force)
+    return _model_file(example_text(name), output, force)
+
+
+def _model_file(text: str, output: Path | None, force: bool) -> int:
+    if output is not None and str(output) != "-" and output.suffix.lower() not in YAML:
+        raise ModelError(
+            f"{output} is not named like YAML, which this is",
+            "end its name with .yaml; `dalembert convert` writes JSON and TOML",
+        )
+    return emitted(text, output, force)
+
+
+def emitted(text: str, output: Path | None, force: bool) -> int:
+    """Text to a new file, or printed."""
+    if output is None or str(output) == "-":
+        print(text.rstrip("\n"))
+        return 0
+    with new_file(output, force) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+    print(f"Written: {output}")
+    return 0
 
 
 def schema_text() -> str:
@@ -47,7 +84,6 @@ def _title(path: Path) -> str:
 def converted(file: Path, output: Path, force: bool) -> int:
     """Write a model file in the format that the ending of the output names."""
     from dalembert.model import convert
-    from dalembert.saving import check_new
 
     check_new(output, force)
     convert(file, output, overwrite=force)

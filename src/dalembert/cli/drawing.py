@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from dalembert.model import Mechanism
 
 OK, SOME_NOT_OK = 0, 1
+MOVING = ("animation", "mechanism", "all")
+"""Views that an animation may stand for."""
 PICTURES = (".svg", ".pdf", ".png", ".dxf", ".gif", ".webp")
 
 
@@ -37,6 +39,11 @@ def drawn(
     if output.suffix.lower() not in PICTURES:
         raise ModelError(
             f"{output.name}: the ending names no kind of drawing", f"use one of {' '.join(PICTURES)}"
+        )
+    if _moves(view, output) and view not in MOVING:
+        raise ModelError(
+            f"{output.name}: {output.suffix} holds an animation of the mechanism, and not {view}",
+            "write .svg, .pdf or .png, or ask for --view animation",
         )
     check_new(output, force)
     if positions is None and (view == "charts" or _moves(view, output)):

@@ -1,13 +1,116 @@
-"""Kinds of options that commands share."""
+"""Options that several commands share, each said once: its type, its check and the sentence that --help prints."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
-Flag = Annotated[bool, Parameter(negative=())]
-Every = Annotated[bool, Parameter(name="--all", negative=())]
-Target = Annotated[Path | None, Parameter(allow_leading_hyphen=True)]
-Output = Annotated[Path | None, Parameter(name=["--output", "-o"])]
+if TYPE_CHECKING:
+    from dalembert.views.notation import Notation
+
+
+def whole(least: int, most: int | None = None) -> Callable[..., int]:
+    """A reader of whole numbers within limits."""
+
+    def read(_: Any, tokens: Sequence[Any]) -> int:
+        text = tokens[0].value
+        number = int(text) if text.isascii() and text.isdigit() and len(text) < 16 else least - 1
+        if number < least or (most is not None and number > most):
+            limits = f"of {least} or more" if most is None else f"from {least} to {most}"
+            raise ValueError(f"{text!r} is no whole number {limits}")
+        return number
+
+    return read
+
+
+def said(sentence: str) -> Parameter:
+    """An option with its sentence."""
+    return Parameter(help=sentence)
+
+
+def flag(sentence: str, name: str | None = None) -> Parameter:
+    """An option without a value."""
+    return Parameter(name=name, negative=(), help=sentence)
+
+
+def output(sentence: str) -> Parameter:
+    """The file to write, -o."""
+    return Parameter(name=["--output", "-o"], help=sentence)
+
+
+def target(sentence: str) -> Parameter:
+    """What may begin with a hyphen: - for the screen, a negative number."""
+    return Parameter(allow_leading_hyphen=True, help=sentence)
+
+
+ModelFile = Annotated[Path, said("Model file: YAML, JSON or TOML.")]
+NewFile = Annotated[Path | None, output("Write it to this file; without it, it is printed.")]
+Positions = Annotated[
+    int | None,
+    Parameter(
+        converter=whole(1),
+        allow_leading_hyphen=True,
+        help="Number of positions over the range of the drives, instead of the file's own count.",
+    ),
+]
+At = Annotated[
+    str | None,
+    Parameter(
+        allow_leading_hyphen=True,
+        help="The position: its number from 1, or a value of the first drive such as 60deg; the first by default.",
+    ),
+]
+Axes = Literal["ground", "link"]
+Theme = Annotated[
+    Literal["light", "dark", "print"],
+    said("Colours for light paper, for a dark screen, or black and white for print."),
+]
+Figures = Annotated[int, Parameter(converter=whole(1, 15), help="Significant figures.")]
+Static = Annotated[bool, flag("Leave inertia out, even where the file has speeds.")]
+NoFriction = Annotated[bool, flag("Leave friction out.")]
+Names = Annotated[bool, flag("Write links by their names, not by number.")]
+Force = Annotated[bool, flag("Overwrite files that exist.")]
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Style:
+    """How a worked solution is written."""
+
+    units: Annotated[Literal["si", "file"], said("Units of the numbers: file (default) or si.")] = "file"
+    axes: Annotated[Axes, said("Axes of components: ground, or the link acted on.")] = "ground"
+    names: Names = False
+    on_by: Annotated[bool, flag("Write F_ij for the force on i by j; without it, by i on j.")] = False
+    letter: Annotated[Literal["F", "G"], said("Letter of the joint forces: F or G.")] = "F"
+    figures: Figures = 4
+    decimals: Annotated[
+        int | None,
+        Parameter(
+            converter=whole(0, 15),
+            allow_leading_hyphen=True,
+            help="Decimals, in place of significant figures.",
+        ),
+    ] = None
+    clockwise: Annotated[bool, flag("Count moments positive clockwise.")] = False
+
+    def notation(self) -> Notation:
+        """The same for the views."""
+        from dalembert.views.notation import Notation
+
+        return Notation(
+            links="name" if self.names else "number",
+            order="on-by" if self.on_by else "by-on",
+            letter=self.letter,
+            units="SI" if self.units == "si" else "file",
+            figures=self.figures,
+            decimals=self.decimals,
+            torque=-1 if self.clockwise else 1,
+            axes=self.axes,
+        )
+
+
+AS_USUAL = Style()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -17,6 +18,15 @@ if TYPE_CHECKING:
 
 PACKAGES = {"xlsx": ("openpyxl", "a workbook"), "netcdf": ("h5netcdf", "a netCDF file")}
 """Kind of file -> the optional package that writes it, and what it is called."""
+
+
+ENDINGS = {
+    "json": (".json",),
+    "csv": (".csv",),
+    "xlsx": (".xlsx", ".xls"),
+    "netcdf": (".nc", ".nc4", ".cdf"),
+}
+"""Kind of file -> what its name ends with."""
 
 
 class Wanted(NamedTuple):
@@ -52,7 +62,7 @@ def solved(
     file: Path, wanted: Wanted, *, static: bool, positions: int | None, method: str, friction: bool
 ) -> int:
     """Analyse a file, print or write the answer; 1 where some position has a status other than ok."""
-    _check_targets(wanted)
+    _check_targets(file, wanted)
     result = _result(file, static, positions, friction)
     shown, more = by_method(method, result, wanted.printed_units)
     _printed(shown, wanted, more)
@@ -62,25 +72,38 @@ def solved(
     return 0 if result.ok.all() else 1
 
 
-def _check_targets(wanted: Wanted) -> None:
+def _check_targets(file: Path, wanted: Wanted) -> None:
     """Refused before the work, not behind it."""
     for kind in ("json", "csv"):
         if str(getattr(wanted, kind) or "").startswith("--"):
             raise ModelError(f"--{kind} needs the name of a file", f"or - to print it: --{kind} -")
     if str(wanted.json) == "-" and str(wanted.csv) == "-":
         raise ModelError("--json - and --csv - both ask for the screen", "name a file for one of them")
+    taken = {os.path.realpath(file): "the model file"}
     for kind, path in wanted.files.items():
+        _check_ending(kind, path)
+        if os.path.realpath(path) in taken:
+            raise ModelError(f"--{kind} {path}: that is {taken[os.path.realpath(path)]}", "name another file")
+        taken[os.path.realpath(path)] = f"the file of --{kind} already"
         check_new(path, wanted.force)
         if kind in PACKAGES:
             check_installed(*PACKAGES[kind])
+
+
+def _check_ending(kind: str, path: Path) -> None:
+    """A file named like another kind would be opened as that."""
+    for other, endings in ENDINGS.items():
+        if other != kind and path.suffix.lower() in endings:
+            raise ModelError(
+                f"--{kind} {path}: that is the name of another kind of file",
+                f"end it with {ENDINGS[kind][0]}, or write --{other} {path}",
+            )
 
 
 def _result(file: Path, static: bool, positions: int | None, friction: bool) -> Result:
     from dalembert.analysis import solve
     from dalembert.cli.rubbing import loaded
 
-    if positions is not None and positions < 1:
-        raise ModelError(f"--positions is {positions}", "give 1 or more")
     m = loaded(file, friction)
     with _waiting(f"Solving {file}"):
         return solve(m, static=static, positions=positions)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Literal
 
-from dalembert.cli.options import Flag
+from dalembert.cli.options import Figures, Force, Theme, said, target
 
 EXAMPLES = """Examples:
   dalembert wrench plate.yaml
@@ -17,49 +17,36 @@ A file: {units: {length: mm}, points: {A: [200, 0]}, forces: {F: {value: 600 @ 9
 
 
 def wrench(
-    file: Path,
+    file: Annotated[Path, said("File of forces and couples, in the plane or in space.")],
     /,
     *,
-    about: str | None = None,
-    drawing: Path | None = None,
-    report: Path | None = None,
-    view: Literal["isometric", "front", "side", "top"] = "isometric",
-    theme: Literal["light", "dark", "print"] = "light",
-    units: Literal["si", "file"] = "file",
-    figures: int = 4,
-    force: Flag = False,
+    about: Annotated[
+        str | None,
+        target(
+            'Point to take moments about: a name of the file\'s points, or "[x, y]" (default: the origin).'
+        ),
+    ] = None,
+    drawing: Annotated[Path | None, said("Draw it to this file: .svg, .pdf, .png or .dxf.")] = None,
+    report: Annotated[
+        Path | None, said("Write the worked solution to this file: .pdf, .html, .tex or .txt.")
+    ] = None,
+    view: Annotated[
+        Literal["isometric", "front", "side", "top"], said("Side from which a system in space is drawn.")
+    ] = "isometric",
+    theme: Theme = "light",
+    units: Annotated[Literal["si", "file"], said("Units of the numbers: file (default) or si.")] = "file",
+    figures: Figures = 4,
+    force: Force = False,
 ) -> int:
-    """Reduce the force system of FILE: resultant, moments, central axis, equilibrium.
-
-    Parameters
-    ----------
-    file
-        File of forces and couples, in the plane or in space.
-    about
-        Point to take moments about: a name of the file's points, or "[x, y]" (default: the origin).
-    drawing
-        Draw it to this file: .svg, .pdf, .png or .dxf.
-    report
-        Write the worked solution to this file: .pdf, .html, .tex or .txt.
-    view
-        Side from which a system in space is drawn.
-    theme
-        Colours for light paper, for a dark screen, or black and white for print.
-    units
-        Units of the numbers: the file's (default) or si.
-    figures
-        Significant figures.
-    force
-        Overwrite files that exist.
-    """
+    """Reduce the force system of FILE: resultant, moments, central axis, equilibrium."""
     from dalembert.report import report as worked_out
     from dalembert.saving import check_new
     from dalembert.views import draw
     from dalembert.wrench import load
 
-    for target in (drawing, report):
-        if target is not None:
-            check_new(target, force)
+    for path in (drawing, report):
+        if path is not None:
+            check_new(path, force)
     system = load(file)
     notation = draw.Notation(units="SI" if units == "si" else "file", figures=figures)
     sheet = worked_out(system, about, notation=notation)
@@ -68,7 +55,7 @@ def wrench(
     if report is not None:
         sheet.save(report, force)
     print(sheet, end="")
-    for target in (drawing, report):
-        if target is not None:
-            print(f"Written: {target}", file=sys.stderr)
+    for path in (drawing, report):
+        if path is not None:
+            print(f"Written: {path}", file=sys.stderr)
     return 0

@@ -20,6 +20,15 @@ def number(value: float, digits: int = 6) -> str:
     return format(value + 0.0, f".{digits}g")
 
 
+def with_unit(value: float, unit: str, digits: int = 6) -> str:
+    """A number with its unit; `-` alone where there is none.
+
+    >>> with_unit(27.48, "N*m"), with_unit(float("nan"), "N*m")
+    ('27.48 N*m', '-')
+    """
+    return f"{number(value, digits)} {unit}" if math.isfinite(value) else "-"
+
+
 def table(heads: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> str:
     """Columns under their heads; the first `left` are aligned left. A head may have two lines.
 

@@ -11,7 +11,7 @@ from dalembert.errors import ModelError
 from dalembert.model.mechanism import Mechanism, mechanism
 from dalembert.model.source import Lines, Source
 from dalembert.saving import new_file
-from dalembert.wording import closest
+from dalembert.wording import nearest
 
 LARGEST = 1_000_000
 """Bytes of a model file."""
@@ -147,9 +147,10 @@ def _first_bytes(path: Path) -> bytes:
 
 
 def _neighbour(path: Path) -> str:
-    names = sorted(p.name for p in path.parent.iterdir()) if path.parent.is_dir() else []
-    guess = closest(path.name, [n for n in names if Path(n).suffix in FORMATS])
-    return guess if guess.startswith("did") else "check the name and the folder"
+    files = sorted(path.parent.iterdir()) if path.parent.is_dir() else []
+    named = {p.stem: p.name for p in reversed(files) if p.suffix in FORMATS}
+    near = nearest(path.stem, list(named))
+    return f"did you mean {named[near]!r}?" if near else "check the name and the folder"
 
 
 def _decoded(content: bytes, name: str) -> str:

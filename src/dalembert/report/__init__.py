@@ -71,8 +71,8 @@ def report(
     """The worked solution of one position of a result, or of a force system of `da.wrench`.
 
     ``methods``: some of `matrix`, `graphical`, `superposition`, `virtual-work`; all by default. ``about``: a joint to
-    take moments about where a link has it. Of a force system ``at`` is the point to take moments about (m), and
-    methods do not apply.
+    take moments about where a link has it; one that is not there is a ModelError. Of a force system ``at`` is the
+    point to take moments about (m), and methods do not apply.
     """
     from dalembert.wrench import System
 
@@ -80,9 +80,13 @@ def report(
         from dalembert.report.force_system import force_system_sheet
 
         return Report(force_system_sheet(r, at, notation))
+    from dalembert.errors import ModelError
     from dalembert.report.chosen import METHODS
     from dalembert.report.working import working
+    from dalembert.wording import closest
 
+    if about and about not in r.joints:
+        raise ModelError(f"there is no joint {about!r} to take moments about", closest(about, list(r.joints)))
     return Report(working(r, at, tuple(methods or METHODS), notation, about))
 
 
