@@ -212,18 +212,19 @@ class Target(NamedTuple):
 def target(value: Any, series: Series, units: Units, key: str) -> Target:
     """A value as it stands in the file, read as the kind of the series."""
     from dalembert.model.part import Reading
-    from dalembert.model.values import vector
+    from dalembert.model.values import at_item, listed, vector
 
-    vectorial = series.values.ndim == 2
+    rules = Reading(units, dimension=series.values.shape[-1])
+    depth = series.values.ndim - 1
     try:
-        read = (
-            vector(value, series.kind, Reading(units, dimension=series.values.shape[-1]))
-            if vectorial
-            else quantity(value, series.kind, units)
-        )
+        if depth == 2:
+            rows = listed(value, rules, "")
+            read: Any = [at_item(k, vector, row, series.kind, rules) for k, row in enumerate(rows)]
+        else:
+            read = vector(value, series.kind, rules) if depth else quantity(value, series.kind, units)
     except ModelError as error:
         raise ModelError(error.what, error.remedy, (key, *error.path)) from None
-    polar = vectorial and isinstance(value, str)
+    polar = depth == 1 and isinstance(value, str)
     return Target(np.array(read, dtype=float), _unit_of(value, series.kind, units), polar)
 
 
@@ -336,7 +337,13 @@ def computed_text(found: Array, published: Target, kind: str, units: Units) -> s
         angle = units.unit("angle").of_si(math.atan2(found[1], found[0]))
         return f"{own(float(np.hypot(*found))):.{DIGITS}g} @ {angle:.6g}{behind}"
     clean = np.where(np.abs(found) < 1e-12 * np.abs(found).max(), 0.0, found)
-    return "[" + ", ".join(f"{own(float(v)):.{DIGITS}g}" for v in clean) + f"]{behind}"
+    return _bracketed(clean, own) + behind
+
+
+def _bracketed(values: Array, own: Any) -> str:
+    """Numbers in brackets; of a rotation a row each in brackets of its own."""
+    inner = [f"{own(float(v)):.{DIGITS}g}" if v.ndim == 0 else _bracketed(v, own) for v in values]
+    return "[" + ", ".join(inner) + "]"
 
 
 def _deviation(away: float, scale: float, kind: str, unit_text: str) -> str:

@@ -35,7 +35,7 @@ class Column(NamedTuple):
 
 
 class Reaction(NamedTuple):
-    """What a joint's i exerts on its j: force (P, 2), moment (P,), NaN if not unique; then least norm (P, 3)."""
+    """What a joint's i exerts on its j: force (P, d), moment (P,) or (P, 3), NaN if not unique; least norm (P, n)."""
 
     joint: str
     on: str
@@ -89,20 +89,22 @@ def reactions(result: Result, axes: Axes = "ground") -> Iterator[Reaction]:
     """The reaction of every joint on its j."""
     for joint in result.joints:
         by, on = result.mechanism.joints[joint].links
-        force, moment = result.reaction(joint, on, axes), result.reaction_moment(joint, on)
-        least = None
-        if not result.unique(joint).all():
-            least = in_axes(result, on, result.least_norm(joint, on), axes)
+        force, moment = result.reaction(joint, on, axes), result.reaction_moment(joint, on, axes)
+        least = None if result.unique(joint).all() else result.least_norm(joint, on, axes)
         yield Reaction(joint, on, by, force, moment, least)
 
 
-def in_axes(result: Result, link: str, wrench: Array, axes: Axes) -> Array:
-    """(fx, fy) or (fx, fy, m) in ground axes, or in those of a link."""
-    if axes == "ground" or link == "ground":
-        return wrench
-    cos, sin = np.cos(result.angle(link)), np.sin(result.angle(link))
-    x, y, *moment = np.moveaxis(wrench, -1, 0)
-    return np.stack([cos * x + sin * y, cos * y - sin * x, *moment], axis=-1)
+def parts(values: Array) -> Iterator[tuple[str, Array]]:
+    """Names and values (P,) of the components of numbers (P,), vectors (P, d) or matrices (P, 3, 3).
+
+    >>> [name for name, _ in parts(np.zeros((1, 3)))]
+    [' x', ' y', ' z']
+    """
+    if values.ndim == 1:
+        yield "", values
+        return
+    for place in np.ndindex(values.shape[1:]):
+        yield " " + "".join("xyz"[k] for k in place), values[(slice(None), *place)]
 
 
 LINK_VECTORS: dict[str, tuple[str, Callable[[Any, str], Array]]] = {
@@ -110,11 +112,28 @@ LINK_VECTORS: dict[str, tuple[str, Callable[[Any, str], Array]]] = {
     "center": ("length", lambda r, link: r.center(link)),
     "center_acceleration": ("acceleration", lambda r, link: r.center_acceleration(link)),
 }
-LINK_NUMBERS: dict[str, tuple[str, Callable[[Any, str], Array]]] = {
-    "angle": ("angle", lambda r, link: r.angle(link)),
+ANGLE: dict[str, tuple[str, Callable[[Any, str], Array]]] = {
+    "angle": ("angle", lambda r, link: r.angle(link))
+}
+ROTATION: dict[str, tuple[str, Callable[[Any, str], Array]]] = {
+    "rotation": ("number", lambda r, link: r.rotation(link))
+}
+RATES: dict[str, tuple[str, Callable[[Any, str], Array]]] = {
     "speed": ("angular_speed", lambda r, link: r.speed(link)),
     "acceleration": ("angular_acceleration", lambda r, link: r.acceleration(link)),
 }
+
+
+def link_turning(result: Result) -> dict[str, tuple[str, Callable[[Any, str], Array]]]:
+    """Kind and values of how links are turned and turn: angles in the plane, rotations in space."""
+    return (ANGLE if in_plane(result) else ROTATION) | RATES
+
+
+def in_plane(result: Result) -> bool:
+    """Whether a result is one of the plane."""
+    return result.mechanism.dimension == 2
+
+
 DRIVE_NUMBERS: dict[str, Callable[[Any, str], Array]] = {
     "position": lambda r, drive: r.drive_position(drive),
     "speed": lambda r, drive: r.drive_speed(drive),
@@ -167,27 +186,30 @@ def rubbing_joints(result: Result) -> list[str]:
 def _friction_columns(result: Result, joint: str) -> Iterator[Column]:
     force, moment = result.friction_force(joint), result.friction_moment(joint)
     name = f"friction {joint} on {result.mechanism.joints[joint].links[1]}"
-    yield from _wrench_columns(name, [force[:, 0], force[:, 1], moment])
+    yield from _wrench_columns(name, force, moment)
     yield Column(f"power lost {joint}", "power", result.power_lost(joint))
 
 
 def _reaction_columns(reaction: Reaction) -> Iterator[Column]:
     name = f"reaction {reaction.joint} on {reaction.on}"
-    wrench = [reaction.force[:, 0], reaction.force[:, 1], reaction.moment]
-    yield from _wrench_columns(name, wrench)
+    yield from _wrench_columns(name, reaction.force, reaction.moment)
     if reaction.least_norm is not None:
-        yield from _wrench_columns(f"{name} least norm", list(np.moveaxis(reaction.least_norm, -1, 0)))
+        yield from _wrench_columns(f"{name} least norm", *force_and_moment(reaction.least_norm))
 
 
-def _wrench_columns(name: str, wrench: list[Array]) -> Iterator[Column]:
-    for part, kind, values in zip(("x", "y", "moment"), ("force", "force", "moment"), wrench, strict=True):
-        yield Column(f"{name} {part}", kind, values)
+def force_and_moment(wrench: Array) -> tuple[Array, Array]:
+    """Force (..., d) and moment (...) or (..., 3) of wrenches (..., n)."""
+    return (wrench[..., :2], wrench[..., 2]) if wrench.shape[-1] == 3 else (wrench[..., :3], wrench[..., 3:])
+
+
+def _wrench_columns(name: str, force: Array, moment: Array) -> Iterator[Column]:
+    for part, values in parts(force):
+        yield Column(f"{name}{part}", "force", values)
+    for part, values in parts(moment):
+        yield Column(f"{name} moment{part}", "moment", values)
 
 
 def _link_columns(result: Result, link: str) -> Iterator[Column]:
-    for name, (kind, numbers) in LINK_NUMBERS.items():
-        yield Column(f"link {link} {name}", kind, numbers(result, link))
-    for name, (kind, vectors) in LINK_VECTORS.items():
-        values = vectors(result, link)
-        for k, part in enumerate("xy"):
-            yield Column(f"link {link} {name.replace('_', ' ')} {part}", kind, values[:, k])
+    for name, (kind, read) in {**link_turning(result), **LINK_VECTORS}.items():
+        for part, values in parts(read(result, link)):
+            yield Column(f"link {link} {name.replace('_', ' ')}{part}", kind, values)

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from dalembert.analysis.columns import (
     DRIVE_NUMBERS,
     EFFORT,
-    LINK_NUMBERS,
     LINK_VECTORS,
     Scale,
     UnitChoice,
     columns,
     drive_kinds,
+    link_turning,
     load_kind,
     reactions,
     scale,
@@ -166,7 +166,8 @@ def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -
     data["power_balance"] = ("position", result.power_balance, {"units": "1"})
     coordinates: dict[str, Any] = {
         "position": np.arange(1, len(result.status) + 1),
-        "component": ["x", "y"],
+        "component": list("xyz"[: result.mechanism.dimension]),
+        "link_axis": [] if result.mechanism.dimension == 2 else list("xyz"),
         "drive": list(result.drives),
         "joint": list(result.joints),
         "link": list(result.links),
@@ -201,7 +202,7 @@ def _joint_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
     moment = to("moment", np.stack([r.moment for r in found], axis=1))
     return {
         "reaction": (("position", "joint", "component"), force, {"units": to.text("force")}),
-        "reaction_moment": (("position", "joint"), moment, {"units": to.text("moment")}),
+        "reaction_moment": (_over("joint", moment), moment, {"units": to.text("moment")}),
         "reaction_on": ("joint", [r.on for r in found]),
         "reaction_by": ("joint", [r.by for r in found]),
     }
@@ -216,7 +217,7 @@ def _friction_arrays(result: Result, to: Scale) -> dict[str, Any]:
     lost = to("power", np.stack([result.power_lost(j) for j in result.joints], axis=1))
     out: dict[str, Any] = {
         "friction_force": (("position", "joint", "component"), force, {"units": to.text("force")}),
-        "friction_moment": (("position", "joint"), moment, {"units": to.text("moment")}),
+        "friction_moment": (_over("joint", moment), moment, {"units": to.text("moment")}),
         "power_lost": (("position", "joint"), lost, {"units": to.text("power")}),
     }
     for name, kind in unknown_kinds(result).items() if result.ends else ():
@@ -230,14 +231,15 @@ def _link_arrays(result: Result, to: Scale) -> dict[str, Any]:
     if not result.links:
         return {}
     out: dict[str, Any] = {}
-    for dimensions, table in (
-        (("position", "link"), LINK_NUMBERS),
-        (("position", "link", "component"), LINK_VECTORS),
-    ):
-        for name, (kind, read) in table.items():
-            stacked = np.stack([read(result, link) for link in result.links], axis=1)
-            out[f"link_{name}"] = (dimensions, to(kind, stacked), {"units": to.text(kind)})
+    for name, (kind, read) in {**link_turning(result), **LINK_VECTORS}.items():
+        stacked = np.stack([read(result, link) for link in result.links], axis=1)
+        out[f"link_{name}"] = (_over("link", stacked), to(kind, stacked), {"units": to.text(kind)})
     return out
+
+
+def _over(what: str, values: Array) -> tuple[str, ...]:
+    """Dimensions of numbers, vectors or rotations of each link or joint: rows are ground components."""
+    return ("position", what, "component", "link_axis")[: values.ndim]
 
 
 def to_netcdf(

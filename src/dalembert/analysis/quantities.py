@@ -21,7 +21,8 @@ Array = NDArray[Any]
 
 
 class Series(NamedTuple):
-    """Values of a quantity over the positions, SI: numbers (P,) or vectors (P, d), of a kind of ``units.KINDS``."""
+    """Values of a quantity over the positions, SI: numbers (P,), vectors (P, d) or rotations (P, 3, 3), of a kind of
+    ``units.KINDS``."""
 
     kind: str
     values: Array
@@ -94,7 +95,21 @@ def _face(name: str) -> Read:
 
 
 def _of_link(kind: str, name: str) -> Read:
-    return lambda r, a: Series(kind, getattr(r, name)(_name(a, r.links, "link")))
+    def read(r: Result, a: Answer) -> Series:
+        link = _name(a, r.links, "link")
+        return Series(kind, _in_axes(r, a, link, getattr(r, name)(link)))
+
+    return read
+
+
+def _in_axes(r: Result, a: Answer, link: str, values: Array) -> Array:
+    """Vectors of a link, or of a point of it, in the axes that the answer names."""
+    if a.axes == "ground":
+        return values
+    if values.ndim != 2 or a.axes == "joint":
+        what = f"{a.axes} axes mean nothing for the {a.quantity.replace('_', ' ')} of {a.of}"
+        raise ModelError(what, "leave them out", ("axes",))
+    return np.asarray((values[:, None, :] @ r.rotation(link))[:, 0])
 
 
 def _of_point(kind: str, name: str) -> Read:
@@ -102,17 +117,21 @@ def _of_point(kind: str, name: str) -> Read:
         link, _, point = (a.of or "").partition(".")
         if link not in r.links or not point:
             raise ModelError(f"{a.of!r} names no point of a moving link", "write of: link.point", ("of",))
-        return Series(kind, getattr(r, name)(link, point))
+        return Series(kind, _in_axes(r, a, link, getattr(r, name)(link, point)))
 
     return read
 
 
+RATES = ("", "_speed", "_acceleration")
+KINDS_OF_FREEDOMS = {
+    "slide": ("length", "speed", "acceleration"),
+    "turn": ("angle", "angular_speed", "angular_acceleration"),
+}
+
+
 def _of_freedom(freedom: str, order: int) -> Read:
-    kinds = {
-        "slide": ("length", "speed", "acceleration"),
-        "turn": ("angle", "angular_speed", "angular_acceleration"),
-    }
-    return lambda r, a: Series(kinds[freedom][order], r.freedom(_name(a, r.joints, "joint"), freedom)[order])
+    kind = KINDS_OF_FREEDOMS[freedom.rstrip("12")][order]
+    return lambda r, a: Series(kind, r.freedom(_name(a, r.joints, "joint"), freedom)[order])
 
 
 QUANTITIES: dict[str, Read] = {
@@ -124,6 +143,7 @@ QUANTITIES: dict[str, Read] = {
     "position": _of_link("length", "position"),
     "velocity": _of_link("speed", "velocity"),
     "angle": _of_link("angle", "angle"),
+    "rotation": _of_link("number", "rotation"),
     "speed": _of_link("angular_speed", "speed"),
     "acceleration": _of_link("angular_acceleration", "acceleration"),
     "center": _of_link("length", "center"),
@@ -132,12 +152,11 @@ QUANTITIES: dict[str, Read] = {
     "point": _of_point("length", "point"),
     "point_velocity": _of_point("speed", "point_velocity"),
     "point_acceleration": _of_point("acceleration", "point_acceleration"),
-    "slide": _of_freedom("slide", 0),
-    "slide_speed": _of_freedom("slide", 1),
-    "slide_acceleration": _of_freedom("slide", 2),
-    "turn": _of_freedom("turn", 0),
-    "turn_speed": _of_freedom("turn", 1),
-    "turn_acceleration": _of_freedom("turn", 2),
+    **{
+        freedom + rate: _of_freedom(freedom, order)
+        for freedom in ("slide", "slide1", "slide2", "turn", "turn1", "turn2")
+        for order, rate in enumerate(RATES)
+    },
     "effort_low": _end(0, False),
     "effort_high": _end(1, False),
     "unknown_load_low": _end(0, True),
@@ -167,22 +186,27 @@ WHOLE: dict[str, Callable[[Result], int | None]] = {
 
 
 def component(series: Series, name: str | None) -> Series:
-    """One component of a vector: x, y, in space z, magnitude, in the plane direction; all without a name."""
+    """One component of a vector: x, y, z, magnitude, in the plane direction; the series itself without a name."""
     if name is None:
         return series
     if series.values.ndim == 1:
         if name == "magnitude":
             return Series(series.kind, np.abs(series.values))
         raise ModelError(f"a number has no component {name!r}", "leave it out", ("component",))
+    if series.values.ndim == 3:
+        raise ModelError(
+            f"a rotation has no component {name!r}", "give all of it, a row each", ("component",)
+        )
+    if name == "direction" and series.values.shape[-1] == 2:
+        return Series("angle", np.arctan2(series.values[:, 1], series.values[:, 0]))
     parts = dict(zip("xyz", series.values.T, strict=False)) | {"magnitude": size(series)}
-    if name == "direction" and "z" not in parts:
-        return Series("angle", np.arctan2(parts["y"], parts["x"]))
     if name not in parts:
-        known = [*parts] if "z" in parts else [*parts, "direction"]
+        known = [*parts, *(["direction"] if "z" not in parts else [])]
         raise ModelError(f"there is no component {name!r}", closest(name, known), ("component",))
     return Series(series.kind, parts[name])
 
 
 def size(series: Series) -> Array:
     """Numbers to compare positions by: the value, or the magnitude of a vector."""
-    return series.values if series.values.ndim == 1 else np.linalg.norm(series.values, axis=-1)
+    values = series.values
+    return values if values.ndim == 1 else np.sqrt((values**2).sum(axis=tuple(range(1, values.ndim))))

@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.columns import (
     DRIVE_NUMBERS,
-    LINK_NUMBERS,
     LINK_VECTORS,
     Scale,
     UnitChoice,
     drive_kinds,
-    in_axes,
+    force_and_moment,
+    in_plane,
+    link_turning,
     load_kind,
     reactions,
     rubbing_joints,
@@ -25,7 +26,7 @@ from dalembert.analysis.columns import (
     unknown_kinds,
 )
 from dalembert.analysis.friction import bears_on_faces, guide_contact, joints_at_limit
-from dalembert.analysis.wrenches import Axes
+from dalembert.analysis.wrenches import Axes, turned
 from dalembert.saving import new_file
 from dalembert.units import KINDS
 
@@ -40,10 +41,10 @@ BLOCK = 1024
 
 def to_dict(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> dict[str, Any]:
     """The JSON answer of the model file's contract (section 6); None where there is no value."""
-    return {**head(result, units), "positions": list(position_records(result, units, axes))}
+    return {**head(result, units, axes), "positions": list(position_records(result, units, axes))}
 
 
-def head(result: Result, units: UnitChoice = "SI") -> dict[str, Any]:
+def head(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> dict[str, Any]:
     """What stands before the positions: title, units, assumptions, mobility."""
     to = scale(result, units)
     mobility = result.mobility
@@ -51,6 +52,7 @@ def head(result: Result, units: UnitChoice = "SI") -> dict[str, Any]:
         "dalembert": 1,
         "title": result.mechanism.title,
         "units": "SI" if units == "SI" else {kind: to.text(kind) for kind in KINDS if to.text(kind)},
+        "reaction_axes": axes,
         "friction": not result.assumptions["friction"].startswith("off"),
         "assumptions": dict(result.assumptions),
         "mobility": None
@@ -60,6 +62,7 @@ def head(result: Result, units: UnitChoice = "SI") -> dict[str, Any]:
             "drives": mobility.drives,
             "redundant": mobility.redundant,
             "redundant_joints": list(mobility.redundant_joints),
+            **({} if in_plane(result) else {"passive": list(mobility.passive)}),
         },
         "assembly_mode": result.mode,
     }
@@ -107,7 +110,7 @@ def _fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], List
                 out["ends", name, which, *path] = lists
             out["ends", name, which, "at_limit"] = _limits(end)
     for link in result.links:
-        for name, (kind, read) in {**LINK_VECTORS, **LINK_NUMBERS}.items():
+        for name, (kind, read) in {**LINK_VECTORS, **link_turning(result)}.items():
             out["links", link, name] = numbers(kind, read(result, link))
     out["residual",] = numbers("number", result.residual)
     out["power_balance",] = numbers("number", result.power_balance)
@@ -126,12 +129,14 @@ def _reaction_fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, .
         out["reactions", r.joint, "force"] = numbers("force", r.force)
         out["reactions", r.joint, "moment"] = numbers("moment", r.moment)
         if r.least_norm is not None:
-            out["reactions", r.joint, "least_norm", "force"] = numbers("force", r.least_norm[:, :2])
-            out["reactions", r.joint, "least_norm", "moment"] = numbers("moment", r.least_norm[:, 2])
+            force, moment = force_and_moment(r.least_norm)
+            out["reactions", r.joint, "least_norm", "force"] = numbers("force", force)
+            out["reactions", r.joint, "least_norm", "moment"] = numbers("moment", moment)
+        if axes == "joint":
+            out["reactions", r.joint, "axes"] = numbers("number", result.joint_axes(r.joint))
     for joint in rubbing_joints(result):
         at = "reactions", joint, "friction"
-        force = in_axes(result, result.mechanism.joints[joint].links[1], result.friction_force(joint), axes)
-        out[*at, "force"] = numbers("force", force)
+        out[*at, "force"] = numbers("force", turned(result, joint, None, axes, result.friction_force(joint)))
         out[*at, "moment"] = numbers("moment", result.friction_moment(joint))
         out[*at, "power_lost"] = numbers("power", result.power_lost(joint))
         if bears_on_faces(result, joint):
@@ -215,7 +220,7 @@ def _solution(result: Result, position: int) -> dict[str, Any]:
 
 def write_json(result: Result, stream: IO[str], units: UnitChoice = "SI", axes: Axes = "ground") -> None:
     """The JSON answer into an open text file, one position a line."""
-    opening = json.dumps(head(result, units), ensure_ascii=False, allow_nan=False, indent=1)
+    opening = json.dumps(head(result, units, axes), ensure_ascii=False, allow_nan=False, indent=1)
     stream.write(opening.removesuffix("\n}") + ',\n "positions": [')
     for k, record in enumerate(position_records(result, units, axes)):
         stream.write((",\n  " if k else "\n  ") + json.dumps(record, ensure_ascii=False, allow_nan=False))

@@ -77,19 +77,30 @@ def wrench(result: Result, joint: str, on: str | None, axes: Axes, least: bool =
     by, to = result.mechanism.joints[joint].links
     moment = result.moment_array[..., k, None] if g.d == 2 else result.moment_array[..., k, :]
     whole = (-1.0 if on == by else 1.0) * np.concatenate([result.force_array[..., k, :], moment], axis=-1)
-    link = on or to
     if g.d == 2:
-        if not least:
-            whole = np.where(result.unique(joint), whole, np.nan)
-        if axes == "joint":
-            return axes_of(result, joint, axes)
-        return whole if axes == "ground" or link == "ground" else _turned(result, link, whole)
-    place = "ground" if axes == "ground" else "joint" if axes == "joint" else "i" if link == by else "j"
-    if place != "ground":
-        turns = [axes_of(result, joint, place, moment) for moment in (False, True)]
-        parts = zip(turns, PARTS, strict=True)
-        whole = np.concatenate([(turn @ whole[..., part, None])[..., 0] for turn, part in parts], axis=-1)
-    return whole if least else np.where(unique_in(result, joint, place), whole, np.nan)
+        kept = whole if least else np.where(result.unique(joint), whole, np.nan)
+        return turned(result, joint, on, axes, kept)
+    whole = turned(result, joint, on, axes, whole)
+    return whole if least else np.where(unique_in(result, joint, _place(axes, by, on or to)), whole, np.nan)
+
+
+def _place(axes: Axes, by: str, on: str) -> str:
+    """The place that axes are of: the ground, the joint, its link i or its link j."""
+    return axes if axes != "link" else "i" if on == by else "j"
+
+
+def turned(result: Result, joint: str, on: str | None, axes: Axes, whole: Array) -> Array:
+    """A force (P, d) or wrench (P, n) of a joint on one of its links, default on j, from ground axes to others."""
+    by, to = result.mechanism.joints[joint].links
+    place = _place(axes, by, on or to)
+    if place == "ground":
+        return whole
+    if result.compiled.layout.algebra.d == 2:
+        return _turned(result, on or to, whole) if place != "joint" else axes_of(result, joint, place)
+    parts = np.split(whole, whole.shape[-1] // 3, axis=-1)
+    turns = [axes_of(result, joint, place, bool(moment)) for moment in range(len(parts))]
+    turned = [(turn @ part[..., None])[..., 0] for turn, part in zip(turns, parts, strict=True)]
+    return np.concatenate(turned, axis=-1)
 
 
 def unique_in(result: Result, joint: str, place: str) -> NDArray[np.bool_]:
@@ -103,5 +114,7 @@ def unique_in(result: Result, joint: str, place: str) -> NDArray[np.bool_]:
 
 
 def _turned(result: Result, link: str, whole: Array) -> Array:
+    if link == "ground":
+        return whole
     force = plane.unrotate(plane.rotation(result.angle(link)), whole[..., :2])
     return np.concatenate([force, whole[..., 2:]], axis=-1)

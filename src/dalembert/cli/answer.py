@@ -11,12 +11,14 @@ from dalembert.analysis.columns import (
     Scale,
     UnitChoice,
     drive_kinds,
+    in_plane,
     load_kind,
     reactions,
     scale,
     unknown_kinds,
 )
 from dalembert.analysis.wrenches import Axes
+from dalembert.cli.in_space import NOT_UNIQUE, space_link_tables, space_reaction_tables
 from dalembert.cli.rubbing import (
     branch_note,
     cycle_text,
@@ -25,7 +27,7 @@ from dalembert.cli.rubbing import (
     friction_table,
     with_ends,
 )
-from dalembert.cli.text import number, table, tables, with_unit, wrapped
+from dalembert.cli.text import number, rounded, table, tables, with_unit, wrapped
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
@@ -96,12 +98,12 @@ def _one(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
     if status == "at_rest" and result.ends:
         yield from _ends(result, to, axes)
     elif result.joints and not _without_reactions(result):
-        yield _reaction_table(result, to, axes)
+        yield _reactions(result, to, axes)
         if result.friction is not None and np.isfinite(result.friction.cz[0]).all():
             yield friction_table(result, to)
             yield wrapped(efficiency_note(result))
     if result.links:
-        yield _link_tables(result, to)
+        yield (_link_tables if in_plane(result) else space_link_tables)(result, to)
 
 
 def _drive_table(result: Result, to: Printed) -> str:
@@ -145,7 +147,20 @@ def _ends(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
     for name, ends in zip(unknown_kinds(result), result.ends, strict=True):
         for which, end in zip(("low", "high"), ends, strict=True):
             yield f"At the {which} end of {name}:"
-            yield _reaction_table(end, to, axes)
+            yield _reactions(end, to, axes)
+
+
+def _reactions(result: Result, to: Printed, axes: Axes) -> str:
+    if in_plane(result):
+        return _reaction_table(result, to, axes)
+    sized = [
+        r._replace(
+            force=significant(result, "force", r.force[0]),
+            moment=significant(result, "moment", r.moment[0]),
+        )
+        for r in reactions(result, axes)
+    ]
+    return space_reaction_tables(sized, to, axes)
 
 
 def _reaction_table(result: Result, to: Printed, axes: Axes) -> str:
@@ -162,7 +177,7 @@ def _reaction_table(result: Result, to: Printed, axes: Axes) -> str:
     note = f"F_ij is the force by link i on link j, in {where}; moments about j's point of the joint."
     shown = f"{tables(heads, rows, 3)}\n{wrapped(note)}"
     if least:
-        shown += "\n\nNot unique; with the least sum of squares:\n\n" + tables(heads, least, 3)
+        shown += f"\n\n{NOT_UNIQUE}\n\n" + tables(heads, least, 3)
     return shown
 
 
@@ -172,16 +187,6 @@ def _wrench(force: Any, moment: float, to: Printed) -> list[str]:
     size = float(np.hypot(x, y))
     direction = float(to("angle", np.arctan2(y, x))) if size else 0.0
     return [number(v) for v in (x, y, size, direction, float(to("moment", moment)))]
-
-
-def rounded(vector: Any, beside: float = 0.0) -> list[float]:
-    """Components of a vector; what is nothing but rounding beside its largest, or beside another size, is 0.
-
-    >>> rounded([1e-17, 3.0]), rounded([1e-17], 3.0)
-    ([0.0, 3.0], [0.0])
-    """
-    size = max(_largest(vector), beside)
-    return [0.0 if abs(float(v)) < 1e-12 * size else float(v) for v in vector]
 
 
 def _largest(values: Any) -> float:
@@ -247,7 +252,9 @@ def _series(result: Result, to: Printed, axes: Axes) -> tuple[list[str], list[An
     for load in result.unknown_loads:
         named.append((load, load_kind(result, load), result.unknown_load(load)))
     for r in () if _without_reactions(result) else reactions(result, axes):
-        named.append((f"|F| {r.joint}", "force", np.hypot(r.force[:, 0], r.force[:, 1])))
+        named.append((f"|F| {r.joint}", "force", np.linalg.norm(r.force, axis=-1)))
+        if r.moment.ndim == 2 and np.any(np.nan_to_num(r.moment)):
+            named.append((f"|M| {r.joint}", "moment", np.linalg.norm(r.moment, axis=-1)))
     return [f"{name}\n{to.text(kind)}" for name, kind, _ in named], [
         to(kind, significant(result, kind, values)) for _, kind, values in named
     ]

@@ -21,7 +21,7 @@ from dalembert.cli.help import Hanging
 from dalembert.cli.options import (
     AS_USUAL,
     At,
-    Axes,
+    ReactionAxes,
     Force,
     ModelFile,
     Names,
@@ -89,7 +89,9 @@ def solve(
         Literal["si", "file"] | None,
         said("Units of what is printed (default: those of the file) and written (default: si)."),
     ] = None,
-    axes: Annotated[Axes, said("Axes of the reactions: ground, or the link they act on.")] = "ground",
+    axes: Annotated[
+        ReactionAxes, said("Axes of the reactions: ground, the link they act on, in space the joint's own.")
+    ] = "ground",
     no_friction: NoFriction = False,
     every: Annotated[bool, flag("Print every position, however many.", "--all")] = False,
     force: Force = False,

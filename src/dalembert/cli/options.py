@@ -65,6 +65,7 @@ At = Annotated[
     ),
 ]
 Axes = Literal["ground", "link"]
+ReactionAxes = Literal["ground", "link", "joint"]
 Theme = Annotated[
     Literal["light", "dark", "print"],
     said("Colours for light paper, for a dark screen, or black and white for print."),

@@ -37,7 +37,7 @@ class Wanted(NamedTuple):
     xlsx: Path | None
     netcdf: Path | None
     units: Literal["si", "file"] | None
-    axes: Literal["ground", "link"]
+    axes: Literal["ground", "link", "joint"]
     every: bool
     force: bool
 

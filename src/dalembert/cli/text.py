@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 WIDTH = 80
 GAP = 2
@@ -27,6 +28,17 @@ def with_unit(value: float, unit: str, digits: int = 6) -> str:
     ('27.48 N*m', '-')
     """
     return f"{number(value, digits)} {unit}" if math.isfinite(value) else "-"
+
+
+def rounded(vector: Any, beside: float = 0.0) -> list[float]:
+    """Components of a vector; what is nothing but rounding beside its largest, or beside another size, is 0.
+
+    >>> rounded([1e-17, 3.0]), rounded([1e-17], 3.0)
+    ([0.0, 3.0], [0.0])
+    """
+    numbers = [float(v) for v in vector]
+    size = max((abs(v) for v in numbers if math.isfinite(v)), default=0.0)
+    return [0.0 if abs(v) < 1e-12 * max(size, beside) else v for v in numbers]
 
 
 def table(heads: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) -> str:

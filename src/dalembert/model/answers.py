@@ -19,6 +19,7 @@ Quantity = Literal[
     "position",
     "velocity",
     "angle",
+    "rotation",
     "speed",
     "acceleration",
     "center",
@@ -31,9 +32,21 @@ Quantity = Literal[
     "slide",
     "slide_speed",
     "slide_acceleration",
+    "slide1",
+    "slide1_speed",
+    "slide1_acceleration",
+    "slide2",
+    "slide2_speed",
+    "slide2_acceleration",
     "turn",
     "turn_speed",
     "turn_acceleration",
+    "turn1",
+    "turn1_speed",
+    "turn1_acceleration",
+    "turn2",
+    "turn2_speed",
+    "turn2_acceleration",
     "effort_low",
     "effort_high",
     "unknown_load_low",
@@ -73,9 +86,12 @@ class Answer(Part):
     )
     axes: Literal["ground", "link", "joint"] = Field(
         "ground",
-        description="the axes of a reaction: ground's, of the link it acts on, in space the joint's own",
+        description="the axes of a vector: ground's, the link's (acted on), in space the joint's own",
     )
-    value: Any = Field(None, description="as published: number, text with unit, [x, y], r @ angle, a status")
+    value: Any = Field(
+        None,
+        description="as published: number, text with unit, [x, y], r @ angle, [x, y, z], 3 rows, a status",
+    )
     exact: Any = Field(None, description="the exact value, computed independently; checked to 1e-7")
     tolerance: Any = Field(None, description="relative, 0.3 %, or a quantity; default 1e-6 relative")
     exact_tolerance: Any = Field(None, description="in place of 1e-7 relative")
@@ -85,8 +101,14 @@ class Answer(Part):
     @classmethod
     def _plain(cls, value: Any, info: ValidationInfo) -> Any:
         for item in value if isinstance(value, (list, tuple)) else (value,):
-            _check_plain(item)
-        return tuple(value) if isinstance(value, list) else value
+            rows = info.field_name in ("value", "exact") and isinstance(item, (list, tuple))
+            for number in item if rows else (item,):
+                _check_plain(number)
+        return _frozen(value)
+
+
+def _frozen(value: Any) -> Any:
+    return tuple(_frozen(item) for item in value) if isinstance(value, (list, tuple)) else value
 
 
 def _check_plain(item: object) -> None:

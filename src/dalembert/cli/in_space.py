@@ -1,0 +1,107 @@
+"""An answer in space as a person reads it: forces and moments by components, links by how they are turned."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.cli.text import number, rounded, tables, wrapped
+
+if TYPE_CHECKING:
+    from dalembert.analysis import Result
+    from dalembert.analysis.columns import Reaction
+    from dalembert.analysis.wrenches import Axes
+
+
+NOT_UNIQUE = "Not unique; with the least sum of squares:"
+AXES: dict[Axes, str] = {
+    "ground": "ground axes",
+    "link": "the axes of link j",
+    "joint": "the joint's own axes",
+}
+
+
+def space_reaction_tables(reactions: Sequence[Reaction], to: Any, axes: Axes) -> str:
+    """Forces, then moments, of reactions at one position (3,); what is not unique also with the least norm."""
+    note = f"F_ij and M_ij are by link i on link j, in {AXES[axes]}; moments about j's point of the joint."
+    shown = f"{_tables(reactions, to)}\n{wrapped(note)}"
+    least = [
+        r._replace(force=r.least_norm[0, :3], moment=r.least_norm[0, 3:])
+        for r in reactions
+        if r.least_norm is not None
+    ]
+    return f"{shown}\n\n{NOT_UNIQUE}\n\n{_tables(least, to)}" if least else shown
+
+
+def _tables(reactions: Sequence[Reaction], to: Any) -> str:
+    parts = []
+    for letter, kind in (("F", "force"), ("M", "moment")):
+        heads = [
+            f"{head}\n{to.text(kind)}"
+            for head in (*(f"{letter}_ij {axis}" for axis in "xyz"), f"|{letter}_ij|")
+        ]
+        rows = [[r.joint, r.by, r.on, *_sized(to(kind, getattr(r, kind)))] for r in reactions]
+        parts.append(tables(["joint", "by i", "on j", *heads], rows, 3))
+    return "\n\n".join(parts)
+
+
+def _sized(vector: Any) -> list[str]:
+    """Components and size."""
+    components = rounded(vector)
+    return [number(v) for v in (*components, math.hypot(*components))]
+
+
+def space_link_tables(result: Result, to: Any) -> str:
+    """How every link is turned, where its mass centre is, and their rates, at the first position."""
+    turned = [f"turned\n{to.text('angle')}", "about x", "y", "z", *_heads("center", to.text("length"))]
+    rates = (("speed", "angular_speed"), ("acceler.", "angular_acceleration"))
+    turning = [head for name, kind in rates for head in _heads(name, to.text(kind))]
+    rows: list[list[list[str]]] = [[], [], []]
+    for link in result.links:
+        angle, axis = axis_and_angle(result.rotation(link)[0])
+        center = rounded(to("length", result.center(link)[0]))
+        parts = (
+            [float(to("angle", angle)), *axis, *center],
+            [
+                *rounded(to("angular_speed", result.speed(link)[0])),
+                *rounded(to("angular_acceleration", result.acceleration(link)[0])),
+            ],
+            rounded(to("acceleration", result.center_acceleration(link)[0])),
+        )
+        for place, part in zip(rows, parts, strict=True):
+            place.append([link, *(number(v, 5) for v in part)])
+    heads = (turned, turning, _heads("acc. of center", to.text("acceleration")))
+    shown = [tables(["link", *head], part, 1) for head, part in zip(heads, rows, strict=True)]
+    note = "Links are turned from ground's axes about the axis shown; vectors are in ground axes."
+    return "\n\n".join(shown) + f"\n{wrapped(note)}"
+
+
+def _heads(name: str, unit: str) -> list[str]:
+    return [f"{name} {axis}\n{unit}" for axis in "xyz"]
+
+
+def axis_and_angle(rotation: Any) -> tuple[float, tuple[float, float, float]]:
+    """Angle (0 to pi) and axis of a rotation (3, 3); an axis of zeros where it turns nothing, NaN where unknown.
+
+    >>> axis_and_angle(np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]))
+    (1.5707963267948966, (0.0, 0.0, 1.0))
+    """
+    if not np.isfinite(rotation).all():
+        return math.nan, (math.nan, math.nan, math.nan)
+    skew = np.array(
+        [rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]]
+    )
+    angle = math.atan2(float(np.linalg.norm(skew)), float(np.trace(rotation)) - 1)
+    if angle < 1e-9:
+        return 0.0, (0.0, 0.0, 0.0)
+    if math.pi - angle > 1e-4:
+        axis = skew / np.linalg.norm(skew)
+    else:  # near half a turn the symmetric part, (1 - cos) n n + cos, gives the axis up to its sign
+        square = (rotation + rotation.T) / 2 + np.eye(3)
+        axis = square[int(np.diag(square).argmax())]
+        axis = axis / np.linalg.norm(axis) * (1.0 if axis @ skew >= 0 else -1.0)
+    x, y, z = rounded(axis)
+    return angle, (x, y, z)
