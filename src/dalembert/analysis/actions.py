@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert.analysis.columns import force_and_moment
 from dalembert.analysis.freedoms import whole_pose
 from dalembert.analysis.joints import signed_radii
+from dalembert.core.constraints import system
 from dalembert.core.equilibrium import Motion, known_sources, motion
 from dalembert.core.forcing import Source
 from dalembert.core.geometry import arm
@@ -27,7 +29,7 @@ GROUND = "ground"
 
 @dataclass(frozen=True)
 class Action:
-    """A force (P, 2) at a point (P, 2) and a couple (P,) on a link, all in ground axes.
+    """A force (P, d) at a point (P, d) and a couple (P,), in space (P, 3), on a link, all in ground axes.
 
     ``source`` is the contribution it belongs to in a superposition, empty for joints' reactions; ``by`` the link
     that exerts it, where it is one; ``of`` the joint, drive or load. ``part`` of a joint's reaction, empty where it is
@@ -45,13 +47,18 @@ class Action:
     part: str = ""
 
     def moment(self, about: Array) -> Array:
-        """Moment (P,) about a point (P, 2): couple + r x F."""
+        """Moment (P,), in space (P, 3), about a point (P, d): couple + r x F."""
         r = self.at - about
+        if r.shape[-1] == 3:
+            return np.asarray(self.couple + np.cross(r, self.force))
         return np.asarray(self.couple + r[..., 0] * self.force[..., 1] - r[..., 1] * self.force[..., 0])
 
     def power(self, velocity: Array, spin: Array) -> Array:
-        """Power (P,) for the velocity of its point (P, 2) and the link's spin (P,)."""
-        return np.asarray((self.force * velocity).sum(axis=-1) + self.couple * spin)
+        """Power (..., P) for velocities (..., P, d) of its point and spins (..., P) or (..., P, 3) of its link."""
+        turning = self.couple * spin
+        return np.asarray(
+            (self.force * velocity).sum(axis=-1) + (turning.sum(axis=-1) if self.couple.ndim > 1 else turning)
+        )
 
 
 class State(NamedTuple):
@@ -118,15 +125,13 @@ def joint_actions(r: Result, split: bool = True) -> tuple[Action, ...]:
         i, j = r.mechanism.joints[joint].links
         at = joint_place(r, joint)
         for on, by in ((j, i), (i, j)):
-            least = r.least_norm(joint, on)
+            force, moment = force_and_moment(r.least_norm(joint, on))
             rub, turn = r.friction_force(joint, on), r.friction_moment(joint, on)
             if not split or not (rub.any() or turn.any()):
-                out.append(Action(joint, "joint", "", on, by, at, least[..., :2], least[..., 2]))
+                out.append(Action(joint, "joint", "", on, by, at, force, moment))
                 continue
             part = "normal" if rub.any() else ""
-            out.append(
-                Action(joint, "joint", "", on, by, at, least[..., :2] - rub, least[..., 2] - turn, part)
-            )
+            out.append(Action(joint, "joint", "", on, by, at, force - rub, moment - turn, part))
             out.append(Action(joint, "friction", "", on, by, at, rub, turn))
     return tuple(out)
 
@@ -149,7 +154,7 @@ def friction_actions(r: Result) -> tuple[Action, ...]:
 
 
 def joint_place(r: Result, joint: str) -> Array:
-    """Where a joint's reaction acts (P, 2): j's point, or the contact of a higher pair."""
+    """Where a joint's reaction acts (P, d): j's point, or the contact of a higher pair."""
     described: Any = r.mechanism.joints[joint]
     (i, j), (ui, uj) = described.links, r.mechanism.joint_points(joint)
     pj = link_place(r, j, uj)
@@ -164,32 +169,34 @@ def joint_place(r: Result, joint: str) -> Array:
 
 
 def link_place(r: Result, link: str, u: Any) -> Array:
-    """A point of any link, ground included (P, 2)."""
+    """A point of any link, ground included (P, d)."""
     if link == GROUND:
-        return np.broadcast_to(np.asarray(u, float), (len(r.status), 2))
+        return np.broadcast_to(np.asarray(u, float), (len(r.status), len(u)))
     return r._place(link, np.asarray(u, float))
 
 
 def link_angle(r: Result, link: str) -> Array:
-    """Angle of any link, ground included (P,)."""
+    """In the plane: angle of any link, ground included (P,)."""
     return np.zeros(len(r.status)) if link == GROUND else r.angle(link)
 
 
 def link_speed(r: Result, link: str) -> Array:
-    """Angular velocity of any link, ground included (P,)."""
+    """In the plane: angular velocity of any link, ground included (P,)."""
     return np.zeros(len(r.status)) if link == GROUND else r.speed(link)
 
 
 def effort_actions(r: Result) -> tuple[Action, ...]:
     """Efforts of the drives on both links; given ones are sources of their own."""
     out = []
+    with np.errstate(all="ignore"):
+        rows = system(r.compiled.layout.algebra, r.compiled.layout.freedoms, whole_pose(r))
     for k, drive in enumerate(r.drives):
         joint = r.mechanism.drives[drive].joint or drive
-        freedom = r.compiled.freedoms[int(r.compiled.layout.driven[k])][1]
+        row = int(r.compiled.layout.driven[k])
         i, j = r.mechanism.joints[joint].links
         source = "" if r.compiled.known.asked[k] else f"effort of {drive}"
         at = joint_place(r, joint)
-        force, couple = _effort(r, joint, freedom, r.effort(drive))
+        force, couple = _effort(r, rows, row, (*r.links, GROUND).index(j), r.effort(drive))
         out += [
             Action(drive, "effort", source, on, by, at, s * force, s * couple)
             for on, by, s in ((j, i, 1), (i, j, -1))
@@ -197,15 +204,17 @@ def effort_actions(r: Result) -> tuple[Action, ...]:
     return tuple(out)
 
 
-def _effort(r: Result, joint: str, freedom: str, value: Array) -> tuple[Array, Array]:
-    if freedom == "turn":
-        return np.zeros((len(value), 2)), value
-    along = slide_direction(r, joint)
-    return value[:, None] * along, np.zeros(len(value))
+def _effort(r: Result, rows: System, row: int, j: int, value: Array) -> tuple[Array, Array]:
+    """Force and couple on link number j at its point of the joint: one of both is zero."""
+    d = r.compiled.layout.algebra.d
+    unit = (rows.on_j if rows.j[row] == j else rows.on_i)[:, row, :]
+    if not r.compiled.layout.freedoms.angular[row]:
+        return value[:, None] * unit[:, :d], np.zeros((len(value), 3) if d == 3 else len(value))
+    return np.zeros((len(value), d)), value[:, None] * unit[:, d:] if d == 3 else value
 
 
 def slide_direction(r: Result, joint: str) -> Array:
-    """Unit vector of a joint's slide (P, 2), ground axes."""
+    """In the plane: unit vector of a joint's slide (P, 2), ground axes."""
     described = r.mechanism.joints[joint]
     angle = link_angle(r, described.links[0]) + float(getattr(described, "direction", 0.0) or 0.0)
     return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
@@ -215,20 +224,26 @@ def unknown_load_actions(r: Result) -> tuple[Action, ...]:
     """Loads that were asked for, with the values found."""
     from dalembert.analysis.loads import point_of
 
-    out, known = [], r.compiled.known
+    out = []
     for k, name in enumerate(r.unknown_loads):
         load: Any = r.mechanism.loads[name]
-        value = r.unknown_load(name)
-        zero = np.zeros(len(value))
-        if known.couple[k]:
-            at = link_place(r, load.on, r.mechanism.center(load.on))
-            out.append(Action(name, "load", "", load.on, None, at, np.zeros((len(value), 2)), value))
-            continue
-        angle = load.direction + (link_angle(r, load.on) if known.follows[k] else zero)
-        force = value[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-        at = link_place(r, load.on, point_of(r.mechanism, load.on, load.at))
-        out.append(Action(name, "load", "", load.on, None, at, force, zero))
+        value, (force, couple) = r.unknown_load(name), unit_load(r, k)
+        u = r.mechanism.center(load.on) if load.type == "couple" else point_of(r.mechanism, load.on, load.at)
+        couple = value * couple if couple.ndim == 1 else value[:, None] * couple
+        at = link_place(r, load.on, u)
+        out.append(Action(name, "load", "", load.on, None, at, value[:, None] * force, couple))
     return tuple(out)
+
+
+def unit_load(r: Result, k: int) -> tuple[Array, Array]:
+    """Force (P, d) and couple (P,) or (P, 3) of one unit of unknown load number k, ground axes."""
+    known, g = r.compiled.known, r.compiled.layout.algebra
+    force, couple = known.direction[k], known.about[k]
+    if known.follows[k]:
+        rotation = whole_pose(r).rotation[:, known.link[k], :]
+        force, couple = g.rotate(rotation, force[None]), g.rotate_couple(rotation, couple[None])
+    force, couple = (np.broadcast_to(v, (len(r.status), v.shape[-1])) for v in (force, couple))
+    return force, couple if g.d == 3 else couple[:, 0]
 
 
 def known_actions(r: Result, at: State | None = None) -> tuple[Action, ...]:
@@ -259,18 +274,19 @@ class _Builder:
         self.mechanism = r.mechanism
 
     def add(self, of: str, kind: Kind, source: str, one: Source, k: int, r: Array, pure: str) -> None:
-        """Wrench k of a source at the arm r (P, 2) from its link's reference point."""
-        link, count = int(one.link[k]), len(self.pose.turn)
-        wrench = np.broadcast_to(one.wrench[..., k, :], (count, 3))
-        force = wrench[:, :2] if pure != "couple" else np.zeros((count, 2))
-        couple = wrench[:, 2] - (r[:, 0] * wrench[:, 1] - r[:, 1] * wrench[:, 0])
+        """Wrench k of a source at the arm r (P, d) from its link's reference point."""
+        g, link, count = self.r.compiled.layout.algebra, int(one.link[k]), len(self.pose.point)
+        wrench = np.broadcast_to(one.wrench[..., k, :], (count, g.n))
+        force = wrench[:, : g.d] if pure != "couple" else np.zeros((count, g.d))
+        couple = wrench[:, g.d :] - g.cross(r, wrench[:, : g.d])
         if pure == "force":
-            couple = np.zeros(count)
+            couple = np.zeros_like(couple)
+        couple = couple if g.d == 3 else couple[:, 0]
         at = self.pose.point[:, link, :] + r + self.r.compiled.origin
         self.out.append(Action(of, kind, source, self.links[link], None, at, force, couple))
 
     def arm(self, link: int, u: Array) -> Array:
-        """Ground components of an arm (2,) of a link."""
+        """Ground components (P, d) of an arm (d,) of a link."""
         return arm(self.r.compiled.layout.algebra, self.pose, np.array([link]), u[None])[:, 0, :]
 
     def center(self, link: int) -> Array:
@@ -298,7 +314,9 @@ class _Builder:
     def couples(self, names: list[str], one: Source) -> None:
         for k, name in enumerate(names):
             link = int(one.link[k])
-            middle = self.center(link) if link < len(self.r.links) else np.zeros((len(self.pose.turn), 2))
+            middle = (
+                self.center(link) if link < len(self.r.links) else np.zeros_like(self.pose.point[:, link, :])
+            )
             self.add(name, "load", name, one, k, middle, "couple")
 
     def springs(self, names: list[str], one: Source) -> None:
@@ -317,7 +335,7 @@ class _Builder:
 
         rows: list[tuple[str, Kind, str, str, str]] = [
             (name, "spring" if load.type == "torsion_spring" else "damper", name, load.joint, "turn")
-            for name, load in loads
+            for name, load in loads  # the order is that of the compiled resistances
             if load.type in ("torsion_spring", "torsion_damper")
         ]
         for joint, described in self.mechanism.joints.items():
@@ -330,12 +348,14 @@ class _Builder:
             for end in (k, k + len(rows)):
                 link = int(one.link[end])
                 r = place - self.pose.point[:, link, :] - self.r.compiled.origin
-                self.add(of, kind, source, one, end, r, "couple" if freedom == "turn" else "force")
+                self.add(of, kind, source, one, end, r, "couple" if freedom.startswith("turn") else "force")
 
 
 def magnitude(force: Array) -> Array:
-    """Length of vectors (..., 2)."""
-    return np.hypot(force[..., 0], force[..., 1])
+    """Length of vectors (..., d)."""
+    if force.shape[-1] == 3:
+        return np.asarray(np.sqrt((force * force).sum(axis=-1)))
+    return np.asarray(np.hypot(force[..., 0], force[..., 1]))
 
 
 def polar(force: Array) -> tuple[float, float]:

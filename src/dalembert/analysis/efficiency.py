@@ -91,15 +91,16 @@ def unknown_power(r: Result, effort: Array, load: Array) -> Array:
 
 def load_rate(r: Result, name: str) -> Array:
     """Speed of a load's point along its direction (P,), or turning rate of a couple's link."""
-    load: Any = r.mechanism.loads[name]
-    if load.type == "couple":
-        return r.speed(load.on)
-    from dalembert.algebra import plane
+    from dalembert.analysis.actions import unit_load
     from dalembert.analysis.loads import point_of
 
+    load: Any = r.mechanism.loads[name]
+    force, couple = unit_load(r, r.unknown_loads.index(name))
+    if load.type == "couple":
+        turning = r.speed(load.on) * couple
+        return np.asarray(turning if turning.ndim == 1 else turning.sum(axis=-1))
     velocity = r._velocity(load.on, point_of(r.mechanism, load.on, load.at))
-    angle = load.direction + (r.angle(load.on) if load.axes == "link" else 0.0) * np.ones(len(r.status))
-    return np.asarray((velocity * plane.rotation(angle)).sum(axis=-1))
+    return np.asarray((velocity * force).sum(axis=-1))
 
 
 def _cycle(r: Result) -> tuple[float, float, float, dict[str, float]]:

@@ -24,6 +24,7 @@ from dalembert.analysis.actions import (
     whole_actions,
 )
 from dalembert.analysis.friction import friction_circle_radius
+from dalembert.analysis.planar import refuse_space
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
@@ -205,6 +206,7 @@ class _Unknowns:
     """Unknown numbers by name, the links each stands on, and what has been found."""
 
     def __init__(self, r: Result, rods: set[str]) -> None:
+        self.each, self.passive = r.compiled.layout.algebra.n, set(r.compiled.passive)
         rows = r.compiled.layout.constraints.joint
         self.count: dict[str, int] = {}
         self.on: dict[str, set[str]] = {}
@@ -229,12 +231,16 @@ class _Unknowns:
         return [n for n, links in self.on.items() if links & set(group) and n not in self.solved]
 
     def suffice(self, group: Sequence[str]) -> bool:
-        return sum(self.count[n] for n in self.of(group)) <= 3 * len(group)
+        return sum(self.count[n] for n in self.of(group)) <= self.equations(group)
+
+    def equations(self, group: Sequence[str]) -> int:
+        """Three a link, in space six; about the line of its two ball joints a link that could spin has none."""
+        return int(self.each) * len(group) - len(self.passive & set(group))
 
     def step(self, group: Sequence[str]) -> Step:
         finds = self.of(group)
         self.solved |= set(finds)
-        unknowns, equations = sum(self.count[n] for n in finds), 3 * len(group)
+        unknowns, equations = sum(self.count[n] for n in finds), self.equations(group)
         links = " and ".join(group) + (" together" if len(group) > 1 else "")
         noun = "unknown" if unknowns == 1 else "unknowns"
         why = f"{links}: {equations} equations, {unknowns} {noun} in {_listed(finds)}"
@@ -250,6 +256,9 @@ def displaced_inertia(r: Result, link: str) -> Displaced:
     >>> f"{float(found.offset[0]) / 0.0254:.4f} in"
     '1.7995 in'
     """
+    refuse_space(
+        r.mechanism, "the displaced inertia force", "read the inertia force and couple of da.forces_on"
+    )
     center = r.center(link)
     force = -r.mechanism.mass(link) * r.center_acceleration(link)
     couple = -r.mechanism.inertia(link) * r.acceleration(link)
@@ -271,6 +280,7 @@ def concurrency(some: Sequence[Action], k: int) -> tuple[float, float] | None:
 
 def components_along(r: Result, a: Action, k: int) -> tuple[float, float]:
     """A force along and across its link (its x axis), at position k."""
+    refuse_space(r.mechanism, "components along and across a link", 'ask the reaction with axes="link"')
     angle = 0.0 if a.link == "ground" else float(r.angle(a.link)[k])
     c, s = np.cos(angle), np.sin(angle)
     fx, fy = a.force[k]

@@ -222,9 +222,11 @@ class Result:
         )
 
     def friction_moment(self, joint: str, on: str | None = None) -> Array:
-        """Dry friction's couple in a joint on one of its links (P,), default on j."""
+        """Dry friction's couple in a joint on one of its links (P,), in space (P, 3), default on j."""
         k, sign = self._joint(joint, on)
-        return sign * (np.zeros(len(self.status)) if self.friction is None else self.friction.moment[:, k])
+        return sign * (
+            np.zeros_like(self.moment_array[:, k]) if self.friction is None else self.friction.moment[:, k]
+        )
 
     def power_lost(self, joint: str, kind: Literal["dry", "viscous", "all"] = "all") -> Array:
         """Power that friction takes in a joint (P,), W."""

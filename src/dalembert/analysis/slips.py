@@ -32,6 +32,10 @@ def of_value(series: Series, right: Array) -> Iterator[Hypothesis]:
     yield Hypothesis(opposite, -right)
     if right.ndim == 0:
         return
+    if right.shape == (3,):
+        yield from _in_space(right)
+    if right.shape != (2,):
+        return
     x, y = (float(c) for c in right)
     yield Hypothesis("the angle is counted from the other axis: x and y are exchanged", np.array([y, x]))
     yield Hypothesis("the angle is counted clockwise: y has the wrong sign", np.array([x, -y]))
@@ -44,6 +48,17 @@ def of_value(series: Series, right: Array) -> Iterator[Hypothesis]:
         "degrees are taken for radians in sine and cosine",
         size * np.array([math.cos(turned), math.sin(turned)]),
     )
+
+
+def _in_space(right: Array) -> Iterator[Hypothesis]:
+    for k, name in enumerate("xyz"):
+        yield Hypothesis(f"{name} has the wrong sign", np.where(np.arange(3) == k, -right, right))
+    for a, b in ((0, 1), (1, 2), (0, 2)):
+        exchanged = right.copy()
+        exchanged[[a, b]] = right[[b, a]]
+        yield Hypothesis(f"{'xyz'[a]} and {'xyz'[b]} are exchanged", exchanged)
+    yield Hypothesis("the axes are counted one on: x, y, z for z, x, y", np.roll(right, 1))
+    yield Hypothesis("the axes are counted one on: x, y, z for y, z, x", np.roll(right, -1))
 
 
 def _angles(right: Array) -> Iterator[Hypothesis]:

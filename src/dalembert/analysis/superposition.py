@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.actions import Action, State, known_actions, state
+from dalembert.analysis.columns import force_and_moment
 from dalembert.core.equilibrium import balance, reactions
 from dalembert.core.forcing import Source, summed
 from dalembert.errors import ModelError
@@ -29,8 +30,8 @@ class Superposition:
 
     result: Result = field(repr=False)
     sources: tuple[str, ...]
-    force: Array = field(repr=False)  # (S, P, joints, 2) on j
-    moment: Array = field(repr=False)  # (S, P, joints)
+    force: Array = field(repr=False)  # (S, P, joints, d) on j
+    moment: Array = field(repr=False)  # (S, P, joints), in space (S, P, joints, 3)
     efforts: Array = field(repr=False)  # (S, P, D)
     loads: Array = field(repr=False)  # (S, P, U)
 
@@ -40,12 +41,21 @@ class Superposition:
         return dict(zip(self.sources, self.efforts[..., k], strict=True))
 
     def reaction(self, joint: str, on: str | None = None) -> dict[str, Array]:
-        """Part of a joint's force (P, 2) by source, ground axes, on ``on`` (default j)."""
+        """Part of a joint's force (P, d) by source, ground axes, on ``on`` (default j)."""
         k, sign = self.result._joint(joint, on)
-        kept = self.result.unique(joint)[..., :2]
+        kept, _ = force_and_moment(self.result.unique(joint))
         return {
             s: np.where(kept, sign * f, np.nan)
-            for s, f in zip(self.sources, self.force[..., k, :], strict=True)
+            for s, f in zip(self.sources, self.force[:, :, k], strict=True)
+        }
+
+    def reaction_moment(self, joint: str, on: str | None = None) -> dict[str, Array]:
+        """Part of a joint's moment about j's point (P,), in space (P, 3), by source, on ``on`` (default j)."""
+        k, sign = self.result._joint(joint, on)
+        _, kept = force_and_moment(self.result.unique(joint))
+        return {
+            s: np.where(kept, sign * m, np.nan)
+            for s, m in zip(self.sources, self.moment[:, :, k], strict=True)
         }
 
     def unknown_load(self, name: str) -> dict[str, Array]:
@@ -125,15 +135,15 @@ def refuse_nonlinear(r: Result) -> None:
 
 
 def _total(r: Result, some: list[Action]) -> Array:
-    """Wrench of some actions on each moving link (P, L, 3), about the reference points."""
-    count = len(r.status)
+    """Wrench of some actions on each moving link (P, L, n), about the reference points."""
+    count, g = len(r.status), r.compiled.layout.algebra
     index = {name: k for k, name in enumerate(r.links)} | {"ground": len(r.links)}
-    wrenches = np.zeros((count, len(some), 3))
+    wrenches = np.zeros((count, len(some), g.n))
     for k, a in enumerate(some):
         link = index[a.link]
-        about = np.zeros(2) if link == len(r.links) else r.point_array[:, link, :]
-        wrenches[:, k, :2] = a.force
-        wrenches[:, k, 2] = a.moment(about + r.compiled.origin)
+        about = np.zeros(g.d) if link == len(r.links) else r.point_array[:, link, :]
+        wrenches[:, k, : g.d] = a.force
+        wrenches[:, k, g.d :] = a.moment(about + r.compiled.origin).reshape((count, g.n - g.d))
     return summed(r.compiled.layout, Source(np.array([index[a.link] for a in some], np.intp), wrenches))
 
 
@@ -147,7 +157,7 @@ def _answered(r: Result, at: State, w: Array, given: int | None = None) -> tuple
         known = replace(c.known, effort=effort)
         found = balance(c.layout, c.forcing, known, at.pose, at.moving, at.rows, at.solver, w)
         force, couple = reactions(c.layout, at.pose, at.rows, found)
-    return force, couple[..., 0], found.effort, found.load
+    return force, couple if c.layout.algebra.d == 3 else couple[..., 0], found.effort, found.load
 
 
 def _nothing(r: Result) -> Superposition:

@@ -13,7 +13,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.analysis.actions import GROUND, Action, State, friction_actions, known_actions, state
+from dalembert.analysis.actions import (
+    GROUND,
+    Action,
+    State,
+    friction_actions,
+    known_actions,
+    magnitude,
+    state,
+)
 from dalembert.core.constraints import rates
 from dalembert.core.equilibrium import load_rows
 from dalembert.core.layout import System
@@ -28,8 +36,9 @@ Array = NDArray[Any]
 class VirtualWork:
     """Efforts (P, D) and unknown loads (P, U) by virtual work, and what they came from.
 
-    For action a of ``actions`` and drive d at unit speed: velocity of its point (A, P, D, 2), spin of its link
-    (A, P, D), power (A, P, D). The friction of a joint is one action, with the motion of j against i.
+    For action a of ``actions`` and drive d at unit speed: velocity of its point (A, P, D, d), spin of its link
+    (A, P, D), in space (A, P, D, 3), power (A, P, D). The friction of a joint is one action, with the motion of j
+    against i.
     """
 
     result: Result = field(repr=False)
@@ -53,8 +62,9 @@ class VirtualWork:
         other = np.concatenate([r.effort_array, r.load_array], axis=-1)
         largest = np.abs(found).max(axis=-1, initial=0.0)
         for k, a in enumerate(self.actions):
-            force, speed = np.hypot(*a.force.T)[:, None], np.hypot(*np.moveaxis(self.velocity[k], -1, 0))
-            most = force * speed + np.abs(a.couple[:, None] * self.spin[k])
+            turning = a.couple[:, None] * self.spin[k]
+            turning = np.abs(turning.sum(axis=-1) if turning.ndim == 3 else turning)
+            most = magnitude(a.force)[:, None] * magnitude(self.velocity[k]) + turning
             largest = np.maximum(largest, most.max(axis=-1, initial=0.0))
         gap = np.abs(found - other).max(axis=-1, initial=0.0)
         return np.asarray(gap / np.where(largest > 0, largest, 1.0))
@@ -62,11 +72,10 @@ class VirtualWork:
     @property
     def answer(self) -> Result:
         """The result with these efforts and no reactions: what the method can find."""
-        nothing = np.full_like(self.result.force_array, np.nan)
         return replace(
             self.result,
-            force_array=nothing,
-            moment_array=nothing[..., 0],
+            force_array=np.full_like(self.result.force_array, np.nan),
+            moment_array=np.full_like(self.result.moment_array, np.nan),
             effort_array=self.effort,
             load_array=self.load,
         )
@@ -89,27 +98,27 @@ def virtual_work(r: Result) -> VirtualWork:
     (['gas', 'friction in O', 'friction in A', 'friction in B', 'friction in guide'], False, -4521.8475)
     """
     at = state(r)
+    g = r.compiled.layout.algebra
     loads, rubbing = known_actions(r, at), friction_actions(r)
     known = (*loads, *rubbing)
     motions = [*(_motion(r, at, a) for a in loads), *(_relative(r, at, a) for a in rubbing)]
-    count, drives = len(r.status), len(r.drives)
-    velocity = np.array([v for v, _ in motions]).reshape((len(known), count, drives, 2))
-    spin = np.array([w for _, w in motions]).reshape((len(known), count, drives))
-    power = np.zeros((len(known), count, drives))
+    shape = (len(known), len(r.status), len(r.drives))
+    velocity = np.array([v for v, _ in motions]).reshape((*shape, g.d))
+    spin = np.array([w for _, w in motions]).reshape(shape if g.d == 2 else (*shape, 3))
+    power = np.zeros(shape)
     for k, (a, (v, w)) in enumerate(zip(known, motions, strict=True)):
-        power[k] = (a.force[:, None, :] * v).sum(axis=-1) + a.couple[:, None] * w
+        power[k] = np.moveaxis(a.power(np.moveaxis(v, 1, 0), np.moveaxis(w, 1, 0)), 0, 1)
     effort, load = _balanced(r, at, power.sum(axis=0))
     return VirtualWork(r, known, velocity, spin, power, effort, load)
 
 
 def _motion(r: Result, at: State, a: Action) -> tuple[Array, Array]:
-    """Velocity of an action's point (P, D, 2) and spin of its link (P, D) at unit speed of each drive."""
-    link = (*r.links, "ground").index(a.link)
+    """Velocity of an action's point (P, D, d) and spin of its link (P, D), (P, D, 3) at unit speed of each drive."""
+    link, g = (*r.links, "ground").index(a.link), r.compiled.layout.algebra
     twist = at.moving.virtual[..., link, :]
     arm = (a.at - r.compiled.origin - at.pose.point[:, link, :])[:, None, :]
-    w = twist[..., 2]
-    turned = np.stack([-w * arm[..., 1], w * arm[..., 0]], axis=-1)
-    return twist[..., :2] + turned, w
+    w = twist[..., g.d :]
+    return twist[..., : g.d] + g.spin(w, arm), w if g.d == 3 else w[..., 0]
 
 
 def _relative(r: Result, at: State, a: Action) -> tuple[Array, Array]:

@@ -114,7 +114,7 @@ def _gravities(r: Result) -> list[tuple[float, str]]:
 def _changes(r: Result) -> Iterator[tuple[str, dict[str, Any]]]:
     """Data changed one at a time: a sentence and what to put in their place."""
     m = r.mechanism
-    for mode in _other_modes(r):
+    for mode in _other_modes(r) if m.dimension == 2 else ():
         yield "this is the other assembly mode", {"assembly": mode}
     if not any(m.gravity_vector):
         yield "gravity is counted, and the problem has none", {"gravity": "standard"}
@@ -150,7 +150,8 @@ def _force_changes(r: Result, name: str) -> Iterator[tuple[str, dict[str, Any]]]
             yield f"the moment arm of {name} is wrong: it is taken at {point}", {f"loads.{name}.at": point}
     other = "link" if load.axes == "ground" else "ground"  # type: ignore[union-attr]
     yield f"the direction of {name} is counted in {other} axes", {f"loads.{name}.axes": other}
-    yield from _turned(r, name)
+    if m.dimension == 2:
+        yield from _turned(r, name)
 
 
 def _turned(r: Result, name: str) -> Iterator[tuple[str, dict[str, Any]]]:
@@ -175,7 +176,7 @@ def _link_changes(r: Result, link: str) -> Iterator[tuple[str, dict[str, Any]]]:
         return
     center = np.array(m.center(link))
     points = {n: np.array(p) for n, p in m.points(link).items()}
-    for name, p in points.items():
+    for name, p in points.items() if m.dimension == 2 else ():
         shifted = m.inertia(link) + m.mass(link) * float(magnitude(p - center)) ** 2
         yield (
             f"the moment of inertia of {link} is taken about {name}, not its mass centre",
@@ -184,7 +185,7 @@ def _link_changes(r: Result, link: str) -> Iterator[tuple[str, dict[str, Any]]]:
     for name, p in points.items():
         yield f"the mass centre of {link} is taken at {name}", {f"links.{link}.center": [*map(float, p)]}
     mirrored = [float(center[0]), -float(center[1])]
-    if center[1]:
+    if center[1] and m.dimension == 2:
         yield f"the mass centre of {link} is on the wrong side of it", {f"links.{link}.center": mirrored}
         along = [float(magnitude(center)), 0.0]
         yield f"the angle of the mass centre of {link} is left out", {f"links.{link}.center": along}

@@ -9,7 +9,7 @@ import numpy as np
 from dalembert.analysis.columns import UnitChoice, drive_kinds, load_kind
 from dalembert.analysis.friction import unknown_names
 from dalembert.cli.answer import Printed, printed
-from dalembert.cli.text import number, table, wrapped
+from dalembert.cli.text import number, table, tables, wrapped
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
@@ -49,10 +49,18 @@ def _quantities(parts: Any, to: Printed) -> list[tuple[str, Any, str]]:
     out = [(d, parts.efforts[..., n], drive_kinds(r, d)["effort"]) for n, d in enumerate(r.drives)]
     out += [(u, parts.loads[..., n], load_kind(r, u)) for n, u in enumerate(r.unknown_loads)]
     for n, joint in enumerate(r.joints):
-        out += [(f"{joint} {axis}", parts.force[..., n, c], "force") for c, axis in enumerate("xy")]
-        if np.any(parts.moment[..., n]):
-            out.append((f"{joint} m", parts.moment[..., n], "moment"))
+        force, moment = parts.force[:, :, n], parts.moment[:, :, n]
+        out += [(f"{joint} {axis}", force[..., c], "force") for c, axis in zip_axes(force)]
+        if moment.ndim == 2 and np.any(moment):
+            out.append((f"{joint} m", moment, "moment"))
+        elif moment.ndim == 3 and np.any(moment):
+            out += [(f"{joint} m{axis}", moment[..., c], "moment") for c, axis in zip_axes(moment)]
     return out
+
+
+def zip_axes(vectors: Any) -> list[tuple[int, str]]:
+    """Number and name of each component of vectors (..., d)."""
+    return list(enumerate("xyz"[: vectors.shape[-1]]))
 
 
 def virtual_work_answer(result: Result, units: UnitChoice) -> tuple[Result, str]:
@@ -95,6 +103,13 @@ def _all_powers(found: Any, k: int, to: Printed) -> list[str]:
     return [_powers(found, n, k, to) for n in range(len(found.result.drives))]
 
 
+HEADS = ["load", "force x", "y", "couple", "moves x", "y", "turns", "work"]
+SPACE_HEADS = [
+    *("load", "force x", "force y", "force z", "couple x", "couple y", "couple z"),
+    *("moves x", "moves y", "moves z", "turns x", "turns y", "turns z", "work"),
+]
+
+
 def _powers(found: Any, drive: int, k: int, to: Printed) -> str:
     r = found.result
     name = r.drives[drive]
@@ -104,19 +119,20 @@ def _powers(found: Any, drive: int, k: int, to: Printed) -> str:
     rows = []
     fastest = float(np.abs(found.velocity[:, k, drive]).max(initial=0.0))
     for a, v, w, p in zip(found.actions, found.velocity, found.spin, found.power, strict=True):
-        speed, force = np.where(np.abs(v[k, drive]) > 1e-13 * fastest, v[k, drive], 0.0), a.force[k]
+        speed = np.where(np.abs(v[k, drive]) > 1e-13 * fastest, v[k, drive], 0.0)
         per = to("length", 1.0) if angular else 1.0
-        cells = [force[0] * to("force", 1.0), force[1] * to("force", 1.0), a.couple[k] * to("moment", 1.0)]
-        moved = [speed[0] * per, speed[1] * per, w[k, drive] * (1.0 if angular else 1 / to("length", 1.0))]
+        cells = [*(a.force[k] * to("force", 1.0)), *np.atleast_1d(a.couple[k] * to("moment", 1.0))]
+        turns = np.atleast_1d(w[k, drive] * (1.0 if angular else 1 / to("length", 1.0)))
+        moved = [*(speed * per), *turns]
         rows.append([a.source, *(number(float(x), 5) for x in [*cells, *moved, p[k, drive] * to(kind, 1.0)])])
     total = float(found.power[:, k, drive].sum()) * to(kind, 1.0)
-    rows.append(["sum", *[""] * 6, number(total, 6)])
+    heads = HEADS if r.mechanism.dimension == 2 else SPACE_HEADS
+    rows.append(["sum", *[""] * (len(heads) - 2), number(total, 6)])
     effort = f"{name} = {number(float(found.effort[k, drive]) * to(kind, 1.0))} {to.text(kind)}"
     length = to.text("length") if angular else "1"
-    heads = ["load", "force x", "y", "couple", "moves x", "y", "turns", "work"]
     return (
         f"{unit} of {name}: forces in {to.text('force')}, couples in {to.text('moment')}, moves in {length}\n\n"
-        f"{table(heads, rows)}\n\nEffort that balances the work: {effort}"
+        f"{table(heads, rows) if heads is HEADS else tables(heads, rows, 1)}\n\nEffort that balances the work: {effort}"
     )
 
 

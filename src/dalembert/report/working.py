@@ -11,6 +11,7 @@ import numpy as np
 from dalembert.analysis.actions import actions
 from dalembert.analysis.columns import drive_kinds, load_kind
 from dalembert.analysis.members import components_along
+from dalembert.analysis.planar import refuse_space
 from dalembert.analysis.which import position_at
 from dalembert.report import balance, rubbing
 from dalembert.report.chosen import METHODS, Chosen, Method, as_formula
@@ -23,6 +24,11 @@ from dalembert.views.notation import Notation, Shown, own_name
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
+
+INSTEAD = (
+    "use dalembert solve, with --method superposition or virtual-work; in Python da.forces_on, or da.report of "
+    "da.wrench.on(r, link): a link with all its forces"
+)
 
 
 ANSWERED = ("ok", "redundant", "self_locking")
@@ -37,6 +43,7 @@ def working(
     about: str = "",
 ) -> Sheet:
     """The worked solution of one position of a result, with charts where there are more."""
+    refuse_space(r.mechanism, "the worked solution", INSTEAD)
     notation = notation or Notation()
     c = Chosen(r, position_at(r, at), Shown(r, notation), methods, about, notation)
     m = r.mechanism

@@ -16,6 +16,7 @@ from dalembert.analysis.batch.course import Course
 from dalembert.analysis.batch.general import answered, quantity
 from dalembert.analysis.batch.symbols import geometric
 from dalembert.analysis.batch.tracing import Trace, traced
+from dalembert.analysis.planar import refuse_space
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.graph import Node
@@ -55,6 +56,7 @@ def compile(  # noqa: A001
     """
     reduction.check(reduce)
     try:
+        refuse_space(mechanism, "da.compile", "use da.dynamics or da.statics")
         trace = traced(mechanism, vary, mechanism.has_speeds and not static)
     except ModelError as error:
         raise error.located(mechanism.source) from None
