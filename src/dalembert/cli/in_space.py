@@ -60,19 +60,16 @@ def space_link_tables(result: Result, to: Any) -> str:
     rates = (("speed", "angular_speed"), ("acceler.", "angular_acceleration"))
     turning = [head for name, kind in rates for head in _heads(name, to.text(kind))]
     rows: list[list[list[str]]] = [[], [], []]
-    for link in result.links:
+    read = (result.center, result.speed, result.acceleration, result.center_acceleration)
+    kinds = ("length", "angular_speed", "angular_acceleration", "acceleration")
+    vectors = [[to(kind, of(link)[0]) for link in result.links] for kind, of in zip(kinds, read, strict=True)]
+    largest = [float(np.nan_to_num(np.abs(of)).max(initial=0.0)) for of in vectors]
+    for n, link in enumerate(result.links):
         angle, axis = axis_and_angle(result.rotation(link)[0])
-        center = rounded(to("length", result.center(link)[0]))
-        parts = (
-            [float(to("angle", angle)), *axis, *center],
-            [
-                *rounded(to("angular_speed", result.speed(link)[0])),
-                *rounded(to("angular_acceleration", result.acceleration(link)[0])),
-            ],
-            rounded(to("acceleration", result.center_acceleration(link)[0])),
-        )
-        for place, part in zip(rows, parts, strict=True):
-            place.append([link, *(number(v, 5) for v in part)])
+        place, speed, rate, moved = (rounded(of[n], size) for of, size in zip(vectors, largest, strict=True))
+        parts = ([float(to("angle", angle)), *axis, *place], [*speed, *rate], moved)
+        for row, part in zip(rows, parts, strict=True):
+            row.append([link, *(number(v, 5) for v in part)])
     heads = (turned, turning, _heads("acc. of center", to.text("acceleration")))
     shown = [tables(["link", *head], part, 1) for head, part in zip(heads, rows, strict=True)]
     note = "Links are turned from ground's axes about the axis shown; vectors are in ground axes."
