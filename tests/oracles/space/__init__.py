@@ -6,6 +6,8 @@
 ``shafts``     Hooke's joint with its cross, and the double Cardan shaft
 ``spinning``   a rotor with skew inertia in two bearings, and a chain of revolutes (gyroscope, disk on an arm)
 ``natural``    any mechanism: 12 coordinates a link (origin and axes), constraints of second degree, multipliers
+``random_drawn``  random mechanisms of all pairs, drawn as they close, for ``natural``
+``free_motion``   states of two published free motions
 ``screws``     mobility by the rank of the joints' screws, and of a loop that closes over a range (Denavit-Hartenberg)
 ``classics``   overconstrained linkages with their published mobility
 

@@ -16,8 +16,9 @@ from typing import Any
 import numpy as np
 
 from tests.oracles.jets import Jet
-from tests.oracles.reading import Array, Tree, drive, number
+from tests.oracles.reading import Array, Tree, drive
 from tests.oracles.space.moving import frame
+from tests.oracles.space.natural_loads import applied, momentum
 
 
 @dataclass(frozen=True)
@@ -106,20 +107,29 @@ class Machine:
             "cylinder_between_planes": [(gap, xi), (zj, xi)],
             "sphere_in_cylinder": [(gap, yi), (gap, zi)],
             "sphere_between_planes": [(gap, xi)],
+            "torus": [(gap, xi), (gap, yi), (gap, zi), (zj, yi)],
+            "slotted_sphere": [(gap, xi), (gap, yi), (gap, zi), (zj, yi)],
+            "slotted_sphere_in_cylinder": [(gap, yi), (gap, zi), (zj, yi)],
         }[self.tree["joints"][name]["type"]]
         return [Row(name, a, b) for a, b in pairs]
 
     def _driven(self, name: str) -> Row:
         d = self.drives[name]
         (p, v, a) = (np.broadcast_to(x, (self.count,)) for x in (d.position, d.speed, d.acceleration))
-        (xi, yi, _), (xj, _, _) = self.axes(d.joint)
         if d.freedom == "slide":
             _, _, p_i, p_j = self.ends(d.joint)
-            return Row(name, p_j - p_i, xi, Jet(p, v, a))
+            return Row(name, p_j - p_i, self.axes(d.joint)[0][0], Jet(p, v, a))
+        _, b, e, on_j = self.turning(d.joint)
         c, s = np.cos(p)[:, None], np.sin(p)[:, None]
-        across, along = c * yi - s * xi, c * xi + s * yi
+        across, along = c * e - s * b, c * b + s * e
         v, a = v[:, None], a[:, None]
-        return Row(name, xj, Jet(across, -v * along, -a * along - v**2 * across))
+        return Row(name, on_j, Jet(across, -v * along, -a * along - v**2 * across))
+
+    def turning(self, name: str) -> tuple[Array, Array, Array, Array]:
+        """Axis of a joint's turn and two axes across it on i, and on j the one that the first becomes."""
+        on_i, on_j = self.axes(name)
+        k = 0 if self.tree["joints"][name]["type"] in ("cylindrical", "plane") else 2
+        return on_i[k], on_i[(k + 1) % 3], on_i[(k + 2) % 3], on_j[(k + 1) % 3]
 
 
 def local_axes(joint: Tree, side: str) -> Array:
@@ -156,7 +166,12 @@ def followed(tree: Tree) -> tuple[Machine, Array, list[float]]:
     Redundant constraints: singular values below 1e-5 belong to rows that agree once the linkage closes.
     """
     whole = Machine(tree)
-    q = drawn(whole)[None]
+    return whole, *marched(tree, drawn(whole))
+
+
+def marched(tree: Tree, start: Array) -> tuple[Array, list[float]]:
+    """Coordinates (P, 4 L, 3) along the drives' positions, each from the one before, and the gaps left."""
+    whole, q = Machine(tree), start[None]
     path, gaps = [], []
     for k in range(whole.count):
         at = {
@@ -166,7 +181,7 @@ def followed(tree: Tree) -> tuple[Machine, Array, list[float]]:
         q, gap = closed(Machine({**tree, "drives": at}), q, 1e-5)
         path.append(q[0])
         gaps.append(gap)
-    return whole, np.array(path), gaps
+    return np.array(path), gaps
 
 
 def _unit(freedom: str) -> str:
@@ -181,7 +196,7 @@ def solve(m: Machine, guess: Array, inertia: bool = True) -> Natural:
     _, J, _, drift = system(m.rows, q, v)
     a = _with_ground(_solved(_still(m, J, q), _padded(m, -drift)), q)
     found = Natural(m.links, q, v, a)
-    wanted = _momentum(m, a if inertia else 0 * a) - _forces(m, q)
+    wanted = momentum(m, a if inertia else 0 * a) - applied(m, q, v)
     multipliers = _solved(np.swapaxes(J, -1, -2), wanted[:, 4:].reshape(len(q), -1))
     _reactions(m, found, multipliers)
     return found
@@ -247,38 +262,6 @@ def _still(m: Machine, J: Array, q: Array) -> Array:
 
 def _padded(m: Machine, right: Array) -> Array:
     return np.concatenate([right, np.zeros((len(right), len(idle(m))))], 1)
-
-
-def _momentum(m: Machine, a: Array) -> Array:
-    """M Q'': the moments of zeroth, first and second order of each link's mass."""
-    out = np.zeros_like(a)
-    for k, link in enumerate(m.links):
-        t = m.tree["links"].get(link, {})
-        mass, center = number(t.get("mass", 0.0)), np.asarray(t.get("center", [0.0, 0.0, 0.0]), float)
-        about = np.asarray(t.get("inertia", [0.0, 0.0, 0.0]), float)
-        about = np.diag(about) if about.ndim == 1 else about
-        second = 0.5 * np.trace(about) * np.eye(3) - about + mass * np.outer(center, center)
-        first = mass * center
-        block = np.block([[np.array([[mass]]), first[None]], [first[:, None], second]])
-        out[:, 4 * k : 4 * k + 4] = block @ a[:, 4 * k : 4 * k + 4]
-    return out
-
-
-def _forces(m: Machine, q: Array) -> Array:
-    """Weights, forces and couples on the coordinates; a couple M is 1/2 M x c on each axis c."""
-    gravity = m.tree.get("gravity", "none")
-    g = np.zeros(3) if gravity == "none" else np.asarray(gravity, float)
-    out = _momentum(m, np.stack([g if k % 4 == 0 else 0 * g for k in range(m.size)])[None] + 0 * q)
-    for load in m.tree.get("loads", {}).values():
-        k = 4 * m.links.index(load["on"])
-        value = np.asarray(load["value"], float)
-        if load.get("axes", "ground") == "link":
-            value = np.einsum("k,...kn->...n", value, q[:, k + 1 : k + 4])
-        if load["type"] == "couple":
-            out[:, k + 1 : k + 4] += 0.5 * np.cross((value + 0 * q[:, 0])[:, None], q[:, k + 1 : k + 4])
-        else:
-            out += m.point(load["on"], load["at"])[:, None] * (value + 0 * q[:, 0])[:, None]
-    return out
 
 
 def unique(m: Machine, path: Array) -> dict[str, Array]:
