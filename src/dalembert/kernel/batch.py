@@ -19,6 +19,14 @@ Progress = Callable[[int, int], object]
 
 WORK = 400_000
 """Positions of one part: about two milliseconds, long against a call, short against a person's patience."""
+LEAST = 40_000
+"""Positions below which a part is not worth its call."""
+
+
+def part_size(count: int, positions: int, threads: int | None) -> int:
+    """Designs of one part: few enough that every thread has several, so that none waits long for the last."""
+    share = -(-count // (4 * (threads or cores())))
+    return min(max(1, WORK // positions), max(share, LEAST // positions))
 
 
 def path_array(columns: Array, common: Array, lanes: int, weighted: bool) -> tuple[Array, int]:
@@ -59,8 +67,11 @@ def run_grid(
         counts = (mine.shape[1], channels, len(mine), blocks)
         machine(mine, data, out[which], code[which], counts)
 
-    step = max(1, WORK // (blocks * machine.lanes))
-    in_parts(part, len(values), step, threads, progress)
+    in_parts(part, len(values), part_size(len(values), blocks * machine.lanes, threads), threads, progress)
+
+
+PAIR = 16
+"""What a pair costs in positions of a grid: its numbers and its results are put in order around the call."""
 
 
 def run_pairs(
@@ -88,7 +99,7 @@ def run_pairs(
         out[which] = found.swapaxes(1, 2).reshape(-1, len(program.outputs))[:count]
         code[which] = marks.ravel()[:count]
 
-    in_parts(part, len(values), max(1, WORK // 16), threads, progress)
+    in_parts(part, len(values), part_size(len(values), PAIR, threads), threads, progress)
 
 
 def in_parts(
