@@ -55,7 +55,7 @@ def runs(k: Any, way: str = "grid") -> tuple[Callable[[], None], int]:
 
 
 def timed(*calls: Callable[[], object], repeat: int = 200) -> list[float]:
-    """Median seconds of each call, in turns, each once before it is timed so that it finds its own data in the cache."""
+    """Median seconds of each call, in turns; each once before it is timed, so that it finds its data in the cache."""
     times: list[list[float]] = [[] for _ in calls]
     for _ in range(repeat):
         for call, found in zip(calls, times, strict=True):
