@@ -108,6 +108,13 @@ class SpaceJoints(_Joints):
 
     def add(self, k: int, name: str, joint: Any) -> None:
         """The rows of one joint."""
+        if joint.type == "gear":
+            at = pairs.Geometry(*self.arms[k], *(np.array(axes) for axes in joint.frames))
+            self.geometries += (at,)
+            self.constraints.counted = max(self.freedoms.counted, self.constraints.counted)
+            pairs.add_gear(self.constraints, k, joint, self.ends[k], at)
+            self.freedoms.counted = self.constraints.counted
+            return
         at = pairs.geometry(joint, *self.arms[k])
         self.geometries += (at,)
         pairs.add_constraints(self.constraints, k, joint, self.ends[k], at)
@@ -176,6 +183,8 @@ class SpaceJoints(_Joints):
             )
         hinges = []
         for k, (name, joint) in enumerate(self.m.joints.items()):
+            if joint.type not in pairs.PAIRS:
+                continue
             drives = {
                 str(self.m.drives[d].freedom or "turn"): n
                 for n, d in enumerate(self.schedule.names)

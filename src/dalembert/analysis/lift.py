@@ -111,11 +111,14 @@ class _Lift:
             "pin": self._pin,
             "slider": self._slider,
             "slot": self._slot,
+            "gear": self._gear,
             "weld": self._weld,
         }
         if joint.type not in kinds:
             what = f"joint {name!r}: a {joint.type} joint has no counterpart that could be lifted"
-            raise ModelError(what, "lift a mechanism of pins, sliders, slots and welds", ("joints", name))
+            raise ModelError(
+                what, "lift a mechanism of pins, sliders, slots, welds and gears", ("joints", name)
+            )
         if getattr(joint, "friction", None) is not None and self.m.friction.enabled:
             what = f"joint {name!r} has friction, which is not lifted"
             raise ModelError(what, "switch it off with friction: {enabled: false}", ("joints", name))
@@ -159,6 +162,16 @@ class _Lift:
 
     def _weld(self, name: str, joint: Any) -> dict[str, Any]:
         return {"type": "weld", "axes": {"i": _axes(joint.angle), "j": _axes(0.0)}}
+
+    def _gear(self, name: str, joint: Any) -> dict[str, Any]:
+        sizes = joint.model_dump(
+            mode="json", include={"radii", "teeth", "module", "pressure_angle", "internal"}
+        )
+        return {
+            "type": "gear",
+            "axis": UP,
+            **{key: value for key, value in sizes.items() if value is not None},
+        }
 
     def _drive(self, name: str) -> dict[str, Any]:
         tree = self.m.drives[name].model_dump(mode="json", by_alias=True)

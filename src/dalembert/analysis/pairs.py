@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.algebra import space
-from dalembert.analysis.joints import RowBuilder, numbers
+from dalembert.analysis.joints import RowBuilder, numbers, signed_radii
 from dalembert.core.drawing import Hinge
-from dalembert.core.layout import Along, Angle, Helix, Meet, Perpendicular
+from dalembert.core.layout import Along, Angle, Gearing, Helix, Meet, Perpendicular
 from dalembert.model.space_joints import BALLS
 
 Array = NDArray[Any]
@@ -113,6 +113,17 @@ def add_constraints(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, i
         rows.add(Perpendicular, index, ends, a=a, p=p)
 
 
+def add_gear(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], at: Geometry) -> None:
+    """The row of a mesh; directions, signs and cones are those of the first pose (``core.gearing.meshed``)."""
+    ri, rj = signed_radii(joint)
+    axes: dict[str, Any] = {"ai": at.on_i[2], "aj": at.on_j[2], "bi": at.on_i[0], "bj": at.on_j[0]}
+    count = (rows.followed(), rows.followed())
+    unknown: dict[str, Any] = {"way": np.zeros(3), "cone": np.array([1.0, 0.0]), "ki": np.nan, "kj": np.nan}
+    outward = -1.0 if rj < 0 else 1.0
+    sizes: dict[str, Any] = {"ri": ri, "rj": rj, "helix": joint.helix_angle, "outward": outward}
+    rows.add(Gearing, index, ends, ui=at.ui, uj=at.uj, count=count, **axes, **sizes, **unknown)
+
+
 def _moment(pair: Pair, about: int, at: Geometry) -> tuple[Array, Array]:
     """Directions a of i and p of j whose right angle blocks the turn about a local axis: p x a points along it."""
     after, last = (about + 1) % 3, (about + 2) % 3
@@ -203,7 +214,7 @@ def local_axes(joint: Any, at: Geometry, on_i: Array, on_j: Array, moment: bool 
     They are those of i, but where a turn is blocked between a direction of i and one of j: both, and their normal. A
     slotted sphere in a cylinder has them for its moment only; its forces keep to the cylinder.
     """
-    pair = pair_of(joint)
+    pair = PAIRS["weld"] if joint.type == "gear" else pair_of(joint)
     if len(pair.turns) == 2 and (moment or joint.type != "slotted_sphere_in_cylinder"):
         first, second = (AXES.index(name) for name in pair.turns)
         n, p = space.rotate(on_i, at.on_i[first]), space.rotate(on_j, at.on_j[second])

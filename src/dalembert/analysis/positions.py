@@ -17,6 +17,7 @@ from dalembert.core.constraints import measure
 from dalembert.core.course import Course, course
 from dalembert.core.drawing import Drawing
 from dalembert.core.follow import Path, path
+from dalembert.core.gearing import Misfit, meshed
 from dalembert.core.layout import Mesh, Pose
 from dalembert.core.rank import held, rank
 from dalembert.errors import ModelError
@@ -105,6 +106,10 @@ def _with_phase(c: Compiled, first: Pose) -> Compiled:
     if not rows.size:
         return c
     _check_meshes(c, first)
+    layout, misfits = meshed(c.layout, first)
+    for misfit in misfits:
+        _check_misfit(c, misfit)
+    c = replace(c, layout=layout)
     target = c.target.copy()
     target[rows] = measure(c.layout.algebra, c.layout.constraints, first)[rows]
     return replace(c, target=target)
@@ -139,6 +144,21 @@ def _check_meshes(c: Compiled, first: Pose) -> None:
                     f"gear {name!r}: centres {found:.6g} m apart, but pitch radii {radii} need {wanted:.6g} m"
                 )
                 raise ModelError(what, "change the radii or move a centre", ("joints", name))
+
+
+def _check_misfit(c: Compiled, misfit: Misfit) -> None:
+    """Wheels in space touch at their pitch point, but for what rounded figures leave."""
+    for row, scale, gap in zip(misfit.row, misfit.scale, misfit.gap, strict=True):
+        if gap > MESH or abs(scale) > MESH:
+            name = c.joints[c.layout.constraints.joint[row]]
+            wrong = (
+                f"radii {abs(scale):.2%} too {'small' if scale > 0 else 'large'}, "
+                if abs(scale) > MESH
+                else ""
+            )
+            what = f"gear {name!r}: the pitch circles do not touch ({wrong}{gap:.2%} of them apart)"
+            remedy = "its points are the centres of the pitch circles; change the radii, or move a point or an axis"
+            raise ModelError(what, remedy, ("joints", name))
 
 
 def _refuse_endless(c: Compiled, along: Course) -> None:

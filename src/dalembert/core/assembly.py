@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from dalembert.core.closure import CLOSED, closed, distance
 from dalembert.core.constraints import dense, measure, stacked
-from dalembert.core.layout import Along, Distance, Layout, Meet, Mesh, Pose, Rows, Turn, selected
+from dalembert.core.layout import Along, Distance, Gearing, Layout, Meet, Mesh, Pose, Rows, Turn, selected
 
 Array = NDArray[Any]
 
@@ -97,9 +97,9 @@ def drawn(layout: Layout, target: Array, guess: Guess) -> Pose:
 def phase_rows(rows: Rows) -> NDArray[np.intp]:
     """Rows whose target is their measure at the first pose: meshes and rolling without slip."""
     found = [
-        f.row if isinstance(f, Mesh) else f.row[f.pitch != 0]
+        f.row[f.pitch != 0] if isinstance(f, Along) else f.row
         for f in rows.families
-        if isinstance(f, Mesh | Along)
+        if isinstance(f, Mesh | Along | Gearing)
     ]
     return np.concatenate([*found, np.zeros(0, np.intp)]).astype(np.intp)
 
@@ -121,7 +121,9 @@ def with_rows(layout: Layout, kept: NDArray[np.intp], held: list[int]) -> Layout
     """The layout with some of its constraints, and rows that hold the angles of some links."""
     rows, count = layout.constraints, len(kept) + len(held)
     place, ground = np.arange(len(kept), count), np.full(len(held), layout.links)
-    families = [*selected(rows, kept), Turn(place, ground, np.array(held, np.intp))]
+    families = selected(rows, kept)
+    if held:
+        families.append(Turn(place, ground, np.array(held, np.intp)))
     angular = np.concatenate([rows.angular[kept], np.ones(len(held), bool)])
     joint = np.concatenate([rows.joint[kept], np.zeros(len(held), np.intp)])
     return replace(layout, constraints=Rows(count, rows.links, tuple(families), joint, angular))

@@ -11,13 +11,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core import turning
+from dalembert.core import gearing, turning
 from dalembert.core.geometry import arm, point_motion, span, span_motion
 from dalembert.core.layout import (
     Along,
     Angle,
     Distance,
     Family,
+    Gearing,
     Helix,
     Idle,
     Layout,
@@ -116,6 +117,7 @@ _MEASURES: dict[type[Family], Any] = {
     Angle: turning.angle,
     Helix: turning.helix,
     Idle: turning.idle,
+    Gearing: gearing.measure,
 }
 
 
@@ -166,6 +168,7 @@ _WRENCHES: dict[type[Family], Any] = {
     Angle: turning.angle_wrench,
     Helix: turning.helix_wrench,
     Idle: turning.idle_wrench,
+    Gearing: gearing.wrench,
 }
 
 
@@ -203,4 +206,5 @@ _DRIFTS: dict[type[Family], Any] = {
     Angle: turning.angle_drift,
     Helix: turning.helix_drift,
     Idle: turning.idle_drift,
+    Gearing: gearing.drift,
 }

@@ -13,11 +13,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.assembly import SAME, STARTS, Modes
+from dalembert.core.assembly import SAME, STARTS, Modes, phase_rows, with_rows
 from dalembert.core.closure import CLOSED, closed, distance
+from dalembert.core.constraints import measure
 from dalembert.core.course import course
 from dalembert.core.follow import path
-from dalembert.core.layout import Angle, Helix, Layout, Pose
+from dalembert.core.gearing import meshed
+from dalembert.core.layout import Angle, Layout, Pose
 
 Array = NDArray[Any]
 
@@ -61,8 +63,7 @@ class Drawing:
     def modes(self, layout: Layout, target: Array) -> Modes | None:
         """The way the linkage closes at a target (K + D,); None if no start closes."""
         if self.given.any():
-            found = self._near(layout, target)
-            return found or self._searched(layout, target)
+            return self._near(layout, target) or self._searched(layout, target)
         return self._as_drawn(layout, target) or self._near(layout, target) or self._searched(layout, target)
 
     def start(self, layout: Layout, target: Array) -> Pose:
@@ -85,7 +86,11 @@ class Drawing:
         if pose is None:
             return None
         if np.any(zero != target):
-            way = path(layout, pose.at(0), course(layout, np.stack([zero, target])), 0.0)
+            layout = meshed(layout, pose.at(0))[0]
+            phased = phase_rows(layout.constraints)
+            ends = np.stack([zero, target])
+            ends[:, phased] = measure(layout.algebra, layout.constraints, pose.at(0))[phased]
+            way = path(layout, pose.at(0), course(layout, ends), 0.0)
             if not way.reached[1]:
                 return None
             pose = way.pose.at(slice(1, 2))
@@ -99,6 +104,7 @@ class Drawing:
 
     def _closed(self, layout: Layout, start: Pose, target: Array) -> Pose | None:
         """Starts (S, ...) corrected; those that close with parallel axes parallel, None where none does."""
+        layout, target = _without_phase(layout, target)
         wanted = np.broadcast_to(target, (len(start.point), len(target))).copy()
         pose, missing = closed(layout, start, wanted, iterations=60)
         good = (missing <= CLOSED * layout.length) & self._upright(layout, pose)
@@ -161,16 +167,19 @@ class Drawing:
         return pose._replace(turn=turn)
 
 
+def _without_phase(layout: Layout, target: Array) -> tuple[Layout, Array]:
+    """The layout and target without the rows whose target is their measure at the first pose."""
+    phased = phase_rows(layout.constraints)
+    if not phased.size:
+        return layout, target
+    kept = np.setdiff1d(np.arange(layout.constraints.count), phased)
+    return with_rows(layout, kept, []), np.delete(target, phased)
+
+
 def _counters(layout: Layout, count: int, drives: Array) -> Array:
     """Followed angles (count, T): the drives' positions, 0 of the others."""
-    families = [
-        f
-        for rows in (layout.freedoms, layout.constraints)
-        for f in rows.families
-        if isinstance(f, Angle | Helix)
-    ]
-    turn = np.zeros((count, max((int(f.count.max()) + 1 for f in families), default=0)))
-    for f in families:
+    turn = np.zeros((count, max((int(f.count.max()) + 1 for f in layout.counted), default=0)))
+    for f in layout.counted:
         if isinstance(f, Angle):
             for d, row in enumerate(layout.driven):
                 turn[:, f.count[f.row == row]] = drives[d]

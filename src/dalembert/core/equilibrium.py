@@ -19,7 +19,7 @@ from dalembert.core.constraints import drift, rates, stacked
 from dalembert.core.factor import factor
 from dalembert.core.forcing import Forcing, Source, pair, summed
 from dalembert.core.geometry import arm
-from dalembert.core.layout import Helix, Layout, Pose, Rows, System
+from dalembert.core.layout import Gearing, Helix, Layout, Mesh, Pose, Rows, System
 from dalembert.core.linear import Factor, PseudoInverse
 
 Array = NDArray[Any]
@@ -57,7 +57,8 @@ class Balance(NamedTuple):
     """Solved equilibrium: multipliers and what checks them.
 
     constraint (..., K), effort (..., D), load (..., U), residual and power_balance (...), free (..., X, X) the
-    projector on multipliers that load nothing where A has redundant columns, separation: radial tooth forces on j.
+    projector on multipliers that load nothing where A has redundant columns, separation: radial tooth
+    forces on j, by families of meshes, with the points they act at.
     """
 
     constraint: Array
@@ -67,7 +68,7 @@ class Balance(NamedTuple):
     power_balance: Array
     rcond: Array
     free: Array | None
-    separation: list[Array]
+    separation: list[tuple[Mesh | Gearing, Array, Array]]
 
 
 def with_ground(twist: Array) -> Array:
@@ -270,7 +271,7 @@ def reactions(layout: Layout, pose: Pose, rows: System, found: Balance) -> tuple
             force[..., joint, :] += multiplier * rows.on_j[..., k, : g.d]
     for row, part in _screwed(g, constraints, pose, rows):
         couple[..., constraints.joint[row], :] += found.constraint[..., row, None] * part
-    for f, pushed in zip(fc.meshes(layout), found.separation, strict=True):
+    for f, pushed, _ in found.separation:
         for k, row in enumerate(f.row):
             force[..., constraints.joint[row], :] += pushed[..., k, :]
     return force, couple

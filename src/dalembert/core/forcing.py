@@ -12,9 +12,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert.core import gearing
 from dalembert.core.constraints import measure, rates, system
 from dalembert.core.geometry import arm, span
-from dalembert.core.layout import Layout, Mesh, Pose, System
+from dalembert.core.layout import Gearing, Layout, Mesh, Pose, System
 
 Array = NDArray[Any]
 Ints = NDArray[np.intp]
@@ -200,27 +201,37 @@ def separation_wrench(layout: Layout, pose: Pose, tangent: Array, multiplier: Ar
 
     ``tangent`` (k,) holds tan(alpha) of the mesh rows, ``multiplier`` (..., K) all constraints' multipliers.
     """
-    force = separation(layout, pose, tangent, multiplier)
+    g = layout.algebra
     links, parts = [], []
-    for f, pushed in zip(meshes(layout), force, strict=True):
-        ri, rj = arm(layout.algebra, pose, f.i, f.ui), arm(layout.algebra, pose, f.j, f.uj)
+    for f, pushed, at in separation(layout, pose, tangent, multiplier):
         links += [f.i, f.j]
-        parts += [_wrench(layout.algebra, ri, -pushed), _wrench(layout.algebra, rj, pushed)]
+        for link, force in ((f.i, -pushed), (f.j, pushed)):
+            parts.append(_wrench(g, at - pose.point[..., link, :], force))
     return Source(np.concatenate(links), np.concatenate(parts, axis=-2))
 
 
-def meshes(layout: Layout) -> list[Mesh]:
+def meshes(layout: Layout) -> list[Mesh | Gearing]:
     """The families of gear meshes."""
-    return [f for f in layout.constraints.families if isinstance(f, Mesh)]
+    return [f for f in layout.constraints.families if isinstance(f, Mesh | Gearing)]
 
 
-def separation(layout: Layout, pose: Pose, tangent: Array, multiplier: Array) -> list[Array]:
-    """Radial force on j (..., k, d) of each family of meshes, along the line of centres."""
-    out, start = [], 0
+def separation(
+    layout: Layout, pose: Pose, tangent: Array, multiplier: Array
+) -> list[tuple[Mesh | Gearing, Array, Array]]:
+    """Each family of meshes with its radial forces on j (..., k, d) and the points (..., k, d) they act at."""
+    g = layout.algebra
+    out: list[tuple[Mesh | Gearing, Array, Array]] = []
+    start = 0
     for f in meshes(layout):
-        line = span(layout.algebra, f, pose)
-        length = np.sqrt((line * line).sum(axis=-1))
-        tan = tangent[start : start + len(f.i)] * np.sign(f.ri * f.rj) * np.abs(f.ri + f.rj)
-        out.append((np.abs(multiplier[..., f.row]) * tan / length**2)[..., None] * line)
+        tan = tangent[start : start + len(f.i)]
         start += len(f.i)
+        if isinstance(f, Gearing):
+            away, at = gearing.separation(g, f, pose)
+            out.append((f, (np.abs(multiplier[..., f.row]) * tan)[..., None] * away, at))
+            continue
+        line = span(g, f, pose)
+        length = np.sqrt((line * line).sum(axis=-1))
+        tan = tan * np.sign(f.ri * f.rj) * np.abs(f.ri + f.rj)
+        pushed = (np.abs(multiplier[..., f.row]) * tan / length**2)[..., None] * line
+        out.append((f, pushed, pose.point[..., f.i, :] + arm(g, pose, f.i, f.ui)))
     return out

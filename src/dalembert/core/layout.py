@@ -162,7 +162,41 @@ class Idle:
     drawn: Array  # (k, 9)
 
 
-Family = Meet | Along | Turn | Mesh | Distance | Perpendicular | Angle | Helix | Idle
+@dataclass(frozen=True)
+class Gearing:
+    """In space: teeth of wheels i and j that meet at their pitch point C = P_i + ri e_i = P_j + rj e_j.
+
+    e is the direction from a wheel's axis a to C, across a along
+    way[0] (P_j - P_i) + way[1] a_other + way[2] a_i x a_j
+    (one of them, by whether the axes are parallel, meet, or pass each other); a radius is negative where e points away
+    from C. The force of the teeth on j per unit of multiplier is n, across their trace in the tangent plane at C:
+    n = cos(helix) a_i x e_i - sin(helix) (cone[0] a_i + cone[1] e_i). Measure ki psi_i - kj psi_j, with psi the angle
+    of e in the wheel from its direction b, whole turns counted at ``count``, and k = r (a x e) . n.
+
+    ``outward`` is 1 where separation pushes j away from the axis of i, -1 in a ring wheel i.
+    """
+
+    row: Ints
+    i: Ints
+    j: Ints
+    ui: Array
+    uj: Array
+    ai: Array
+    aj: Array
+    bi: Array
+    bj: Array
+    ri: Array
+    rj: Array
+    helix: Array
+    way: Array  # (k, 3)
+    cone: Array  # (k, 2)
+    outward: Array
+    ki: Array
+    kj: Array
+    count: Ints  # (k, 2)
+
+
+Family = Meet | Along | Turn | Mesh | Distance | Perpendicular | Angle | Helix | Idle | Gearing
 
 
 @dataclass(frozen=True)
@@ -280,6 +314,12 @@ class Layout:
             np.concatenate([self.constraints.joint, self.freedoms.joint[self.driven]]),
             np.concatenate([self.constraints.angular, self.freedoms.angular[self.driven]]),
         )
+
+    @cached_property
+    def counted(self) -> tuple[Angle | Helix | Gearing, ...]:
+        """Families of freedoms and constraints whose relative angles are counted in whole turns."""
+        families = (*self.freedoms.families, *self.constraints.families)
+        return tuple(f for f in families if isinstance(f, Angle | Helix | Gearing))
 
     @cached_property
     def row_scale(self) -> Array:

@@ -11,8 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert.core import gearing
 from dalembert.core.geometry import arm, point_motion, span
-from dalembert.core.layout import Angle, Helix, Idle, Layout, Perpendicular, Pose
+from dalembert.core.layout import Angle, Gearing, Helix, Idle, Layout, Perpendicular, Pose
 
 Array = NDArray[Any]
 
@@ -143,15 +144,9 @@ def settled(layout: Layout, pose: Pose) -> Pose:
             was, now = g.rotate(f.drawn, f.p), arm(g, pose, f.j, f.p)
             rotation[..., f.j, :] = g.compose(g.least_turn(was, now), f.drawn)
             pose = pose._replace(rotation=rotation)
-    families = [
-        f
-        for rows in (layout.freedoms, layout.constraints)
-        for f in rows.families
-        if isinstance(f, Angle | Helix)
-    ]
-    if not families:
+    if not layout.counted:
         return pose
     turn = pose.turn.copy()
-    for f in families:
-        turn[..., f.count] = angle(g, f, pose)
+    for f in layout.counted:
+        turn[..., f.count] = gearing.angles(g, f, pose) if isinstance(f, Gearing) else angle(g, f, pose)
     return pose._replace(turn=turn)

@@ -99,7 +99,7 @@ def _joints(m: Mechanism) -> Iterator[ModelError]:
         for k, (link, point) in enumerate(zip(joint.links, joint.point_names(name), strict=True)):
             missing = list(_link(m, link, user, (*path, "links", k)))
             yield from missing or _point(m, link, point, user, where)
-        if isinstance(joint, SpaceJoint) != (m.dimension == 3) and joint.type != "weld":
+        if isinstance(joint, SpaceJoint) != (m.dimension == 3) and joint.type not in ("weld", "gear"):
             yield ModelError(
                 f"{user} is of the type {joint.type!r}, which is not for {_where(m)}",
                 "take a joint of the plane, or write space: space"

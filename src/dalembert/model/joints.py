@@ -14,9 +14,11 @@ from dalembert.model.part import mapping, reading
 from dalembert.model.space_joints import SPACE_FREEDOMS, Frames, Matrix, SpaceJoint, frames
 from dalembert.model.values import (
     NUMBER_OR_TEXT,
+    Components,
     JsonSchema,
     Scalar,
     Value,
+    Vector,
     at_item,
     numbers,
     signed,
@@ -152,6 +154,16 @@ class Gear(JointPart):
         None, description="pitch diameter over number of teeth, a length"
     )
     pressure_angle: Angle = Field(0.3490658503988659, description="of the teeth, an angle; default 20 deg")
+    helix_angle: Angle = Field(
+        0.0,
+        description="in space: of i's teeth to its axis (of a bevel wheel, to the cone), right-hand positive",
+    )
+    axes: Frames | None = Field(
+        None, description="in space: {i: {z: [...]}, j: {z: [...]}}, the wheels' axes"
+    )
+    axis: Annotated[Vector, Components("number")] | None = Field(
+        None, description="in space: the axis of both wheels, the same components in both links"
+    )
     internal: StrictBool = Field(False, description="true: the larger wheel is an internal gear")
     friction: GearFriction | None = Field(None, description="dry friction of the teeth")
 
@@ -163,6 +175,24 @@ class Gear(JointPart):
         assert self.teeth is not None
         assert self.module is not None
         return self.teeth[0] * self.module / 2, self.teeth[1] * self.module / 2
+
+    @property
+    def frames(self) -> tuple[Matrix, Matrix]:
+        """In space: local axes in i's and in j's axes; z is the wheel's axis."""
+        return frames(self.axes, self.axis, "z")
+
+    @model_validator(mode="after")
+    def _in_space(self, info: ValidationInfo) -> Self:
+        dimension = reading(info).dimension
+        for key in ("helix_angle", "axes", "axis"):
+            if dimension == 2 and getattr(self, key):
+                raise ModelError(f"a wheel of the plane has no {key}", "leave it out", (key,))
+        if dimension == 3 and (self.axes is None) == (self.axis is None):
+            what = "a gear in space needs the axes of its wheels"
+            raise ModelError(what, "write axis: [0, 0, 1] for both, or axes: {i: {z: ...}, j: {z: ...}}")
+        if not -1.5 < self.helix_angle < 1.5:
+            raise ModelError("the helix angle is not between -86 and 86 deg", "write one", ("helix_angle",))
+        return self
 
     @model_validator(mode="after")
     def _one_size(self) -> Self:
