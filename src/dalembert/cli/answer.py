@@ -101,7 +101,8 @@ def _one(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
         yield _reactions(result, to, axes)
         if result.friction is not None and np.isfinite(result.friction.cz[0]).all():
             yield friction_table(result, to)
-            yield wrapped(efficiency_note(result))
+    if status != "at_rest" and result.friction is not None and np.isfinite(result.friction.cz[0]).all():
+        yield wrapped(efficiency_note(result))
     if result.links:
         yield (_link_tables if in_plane(result) else space_link_tables)(result, to)
 
