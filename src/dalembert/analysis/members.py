@@ -79,8 +79,10 @@ class Member:
         each = f"each reaction touches {at}" if len(self.circles) > 1 else f"the reaction touches {at}"
         joints = [f for f in self.forces if f in self.circles]
         if len(self.forces) > len(joints) == 2:
-            rest = _listed([*(f for f in self.forces if f not in joints), *self.couples])
-            return f"not a two-force member, as {rest} acts too: {each}, on different lines"
+            torques = (f"torque {n}" if n in joints else n for n in self.couples)
+            rest = list(dict.fromkeys([*(f for f in self.forces if f not in joints), *torques]))
+            verb = "acts" if len(rest) == 1 else "act"
+            return f"not a two-force member, as {' and '.join(rest)} {verb} too: {each}, on different lines"
         return each
 
 

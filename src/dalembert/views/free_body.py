@@ -16,7 +16,7 @@ from dalembert.views.canvas import Canvas
 from dalembert.views.circles import circled, draw_circles
 from dalembert.views.details import detail_scenes, with_details
 from dalembert.views.frame import Frame, fitted, force_scale
-from dalembert.views.guides import guide_block, guided
+from dalembert.views.guides import guide_block, guide_corners, guided
 from dalembert.views.mechanism import draw_actions, role_of, stated, unit_size
 from dalembert.views.notation import Notation, Shown, own_name
 from dalembert.views.outline import link_points, link_shape, wheels
@@ -73,6 +73,8 @@ def _frame(r: Result, link: str, k: int, shown: Shown, some: tuple[Action, ...])
     for name in circled(r, [n for n in r.joints if link in r.mechanism.joints[n].links]):
         (x, y), radius = friction_circles(r, name).center[k], friction_circles(r, name).radii[k]
         places += [(x - radius, y - radius), (x + radius, y + radius)]
+    for name in guided(r, [n for n in r.joints if r.mechanism.joints[n].links[1] == link]):
+        places += guide_corners(r, name, k)
     return fitted(places, 46.0, 40.0, unit_size(r, "length", shown.notation))
 
 

@@ -110,6 +110,16 @@ def guide_block(r: Result, joint: str, k: int, frame: Frame) -> Polygon:
     return Polygon(tuple(_point(middle + x * e + y * across) for x, y in corners), "block")
 
 
+def guide_corners(r: Result, joint: str, k: int) -> list[Point]:
+    """Corners of a guide whose length is given, metres; none where it is not."""
+    f: Any = r.mechanism.joints[joint].friction  # type: ignore[union-attr]
+    if getattr(f, "guide", None) is None:
+        return []
+    e, middle = np.asarray(slide_direction(r, joint)[k], float), joint_place(r, joint)[k]
+    across = np.array([-e[1], e[0]]) * float(f.half_height or 0.0)
+    return [_point(middle + x * e + side * across) for x in (-f.guide[0], f.guide[1]) for side in (-1, 1)]
+
+
 def faces_of(r: Result, joint: str, k: int) -> list[FaceForce]:
     """Where a slider or slot with friction bears at a position; none where that is not known."""
     faces = bearing_faces(r, joint, k) if bears_on_faces(r, joint) else [slot_face(r, joint)]
