@@ -49,7 +49,8 @@ def acting_lines(r: Result, k: int) -> tuple[Action, ...]:
     """Everything that acts on the links, each joint's reaction whole and on its own line.
 
     The reaction of a pin touches its friction circle; that of a slider acts on the face that bears, or, where two
-    corners bear at position ``k``, as two forces there. Without friction these are ``actions(r)``.
+    corners bear at position ``k``, as two forces there. Where a guide of no given length would bear far away, its force
+    is left at j's point with its couple. Without friction these are ``actions(r)``.
 
     >>> import dalembert as da
     >>> from dalembert.bundled import cases
@@ -77,12 +78,16 @@ def _acting(r: Result, a: Action, k: int) -> list[Action]:
     sign = 1.0 if a.link == r.mechanism.joints[a.of].links[1] else -1.0
     faces = bearing_faces(r, a.of, k) if bears_on_faces(r, a.of) else _plain(r, a.of)
     if len(faces) == 1:
-        near = abs(float(faces[0].along[k])) <= r.compiled.layout.length
-        return [_moved(a, faces[0].at) if near else a]
+        return [_moved(a, faces[0].at) if close_by(r, faces[0], k) else a]
     return [
         Action(a.of, "joint", "", a.link, a.by, f.at, sign * (f.normal + f.friction), 0 * a.couple, f.part)
         for f in faces
     ]
+
+
+def close_by(r: Result, face: FaceForce, k: int) -> bool:
+    """Whether a face bears no farther from j's point than the size of the mechanism."""
+    return abs(float(face.along[k])) <= r.compiled.layout.length
 
 
 def _moved(a: Action, at: Array) -> Action:

@@ -16,7 +16,7 @@ from dalembert.analysis.friction import (
     friction_sense,
     guide_contact,
 )
-from dalembert.analysis.lines import FaceForce, bearing_faces, slot_face
+from dalembert.analysis.lines import FaceForce, bearing_faces, close_by, slot_face
 from dalembert.views import symbols
 from dalembert.views.canvas import Canvas
 from dalembert.views.frame import Frame, force_scale, round_up
@@ -86,7 +86,7 @@ def guide_words(r: Result, joint: str, k: int, shown: Shown, on: str) -> list[st
         return [f"{angle}.", *out]
     if mode.endswith("face"):
         load = shown.text("force", low + high)
-        return [f"The {mode} bears with {load}; {angle}.", *out]
+        return [f"The {mode} bears with {load}{_place(r, joint, k, shown)}; {angle}.", *out]
     first, second = mode.split(", ")
     parts = {"lower": low, "upper": high}
     each = [f"{place} {shown.text('force', parts[place.split()[0]])}" for place in (first, second)]
@@ -98,7 +98,7 @@ def guide_block(r: Result, joint: str, k: int, frame: Frame) -> Polygon:
     e = np.asarray(slide_direction(r, joint)[k], float)
     across = np.array([-e[1], e[0]])
     f: Any = r.mechanism.joints[joint].friction  # type: ignore[union-attr]
-    places = [float(face.along[k]) for face in faces_of(r, joint, k)]
+    places = [float(face.along[k]) for face in faces_of(r, joint, k) if close_by(r, face, k)]
     given = getattr(f, "guide", None)
     behind, ahead = given or (0.0, 0.0)
     room = 0.0 if given else 1.5
@@ -128,6 +128,14 @@ def faces_of(r: Result, joint: str, k: int) -> list[FaceForce]:
 
 def _point(p: Any) -> Point:
     return (float(p[0]), float(p[1]))
+
+
+def _place(r: Result, joint: str, k: int, shown: Shown) -> str:
+    """Where a face bears: ', 0.1051 m ahead of its point'."""
+    along = float(bearing_faces(r, joint, k)[0].along[k])
+    if abs(along) < 1e-9 * r.compiled.layout.length:
+        return ""
+    return f", {shown.text('length', abs(along))} {'ahead of' if along > 0 else 'behind'} its point"
 
 
 class _Sketch:
