@@ -79,10 +79,21 @@ def _acting(r: Result, a: Action, k: int) -> list[Action]:
     faces = bearing_faces(r, a.of, k) if bears_on_faces(r, a.of) else _plain(r, a.of)
     if len(faces) == 1:
         return [_moved(a, faces[0].at) if close_by(r, faces[0], k) else a]
-    return [
+    corners = [
         Action(a.of, "joint", "", a.link, a.by, f.at, sign * (f.normal + f.friction), 0 * a.couple, f.part)
         for f in faces
     ]
+    return [*corners, *_damping(r, a, sign)]
+
+
+def _damping(r: Result, a: Action, sign: float) -> list[Action]:
+    """What damping adds to a slider's reaction, at its point: no corner bears it."""
+    if r.friction is None:
+        return []
+    k = r.joints.index(a.of)
+    force, couple = sign * r.friction.viscous_force[:, k], sign * r.friction.viscous_moment[:, k]
+    named = f"damping of {a.of}"
+    return [Action(a.of, "friction", named, a.link, a.by, a.at, force, couple)] if force.any() else []
 
 
 def close_by(r: Result, face: FaceForce, k: int) -> bool:
