@@ -44,24 +44,45 @@ COMPLEX: dict[str, Callable[..., Any]] = {
 }
 
 
-def slopes(k: Any, output: str, n: int) -> np.ndarray:
-    """d output / d number n at the file's own numbers, (position, component)."""
+def slopes(k: Any, output: str) -> list[np.ndarray]:
+    """d output / d number at the file's own numbers, (position, component) for each number."""
     graph, nodes = k.trace.catalogue.graph, k.nodes[output]
-    done: dict[int, Any] = {}
+    order, count = graph.order(nodes), len(k.trace.course.schedule.position)
+    plain: dict[int, Any] = {}
+    _computed(graph, order, plain)
+    out = []
+    for n in range(len(k.numbers)):
+        given = next((node for node in order if node.op == "number" and node.value == n), None)
+        done = {} if given is None else {given.index: graph.nominal[given.index] + STEP * 1j}
+        _computed(graph, _changed(order, set(done)), done, plain)
+        found = [done.get(node.index, 0j) for node in nodes]
+        out.append(np.stack([np.broadcast_to(np.imag(x) / STEP, (count,)) for x in found], axis=-1))
+    return out
+
+
+def _changed(order: list[Node], from_: set[int]) -> list[Node]:
+    """The nodes that change with some, which are left out."""
+    out, active = [], set(from_)
+    for node in order:
+        if {x.index for x in (node.a, node.b) if x is not None} & active:
+            active.add(node.index)
+            out.append(node)
+    return out
+
+
+def _computed(
+    graph: Any, order: list[Node], done: dict[int, Any], plain: dict[int, Any] | None = None
+) -> None:
+    """Values of nodes in order, into ``done``; what is not there is taken from ``plain``."""
+
+    def value(node: Node) -> Any:
+        return done[node.index] if plain is None or node.index in done else plain[node.index]
+
     with np.errstate(all="ignore"):
-        for node in graph.order(nodes):
-            done[node.index] = _value(graph, node, n, done)
-    count = len(k.trace.course.schedule.position)
-    columns = [np.broadcast_to(np.imag(done[node.index]) / STEP, (count,)) for node in nodes]
-    return np.stack(columns, axis=-1)
-
-
-def _value(graph: Any, node: Node, n: int, done: dict[int, Any]) -> Any:
-    if node.op == "const":
-        return complex(node.value)
-    if node.op in INPUTS:
-        step = STEP * 1j if node.op == "number" and node.value == n else 0j
-        return graph.nominal[node.index] + step
-    assert node.a is not None
-    arguments = (node.a,) if node.b is None else (node.a, node.b)
-    return COMPLEX[node.op](*(done[a.index] for a in arguments))
+        for node in order:
+            if node.op == "const":
+                done[node.index] = complex(node.value)
+            elif node.op in INPUTS:
+                done[node.index] = graph.nominal[node.index] + 0j
+            else:
+                done[node.index] = COMPLEX[node.op](*(value(x) for x in (node.a, node.b) if x is not None))

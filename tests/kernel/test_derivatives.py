@@ -56,7 +56,7 @@ def test_reductions(reduce: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "seed", [*range(4), *(pytest.param(seed, marks=pytest.mark.long) for seed in range(4, 60))]
+    "seed", [*range(3), *(pytest.param(seed, marks=pytest.mark.long) for seed in range(3, 60))]
 )
 def test_random_mechanisms(seed: int) -> None:
     """By the complex step, which loses no digits where a derivative is small beside the value over the number."""
@@ -65,8 +65,8 @@ def test_random_mechanisms(seed: int) -> None:
     k = da.compile(m, vary=every_number(m), outputs=[output], derivatives=True)
     r = k()
     exact, value = r.gradient(output)[0], np.nanmax(np.abs(r.value(output)))
-    for n, name in enumerate(k.numbers):
+    for n, (name, slope) in enumerate(zip(k.numbers, slopes(k, output), strict=True)):
         right = np.isfinite(exact[:, n])
         rounding = 1e-13 * value / max(abs(k.nominal[n]), 2e-2)
-        off = np.abs(slopes(k, output, n)[:, 0] - exact[:, n])[right].max(initial=0.0)
+        off = np.abs(slope[:, 0] - exact[:, n])[right].max(initial=0.0)
         assert off <= 1e-9 * np.abs(exact[right, n]).max(initial=0.0) + rounding, name

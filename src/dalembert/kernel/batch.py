@@ -91,7 +91,7 @@ def run_pairs(
     def part(which: slice) -> None:
         mine = blocked(np.asarray(values[which], float), lanes)
         path, blocks = path_array(columns[which], common, lanes, weighted=False)
-        found = np.empty((blocks, len(program.outputs), lanes))
+        found = aligned((blocks, len(program.outputs), lanes))
         marks = np.empty((blocks, lanes), np.uint8)
         counts = (values.shape[1], columns.shape[1], 0, blocks)
         machine(mine, path, found, marks, counts)
