@@ -47,3 +47,26 @@ def test_motion_efforts_and_unique_components_are_those_of_natural_coordinates(n
         found = np.concatenate([r.reaction(joint), r.reaction_moment(joint)], -1)
         np.testing.assert_allclose(found[mask], both[mask], rtol=0, atol=1e-10 * largest, err_msg=joint)
         assert np.isnan(found[~mask]).all()
+
+
+WHOLE = ["Bennett 4R", "Goldberg 5R", "Myard 5R", "Bricard, line-symmetric 6R", "Bricard, plane-symmetric 6R",
+         "Schatz 6R (Turbula)", "Waldron hybrid 6R", "parallelogram with a third crank", "Sarrus 6R"]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", WHOLE)
+def test_every_constraint_closes_to_rounding_over_a_turn(name: str) -> None:
+    """Fast passages too, where poses between two stations of the march are far from what is interpolated."""
+    classic = CLASSICS[name]
+    tree = classic.tree(2)
+    drive = classic.drives[0]
+    tree["drives"][drive]["position"] = {"from": "0 deg", "to": "360 deg", "count": 72}
+    r = da.kinematics(da.mechanism(tree))
+    m = natural.Machine(tree)
+    q = np.tile(natural.drawn(m), (72, 1, 1))
+    for link in classic.links[1:]:
+        k = 4 * m.links.index(link)
+        q[:, k], q[:, k + 1 : k + 4] = r.position(link), np.swapaxes(r.rotation(link), 1, 2)
+    solved = np.isfinite(q).all((1, 2))
+    assert solved.sum() >= 36
+    phi, _, _, _ = natural.system(m.rows, q, 0 * q)
+    assert np.max(np.abs(phi[solved])) < 1e-14

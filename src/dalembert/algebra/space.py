@@ -181,10 +181,15 @@ def coordinate_rates(r: Array, twist: Array) -> Array:
 
 def from_coordinates(q: Array, turn: Array) -> tuple[Array, Array, Array]:
     """Points, followed angles (those given) and rotations of coordinates (..., 12) that are nearly rotations."""
-    r = matrix(q[..., d:])
-    for _ in range(3):  # each step squares the distance from the nearest rotation
-        r = 1.5 * r - 0.5 * r @ (np.swapaxes(r, -1, -2) @ r)
+    m = matrix(q[..., d:])
+    x = _direction(m[..., 0])
+    z = _direction(cross(x, m[..., 1]))
+    r = np.stack([x, cross(z, x), z], axis=-1)
     return q[..., :d].copy(), turn.copy(), r.reshape((*r.shape[:-2], 9))
+
+
+def _direction(v: Array) -> Array:
+    return np.asarray(v / np.sqrt(dot(v, v))[..., None])
 
 
 def apart(a: Array, b: Array, turn_a: Array, turn_b: Array) -> Array:
