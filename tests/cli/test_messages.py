@@ -111,6 +111,15 @@ def test_wrong_command_lines(run: Run, arguments: list[str], said: str) -> None:
     assert run(*arguments) == (2, "", said + "\n")
 
 
+def test_virtual_work_needs_something_that_moves(run: Run) -> None:
+    run("examples", "truss", "-o", "truss.yaml")
+    assert run("solve", "truss.yaml", "--method", "virtual-work") == (
+        2,
+        "",
+        "virtual work finds efforts and unknown loads, and nothing moves here; leave --method out\n",
+    )
+
+
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [

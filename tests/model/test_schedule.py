@@ -91,7 +91,13 @@ def test_ranges_advance_together_and_single_values_combine() -> None:
             "position: 3",
             5,
             "the numbers of positions differ: 2 of drive 'A', and 5 are asked for; "
-            "drives advance together: give equal counts, or single values",
+            "a list has its own count: leave the number out, or write {from, to, count}",
+        ),
+        (
+            "position: unknown, effort: 1",
+            "position: 1",
+            5,
+            "5 positions are asked for, and drive 'A' has all that are found in its range; leave the number out",
         ),
         (
             "position: unknown, effort: 1",
@@ -126,6 +132,15 @@ def test_positions_step_a_lone_turn_round() -> None:
     found = two("position: 30, speed: 2 rpm", "position: 1").schedule(4)
     assert np.degrees(found.position[:, 0]) == pytest.approx([30, 120, 210, 300])
     assert (found.position[:, 1] == 0.001).all()
+
+
+def test_positions_of_a_structure_are_refused() -> None:
+    assert schedule({}, 1).count == 1
+    with pytest.raises(ModelError) as caught:
+        schedule({}, 5)
+    assert str(caught.value) == (
+        "5 positions are asked for, and a structure has no drive; leave the number out"
+    )
 
 
 def test_positions_without_one_turn_are_refused() -> None:

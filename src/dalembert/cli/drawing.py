@@ -137,4 +137,5 @@ def _enough(file: Path, count: int) -> int | None:
     from dalembert.model import load
 
     m = load(file)
-    return count if len(m.schedule().position) == 1 and m.drives else None
+    schedule = m.schedule()
+    return count if len(schedule.position) == 1 and m.drives and schedule.unknown is None else None

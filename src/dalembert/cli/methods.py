@@ -10,6 +10,7 @@ from dalembert.analysis.columns import UnitChoice, drive_kinds, load_kind
 from dalembert.analysis.friction import unknown_names
 from dalembert.cli.answer import Printed, printed
 from dalembert.cli.text import number, table, tables, wrapped
+from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
@@ -67,6 +68,10 @@ def virtual_work_answer(result: Result, units: UnitChoice) -> tuple[Result, str]
     """The answer without reactions, and the power of every load at unit speed of each drive."""
     from dalembert.analysis.virtual_work import virtual_work
 
+    if not result.drives:
+        raise ModelError(
+            "virtual work finds efforts and unknown loads, and nothing moves here", "leave --method out"
+        )
     found, to, k = virtual_work(result), printed(result, units), _first(result)
     blocks = _all_powers(found, k, to)
     if result.status[k] == "at_rest":

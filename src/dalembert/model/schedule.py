@@ -60,11 +60,19 @@ def _stepped(drives: Mapping[str, Drive], positions: int) -> Mapping[str, Drive]
     """The drives, a lone turn of one value stepped round a full turn."""
     if isinstance(positions, bool) or not isinstance(positions, int) or not 1 <= positions <= MOST:
         raise ModelError(f"{positions} positions are asked for", f"ask for 1 to {MOST}")
-    if any(drive.counts() or drive.unknown for drive in drives.values()):
+    if positions == 1 or any(drive.counts() for drive in drives.values()):
         return drives
+    sought = [name for name, drive in drives.items() if drive.unknown]
+    if sought or not drives:
+        why = (
+            f"drive {sought[0]!r} has all that are found in its range"
+            if sought
+            else "a structure has no drive"
+        )
+        raise ModelError(
+            f"{positions} positions are asked for, and {why}", "leave the number out", ("drives",)
+        )
     turning = [name for name, drive in drives.items() if drive.turns]
-    if positions == 1:
-        return drives
     if len(turning) != 1:
         raise ModelError(
             f"{positions} positions are asked for, and {len(turning)} drives turn ({', '.join(turning) or 'none'})",
@@ -89,7 +97,9 @@ def _count(drives: Mapping[str, Drive], positions: int | None) -> int:
         asked = f", and {positions} are asked for" if positions is not None else ""
         raise ModelError(
             f"the numbers of positions differ: {said}{asked}",
-            "drives advance together: give equal counts, or single values",
+            "drives advance together: give equal counts, or single values"
+            if len(found) > 1
+            else "a list has its own count: leave the number out, or write {from, to, count}",
             ("drives", list(found.values())[-1]),
         )
     return next(iter(found), 1)
