@@ -46,6 +46,11 @@ def friction_on(m: Mechanism) -> bool:
     return m.friction.enabled and any(getattr(j, "friction", None) is not None for j in m.joints.values())
 
 
+def rubs(m: Mechanism, joint: Any) -> bool:
+    """Whether a joint has friction that is not switched off."""
+    return m.friction.enabled and getattr(joint, "friction", None) is not None
+
+
 def coefficient(m: Mechanism, joint: Any) -> float:
     """Coefficient of friction in motion."""
     own, top = joint.friction.coefficient, m.friction.coefficient

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from dalembert.algebra import plane, space
 from dalembert.analysis import joints as table
 from dalembert.analysis import pairs
-from dalembert.analysis.contacts import contacts
+from dalembert.analysis.contacts import contacts, rubs
+from dalembert.analysis.space_contacts import space_contacts
 from dalembert.core.assembly import Guess
 from dalembert.core.drawing import Drawing
 from dalembert.core.friction import Contacts
@@ -117,7 +118,8 @@ class SpaceJoints(_Joints):
             return
         at = pairs.geometry(joint, *self.arms[k])
         self.geometries += (at,)
-        pairs.add_constraints(self.constraints, k, joint, self.ends[k], at)
+        split = rubs(self.m, joint)
+        pairs.add_constraints(self.constraints, k, joint, self.ends[k], at, split)
         drive = next((d for d in self.m.drives if self.m.drive_joint(d) == name), None)
         axis = self.m.drives[drive].axis if drive else None
         self.freedoms.counted = max(self.freedoms.counted, self.constraints.counted)
@@ -155,15 +157,12 @@ class SpaceJoints(_Joints):
         return tuple(found)
 
     def contacts(self, fixed: Rows) -> tuple[Contacts, tuple[str, ...]] | None:
-        """Friction in space is not there yet."""
+        """The contacts of the joints with friction."""
         for name, joint in self.m.joints.items():
-            if getattr(joint, "friction", None) is not None and self.m.friction.enabled:
-                raise ModelError(
-                    f"joint {name!r} has friction, which is not analysed in space yet",
-                    "leave it out",
-                    ("joints", name),
-                )
-        return None
+            if joint.type == "gear" and rubs(self.m, joint):
+                what = f"gear {name!r}: friction of teeth is not analysed in space"
+                raise ModelError(what, "leave it out", ("joints", name, "friction"))
+        return space_contacts(self.m, fixed, self.ends, self.geometries)
 
     def guess(self) -> Drawing:
         """Poses of the links that the file gives, and how the joints let the others be laid."""

@@ -84,6 +84,7 @@ class _Lift:
             "joints": joints,
             "drives": {name: self._drive(name) for name in m.drives},
             "loads": {name: self._load(name) for name in m.loads},
+            "friction": m.friction.model_dump(mode="json", exclude_none=True),
             "assembly": self._assembly(),
         }
         return mechanism(tree)
@@ -107,6 +108,11 @@ class _Lift:
 
     def _joint(self, name: str) -> dict[str, Any]:
         joint = self.m.joints[name]
+        if joint.type in ("slot", "gear") and joint.friction is not None and self.m.friction.enabled:
+            what = f"friction of joint {name!r}, a {joint.type}, is not lifted"
+            raise ModelError(
+                what, "leave it out, or switch it off with friction: {enabled: false}", ("joints", name)
+            )
         kinds: dict[str, Any] = {
             "pin": self._pin,
             "slider": self._slider,
@@ -119,9 +125,6 @@ class _Lift:
             raise ModelError(
                 what, "lift a mechanism of pins, sliders, slots, welds and gears", ("joints", name)
             )
-        if getattr(joint, "friction", None) is not None and self.m.friction.enabled:
-            what = f"joint {name!r} has friction, which is not lifted"
-            raise ModelError(what, "switch it off with friction: {enabled: false}", ("joints", name))
         at = [
             self._point(link, point, name)
             for link, point in zip(joint.links, joint.point_names(name), strict=True)
@@ -148,12 +151,13 @@ class _Lift:
                 f"the turn of joint {name!r} is driven or damped", "make it cylindrical", ("joints", name)
             )
         damping = {"damping": {"turn": joint.damping}} if joint.damping else {}
-        return {"type": kind, **({} if kind == "spherical" else {"axis": UP}), **damping}
+        axis = {} if kind == "spherical" else {"axis": UP}
+        return {"type": kind, **axis, **damping, **self._friction(name, joint)}
 
     def _slider(self, name: str, joint: Any) -> dict[str, Any]:
         damping = {"damping": {"slide": joint.damping}} if joint.damping else {}
         axes = {"i": _axes(joint.direction), "j": _axes(-joint.angle)}
-        return {"type": "prismatic", "axes": axes, **damping}
+        return {"type": "prismatic", "axes": axes, **damping, **self._friction(name, joint)}
 
     def _slot(self, name: str, joint: Any) -> dict[str, Any]:
         damping = {k: v for k, v in zip(("slide", "turn"), joint.damping, strict=True) if v}
@@ -162,6 +166,17 @@ class _Lift:
 
     def _weld(self, name: str, joint: Any) -> dict[str, Any]:
         return {"type": "weld", "axes": {"i": _axes(joint.angle), "j": _axes(0.0)}}
+
+    def _friction(self, name: str, joint: Any) -> dict[str, Any]:
+        """Friction of a pin or of a guide without faces at a height, which have the same meaning in space."""
+        if joint.friction is None:
+            return {}
+        if getattr(joint.friction, "half_height", None):
+            what = f"the faces of guide {name!r} make a couple, which is not lifted"
+            raise ModelError(what, "leave half_height out", ("joints", name, "friction", "half_height"))
+        return {
+            "friction": joint.friction.model_dump(mode="json", exclude={"half_height"}, exclude_none=True)
+        }
 
     def _gear(self, name: str, joint: Any) -> dict[str, Any]:
         sizes = joint.model_dump(

@@ -94,8 +94,14 @@ def _with_pin(pin: Array, place: int, other: Array) -> Array:
     return np.array([np.cross(y, z), y, z])
 
 
-def add_constraints(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], at: Geometry) -> None:
-    """Rows of a joint's constraints: forces along local axes of i, then moments."""
+def add_constraints(
+    rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], at: Geometry, split: bool = False
+) -> None:
+    """Rows of a joint's constraints: forces along local axes of i, then moments.
+
+    ``split`` gives a joint that holds its point three rows along its axes, which friction reads, rather than one of
+    three along ground's.
+    """
     pair = pair_of(joint)
     if joint.type == "screw":
         for axis in (1, 2):
@@ -103,7 +109,7 @@ def add_constraints(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, i
         about = _about(at, 0)
         pitch = -joint.lead / (2 * np.pi)
         rows.add(Helix, index, ends, ui=at.ui, uj=at.uj, pitch=pitch, count=rows.followed(), **about)
-    elif pair.forces == AXES:
+    elif pair.forces == AXES and not split:
         rows.add(Meet, index, ends, ui=at.ui, uj=at.uj)
     else:
         for axis in (AXES.index(name) for name in pair.forces):

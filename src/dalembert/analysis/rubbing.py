@@ -135,8 +135,11 @@ def _blocked(contacts: Contacts, stated: Statement) -> Flags:
     count = stated.w.shape[0]
     if not isinstance(stated.forces, PseudoInverse):
         return np.zeros(count, bool)
-    read = np.concatenate([contacts.first, contacts.second, contacts.couple])
-    read = np.unique(read[read >= 0])
+    if contacts.read is not None:
+        read = np.flatnonzero(np.abs(contacts.read).max(axis=(0, 1), initial=0.0))
+    else:
+        read = np.concatenate([contacts.first, contacts.second, contacts.couple])
+        read = np.unique(read[read >= 0])
     return np.asarray(np.abs(stated.forces.null[..., read, :]).max(axis=(-2, -1), initial=0.0) > UNIQUE)
 
 
@@ -225,17 +228,17 @@ class _Made(NamedTuple):
             shift, others = shifts(layout, s.pose, s.rows, found.free)
             marks = unique(shift), others
         force = force + friction.force + friction.viscous_force
-        moment = couple[..., 0] + friction.moment + friction.viscous_moment
+        moment = couple.reshape(friction.moment.shape) + friction.moment + friction.viscous_moment
         checks = (found.residual, found.power_balance, found.rcond)
         return Forces(force, moment, found.effort, found.load, *checks, *marks, friction)
 
     def _friction(
         self, r: Response, slip: Slip, sense: Array, cz: Array, effort: Array, load: Array
     ) -> Friction:
-        contacts, told = self.s.contacts, self.told
+        s, contacts, told = self.s, self.s.contacts, self.told
         dry = np.where(contacts.fixed, 0.0, cz)
-        joints = self.s.c.layout.joints
-        force, moment = _of_joints(self.along, contacts.joint, joints, dry)
+        joints = s.c.layout.joints
+        force, moment = _of_joints(s, self.along, contacts.joint, dry)
         viscous = _viscous(self.s)
         return Friction(
             force,
@@ -256,16 +259,22 @@ class _Made(NamedTuple):
         )
 
 
-def _of_joints(along: System, joint: NDArray[np.intp], joints: int, effort: Array) -> tuple[Array, Array]:
-    """Force (P, joints, d) and moment about j's point (P, joints) on j of efforts along rows."""
-    force = np.zeros((len(effort), joints, 2))
-    moment = np.zeros((len(effort), joints))
+def _of_joints(s: Setting, along: System, joint: NDArray[np.intp], effort: Array) -> tuple[Array, Array]:
+    """Force (P, joints, d) and moment about j's point (P, joints; in space with 3 components) on j of efforts."""
+    layout, g = s.c.layout, s.c.layout.algebra
+    force = np.zeros((len(effort), layout.joints, g.d))
+    couple = np.zeros((len(effort), layout.joints, g.n - g.d))
+    index = {name: k for k, name in enumerate(s.c.links)} | {"ground": layout.links}
     for e, k in enumerate(joint):
+        link = index[s.c.mechanism.joints[s.c.joints[k]].links[1]]
+        wrench = effort[:, e, None] * (along.on_j if along.j[e] == link else along.on_i)[..., e, :]
+        force[:, k] += wrench[..., : g.d]
         if along.angular[e]:
-            moment[:, k] += effort[:, e]
-        else:
-            force[:, k] += effort[:, e, None] * along.on_j[..., e, :2]
-    return force, moment
+            couple[:, k] += wrench[..., g.d :]
+        elif g.d == 3:
+            at = g.rotate(s.pose.rotation[:, link], s.c.joint_at[k])
+            couple[:, k] += wrench[..., 3:] - g.cross(at, wrench[..., :3])
+    return force, couple[..., 0] if g.d == 2 else couple
 
 
 def _summed(joint: NDArray[np.intp], joints: int, values: Array) -> Array:
@@ -281,7 +290,7 @@ def _viscous(s: Setting) -> tuple[Array, Array, Array]:
     rows = system(layout.algebra, layout.freedoms, s.pose).rows(own.row)
     joint = layout.freedoms.joint[own.row]
     rate = rates(rows, s.moving.twist)
-    force, moment = _of_joints(rows, joint, layout.joints, -own.damping * rate)
+    force, moment = _of_joints(s, rows, joint, -own.damping * rate)
     return force, moment, _summed(joint, layout.joints, own.damping * rate * rate)
 
 

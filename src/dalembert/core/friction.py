@@ -51,6 +51,11 @@ class Contacts:
     fixed (E,)  not friction: strength is the lever whatever the scale, sense -1
     led (E,)    contact whose rate tells its sense: itself, or the slide to which a couple of faces belongs
     reach (E,)  where positive: its forces hold at this distance of the centres and fall as it grows
+    read (3, E, K)  in space, in place of first to gain: its arguments of the constraints' multipliers
+    ball (E,)   its three arguments are the components of one force
+    group (E,)  contacts of one number share a slip: each has its part of the direction of it, by ``reckoned`` (E,),
+                the length that turns its rate into a speed
+    around (E,) it is of a group that goes along and around an axis with friction circles of R sin(phi)
     """
 
     rows: Rows
@@ -68,6 +73,11 @@ class Contacts:
     fixed: Flags
     led: Ints
     reach: Array
+    read: Array | None = None
+    ball: Flags | None = None
+    group: Ints | None = None
+    reckoned: Array | None = None
+    around: Flags | None = None
 
     @property
     def count(self) -> int:
@@ -98,8 +108,55 @@ def senses(layout: Layout, contacts: Contacts, along: System, twist: Array) -> S
     scaled = rate * np.where(contacts.rows.angular, layout.length, 1.0)
     fastest = np.abs(twist / layout.wrench_scale).max(axis=(-2, -1), initial=0.0)
     still = ((np.abs(scaled) <= STILL * fastest[..., None]) & ~contacts.fixed)[..., contacts.led]
+    if contacts.group is not None:
+        part, still = _directed(contacts, rate, still)
+        return Senses(part, still & (strength(contacts, 1.0, True) > 0), rate)
     sense = np.where(contacts.fixed, -1.0, np.where(still, 0.0, np.sign(rate)[..., contacts.led]))
     return Senses(sense, still & (strength(contacts, 1.0, True) > 0), rate)
+
+
+def _directed(contacts: Contacts, rate: Array, still: Flags, resting: bool = False) -> tuple[Array, Flags]:
+    """Part of each contact in the direction of its group's slip, and the groups that do not slip at all."""
+    assert contacts.reckoned is not None
+    part = sign(contacts, rate * contacts.reckoned, still, resting)
+    return part, ~moving_together(contacts, ~still)
+
+
+def sign(contacts: Contacts, value: Array, none: Flags, resting: bool = False) -> Array:
+    """Sign of each value (..., E), 0 where ``none``; of a group of contacts its direction, a unit vector.
+
+    Where a group has friction circles of R sin(phi), its reaction includes the part s of the friction that goes around
+    the axis: the direction is divided by sqrt(1 + (mu s)^2).
+    """
+    value = np.where(none, 0.0, value)
+    if contacts.group is None or contacts.around is None:
+        return np.sign(value)
+    together = _together(contacts)
+    size = np.sqrt((value * value) @ together)
+    part = value / np.where(size > 0, size, 1.0)
+    mu = np.where(contacts.around, contacts.resting if resting else contacts.coefficient, 0.0)
+    slope = (mu * part * contacts.rows.angular) ** 2 @ together
+    return np.asarray(part / np.sqrt(1 + slope))
+
+
+def moving_together(contacts: Contacts, moves: Flags) -> Flags:
+    """Whether a contact (..., E), or another of its group, moves."""
+    if contacts.group is None:
+        return moves
+    return np.asarray(moves.astype(float) @ _together(contacts) > 0)
+
+
+def _together(contacts: Contacts) -> Array:
+    """1 where two contacts (E, E) are of one group."""
+    assert contacts.group is not None
+    return np.asarray((contacts.group[:, None] == contacts.group).astype(float))
+
+
+def impending(contacts: Contacts, g: Array, moves: Flags) -> Array:
+    """Part of each contact (..., E) in the impending slip of rates -g."""
+    if contacts.group is None:
+        return np.where(moves, -np.sign(g)[..., contacts.led], 0.0)
+    return _directed(contacts, -g, ~moves, resting=True)[0]
 
 
 def strength(contacts: Contacts, scale: Array | float, resting: Array | bool = False) -> Array:
@@ -140,6 +197,9 @@ def _arguments(contacts: Contacts, x: Array, near: Array) -> list[Array]:
     def read(which: Ints) -> Array:
         return np.where(which >= 0, x[..., which], 0.0)
 
+    if contacts.read is not None:
+        parts = np.einsum("aek,...k->...ae", contacts.read, x[..., : contacts.read.shape[-1]])
+        return [parts[..., k, :] for k in range(3)]
     first = read(contacts.first) * contacts.gain * near
     second = read(contacts.second) * contacts.gain
     tilting = contacts.tilt[:, 0] * read(contacts.couple) + contacts.tilt[:, 1] * first
@@ -149,11 +209,16 @@ def _arguments(contacts: Contacts, x: Array, near: Array) -> list[Array]:
 def bearing(contacts: Contacts, y: Array) -> Array:
     """S (..., E) of arguments (..., 3, E)."""
     force = np.hypot(y[..., 0, :], y[..., 1, :])
+    if contacts.ball is not None:
+        whole = np.sqrt(force * force + y[..., 2, :] ** 2)
+        return np.where(contacts.ball, whole, force)
     return np.where(contacts.signed, y[..., 0, :], np.maximum(force, np.abs(y[..., 2, :])))
 
 
 def slope(contacts: Contacts, y: Array) -> Array:
     """Derivative of S after y (..., 3, E); one of its branches where two meet, 0 where a contact carries nothing."""
+    if contacts.ball is not None:
+        return _round_slope(contacts, y)
     force, tilting = np.hypot(y[..., 0, :], y[..., 1, :]), np.abs(y[..., 2, :])
     bears = np.maximum(force, tilting) > NOTHING * np.abs(y).max(axis=(-2, -1), initial=0.0)[..., None]
     tilted = (tilting > force) & ~contacts.signed & bears
@@ -165,6 +230,15 @@ def slope(contacts: Contacts, y: Array) -> Array:
         np.where(tilted, np.sign(y[..., 2, :]), 0.0),
     ]
     return np.stack(parts, axis=-2)
+
+
+def _round_slope(contacts: Contacts, y: Array) -> Array:
+    """Derivative of the size of a force of two or three components."""
+    assert contacts.ball is not None
+    y = y * np.where(np.arange(3)[:, None] < 2, True, contacts.ball)
+    size = np.sqrt((y * y).sum(axis=-2))
+    bears = size > NOTHING * np.abs(y).max(axis=(-2, -1), initial=0.0)[..., None]
+    return np.asarray(np.where(bears[..., None, :], y / np.where(size > 0, size, 1.0)[..., None, :], 0.0))
 
 
 def argument(r: Response, cz: Array) -> Array:
@@ -189,6 +263,8 @@ def spread(contacts: Contacts, r: Response, c: Array) -> Array:
     Below 1 there is one solution, at any smaller scale too.
     """
     lever = np.maximum(np.hypot(r.h[..., 0, :, :], r.h[..., 1, :, :]), np.abs(r.h[..., 2, :, :]))
+    if contacts.ball is not None:
+        lever = np.where(contacts.ball[:, None], np.sqrt((r.h * r.h).sum(axis=-3)), lever)
     lever = np.where(contacts.signed[:, None], np.abs(r.h[..., 0, :, :]), lever) * c[..., None, :]
     power, log, size = lever, np.zeros(lever.shape[:-2]), 1
     for _ in range(6):

@@ -14,7 +14,18 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.friction import STILL, Contacts, Response, Senses, argument, jacobian, slope
+from dalembert.core.friction import (
+    STILL,
+    Contacts,
+    Response,
+    Senses,
+    argument,
+    impending,
+    jacobian,
+    moving_together,
+    sign,
+    slope,
+)
 from dalembert.core.linear import solved
 from dalembert.core.slip import Slip, slipping
 
@@ -36,9 +47,9 @@ def extreme(layout: Any, contacts: Contacts, r: Response, known: Senses, unknown
     g = np.broadcast_to(r.change[..., unknown, :], known.sense.shape)
     size = np.abs(g) * np.where(contacts.rows.angular, layout.length, 1.0)
     moves = (size > STILL * size.max(axis=-1, keepdims=True, initial=0.0))[..., contacts.led]
-    told = np.where(moves, -end * np.sign(g)[..., contacts.led], 0.0)
+    told = end * impending(contacts, g, moves)
     sense = np.where(known.open, told, known.sense)
-    idle = known.open & ~moves
+    idle = known.open & ~moving_together(contacts, moves)
     found = slipping(contacts, r, sense, known.open)
     for _ in range(ROUNDS if idle.any() else 0):
         new = np.where(idle, -end * _influence(contacts, r, found, sense, g)[..., contacts.led], sense)
@@ -53,5 +64,5 @@ def _influence(contacts: Contacts, r: Response, found: Slip, sense: Array, g: Ar
     y = argument(r, found.c * np.nan_to_num(found.z))
     j = jacobian(contacts, r, slope(contacts, y), sense, found.c)
     a = solved(np.swapaxes(j, -1, -2), found.c * g)
-    negligible = STILL * np.abs(a).max(axis=-1, keepdims=True, initial=0.0)
-    return np.where(np.abs(a) > negligible, np.sign(np.nan_to_num(a)), 0.0)
+    negligible = np.abs(a) <= STILL * np.abs(a).max(axis=-1, keepdims=True, initial=0.0)
+    return sign(contacts, np.nan_to_num(a), negligible, resting=True)

@@ -115,4 +115,34 @@ class GearFriction(Part):
     )
 
 
-Friction = PinFriction | GuideFriction | SlotFriction | GearFriction
+class SpaceFriction(Part):
+    """Friction of a joint in space: a journal, a guide, a ball or a thread.
+
+    Without `guide` the bearing couple of a journal or guide is not counted; with it two ends bear.
+    """
+
+    coefficient: Coefficient | None = Field(
+        None, description="coefficient of friction; default the top level's"
+    )
+    static: Coefficient | None = Field(
+        None,
+        description="coefficient at rest; default the joint's own coefficient, then the top level's static",
+    )
+    radius: Annotated[float, Scalar("length", "positive")] | None = Field(
+        None, description="of the journal, of the ball, or the mean one of the thread; a length"
+    )
+    circle: Circle | None = Field(None, description="R sin(phi), or mu R with tan; default the top level's")
+    guide: Annotated[tuple[float, float], Guide()] | None = Field(
+        None,
+        description="how far the bearing reaches behind and ahead of j's point along the axis, two lengths",
+    )
+    thrust_radius: Annotated[float, Scalar("length", "positive")] | None = Field(
+        None,
+        description="of a revolute: mean radius of the collar that carries the axial force; default none",
+    )
+    thread_angle: Annotated[float, Scalar("angle", "not negative")] | None = Field(
+        None, description="of a screw: half the angle of the thread's profile; default 0, a square thread"
+    )
+
+
+Friction = PinFriction | GuideFriction | SlotFriction | GearFriction | SpaceFriction

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, ValidationInfo, model_validator
 
 from dalembert.errors import ModelError
+from dalembert.model.friction import SpaceFriction
 from dalembert.model.joint_part import JointPart
 from dalembert.model.part import Part, mapping, reading
 from dalembert.model.values import (
@@ -113,6 +114,16 @@ MAIN: dict[str, str] = dict.fromkeys(SPACE_FREEDOMS, "x") | {"revolute": "z"}
 """The local axis that the short form `axis` means."""
 
 
+FRICTION_KEYS: dict[str, tuple[str, ...]] = {
+    "revolute": ("radius", "circle", "guide", "thrust_radius"),
+    "prismatic": ("guide",),
+    "cylindrical": ("radius", "circle", "guide"),
+    "spherical": ("radius", "circle"),
+    "screw": ("radius", "thread_angle"),
+}
+"""Joints in space that can have friction, and what describes theirs beside the coefficients."""
+
+
 class SpaceJoint(JointPart):
     """A joint in space, described by its local axes.
 
@@ -146,6 +157,9 @@ class SpaceJoint(JointPart):
     blocked: Literal["x", "y", "z"] | None = Field(
         None, description="of a slotted sphere: the local axis about which it cannot turn; default x"
     )
+    friction: SpaceFriction | None = Field(
+        None, description="dry friction, of a revolute, prismatic, cylindrical, spherical or screw joint"
+    )
     damping: Annotated[dict[str, float], Dampings()] = Field(
         default_factory=dict, description="viscous: of the only freedom, or {freedom: coefficient}"
     )
@@ -177,7 +191,22 @@ class SpaceJoint(JointPart):
             if self.axes is not None:
                 raise ModelError("both axis and axes are given", "leave one of them out", ("axis",))
         self._check_axes()
+        if self.friction is not None:
+            self._check_friction(self.friction)
         return self
+
+    def _check_friction(self, friction: SpaceFriction) -> None:
+        keys = FRICTION_KEYS.get(self.type)
+        if keys is None:
+            what = f"friction of a {self.type} joint is not analysed"
+            raise ModelError(what, "give it to one of " + ", ".join(FRICTION_KEYS), ("friction",))
+        for key in ("radius", "circle", "guide", "thrust_radius", "thread_angle"):
+            if key not in keys and getattr(friction, key) is not None:
+                raise ModelError(
+                    f"the friction of a {self.type} joint has no {key}", "leave it out", ("friction", key)
+                )
+        if friction.radius is None and self.type in ("revolute", "spherical", "screw"):
+            raise ModelError("its friction needs a radius", "write radius: 10 mm", ("friction",))
 
     def _check_axes(self) -> None:
         if self.type == "universal":
