@@ -16,6 +16,7 @@ from dalembert.model.values import (
     Value,
     Vector,
     at_item,
+    directed,
     vector,
     vector_schema,
     written,
@@ -79,9 +80,13 @@ class PoseValue(Value):
         return {"anyOf": [NUMBER_OR_TEXT, pose, space]}
 
 
+def _axis(value: Any, rules: Any) -> Vector:
+    return directed(vector(value, "number", rules))
+
+
 def _in_space(keys: Mapping[str, Any], rules: Any) -> SpacePose:
     return SpacePose(
         at_item("position", vector, keys.get("position", (0.0, 0.0, 0.0)), "length", rules),
-        at_item("axis", vector, keys.get("axis", (0.0, 0.0, 1.0)), "number", rules),
+        at_item("axis", _axis, keys.get("axis", (0.0, 0.0, 1.0)), rules),
         at_item("angle", quantity, keys.get("angle", 0.0), "angle", rules.units),
     )

@@ -9,12 +9,13 @@ from dalembert.errors import ModelError
 from dalembert.model.joint_part import JointPart
 from dalembert.model.link import CENTER, Link, Offset
 from dalembert.model.loads import Couple, Damper, ForceLoad, Spring, TorsionDamper, TorsionSpring
-from dalembert.model.space_joints import SpaceJoint
+from dalembert.model.space_joints import BALLS, SpaceJoint
 from dalembert.model.tables import Table
 from dalembert.model.varying import Varying
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
+    from dalembert.model.drives import Drive
     from dalembert.model.mechanism import Mechanism
 
 GROUND = "ground"
@@ -133,6 +134,7 @@ def _drives(m: Mechanism) -> Iterator[ModelError]:
             )
             continue
         yield from _freedom(name, drive.freedom, joint, m.joints[joint])
+        yield from _axis(name, drive, joint, m.joints[joint])
         other = taken.setdefault((joint, drive.freedom), name)
         if other != name:
             yield ModelError(
@@ -158,6 +160,23 @@ def _freedom(name: str, freedom: str | None, joint: str, part: JointPart) -> Ite
             f"is {' or '.join(choices)}",
             f"write freedom: {choices[0]}, with its units",
             ("drives", name, "freedom"),
+        )
+
+
+def _axis(name: str, drive: Drive, joint: str, part: JointPart) -> Iterator[ModelError]:
+    """A ball turns about the axis that its drive gives; other joints have their own."""
+    ball = part.type in BALLS and drive.freedom == "turn"
+    if ball and drive.axis is None:
+        yield ModelError(
+            f"drive {name!r} turns joint {joint!r}, a {part.type} joint, which turns any way",
+            f"write axis: [0, 0, 1], in the axes of {part.links[0]}",
+            ("drives", name),
+        )
+    elif drive.axis is not None and not ball:
+        yield ModelError(
+            f"drive {name!r} has an axis, and joint {joint!r}, a {part.type} joint, says itself how it moves",
+            "leave it out",
+            ("drives", name, "axis"),
         )
 
 
@@ -219,6 +238,12 @@ def _components(
             else f"{user} has a direction in the plane",
             "write direction: [0, 0, 1], or value: [x, y, z]" if m.dimension == 3 else "leave it out",
             path,
+        )
+    if isinstance(load, ForceLoad) and isinstance(load.direction, float) and m.dimension == 3:
+        yield ModelError(
+            f"the direction of {user} is an angle, which is for the plane",
+            "write direction: [x, y, z]",
+            (*path, "direction"),
         )
     for key, vector in vectors.items():
         if isinstance(vector, tuple) and len(vector) != m.dimension:

@@ -20,6 +20,7 @@ from dalembert.model.values import (
     Value,
     Vector,
     at_item,
+    directed,
     numbers,
     written,
 )
@@ -262,6 +263,8 @@ class Drive(Part):
                 "a range is given and the position is known", f"write position: {EXAMPLE}", ("range",)
             )
         self._check_counts()
+        if self.axis is not None:
+            at_item("axis", directed, self.axis)
         return self
 
     def _refuse(self, reason: str, *keys: str) -> None:

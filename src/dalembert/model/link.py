@@ -115,6 +115,14 @@ def _symmetric(rows: tuple[tuple[float, ...], ...]) -> tuple[tuple[float, ...], 
         raise ModelError(
             "the matrix of inertia is not symmetric, 3 by 3", "give [i][j] and [j][i] the same value"
         )
+    import numpy as np
+
+    principal = np.linalg.eigvalsh(np.array(rows))
+    if principal[0] < -1e-9 * principal[-1]:
+        raise ModelError(
+            f"the matrix of inertia has the principal value {principal[0]:.3g} kg m2, and no body has a negative one",
+            "check the signs of the products of inertia",
+        )
     return rows
 
 

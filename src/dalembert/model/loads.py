@@ -17,6 +17,7 @@ from dalembert.model.values import (
     Value,
     Vector,
     at_item,
+    directed,
     listed,
     name,
     polar,
@@ -82,14 +83,15 @@ class Direction(Value):
 
     def read(self, value: Any, info: ValidationInfo) -> float | Vector:
         if isinstance(value, (list, tuple)):
-            return vector(value, "number", Reading(dimension=3))
+            return directed(vector(value, "number", Reading(dimension=3)))
         return Scalar("angle").read(value, info)
 
     def write(self, value: float | Vector) -> Any:
         return list(value) if isinstance(value, tuple) else written(value, "angle")
 
     def json_schema(self) -> JsonSchema:
-        return Scalar("angle").json_schema()
+        components = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
+        return {"anyOf": [Scalar("angle").json_schema(), components]}
 
 
 class Spot(Value):
@@ -228,8 +230,8 @@ class Couple(Part):
     def _one_meaning(self) -> Self:
         if self.direction is not None and isinstance(self.value, tuple):
             raise ModelError("a vector needs no direction", "leave the direction out", ("direction",))
-        if self.direction is not None and not any(self.direction):
-            raise ModelError("its direction is 0", "write one of its components other than 0", ("direction",))
+        if self.direction is not None:
+            at_item("direction", directed, self.direction)
         return self
 
     @property

@@ -19,6 +19,7 @@ from dalembert.model.values import (
     Value,
     Vector,
     at_item,
+    directed,
     signed,
     written,
 )
@@ -42,7 +43,7 @@ class Frame(Part):
         for key in ("x", "z"):
             vector = getattr(self, key)
             if vector is not None:
-                _check_direction(vector, key)
+                at_item(key, directed, vector)
         if self.x is not None and self.z is not None and abs(_dot(_unit(self.x), _unit(self.z))) > RIGHT:
             raise ModelError("x and z are not at a right angle", "turn one of them, or leave it out")
         return self
@@ -187,7 +188,7 @@ class SpaceJoint(JointPart):
                 f"a {self.type} joint has no blocked turn to choose", "leave it out", ("blocked",)
             )
         if self.axis is not None:
-            _check_direction(self.axis, "axis")
+            at_item("axis", directed, self.axis)
             if self.axes is not None:
                 raise ModelError("both axis and axes are given", "leave one of them out", ("axis",))
         self._check_axes()
@@ -261,13 +262,6 @@ def _square(vector: Vector, axis: Vector) -> Vector | None:
     if abs(along) > 0.9:
         return None
     return _unit(tuple(u - along * a for u, a in zip(unit, axis, strict=True)))
-
-
-def _check_direction(vector: Vector, key: str) -> None:
-    if len(vector) != 3:
-        raise ModelError(f"{key} has {len(vector)} components", "write [x, y, z]", (key,))
-    if not any(vector):
-        raise ModelError(f"{key} has no direction", "write one of its components other than 0", (key,))
 
 
 def _dot(a: Vector, b: Vector) -> float:

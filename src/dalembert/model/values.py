@@ -93,6 +93,17 @@ class Components(Value):
         return vector_schema()
 
 
+def directed(direction: Vector) -> Vector:
+    """The components of a direction in space, if they say one."""
+    if len(direction) != 3:
+        raise ModelError(f"a direction in space has {len(direction)} components", "write [x, y, z]")
+    if not any(direction):
+        raise ModelError(
+            "all its components are 0", "write the direction it points in, for example [0, 0, 1]"
+        )
+    return direction
+
+
 def vector_schema() -> JsonSchema:
     items = {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 2, "maxItems": 3}
     return {"anyOf": [items, {"type": "string", "description": "polar: r @ angle"}]}
