@@ -140,6 +140,9 @@ def test_both_ends_are_drawn_at_rest() -> None:
     assert "Low end of O, −7304 N·m: friction is at its limit in O, A, B, guide" in texts
     assert "High end of O, −4522 N·m: friction is at its limit in O, A, B, guide" in texts
     assert any("Rod is about to turn clockwise against crank" in t for t in texts)
+    lines = [t.text for t in da.draw.lines_of_action(r, "crank").texts()]
+    assert "h = 0.3179 m" in lines
+    assert "h = 0.2045 m" in lines
     chain = [t.text for t in da.draw.force_polygons(r).texts()]
     assert "F_{23} = 22974 N" in chain
     assert "F_{23} = 22112 N" in chain

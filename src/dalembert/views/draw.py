@@ -50,28 +50,32 @@ def free_body(r: Result, link: str, at: Any = None, notation: Notation | None = 
 
 def components(r: Result, link: str, at: Any = None, notation: Notation | None = None) -> Scene:
     """Joint forces of a link along and across it."""
-    return components_scene(r, _link(r, link), position_at(r, at), notation)
+    k = position_at(r, at)
+    return _whole(r, k, notation, lambda end: components_scene(end, _link(r, link), k, notation))
 
 
 def force_polygon(
     r: Result, link: str, at: Any = None, notation: Notation | None = None, case: str | None = None
 ) -> Scene:
     """The forces on a link head to tail; ``case`` names one source of the superposition to draw alone."""
-    return force_polygon_scene(r, _link(r, link), position_at(r, at), notation, case)
+    k = position_at(r, at)
+    return _whole(r, k, notation, lambda end: force_polygon_scene(end, _link(r, link), k, notation, case))
 
 
 def force_chain(
     r: Result, at: Any = None, notation: Notation | None = None, case: str | None = None
 ) -> Scene:
     """The polygons of all links on the sides they share, in the order of solution."""
-    return force_chain_scene(r, position_at(r, at), notation, case)
+    k = position_at(r, at)
+    return _whole(r, k, notation, lambda end: force_chain_scene(end, k, notation, case))
 
 
 def lines_of_action(
     r: Result, link: str, at: Any = None, notation: Notation | None = None, case: str | None = None
 ) -> Scene:
     """Where the lines of a link's forces meet."""
-    return lines_of_action_scene(r, _link(r, link), position_at(r, at), notation, case)
+    k = position_at(r, at)
+    return _whole(r, k, notation, lambda end: lines_of_action_scene(end, _link(r, link), k, notation, case))
 
 
 def velocity_polygon(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:

@@ -232,15 +232,26 @@ def _meeting(
     if len(mine) == 4:
         pairs = [concurrency(mine[:2], k), concurrency(mine[2:], k)]
         if None not in pairs:
-            p, q = frame(pairs[0]), frame(pairs[1])
-            _mark(canvas, p, span, "P")
-            _mark(canvas, q, span, "Q")
-            if math.dist(p, q) < 400:
-                canvas.add(Line((p, q), "resultant"))
-            return [
-                f"{names[0]}, {names[1]} meet in P, {names[2]}, {names[3]} in Q; PQ carries both resultants."
-            ]
+            return _two_meetings(canvas, frame(pairs[0]), frame(pairs[1]), span, names)
     return []
+
+
+def _two_meetings(
+    canvas: Canvas, p: Point, q: Point, span: tuple[float, ...], names: Sequence[str]
+) -> list[str]:
+    """The points where four lines meet in pairs, and the line through them as far as the drawing reaches."""
+    ends, words = [], []
+    for name, at, other in (("P", p, q), ("Q", q, p)):
+        inside = _inside(at, span, 60.0)
+        _mark(canvas, at, span, name)
+        words.append(name if inside else f"{name} (beyond the drawing)")
+        far = math.dist(p, q)
+        part = 1.0 if inside or far < 40.0 else 40.0 / far
+        ends.append((other[0] + part * (at[0] - other[0]), other[1] + part * (at[1] - other[1])))
+    if any(_inside(at, span, 60.0) for at in (p, q)):
+        canvas.add(Line((ends[0], ends[1]), "resultant"))
+    first, second = f"{names[0]}, {names[1]} meet in {words[0]}", f"{names[2]}, {names[3]} in {words[1]}"
+    return [f"{first}, {second}; PQ carries both resultants."]
 
 
 def arm_of_couple(two: Sequence[Action], k: int) -> float:
