@@ -20,7 +20,7 @@ from dalembert.kernel import batch, cuda, emit_c, emit_llvm
 from dalembert.kernel.graph import Graph
 from dalembert.kernel.machine import aligned, compiled, host_lanes
 from dalembert.kernel.program import Program
-from tests.kernel.comparing import changed
+from tests.kernel.comparing import changed, every_number
 from tests.kernel.machines import KINDS, four_bar
 
 VARY = ["links.crank.points.A", "links.rocker.points.B", "links.coupler.mass", "drives.O2.speed"]
@@ -45,6 +45,10 @@ def test_lanes_give_the_same(lanes: int, kind: str) -> None:
 def test_the_processor_s_own_lanes(monkeypatch: pytest.MonkeyPatch) -> None:
     assert host_lanes() in (2, 4, 8)
     assert da.compile(da.four_bar()).lanes == 2 * host_lanes()
+    every = every_number(da.four_bar())
+    assert (
+        da.compile(da.four_bar(), derivatives=True, vary=every).lanes == host_lanes()
+    )  # wide enough by itself
     monkeypatch.setattr(sys.modules["dalembert.analysis.batch.kernel"], "SMALL", 10)
     assert da.compile(da.four_bar()).lanes == host_lanes()
 

@@ -7,6 +7,9 @@ from functools import cached_property
 
 from dalembert.kernel.graph import CONSTANT, INPUTS, POSITION, Graph, Node
 
+SLOW = {"inv": 6, "rsqrt": 7, "sqrt": 8, "sin": 15, "cos": 15, "atan2": 30, "neg": 0, "detach": 0}
+"""How long operations take that are no addition or product, in additions."""
+
 
 @dataclass(frozen=True)
 class Program:
@@ -55,6 +58,15 @@ class Program:
     def constants(self) -> list[Node]:
         """Constants in use."""
         return [n for n in self.order if n.level == CONSTANT and n.a is None]
+
+    @property
+    def depth(self) -> int:
+        """Operations one after the other on the longest way to a result, inverses and roots counted as several."""
+        ends: dict[int, int] = {}
+        for n in self.position:
+            before = max(ends.get(x.index, 0) for x in (n.a, n.b) if x is not None)
+            ends[n.index] = before + SLOW.get(n.op, 1)
+        return max(ends.values(), default=0)
 
     @property
     def size(self) -> int:

@@ -26,8 +26,11 @@ from dalembert.model import Mechanism
 Array = NDArray[Any]
 
 
-SMALL = 1500
-"""Operations below which two registers side by side are faster than one: the waiting of one fills the other."""
+SMALL = 2000
+"""Operations below which the results of two registers side by side still find room in the first cache."""
+ABREAST = 10
+"""Operations that could be under way at once, below which two registers side by side are faster than one: the waiting
+of one fills the other. Two units with four cycles each ask for eight."""
 
 
 def compile(  # noqa: A001
@@ -66,10 +69,15 @@ def compile(  # noqa: A001
             "the place of a peak has no derivative", 'leave derivatives out, or reduce by "peak"'
         )
     kernel = Kernel(mechanism, trace, names, reduce, derivatives, lanes or _host_lanes())
-    if lanes is None and kernel.program(kernel.flat).size < SMALL:
+    if lanes is None and _waits(kernel.program(kernel.flat)):
         kernel = replace(kernel, lanes=2 * kernel.lanes)
     kernel.warm()
     return kernel
+
+
+def _waits(program: Program) -> bool:
+    """Whether a program in one register would wait for its own results."""
+    return program.size < SMALL and program.size < ABREAST * program.depth
 
 
 def _host_lanes() -> int:
