@@ -72,6 +72,28 @@ def exp(w: Array) -> Array:
     return out
 
 
+def quaternion(r: Array) -> Array:
+    """Unit quaternions (..., 4) as x, y, z, w with w not negative: (n sin(t/2), cos(t/2)) of a turn t about n.
+
+    The largest of the four is taken from the diagonal, the others follow without loss (Shepperd 1978).
+
+    >>> quaternion(exp(np.array([0.0, 0.0, np.pi / 2]))).round(4).tolist()
+    [0.0, 0.0, 0.7071, 0.7071]
+    """
+    m = matrix(r)
+    four = np.empty((*m.shape[:-2], 4, 4))  # 4 q_a q_b
+    for a in range(3):
+        b, c = (a + 1) % 3, (a + 2) % 3
+        four[..., a, a] = 1 + m[..., a, a] - m[..., b, b] - m[..., c, c]
+        four[..., a, b] = four[..., b, a] = m[..., a, b] + m[..., b, a]
+        four[..., a, 3] = four[..., 3, a] = m[..., c, b] - m[..., b, c]
+    four[..., 3, 3] = 1 + np.trace(m, axis1=-2, axis2=-1)
+    largest = np.diagonal(four, axis1=-2, axis2=-1).argmax(axis=-1)
+    q = np.take_along_axis(four, largest[..., None, None], axis=-2)[..., 0, :]
+    q = q / np.sqrt(dot(q, q))[..., None]
+    return np.where(q[..., 3:] < 0, -q, q)
+
+
 def rotate(r: Array, u: Array) -> Array:
     """Ground components of a vector u given in rotated axes."""
     x, y, z = u[..., 0], u[..., 1], u[..., 2]

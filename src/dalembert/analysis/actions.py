@@ -15,6 +15,7 @@ from dalembert.analysis.joints import signed_radii
 from dalembert.core.constraints import system
 from dalembert.core.equilibrium import Motion, known_sources, motion
 from dalembert.core.forcing import Source
+from dalembert.core.gearing import gearings, separation
 from dalembert.core.geometry import arm
 from dalembert.core.layout import Pose, System
 from dalembert.core.linear import Factor
@@ -160,12 +161,23 @@ def joint_place(r: Result, joint: str) -> Array:
     pj = link_place(r, j, uj)
     if described.type not in ("gear", "rolling"):
         return pj
+    if r.mechanism.dimension == 3:
+        return _pitch_point(r, joint)
     if described.type == "rolling" and getattr(described, "radii", None) is None:
         angle = link_angle(r, i) + float(described.direction)
         return pj + float(described.radius) * np.stack([np.sin(angle), -np.cos(angle)], axis=-1)
     pi = link_place(r, i, ui)
     ri, rj = signed_radii(described)
     return np.asarray(pi + (pj - pi) * (ri / (ri + rj)))
+
+
+def _pitch_point(r: Result, joint: str) -> Array:
+    """Where the wheels of a mesh in space touch (P, 3)."""
+    layout, k = r.compiled.layout, r.joints.index(joint)
+    f = next(f for f in gearings(layout) if k in layout.constraints.joint[f.row])
+    _, contact = separation(layout.algebra, f, whole_pose(r))
+    mine = list(layout.constraints.joint[f.row]).index(k)
+    return np.asarray(contact[..., mine, :] + r.compiled.origin)
 
 
 def link_place(r: Result, link: str, u: Any) -> Array:

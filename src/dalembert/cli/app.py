@@ -28,6 +28,7 @@ from dalembert.cli.options import (
     NoFriction,
     Positions,
     ReactionAxes,
+    Seen,
     Static,
     Style,
     Theme,
@@ -136,6 +137,7 @@ def draw(
     positions: Positions = None,
     static: Static = False,
     theme: Theme = "light",
+    camera: Seen = None,
     names: Names = False,
     no_friction: NoFriction = False,
     force: Force = False,
@@ -143,7 +145,7 @@ def draw(
     """Draw FILE to scale: the mechanism, free bodies, force polygons, charts."""
     from dalembert.cli.drawing import drawn
 
-    return drawn(file, output, view, at, positions, static, theme, names, force, not no_friction)
+    return drawn(file, output, view, at, positions, static, theme, names, force, not no_friction, camera)
 
 
 @app.command(

@@ -31,6 +31,7 @@ def drawn(
     names: bool,
     force: bool,
     friction: bool = True,
+    camera: str | None = None,
 ) -> int:
     """Draw a file; 1 where some position has a status other than ok."""
     from dalembert.cli.rubbing import loaded
@@ -51,11 +52,22 @@ def drawn(
     result, at = _solved(loaded(file, friction), at, static, positions)
     notation = draw.Notation(links="name" if names else "number")
     if _moves(view, output):
-        draw.animation(result, notation).save(output, force, theme)
+        draw.animation(result, notation, camera=_camera(camera)).save(output, force, theme)
     else:
-        draw.view(result, view, at, notation).save(output, force, theme)
+        draw.view(result, view, at, notation, _camera(camera)).save(output, force, theme)
     print(f"Written: {output}", file=sys.stderr)
     return OK if result.ok.all() else SOME_NOT_OK
+
+
+def _camera(text: str | None) -> str | tuple[float, float] | None:
+    """A camera by its name, or by azimuth and elevation in degrees."""
+    if text is None or "," not in text:
+        return text
+    try:
+        azimuth, elevation = (float(part) for part in text.split(","))
+    except ValueError:
+        raise ModelError(f"--camera {text} is no direction", "write --camera 30,20: degrees") from None
+    return azimuth, elevation
 
 
 def reported(
@@ -99,9 +111,22 @@ def _moved(m: Mechanism, values: list[float]) -> Mechanism:
 
     path = f"drives.{next(iter(m.drives))}.position"
     r = kinematics(m.with_values({path: values}))
-    angles = {link: float(r.angle(link)[-1]) for link in r.links}
-    there = {path: values[-1]} | ({"assembly": angles} if all(map(math.isfinite, angles.values())) else {})
+    there: dict[str, Any] = {path: values[-1]}
+    if all(map(math.isfinite, r.point_array[-1].ravel())):
+        there["assembly"] = {link: _pose(r, link) for link in r.links}
     return m.with_values(there)
+
+
+def _pose(r: Result, link: str) -> Any:
+    """Where a link is at the last position, as an assembly says it."""
+    if r.mechanism.dimension == 2:
+        return float(r.angle(link)[-1])
+    from dalembert.algebra import space
+
+    x, y, z, w = (float(q) for q in space.quaternion(r.rotation(link)[-1].ravel()))
+    size = math.hypot(x, y, z)
+    position = [float(p) for p in r.position(link)[-1]]
+    return {"position": position, "axis": [x, y, z] if size else [0, 0, 1], "angle": 2 * math.atan2(size, w)}
 
 
 def _way(m: Mechanism, at: str) -> list[float] | None:

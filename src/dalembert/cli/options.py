@@ -66,6 +66,13 @@ At = Annotated[
 ]
 Axes = Literal["ground", "link"]
 ReactionAxes = Literal["ground", "link", "joint"]
+Seen = Annotated[
+    str | None,
+    Parameter(
+        allow_leading_hyphen=True,
+        help="In space: isometric (default), front, side, top, or azimuth and elevation of the eye in degrees: 30,20.",
+    ),
+]
 Theme = Annotated[
     Literal["light", "dark", "print"],
     said("Colours for light paper, for a dark screen, or black and white for print."),

@@ -6,14 +6,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from dalembert.analysis.actions import whole_actions
+from dalembert.analysis.actions import Action, whole_actions
 from dalembert.analysis.columns import drive_kinds
 from dalembert.errors import ModelError
 from dalembert.saving import check_installed, new_file
+from dalembert.views import space_mechanism as drawn
+from dalembert.views.camera import Camera
 from dalembert.views.canvas import Canvas
 from dalembert.views.frame import force_scale
 from dalembert.views.lettering import Box
@@ -28,10 +31,12 @@ from dalembert.views.mechanism import (
 )
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.scene import Item, Scene, Text
+from dalembert.views.space_view import triad
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
 
+Array = NDArray[Any]
 LONGEST = 28.0
 """Largest force over the cycle, mm."""
 
@@ -121,10 +126,26 @@ def _shown(n: int, count: int, seconds: float) -> str:
     )
 
 
+class _Film(NamedTuple):
+    """What stays still, the frames with their positions, what is said and the scales."""
+
+    still: Canvas
+    frames: list[tuple[int, Scene]]
+    notes: list[str]
+    scales: dict[str, float]
+
+
 def animation_scene(
-    r: Result, notation: Notation | None = None, seconds: float = 4.0, most: int = 60
+    r: Result,
+    notation: Notation | None = None,
+    seconds: float = 4.0,
+    most: int = 60,
+    camera: Camera | None = None,
 ) -> Animation:
-    """The positions of a result as an animation, with loads, efforts and joint forces at one scale."""
+    """The positions of a result as an animation, with loads, efforts and joint forces at one scale.
+
+    With a camera the mechanism is in space.
+    """
     solved = np.flatnonzero(r.ok)
     if len(solved) < 2:
         raise ModelError(
@@ -132,10 +153,18 @@ def animation_scene(
         )
     which = solved[np.unique(np.linspace(0, len(solved) - 1, min(most, len(solved))).astype(int))]
     shown = Shown(r, notation or Notation())
-    frame = whole_frame(r, int(which[0]), 110.0, 85.0)
     some = [
         a for a in whole_actions(r) if a.kind in ("load", "effort", "spring", "joint") and a.link != "ground"
     ]
+    film = _in_space(r, which, some, shown, camera) if camera else _in_plane(r, which, some, shown)
+    bounds = Animation(tuple(film.still.items), tuple(s for _, s in film.frames)).bounds
+    fixed = _fixed_texts(r, bounds, film.notes)
+    lettered = tuple(_lettered(r, k, scene, bounds, shown) for k, scene in film.frames)
+    return Animation((*film.still.items, *fixed), lettered, seconds, r.mechanism.title, film.scales)
+
+
+def _in_plane(r: Result, which: Array, some: list[Action], shown: Shown) -> _Film:
+    frame = whole_frame(r, int(which[0]), 110.0, 85.0)
     sizes = [float(np.nanmax(np.hypot(*a.force.T), initial=0.0)) for a in some]
     per_mm = force_scale(sizes, LONGEST, unit_size(r, "force", shown.notation))
     still = Canvas()
@@ -150,11 +179,25 @@ def animation_scene(
             if abs(float(a.couple[k])) > 0 and a.kind != "joint":
                 draw_couple(canvas, r, a, k, frame, shown, values=None)
         frames.append((k, canvas.scene(heading=False)))
-    notes, scales = stated(shown, frame, per_mm)
-    bounds = Animation(tuple(still.items), tuple(s for _, s in frames)).bounds
-    fixed = _fixed_texts(r, bounds, notes)
-    lettered = tuple(_lettered(r, k, scene, bounds, shown) for k, scene in frames)
-    return Animation((*still.items, *fixed), lettered, seconds, r.mechanism.title, scales)
+    return _Film(still, frames, *stated(shown, frame, per_mm))
+
+
+def _in_space(r: Result, which: Array, some: list[Action], shown: Shown, camera: Camera) -> _Film:
+    s = drawn.whole_sight(r, int(which[0]), camera, 110.0, 85.0)
+    still = Canvas()
+    drawn.draw_traces(still, r, s)
+    frames = []
+    for k in map(int, which):
+        canvas = Canvas()
+        drawn.draw_machine(canvas, r, k, s)
+        arrows = drawn.Arrows(canvas, r, s, shown, some, which, LONGEST, values=False)
+        for a in some:
+            arrows.action(a, k)
+        frames.append((k, canvas.scene(heading=False)))
+    left, bottom, _, _ = Animation(tuple(still.items), tuple(scene for _, scene in frames)).bounds
+    triad(still, camera, (left - 12.0, bottom))
+    still.scene(heading=False)
+    return _Film(still, frames, *arrows.stated(everything=True))
 
 
 def _fixed_texts(r: Result, bounds: Box, notes: Sequence[str]) -> list[Item]:

@@ -88,12 +88,12 @@ class Canvas:
 
 
 def segments(items: Sequence[Item]) -> Array:
-    """Every stroke as straight pieces (S, 2, 2)."""
+    """Every stroke as straight pieces (S, 2, 2); areas without an outline (`-fill`) have none."""
     out: list[tuple[Point, Point]] = []
     for item in items:
         if isinstance(item, Group):
             out += [tuple(map(tuple, s)) for s in segments(item.items).tolist()]  # type: ignore[misc]
-        elif not isinstance(item, Text):
+        elif not isinstance(item, Text) and not item.role.endswith("-fill"):
             points = _outline(item)
             out += list(pairwise(points))
     return np.array(out, float).reshape(-1, 2, 2)

@@ -137,15 +137,38 @@ def reaction_chart(r: Result, notation: Notation | None = None) -> Scene:
     return curves_scene(x, series, label, f"Joint force in {unit}", "Joint forces", angle)
 
 
-def components_chart(r: Result, joint: str, notation: Notation | None = None) -> Scene:
-    """Components and magnitude of one joint's force over the cycle."""
+def moment_chart(r: Result, joints: Sequence[str], notation: Notation | None = None) -> Scene:
+    """In space: magnitudes of joint moments over the cycle."""
     shown = Shown(r, notation or Notation())
     x, label, angle = along(r, shown)
-    force = r.reaction(joint) * shown.value("force", 1.0)
-    series = {"x": force[:, 0], "y": force[:, 1], "magnitude": magnitude(force)}
+    size = shown.size("moment")
+    series = {n: magnitude(r.reaction_moment(n)) / size for n in joints}
+    return curves_scene(x, series, label, f"Joint moment in {shown.unit('moment')}", "Joint moments", angle)
+
+
+def components_chart(r: Result, joint: str, notation: Notation | None = None) -> Scene:
+    """Components and magnitude of one joint's force over the cycle; in space in the joint's own axes."""
+    shown = Shown(r, notation or Notation())
+    space = r.mechanism.dimension == 3
+    force = r.reaction(joint, axes="joint" if space else "ground") * shown.value("force", 1.0)
     on = shown.heading(r.mechanism.joints[joint].links[1])
-    title = f"Joint {joint}: force on link {on}"
-    return curves_scene(x, series, label, f"Force in {shown.unit('force')}", title, angle)
+    title = f"Joint {joint}: force on link {on}" + (", joint's axes" if space else "")
+    return vector_chart(r, force, "force", title, shown)
+
+
+def moment_components_chart(r: Result, joint: str, notation: Notation | None = None) -> Scene:
+    """In space: components and magnitude of one joint's moment over the cycle, in the joint's own axes."""
+    shown = Shown(r, notation or Notation())
+    moment = r.reaction_moment(joint, axes="joint") / shown.size("moment")
+    on = shown.heading(r.mechanism.joints[joint].links[1])
+    return vector_chart(r, moment, "moment", f"Joint {joint}: moment on link {on}, joint's axes", shown)
+
+
+def vector_chart(r: Result, vectors: Array, kind: str, title: str, shown: Shown) -> Scene:
+    """Components and magnitude of vectors (P, d), already in the reader's unit, over the cycle."""
+    x, label, angle = along(r, shown)
+    series = dict(zip("xyz", vectors.T, strict=False)) | {"magnitude": magnitude(vectors)}
+    return curves_scene(x, series, label, f"{kind.capitalize()} in {shown.unit(kind)}", title, angle)
 
 
 def polar_scene(paths: Mapping[str, Array], unit: str, title: str, radius: float = 34.0) -> Scene:
@@ -189,15 +212,17 @@ def polar_chart(
 
 
 def shaking_chart(r: Result, notation: Notation | None = None) -> Scene:
-    """Hodograph of the shaking force: all that the joints exert on the ground."""
+    """Hodograph of the shaking force, all that the joints exert on the ground; in space its components."""
     shown = Shown(r, notation or Notation())
-    total = shaking_force(r) * shown.value("force", 1.0)
-    return polar_scene({"shaking force": total}, shown.unit("force"), "Shaking force on the ground")
+    total, title = shaking_force(r) * shown.value("force", 1.0), "Shaking force on the ground"
+    if r.mechanism.dimension == 3:
+        return vector_chart(r, total, "force", title, shown)
+    return polar_scene({"shaking force": total}, shown.unit("force"), title)
 
 
 def shaking_force(r: Result) -> Array:
-    """Sum of the joints' forces on the ground (P, 2), N."""
-    total = np.zeros((len(r.status), 2))
+    """Sum of the joints' forces on the ground (P, d), N."""
+    total = np.zeros((len(r.status), r.mechanism.dimension))
     for joint in r.joints:
         if "ground" in r.mechanism.joints[joint].links:
             total += r.reaction(joint, on="ground")
@@ -209,11 +234,23 @@ def chart_scenes(r: Result, notation: Notation | None = None) -> list[Scene]:
     loaded = [j for j in r.joints if np.nanmax(magnitude(r.reaction(j)), initial=0.0) > 0]
     shown = notation or Notation()
     out = [*effort_chart(r, shown), reaction_chart(r, shown)]
+    if r.mechanism.dimension == 3:
+        return [*out, *_space_charts(r, loaded, shown), shaking_chart(r, shown)]
     out += [components_chart(r, j, shown) for j in loaded]
     pins = [j for j in loaded if r.mechanism.joints[j].type == "pin"][:6]
     if pins:
         out += [polar_chart(r, pins, "ground", shown), polar_chart(r, pins, "link", shown)]
     return [*out, shaking_chart(r, shown)]
+
+
+def _space_charts(r: Result, loaded: Sequence[str], notation: Notation) -> list[Scene]:
+    """Moments of the joints that carry some, then each joint's components in its own axes."""
+    turned = [j for j in r.joints if np.nanmax(magnitude(r.reaction_moment(j)), initial=0.0) > 0]
+    out = [moment_chart(r, turned, notation)] if turned else []
+    for j in r.joints:
+        out += [components_chart(r, j, notation)] if j in loaded else []
+        out += [moment_components_chart(r, j, notation)] if j in turned else []
+    return out
 
 
 __all__ = ["chart_scenes", "curves_scene", "polar_scene", "pretty", "shaking_force", "ticks"]

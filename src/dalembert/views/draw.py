@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
+from dalembert.analysis.planar import refuse_space
 from dalembert.analysis.which import position_at
 from dalembert.views import charts as _charts
 from dalembert.views.animation import Animation, animation_scene
@@ -28,28 +29,51 @@ from dalembert.views.notation import Notation, Shown
 from dalembert.views.polygons import force_chain_scene, force_polygon_scene, lines_of_action_scene
 from dalembert.views.rest import at_both_ends
 from dalembert.views.scene import Scene, stacked
+from dalembert.views.space_free_body import space_free_body_scene
+from dalembert.views.space_mechanism import space_mechanism_scene
+from dalembert.views.space_view import View as Sighted
+from dalembert.views.space_view import camera_of
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
     from dalembert.wrench import System
 
+FREE_BODIES = "draw its free bodies"
+"""What there is in space in place of drawings of the plane."""
+
 View = Literal["mechanism", "free-bodies", "force-polygons", "charts", "motion", "all"]
 
 
-def mechanism(r: Result, at: Any = None, notation: Notation | None = None, forces: bool = False) -> Scene:
-    """The mechanism with the field's symbols, its loads and traces."""
-    k = position_at(r, at)
+def mechanism(
+    r: Result,
+    at: Any = None,
+    notation: Notation | None = None,
+    forces: bool = False,
+    camera: Sighted = None,
+) -> Scene:
+    """The mechanism with the field's symbols, its loads and traces.
+
+    ``camera``, in space: isometric (default), front, side, top, (azimuth, elevation) in degrees, or a `Camera`.
+    """
+    k, seen = position_at(r, at), _camera(r, camera)
+    if seen is not None:
+        return space_mechanism_scene(r, k, seen, notation, forces)
     return _whole(r, k, notation, lambda end: mechanism_scene(end, k, notation, forces))
 
 
-def free_body(r: Result, link: str, at: Any = None, notation: Notation | None = None) -> Scene:
-    """One link with everything that acts on it, to scale."""
-    k = position_at(r, at)
+def free_body(
+    r: Result, link: str, at: Any = None, notation: Notation | None = None, camera: Sighted = None
+) -> Scene:
+    """One link with everything that acts on it, to scale; in space reactions are in their joints' own axes."""
+    k, seen = position_at(r, at), _camera(r, camera)
+    if seen is not None:
+        return space_free_body_scene(r, _link(r, link), k, seen, notation)
     return _whole(r, k, notation, lambda end: free_body_scene(end, _link(r, link), k, notation))
 
 
 def components(r: Result, link: str, at: Any = None, notation: Notation | None = None) -> Scene:
     """Joint forces of a link along and across it."""
+    refuse_space(r.mechanism, "a drawing along and across a link", FREE_BODIES)
     k = position_at(r, at)
     return _whole(r, k, notation, lambda end: components_scene(end, _link(r, link), k, notation))
 
@@ -58,6 +82,7 @@ def force_polygon(
     r: Result, link: str, at: Any = None, notation: Notation | None = None, case: str | None = None
 ) -> Scene:
     """The forces on a link head to tail; ``case`` names one source of the superposition to draw alone."""
+    refuse_space(r.mechanism, "a force polygon", FREE_BODIES)
     k = position_at(r, at)
     return _whole(r, k, notation, lambda end: force_polygon_scene(end, _link(r, link), k, notation, case))
 
@@ -66,6 +91,7 @@ def force_chain(
     r: Result, at: Any = None, notation: Notation | None = None, case: str | None = None
 ) -> Scene:
     """The polygons of all links on the sides they share, in the order of solution."""
+    refuse_space(r.mechanism, "a force polygon", FREE_BODIES)
     k = position_at(r, at)
     return _whole(r, k, notation, lambda end: force_chain_scene(end, k, notation, case))
 
@@ -74,22 +100,26 @@ def lines_of_action(
     r: Result, link: str, at: Any = None, notation: Notation | None = None, case: str | None = None
 ) -> Scene:
     """Where the lines of a link's forces meet."""
+    refuse_space(r.mechanism, "a drawing of lines of action", FREE_BODIES)
     k = position_at(r, at)
     return _whole(r, k, notation, lambda end: lines_of_action_scene(end, _link(r, link), k, notation, case))
 
 
 def velocity_polygon(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
     """Velocities from one pole, with the links' images."""
+    refuse_space(r.mechanism, "a velocity polygon", FREE_BODIES)
     return motion_polygon_scene(r, position_at(r, at), "velocity", notation)
 
 
 def acceleration_polygon(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
     """Accelerations from one pole, with the links' images."""
+    refuse_space(r.mechanism, "an acceleration polygon", FREE_BODIES)
     return motion_polygon_scene(r, position_at(r, at), "acceleration", notation)
 
 
 def instant_centers(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
     """The instant centres of every two links."""
+    refuse_space(r.mechanism, "a drawing of instant centres", FREE_BODIES)
     return instant_centers_scene(r, position_at(r, at), notation)
 
 
@@ -98,10 +128,13 @@ def charts(r: Result, notation: Notation | None = None) -> Scene:
     return stacked(_charts.chart_scenes(r, notation), title=r.mechanism.title, width=270.0)
 
 
-def free_bodies(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
+def free_bodies(r: Result, at: Any = None, notation: Notation | None = None, camera: Sighted = None) -> Scene:
     """All links as free bodies, one force scale."""
     k = position_at(r, at)
-    title = _title(r, k, "Free bodies", notation)
+    title, seen = _title(r, k, "Free bodies", notation), _camera(r, camera)
+    if seen is not None:
+        scenes = [space_free_body_scene(r, link, k, seen, notation) for link in r.links]
+        return stacked(scenes, title=title)
 
     def drawn(end: Result) -> Scene:
         return stacked([free_body_scene(end, link, k, notation) for link in r.links], title=title)
@@ -111,6 +144,7 @@ def free_bodies(r: Result, at: Any = None, notation: Notation | None = None) -> 
 
 def force_polygons(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
     """Polygons of each link, then of the chain."""
+    refuse_space(r.mechanism, "a force polygon", FREE_BODIES)
     k = position_at(r, at)
     title = _title(r, k, "Force polygons", notation)
 
@@ -128,11 +162,13 @@ def beside(scenes: Sequence[Scene], title: str = "", width: float = 240.0) -> Sc
 
 def displaced_inertia(r: Result, link: str, at: Any = None, notation: Notation | None = None) -> Scene:
     """The inertia force of a link on its displaced line, with its offset h."""
+    refuse_space(r.mechanism, "a displaced inertia force", FREE_BODIES)
     return displaced_inertia_scene(r, _link(r, link), position_at(r, at), notation)
 
 
 def superposition(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
     """Force polygons of the chain for one source at a time, then for all together."""
+    refuse_space(r.mechanism, "a force polygon", FREE_BODIES)
     from dalembert.analysis.superposition import superposition as split
 
     k = position_at(r, at)
@@ -146,31 +182,27 @@ def force_system(
     s: System,
     at: Any = None,
     notation: Notation | None = None,
-    camera: Camera | str = "isometric",
+    camera: Sighted = "isometric",
 ) -> Scene:
     """A force system of `da.wrench` with its resultant on the central axis; in the plane with its force polygon.
 
-    ``at`` adds the force and couple at that point (m). ``camera``, in space: isometric, front, side, top, or a
-    `Camera`.
+    ``at`` adds the force and couple at that point (m). ``camera``, in space: isometric, front, side, top,
+    (azimuth, elevation) in degrees, or a `Camera`.
     """
-    from dalembert.errors import ModelError
     from dalembert.views import force_system as drawn
-    from dalembert.wording import closest
 
-    if isinstance(camera, str):
-        if camera not in CAMERAS:
-            raise ModelError(f"there is no view {camera!r}", closest(camera, list(CAMERAS)))
-        camera = CAMERAS[camera]
-    scenes = [drawn.force_system_scene(s, notation, camera)]
+    seen = camera_of(camera)
+    scenes = [drawn.force_system_scene(s, notation, seen)]
     if s.dimension == 2 and len(s.forces) > 1:
         scenes.append(drawn.force_system_polygon_scene(s, notation))
     if at is not None:
-        scenes.append(drawn.reduced_scene(s, at, notation, camera))
+        scenes.append(drawn.reduced_scene(s, at, notation, seen))
     return scenes[0] if len(scenes) == 1 else stacked(scenes, title=s.title or "Force system", width=240.0)
 
 
 def motion(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
     """Velocity and acceleration polygons and instant centres."""
+    refuse_space(r.mechanism, "a velocity polygon", FREE_BODIES)
     k = position_at(r, at)
     scenes = [
         motion_polygon_scene(r, k, "velocity", notation),
@@ -181,17 +213,26 @@ def motion(r: Result, at: Any = None, notation: Notation | None = None) -> Scene
     return stacked(scenes, title=_title(r, k, "Motion", notation))
 
 
-def animation(r: Result, notation: Notation | None = None, seconds: float = 4.0) -> Animation:
+def animation(
+    r: Result, notation: Notation | None = None, seconds: float = 4.0, camera: Sighted = None
+) -> Animation:
     """The mechanism in motion with its forces; ``save`` writes .svg, .gif or .webp."""
-    return animation_scene(r, notation, seconds)
+    return animation_scene(r, notation, seconds, camera=_camera(r, camera))
 
 
-def view(r: Result, which: View = "all", at: Any = None, notation: Notation | None = None) -> Scene:
+def view(
+    r: Result,
+    which: View = "all",
+    at: Any = None,
+    notation: Notation | None = None,
+    camera: Sighted = None,
+) -> Scene:
     """What `dalembert draw --view` writes."""
     if which == "mechanism":
-        return mechanism(r, at, notation)
+        return mechanism(r, at, notation, camera=camera)
+    if which == "free-bodies":
+        return free_bodies(r, at, notation, camera)
     one = {
-        "free-bodies": free_bodies,
         "force-polygons": force_polygons,
         "motion": motion,
         "superposition": superposition,
@@ -200,10 +241,25 @@ def view(r: Result, which: View = "all", at: Any = None, notation: Notation | No
         return one[which](r, at, notation)
     if which == "charts":
         return charts(r, notation)
-    parts = [mechanism(r, at, notation), free_bodies(r, at, notation), force_polygons(r, at, notation)]
+    parts = [mechanism(r, at, notation, camera=camera), free_bodies(r, at, notation, camera)]
+    if r.mechanism.dimension == 2:
+        parts.append(force_polygons(r, at, notation))
     if len(r.status) > 2:
         parts.append(charts(r, notation))
     return stacked(parts, title=r.mechanism.title)
+
+
+def _camera(r: Result, camera: Sighted) -> Camera | None:
+    """The camera of a mechanism in space, nothing in the plane."""
+    from dalembert.errors import ModelError
+
+    if r.mechanism.dimension == 3:
+        return camera_of(camera)
+    if camera is not None:
+        raise ModelError(
+            "a camera looks at a mechanism in space, and this one is in the plane", "leave it out"
+        )
+    return None
 
 
 def _link(r: Result, link: str) -> str:

@@ -255,10 +255,8 @@ class Drawing:
         if length < 0.05:
             self.canvas.add(Circle(tail, 0.8, role))
             return
-        back = min(2.4, 0.4 * length) / length
-        second = (head[0] - back * (head[0] - tail[0]), head[1] - back * (head[1] - tail[1]))
         seen = length * self.moment_per_mm
-        self.canvas.add(Arrow(tail, head, role, name, "moment-seen", seen), Arrow(tail, second, role))
+        self.canvas.add(*symbols.two_heads(tail, head, role, name, "moment-seen", seen))
 
     def resultant(self) -> list[str]:
         """The resultant on its line of action, in space with the couple along it; what to say where it is far."""

@@ -59,7 +59,7 @@ def mechanism_scene(
         draw_circles(canvas, r, k, frame, circled(r, r.joints))
     canvas_names(canvas, r, k, frame, shown)
     kinds = ("load", "spring", "effort", "weight", "inertia", "damper") if forces else ("load", "effort")
-    some = [a for a in actions(r) if a.kind in kinds and _once(r, a)]
+    some = [a for a in actions(r) if a.kind in kinds and drawn_once(r, a)]
     per_mm = draw_actions(canvas, r, some, k, frame, shown, 22.0)
     notes, scales = stated(shown, frame, per_mm)
     heading = title if title is not None else r.mechanism.title or "Mechanism"
@@ -69,7 +69,7 @@ def mechanism_scene(
     return with_details(scene, detail_scenes(r, k, frame, shown) if rubs and details else [])
 
 
-def _once(r: Result, a: Action) -> bool:
+def drawn_once(r: Result, a: Action) -> bool:
     """Whether an action is drawn in the whole mechanism: not on the ground, an effort on one of its links."""
     if a.kind != "effort" or a.by == GROUND:
         return a.link != GROUND
@@ -258,13 +258,7 @@ def draw_couple(
     canvas.add(*symbols.couple(at, value, radius, role, a.of, value))
     if values is None:
         return
-    name = shown.joint_moment(a.of, a.link) if a.kind == "joint" else shown.symbol(_turning(a))
+    name = shown.turning_symbol(a)
     text = f"{name} = {shown.text('moment', abs(value) * shown.notation.torque)}" if values else name
     spots = [(at[0] + radius * math.cos(t), at[1] + radius * math.sin(t)) for t in np.arange(8) * math.pi / 4]
     canvas.label(text, *spots, size=2.8, role=role)
-
-
-def _turning(a: Action) -> Action:
-    from dataclasses import replace
-
-    return replace(a, force=np.zeros_like(a.force))

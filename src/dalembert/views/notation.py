@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 from dalembert.analysis.columns import Scale
@@ -157,6 +157,12 @@ class Shown(Figures):
         if part == "normal":
             return "N" + sign.removeprefix(self.notation.letter)
         return f"{sign[:-1]},{part}}}" if part else sign
+
+    def turning_symbol(self, a: Action) -> str:
+        """Sign of an action's couple: M_{14} of a joint, T_{12} of a drive."""
+        if a.kind == "joint":
+            return self.joint_moment(a.of, a.link)
+        return self.symbol(replace(a, force=0.0 * a.force))
 
     def joint_moment(self, joint: str, on: str) -> str:
         """Sign of a joint's couple on a link: M_{14}."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from dalembert.views.scene import Arc, Circle, Item, Line, Point, Polygon
+from dalembert.views.scene import Arc, Arrow, Circle, Item, Line, Point, Polygon
 
 PIN = 1.1
 BLOCK = (6.4, 4.0)
@@ -117,3 +117,16 @@ def couple(
     if sign < 0:
         start, sweep = math.radians(205.0), -sweep
     return [Arc(at, radius, start, start + sweep, role, True, of, value)]
+
+
+def one_head(tail: Point, head: Point, role: str, of: str, kind: str, value: float) -> list[Item]:
+    """A force."""
+    return [Arrow(tail, head, role, of, kind, value)]
+
+
+def two_heads(tail: Point, head: Point, role: str, of: str, kind: str, value: float) -> list[Item]:
+    """A moment in space: an arrow along its axis with two heads."""
+    length = math.dist(tail, head)
+    back = min(2.4, 0.4 * length) / max(length, 1e-12)
+    second = (head[0] - back * (head[0] - tail[0]), head[1] - back * (head[1] - tail[1]))
+    return [Arrow(tail, head, role, of, kind, value), Arrow(tail, second, role)]

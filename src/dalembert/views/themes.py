@@ -43,6 +43,14 @@ _LIGHT: dict[str, Look] = {
     "faint": Look("#b3bcc6", 0.18),
     "velocity": Look("#0f7d8c", 0.4, (), "#0f7d8c"),
     "acceleration": Look("#9a3b8f", 0.4, (), "#9a3b8f"),
+    "load-end": Look("#c1272d", 0.4, (), PAPER),
+    "effort-end": Look("#7a2fa0", 0.4, (), PAPER),
+    "joint-force-end": Look("#1c56a8", 0.4, (), PAPER),
+    "weight-end": Look("#8a5a00", 0.4, (), PAPER),
+    "inertia-end": Look("#1a7f4b", 0.4, (), PAPER),
+    "friction-end": Look("#b85c00", 0.4, (), PAPER),
+    "guide": Look(GREY, 0.25),
+    "thread": Look(INK, 0.25),
     "gap": Look("#c1272d", 0.3, (0.6, 0.6), "#c1272d"),
     "axis-arrow": Look(GREY, 0.25, (), GREY),
     "construction": Look("#7d8894", 0.18, (1.6, 1.0)),
@@ -64,8 +72,39 @@ _LIGHT: dict[str, Look] = {
     "note": Look(GREY),
 }
 
+SOLIDS: dict[str, tuple[str, str, str]] = {
+    "solid": ("#f1f4f8", "#dfe6ee", "#c3ceda"),
+    "ground-solid": ("#e6e8ea", "#d3d7db", "#b9bfc6"),
+    "outer": ("#d3dfee", "#b4c8e2", "#93afd2"),
+    "inner": ("#fbf1dc", "#f3dfb4", "#dfc48b"),
+}
+"""Role of a solid -> its tones on top, in front and aside: links, ground, a joint's part on i and on j."""
+
+
+def _solid_looks(tones: tuple[str, str, str]) -> dict[str, Look]:
+    """Looks by ending: whole faces with an outline, `-fill` the same without one, edges, the light on a ball."""
+    named = dict(zip(("-top", "-front", "-side"), tones, strict=True)) | {"": tones[1]}
+    out = {end: Look(INK, 0.2, (), fill) for end, fill in named.items()}
+    out |= {f"{end}-fill": Look(fill, 0.15, (), fill) for end, fill in named.items()}
+    return out | {"-edge": Look(INK, 0.2), "-spot": Look(tones[0], 0.1, (), tones[0])}
+
+
+for _role, _tones in SOLIDS.items():
+    _LIGHT |= {f"{_role}{end}": look for end, look in _solid_looks(_tones).items()}
+
 _DARK = {"ink": "#e8edf2", "grey": "#9aa7b4", "paper": "#151b22"}
 _DARK_FILLS = {"#e9eef4": "#26313d", "#dde5ee": "#33414f", "#eef1f4": "#222b35", "#ffffff": "#151b22"}
+_DARK_TONES = (
+    ("#4a5a6b", "#3a4857", "#2b3744"),
+    ("#3a4148", "#2f353b", "#24292e"),
+    ("#3f628f", "#31507a", "#253f63"),
+    ("#8a733f", "#6f5b30", "#554523"),
+)
+_DARK_FILLS |= {
+    light: dark
+    for one, other in zip(SOLIDS.values(), _DARK_TONES, strict=True)
+    for light, dark in zip(one, other, strict=True)
+}
 _DARK_STROKES = {
     INK: _DARK["ink"],
     GREY: _DARK["grey"],
@@ -87,16 +126,24 @@ _PRINT_DASH = {"inertia": (2.2, 0.7), "weight": (0.8, 0.5), "effort": (3.0, 0.6,
 
 def _dark(look: Look) -> Look:
     fill = _DARK_FILLS.get(look.fill, _DARK_STROKES.get(look.fill, look.fill))
-    return look._replace(stroke=_DARK_STROKES.get(look.stroke, look.stroke), fill=fill)
+    stroke = fill if look.stroke == look.fill else _DARK_STROKES.get(look.stroke, look.stroke)
+    return look._replace(stroke=stroke, fill=fill)
 
 
 def _print(role: str, look: Look) -> Look:
-    black = "#000000"
-    fill = look.fill if look.fill in ("none", PAPER) else "#f0f0f0" if look.fill in _DARK_FILLS else black
+    fill = look.fill if look.fill in ("none", PAPER) else _print_fill(look.fill)
     grey = look.stroke in ("#d5dbe1", "#9aa4af", "#b3bcc6")
-    return look._replace(
-        stroke="#999999" if grey else black, fill=fill, dash=_PRINT_DASH.get(role, look.dash)
-    )
+    seamless = look.stroke == look.fill and look.fill in _DARK_FILLS
+    stroke = fill if seamless else "#999999" if grey else "#000000"
+    return look._replace(stroke=stroke, fill=fill, dash=_PRINT_DASH.get(role, look.dash))
+
+
+def _print_fill(fill: str) -> str:
+    """Greys for areas, three tones for solids; black for what is filled with ink."""
+    tones = {
+        tone: ("#f7f7f7", "#e8e8e8", "#cfcfcf")[k] for some in SOLIDS.values() for k, tone in enumerate(some)
+    }
+    return tones.get(fill) or ("#f0f0f0" if fill in _DARK_FILLS else "#000000")
 
 
 THEMES: dict[str, dict[str, Look]] = {

@@ -1,0 +1,232 @@
+"""Drawings in space as data: to scale, all joints there, both parts of a joint meet, texts cover nothing."""
+
+from __future__ import annotations
+
+import json
+import math
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.algebra import space
+from dalembert.analysis.pairs import PAIRS
+from dalembert.views.camera import CAMERAS, Camera
+from dalembert.views.canvas import text_over_lines, text_overlaps
+from dalembert.views.link_solids import link_solids, mount, pose
+from dalembert.views.painter import painted
+from dalembert.views.pair_symbols import SYMBOLS, symbol
+from dalembert.views.scene import Polygon
+from dalembert.views.solids import Ball, Cylinder, extent
+from dalembert.views.space_mechanism import every_place, whole_sight
+from tests.methods.space_machines import MACHINES, solved
+
+each = pytest.mark.parametrize("name", list(MACHINES))
+VIEWS: list[Any] = ["isometric", "front", "top", "side", (20.0, 35.0)]
+
+
+def check(scene: Any) -> None:
+    """No text covers a line or a text, every vector is as long as it is seen, and every format can write it."""
+    assert text_overlaps(scene) == []
+    assert text_over_lines(scene) == []
+    for arrow in scene.arrows():
+        if arrow.kind:
+            assert arrow.length * scene.scales[arrow.kind] == pytest.approx(arrow.value, rel=1e-9)
+    ElementTree.fromstring(scene.to_svg())
+    json.dumps(scene.to_dict())
+
+
+@each
+@pytest.mark.parametrize("camera", VIEWS)
+def test_mechanisms_from_every_side(name: str, camera: Any) -> None:
+    r = solved(name)
+    scene = da.draw.mechanism(r, at=4, camera=camera, forces=True)
+    check(scene)
+    texts = [t.text for t in scene.texts()]
+    assert set(r.joints) <= set(texts)
+    assert any(t.startswith("Lengths across the view: 1 mm = ") for t in texts)
+
+
+@each
+def test_places_are_to_scale(name: str) -> None:
+    """A distance on paper is that across the view, divided by the scale."""
+    r = solved(name)
+    camera = Camera(0.4, 0.7)
+    s = whole_sight(r, 0, camera, 100.0, 80.0)
+    for p, q in pairwise(every_place(r, 0)):
+        across = (p - q) - float((p - q) @ camera.eye) * camera.eye
+        assert math.dist(s(p), s(q)) * s.frame.per_mm == pytest.approx(
+            float(np.linalg.norm(across)), abs=1e-12
+        )
+
+
+@each
+def test_both_parts_of_a_joint_meet(name: str) -> None:
+    """At every position the directions that a joint keeps together are together, those across are across."""
+    r = solved(name)
+    for joint in r.joints:
+        m, pair = mount(r, joint), PAIRS[r.mechanism.joints[joint].type]
+        for k in range(0, len(r.status), 5):
+            (ri, pi), (rj, pj) = (pose(r, link, k) for link in m.links)
+            on_i, on_j = m.axes[0] @ ri.T, m.axes[1] @ rj.T
+            held = pair.forces.replace("x", "") if m.kind == "screw" else pair.forces
+            away = on_i @ (rj @ m.points[1] + pj - ri @ m.points[0] - pi)
+            assert [float(away["xyz".index(a)]) for a in held] == pytest.approx([0.0] * len(held), abs=1e-9)
+            if len(pair.turns) == 1:
+                axis = "xyz".index(pair.turns)
+                assert on_i[axis] == pytest.approx(on_j[axis], abs=1e-9)
+            if len(pair.turns) == 2:
+                first, second = ("xyz".index(a) for a in pair.turns)
+                assert float(on_i[first] @ on_j[second]) == pytest.approx(0.0, abs=1e-9)
+
+
+@each
+def test_bars_reach_their_joints(name: str) -> None:
+    """Every joint of a link has a solid of that link near it; a slide's rail is where j goes."""
+    r, size = solved(name), 0.002
+    found = link_solids(r, size)
+    for joint in r.joints:
+        m = mount(r, joint)
+        rail = m.points[0] + m.low @ m.axes[0]
+        for link, at in zip(m.links, (rail, m.points[1]), strict=True):
+            near = [np.linalg.norm(extent(s) - at, axis=1).min() for s in found[link]]
+            assert min(near) < 12 * size, (joint, link)
+
+
+@each
+@pytest.mark.parametrize("camera", ["isometric", "front"])
+def test_free_bodies(name: str, camera: str) -> None:
+    r = solved(name)
+    for link in r.links:
+        check(da.draw.free_body(r, link, at=4, camera=camera))
+    assert text_overlaps(da.draw.free_bodies(r, at=4, camera=camera)) == []
+
+
+@each
+def test_components_make_up_the_reaction(name: str) -> None:
+    """The arrows of a joint on a link add to its force and to its moment as they are seen."""
+    r = solved(name)
+    for link in r.links:
+        scene = da.draw.free_body(r, link, at=4)
+        for joint in (n for n in r.joints if link in r.mechanism.joints[n].links):
+            least, axes = r.least_norm(joint, link, "joint")[3], r.joint_axes(joint)[3]
+            for kind, part in (("force-seen", least[:3]), ("moment-seen", least[3:])):
+                some = [
+                    a for a in scene.arrows() if a.of == joint and a.kind == kind and a.role == "joint-force"
+                ]
+                per_mm = scene.scales.get(kind, math.inf)
+                seen = [v / per_mm for v in CAMERAS["isometric"](part[:, None] * axes)]
+                longer = [v for v in seen if np.hypot(*v) >= 0.6]
+                assert len(some) == len(longer)
+                total = sum((np.subtract(a.head, a.tail) for a in some), np.zeros(2))
+                assert total == pytest.approx(sum(longer, np.zeros(2)), abs=1e-6)
+
+
+def test_the_table_of_a_free_body() -> None:
+    r = solved("shaft")
+    texts = [t.text for t in da.draw.free_body(r, "shaft", at=4).texts()]
+    fx, fy, fz = r.reaction("A", axes="joint")[3]
+    row = texts.index("A", texts.index("F_{z}"))
+    shown = [float(t.replace("−", "-")) for t in texts[row + 1 : row + 4]]
+    assert shown == pytest.approx([fx, fy, fz], rel=1e-3)
+    assert texts[row + 4 : row + 7] == ["–"] * 3
+
+
+def test_what_is_not_unique_stands_in_brackets() -> None:
+    texts = [t.text for t in da.draw.free_body(solved("press"), "ram", at=4).texts()]
+    assert any("not unique, least-norm values" in t for t in texts)
+    assert any(t.startswith("(") and t.endswith(")") for t in texts)
+
+
+def test_near_things_cover_far_ones() -> None:
+    """Of two crossing bars, and of balls one behind the other, the nearer is painted later."""
+    x, y, z = np.eye(3)
+    top = CAMERAS["top"]
+    bars = [Cylinder(-20 * x + 3 * z, 20 * x + 3 * z, 1.0, "outer"), Cylinder(-20 * y, 20 * y, 1.0, "inner")]
+    roles = [i.role for i in painted(bars, top) if isinstance(i, Polygon)]
+    assert roles.index("inner-fill") < roles.index("outer-fill")
+    balls = [Ball(k * np.array([1.0, 1.0, 1.0]), 1.0, role) for k, role in ((2, "a"), (0, "b"), (1, "c"))]
+    order = [i.role for i in painted(balls, CAMERAS["isometric"]) if "spot" not in i.role]  # type: ignore[union-attr]
+    assert order == ["b", "c", "a"]
+
+
+def test_every_pair_has_a_symbol() -> None:
+    assert set(SYMBOLS) == set(PAIRS)
+    for kind in SYMBOLS:
+        found = symbol(kind)
+        assert found.on_i
+        assert found.on_j or kind == "weld"
+
+
+@each
+def test_charts(name: str) -> None:
+    scene = da.draw.charts(solved(name))
+    assert text_overlaps(scene) == []
+
+
+PLANE_ONLY = [
+    "force_chain",
+    "velocity_polygon",
+    "acceleration_polygon",
+    "instant_centers",
+    "motion",
+    "superposition",
+]
+
+
+@pytest.mark.parametrize("noun", PLANE_ONLY)
+def test_what_is_of_the_plane_is_refused(noun: str) -> None:
+    with pytest.raises(da.ModelError, match="is for mechanisms of the plane, and this one is in space"):
+        getattr(da.draw, noun)(solved("rssr"))
+
+
+@pytest.mark.parametrize("noun", ["force_polygon", "lines_of_action", "displaced_inertia", "components"])
+def test_what_is_of_plane_links_is_refused(noun: str) -> None:
+    with pytest.raises(da.ModelError, match="is for mechanisms of the plane, and this one is in space"):
+        getattr(da.draw, noun)(solved("rssr"), "rocker")
+
+
+def test_a_camera_needs_space() -> None:
+    from dalembert.model.library import four_bar
+
+    with pytest.raises(da.ModelError, match="a camera looks at a mechanism in space"):
+        da.draw.mechanism(da.solve(four_bar()), camera="top")
+
+
+@pytest.mark.parametrize("kind", ["svg", "gif"])
+def test_animations(kind: str, tmp_path: Path) -> None:
+    if kind == "gif":
+        pytest.importorskip("matplotlib")
+        pytest.importorskip("PIL")
+    drives = {"A": {"position": {"from": 0, "to": 90, "count": 3}, "speed": "10 rad/s"}}
+    animation = da.draw.animation(solved("rssr", drives=drives), camera="front")
+    animation.save(tmp_path / f"a.{kind}")
+    assert len(animation.frames) == 3
+    for scene in animation.frames:
+        for arrow in scene.arrows():
+            if arrow.kind:
+                assert arrow.length * animation.scales[arrow.kind] == pytest.approx(arrow.value, rel=1e-9)
+
+
+@pytest.mark.parametrize("theme", ["light", "dark", "print"])
+def test_every_theme(theme: Any) -> None:
+    assert da.draw.mechanism(solved("hooke")).to_svg(theme).startswith("<svg")
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_quaternions(seed: int) -> None:
+    """The rotation by the quaternion's angle about its axis is the rotation, half turns too."""
+    rng = np.random.default_rng(seed)
+    n = rng.normal(size=3)
+    n /= np.linalg.norm(n)
+    for angle in (0.0, 1e-9, rng.uniform(0, np.pi), np.pi - 1e-9, np.pi):
+        r = space.exp(n * angle)
+        q = space.quaternion(r)
+        w = 2 * math.atan2(float(np.linalg.norm(q[:3])), float(q[3]))
+        axis = q[:3] / max(float(np.linalg.norm(q[:3])), 1e-300)
+        assert space.exp(axis * w) == pytest.approx(r, abs=1e-14)
+        assert float(q @ q) == pytest.approx(1.0)
