@@ -87,10 +87,7 @@ Lists = Callable[[slice], list[Any]]
 def _fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], Lists]:
     """Keys down the record -> its values of some positions, as lists with None for NaN."""
 
-    def numbers(kind: str, values: Array) -> Lists:
-        scaled = to(kind, values)
-        return lambda part: nulled(scaled[part])
-
+    numbers = _numbers(to)
     out: dict[tuple[str, ...], Lists] = {}
     for drive in result.drives:
         kinds = drive_kinds(result, drive)
@@ -120,10 +117,7 @@ def _fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], List
 def _reaction_fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], Lists]:
     """Reactions, and what friction does in them."""
 
-    def numbers(kind: str, values: Array) -> Lists:
-        scaled = to(kind, values)
-        return lambda part: nulled(scaled[part])
-
+    numbers = _numbers(to)
     out: dict[tuple[str, ...], Lists] = {}
     for r in reactions(result, axes):
         out["reactions", r.joint, "force"] = numbers("force", r.force)
@@ -145,6 +139,16 @@ def _reaction_fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, .
             out["reactions", joint, "contact", "lower"] = numbers("force", contact.lower)
             out["reactions", joint, "contact", "upper"] = numbers("force", contact.upper)
     return out
+
+
+def _numbers(to: Scale) -> Callable[[str, Array], Lists]:
+    """A kind and SI values -> some positions' values in the reader's unit."""
+
+    def numbers(kind: str, values: Array) -> Lists:
+        scaled = to(kind, values)
+        return lambda part: nulled(scaled[part])
+
+    return numbers
 
 
 def _words(words: tuple[str, ...]) -> Lists:

@@ -114,53 +114,47 @@ def _answers(sheet: Sheet, c: Chosen) -> None:
 
 def _joint_forces(sheet: Sheet, c: Chosen) -> None:
     """Table of the joint forces, then the efforts and unknown loads."""
+    heads = ["Joint", "Force", "x", "y", "size", "angle °", "along", "across"]
+    sheet.table(
+        [*heads, f"couple ({c.shown.unit('moment')})"],
+        [_force_row(c, joint) for joint in c.r.joints],
+        f"Forces in {c.shown.unit('force')}, on the link that the sign names; along and across that link",
+    )
+    sheet.equations(_efforts(c))
+
+
+def _force_row(c: Chosen, joint: str) -> list[Any]:
+    """One joint's force on its j, or on its i where j is ground."""
     r, shown, k = c.r, c.shown, c.k
-    unit = shown.unit("force")
-    rows = []
-    for joint in r.joints:
-        i, j = r.mechanism.joints[joint].links
-        on = j if j != "ground" else i
-        f = r.reaction(joint, on)[k]
-        moment = float(r.reaction_moment(joint, on)[k])
-        part = next(a for a in actions(r) if a.kind == "joint" and a.of == joint and a.link == on)
-        a = replace(part, force=r.reaction(joint, on))
-        along = components_along(r, a, k) if np.isfinite(f).all() else (math.nan, math.nan)
-        largest = float(np.nanmax(np.abs(r.force_array[k]), initial=0.0)) * 1e-10
-        rows.append(
-            [
-                joint,
-                as_formula(shown.reaction(joint, on)),
-                *(shown.number("force", float(x), largest) for x in f),
-                shown.number("force", float(np.hypot(*f))),
-                f"{math.degrees(math.atan2(f[1], f[0])):.2f}".replace("-", "−")
-                if np.hypot(*f) > largest
-                else "–",
-                *(shown.number("force", x, largest) for x in along),
-                shown.number("moment", moment) if abs(moment) > 0 else "–",
-            ]
-        )
-    heads = [
-        "Joint",
-        "Force",
-        "x",
-        "y",
-        "size",
-        "angle °",
-        "along",
-        "across",
-        f"couple ({shown.unit('moment')})",
+    i, j = r.mechanism.joints[joint].links
+    on = j if j != "ground" else i
+    f = r.reaction(joint, on)[k]
+    moment = float(r.reaction_moment(joint, on)[k])
+    part = next(a for a in actions(r) if a.kind == "joint" and a.of == joint and a.link == on)
+    a = replace(part, force=r.reaction(joint, on))
+    along = components_along(r, a, k) if np.isfinite(f).all() else (math.nan, math.nan)
+    nothing = float(np.nanmax(np.abs(r.force_array[k]), initial=0.0)) * 1e-10
+    angle = f"{math.degrees(math.atan2(f[1], f[0])):.2f}".replace("-", "−")
+    return [
+        joint,
+        as_formula(shown.reaction(joint, on)),
+        *(shown.number("force", float(x), nothing) for x in f),
+        shown.number("force", float(np.hypot(*f))),
+        angle if np.hypot(*f) > nothing else "–",
+        *(shown.number("force", x, nothing) for x in along),
+        shown.number("moment", moment) if abs(moment) > 0 else "–",
     ]
-    sheet.table(heads, rows, f"Forces in {unit}, on the link that the sign names; along and across that link")
+
+
+def _efforts(c: Chosen) -> list[Working]:
+    """Efforts and unknown loads with their values."""
+    r, k = c.r, c.k
+
+    def line(name: str, kind: str, value: float) -> Working:
+        return Working(f'{name} = {c.shown.number(kind, value)} "{c.shown.unit(kind)}"')
+
     lines = []
     for d in r.drives:
-        kind = drive_kinds(r, d)["effort"]
         a = next(a for a in actions(r) if a.kind == "effort" and a.of == d)
-        lines.append(
-            Working(f'{shown.symbol(a)} = {shown.number(kind, float(r.effort(d)[k]))} "{shown.unit(kind)}"')
-        )
-    for u in r.unknown_loads:
-        kind = load_kind(r, u)
-        lines.append(
-            Working(f'{own_name(u)} = {shown.number(kind, float(r.unknown_load(u)[k]))} "{shown.unit(kind)}"')
-        )
-    sheet.equations(lines)
+        lines.append(line(c.shown.symbol(a), drive_kinds(r, d)["effort"], float(r.effort(d)[k])))
+    return lines + [line(own_name(u), load_kind(r, u), float(r.unknown_load(u)[k])) for u in r.unknown_loads]
