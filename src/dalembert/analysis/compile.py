@@ -111,6 +111,7 @@ def compiled(
         length=characteristic_length(m) if like is None else like.layout.length,
         redundant=redundant,
         reference=reference,
+        compliance=jointing.compliance(fixed),
     )
     drives = {name: schedule.position[:, k] for k, name in enumerate(schedule.names)}
     unknown = tuple(name for name, load in m.loads.items() if getattr(load, "unknown", False))

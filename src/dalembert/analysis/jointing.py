@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any, Protocol
 
 import numpy as np
@@ -36,6 +37,8 @@ class Jointing(Protocol):
 
     def contacts(self, fixed: Rows) -> tuple[Contacts, tuple[str, ...]] | None: ...
 
+    def compliance(self, fixed: Rows) -> Array | None: ...
+
     def guess(self) -> Guess | Drawing: ...
 
 
@@ -62,6 +65,24 @@ class _Joints:
     def add(self, k: int, name: str, joint: Any) -> None:
         """The rows of one joint."""
         raise NotImplementedError
+
+    def compliance(self, fixed: Rows) -> Array | None:
+        """Of each constraint, 0 where it is rigid; None where no joint yields."""
+        yielding = {k: j.stiffness for k, j in enumerate(self.m.joints.values()) if j.stiffness is not None}
+        if not yielding:
+            return None
+        out = np.zeros(fixed.count)
+        for k, stiffness in yielding.items():
+            for row, kind, axis in self.reactions(k, np.flatnonzero(fixed.joint == k), fixed):
+                given = getattr(stiffness, kind)
+                if given is not None:
+                    out[row] = 1 / (given[axis] if isinstance(given, tuple) else given)
+        return out
+
+    def reactions(self, k: int, rows: NDArray[np.intp], fixed: Rows) -> Iterator[tuple[int, str, int]]:
+        """Each row of a joint, force or moment, and its local axis."""
+        for row in rows:
+            yield int(row), "moment" if fixed.angular[row] else "force", 0
 
     def add_passive(self) -> tuple[str, ...]:
         """Rows that hold freedoms which move nothing else; the names of their links."""
@@ -118,7 +139,7 @@ class SpaceJoints(_Joints):
             return
         at = pairs.geometry(joint, *self.arms[k])
         self.geometries += (at,)
-        split = rubs(self.m, joint)
+        split = rubs(self.m, joint) or joint.stiffness is not None
         pairs.add_constraints(self.constraints, k, joint, self.ends[k], at, split)
         drive = next((d for d in self.m.drives if self.m.drive_joint(d) == name), None)
         axis = self.m.drives[drive].axis if drive else None
@@ -155,6 +176,12 @@ class SpaceJoints(_Joints):
             self.constraints.add(Idle, -1, (len(self.index) - 1, number), p=line, drawn=drawn)
             found.append(link)
         return tuple(found)
+
+    def reactions(self, k: int, rows: NDArray[np.intp], fixed: Rows) -> Iterator[tuple[int, str, int]]:
+        """Each row of a joint, force or moment, and its local axis."""
+        joint = list(self.m.joints.values())[k]
+        for name, row in pairs.reaction_rows(joint, int(rows[0])).items():
+            yield row, "force" if name[0] == "F" else "moment", pairs.AXES.index(name[1])
 
     def contacts(self, fixed: Rows) -> tuple[Contacts, tuple[str, ...]] | None:
         """The contacts of the joints with friction."""

@@ -119,6 +119,14 @@ def add_constraints(
         rows.add(Perpendicular, index, ends, a=a, p=p)
 
 
+def reaction_rows(joint: Any, first: int) -> dict[str, int]:
+    """Row of each reaction, Fx to Mz, of a joint whose first constraint is given and whose point is split."""
+    pair = pair_of(joint)
+    forces = "yzx" if joint.type == "screw" else pair.forces
+    names = [*(f"F{axis}" for axis in forces), *(f"M{axis}" for axis in pair.moments)]
+    return {name: first + k for k, name in enumerate(names)}
+
+
 def add_gear(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], at: Geometry) -> None:
     """The row of a mesh; directions, signs and cones are those of the first pose (``core.gearing.meshed``)."""
     ri, rj = signed_radii(joint)

@@ -94,15 +94,9 @@ class Result:
     @cached_property
     def assumptions(self) -> dict[str, str]:
         """What the numbers rest on, each as a phrase."""
-        from dalembert.analysis import friction
+        from dalembert.analysis.assumptions import assumptions
 
-        gravity = self.mechanism.gravity_vector
-        shown = "none" if not any(gravity) else "[" + ", ".join(f"{c:.6g}" for c in gravity) + "] m/s2"
-        return {
-            "gravity": shown,
-            "inertia": "on (D'Alembert)" if self.inertia else "off (static)",
-            "friction": friction.assumption(self),
-        }
+        return assumptions(self)
 
     @property
     def ok(self) -> NDArray[np.bool_]:

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from dalembert.algebra import space
 from dalembert.analysis.contacts import circle, coefficient, friction_on, resting_coefficient, rubs
 from dalembert.analysis.joints import RowBuilder
-from dalembert.analysis.pairs import AXES, Geometry, pair_of
+from dalembert.analysis.pairs import AXES, Geometry, reaction_rows
 from dalembert.core.friction import Contacts
 from dalembert.core.layout import Along, Angle, Helix, Idle, Rows
 from dalembert.model import Mechanism
@@ -66,21 +66,11 @@ def space_contacts(
                 found.append((k, bearing, mu, resting))
     read = np.zeros((3, len(found), constraints.count))
     for e, (k, bearing, _, _) in enumerate(found):
-        place = _places(list(m.joints.values())[k], int(np.flatnonzero(constraints.joint == k)[0]))
+        place = reaction_rows(list(m.joints.values())[k], int(np.flatnonzero(constraints.joint == k)[0]))
         for part, sums in enumerate(bearing.read):
             for name, factor in sums.items():
                 read[part, e, place[name]] += factor
     return _stacked(rows.rows(), found, read), tuple(bearing.kind for _, bearing, _, _ in found)
-
-
-def _places(joint: Any, first: int) -> dict[str, int]:
-    """Row of each named reaction of a joint, in the order of its constraints."""
-    pair = pair_of(joint)
-    forces = "yzx" if joint.type == "screw" else pair.forces
-    return {
-        name: first + k
-        for k, name in enumerate([*(f"F{a}" for a in forces), *(f"M{a}" for a in pair.moments)])
-    }
 
 
 def _stacked(rows: Rows, found: list[tuple[int, Bearing, float, float]], read: Array) -> Contacts:

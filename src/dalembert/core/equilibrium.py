@@ -20,7 +20,7 @@ from dalembert.core.factor import factor
 from dalembert.core.forcing import Forcing, Source, pair, summed
 from dalembert.core.geometry import arm
 from dalembert.core.layout import Gearing, Helix, Layout, Mesh, Pose, Rows, System
-from dalembert.core.linear import Factor, PseudoInverse
+from dalembert.core.linear import Factor, PseudoInverse, compliant
 
 Array = NDArray[Any]
 Ints = NDArray[np.intp]
@@ -130,10 +130,18 @@ def statement(layout: Layout, known: Known, pose: Pose, rows: System, solver: Fa
     """The unknowns and what is known, from total wrenches w (..., L, n) of loads."""
     unknown = _unknowns(layout, known, pose, rows)
     if known.asked.all() and not known.link.size:
-        return Statement(unknown, solver, w)
+        return Statement(unknown, _yielding(layout, unknown, solver), w)
     given = rows.rows(layout.constraints.count + np.flatnonzero(~known.asked))
     w = w + summed(layout, pair(given, known.effort[..., ~known.asked]))
-    return Statement(unknown, factor(layout, unknown), w)
+    return Statement(unknown, _yielding(layout, unknown, factor(layout, unknown)), w)
+
+
+def _yielding(layout: Layout, unknown: System, forces: Factor) -> Factor:
+    """The factored system with the joints' compliances, where reactions are free and some joint has any."""
+    if layout.compliance is None or not isinstance(forces, PseudoInverse):
+        return forces
+    rigid = np.zeros(len(unknown.i) - len(layout.compliance))
+    return compliant(forces, np.concatenate([layout.compliance, rigid]))
 
 
 def balance(

@@ -297,6 +297,7 @@ class Layout:
     length: float
     redundant: bool
     reference: Array = field(repr=False)  # (L+1, d) reference point of each link in its own axes
+    compliance: Array | None = field(repr=False, default=None)  # (K,) of each constraint, 0 where it is rigid
     solver: Any = field(
         repr=False, default=None
     )  # factors systems that are not made of numbers (the kernel's)

@@ -117,6 +117,33 @@ class PseudoInverse:
         return apply(np.swapaxes(self.pinv, -1, -2), wrench * self.column) * self.row
 
 
+def compliant(found: PseudoInverse, compliance: Array) -> Compliant:
+    """The same system, its free multipliers x chosen so that the sum of compliance x^2 is least.
+
+    ``compliance`` (K,) is 0 where a multiplier belongs to something rigid. What it does not settle stays least-norm.
+    """
+    weight = compliance * found.row**2
+    largest = weight.max(initial=0.0)
+    weight = weight / (largest if largest > 0 else 1.0)
+    free = found.null
+    energy = free @ (weight[..., :, None] * free)
+    inverse = np.linalg.pinv(energy, rcond=1e-10, hermitian=True)
+    settled = inverse @ (free * weight)  # the energy's inverse lies within the free multipliers
+    values = vars(found) | {"null": free - inverse @ energy}
+    return Compliant(**values, settled=settled)
+
+
+@dataclass(frozen=True)
+class Compliant(PseudoInverse):
+    """Multipliers by least energy; ``settled`` (..., K, K) takes what has to go from a least-norm solution."""
+
+    settled: Array
+
+    def forces(self, wrench: Array) -> Array:
+        least = apply(np.swapaxes(self.pinv, -1, -2), wrench * self.column)
+        return (least - apply(self.settled, least)) * self.row
+
+
 RANK = 1e-9
 """Singular values below this part of the largest count as zero in rank decisions (scaled systems)."""
 

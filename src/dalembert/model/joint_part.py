@@ -8,6 +8,7 @@ from pydantic import Field, ValidationInfo, model_validator
 
 from dalembert.errors import ModelError
 from dalembert.model.part import Part
+from dalembert.model.stiffness import Stiffness
 from dalembert.model.values import JsonSchema, TwoNames, Value, name, pair_of_names
 
 
@@ -34,6 +35,10 @@ class JointPart(Part):
     links: TwoNames = Field(description="[i, j]: motion and reaction are those of j against i")
     at: Annotated[str | tuple[str, str], At()] | None = Field(
         None, description="point of both links, or [point of i, point of j]; default the joint's own name"
+    )
+
+    stiffness: Stiffness | None = Field(
+        None, description="where reactions are not unique: {force: ..., moment: ...}, by which they are found"
     )
 
     @property
