@@ -6,6 +6,7 @@ from typing import Any
 
 from dalembert.analysis.actions import actions
 from dalembert.analysis.columns import drive_kinds
+from dalembert.analysis.contacts import coefficient, resting_coefficient
 from dalembert.report.chosen import Chosen, as_formula
 from dalembert.report.sheet import Sheet
 from dalembert.views.mechanism import mechanism_scene
@@ -30,7 +31,7 @@ def knowns(sheet: Sheet, c: Chosen) -> None:
     length = shown.unit("length")
     sheet.table(["Link", f"Points, own axes ({length})", "Mass", f"Centre ({length})", "Inertia"], rows)
     joints = [
-        [name, d.type, f"{shown.heading(d.links[0])} – {shown.heading(d.links[1])}"]
+        [name, f"{d.type}{_rubbing(c, d)}", f"{shown.heading(d.links[0])} – {shown.heading(d.links[1])}"]
         for name, d in m.joints.items()
     ]
     drives = [[f"drive {d}", *_drive_row(c, d)] for d in r.drives]
@@ -43,6 +44,22 @@ def knowns(sheet: Sheet, c: Chosen) -> None:
     assumed = "; ".join(f"{name} {value}" for name, value in r.assumptions.items())
     sheet.text(f"Assumptions: {assumed}. {_convention(c)}")
     sheet.figure(mechanism_scene(r, c.k, c.notation, friction=False))
+
+
+def _rubbing(c: Chosen, joint: Any) -> str:
+    """The friction of a joint as it was given: '; μ = 0.4, R = 0.07 m'."""
+    f, shown = getattr(joint, "friction", None), c.shown
+    if f is None or c.r.friction is None:
+        return ""
+    mu, still = coefficient(c.r.mechanism, joint), resting_coefficient(c.r.mechanism, joint)
+    parts = [f"μ = {mu:.6g}", f"at rest {still:.6g}" if still != mu else ""]
+    for key, sign in (("radius", "R"), ("half_height", "half height"), ("arm", "arm")):
+        value = getattr(f, key, None)
+        parts.append(f"{sign} = {shown.text('length', value)}" if value else "")
+    if getattr(f, "guide", None):
+        behind, ahead = (shown.text("length", x) for x in f.guide)
+        parts.append(f"guide {behind} behind and {ahead} ahead")
+    return f"; {', '.join(p for p in parts if p)}"
 
 
 def _convention(c: Chosen) -> str:
