@@ -138,7 +138,7 @@ def _drives(tree: Tree) -> tuple[Drive, ...]:
 def drive(name: str, tree: Tree, joints: Tree) -> Drive:
     joint = tree.get("joint", name)
     freedom = tree.get("freedom") or {"slider": "slide"}.get(joints[joint]["type"], "turn")
-    bare = 1.0 if freedom == "slide" else pi / 180
+    bare = 1.0 if freedom.startswith("slide") else pi / 180
     given = [_values(tree.get(key, 0.0), bare) for key in ("position", "speed", "acceleration")]
     return Drive(name, joint, freedom, *given)
 

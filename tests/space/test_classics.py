@@ -10,7 +10,6 @@ from tests.oracles.space import natural
 from tests.oracles.space.classics import CLASSICS
 
 STEPS = 3
-SCREWED = [name for name, c in CLASSICS.items() if any(j.type == "screw" for j in c.joints.values())]
 
 
 @pytest.mark.parametrize("name", CLASSICS)
@@ -24,7 +23,7 @@ def test_mobility_is_the_published_one_along_the_motion(name: str) -> None:
     assert np.isfinite(r.position(classic.links[-1])).all()
 
 
-@pytest.mark.parametrize("name", [n for n, c in CLASSICS.items() if n not in SCREWED and c.drives])
+@pytest.mark.parametrize("name", [n for n, c in CLASSICS.items() if c.drives])
 def test_motion_efforts_and_unique_components_are_those_of_natural_coordinates(name: str) -> None:
     classic = CLASSICS[name]
     tree = classic.tree(STEPS)

@@ -31,6 +31,16 @@ class Row:
     d: float | Jet = 0.0
 
 
+@dataclass(frozen=True)
+class Thread(Row):
+    """Of a screw: s1 Q . s2 Q less ``rise`` times the angle of p to b, towards c."""
+
+    p: Array | None = None
+    b: Array | None = None
+    c: Array | None = None
+    rise: float = 0.0
+
+
 @dataclass
 class Natural:
     """The answer: coordinates (P, 4 L, 3) and rates; reactions on j at j's point; efforts; rows left over."""
@@ -110,26 +120,77 @@ class Machine:
             "torus": [(gap, xi), (gap, yi), (gap, zi), (zj, yi)],
             "slotted_sphere": [(gap, xi), (gap, yi), (gap, zi), (zj, yi)],
             "slotted_sphere_in_cylinder": [(gap, yi), (gap, zi), (zj, yi)],
+            "screw": [(gap, yi), (gap, zi), (xj, yi), (xj, zi)],
         }[self.tree["joints"][name]["type"]]
-        return [Row(name, a, b) for a, b in pairs]
+        rows = [Row(name, a, b) for a, b in pairs]
+        if self.tree["joints"][name]["type"] == "screw":
+            rise = self.tree["joints"][name]["lead"] / (2 * np.pi)
+            rows.append(Thread(name, gap, xi, p=yj, b=yi, c=zi, rise=rise))
+        return rows
 
     def _driven(self, name: str) -> Row:
         d = self.drives[name]
-        (p, v, a) = (np.broadcast_to(x, (self.count,)) for x in (d.position, d.speed, d.acceleration))
-        if d.freedom == "slide":
+        (x, v, a) = (np.broadcast_to(x, (self.count,)) for x in (d.position, d.speed, d.acceleration))
+        if d.freedom.startswith("slide"):
             _, _, p_i, p_j = self.ends(d.joint)
-            return Row(name, p_j - p_i, self.axes(d.joint)[0][0], Jet(p, v, a))
-        _, b, e, on_j = self.turning(d.joint)
-        c, s = np.cos(p)[:, None], np.sin(p)[:, None]
-        across, along = c * e - s * b, c * b + s * e
-        v, a = v[:, None], a[:, None]
-        return Row(name, on_j, Jet(across, -v * along, -a * along - v**2 * across))
+            return Row(name, p_j - p_i, self.along(d.joint, d.freedom), Jet(x, v, a))
+        p, b, c, sense = self.angle(d.joint, d.freedom)
+        cosine, sine = np.cos(x)[:, None], sense * np.sin(x)[:, None]
+        across, along = cosine * c - sine * b, cosine * b + sine * c
+        v, a = sense * v[:, None], sense * a[:, None]
+        return Row(name, p, Jet(across, -v * along, -a * along - v**2 * across))
+
+    def along(self, name: str, freedom: str) -> Array:
+        """The axis of i that a slide goes along."""
+        return self.axes(name)[0][{"slide": 0, "slide1": 1, "slide2": 2}[freedom]]
+
+    def angle(self, name: str, freedom: str) -> tuple[Array, Array, Array, float]:
+        """A turn: the direction p of one link whose angle from b towards c of the other it is, and its sense.
+
+        Of two turns the first is about an axis of i, the second about one of j, seen from j the other way.
+        """
+        i, j = self.tree["joints"][name]["links"]
+        if freedom == "turn":
+            _, b, c, on_j = self.turning(name)
+            return on_j, b, c, 1.0
+        first, second, marks = self._two_turns(name)
+        if freedom == "turn1":
+            b = square(marks[1], first)
+            return self.functional(j, second, False), *self._both(i, b, np.cross(first, b)), 1.0
+        b = square(marks[0], second)
+        return self.functional(i, first, False), *self._both(j, b, np.cross(second, b)), -1.0
+
+    def _both(self, link: str, b: Array, c: Array) -> tuple[Array, Array]:
+        return self.functional(link, b, False), self.functional(link, c, False)
+
+    def _two_turns(self, name: str) -> tuple[Array, Array, tuple[Array, Array]]:
+        """Local axis of the first turn on i and of the second on j; marks at 0: the first's on j, the second's on i."""
+        t = self.tree["joints"][name]
+        on_i, on_j = (local_axes(t, side).T for side in "ij")
+        if t["type"] == "universal":
+            return on_i[2], on_j[2], (on_i[2], on_j[2])
+        k = 0 if t["type"] == "cylinder_between_planes" else 1
+        return on_i[k], on_j[2], (on_j[k], on_i[2])
 
     def turning(self, name: str) -> tuple[Array, Array, Array, Array]:
         """Axis of a joint's turn and two axes across it on i, and on j the one that the first becomes."""
         on_i, on_j = self.axes(name)
-        k = 0 if self.tree["joints"][name]["type"] in ("cylindrical", "plane") else 2
+        k = 0 if self.tree["joints"][name]["type"] in ("cylindrical", "plane", "screw") else 2
         return on_i[k], on_i[(k + 1) % 3], on_i[(k + 2) % 3], on_j[(k + 1) % 3]
+
+    def value(self, name: str, freedom: str, q: Array) -> float:
+        """A freedom of a joint at one pose (4 L, 3)."""
+        if freedom.startswith("slide"):
+            _, _, p_i, p_j = self.ends(name)
+            return float(((p_j - p_i) @ q) @ (self.along(name, freedom) @ q))
+        p, b, c, sense = self.angle(name, freedom)
+        return float(sense * np.arctan2((p @ q) @ (c @ q), (p @ q) @ (b @ q)))
+
+
+def square(vector: Array, axis: Array) -> Array:
+    """The unit vector across an axis nearest to a vector."""
+    across = vector - axis * (vector @ axis)
+    return np.asarray(across / np.linalg.norm(across))
 
 
 def local_axes(joint: Tree, side: str) -> Array:
@@ -185,7 +246,7 @@ def marched(tree: Tree, start: Array) -> tuple[Array, list[float]]:
 
 
 def _unit(freedom: str) -> str:
-    return "m" if freedom == "slide" else "rad"
+    return "m" if freedom.startswith("slide") else "rad"
 
 
 def solve(m: Machine, guess: Array, inertia: bool = True) -> Natural:
@@ -204,20 +265,35 @@ def solve(m: Machine, guess: Array, inertia: bool = True) -> Natural:
 
 def system(rows: list[Row], q: Array, v: Array) -> tuple[Array, Array, Array, Array]:
     """phi (P, R), J (P, R, 12 L), rates of phi at Q' = 0, and second rates at Q'' = 0."""
-    phi, J, rate, drift = [], [], [], []
-    for row in rows:
-        s2 = row.s2 if isinstance(row.s2, Jet) else Jet(row.s2[None], 0 * row.s2[None], 0 * row.s2[None])
-        d = row.d if isinstance(row.d, Jet) else Jet(np.full(1, row.d), np.zeros(1), np.zeros(1))
-        a, a_v = row.s1 @ q, row.s1 @ v
-        b, b_v = _of(s2.x, q), _of(s2.x, v)
-        phi.append(_dot(a, b) - d.x)
-        J.append(row.s1[None, :, None] * b[:, None] + s2.x[..., None] * a[:, None])
-        rate.append(_dot(a, _of(s2.v, q)) - d.v)
-        turning = _dot(a_v, _of(s2.v, q)) * 2 + _dot(a, _of(s2.a, q) + 2 * _of(s2.v, v))
-        drift.append(2 * _dot(a_v, b_v) + turning - d.a)
-    shape = (len(q), len(rows), -1)
-    full = np.stack([j + np.zeros_like(q) for j in J], 1)
-    return np.stack(phi, 1), full[:, :, 4:].reshape(shape), np.stack(rate, 1), np.stack(drift, 1)
+    parts = [_thread(row, q, v) if isinstance(row, Thread) else _row(row, q, v) for row in rows]
+    phi, J, rate, drift = (np.stack([part[k] + 0 * parts[0][k] for part in parts], 1) for k in range(4))
+    return phi, J[:, :, 4:].reshape(len(q), len(rows), -1), rate, drift
+
+
+def _row(row: Row, q: Array, v: Array) -> tuple[Array, Array, Array, Array]:
+    """phi, its gradient (P, 4 L, 3), its rate at Q' = 0 and its second rate at Q'' = 0."""
+    s2 = row.s2 if isinstance(row.s2, Jet) else Jet(row.s2[None], 0 * row.s2[None], 0 * row.s2[None])
+    d = row.d if isinstance(row.d, Jet) else Jet(np.full(1, row.d), np.zeros(1), np.zeros(1))
+    a, a_v, b, b_v = row.s1 @ q, row.s1 @ v, _of(s2.x, q), _of(s2.x, v)
+    gradient = row.s1[None, :, None] * b[:, None] + s2.x[..., None] * a[:, None]
+    turning = _dot(a_v, _of(s2.v, q)) * 2 + _dot(a, _of(s2.a, q) + 2 * _of(s2.v, v))
+    return _dot(a, b) - d.x, gradient, _dot(a, _of(s2.v, q)) - d.v, 2 * _dot(a_v, b_v) + turning - d.a
+
+
+def _thread(row: Thread, q: Array, v: Array) -> tuple[Array, Array, Array, Array]:
+    """A dot product less the rise times atan2(p . c, p . b)."""
+    assert row.p is not None
+    assert row.b is not None
+    assert row.c is not None
+    x, x_q, _, x_2 = _row(Row("", row.s1, row.s2), q, v)
+    s, s_q, _, s_2 = _row(Row("", row.p, row.c), q, v)
+    c, c_q, _, c_2 = _row(Row("", row.p, row.b), q, v)
+    s_1, c_1 = (np.sum(gradient * v, (1, 2)) for gradient in (s_q, c_q))
+    size = s * s + c * c
+    angle_q = (c[:, None, None] * s_q - s[:, None, None] * c_q) / size[:, None, None]
+    angle_1 = (c * s_1 - s * c_1) / size
+    angle_2 = (c * s_2 - s * c_2) / size - 2 * angle_1 * (s * s_1 + c * c_1) / size
+    return x - row.rise * np.arctan2(s, c), x_q - row.rise * angle_q, 0 * x, x_2 - row.rise * angle_2
 
 
 def _of(s: Array, q: Array) -> Array:
@@ -287,8 +363,7 @@ def _reactions(m: Machine, found: Natural, multipliers: Array) -> None:
     size = multipliers.shape[0], m.size, 3
     pushes = {name: np.zeros(size) for name in m.tree["joints"]}
     for k, row in enumerate(m.joint_rows):
-        b, a = np.asarray(row.s2) @ found.q, row.s1 @ found.q
-        gradient = row.s1[None, :, None] * b[:, None] + np.asarray(row.s2)[None, :, None] * a[:, None]
+        gradient = (_thread if isinstance(row, Thread) else _row)(row, found.q, found.v)[1]  # type: ignore[arg-type]
         pushes[row.name] += multipliers[:, rigid + k, None, None] * gradient
     for name, push in pushes.items():
         _, j, _, p_j = m.ends(name)
@@ -297,8 +372,9 @@ def _reactions(m: Machine, found: Natural, multipliers: Array) -> None:
         about_origin = np.sum(np.cross(found.q[:, k + 1 : k + 4], push[:, k + 1 : k + 4]), 1)
         arm = p_j @ found.q - found.q[:, k]
         found.forces[name], found.moments[name] = force, about_origin - np.cross(arm, force)
-    for k, name in enumerate(m.drives):
-        found.efforts[name] = multipliers[:, rigid + len(m.joint_rows) + k]
+    for k, (name, d) in enumerate(m.drives.items()):
+        sense = -1.0 if d.freedom == "turn2" else 1.0
+        found.efforts[name] = sense * multipliers[:, rigid + len(m.joint_rows) + k]
 
 
 def mobility(m: Machine, q: Array) -> tuple[int, int, float]:

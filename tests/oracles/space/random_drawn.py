@@ -15,11 +15,17 @@ from tests.oracles.space import natural
 from tests.oracles.space.parts import inertia, plain, skew
 
 FREEDOMS = {
-    "revolute": 1, "prismatic": 1, "cylindrical": 2, "universal": 2, "slotted_cylinder": 2, "torus": 2,
+    "revolute": 1, "prismatic": 1, "screw": 1, "cylindrical": 2, "universal": 2, "slotted_cylinder": 2, "torus": 2,
     "slotted_sphere": 2, "spherical": 3, "plane": 3, "slotted_sphere_in_cylinder": 3, "cylinder_between_planes": 4,
     "sphere_in_cylinder": 4, "sphere_between_planes": 5,
 }  # fmt: skip
-DRIVEN = {"revolute": "turn", "prismatic": "slide", "cylindrical": "turn"}
+DRIVEN = {
+    "revolute": ["turn"], "prismatic": ["slide"], "screw": ["turn", "slide"], "cylindrical": ["slide", "turn"],
+    "universal": ["turn1", "turn2"], "torus": ["turn1", "turn2"], "slotted_cylinder": ["slide", "turn"],
+    "plane": ["slide1", "slide2", "turn"], "slotted_sphere_in_cylinder": ["slide", "turn1", "turn2"],
+    "cylinder_between_planes": ["slide1", "slide2", "turn1", "turn2"], "sphere_in_cylinder": ["slide"],
+}  # fmt: skip
+"""Freedoms that may be driven."""
 STEPS = 3
 
 
@@ -31,7 +37,7 @@ def mechanism(seed: int) -> tuple[Tree, natural.Machine, Array]:
         if tree is None:
             continue
         m = natural.Machine(tree)
-        start = natural.drawn(m) if not tree["assembly"] else _laid(m, tree)
+        start = _laid(m, tree)
         if natural.idle(m) or not _well_driven(m, start):
             continue
         path, gaps = natural.marched(tree, start)
@@ -58,12 +64,16 @@ def _tree(rng: Any) -> Tree | None:
             joints[f"J{len(joints) + 1}"] = (kind, chain[k], chain[k + 1], rng.uniform(-0.4, 0.4, 3), rng)
         links += new
     drawn = {name: _joint(name, *joint, places, rotations) for name, joint in joints.items()}
-    movable = [name for name, (joint, _) in drawn.items() if joint["type"] in DRIVEN]
+    movable = [(name, f) for name, (joint, _) in drawn.items() for f in DRIVEN.get(joint["type"], [])]
     if len(movable) < drives:
         return None
-    return _whole(
-        rng, links, drawn, [str(x) for x in rng.choice(movable, drives, replace=False)], places, rotations
-    )
+    driven = [movable[k] for k in rng.choice(len(movable), drives, replace=False)]
+    tree = _whole(rng, links, drawn, places, rotations)
+    m = natural.Machine(tree)
+    q = _laid(m, tree)
+    for joint, freedom in driven:
+        tree["drives"][f"{joint} {freedom}"] = _drive(rng, joint, freedom, m.value(joint, freedom, q))
+    return tree
 
 
 def _kinds(rng: Any, count: int, freedoms: int) -> list[str] | None:
@@ -96,6 +106,8 @@ def _joint(
         on = {"i": {"z": on["i"]["z"]}, "j": {"z": on["j"]["x"]}}
     points = {link: rotations[link].T @ (at - places[link]) for link in (i, j)}
     tree: Tree = {"type": kind, "links": [i, j], "axes": on}
+    if kind == "screw":
+        tree["lead"] = float(rng.uniform(0.02, 0.3))
     damped = {
         "revolute": {"turn": 0.3},
         "prismatic": {"slide": 4.0},
@@ -110,7 +122,6 @@ def _whole(
     rng: Any,
     links: list[str],
     drawn: Any,
-    driven: list[str],
     places: dict[str, Array],
     rotations: dict[str, Array],
 ) -> Tree:
@@ -129,21 +140,19 @@ def _whole(
         "dalembert": 1, "space": "space", "gravity": plain(rng.uniform(-10, 10, 3)),
         "links": {"ground": {"points": points["ground"]}, **bodies},
         "joints": {name: joint for name, (joint, _) in drawn.items()},
-        "drives": {name: _drive(rng, drawn[name][0]["type"]) for name in driven},
+        "drives": {},
         "loads": _loads(rng, links, [name for name, (joint, _) in drawn.items() if joint["type"] == "revolute"]),
         "assembly": {link: _pose(places[link], rotations[link]) for link in links[1:]},
     }  # fmt: skip
 
 
-def _drive(rng: Any, kind: str) -> Tree:
-    freedom = DRIVEN[kind]
-    unit, size = ("m", 0.01) if freedom == "slide" else ("deg", 4.0)
-    step = float(rng.uniform(-size, size))
+def _drive(rng: Any, joint: str, freedom: str, start: float) -> Tree:
+    slides = freedom.startswith("slide")
+    unit, size = ("m", 0.01) if slides else ("rad", 0.07)
     rate, gain = rng.uniform(-3, 3, 2)
     return {
-        "freedom": freedom, "position": {"from": f"0 {unit}", "to": f"{step} {unit}", "count": STEPS},
-        "speed": f"{rate} {'m/s' if freedom == 'slide' else 'rad/s'}",
-        "acceleration": f"{gain} {'m/s^2' if freedom == 'slide' else 'rad/s^2'}",
+        "joint": joint, "freedom": freedom, "speed": f"{rate} {unit}/s", "acceleration": f"{gain} {unit}/s^2",
+        "position": {"from": f"{start} {unit}", "to": f"{start + rng.uniform(-size, size)} {unit}", "count": STEPS},
     }  # fmt: skip
 
 
