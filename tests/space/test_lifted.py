@@ -40,9 +40,7 @@ def _loops(m: da.Mechanism) -> int:
     return len(joints) - len(m.links) + parts
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(n, marks=pytest.mark.long) if n == "scissor_lift" else n for n in FILES]
-)
+@pytest.mark.parametrize("name", FILES)
 def test_a_plane_mechanism_in_space(name: str) -> None:
     m = _plane(FILES[name])
     if m is None:

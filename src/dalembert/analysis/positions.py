@@ -190,17 +190,24 @@ def _mode(c: Compiled, found: Modes) -> str | None:
     """Which assembly mode was taken, and the others; nothing to say where the file chose it and it is the only one."""
     if found.chosen_by in ("given", "drawn"):
         return None
-    moving = np.ptp(np.sin(found.pose.turn[:, :-1] / 2), axis=0) > 1e-6
-    shown = [k for k in range(len(c.links)) if moving[k]][:4] or list(range(min(len(c.links), 4)))
-    names = [_angles(c, found.pose.at(m), shown) for m in range(len(found.pose.turn))]
+    names = _named(c, found.pose)
     why = "nearest to the file's assembly" if found.chosen_by == "nearest" else "found by search"
     others = f"; other modes: {' | '.join(names[1:5])}" if len(names) > 1 else ""
     more = f" and {len(names) - 5} more" if len(names) > 5 else ""
     return f"assembly mode {names[0]} ({why}){others}{more}"
 
 
-def _angles(c: Compiled, pose: Pose, shown: list[int]) -> str:
-    return ", ".join(f"{c.links[k]} {math.degrees(pose.turn[k]):.2f} deg" for k in shown)
+def _named(c: Compiled, pose: Pose) -> list[str]:
+    """Each mode by the angles that tell it from the others: of links, in space of joints."""
+    if c.geometries:
+        rows = np.setdiff1d(np.flatnonzero(c.layout.freedoms.angular), c.layout.driven)
+        names = [" ".join(part for part in c.freedoms[k] if part != "turn") for k in rows]
+        turn = measure(c.layout.algebra, c.layout.freedoms, pose)[:, rows]
+    else:
+        names, turn = list(c.links), pose.turn[:, :-1]
+    moving = np.ptp(np.sin(turn / 2), axis=0) > 1e-6
+    shown = [k for k in range(len(names)) if moving[k]][:4] or list(range(min(len(names), 4)))
+    return [", ".join(f"{names[k]} {math.degrees(mode[k]):.2f} deg" for k in shown) for mode in turn]
 
 
 def open_sentence(c: Compiled, found: Path | None, where: NDArray[np.intp]) -> str:
