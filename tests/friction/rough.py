@@ -12,6 +12,10 @@ from tests.random_mechanisms import Rigid, random_mechanism, tree
 
 Array = np.ndarray[Any, Any]
 ROUGH = ("pin", "slider", "slot", "gear")
+CYCLES = """
+    four_bar slider_crank inverted_slider_crank whitworth crank_shaper scotch_yoke watt_1 watt_2 stephenson_1
+    stephenson_2 stephenson_3 toggle_press
+"""
 
 
 def rough_tree(
@@ -46,6 +50,22 @@ def _friction(kind: str, rng: np.random.Generator, most: float) -> dict[str, Any
 def rough(seed: int) -> Any:
     """The mechanism of a seed."""
     return da.mechanism(rough_tree(seed))
+
+
+def cycle(template: str, count: int = 90) -> Any:
+    """A library mechanism with friction in all pins and guides, light enough to run, over one turn."""
+    tree = getattr(da, template)().to_tree()
+    tree["friction"] = {"coefficient": 0.08, "circle": "sin"}
+    for joint in tree["joints"].values():
+        if joint["type"] == "pin":
+            joint["friction"] = {"radius": "6 mm"}
+        if joint["type"] == "slider":
+            joint["friction"] = {"guide": ["40 mm", "60 mm"], "half_height": "10 mm"}
+        if joint["type"] == "slot":
+            joint["friction"] = {"radius": "6 mm"}
+    for drive in tree["drives"].values():
+        drive["position"] = {"from": "3.7 deg", "to": "363.7 deg", "count": count}
+    return da.mechanism(tree)
 
 
 def unlawful(r: Any) -> Array:

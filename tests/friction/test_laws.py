@@ -16,7 +16,7 @@ from dalembert.analysis.fixed_point import posed
 from dalembert.core.friction import Response
 from dalembert.core.slip import slipping
 from tests.friction.oracle import branch, compared
-from tests.friction.rough import rough, rough_tree, unlawful
+from tests.friction.rough import CYCLES, cycle, rough, rough_tree, unlawful
 from tests.laws.measures import joint_wrenches, known_wrenches
 from tests.oracles.reading import machine
 from tests.random_mechanisms import Rigid, pose_array, random_mechanism
@@ -251,12 +251,6 @@ def test_no_friction_within_its_limits_leaves_the_interval(seed: int) -> None:
         assert np.max(x[:, first + k]) <= high + room
 
 
-CYCLES = """
-    four_bar slider_crank inverted_slider_crank whitworth crank_shaper scotch_yoke watt_1 watt_2 stephenson_1
-    stephenson_2 stephenson_3 toggle_press
-"""
-
-
 @pytest.mark.parametrize("template", CYCLES.split())
 def test_energy_of_a_whole_cycle(template: str) -> None:
     """Input power = power against the loads + losses of the joints + change of kinetic energy, and over the cycle."""
@@ -269,22 +263,6 @@ def test_energy_of_a_whole_cycle(template: str) -> None:
     assert np.min(lost) > 0
     assert np.max(np.abs(given - lost - kinetic_rate(r))) < 1e-9 * largest
     assert abs(np.sum(given - lost - kinetic_rate(r))) < 1e-9 * largest * len(good)
-
-
-def cycle(template: str) -> Any:
-    """A library mechanism with friction in all pins and guides, light enough to run, over one turn."""
-    tree = getattr(da, template)().to_tree()
-    tree["friction"] = {"coefficient": 0.08, "circle": "sin"}
-    for joint in tree["joints"].values():
-        if joint["type"] == "pin":
-            joint["friction"] = {"radius": "6 mm"}
-        if joint["type"] == "slider":
-            joint["friction"] = {"guide": ["40 mm", "60 mm"], "half_height": "10 mm"}
-        if joint["type"] == "slot":
-            joint["friction"] = {"radius": "6 mm"}
-    for drive in tree["drives"].values():
-        drive["position"] = {"from": "3.7 deg", "to": "363.7 deg", "count": 90}
-    return da.mechanism(tree)
 
 
 def load_power(r: Any) -> Any:

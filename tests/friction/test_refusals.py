@@ -18,15 +18,6 @@ def test_equilibrium_positions() -> None:
     )
 
 
-def test_compiled_mechanisms() -> None:
-    with pytest.raises(da.ModelError) as caught:
-        da.compile(engine())
-    assert str(caught.value) == (
-        "joints have friction, which cannot be compiled; "
-        "use the analyses, or switch it off with friction: {enabled: false}"
-    )
-
-
 def test_superposition() -> None:
     with pytest.raises(da.ModelError) as caught:
         da.superposition(da.statics(engine()))

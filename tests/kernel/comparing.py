@@ -16,6 +16,8 @@ NAMES = {
     "drives": ("speed", "acceleration", "effort"),
 }
 
+FRICTION = ("coefficient", "static", "radius", "guide", "half_height", "arm")
+
 
 def every_number(m: Any) -> list[str]:
     """Paths of all numbers that may vary."""
@@ -26,7 +28,17 @@ def every_number(m: Any) -> list[str]:
             out += [f"{group}.{name}.{k}" for k in keys if _varies(getattr(part, k, None)) and not lawful]
             points = getattr(part, "points", {})
             out += [f"{group}.{name}.points.{p}" for p, at in points.items() if _varies(at)]
-    return out + (["gravity"] if isinstance(m.gravity, tuple) else [])
+    return out + frictional(m) + (["gravity"] if isinstance(m.gravity, tuple) else [])
+
+
+def frictional(m: Any) -> list[str]:
+    """Paths of the numbers of friction."""
+    out = ["friction.coefficient"] if m.friction.enabled and _varies(m.friction.coefficient) else []
+    for name, joint in m.joints.items():
+        f = getattr(joint, "friction", None)
+        keys = [key for key in FRICTION if _varies(getattr(f, key, None))] if m.friction.enabled else []
+        out += [f"joints.{name}.friction.{key}" for key in keys]
+    return out
 
 
 def _varies(value: Any) -> bool:

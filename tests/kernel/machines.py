@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import dalembert as da
+from tests.friction.rough import CYCLES, cycle
 
 
 def block_in_a_yoke(positions: int = 24) -> Any:
@@ -119,6 +121,9 @@ KINDS = {
     "three loops, no closed form": eight_bar,
     "scissor": da.scissor,
 }
+
+ROUGH = {name: partial(cycle, name, 24) for name in CYCLES.split()}
+"""Templates with friction in every pin, guide and slot."""
 
 
 def four_bar_tree(count: int = 24) -> dict[str, Any]:

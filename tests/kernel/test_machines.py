@@ -117,14 +117,6 @@ def test_refusals() -> None:
         k().reaction("A")
 
 
-def test_friction_is_refused() -> None:
-    tree = four_bar_tree()
-    tree["joints"]["A"]["friction"] = {"coefficient": 0.1, "radius": 0.01}
-    with pytest.raises(da.ModelError, match="joints have friction, which cannot be compiled"):
-        da.compile(da.mechanism(tree))
-    da.compile(da.mechanism(tree | {"friction": {"enabled": False}}))
-
-
 def test_redundancy_is_refused_with_its_joints() -> None:
     tree = four_bar_tree()
     tree["links"]["bar"] = {"points": {"A": [0, 0], "B": [0.32, 0]}}

@@ -61,6 +61,12 @@ class Compiled:
             [np.broadcast_to(self.target, (len(positions), len(self.target))), positions], axis=1
         )
 
+    @cached_property
+    def second(self) -> NDArray[np.intp]:
+        """Link j of each joint (joints,)."""
+        index = {name: k for k, name in enumerate(self.links)} | {GROUND: self.layout.links}
+        return np.array([index[self.mechanism.joints[name].links[1]] for name in self.joints], np.intp)
+
     @property
     def origin(self) -> Array:
         """Ground's reference point."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -28,14 +27,14 @@ class Contact:
     first: int
     second: int = -1
     couple: int = -1
-    tilt: tuple[float, float] = (0.0, 0.0)
-    gain: float = 1.0
-    lever: float = 1.0
+    tilt: tuple[Any, Any] = (0.0, 0.0)
+    gain: Any = 1.0
+    lever: Any = 1.0
     circle: bool = False
     signed: bool = False
     fixed: bool = False
     led: int = 0
-    reach: float = 0.0
+    reach: Any = 0.0
 
 
 TURN: tuple[type, dict[str, Any]] = (Turn, {})
@@ -51,18 +50,18 @@ def rubs(m: Mechanism, joint: Any) -> bool:
     return m.friction.enabled and getattr(joint, "friction", None) is not None
 
 
-def coefficient(m: Mechanism, joint: Any) -> float:
+def coefficient(m: Mechanism, joint: Any) -> Any:
     """Coefficient of friction in motion."""
     own, top = joint.friction.coefficient, m.friction.coefficient
-    return float((top or 0.0) if own is None else own)
+    return (top or 0.0) if own is None else own
 
 
-def resting_coefficient(m: Mechanism, joint: Any) -> float:
+def resting_coefficient(m: Mechanism, joint: Any) -> Any:
     """Coefficient at rest: the joint's own, else its coefficient of motion, else the file's."""
     f, top = joint.friction, m.friction
     if f.static is not None or f.coefficient is not None:
-        return float(f.coefficient if f.static is None else f.static)
-    return float((top.coefficient or 0.0) if top.static is None else top.static)
+        return f.coefficient if f.static is None else f.static
+    return (top.coefficient or 0.0) if top.static is None else top.static
 
 
 def circle(m: Mechanism, joint: Any) -> str:
@@ -77,7 +76,7 @@ def contacts(
     if not friction_on(m):
         return None
     rows = table.RowBuilder(constraints.links)
-    found: list[tuple[int, Contact, float, float]] = []
+    found: list[tuple[int, Contact, Any, Any]] = []
     for k, joint in enumerate(m.joints.values()):
         first = int(np.flatnonzero(constraints.joint == k)[0])
         for contact, mu, resting in _of(m, joint, first):
@@ -88,9 +87,10 @@ def contacts(
     return _stacked(rows.rows(), found), tuple(contact.kind for _, contact, _, _ in found)
 
 
-def _stacked(rows: Rows, found: list[tuple[int, Contact, float, float]]) -> Contacts:
+def _stacked(rows: Rows, found: list[tuple[int, Contact, Any, Any]]) -> Contacts:
     def column(name: str, kind: type) -> Array:
-        return np.array([getattr(c, name) for _, c, _, _ in found], kind)
+        values = [getattr(c, name) for _, c, _, _ in found]
+        return table.numbers(values) if kind is float else np.array(values, kind)
 
     return Contacts(
         rows=rows,
@@ -101,8 +101,8 @@ def _stacked(rows: Rows, found: list[tuple[int, Contact, float, float]]) -> Cont
         tilt=column("tilt", float),
         gain=column("gain", float),
         lever=column("lever", float),
-        coefficient=np.array([mu for _, _, mu, _ in found]),
-        resting=np.array([mu for _, _, _, mu in found]),
+        coefficient=table.numbers([mu for _, _, mu, _ in found]),
+        resting=table.numbers([mu for _, _, _, mu in found]),
         circle=column("circle", bool),
         signed=column("signed", bool),
         fixed=column("fixed", bool),
@@ -143,21 +143,21 @@ def _slot(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:
     f = joint.friction
     yield Contact("guide", (Along, {"axis": table.direction(joint), "pitch": 0.0}), first)
     if f.radius:
-        gain = math.sqrt(1 + mu * mu)
+        gain = np.sqrt(1 + mu * mu)
         yield Contact("pin", TURN, first, gain=gain, lever=f.radius, circle=circle == "sin")
 
 
 def _gear(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:
-    yield Contact("mesh", TURN, first, gain=1 / math.cos(joint.pressure_angle), lever=contact_arm(joint))
+    yield Contact("mesh", TURN, first, gain=1 / np.cos(joint.pressure_angle), lever=contact_arm(joint))
 
 
-def contact_arm(joint: Any) -> float:
+def contact_arm(joint: Any) -> Any:
     """Mean distance of the teeth's contact from the pitch point, both sides of it weighted by their length.
 
     Full-depth teeth: addendum one module, so that the path of contact reaches to the addendum circles.
     """
     if joint.friction.arm is not None:
-        return float(joint.friction.arm)
+        return joint.friction.arm
     inner = joint.pitch_radii[0] < joint.pitch_radii[1]
     signs = (1, 1) if not joint.internal else ((1, -1) if inner else (-1, 1))
     parts = [
@@ -166,15 +166,15 @@ def contact_arm(joint: Any) -> float:
     return sum(p * p for p in parts) / (2 * sum(parts))
 
 
-def _path(radius: float, addendum: float, angle: float, sign: int) -> float:
+def _path(radius: Any, addendum: Any, angle: Any, sign: int) -> Any:
     """Length of the path of contact from the pitch point to the addendum circle of one wheel."""
-    outer, base = radius + sign * addendum, radius * math.cos(angle)
-    return abs(math.sqrt(max(outer * outer - base * base, 0.0)) - radius * math.sin(angle))
+    outer, base = radius + sign * addendum, radius * np.cos(angle)
+    return abs(np.sqrt(max(outer * outer - base * base, 0.0)) - radius * np.sin(angle))
 
 
 def _separation(joint: Any, first: int) -> Contact:
     ri, rj = table.signed_radii(joint)
-    lever = math.tan(joint.pressure_angle) * math.copysign(1.0, ri * rj)
+    lever = np.tan(joint.pressure_angle) * (1.0 if ri * rj > 0 else -1.0)
     return Contact("separation", (Distance, {}), first, lever=lever, fixed=True, reach=abs(ri + rj))
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from dalembert.core.equilibrium import known_sources, motion, statement
 from dalembert.core.forcing import summed
-from dalembert.core.friction import argument, bearing, multiplier, senses, strength
+from dalembert.core.friction import argument, bearing, multiplier, response, senses, strength
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
@@ -90,7 +90,6 @@ def stated(r: Result, position: int) -> tuple[Contacts, Response, Array]:
 def posed(r: Result, position: int) -> tuple[Contacts, Response, Senses]:
     """The same, at rest too."""
     from dalembert.analysis.freedoms import whole_pose
-    from dalembert.analysis.rubbing import Setting, touching
     from dalembert.analysis.solve import _sliced
 
     c = r.compiled
@@ -103,8 +102,8 @@ def posed(r: Result, position: int) -> tuple[Contacts, Response, Senses]:
     sources = known_sources(c.layout, forcing, pose, moving, r.inertia)
     w = summed(c.layout, *sources.values())
     w = np.broadcast_to(w, (1, *w.shape[1:]))
-    s = Setting(c, c.contacts, forcing, known, pose, moving, rows, solver, sources)
-    along, problem = touching(s, statement(c.layout, known, pose, rows, solver, w))
+    stated = statement(c.layout, known, pose, rows, solver, w)
+    along, problem = response(c.layout, c.contacts, pose, stated.forces, stated.w)
     told = senses(c.layout, c.contacts, along, moving.twist)
     return c.contacts, problem, told
 

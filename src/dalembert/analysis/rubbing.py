@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.constraints import measure, rates, system
 from dalembert.core.equilibrium import (
     UNIQUE,
     Known,
@@ -20,9 +19,10 @@ from dalembert.core.equilibrium import (
     unique,
 )
 from dalembert.core.forcing import Forcing, Source, pair, summed
-from dalembert.core.friction import Contacts, Response, Senses, argument, bearing, response, senses
+from dalembert.core.friction import Contacts, Response, Senses, argument, bearing, response, senses, under
 from dalembert.core.layout import Pose, System
 from dalembert.core.linear import Factor, PseudoInverse
+from dalembert.core.losses import by_joint, in_joints, turned, viscous
 from dalembert.core.rest import extreme
 from dalembert.core.slip import Slip, slipping, without_friction
 
@@ -34,9 +34,6 @@ Flags = NDArray[np.bool_]
 
 SAME = 1e-11
 """A contact that carries less than this part of the largest force carries nothing."""
-
-POWERLESS = 1e-9
-"""A power below this part of the powers of all loads has no sign."""
 
 
 class Friction(NamedTuple):
@@ -107,7 +104,7 @@ def rubbing(s: Setting, w: Array) -> Forces:
     """Forces with friction under the loads w (P, L, n)."""
     layout, contacts = s.c.layout, s.contacts
     stated = statement(layout, s.known, s.pose, s.rows, s.solver, w)
-    along, r = touching(s, stated)
+    along, r = response(layout, contacts, s.pose, stated.forces, stated.w)
     told = senses(layout, contacts, along, s.moving.twist)
     blocked = _blocked(contacts, stated)
     r = r._replace(y=np.where(blocked[:, None, None], np.nan, r.y))
@@ -120,14 +117,6 @@ def rubbing(s: Setting, w: Array) -> Forces:
     if not open_.size:
         return made.forces(r, slip, told.sense)
     return _with_ends(made, r, slip, told, open_)
-
-
-def touching(s: Setting, stated: Statement) -> tuple[System, Response]:
-    """What the contacts act along, and the response of the multipliers to them."""
-    layout, contacts = s.c.layout, s.contacts
-    along = system(layout.algebra, contacts.rows, s.pose)
-    distance = measure(layout.algebra, contacts.rows, s.pose)
-    return along, response(layout, contacts, along, distance, stated.forces, stated.w)
 
 
 def _blocked(contacts: Contacts, stated: Statement) -> Flags:
@@ -145,22 +134,19 @@ def _blocked(contacts: Contacts, stated: Statement) -> Flags:
 
 def _locked(s: Setting, stated: Statement, told: Senses, r: Response, slip: Slip) -> Flags:
     """Where friction turns the power of the unknowns round, also without inertia."""
-    turned = _turned(s, stated, r, slip)
-    if "inertia" not in s.sources or not turned.any():
-        return turned
+    locked = _turned(s, stated, r, slip)
+    if "inertia" not in s.sources or not locked.any():
+        return locked
     w = summed(s.c.layout, *(source for kind, source in s.sources.items() if kind != "inertia"))
     w = np.broadcast_to(w, stated.w.shape)
     still = statement(s.c.layout, s.known, s.pose, s.rows, s.solver, w)
-    r = touching(s, still)[1]
-    return turned & _turned(s, still, r, slipping(s.contacts, r, told.sense, told.open))
+    r = under(s.c.layout, s.contacts, s.pose, still.forces, still.w, r)
+    return locked & _turned(s, still, r, slipping(s.contacts, r, told.sense, told.open))
 
 
 def _turned(s: Setting, stated: Statement, r: Response, slip: Slip) -> Flags:
-    count = s.c.layout.constraints.count
-    rate = rates(stated.unknown.rows(slice(count, None)), s.moving.twist)
-    with_, without = ((x[..., count:] * rate).sum(-1) for x in (slip.x, without_friction(s.contacts, r)))
-    size = np.abs(stated.w * s.moving.twist[..., :-1, :]).sum(axis=(-2, -1))
-    return np.asarray((with_ * without < 0) & (np.abs(without) > POWERLESS * size))
+    bare = without_friction(s.contacts, r)
+    return np.asarray(turned(s.c.layout, stated.unknown, s.moving.twist, stated.w, slip.x, bare))
 
 
 def _with_ends(made: _Made, r: Response, slip: Slip, told: Senses, open_: NDArray[np.intp]) -> Forces:
@@ -237,15 +223,15 @@ class _Made(NamedTuple):
     ) -> Friction:
         s, contacts, told = self.s, self.s.contacts, self.told
         dry = np.where(contacts.fixed, 0.0, cz)
-        joints = s.c.layout.joints
-        force, moment = _of_joints(s, self.along, contacts.joint, dry)
-        viscous = _viscous(self.s)
+        joints, link = s.c.layout.joints, s.c.second
+        force, moment = in_joints(s.c.layout, s.pose, self.along, contacts.joint, link, s.c.joint_at, dry)
+        own = viscous(s.c.layout, s.c.damping, s.pose, s.moving.twist, link, s.c.joint_at)
         return Friction(
             force,
             moment,
-            *viscous[:2],
-            _summed(contacts.joint, joints, -dry * told.rate),
-            viscous[2],
+            *own[:2],
+            by_joint(contacts.joint, joints, -dry * told.rate),
+            own[2],
             dry,
             sense,
             told.rate,
@@ -257,41 +243,6 @@ class _Made(NamedTuple):
             effort,
             load,
         )
-
-
-def _of_joints(s: Setting, along: System, joint: NDArray[np.intp], effort: Array) -> tuple[Array, Array]:
-    """Force (P, joints, d) and moment about j's point (P, joints; in space with 3 components) on j of efforts."""
-    layout, g = s.c.layout, s.c.layout.algebra
-    force = np.zeros((len(effort), layout.joints, g.d))
-    couple = np.zeros((len(effort), layout.joints, g.n - g.d))
-    index = {name: k for k, name in enumerate(s.c.links)} | {"ground": layout.links}
-    for e, k in enumerate(joint):
-        link = index[s.c.mechanism.joints[s.c.joints[k]].links[1]]
-        wrench = effort[:, e, None] * (along.on_j if along.j[e] == link else along.on_i)[..., e, :]
-        force[:, k] += wrench[..., : g.d]
-        if along.angular[e]:
-            couple[:, k] += wrench[..., g.d :]
-        elif g.d == 3:
-            at = g.rotate(s.pose.rotation[:, link], s.c.joint_at[k])
-            couple[:, k] += wrench[..., 3:] - g.cross(at, wrench[..., :3])
-    return force, couple[..., 0] if g.d == 2 else couple
-
-
-def _summed(joint: NDArray[np.intp], joints: int, values: Array) -> Array:
-    out = np.zeros((len(values), joints))
-    for e, k in enumerate(joint):
-        out[:, k] += values[:, e]
-    return out
-
-
-def _viscous(s: Setting) -> tuple[Array, Array, Array]:
-    """Force, moment and lost power of the joints' own damping."""
-    layout, own = s.c.layout, s.c.damping
-    rows = system(layout.algebra, layout.freedoms, s.pose).rows(own.row)
-    joint = layout.freedoms.joint[own.row]
-    rate = rates(rows, s.moving.twist)
-    force, moment = _of_joints(s, rows, joint, -own.damping * rate)
-    return force, moment, _summed(joint, layout.joints, own.damping * rate * rate)
 
 
 def joined(parts: list[Forces]) -> Forces:

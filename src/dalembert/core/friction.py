@@ -18,9 +18,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.constraints import rates
-from dalembert.core.forcing import summed
-from dalembert.core.layout import Layout, Rows, System
+from dalembert.core import choice
+from dalembert.core.choice import above, hypot, larger, root, top, unit, where
+from dalembert.core.constraints import measure, rates, system
+from dalembert.core.forcing import Source, summed
+from dalembert.core.layout import Layout, Pose, Rows, System
 from dalembert.core.linear import Factor
 
 Array = NDArray[Any]
@@ -33,6 +35,9 @@ STILL = 1e-9
 
 NOTHING = 1e-14
 """A force below this part of the largest is rounding: its direction means nothing."""
+
+TINY = 1e-150
+"""Added to what may be zero; its square is a number."""
 
 
 @dataclass(frozen=True)
@@ -105,14 +110,15 @@ class Response(NamedTuple):
 def senses(layout: Layout, contacts: Contacts, along: System, twist: Array) -> Senses:
     """Senses of the contacts from the twists of all links (..., L+1, n)."""
     rate = rates(along, twist)
-    scaled = rate * np.where(contacts.rows.angular, layout.length, 1.0)
-    fastest = np.abs(twist / layout.wrench_scale).max(axis=(-2, -1), initial=0.0)
-    still = ((np.abs(scaled) <= STILL * fastest[..., None]) & ~contacts.fixed)[..., contacts.led]
+    scaled = np.abs(rate) * np.where(contacts.rows.angular, layout.length, 1.0)
+    fastest = top(np.abs(twist / layout.wrench_scale), 2)[..., None]
+    still = (above(STILL * fastest + TINY, scaled) & ~contacts.fixed)[..., contacts.led]
+    holds = above(strength(contacts, 1.0, True), 0.0)
     if contacts.group is not None:
         part, still = _directed(contacts, rate, still)
-        return Senses(part, still & (strength(contacts, 1.0, True) > 0), rate)
-    sense = np.where(contacts.fixed, -1.0, np.where(still, 0.0, np.sign(rate)[..., contacts.led]))
-    return Senses(sense, still & (strength(contacts, 1.0, True) > 0), rate)
+        return Senses(part, still & holds, rate)
+    sense = np.where(contacts.fixed, -1.0, where(still, 0.0, choice.sign(rate)[..., contacts.led]))
+    return Senses(sense, still & holds, rate)
 
 
 def _directed(contacts: Contacts, rate: Array, still: Flags, resting: bool = False) -> tuple[Array, Flags]:
@@ -162,31 +168,46 @@ def impending(contacts: Contacts, g: Array, moves: Flags) -> Array:
 def strength(contacts: Contacts, scale: Array | float, resting: Array | bool = False) -> Array:
     """c (..., E) at a scale of all coefficients; ``resting`` contacts take the coefficient at rest."""
     mu = scale * np.where(resting, contacts.resting, contacts.coefficient)
-    friction = np.where(contacts.circle, mu / np.sqrt(1 + mu * mu), mu)
+    friction = np.where(contacts.circle, mu / root(1 + mu * mu), mu)
     return np.asarray(contacts.lever * np.where(contacts.fixed, 1.0, friction))
 
 
 def response(
-    layout: Layout, contacts: Contacts, along: System, distance: Array, forces: Factor, w: Array
-) -> Response:
-    """x and y without contacts and per unit of each, from the factored A; ``distance`` (..., E) of the centres."""
-
-    def multipliers(wrench: Array) -> Array:
-        return forces.forces(-wrench.reshape((*wrench.shape[:-2], -1)))
-
-    x = multipliers(w)
-    change = [multipliers(_unit(layout, along, e)) for e in range(contacts.count)]
+    layout: Layout, contacts: Contacts, pose: Pose, forces: Factor, w: Array
+) -> tuple[System, Response]:
+    """What the contacts act along; x and y without contacts and per unit of each, from the factored A."""
+    along = system(layout.algebra, contacts.rows, pose)
+    change = [_multipliers(forces, _unit(layout, along, e)) for e in range(contacts.count)]
     by_contact = np.stack(np.broadcast_arrays(*change), axis=-2)  # (..., E, X)
-    near = np.where(contacts.reach > 0, contacts.reach / np.where(distance > 0, distance, 1.0), 1.0)
+    near = _near(layout, contacts, pose)
     h = np.stack(_arguments(contacts, by_contact, near[..., None, :]), axis=-3)
+    x = _multipliers(forces, w)
     y = np.stack(_arguments(contacts, x, near), axis=-2)
-    return Response(x, np.swapaxes(by_contact, -1, -2), y, np.swapaxes(h, -1, -2))
+    return along, Response(x, np.swapaxes(by_contact, -1, -2), y, np.swapaxes(h, -1, -2))
+
+
+def under(
+    layout: Layout, contacts: Contacts, pose: Pose, forces: Factor, w: Array, like: Response
+) -> Response:
+    """The response under other wrenches w (..., L, n)."""
+    x = _multipliers(forces, w)
+    return like._replace(x=x, y=np.stack(_arguments(contacts, x, _near(layout, contacts, pose)), axis=-2))
+
+
+def _multipliers(forces: Factor, wrench: Array) -> Array:
+    return forces.forces(-wrench.reshape((*wrench.shape[:-2], -1)))
+
+
+def _near(layout: Layout, contacts: Contacts, pose: Pose) -> Array:
+    """Factor (..., E) on the forces of contacts that fall as the centres go apart."""
+    distance = measure(layout.algebra, contacts.rows, pose)
+    near, falls = np.ones_like(distance), contacts.reach > 0
+    near[..., falls] = contacts.reach[falls] / distance[..., falls]
+    return near
 
 
 def _unit(layout: Layout, along: System, e: int) -> Array:
     """Wrenches on the links of a unit of contact e."""
-    from dalembert.core.forcing import Source
-
     link = np.array([along.i[e], along.j[e]])
     return summed(layout, Source(link, np.stack([along.on_i[..., e, :], along.on_j[..., e, :]], axis=-2)))
 
@@ -208,41 +229,38 @@ def _arguments(contacts: Contacts, x: Array, near: Array) -> list[Array]:
 
 def bearing(contacts: Contacts, y: Array) -> Array:
     """S (..., E) of arguments (..., 3, E)."""
-    force = np.hypot(y[..., 0, :], y[..., 1, :])
+    force = hypot(y[..., 0, :], y[..., 1, :])
     if contacts.ball is not None:
-        whole = np.sqrt(force * force + y[..., 2, :] ** 2)
-        return np.where(contacts.ball, whole, force)
-    return np.where(contacts.signed, y[..., 0, :], np.maximum(force, np.abs(y[..., 2, :])))
+        return np.where(contacts.ball, hypot(force, y[..., 2, :]), force)
+    return np.where(contacts.signed, y[..., 0, :], larger(force, np.abs(y[..., 2, :])))
 
 
-def slope(contacts: Contacts, y: Array) -> Array:
-    """Derivative of S after y (..., 3, E); one of its branches where two meet, 0 where a contact carries nothing."""
+def slope(contacts: Contacts, y: Array, largest: Array) -> tuple[Array, Array]:
+    """Derivative of S after y (..., 3, E), one of its branches where two meet, and S (..., E).
+
+    Almost 0 where a contact carries nothing beside the ``largest`` (...) of all arguments.
+    """
+    least = NOTHING * largest[..., None] + TINY
     if contacts.ball is not None:
-        return _round_slope(contacts, y)
-    force, tilting = np.hypot(y[..., 0, :], y[..., 1, :]), np.abs(y[..., 2, :])
-    bears = np.maximum(force, tilting) > NOTHING * np.abs(y).max(axis=(-2, -1), initial=0.0)[..., None]
-    tilted = (tilting > force) & ~contacts.signed & bears
-    plain = (tilting <= force) & ~contacts.signed & bears
-    safe = np.where(force > 0, force, 1.0)
-    parts = [
-        np.where(contacts.signed, 1.0, np.where(plain, y[..., 0, :] / safe, 0.0)),
-        np.where(plain, y[..., 1, :] / safe, 0.0),
-        np.where(tilted, np.sign(y[..., 2, :]), 0.0),
-    ]
-    return np.stack(parts, axis=-2)
+        return _round_slope(contacts, y, least)
+    first, second, force = unit(y[..., 0, :], y[..., 1, :], least)
+    tilt, _, tilting = unit(y[..., 2, :], np.zeros_like(y[..., 2, :]), least)
+    tilted = above(tilting, force) & ~contacts.signed
+    plain = ~tilted & ~contacts.signed
+    parts = [np.where(contacts.signed, 1.0, plain * first), plain * second, tilted * tilt]
+    return np.stack(parts, axis=-2), np.where(contacts.signed, y[..., 0, :], larger(force, tilting))
 
 
-def _round_slope(contacts: Contacts, y: Array) -> Array:
-    """Derivative of the size of a force of two or three components."""
+def _round_slope(contacts: Contacts, y: Array, least: Array) -> tuple[Array, Array]:
+    """Derivative of the size of a force of two or three components, and the size."""
     assert contacts.ball is not None
     y = y * np.where(np.arange(3)[:, None] < 2, True, contacts.ball)
     size = np.sqrt((y * y).sum(axis=-2))
-    bears = size > NOTHING * np.abs(y).max(axis=(-2, -1), initial=0.0)[..., None]
-    return np.asarray(np.where(bears[..., None, :], y / np.where(size > 0, size, 1.0)[..., None, :], 0.0))
+    return y / np.maximum(size, least)[..., None, :], size
 
 
 def argument(r: Response, cz: Array) -> Array:
-    """y with contacts c z (..., E)."""
+    """y with contacts c z (..., E), or z where H is after z."""
     return np.asarray(r.y + (r.h @ cz[..., None, :, None])[..., 0])
 
 
@@ -251,21 +269,32 @@ def multiplier(r: Response, cz: Array) -> Array:
     return np.asarray(r.x + (r.change @ cz[..., None])[..., 0])
 
 
-def jacobian(contacts: Contacts, r: Response, steep: Array, sense: Array, c: Array) -> Array:
-    """Derivative of z + s S(y) after z (..., E, E) from the slope of S; its determinant is det(A + J) / det(A)."""
-    change = (steep[..., None] * r.h).sum(axis=-3)
-    return np.asarray(np.eye(contacts.count) + sense[..., :, None] * change * c[..., None, :])
+def strong(r: Response, c: Array) -> Response:
+    """The response with H after z itself, for strengths c (..., E)."""
+    return r._replace(h=r.h * c[..., None, None, :])
 
 
-def spread(contacts: Contacts, r: Response, c: Array) -> Array:
-    """Bound (...) of the spectral radius of the fixed point.
+def jacobian(r: Response, steep: Array, sense: Array) -> Array:
+    """Derivative of z + s S(y) after z (..., E, E) from the slope of S and H after z; its determinant is
+    det(A + J) / det(A)."""
+    change = ((sense[..., None, :] * steep)[..., None] * r.h).sum(axis=-3)
+    return np.asarray(np.eye(sense.shape[-1]) + change)
+
+
+def correction(r: Response, steep: Array, sense: Array, off: Array, solve: Any) -> Array:
+    """Newton's step where z + s S is ``off`` (..., E), from the slope of S and H after z."""
+    return np.asarray(solve(jacobian(r, steep, sense), -off))
+
+
+def spread(contacts: Contacts, r: Response) -> Array:
+    """Bound (...) of the spectral radius of the fixed point, from H after z without its sign.
 
     Below 1 there is one solution, at any smaller scale too.
     """
     lever = np.maximum(np.hypot(r.h[..., 0, :, :], r.h[..., 1, :, :]), np.abs(r.h[..., 2, :, :]))
     if contacts.ball is not None:
         lever = np.where(contacts.ball[:, None], np.sqrt((r.h * r.h).sum(axis=-3)), lever)
-    lever = np.where(contacts.signed[:, None], np.abs(r.h[..., 0, :, :]), lever) * c[..., None, :]
+    lever = np.where(contacts.signed[:, None], np.abs(r.h[..., 0, :, :]), lever)
     power, log, size = lever, np.zeros(lever.shape[:-2]), 1
     for _ in range(6):
         largest = np.maximum(power.sum(axis=-1).max(axis=-1, initial=0.0), 1e-300)

@@ -25,6 +25,7 @@ from dalembert.core.friction import (
     moving_together,
     sign,
     slope,
+    strong,
 )
 from dalembert.core.linear import solved
 from dalembert.core.slip import Slip, slipping
@@ -62,7 +63,8 @@ def extreme(layout: Any, contacts: Contacts, r: Response, known: Senses, unknown
 def _influence(contacts: Contacts, r: Response, found: Slip, sense: Array, g: Array) -> Array:
     """Sign of the change of the unknown with each friction force, the other contacts following."""
     y = argument(r, found.c * np.nan_to_num(found.z))
-    j = jacobian(contacts, r, slope(contacts, y), sense, found.c)
+    largest = np.abs(y).max(axis=(-2, -1), initial=0.0)
+    j = jacobian(strong(r, found.c), slope(contacts, y, largest)[0], sense)
     a = solved(np.swapaxes(j, -1, -2), found.c * g)
     negligible = np.abs(a) <= STILL * np.abs(a).max(axis=-1, keepdims=True, initial=0.0)
     return sign(contacts, np.nan_to_num(a), negligible, resting=True)

@@ -17,11 +17,13 @@ from dalembert.core.friction import (
     Response,
     argument,
     bearing,
+    correction,
     jacobian,
     multiplier,
     slope,
     spread,
     strength,
+    strong,
 )
 from dalembert.core.linear import solved
 
@@ -91,7 +93,7 @@ def slipping(contacts: Contacts, r: Response, sense: Array, resting: Array) -> S
     r = Response(*(np.broadcast_to(a, (len(sense), *a.shape[1:])) for a in r))
     c = np.broadcast_to(strength(contacts, 1.0, resting), sense.shape)
     first = _newton(contacts, r, sense, c, np.zeros_like(sense))
-    single = spread(contacts, r, c * np.abs(sense)) < 1
+    single = spread(contacts, strong(r, c * np.abs(sense))) < 1
     z, determinant, count = first.z, first.determinant, first.iterations
     critical = np.full(len(sense), np.nan)
     finite = np.isfinite(r.y).all(axis=(-2, -1))
@@ -127,20 +129,21 @@ def _newton(
 ) -> _Try:
     """Newton on z + s S(y0 + H c z) = 0 from z, all positions together.
 
-    S is homogeneous, so its slope at one y is all of it: S = slope . y. The first step takes the slope at ``before``,
-    the arguments of a solution close by, rather than at the start, which may lie behind a kink.
+    S is homogeneous: S = slope . y. The first step takes the slope at ``before``, the arguments of a solution close
+    by, rather than at the start, which may lie behind a kink.
     """
     count = np.zeros(len(sense), np.intp)
     arrived = np.zeros(len(sense), bool)
-    y, landing = argument(r, c * z), z
+    r = strong(r, c)
+    y, landing = argument(r, z), z
     for k in range(most):
-        steep = slope(contacts, y if k or before is None else before)
-        off = z + sense * (steep * y).sum(axis=-2)
-        step = solved(jacobian(contacts, r, steep, sense, c), -off)
+        at = y if k or before is None else before
+        steep, _ = slope(contacts, at, _largest(at))
+        step = correction(r, steep, sense, z + sense * (steep * y).sum(axis=-2), solved)
         z = np.where(arrived[:, None], z, z + step)
         landing = z if k == 0 else landing
-        y = argument(r, c * z)
-        largest = np.maximum(np.abs(y).max(axis=(-2, -1), initial=0.0), np.abs(z).max(axis=-1, initial=0.0))
+        y = argument(r, z)
+        largest = np.maximum(_largest(y), np.abs(z).max(axis=-1, initial=0.0))
         new = np.abs(z + sense * bearing(contacts, y)).max(axis=-1, initial=0.0)
         now = (new <= ROUNDING * contacts.count * largest) | (
             np.abs(step).max(axis=-1, initial=0.0) <= ARRIVED * largest
@@ -149,8 +152,13 @@ def _newton(
         arrived |= now
         if arrived.all():
             break
-    determinant = np.linalg.det(np.nan_to_num(jacobian(contacts, r, slope(contacts, y), sense, c)))
+    steep, _ = slope(contacts, y, _largest(y))
+    determinant = np.linalg.det(np.nan_to_num(jacobian(r, steep, sense)))
     return _Try(np.where(arrived[:, None], z, np.nan), arrived, determinant, count, landing)
+
+
+def _largest(y: Array) -> Array:
+    return np.asarray(np.abs(y).max(axis=(-2, -1), initial=0.0))
 
 
 def _continued(contacts: Contacts, r: Response, sense: Array, resting: Array) -> tuple[_Try, Array]:

@@ -47,7 +47,7 @@ def _partials(graph: Graph, n: Node) -> tuple[Node | float, Node | float]:
         return a.cos(), 0.0
     if n.op == "cos":
         return -a.sin(), 0.0
-    if n.op in ("sign", "rint", "detach"):
+    if n.op in ("sign", "positive", "rint", "detach"):
         return 0.0, 0.0
     assert b is not None
     if n.op == "mul":

@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 from dalembert.kernel.emit_reduce import PLACED, SUMS, Slots, width
 from dalembert.kernel.graph import Node
-from dalembert.kernel.program import Program
+from dalembert.kernel.program import CODES, Program
 
 HEAD = """\
 #ifdef __CUDACC__
@@ -26,12 +26,20 @@ HEAD = """\
 #define REAL double
 #endif
 #define SIGN(x) ((REAL)((x) > 0) - (REAL)((x) < 0))
+#define POSITIVE(x) ((REAL)((x) > 0))
 #define LARGER(a, b) ((a) > (b) ? (a) : (b))
 #define SMALLER(a, b) ((a) < (b) ? (a) : (b))
 """
 
 _BINARY = {"add": "+", "sub": "-", "mul": "*"}
-_CALLS = {"abs": "fabs", "atan2": "atan2", "sign": "SIGN", "max": "LARGER", "min": "SMALLER"}
+_CALLS = {
+    "abs": "fabs",
+    "atan2": "atan2",
+    "sign": "SIGN",
+    "positive": "POSITIVE",
+    "max": "LARGER",
+    "min": "SMALLER",
+}
 
 
 def statement(node: Node, name: Callable[[Node], str]) -> str:
@@ -74,11 +82,26 @@ def lines(nodes: list[Node], name: Callable[[Node], str], indent: str) -> str:
     return "\n".join(indent + statement(n, name) for n in nodes)
 
 
-def marks(program: Program, name: Callable[[Node], str]) -> str:
-    """1 where the linkage does not close, 2 where in doubt."""
-    closed = " || ".join(f"{name(n)} < 0" for n in program.open) or "0"
-    doubt = " || ".join(f"!({name(n)} >= 0)" for n in program.doubt) or "0"
-    return f"({closed}) ? 1 : ({doubt}) ? 2 : 0"
+def marks(program: Program, name: Callable[[Node], str], indent: str) -> str:
+    """Declaration of ``here``, the mark of this position."""
+    m, code = program.marks, CODES
+
+    def below(nodes: tuple[Node, ...], numbers: bool = True) -> str:
+        tests = [f"{name(n)} < 0" if numbers else f"!({name(n)} >= 0)" for n in nodes]
+        return f"({' || '.join(tests) or '0'})"
+
+    out = [
+        f"int here = {below(m.open)} ? {code['open']} : {below(m.doubt, False)} ? {code['doubt']}",
+        f"  : {below(m.rest)} ? {code['rest']} : {below(m.turned)} ? {code['locked']} : 0;",
+    ]
+    if m.locked:
+        out += [
+            f"if (here == {code['locked']}) {{",
+            lines(program.seldom, name, "  "),
+            f"  here = {below(m.still, False)} ? {code['doubt']} : {below(m.locked)} ? {code['locked']} : 0;",
+            "}",
+        ]
+    return "\n".join(indent + line for line in "\n".join(out).splitlines())
 
 
 ARGUMENTS = (
@@ -105,7 +128,8 @@ ENTRY void grid({ARGUMENTS})
 {lines(program.design, name, "    ")}
 {lines(program.position, name, "    ")}
 {stores}
-    code[at] = {marks(program, name)};
+{marks(program, name, "    ")}
+    code[at] = (unsigned char)here;
   }}
 }}
 """
@@ -148,8 +172,8 @@ ENTRY void reduced({ARGUMENTS})
       const REAL *c = path + p * channels;
 {position}
 {chr(10).join(updates)}
-      const int here = {marks(program, name)};
-      mark = here == 1 || mark == 1 ? 1 : (here | mark);
+{marks(program, name, "      ")}
+      mark = !mark ? here : !here ? mark : SMALLER(mark, here);
     }}
 {chr(10).join(stores)}
     code[d] = (unsigned char)mark;
@@ -168,7 +192,7 @@ def function(program: Program, name: str, comment: str) -> str:
     """A self-contained C function of one position: values, drives' quantities, outputs; returns the mark."""
     write = names(program)
     comment = "\n".join(f" * {line}".rstrip() for line in comment.splitlines())
-    body = lines([n for n in program.order if n.a is not None], write, "  ")
+    body = lines([*program.design, *program.position], write, "  ")
     stores = "\n".join(f"  out[{k}] = {write(n)};" for k, n in enumerate(program.outputs))
     return f"""/*
 {comment}
@@ -176,6 +200,7 @@ def function(program: Program, name: str, comment: str) -> str:
 #include <math.h>
 #define REAL double
 #define SIGN(x) ((REAL)((x) > 0) - (REAL)((x) < 0))
+#define POSITIVE(x) ((REAL)((x) > 0))
 #define LARGER(a, b) ((a) > (b) ? (a) : (b))
 #define SMALLER(a, b) ((a) < (b) ? (a) : (b))
 
@@ -183,6 +208,7 @@ int {name}(const double *v, const double *c, double *out)
 {{
 {body}
 {stores}
-  return {marks(program, write)};
+{marks(program, write, "  ")}
+  return here;
 }}
 """

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from dalembert.kernel.graph import Node
-from dalembert.kernel.program import Program
+from dalembert.kernel.program import CODES, Program
 
 
 def function(program: Program, name: str, numbers: int, outputs: list[tuple[str, int]]) -> Any:
-    """Function of (values, inputs) to the named outputs and ``mark`` (0 right, 1 open, 2 doubtful)."""
+    """Function of (values, inputs) to the named outputs and ``mark`` (0, or one of ``CODES``)."""
     import casadi as ca
 
     v, c = ca.SX.sym("values", numbers), ca.SX.sym("inputs", len(program.used("channel")))
@@ -20,17 +20,34 @@ def function(program: Program, name: str, numbers: int, outputs: list[tuple[str,
     for _, size in outputs:
         found.append(ca.vertcat(*(done[n.index] for n in program.outputs[place : place + size])))
         place += size
-    opened = ca.logic_or(*_any(ca, [done[n.index] < 0 for n in program.open]))
-    doubt = ca.logic_or(*_any(ca, [ca.logic_not(done[n.index] >= 0) for n in program.doubt]))
-    mark = ca.if_else(opened, 1, ca.if_else(doubt, 2, 0))
+    mark = _mark(ca, program, done)
     return ca.Function(name, [v, c], [*found, mark], ["values", "inputs"], [*(o for o, _ in outputs), "mark"])
 
 
-def _any(ca: Any, tests: list[Any]) -> tuple[Any, Any]:
+def _mark(ca: Any, program: Program, done: dict[int, Any]) -> Any:
+    m = program.marks
+
+    def below(nodes: tuple[Node, ...]) -> Any:
+        return _any(ca, [done[n.index] < 0 for n in nodes])
+
+    def unsure(nodes: tuple[Node, ...]) -> Any:
+        return _any(ca, [ca.logic_not(done[n.index] >= 0) for n in nodes])
+
+    turned = below(m.turned)
+    locked = ca.logic_and(turned, below(m.locked)) if m.locked else turned
+    doubt = ca.logic_or(unsure(m.doubt), ca.logic_and(turned, unsure(m.still)))
+    mark: Any = ca.SX(0)
+    found = {"open": below(m.open), "doubt": doubt, "rest": below(m.rest), "locked": locked}
+    for name, test in reversed(found.items()):
+        mark = ca.if_else(test, CODES[name], mark)
+    return mark
+
+
+def _any(ca: Any, tests: list[Any]) -> Any:
     total = ca.SX(0)
     for test in tests:
         total = ca.logic_or(total, test)
-    return total, ca.SX(0)
+    return total
 
 
 def _value(ca: Any, node: Node, program: Program, v: Any, c: Any, done: dict[int, Any]) -> Any:
@@ -48,5 +65,6 @@ def _value(ca: Any, node: Node, program: Program, v: Any, c: Any, done: dict[int
         two |= {"atan2": lambda: ca.atan2(a, b), "max": lambda: ca.fmax(a, b), "min": lambda: ca.fmin(a, b)}
         return two[node.op]()
     one = {"neg": lambda: -a, "inv": lambda: 1 / a, "abs": lambda: ca.fabs(a), "detach": lambda: a}
-    one |= {"rint": lambda: ca.floor(a + 0.5), "rsqrt": lambda: 1 / ca.sqrt(a)}
+    one |= {"positive": lambda: a > 0, "rsqrt": lambda: 1 / ca.sqrt(a)}
+    one |= {"rint": lambda: ca.floor(a + 0.5)}
     return one[node.op]() if node.op in one else getattr(ca, node.op)(a)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable
 
+from dalembert.kernel.emit_marks import latch, store_code
 from dalembert.kernel.emit_reduce import Reductions, Slots
 from dalembert.kernel.graph import POSITION, Node
 from dalembert.kernel.program import Program
@@ -106,6 +107,7 @@ _OPERATIONS: dict[str, Callable[[Text, str, str], str]] = {
     "abs": lambda t, a, b: t.intrinsic("fabs", a),
     "rint": lambda t, a, b: t.intrinsic("rint", a),
     "sign": _sign,
+    "positive": lambda t, a, b: t.select(t.compare("ogt", a, t.splat(0.0)), t.splat(1.0), t.splat(0.0)),
     "sin": lambda t, a, b: t.call("sine", a),
     "cos": lambda t, a, b: t.call("cosine", a),
     "atan2": lambda t, a, b: t.call("angle", a, b),
@@ -120,32 +122,6 @@ def operations(t: Text, nodes: list[Node], names: dict[int, str]) -> None:
         assert node.a is not None
         b = None if node.b is None else names[node.b.index]
         names[node.index] = t.operation(node, names[node.a.index], b)
-
-
-def _flag(t: Text, nodes: tuple[Node, ...], names: dict[int, str], how: str) -> str | None:
-    found = None
-    for node in nodes:
-        bad = t.compare(how, names[node.index], t.splat(0.0))
-        found = bad if found is None else t.let(f"or {t.bit} {found}, {bad}")
-    return found
-
-
-def flags(t: Text, program: Program, names: dict[int, str]) -> tuple[str, str]:
-    """Lanes that do not close, and lanes in doubt."""
-    none = "false" if t.lanes == 1 else "zeroinitializer"
-    not_closed = _flag(t, program.open, names, "olt") or none
-    doubt = _flag(t, program.doubt, names, "ult") or none
-    return not_closed, doubt
-
-
-def _code(t: Text, program: Program, names: dict[int, str], place: str) -> None:
-    """Store 1 where the linkage does not close, 2 where in doubt, else 0."""
-    kind = "i8" if t.lanes == 1 else f"<{t.lanes} x i8>"
-    spelled = {k: str(k) if t.lanes == 1 else "<" + ", ".join([f"i8 {k}"] * t.lanes) + ">" for k in (0, 1, 2)}
-    not_closed, doubt = flags(t, program, names)
-    two = t.let(f"select {t.bit} {doubt}, {kind} {spelled[2]}, {kind} {spelled[0]}")
-    code = t.let(f"select {t.bit} {not_closed}, {kind} {spelled[1]}, {kind} {two}")
-    t.put(f"store {kind} {code}, ptr {place}, align 1")
 
 
 def head(t: Text, program: Program) -> dict[int, str]:
@@ -195,7 +171,7 @@ def grid(program: Program, lanes: int, reduce: Slots = ()) -> str:
     channels = [n for n in program.inputs if n.level & POSITION]
     reductions = Reductions(t, program, reduce) if reduce else None
     _design(t, program, names, reductions)
-    t.put("%b = phi i64 [ 0, %start ], [ %bnext, %loop ]")
+    t.put(f"%b = phi i64 [ 0, %start ], [ %bnext, {latch(program)} ]")
     if reductions:
         reductions.phis()
     t.put("%bl = mul i64 %b, %line")
@@ -210,7 +186,7 @@ def grid(program: Program, lanes: int, reduce: Slots = ()) -> str:
         for k, node in enumerate(program.outputs):
             offset = t.let(f"mul i64 %row, {k}")
             t.store(names[node.index], "%page", t.let(f"add i64 {offset}, %at"))
-        _code(t, program, names, t.let("getelementptr inbounds i8, ptr %marks, i64 %at"))
+        store_code(t, program, names, t.let("getelementptr inbounds i8, ptr %marks, i64 %at"))
     t.put("%bnext = add nuw i64 %b, 1")
     t.put("%more = icmp ult i64 %bnext, %blocks")
     t.put("br i1 %more, label %loop, label %done")
@@ -239,7 +215,7 @@ def pairs(program: Program, lanes: int) -> str:
     t.put("%common = getelementptr inbounds double, ptr %path, i64 %tail")
     t.put("br label %loop")
     t.lines.append("loop:")
-    t.put("%b = phi i64 [ 0, %entry ], [ %bnext, %loop ]")
+    t.put(f"%b = phi i64 [ 0, %entry ], [ %bnext, {latch(program)} ]")
     t.put("%bv = mul i64 %b, %row")
     t.put("%mine = getelementptr inbounds double, ptr %values, i64 %bv")
     t.put("%bl = mul i64 %b, %line")
@@ -258,7 +234,7 @@ def pairs(program: Program, lanes: int) -> str:
     for k, node in enumerate(program.outputs):
         t.store(names[node.index], "%page", k * lanes)
     t.put(f"%bc = mul i64 %b, {lanes}")
-    _code(t, program, names, t.let("getelementptr inbounds i8, ptr %code, i64 %bc"))
+    store_code(t, program, names, t.let("getelementptr inbounds i8, ptr %code, i64 %bc"))
     t.put("%bnext = add nuw i64 %b, 1")
     t.put("%more = icmp ult i64 %bnext, %blocks")
     t.put("br i1 %more, label %loop, label %exit")
@@ -277,4 +253,6 @@ def module(t: Text, program: Program, declared: list[str] | None = None) -> str:
         given = ", ".join([t.kind] * (3 if name == "fma" else 1))
         declared.append(f"declare {t.kind} @llvm.{name}.{t.suffix}({given})")
     declared.append(f"declare {t.kind} @llvm.copysign.{t.suffix}({t.kind}, {t.kind})")
+    if t.lanes > 1:
+        declared.append(f"declare i1 @llvm.vector.reduce.or.v{t.lanes}i1({t.bit})")
     return "\n".join([*declared, *elementary(t.lanes, used), *t.lines]) + "\n"

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from dalembert.kernel.program import Program
+from dalembert.kernel.emit_marks import bits, latch, some
+from dalembert.kernel.program import CODES, Program
 
 PLACED = ("argpeak", "argmin", "argmax")
 """With the place, which follows as a second number."""
@@ -35,16 +36,16 @@ class Reductions:
         t = self.t
         for s, (_, p) in enumerate(self.slots):
             start = t.splat(_START.get(p.removeprefix("arg"), 0.0))
-            t.put(f"%acc{s} = phi {t.kind} [ {start}, %start ], [ %new{s}, %loop ]")
+            t.put(f"%acc{s} = phi {t.kind} [ {start}, %start ], [ %new{s}, {latch(self.program)} ]")
             if p in PLACED:
-                t.put(f"%place{s} = phi {t.kind} [ {t.splat(0.0)}, %start ], [ %newplace{s}, %loop ]")
+                t.put(
+                    f"%place{s} = phi {t.kind} [ {t.splat(0.0)}, %start ], [ %newplace{s}, {latch(self.program)} ]"
+                )
         none = "false" if t.lanes == 1 else "zeroinitializer"
-        for name in ("open", "doubt"):
-            t.put(f"%any{name} = phi {t.bit} [ {none}, %start ], [ %new{name}, %loop ]")
+        for name in self.program.marks.names:
+            t.put(f"%any{name} = phi {t.bit} [ {none}, %start ], [ %new{name}, {latch(self.program)} ]")
 
     def update(self, names: dict[int, str]) -> None:
-        from dalembert.kernel.emit_llvm import flags
-
         t = self.t
         weight = None
         if self.weighted:
@@ -52,7 +53,7 @@ class Reductions:
             weight = t.load("%here", t.let(f"mul i64 {last}, {t.lanes}"))
         for s, (k, p) in enumerate(self.slots):
             self._one(s, p, names[self.program.outputs[k].index], weight)
-        for name, value in zip(("open", "doubt"), flags(t, self.program, names), strict=True):
+        for name, value in bits(t, self.program, names).items():
             t.put(f"%new{name} = or {t.bit} %any{name}, {value}")
 
     def _one(self, s: int, p: str, x: str, weight: str | None) -> None:
@@ -118,19 +119,15 @@ class Reductions:
         return self.across(t.select(test, place, t.splat(1e300)), "fmin")
 
     def mark(self) -> str:
-        t, bits = self.t, []
-        for name in ("open", "doubt"):
-            bit = f"%new{name}"
-            if t.lanes > 1:
-                bit = t.let(f"call i1 @llvm.vector.reduce.or.v{t.lanes}i1({t.bit} {bit})")
-            bits.append(bit)
-        two = t.let(f"select i1 {bits[1]}, i8 2, i8 0")
-        return str(t.let(f"select i1 {bits[0]}, i8 1, i8 {two}"))
+        """The first mark that some position has."""
+        t, code = self.t, "0"
+        for name in reversed(self.program.marks.names):
+            code = t.let(f"select i1 {some(t, f'%new{name}')}, i8 {CODES[name]}, i8 {code}")
+        return code
 
     def declarations(self) -> list[str]:
         t = self.t
         if t.lanes == 1:
             return []
         out = [f"declare double @llvm.vector.reduce.{how}.{t.suffix}({t.kind})" for how in ("fmin", "fmax")]
-        out.append(f"declare double @llvm.vector.reduce.fadd.{t.suffix}(double, {t.kind})")
-        return [*out, f"declare i1 @llvm.vector.reduce.or.v{t.lanes}i1({t.bit})"]
+        return [*out, f"declare double @llvm.vector.reduce.fadd.{t.suffix}(double, {t.kind})"]

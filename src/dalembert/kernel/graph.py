@@ -8,11 +8,13 @@ core unchanged.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from dalembert.kernel.operations import EVALUATE, not_negative
 
 Array = NDArray[Any]
 
@@ -108,6 +110,23 @@ class Node:
 
     def sign(self) -> Node:
         return self.graph.unary("sign", self)
+
+    def positive(self) -> Node:
+        """1 where above zero, else 0."""
+        return self.graph.unary("positive", self)
+
+    def larger(self, other: Any) -> Node:
+        other = other if type(other) is Node else self.graph.constant(other)
+        return self.graph.binary("max", self, other)
+
+    def __and__(self, other: Any) -> Any:
+        """Both of two flags, which are 0 or 1."""
+        if isinstance(other, np.ndarray):
+            return NotImplemented
+        return self * (other if type(other) is Node else float(other))
+
+    def __invert__(self) -> Node:
+        return 1.0 - self
 
     def arctan2(self, other: Any) -> Node:
         other = other if type(other) is Node else self.graph.constant(other)
@@ -256,6 +275,9 @@ class Graph:
         if a.op == "neg":
             assert a.a is not None
             return self.neg(self.inverse(a.a))
+        if a.op == "sqrt":
+            assert a.a is not None
+            return self.unary("rsqrt", a.a)
         return self.make("inv", a)
 
     def neg(self, a: Node) -> Node:
@@ -278,11 +300,19 @@ class Graph:
         if op in ("abs", "cos") and a.op == "neg":
             assert a.a is not None
             a = a.a
+        if op == "abs" and not_negative(a):
+            return a
+        if op == "sqrt" and a.op == "mul" and a.a is a.b:
+            return self.unary("abs", a.a)  # type: ignore[arg-type]
+        if op == "positive" and a.op == "neg" and not_negative(a.a):
+            return self.zero
         return self.make(op, a)
 
     def binary(self, op: str, a: Node, b: Node) -> Node:
         if a.op == "const" and b.op == "const":
             return self.constant(EVALUATE[op](a.value, b.value))
+        if op == "max" and is_zero(b) and not_negative(a):
+            return a
         return self.make(op, a, b)
 
     def detached(self, a: Node) -> Node:
@@ -342,32 +372,6 @@ class Graph:
                 if node.b is not None:
                     stack.append(node.b)
         return [needed[k] for k in sorted(needed)]
-
-
-EVALUATE: dict[str, Callable[..., Any]] = {
-    "add": lambda a, b: a + b,
-    "sub": lambda a, b: a - b,
-    "mul": lambda a, b: a * b,
-    "neg": lambda a: -a,
-    "inv": lambda a: np.divide(1.0, a),
-    "sqrt": np.sqrt,
-    "rsqrt": lambda a: np.divide(1.0, np.sqrt(a)),
-    "abs": np.abs,
-    "sign": np.sign,
-    "sin": np.sin,
-    "cos": np.cos,
-    "atan2": np.arctan2,
-    "rint": np.rint,
-    "max": np.maximum,
-    "min": np.minimum,
-    "exp": np.exp,
-    "log": np.log,
-    "asin": np.arcsin,
-    "acos": np.arccos,
-    "tan": np.tan,
-    "detach": lambda a: a,
-}
-"""What each operation computes."""
 
 
 def _number(x: Any) -> float:

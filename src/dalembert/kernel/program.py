@@ -10,24 +10,55 @@ from dalembert.kernel.graph import CONSTANT, INPUTS, POSITION, Graph, Node
 SLOW = {"inv": 6, "rsqrt": 7, "sqrt": 8, "sin": 15, "cos": 15, "atan2": 30, "neg": 0, "detach": 0}
 """How long operations take that are no addition or product, in additions."""
 
+CODES = {"open": 1, "doubt": 2, "rest": 3, "locked": 9}
+"""The mark of a position, the first of these that applies, else 0; of many positions the first too."""
+
+
+@dataclass(frozen=True)
+class Marks:
+    """Nodes that say whether the outputs are right, each below zero where it has something to say.
+
+    open: the linkage does not close. doubt (below zero, or no number): the general executor decides. rest: friction
+    has no rate to tell its sense. turned: it turns the power of the unknowns round; there ``still``, as doubt, and
+    ``locked``: it does so without inertia too. Without ``locked`` being turned is enough.
+    """
+
+    open: tuple[Node, ...] = ()
+    doubt: tuple[Node, ...] = ()
+    rest: tuple[Node, ...] = ()
+    turned: tuple[Node, ...] = ()
+    still: tuple[Node, ...] = ()
+    locked: tuple[Node, ...] = ()
+
+    @property
+    def always(self) -> list[Node]:
+        """Those asked at every position."""
+        return [*self.open, *self.doubt, *self.rest, *self.turned]
+
+    @property
+    def seldom(self) -> list[Node]:
+        """Those asked only where power is turned round."""
+        return [*self.still, *self.locked]
+
+    @property
+    def names(self) -> list[str]:
+        """Marks that can occur, the first counts."""
+        there = {"open": self.open, "doubt": self.doubt, "rest": self.rest, "locked": self.turned}
+        return [name for name, nodes in there.items() if nodes]
+
 
 @dataclass(frozen=True)
 class Program:
-    """Outputs as nodes of a graph, and the signs that say whether they are right.
-
-    ``open``: below zero the linkage does not close; ``doubt``: below zero, or no number, the general executor
-    decides.
-    """
+    """Outputs as nodes of a graph, and the marks that say whether they are right."""
 
     graph: Graph
     outputs: tuple[Node, ...]
-    open: tuple[Node, ...]
-    doubt: tuple[Node, ...]
+    marks: Marks = Marks()
 
     @cached_property
     def order(self) -> list[Node]:
         """Every node needed, arguments first."""
-        return self.graph.order([*self.outputs, *self.open, *self.doubt])
+        return self.graph.order([*self.outputs, *self.marks.always, *self.marks.seldom])
 
     @cached_property
     def design(self) -> list[Node]:
@@ -37,7 +68,14 @@ class Program:
     @cached_property
     def position(self) -> list[Node]:
         """Operations of every position."""
-        return [n for n in self.order if n.a is not None and n.level & POSITION]
+        always = self.graph.order([*self.outputs, *self.marks.always])
+        return [n for n in always if n.a is not None and n.level & POSITION]
+
+    @cached_property
+    def seldom(self) -> list[Node]:
+        """Operations of the marks that are seldom asked."""
+        known = {n.index for n in self.position}
+        return [n for n in self.order if n.a is not None and n.level & POSITION and n.index not in known]
 
     @cached_property
     def inputs(self) -> list[Node]:

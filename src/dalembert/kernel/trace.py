@@ -20,6 +20,7 @@ from dalembert.kernel.graph import CONSTANT, Graph, Node, traced
 from dalembert.kernel.newton import solver
 from dalembert.kernel.parts import Motion, Placed
 from dalembert.kernel.positions import positions
+from dalembert.kernel.rubbing import Rough, Rubbed, rubbed
 
 Array = NDArray[Any]
 
@@ -57,6 +58,7 @@ class Problem:
     path: Any
     first_path: Any
     signs: Any
+    rough: Rough | None
 
 
 @dataclass(frozen=True)
@@ -73,6 +75,7 @@ class Traced:
     residual: Node
     open: list[Node]
     doubt: list[Node]
+    rubbed: Rubbed
     flips: bool
 
 
@@ -83,9 +86,8 @@ def trace(p: Problem) -> Traced:
     placed = _placed(p, layout, target, p.drives, p.path)
     pose = placed.pose
     moving, rows, factors = motion(layout, pose, p.drives.speed, p.drives.acceleration)
-    w = summed(layout, *known_sources(layout, p.forcing, pose, moving, p.inertia).values())
-    s = statement(layout, p.known, pose, rows, factors, w)
-    x, total = _multipliers(p, layout, pose, s)
+    s, rub = _balanced(p, layout, pose, moving, rows, factors)
+    x = rub.x
     count, asked = layout.constraints.count, int(p.known.asked.sum())
     effort = p.known.effort[0].astype(object)
     effort[p.known.asked] = x[count : count + asked]
@@ -97,20 +99,41 @@ def trace(p: Problem) -> Traced:
         pose=pose,
         twist=traced(g, moving.twist),
         acceleration=traced(g, moving.acceleration),
-        force=traced(g, force),
-        moment=traced(g, couple[..., 0]),
+        force=traced(g, force + rub.force),
+        moment=traced(g, couple[..., 0] + rub.moment),
         effort=traced(g, effort),
         load=traced(g, found.load),
-        residual=_residual(g, layout, summed(layout, pair(s.unknown, x)), total),
+        residual=_residual(g, layout, summed(layout, pair(s.unknown, x)), rub.total),
         open=placed.open,
         doubt=[
             *apart,
             *placed.doubt,
             *_singular(g, factors),
             *(_singular(g, s.forces) if s.forces is not factors else []),
+            *rub.doubt,
         ],
+        rubbed=rub,
         flips=placed.flips,
     )
+
+
+def _balanced(
+    p: Problem, layout: Layout, pose: Pose, moving: Any, rows: Any, factors: Any
+) -> tuple[Statement, Rubbed]:
+    """What is asked of the equilibrium, and its multipliers, with friction where there is any."""
+    sources = known_sources(layout, p.forcing, pose, moving, p.inertia)
+
+    def stated(*kinds: str) -> Statement:
+        loads = summed(layout, *(sources[kind] for kind in kinds))
+        found = statement(layout, p.known, pose, rows, factors, loads)
+        return found._replace(w=found.w.reshape(found.w.shape[-2:]))
+
+    s = stated(*sources)
+    if p.rough is None:
+        x, total = _multipliers(p, layout, pose, s)
+        return s, Rubbed(x, total, np.zeros((layout.joints, 2)), np.zeros(layout.joints))
+    still = stated(*(kind for kind in sources if kind != "inertia")).w if p.inertia else None
+    return s, rubbed(p.graph, layout, p.rough, pose, moving, s, still)
 
 
 def _placed(p: Problem, layout: Layout, target: Array, drives: Drives, path: Any) -> Placed:

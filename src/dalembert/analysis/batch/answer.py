@@ -13,8 +13,28 @@ from dalembert.errors import STATUSES, ModelError
 
 Array = NDArray[Any]
 
-CODES = ("ok", "not_assembled", "undecided", "singular", "no_balance", "failed")
-"""Marks of the kernel; `undecided` goes to the general executor and does not come back."""
+CODES = (
+    "ok",
+    "not_assembled",
+    "undecided",
+    "at_rest",
+    "singular",
+    "no_balance",
+    "failed",
+    "jammed",
+    "redundant",
+    "self_locking",
+)
+"""Statuses by the marks of the kernel; `undecided` goes to the general executor and does not come back."""
+
+NUMBERED = (CODES.index("ok"), CODES.index("self_locking"))
+"""Marks of positions that have numbers."""
+
+
+def first_mark(marks: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """Of several positions (..., position) the mark of the first status in the list above; 0 where all are ok."""
+    first = np.where(marks == 0, 255, marks).min(axis=-1)
+    return np.asarray(first % 255, np.uint8)
 
 
 @dataclass(frozen=True)
@@ -40,13 +60,13 @@ class BatchResult:
 
     @property
     def ok(self) -> NDArray[np.bool_]:
-        """Which of them are solved."""
+        """Which of them are solved; those that are self-locking have numbers too."""
         return np.asarray(self.code == 0)
 
     def problems(self) -> list[tuple[int, str, str]]:
         """Designs with something that is not ok: number from 0, status and its sentence."""
-        bad = np.flatnonzero((self.code != 0).reshape(len(self.code), -1).any(axis=1))
-        worst = self.code.reshape(len(self.code), -1).max(axis=1)
+        worst = first_mark(self.code.reshape(len(self.code), -1))
+        bad = np.flatnonzero(worst)
         return [(int(d), CODES[worst[d]], _sentence(CODES[worst[d]])) for d in bad]
 
     def value(self, output: str) -> Array:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from dalembert.errors import ModelError
 from dalembert.kernel import emit_c
 from dalembert.kernel.graph import Graph, Node
-from dalembert.kernel.program import Program
+from dalembert.kernel.program import Marks, Program
 from dalembert.model.expressions import Expression
 
 if TYPE_CHECKING:
@@ -31,9 +32,10 @@ def plain(k: Kernel) -> Program:
         elif kind == "common":
             places[node.index] = graph.constant(inputs.found[node](k.trace.course))
     program = k.program(k.flat)
-    found = graph.substituted([*program.outputs, *program.open, *program.doubt], places)
-    a, b = len(program.outputs), len(program.outputs) + len(program.open)
-    return Program(graph, tuple(found[:a]), tuple(found[a:b]), tuple(found[b:]))
+    groups = [program.outputs, *(getattr(program.marks, f.name) for f in fields(Marks))]
+    found = iter(graph.substituted([n for group in groups for n in group], places))
+    outputs, *marks = (tuple(next(found) for _ in group) for group in groups)
+    return Program(graph, outputs, Marks(*marks))
 
 
 def functions(graph: Graph) -> dict[str, Any]:
@@ -77,9 +79,11 @@ def _comment(k: Kernel, program: Program, name: str) -> str:
     title = k.mechanism.title or "A mechanism"
     said = f"{title}: {name}(v, c, out) at one position, SI and radians; made by dalembert."
     result = (
-        "Returns 0; 1 where the linkage does not close; 2 where the numbers may be poor (near a dead centre)."
+        "Returns 0; 1 where the linkage does not close; 2 where the numbers may be poor (near a dead centre, or "
+        "friction may jam);"
     )
-    return "\n".join([said, result, *numbers, *inputs, *outputs])
+    more = "3 where friction leaves an interval (a contact at rest); 9 where it is self-locking (the numbers hold)."
+    return "\n".join([said, result, more, *numbers, *inputs, *outputs])
 
 
 def output_names(k: Kernel) -> list[str]:
@@ -103,7 +107,7 @@ def casadi_function(k: Kernel, name: str) -> Any:
         sizes = [(n.replace(".", "_"), len(nodes)) for n, nodes in k.nodes.items()]
         program = plain(k)
         count = sum(size for _, size in sizes)
-        alone = Program(program.graph, program.outputs[:count], program.open, program.doubt)
+        alone = Program(program.graph, program.outputs[:count], program.marks)
         return emit_casadi.function(alone, name, len(k.numbers), sizes)
     except ImportError:
         raise ModelError("casadi is not installed", "pip install 'dalembert[fast]'") from None

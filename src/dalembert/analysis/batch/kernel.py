@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dalembert.analysis.batch import reduction
-from dalembert.analysis.batch.answer import CODES, BatchResult
+from dalembert.analysis.batch.answer import CODES, NUMBERED, BatchResult, first_mark
 from dalembert.analysis.batch.course import Course
 from dalembert.analysis.batch.general import answered, quantity
 from dalembert.analysis.batch.symbols import geometric
@@ -20,7 +20,7 @@ from dalembert.analysis.planar import refuse_space
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.graph import Node
-from dalembert.kernel.program import Program
+from dalembert.kernel.program import Marks, Program
 from dalembert.model import Mechanism
 
 Array = NDArray[Any]
@@ -132,7 +132,9 @@ class Kernel:
 
     def program(self, nodes: Sequence[Node]) -> Program:
         found = self.trace.catalogue.traced
-        return Program(self.trace.catalogue.graph, tuple(nodes), tuple(found.open), tuple(found.doubt))
+        rub = found.rubbed
+        marks = (found.open, found.doubt, rub.rest, rub.turned, rub.still, rub.locked)
+        return Program(self.trace.catalogue.graph, tuple(nodes), Marks(*(tuple(m) for m in marks)))
 
     @cached_property
     def flat(self) -> list[Node]:
@@ -245,7 +247,7 @@ class Kernel:
         again = np.flatnonzero(undecided.reshape(len(code), -1).any(axis=1)) if redo else np.zeros(0, int)
         for d in again:
             self._redone(int(d), values, course, undecided, code, arrays, rates)
-        lost = code != 0
+        lost = ~np.isin(code, NUMBERED)
         for found in (arrays, rates):
             for array in found.values():
                 if array.dtype.kind == "f":
@@ -258,9 +260,11 @@ class Kernel:
         marks, result = answered(
             self.mechanism, self.trace.numbers, values[d], course.schedule, self.trace.inertia
         )
+        for found in rates.values():
+            found[d][... if self.reduce else undecided[d]] = np.nan
         if self.reduce is not None:
-            code[d] = marks.max()
-            if result is not None and not code[d]:
+            code[d] = first_mark(marks)
+            if result is not None and code[d] in NUMBERED:
                 for name in self.outputs:
                     found = reduction.reduced(self.reduce, quantity(result, name))
                     arrays[name][d] = found.reshape(arrays[name][d].shape)

@@ -67,7 +67,8 @@ def _numbers(path: str, value: Any) -> list[Number]:
 def geometric(path: str) -> bool:
     """Whether the number at a path places joints."""
     keys = path.split(".")
-    return "points" in keys[2:3] or (keys[0] == "joints" and keys[-1] != "damping" and "damping" not in keys)
+    loads = {"damping", "friction"}  # of a joint: it stands where it stood
+    return "points" in keys[2:3] or (keys[0] == "joints" and not loads & set(keys[2:]))
 
 
 def with_numbers(m: Mechanism, where: Iterable[Number], values: Iterable[Any]) -> Any:

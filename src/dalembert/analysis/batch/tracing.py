@@ -12,11 +12,11 @@ from dalembert.analysis.batch.course import Course, Inputs
 from dalembert.analysis.batch.outputs import Catalogue
 from dalembert.analysis.batch.symbols import Number, numbers, symbolic
 from dalembert.analysis.compile import compiled
-from dalembert.analysis.contacts import friction_on
 from dalembert.analysis.mobility import check_knowns
 from dalembert.analysis.positions import open_sentence
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph
+from dalembert.kernel.rubbing import Rough
 from dalembert.kernel.trace import Problem, trace
 from dalembert.model import Mechanism, Schedule
 
@@ -37,9 +37,6 @@ def traced(m: Mechanism, vary: Iterable[str], inertia: bool) -> Trace:
     schedule = m.schedule()
     if schedule.unknown is not None:
         raise ModelError("equilibrium positions cannot be compiled", "give the drive positions", ("drives",))
-    if friction_on(m):
-        remedy = "use the analyses, or switch it off with friction: {enabled: false}"
-        raise ModelError("joints have friction, which cannot be compiled", remedy, ("joints",))
     course = Course(m, schedule)
     check_knowns(course.compiled)
     _check(course)
@@ -65,6 +62,7 @@ def traced(m: Mechanism, vary: Iterable[str], inertia: bool) -> Trace:
         path=inputs.path("channel"),
         first_path=inputs.path("common"),
         signs=inputs.signs,
+        rough=None if c.contacts is None else Rough(c.contacts, c.damping, c.second, c.joint_at),
     )
     return Trace(course, inputs, where, Catalogue(graph, c, _run(problem)), inertia)
 

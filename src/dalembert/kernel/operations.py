@@ -1,0 +1,45 @@
+"""What each operation of a trace computes, with numpy."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+EVALUATE: dict[str, Callable[..., Any]] = {
+    "add": lambda a, b: a + b,
+    "sub": lambda a, b: a - b,
+    "mul": lambda a, b: a * b,
+    "neg": lambda a: -a,
+    "inv": lambda a: np.divide(1.0, a),
+    "sqrt": np.sqrt,
+    "rsqrt": lambda a: np.divide(1.0, np.sqrt(a)),
+    "abs": np.abs,
+    "sign": np.sign,
+    "positive": lambda a: (a > 0) * 1.0,
+    "sin": np.sin,
+    "cos": np.cos,
+    "atan2": np.arctan2,
+    "rint": np.rint,
+    "max": np.maximum,
+    "min": np.minimum,
+    "exp": np.exp,
+    "log": np.log,
+    "asin": np.arcsin,
+    "acos": np.arccos,
+    "tan": np.tan,
+    "detach": lambda a: a,
+}
+"""Operation by its name."""
+
+
+def not_negative(x: Any, depth: int = 4) -> bool:
+    """Surely not below zero, unless no number; no more than some operations are looked at."""
+    if x.op == "mul" and x.a is x.b:
+        return True
+    if x.op == "max" and depth:
+        return not_negative(x.a, depth - 1) or not_negative(x.b, depth - 1)
+    if x.op in ("mul", "add", "inv") and depth:
+        return not_negative(x.a, depth - 1) and (x.b is None or not_negative(x.b, depth - 1))
+    return x.op in ("abs", "sqrt", "rsqrt", "positive") or (x.op == "const" and x.value >= 0)

@@ -1,0 +1,240 @@
+"""Dry friction traced: the core's contact equations by unrolled Newton.
+
+A contact's force changes the reactions of the links between it and the ground only, so the small system falls into
+blocks, each two-link group one of three or four contacts; each block is solved for itself, those that load others
+first. What the unrolled steps cannot be sure of is in doubt: a block whose fixed point is not surely a contraction
+(several solutions, a jam), a last step that is not small.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.core.choice import above, larger, top
+from dalembert.core.equilibrium import Motion, Statement
+from dalembert.core.forcing import Resistances, pair, summed
+from dalembert.core.friction import (
+    Contacts,
+    Response,
+    argument,
+    bearing,
+    correction,
+    multiplier,
+    response,
+    senses,
+    slope,
+    strength,
+    strong,
+    under,
+)
+from dalembert.core.layout import Layout, Pose
+from dalembert.core.losses import in_joints, turned, viscous
+from dalembert.kernel.eliminate import components, structural
+from dalembert.kernel.graph import CONSTANT, Graph, Node, is_zero, traced
+
+Array = NDArray[Any]
+Nodes = Sequence[Node]
+
+FEWEST, MOST = 3, 7
+"""Newton's steps."""
+
+ENOUGH = 1e-4
+"""Change of a force in a step, relative to the largest, after which one more is taken: everywhere in the file's own
+motion. A kink costs other designs a step: it is worth its time, as one that the general executor redoes costs
+thousands of positions."""
+
+LAST = 1e-7
+"""Largest change of the last step in any design: what it leaves is its square."""
+
+CARRIES = 1e-8
+"""A contact that carries more than this part of the largest force surely carries something."""
+
+POWERS = 8
+"""Power of the fixed point's matrix whose norm bounds its spectral radius."""
+
+
+@dataclass(frozen=True)
+class Rough:
+    """A mechanism's contacts and its joints' own damping; link j (joints,) of each joint and its point there."""
+
+    contacts: Contacts
+    damping: Resistances
+    link: NDArray[np.intp]
+    at: Array
+
+
+@dataclass(frozen=True)
+class Rubbed:
+    """Multipliers x, total wrenches w, and friction's and damping's force (joints, 2) and moment (joints,) on j.
+
+    doubt: below zero where the general executor decides. rest: below zero where a contact that carries something has
+    no rate to tell its sense. turned, locked: below zero where friction turns the power of the unknowns round, with
+    inertia and without; ``locked`` and ``still`` (its doubt) are asked only where it is turned.
+    """
+
+    x: Array
+    total: Array
+    force: Array
+    moment: Array
+    doubt: Nodes = ()
+    rest: Nodes = ()
+    turned: Nodes = ()
+    still: Nodes = ()
+    locked: Nodes = ()
+
+
+@dataclass(frozen=True)
+class Slipped:
+    """z and S of each contact (E,), and what is below zero, or no number, where they are in doubt."""
+
+    z: Array
+    bears: Array
+    doubt: list[Node]
+
+
+def rubbed(
+    graph: Graph, layout: Layout, rough: Rough, pose: Pose, moving: Motion, s: Statement, still: Array | None
+) -> Rubbed:
+    """Multipliers with friction; ``still``: what loads the links beside inertia, None where there is none."""
+    contacts = _traced(graph, rough.contacts)
+    along, found = response(layout, contacts, pose, s.forces, s.w)
+    r = Response(*(traced(graph, a) for a in found))
+    told = senses(layout, contacts, along, moving.twist)
+    sense, c = traced(graph, told.sense), traced(graph, strength(contacts, 1.0))
+    slip = slipped(graph, contacts, strong(r, c), sense)
+    x = multiplier(r, c * slip.z)
+    unknown = layout.constraints.count < len(x)
+
+    def turning(problem: Response, x: Array, w: Array) -> Node:
+        bare = without(graph, contacts, problem)
+        flag: Node = -traced(graph, turned(layout, s.unknown, moving.twist, w, x, bare)).item()
+        return flag
+
+    turns = turning(r, x, s.w) if unknown else graph.zero
+    doubt, locked = [], turns
+    if still is not None and not is_zero(turns):
+        other = under(layout, contacts, pose, s.forces, still, r)
+        other = Response(*(traced(graph, a) for a in other))
+        alone = slipped(graph, contacts, strong(other, c), sense)
+        locked, doubt = turning(other, multiplier(other, c * alone.z), still), alone.doubt
+    dry = np.where(contacts.fixed, 0.0, c * slip.z)
+    force, moment = in_joints(layout, pose, along, contacts.joint, rough.link, rough.at, dry)
+    damping = viscous(layout, rough.damping, pose, moving.twist, rough.link, rough.at)
+    rest, idle = _at_rest(graph, traced(graph, told.open), slip.bears, top(np.abs(r.y), 2))
+    same = locked is turns
+    return Rubbed(
+        x=x,
+        total=s.w + summed(layout, pair(along, c * slip.z)),
+        force=force + damping[0],
+        moment=moment + damping[1],
+        doubt=[*slip.doubt, *idle],
+        rest=rest,
+        turned=_used(turns),
+        still=[] if same else doubt,
+        locked=[] if same else [locked],
+    )
+
+
+def _traced(graph: Graph, contacts: Contacts) -> Contacts:
+    names = ("tilt", "gain", "lever", "coefficient", "resting", "reach")
+    numbers: dict[str, Any] = {name: traced(graph, getattr(contacts, name)) for name in names}
+    return replace(contacts, **numbers)
+
+
+def _used(*nodes: Node) -> list[Node]:
+    return [n for n in nodes if not is_zero(n)]
+
+
+def without(graph: Graph, contacts: Contacts, r: Response) -> Array:
+    """Multipliers without friction; the teeth's separation stays."""
+    if not contacts.fixed.any():
+        return r.x
+    sense = traced(graph, np.where(contacts.fixed, -1.0, 0.0))
+    c = traced(graph, strength(contacts, 0.0))
+    return multiplier(r, c * slipped(graph, contacts, strong(r, c), sense).z)
+
+
+def _at_rest(graph: Graph, open_: Array, bears: Array, largest: Array) -> tuple[list[Node], list[Node]]:
+    """Below zero where a contact without a rate surely carries something, and where such contacts may carry nothing."""
+    carries = above(np.abs(bears), CARRIES * largest)
+    rest, idle = traced(graph, (open_ & carries).sum()).item(), traced(graph, (open_ & ~carries).sum()).item()
+    return _used(-rest), _used(-(idle & ~rest.positive()))
+
+
+def slipped(graph: Graph, contacts: Contacts, r: Response, sense: Array) -> Slipped:
+    """Friction forces z of known senses, from the response with H after z."""
+    count, largest = contacts.count, traced(graph, top(np.abs(r.y), 2))
+    z, bears = traced(graph, np.zeros(count)), traced(graph, np.zeros(count))
+    acts = [b for b in range(count) if not is_zero(sense[b])]
+    needs = {a: {b for b in acts if not all(is_zero(x) for x in r.h[:, a, b])} for a in range(count)}
+    doubt: list[Node] = []
+    for block in components({a: needs[a] - {a} if a in acts else needs[a] for a in range(count)}):
+        k = np.array(sorted(block))
+        others = sorted({b for a in block for b in needs[a]} - set(block))
+        y = argument(r._replace(y=r.y[:, k], h=r.h[:, k][:, :, others]), z[others])
+        part = replace(contacts, signed=contacts.signed[k])
+        if len(block) == 1 and (block[0] not in acts or block[0] not in needs[block[0]]):
+            bears[k] = bearing(part, y)
+            z[k] = -sense[k] * bears[k]
+            continue
+        inner = r._replace(y=y, h=r.h[:, k][:, :, k])
+        sure = _contraction(graph, inner.h, sense[k])
+        z[k], bears[k], last = _newton(graph, part, inner, sense[k], largest, sure)
+        doubt += [sure, last]
+    return Slipped(z, bears, [n for n in doubt if n.level != CONSTANT or not n.value >= 0])
+
+
+def _contraction(graph: Graph, h: Array, sense: Array) -> Node:
+    """Above zero where the fixed point is surely a contraction: then it is the only one, at any smaller scale too.
+
+    A power of its matrix, without signs, on a vector of ones. A length is at most 0.586 of the larger of its
+    components and 0.415 of both.
+    """
+    first, second, tilting = np.abs(h)
+    lever = larger(0.586 * larger(first, second) + 0.415 * (first + second), tilting)
+    moves, reached = np.abs(sense), np.abs(sense)
+    for _ in range(POWERS):
+        reached = (lever @ (moves * reached)[:, None])[:, 0]
+    bound: Node = 1.0 - traced(graph, top(reached, 1)).item()
+    return bound
+
+
+def _newton(
+    graph: Graph, contacts: Contacts, r: Response, sense: Array, largest: Array, sure: Node
+) -> tuple[Array, Array, Node]:
+    """z and S of one block, and what is below zero where the last step is not small.
+
+    The steps start from no friction. All but the last are constants to derivatives: it carries them exactly.
+    """
+    detached: Any = np.frompyfunc(graph.detached, 1, 1)
+    fixed, scale, z = detached(r.h), np.asarray(detached(largest)), traced(graph, np.zeros(len(sense)))
+
+    def solve(matrix: Array, right: Array) -> Array:
+        rows = [{c: x for c, x in enumerate(row) if not is_zero(x)} for row in matrix]
+        return structural(graph, rows, len(rows)).motion(right)
+
+    enough = False
+    for k in range(1, MOST + 1):
+        y = argument(r, z)
+        steep, bears = slope(contacts, detached(y), scale)
+        off = z + sense * (steep * y).sum(axis=0)
+        step = traced(graph, correction(r._replace(h=fixed), steep, sense, off, solve))
+        change = traced(graph, top(np.abs(step), 1))
+        if k == MOST or enough:
+            break
+        enough = k + 1 >= FEWEST and _small(graph, change, scale, sure)
+        z = detached(z + step)
+    return z + step, bears, traced(graph, LAST * scale - change).item()
+
+
+def _small(graph: Graph, change: Array, scale: Array, sure: Node) -> bool:
+    """Whether a change is small everywhere in the file's own motion."""
+    found = graph.evaluated([change.item(), scale.item(), sure], {})
+    size, force, single = np.broadcast_arrays(*found)
+    with np.errstate(all="ignore"):
+        return not bool(((size > ENOUGH * force) & (single > 0)).any())

@@ -1,0 +1,231 @@
+"""Friction in the kernel: what the general executor answers, its statuses, exact figures, and derivatives."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.analysis.batch.answer import CODES, first_mark
+from dalembert.analysis.batch.export import plain
+from tests.friction.engines import engine, guided, pushed_slider
+from tests.friction.rough import cycle, rough_tree
+from tests.kernel.comparing import changed, difference, every_number, frictional, general
+from tests.kernel.machines import ROUGH
+from tests.kernel.test_derivatives import checked, differences
+from tests.kernel.test_running import pointer, shared
+
+TOLERANCE = 1e-10
+
+
+def compared(m: Any, seed: int, shape: float, rest: float = 0.3) -> Any:
+    """The answer for the description's own numbers and others, compared with the general executor's."""
+    k = da.compile(m, vary=every_number(m))
+    r = k(np.stack([k.nominal, changed(k, seed, shape, rest)]))
+    for d in range(2):
+        g = general(m, k, r.values[d])
+        assert list(r.status[d]) == list(g.status)
+        assert difference(k, r, d, g) < TOLERANCE
+    return r
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_random_mechanisms(seed: int) -> None:
+    compared(da.mechanism(rough_tree(seed)), seed, shape=1e-5)
+
+
+LONG, ALL = range(12, 150), range(150, 1000)
+
+
+@pytest.mark.parametrize(
+    "seed",
+    [
+        *(pytest.param(s, marks=pytest.mark.long) for s in LONG),
+        *(pytest.param(s, marks=pytest.mark.exhaustive) for s in ALL),
+    ],
+)
+def test_many_random_mechanisms(seed: int) -> None:
+    compared(da.mechanism(rough_tree(seed)), seed, shape=1e-5)
+
+
+@pytest.mark.parametrize("name", ROUGH)
+def test_whole_cycles(name: str) -> None:
+    """With every number changed, friction's by up to a third; the general executor is not needed."""
+    assert compared(ROUGH[name](), 1, shape=0.02).redone == 0
+
+
+@pytest.mark.parametrize(
+    ("circle", "mu", "torque", "force"),
+    [
+        ("tan", 0.4, -4521.8475172, 22111.54224802),
+        ("tan", 0.05, -5637.37610835, 22171.89276292),
+        ("sin", 0.4, -4612.83866791, 22115.81371761),
+        ("sin", 0.05, -5637.57546877, 22171.90509821),
+    ],
+)
+def test_the_engine(circle: str, mu: float, torque: float, force: float) -> None:
+    """One program for all coefficients, compiled without friction in the pins."""
+    k = da.compile(
+        engine(0.0, circle), vary=["friction.coefficient"], outputs=["effort.O", "magnitude.A"], static=True
+    )
+    r = k([[mu]])
+    assert r.effort("O")[0, 0] == pytest.approx(torque, rel=1e-10)
+    assert r.magnitude("A")[0, 0] == pytest.approx(force, rel=1e-10)
+    assert r.ok.all()
+    assert r.redone == 0
+
+
+def test_the_engine_with_guides_of_finite_length() -> None:
+    """Compiled with a long guide, where one face bears; the last ones bear on two corners."""
+    k = da.compile(engine(guide=0.2), vary=["joints.guide.friction.guide"], static=True)
+    half = np.array([0.2, 0.11, 0.1, 0.08, 0.05, 0.02, 0.01])
+    exact = [-4521.8475172] * 2 + [
+        -4519.40973109,
+        -4506.78485039,
+        -4469.32989932,
+        -4325.5354009,
+        -4105.39317039,
+    ]
+    r = k(np.stack([half, half], axis=1))
+    assert r.effort("O")[:, 0] == pytest.approx(exact, rel=1e-10)
+    assert r.redone == 0
+
+
+def test_a_rod_at_45_degrees() -> None:
+    """With more friction than 1 it jams, which the general executor says."""
+    mu = np.array([0.0, 0.3, 0.9, 0.999, 1.001, 2.0])
+    r = da.compile(pushed_slider(0.5), vary=["joints.guide.friction.coefficient"], static=True)(mu)
+    assert r.unknown_load("rod")[:4, 0] == pytest.approx(
+        100 / (math.cos(math.pi / 4) * (1 - mu[:4])), rel=1e-9
+    )
+    assert list(r.status[:, 0]) == ["ok"] * 4 + ["jammed"] * 2
+    assert np.isnan(r.unknown_load("rod")[4:]).all()
+    assert r.redone == 2
+
+
+def test_all_contacts_of_a_guide() -> None:
+    """Both faces and both diagonals, with faces that have a height, from one program."""
+    m = guided(100.0, 3.0, 0.05, 0.08, 0.02)
+    k = da.compile(m, vary=["loads.N.value", "loads.M.value"], static=True)
+    values = k.nominal * np.array([[1, s, t] for s in (-1, 1) for t in (-8, -1, 0, 1, 8)])
+    r = k(values)
+    worst = max(difference(k, r, d, general(m, k, v)) for d, v in enumerate(values))
+    assert worst < TOLERANCE
+    assert r.redone == 0
+
+
+def test_dead_centres_and_rest() -> None:
+    """A slide at its dead centre is at rest, and so is a machine without speed; the kernel says so itself."""
+    tree = cycle("slider_crank", 12).to_tree()
+    tree["drives"]["O2"]["position"] = [0, 30, 180, 300]
+    m = da.mechanism(tree)
+    k, g = da.compile(m, vary=["drives.O2.speed"]), da.dynamics(m)
+    r = k([k.nominal, [0.0]])
+    assert list(r.status[0]) == list(g.status) == ["at_rest", "ok", "at_rest", "ok"]
+    assert list(r.status[1]) == ["at_rest"] * 4
+    assert np.isnan(r.effort("O2")[0, [0, 2]]).all()
+    assert difference(k, r, 0, g) < TOLERANCE
+    assert r.redone == 0
+
+
+def test_no_rate_where_nothing_is_carried() -> None:
+    """A slide that carries nothing at its dead centre leaves nothing open."""
+    m = engine(position=[0, 90, 180], gas=0.0)
+    r = da.compile(m, static=True)()
+    assert list(r.status[0]) == list(da.statics(m).status) == ["ok"] * 3
+
+
+def test_self_locking_has_numbers() -> None:
+    """Also of a moving mass: where power is turned round, the verdict without inertia is asked for."""
+    m = cycle("slider_crank", 180).with_values({"friction.coefficient": 0.3})
+    k, g = da.compile(m, vary=["friction.coefficient"]), da.dynamics(m)
+    r = k()
+    assert "self_locking" in g.status
+    assert list(r.status[0]) == list(g.status)
+    assert np.isfinite(r.effort("O2")).all()
+    assert r.redone == 0
+    peak = da.compile(m, outputs=["effort.O2"], reduce="peak")()
+    assert list(peak.status) == ["self_locking"]
+    assert peak.effort("O2")[0] == pytest.approx(np.abs(g.effort("O2")).max(), rel=1e-12)
+
+
+def test_a_reduction_over_a_dead_centre() -> None:
+    m = engine(position=[0, 45, 90])
+    r = da.compile(m, outputs=["effort.O"], reduce="peak", static=True)()
+    assert list(r.status) == ["at_rest"]
+    assert np.isnan(r.effort("O")).all()
+    assert r.problems()[0][:2] == (0, "at_rest")
+
+
+def test_the_mark_of_many_positions() -> None:
+    locked, rest = CODES.index("self_locking"), CODES.index("at_rest")
+    marks = np.array([[0, 0, 0], [0, locked, 0], [locked, rest, 0]], np.uint8)
+    assert list(first_mark(marks)) == [0, locked, rest]
+
+
+def slopes_are_differences(m: Any, vary: list[str], sizes: tuple[float, ...]) -> None:
+    """Each position at the best of several steps: a large one may pass a kink, where a guide bears otherwise, a small
+    one is rounding. Positions that are the general executor's are left out."""
+    output = f"effort.{next(iter(m.drives))}"
+    exact = da.compile(m, vary=vary, outputs=[output], derivatives=True)(redo=False)
+    k = da.compile(m, vary=vary, outputs=[output])
+    sure = np.isfinite(exact.value(output)[0])
+    slopes = exact.gradient(output)[0][sure]
+    for n, name in enumerate(k.numbers if sure.any() else ()):
+        found = [differences(k, output, n, size) for size in sizes]
+        off = [np.abs(slope[sure] - slopes[:, n]) - 10 * rounding for slope, rounding in found]
+        assert np.nanmin(off, axis=0).max() < 1e-7 * np.abs(slopes[:, n]).max(), name
+
+
+@pytest.mark.parametrize("name", ["four_bar", "slider_crank", "whitworth"])
+def test_derivatives(name: str) -> None:
+    m = ROUGH[name]()
+    slopes_are_differences(m, every_number(m), (1e-3, 1e-4))
+
+
+@pytest.mark.parametrize("reduce", ["peak", "mean", "rms", "envelope", "norm8"])
+def test_derivatives_of_reductions(reduce: str) -> None:
+    m = ROUGH["slider_crank"]()
+    checked(m, ["effort.O2", "magnitude.A"], reduce, tolerance=1e-6)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(40))
+def test_derivatives_of_random_mechanisms(seed: int) -> None:
+    m = da.mechanism(rough_tree(seed, most=0.3))
+    slopes_are_differences(m, frictional(m), (1e-2, 1e-3, 1e-4, 1e-5))
+
+
+def test_derivatives_where_the_general_executor_answers() -> None:
+    """There are none: no number rather than one that may be wrong."""
+    k = da.compile(
+        pushed_slider(0.5), vary=["joints.guide.friction.coefficient"], static=True, derivatives=True
+    )
+    r = k([[0.5], [1.2]])
+    assert np.isfinite(r.gradient("load.rod")[0]).all()
+    assert np.isnan(r.gradient("load.rod")[1]).all()
+
+
+def test_c_function_and_casadi(tmp_path: Path) -> None:
+    """Marks and numbers of the exports, self-locking and at rest too."""
+    tree = cycle("slider_crank").to_tree()
+    tree["drives"]["O2"]["position"] = {"from": 0, "to": 360, "count": 181}
+    m = da.mechanism(tree).with_values({"friction.coefficient": 0.3})
+    k = da.compile(m, vary=["friction.coefficient", "joints.A.friction.radius"], outputs=["effort.O2"])
+    program, r, course = plain(k), k(), k.trace.course
+    columns = [k.trace.inputs.found[n](course) for n in program.used("channel")]
+    library, out = shared(tmp_path, k.to_c("crank"), "alone"), np.zeros(1)
+    function = pytest.importorskip("casadi") and k.to_casadi()
+    for p in range(len(course.schedule.position)):
+        given = np.array([float(column[p]) for column in columns])
+        mark = library.crank(pointer(k.nominal.copy()), pointer(given), pointer(out))
+        effort, other = function(k.nominal, given)
+        assert mark == float(other) == r.code[0, p]
+        if CODES[mark] != "at_rest":
+            assert out[0] == pytest.approx(r.effort("O2")[0, p], rel=1e-11)
+            assert float(effort) == pytest.approx(r.effort("O2")[0, p], rel=1e-11)
+    assert set(r.status[0]) == {"ok", "self_locking", "at_rest"}
