@@ -117,7 +117,8 @@ def draw(
     output: Annotated[
         Path,
         output(
-            "File to write; its ending names the format: .svg, .pdf, .png, .dxf; .gif or .webp for an animation."
+            "File to write; its ending names the format: .svg, .pdf, .png, .dxf; .gif or .webp for an animation; "
+            ".glb for a model in motion for 3-D viewers."
         ),
     ],
     view: Annotated[

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 OK, SOME_NOT_OK = 0, 1
 MOVING = ("animation", "mechanism", "all")
 """Views that an animation may stand for."""
-PICTURES = (".svg", ".pdf", ".png", ".dxf", ".gif", ".webp")
+PICTURES = (".svg", ".pdf", ".png", ".dxf", ".gif", ".webp", ".glb")
 
 
 def drawn(
@@ -51,7 +51,9 @@ def drawn(
         positions = _enough(file, 36 if _moves(view, output) else 72)
     result, at = _solved(loaded(file, friction), at, static, positions)
     notation = draw.Notation(links="name" if names else "number")
-    if _moves(view, output):
+    if output.suffix.lower() == ".glb":
+        draw.solid_model(result).save(output, force)
+    elif _moves(view, output):
         draw.animation(result, notation, camera=_camera(camera)).save(output, force, theme)
     else:
         draw.view(result, view, at, notation, _camera(camera)).save(output, force, theme)
@@ -154,7 +156,7 @@ def _way(m: Mechanism, at: str) -> list[float] | None:
 
 def _moves(view: str, output: Path) -> bool:
     """Whether an animation is asked for."""
-    return view == "animation" or output.suffix.lower() in (".gif", ".webp")
+    return view == "animation" or output.suffix.lower() in (".gif", ".webp", ".glb")
 
 
 def _enough(file: Path, count: int) -> int | None:

@@ -19,9 +19,11 @@ from typing import TYPE_CHECKING, Any, Literal
 from dalembert.analysis.planar import refuse_space
 from dalembert.analysis.which import position_at
 from dalembert.views import charts as _charts
+from dalembert.views import glb
 from dalembert.views.animation import Animation, animation_scene
 from dalembert.views.camera import CAMERAS, Camera
 from dalembert.views.free_body import components_scene, free_body_scene
+from dalembert.views.glb import SolidModel
 from dalembert.views.inertia import displaced_inertia_scene
 from dalembert.views.mechanism import mechanism_scene, place_title
 from dalembert.views.motion import instant_centers_scene, motion_polygon_scene
@@ -220,6 +222,11 @@ def animation(
     return animation_scene(r, notation, seconds, camera=_camera(r, camera))
 
 
+def solid_model(r: Result) -> SolidModel:
+    """The links as solids in motion, for 3-D viewers; ``save`` writes .glb."""
+    return glb.solid_model(r)
+
+
 def view(
     r: Result,
     which: View = "all",
@@ -288,6 +295,7 @@ __all__ = [
     "Camera",
     "Notation",
     "Scene",
+    "SolidModel",
     "acceleration_polygon",
     "animation",
     "beside",
@@ -304,6 +312,7 @@ __all__ = [
     "lines_of_action",
     "mechanism",
     "motion",
+    "solid_model",
     "superposition",
     "velocity_polygon",
     "view",

@@ -57,7 +57,9 @@ def link_solids(r: Result, size: float) -> dict[str, list[Solid]]:
             out[m.links[end]] += all_placed(solids, m.axes[end].T, m.points[end], size)
             clear[m.links[end], name] = found.clear * size
         if GROUND in m.links:
-            out[GROUND] += _feet(r, m, found.clear, size)
+            height = _layers(r, m)[m.links.index(GROUND)] if r.mechanism.dimension == 2 else 0.0
+            feet = _feet(r, m, found.clear, size)
+            out[GROUND] += all_placed(feet, np.eye(3), np.array([0.0, 0.0, height * size]))
     for name in r.joints:
         if name not in mounts:
             for link, solid in _wheels(r, name, size):
@@ -129,13 +131,19 @@ def _symbol(r: Result, m: Mount, size: float) -> Symbol:
     found = symbol(m.kind, Setting(to[0], to[1], low, high, m.blocked, m.hand))
     if r.mechanism.dimension == 3:
         return found
-    shift = [float(lift(r, link, (0, 0), 1.0)[2]) for link in m.links]
+    shift = _layers(r, m)
     up = np.array([0.0, 0.0, 1.0])
     parts = [all_placed(part, np.eye(3), z * up) for part, z in zip(found[:2], shift, strict=True)]
     if m.kind in ("revolute", "slotted_cylinder"):
         ends = np.array([[min(shift) - 2.0], [max(shift) + 2.0]]) * up
         parts[1] = [Cylinder(ends[0], ends[1], 0.9, "inner")]
     return Symbol(parts[0], parts[1], found.clear)
+
+
+def _layers(r: Result, m: Mount) -> list[float]:
+    """Heights in mm of a plane joint's parts; a block and its rail are in the block's layer."""
+    heights = [float(lift(r, link, (0, 0), 1.0)[2]) for link in m.links]
+    return [heights[1]] * 2 if m.kind == "prismatic" else heights
 
 
 def _towards(r: Result, m: Mount, end: int) -> Array:
@@ -250,7 +258,10 @@ def _down(r: Result, m: Mount, rail: Array | None) -> Array:
     away = [v / np.linalg.norm(v) for v in rest if np.linalg.norm(v) > 1e-9]
     z, x, y = np.eye(3)[2], np.eye(3)[0], np.eye(3)[1]
     best, lowest = -z, np.inf
-    for preference, e in ((0.0, -z), (0.35, -y), (0.35, -x), (0.4, x), (0.4, y), (0.8, z)):
+    ways: tuple[tuple[float, Array], ...] = ((0.0, -z), (0.35, -y), (0.35, -x), (0.4, x), (0.4, y), (0.8, z))
+    if r.mechanism.dimension == 2:
+        ways = ((0.0, -y), (0.35, -x), (0.35, x), (0.8, y))
+    for preference, e in ways:
         if rail is not None:
             e = e - (e @ rail) * rail
             if np.linalg.norm(e) < 0.3:
