@@ -55,6 +55,8 @@ KINDS: dict[str, Kind] = {
     "torsion_damping": _kind(
         "a torsional damping", "N*m*s/rad", (2, 1, -1, -1), "force length time", "0.2 N*m*s/rad"
     ),
+    "density": _kind("a density", "kg/m^3", (-3, 1, 0, 0), "mass length^-3", "7850 kg/m^3"),
+    "area": _kind("an area", "m^2", (2, 0, 0, 0), "length^2", "2 cm^2"),
     "power": _kind("a power", "W", (2, 1, -3, 0), "force length time^-1", "2 kW"),
 }
 """Every kind of number in a file or an answer. A bare torsional stiffness or damping is one per radian."""

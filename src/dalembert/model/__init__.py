@@ -18,13 +18,16 @@ from dalembert.model.mechanism import Mechanism, mechanism
 from dalembert.model.messages import ModelErrors
 from dalembert.model.schedule import Schedule
 from dalembert.model.schema import json_schema
+from dalembert.model.shapes import Box, Cylinder, Mesh, SlenderBar, Sphere, Tube
 from dalembert.model.space_joints import SpaceJoint
 from dalembert.model.tables import Table
 from dalembert.model.varying import Varying, value_at
 
 __all__ = [
     "Answer",
+    "Box",
     "Couple",
+    "Cylinder",
     "Damper",
     "Drive",
     "Expression",
@@ -37,6 +40,7 @@ __all__ = [
     "Link",
     "Load",
     "Mechanism",
+    "Mesh",
     "ModelErrors",
     "Offset",
     "Pin",
@@ -45,15 +49,18 @@ __all__ = [
     "Rise",
     "Rolling",
     "Schedule",
+    "SlenderBar",
     "Slider",
     "Slot",
     "SlotFriction",
     "SpaceJoint",
+    "Sphere",
     "Spring",
     "Table",
     "TimeTable",
     "TorsionDamper",
     "TorsionSpring",
+    "Tube",
     "Varying",
     "Weld",
     "convert",

@@ -32,7 +32,9 @@ def _links(m: Mechanism) -> Iterator[ModelError]:
     if not set(m.links) - {GROUND}:
         yield ModelError("there is no moving link", "write links: {crank: {points: {...}}, ...}", ("links",))
     ground = m.links.get(GROUND)
-    if ground is not None and (ground.mass or ground.weight or ground.inertia or ground.center):
+    if ground is not None and (
+        ground.mass or ground.weight or ground.inertia or ground.center or ground.shape
+    ):
         yield ModelError("the fixed link 'ground' has mass properties", "leave them out", ("links", GROUND))
     for name, link in m.links.items():
         for path, size in _sizes(link):

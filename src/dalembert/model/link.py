@@ -6,10 +6,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import Field, ValidationInfo, model_validator
+from pydantic import Discriminator, Field, Tag, ValidationInfo, model_validator
 
 from dalembert.errors import ModelError
 from dalembert.model.part import Part, mapping, reading
+from dalembert.model.shapes import (
+    MassProperties,
+    Shape,
+    ShapePart,
+    check_densities,
+    mass_properties,
+)
 from dalembert.model.values import (
     NUMBER_OR_TEXT,
     Components,
@@ -126,6 +133,12 @@ def _symmetric(rows: tuple[tuple[float, ...], ...]) -> tuple[tuple[float, ...], 
     return rows
 
 
+Shapes = Annotated[
+    Annotated[Shape, Tag("one")] | Annotated[tuple[Shape, ...], Tag("several")],
+    Discriminator(lambda value: "several" if isinstance(value, (list, tuple)) else "one"),
+]
+
+
 class Link(Part):
     """A rigid body.
 
@@ -153,10 +166,16 @@ class Link(Part):
         description="moment of inertia about the mass centre; in space 3 principal values or a 3 x 3 matrix",
     )
 
+    shape: Shapes | None = Field(
+        None, description="what it looks like, one shape or a list: gives mass, center and inertia"
+    )
+
     @model_validator(mode="after")
     def _consistent(self) -> Self:
         if self.mass is not None and self.weight is not None:
             raise ModelError("both mass and weight are given", "leave one of them out")
+        if self.shape is not None:
+            self._check_shape()
         if CENTER in self.points:
             raise ModelError(
                 f"a point is named {CENTER!r}, the name of the mass centre",
@@ -166,6 +185,38 @@ class Link(Part):
         for point in self.points:
             self.point(point)
         return self
+
+    @property
+    def shapes(self) -> tuple[ShapePart, ...]:
+        """Its shapes, none, one or several."""
+        return () if self.shape is None else self.shape if isinstance(self.shape, tuple) else (self.shape,)
+
+    def _check_shape(self) -> None:
+        for key in ("center", "inertia"):
+            if getattr(self, key):
+                raise ModelError(
+                    f"both shape and {key} are given", "leave one of them out: a shape gives both", (key,)
+                )
+        check_densities(self.shapes, self.mass is not None or self.weight is not None)
+        self.mass_properties(1.0 if self.weight is not None else self.mass)
+
+    def mass_properties(self, mass: Any = None) -> MassProperties:
+        """Mass, centre and inertia of its shapes; of one density where the whole mass is given."""
+        return mass_properties(self.shapes, self._marked, mass)
+
+    def _marked(self, point: str) -> Vector:
+        """A point of its shape, which is not placed from the mass centre that the shape gives."""
+        start = point
+        for _ in self.points:
+            place = self.points.get(start)
+            if isinstance(place, Offset):
+                start = place.start
+        if start == CENTER:
+            raise ModelError(
+                f"point {point!r} is placed from the mass centre, which the shape gives",
+                "place it from the origin",
+            )
+        return self.point(point)
 
     def point(self, point: str) -> Vector:
         """A point in link axes, metres; `center` is the mass centre. Raises ModelError if there is none."""
@@ -189,11 +240,20 @@ class Link(Part):
                 ("points", seen[0], "from"),
             )
         if point == CENTER:
-            return self.center if self.center is not None else (0.0,) * self._dimension()
+            return self._center()
         if point not in self.points:
             path = ("points", seen[-1], "from") if seen else ("points",)
             raise ModelError(f"there is no point {point!r}", closest(point, [*self.points, CENTER]), path)
         return self.points[point]
+
+    def _center(self) -> Vector:
+        if self.center is not None:
+            return self.center
+        size = self._dimension()
+        if not self.shapes:
+            return (0.0,) * size
+        weighed = self.mass is not None or self.weight is not None
+        return tuple(self.mass_properties(1.0 if weighed else None).center[:size].tolist())
 
     def _dimension(self) -> int:
         for place in self.points.values():

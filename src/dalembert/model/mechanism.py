@@ -17,13 +17,14 @@ from dalembert.model.drives import Drive
 from dalembert.model.friction import FrictionDefaults
 from dalembert.model.gravity import STANDARD, Gravity, GravityValue
 from dalembert.model.joints import Joint, refuse_unfinished
-from dalembert.model.link import Link
+from dalembert.model.link import CENTER, Link
 from dalembert.model.loads import Damper, ForceLoad, Load, Spring
 from dalembert.model.messages import together
 from dalembert.model.names import drive_freedoms, refuse_empty, with_freedoms
 from dalembert.model.part import Part, Reading
 from dalembert.model.paths import fields, replaced
 from dalembert.model.schedule import Schedule, schedule
+from dalembert.model.shapes import MassProperties
 from dalembert.model.source import Source
 from dalembert.model.values import JsonSchema, Name, Scalar, Value, Vector, at_item
 from dalembert.units import Units, file_units
@@ -165,24 +166,40 @@ class Mechanism(Part):
 
     def point(self, link: str, point: str) -> Vector:
         """A point in link axes, metres; `center` is the mass centre."""
-        return self.links[link].point(point)
+        return self.center(link) if point == CENTER else self.links[link].point(point)
 
     def points(self, link: str) -> dict[str, Vector]:
         """All points of a link in its axes, metres."""
         return {point: self.links[link].point(point) for point in self.links[link].points}
 
     def mass(self, link: str) -> float:
-        """Mass of a link, kg: as given, or its weight over g."""
+        """Mass of a link, kg: as given, its weight over g, or that of its shape."""
         part = self.links[link]
+        if part.weight is None and part.mass is None and part.shapes:
+            mass: float = part.mass_properties().mass
+            return mass
         return part.weight / self.g if part.weight is not None else part.mass or 0.0
 
     def center(self, link: str) -> Vector:
         """Mass centre in link axes, metres."""
-        return self.links[link].center or (0.0,) * self.dimension
+        part = self.links[link]
+        if part.shapes:
+            return tuple(self._of_shape(link).center[: self.dimension].tolist())
+        return part.center or (0.0,) * self.dimension
 
     def inertia(self, link: str) -> Any:
-        """Moment of inertia about the mass centre, kg m2; in space as given."""
-        return self.links[link].inertia
+        """Moment of inertia about the mass centre, kg m2; in space as given, or the matrix of its shape."""
+        part = self.links[link]
+        if not part.shapes:
+            return part.inertia
+        found = self._of_shape(link).inertia
+        rows = found.tolist()
+        return rows[2][2] if self.dimension == 2 else tuple(map(tuple, rows))
+
+    def _of_shape(self, link: str) -> MassProperties:
+        part = self.links[link]
+        weighed = part.mass is not None or part.weight is not None
+        return part.mass_properties(self.mass(link) if weighed else None)
 
     def joint_points(self, joint: str) -> tuple[Vector, Vector]:
         """A joint's points on i and on j, each in its link's axes, metres."""
@@ -239,10 +256,10 @@ class Mechanism(Part):
         save_tree(self.to_tree(), path, overwrite)
 
 
-def file_rules(tree: Mapping[str, Any]) -> Reading:
-    """The rules of a file: its own units, its drives' freedoms, plane or space."""
+def file_rules(tree: Mapping[str, Any], folder: str = "") -> Reading:
+    """The rules of a file: its own units, its drives' freedoms, plane or space, and where it is."""
     units = at_item("units", file_units, tree.get("units", {}))
-    return Reading(units, drive_freedoms(tree), 3 if tree.get("space") == "space" else 2)
+    return Reading(units, drive_freedoms(tree), 3 if tree.get("space") == "space" else 2, folder)
 
 
 def mechanism(tree: Mapping[str, Any], source: Source | None = None) -> Mechanism:
@@ -257,7 +274,8 @@ def mechanism(tree: Mapping[str, Any], source: Source | None = None) -> Mechanis
         ).located(source)
     try:
         refuse_empty(tree)
-        found = Mechanism.model_validate(tree)
+        folder = os.path.dirname(source.name) if source else ""
+        found = Mechanism.model_validate(tree, context=file_rules(tree, folder))
     except ModelError as error:
         raise error.located(source) from None
     found._source = source

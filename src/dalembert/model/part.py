@@ -30,11 +30,13 @@ class Reading:
     units:     of bare numbers; None is Python's rule, SI and radians
     freedoms:  of each drive, `turn` or `slide`: whether an angle or a length is meant
     dimension: components of a vector; None takes 2 and 3
+    folder:    that other files are named from; empty is the current one
     """
 
     units: Units | None = None
     freedoms: Mapping[str, str] = field(default_factory=dict)
     dimension: int | None = None
+    folder: str = ""
 
 
 PYTHON = Reading()
