@@ -134,13 +134,11 @@ def _resistances(s: Setting, loads: dict[str, Any]) -> Resistances:
     rows: list[tuple[int, float, float, float]] = []
     for name, load in loads.items():
         if load.type in ("torsion_spring", "torsion_damper"):
-            if (load.joint, "turn") not in s.freedoms:
-                what = f"load {name!r}: joint {load.joint!r} does not turn"
-                raise ModelError(what, "name a pin or slot", ("loads", name, "joint"))
+            turn = s.m.joints[load.joint].turn_of(load.freedom)
             stiffness, free = getattr(load, "stiffness", 0.0), getattr(load, "free_angle", 0.0)
             rows.append(
                 (
-                    s.freedoms.index((load.joint, "turn")),
+                    s.freedoms.index((load.joint, str(turn))),
                     stiffness,
                     free,
                     getattr(load, "damping", 0.0) or 0.0,

@@ -9,6 +9,7 @@ from dalembert.errors import ModelError
 from dalembert.model.joint_part import JointPart
 from dalembert.model.link import CENTER, Link, Offset
 from dalembert.model.loads import Couple, Damper, ForceLoad, Spring, TorsionDamper, TorsionSpring
+from dalembert.model.space_checks import assembly_problems, space_problems
 from dalembert.model.space_joints import BALLS, SpaceJoint
 from dalembert.model.tables import Table
 from dalembert.model.varying import Varying
@@ -24,7 +25,7 @@ GROUND = "ground"
 
 def problems(m: Mechanism) -> list[ModelError]:
     """Everything that does not fit, in the order of the file."""
-    checks = (_links, _joints, _drives, _loads, _assembly, _answers)
+    checks = (_links, _joints, _drives, _loads, _assembly, space_problems, _answers)
     return [problem for check in checks for problem in check(m)]
 
 
@@ -220,7 +221,7 @@ def _loads(m: Mechanism) -> Iterator[ModelError]:
         if isinstance(load, (ForceLoad, Couple)):
             yield from _components(m, load, user, path)
         if isinstance(load, (TorsionSpring, TorsionDamper)):
-            yield from _torsion(m, load.joint, user, (*path, "joint"))
+            yield from _torsion(m, load, user, path)
 
 
 def _components(
@@ -256,16 +257,28 @@ def _components(
             )
 
 
-def _torsion(m: Mechanism, joint: str, user: str, path: tuple[str, ...]) -> Iterator[ModelError]:
-    if joint not in m.joints:
+def _torsion(
+    m: Mechanism, load: TorsionSpring | TorsionDamper, user: str, path: tuple[str, ...]
+) -> Iterator[ModelError]:
+    name, at = load.joint, (*path, "joint")
+    if name not in m.joints:
         yield ModelError(
-            f"{user} names the joint {joint!r}, which is not there", closest(joint, list(m.joints)), path
+            f"{user} names the joint {name!r}, which is not there", closest(name, list(m.joints)), at
         )
-    elif "turn" not in m.joints[joint].freedoms:
+        return
+    joint = m.joints[name]
+    turns = [freedom for freedom in joint.freedoms if freedom.startswith("turn")]
+    what = f"{user} is in joint {name!r}, a {joint.type}"
+    if not turns:
+        yield ModelError(f"{what}, which does not turn", "name a joint that turns", at)
+    elif joint.type in BALLS and not any(d.axis and m.drive_joint(n) == name for n, d in m.drives.items()):
         yield ModelError(
-            f"{user} is in joint {joint!r}, a {m.joints[joint].type}, which does not turn",
-            "name a joint that turns",
-            path,
+            f"{what}, which turns any way", "name a joint that turns about one axis, or give couples", at
+        )
+    elif joint.turn_of(load.freedom) is None:
+        asked = f", which has no {load.freedom}" if load.freedom else f", which turns in {len(turns)} ways"
+        yield ModelError(
+            f"{what}{asked}", f"write freedom: {' or '.join(turns)}", (*path, *(["freedom"] if load.freedom else []))
         )
 
 
@@ -278,6 +291,7 @@ def _assembly(m: Mechanism) -> Iterator[ModelError]:
             yield ModelError(
                 f"assembly names the link {link!r}, which is not there", closest(link, list(m.links)), path
             )
+    yield from assembly_problems(m)
 
 
 def _answers(m: Mechanism) -> Iterator[ModelError]:

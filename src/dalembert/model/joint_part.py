@@ -46,6 +46,13 @@ class JointPart(Part):
         """The freedoms of j in i that a drive can prescribe."""
         return self.FREEDOMS
 
+    def turn_of(self, named: str | None) -> str | None:
+        """The turn that is named, or its only one; None where there is no such one, or a name is needed."""
+        turns = [freedom for freedom in self.freedoms if freedom.startswith("turn")]
+        if named is not None:
+            return named if named in turns else None
+        return turns[0] if len(turns) == 1 else None
+
     def point_names(self, own: str) -> tuple[str, str]:
         """The names of its points on i and on j; `own` is the joint's name."""
         if isinstance(self.at, tuple):

@@ -206,6 +206,8 @@ class Link(Part):
 
     def _marked(self, point: str) -> Vector:
         """A point of its shape, which is not placed from the mass centre that the shape gives."""
+        if point not in self.points:
+            raise ModelError(f"there is no point {point!r}", closest(point, list(self.points)))
         start = point
         for _ in self.points:
             place = self.points.get(start)

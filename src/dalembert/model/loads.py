@@ -288,11 +288,16 @@ class Damper(Part):
     damping: Annotated[float, Scalar("damping", "not negative")] = Field(description="force per speed")
 
 
+Turning = Literal["turn", "turn1", "turn2"]
+WHICH_TURN = "in space: which turn of the joint; needed where it has several"
+
+
 class TorsionSpring(Part):
     """A spring in the turn of a joint."""
 
     type: Literal["torsion_spring"] = "torsion_spring"
     joint: Name = Field(description="the joint it turns with")
+    freedom: Turning | None = Field(None, description=WHICH_TURN)
     stiffness: Annotated[float, Scalar("torsion_stiffness", "not negative")] = Field(
         description="moment per angle; a bare number is one per radian"
     )
@@ -306,6 +311,7 @@ class TorsionDamper(Part):
 
     type: Literal["torsion_damper"] = "torsion_damper"
     joint: Name = Field(description="the joint it turns with")
+    freedom: Turning | None = Field(None, description=WHICH_TURN)
     damping: Annotated[float, Scalar("torsion_damping", "not negative")] = Field(
         description="moment per angular speed; a bare number is one per radian"
     )
