@@ -247,6 +247,53 @@ def gear_train() -> list[object]:
     ]
 
 
+def rssr() -> list[object]:
+    """Rocker angle a from |AB| = const.; effort = M q'' + M' q'^2 / 2 + V' - Q by the kinetic energy M q'^2 / 2.
+
+    With r = 40, c = 150, l = 90 mm: (c cos-terms cancel) l^2 + c^2 + r^2 = L^2, so -sin a (c l - r l sin q) = r c sin q
+    and the rod, without spin, turns at u x u', u its direction.
+    """
+    density, r, c, length = mpf("7850"), mpf("0.04"), mpf("0.15"), mpf("0.09")
+    rod = mp.sqrt(r**2 + c**2 + length**2)
+    crank_mass = density * mpf("0.06") * mpf("0.02") * mpf("0.01")
+    rod_mass = density * mp.pi * mpf("0.005") ** 2 * rod
+    rocker_mass = density * mp.pi * mpf("0.008") ** 2 * length
+    about_o = crank_mass * (mpf("0.06") ** 2 + mpf("0.02") ** 2) / 12 + crank_mass * mpf("0.02") ** 2
+    across = rod_mass * (3 * mpf("0.005") ** 2 + rod**2) / 12
+    about_c = rocker_mass * (3 * mpf("0.008") ** 2 + length**2) / 12 + rocker_mass * length**2 / 4
+
+    def angle(q: mpf) -> mpf:
+        return -mp.asin(r * c * mp.sin(q) / (c * length - r * length * mp.sin(q)))
+
+    def ends(q: mpf) -> tuple[mp.matrix, mp.matrix]:
+        a = angle(q)
+        at_a = mp.matrix([r * mp.cos(q), r * mp.sin(q), 0])
+        return at_a, mp.matrix([0, c - length * mp.sin(a), length * mp.cos(a)])
+
+    def slope(of: Callable[[mpf], mp.matrix], q: mpf) -> mp.matrix:
+        return mp.matrix([mp.diff(lambda x, k=k: of(x)[k], q) for k in range(3)])
+
+    def mass(q: mpf) -> mpf:
+        middle = slope(lambda x: (ends(x)[0] + ends(x)[1]) / 2, q)
+        turning = slope(lambda x: (ends(x)[1] - ends(x)[0]) / rod, q)
+        moved, turned = (sum(v**2 for v in of) for of in (middle, turning))
+        return about_o + rod_mass * moved + across * turned + about_c * mp.diff(angle, q) ** 2
+
+    def height(q: mpf) -> mpf:
+        at_b = ends(q)[1]
+        return mpf(G) * (rod_mass + rocker_mass) * at_b[2] / 2
+
+    def torque(degree: int) -> float:
+        q, speed = mp.radians(degree), 10 * mp.pi
+        inertia = mp.diff(mass, q) * speed**2 / 2
+        return float((inertia + mp.diff(height, q) - 2 * mp.diff(angle, q)) * 1000)
+
+    with mp.workdps(60):
+        swing = [degrees(angle(mp.radians(d))) for d in (90, 270)]
+        rate = float(mp.diff(angle, mp.radians(200)) * 10 * mp.pi)
+        return [*swing, rate, torque(30), torque(200), [0, 0, 0]]
+
+
 EXAMPLES: dict[str, Callable[[], list[object]]] = {
     example.__name__: example
     for example in (
@@ -259,5 +306,6 @@ EXAMPLES: dict[str, Callable[[], list[object]]] = {
         balance_position,
         truss,
         gear_train,
+        rssr,
     )
 }

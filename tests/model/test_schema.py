@@ -42,4 +42,6 @@ def test_the_keys_are_those_of_the_file() -> None:
     ]  # fmt: skip
     assert SCHEMA["required"] == ["links"]
     assert SCHEMA["$defs"]["Pin"]["required"] == ["type", "links"]
-    assert set(SCHEMA["$defs"]["Link"]["properties"]) == {"points", "mass", "weight", "center", "inertia"}
+    assert set(SCHEMA["$defs"]["Link"]["properties"]) == {
+        "points", "mass", "weight", "center", "inertia", "shape",
+    }  # fmt: skip

@@ -132,7 +132,7 @@ def _springs(s: Setting, loads: dict[str, Any]) -> Springs:
 def _resistances(s: Setting, loads: dict[str, Any]) -> Resistances:
     """Torsion springs, torsion dampers and the joints' own damping, each in its freedom."""
     rows: list[tuple[int, float, float, float]] = []
-    for name, load in loads.items():
+    for load in loads.values():
         if load.type in ("torsion_spring", "torsion_damper"):
             turn = s.m.joints[load.joint].turn_of(load.freedom)
             stiffness, free = getattr(load, "stiffness", 0.0), getattr(load, "free_angle", 0.0)

@@ -278,7 +278,9 @@ def _torsion(
     elif joint.turn_of(load.freedom) is None:
         asked = f", which has no {load.freedom}" if load.freedom else f", which turns in {len(turns)} ways"
         yield ModelError(
-            f"{what}{asked}", f"write freedom: {' or '.join(turns)}", (*path, *(["freedom"] if load.freedom else []))
+            f"{what}{asked}",
+            f"write freedom: {' or '.join(turns)}",
+            (*path, *(["freedom"] if load.freedom else [])),
         )
 
 

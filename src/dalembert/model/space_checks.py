@@ -90,7 +90,9 @@ def _drives(m: Mechanism) -> Iterator[ModelError]:
             )
         elif not ball and drive.axis is not None:
             yield ModelError(
-                f"drive {name!r} has an axis, and its freedom has one already", "leave it out", ("drives", name, "axis")
+                f"drive {name!r} has an axis, and its freedom has one already",
+                "leave it out",
+                ("drives", name, "axis"),
             )
 
 

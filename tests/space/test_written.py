@@ -1,0 +1,213 @@
+"""What is written of a result in space: JSON, tables, arrays, the printed answer; in any axes."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.algebra import space
+from dalembert.bundled import examples
+from dalembert.cli import main
+from dalembert.cli.in_space import axis_and_angle
+from tests.space.machines import door, oracle, rssr
+
+AXES = ("ground", "link", "joint")
+every_axes = pytest.mark.parametrize("axes", AXES)
+
+
+@every_axes
+def test_json_has_vectors_of_three_components(axes: Any) -> None:
+    r = da.dynamics(oracle("rsur"))
+    answer = json.loads(json.dumps(r.to_dict(axes=axes), allow_nan=False))
+    assert answer["reaction_axes"] == axes
+    assert answer["mobility"]["passive"] == []
+    for k, position in enumerate(answer["positions"]):
+        for joint, found in position["reactions"].items():
+            i, j = r.mechanism.joints[joint].links
+            assert (found["by"], found["on"]) == (i, j)
+            assert found["force"] == r.reaction(joint, j, axes)[k].tolist()
+            assert found["moment"] == r.reaction_moment(joint, j, axes)[k].tolist()
+            assert ("axes" in found) == (axes == "joint")
+        for link, found in position["links"].items():
+            assert "angle" not in found
+            assert found["rotation"] == r.rotation(link)[k].tolist()
+            for name in ("position", "center", "center_acceleration", "speed", "acceleration"):
+                assert found[name] == getattr(r, name)(link)[k].tolist()
+
+
+def test_rotation_turns_link_components_into_ground_components() -> None:
+    r = da.dynamics(oracle("rsur"))
+    first = r.to_dict()["positions"][0]["links"]["rod"]
+    at = np.array(first["position"]) + np.array(first["rotation"]) @ r.mechanism.point("rod", "B")
+    assert at == pytest.approx(r.point("rod", "B")[0], abs=1e-15)
+
+
+def test_axes_of_link_and_joint_are_the_same_vectors() -> None:
+    r = da.dynamics(oracle("rsur"))
+    own = r.to_dict(axes="joint")["positions"]
+    link = r.to_dict(axes="link")["positions"]
+    for k, position in enumerate(r.to_dict()["positions"]):
+        for joint, found in position["reactions"].items():
+            rotation = np.array(position["links"][found["on"]]["rotation"])
+            axes = np.array(own[k]["reactions"][joint]["axes"])
+            for name in ("force", "moment"):
+                vector = np.array(found[name])
+                assert rotation.T @ vector == pytest.approx(link[k]["reactions"][joint][name], abs=1e-12)
+                assert axes @ vector == pytest.approx(own[k]["reactions"][joint][name], abs=1e-12)
+
+
+def test_a_rod_that_could_spin_is_named() -> None:
+    r = da.dynamics(rssr())
+    assert r.to_dict()["mobility"]["passive"] == ["rod"]
+
+
+@every_axes
+def test_what_is_not_unique_is_null_with_least_norm_beside(axes: Any) -> None:
+    r = da.dynamics(door())
+    answer = json.loads(json.dumps(r.to_dict(axes=axes), allow_nan=False))
+    assert answer["mobility"]["redundant"] == 5
+    assert answer["mobility"]["redundant_joints"] == ["A", "B"]
+    for k, position in enumerate(answer["positions"]):
+        assert position["status"] == "redundant"
+        assert position["efforts"]["A"] == pytest.approx(r.effort("A")[k])
+        for joint, found in position["reactions"].items():
+            least = found["least_norm"]
+            assert least["force"] + least["moment"] == r.least_norm(joint, axes=axes)[k].tolist()
+            for name in ("force", "moment"):
+                for given, beside in zip(found[name], least[name], strict=True):
+                    assert given is None or given == beside
+
+
+def test_in_the_axes_of_a_skew_hinge_its_own_moment_is_unique() -> None:
+    """About their own line two hinges carry nothing: known in the joint's axes, hidden in ground's and the link's."""
+    r = da.dynamics(door(axis=(1.0, 2.0, 3.0)))
+    for joint in ("A", "B"):
+        own = r.to_dict(axes="joint")["positions"][0]["reactions"][joint]
+        assert own["moment"][:2] == [None, None]
+        assert own["moment"][2] == pytest.approx(0.0, abs=1e-10)
+        assert own["force"] == [None, None, None]
+        ground = r.to_dict()["positions"][0]["reactions"][joint]
+        assert ground["moment"] == [None, None, None]
+    both = sum(r.least_norm(joint, axes="joint")[0, 2] for joint in ("A", "B"))
+    whole = sum(r.least_norm(joint)[0, :3] for joint in ("A", "B"))
+    assert both == pytest.approx(whole @ np.array([1, 2, 3]) / np.sqrt(14))
+
+
+@every_axes
+def test_tables_hold_the_numbers_of_the_json_answer(axes: Any) -> None:
+    r = da.dynamics(door())
+    frame = r.to_dataframe(axes=axes)
+    answer = r.to_dict(axes=axes)
+    for k, position in enumerate(answer["positions"]):
+        found = position["reactions"]["B"]
+        for name, kind, unit in (("", "force", "N"), (" moment", "moment", "N*m")):
+            for c, axis in enumerate("xyz"):
+                given = frame[f"reaction B on door{name} {axis} [{unit}]"].iloc[k]
+                expected = found[kind][c]
+                assert np.isnan(given) if expected is None else given == expected
+                least = frame[f"reaction B on door least norm{name} {axis} [{unit}]"].iloc[k]
+                assert least == found["least_norm"][kind][c]
+        rotation = position["links"]["door"]["rotation"]
+        assert [frame[f"link door rotation {a}{b}"].iloc[k] for a in "xyz" for b in "xyz"] == sum(
+            rotation, []
+        )
+        assert frame["link door speed z [rad/s]"].iloc[k] == position["links"]["door"]["speed"][2]
+
+
+def test_arrays_are_labelled(tmp_path: Path) -> None:
+    import xarray
+
+    r = da.dynamics(oracle("rsur"))
+    r.to_netcdf(tmp_path / "r.nc")
+    with xarray.open_dataset(tmp_path / "r.nc", engine="h5netcdf") as found:
+        assert list(found["component"].values) == ["x", "y", "z"]
+        one = found["reaction_moment"].sel(joint="B", component="y")
+        assert np.array_equal(one, r.reaction_moment("B")[:, 1])
+        assert found["link_rotation"].dims == ("position", "link", "component", "link_axis")
+        assert np.array_equal(found["link_rotation"].sel(link="rod"), r.rotation("rod"))
+        assert np.array_equal(found["link_speed"].sel(link="rod"), r.speed("rod"))
+
+
+def test_csv_and_workbook_agree(tmp_path: Path) -> None:
+    from openpyxl import load_workbook
+
+    r = da.dynamics(rssr())
+    r.to_csv(tmp_path / "r.csv")
+    r.to_xlsx(tmp_path / "r.xlsx")
+    with open(tmp_path / "r.csv", encoding="utf-8") as stream:
+        plain = list(csv.reader(stream))
+    sheet = [list(row) for row in load_workbook(tmp_path / "r.xlsx")["positions"].values]
+    assert plain[0] == sheet[0]
+    assert "link rod rotation xy" in plain[0]
+    for one, other in zip(plain[1:], sheet[1:], strict=True):
+        assert [float(x) for x in one[2:-1]] == pytest.approx([float(x) for x in other[2:-1]], rel=1e-14)
+
+
+def test_one_position_is_printed_in_full(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    one = rssr(**{"drives.O.position": np.pi / 2})
+    one.save(tmp_path / "one.yaml")
+    assert main(["solve", str(tmp_path / "one.yaml"), "--axes", "joint", "--units", "si"]) == 0
+    out = capsys.readouterr().out
+    assert "F_ij and M_ij are by link i on link j, in the joint's own axes; moments about\nj's point" in out
+    assert "rod could spin between\n  ball joints: no spin" in out
+    tables = [
+        [line.split() for line in part.splitlines() if line.startswith(("C ", "rocker "))]
+        for part in out.split("\n\n")
+    ]
+    force, moment, place, rates, _ = [rows[0] for rows in tables if rows]
+    r = da.dynamics(one)
+    assert [float(x) for x in force[3:6]] == pytest.approx(r.reaction("C", axes="joint")[0], rel=1e-5)
+    assert [float(x) for x in moment[3:6]] == pytest.approx(
+        r.reaction_moment("C", axes="joint")[0], rel=1e-5, abs=1e-12
+    )
+    assert float(place[1]) == pytest.approx(0.6511, rel=1e-4)
+    assert [float(x) for x in place[2:5]] == [-1, 0, 0]
+    assert [float(x) for x in rates[1:4]] == pytest.approx(r.speed("rocker")[0], rel=1e-4, abs=1e-12)
+
+
+def test_redundant_positions_are_printed_with_their_least_norm(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    still = {"drives.A.position": 0.5, "drives.A.speed": 0, "drives.A.acceleration": 0}
+    door().with_values(still).save(tmp_path / "door.yaml")
+    assert main(["solve", str(tmp_path / "door.yaml")]) == 1
+    out = capsys.readouterr().out
+    assert "5 redundant constraints among joints A, B" in out
+    unique, least = out.split("Not unique; with the least sum of squares:")
+    row = next(line for line in unique.splitlines() if line.startswith("B "))
+    assert row.split()[3:] == ["-", "-", "-", "-"]
+    row = next(line for line in least.splitlines() if line.startswith("B "))
+    assert "-" not in row.split()[3:]
+
+
+@every_axes
+@pytest.mark.parametrize("method", ["matrix", "superposition", "virtual-work"])
+def test_every_printed_answer_of_a_turn(axes: str, method: str, capsys: pytest.CaptureFixture[str]) -> None:
+    asked = ["solve", str(examples()["rssr"]), "--axes", axes, "--method", method, "--positions", "8"]
+    assert main(asked) == 0
+    out = capsys.readouterr().out
+    assert "effort O" in out
+    assert not any(word == "nan" for word in out.split())
+
+
+def test_in_the_plane_joints_have_no_axes(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["solve", str(examples()["four_bar"]), "--axes", "joint"]) == 2
+    assert (
+        "a joint of the plane has no axes of its own; take ground's or the link's" in capsys.readouterr().err
+    )
+
+
+def test_axis_and_angle_give_the_rotation() -> None:
+    rng = np.random.default_rng(5)
+    for angle in (0.0, 1e-12, 1e-5, 1.0, 3.0, np.pi - 1e-5, np.pi - 1e-9, np.pi):
+        w = rng.normal(size=3)
+        w *= angle / np.linalg.norm(w)
+        found, axis = axis_and_angle(space.matrix(space.exp(w)))
+        again = space.matrix(space.exp(found * np.array(axis)))
+        assert again == pytest.approx(space.matrix(space.exp(w)), abs=3e-9)
