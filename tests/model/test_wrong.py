@@ -28,6 +28,25 @@ def test_a_wrong_file_is_told_where_and_what(case: dict[str, str]) -> None:
         assert str(caught.value) == case["says"]
 
 
+RSSR = (Path(__file__).parent / "rssr.yaml").read_text(encoding="utf-8")
+WRONG_IN_SPACE: dict[str, list[dict[str, Any]]] = read_file(Path(__file__).parent / "wrong_in_space.yaml")[0]
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        pytest.param(case, id=f"{group}-{i}")
+        for group, cases in WRONG_IN_SPACE.items()
+        for i, case in enumerate(cases)
+    ],
+)
+def test_a_wrong_file_in_space_is_told_where_and_what(case: dict[str, str]) -> None:
+    assert case["old"] in RSSR
+    with pytest.raises(ModelError) as caught:
+        loads(RSSR.replace(case["old"], case["new"], 1), name="rssr.yaml")
+    assert str(caught.value) == case["says"]
+
+
 def test_all_errors_of_a_file_are_listed_the_most_useful_first() -> None:
     text = FOUR_BAR.replace("weight: 1.5,", "weight: 1.5 kg,").replace("speed: 25 rad/s", "sped: 25 rad/s")
     with pytest.raises(ModelErrors) as caught:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -114,8 +115,8 @@ def test_tables_hold_the_numbers_of_the_json_answer(axes: Any) -> None:
                 least = frame[f"reaction B on door least norm{name} {axis} [{unit}]"].iloc[k]
                 assert least == found["least_norm"][kind][c]
         rotation = position["links"]["door"]["rotation"]
-        assert [frame[f"link door rotation {a}{b}"].iloc[k] for a in "xyz" for b in "xyz"] == sum(
-            rotation, []
+        assert [frame[f"link door rotation {a}{b}"].iloc[k] for a in "xyz" for b in "xyz"] == list(
+            chain.from_iterable(rotation)
         )
         assert frame["link door speed z [rad/s]"].iloc[k] == position["links"]["door"]["speed"][2]
 

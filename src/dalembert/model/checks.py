@@ -268,7 +268,7 @@ def _torsion(
         return
     joint = m.joints[name]
     turns = [freedom for freedom in joint.freedoms if freedom.startswith("turn")]
-    what = f"{user} is in joint {name!r}, a {joint.type}"
+    what = f"{user} is in joint {name!r}, a {joint.type}" + (" joint" if m.dimension == 3 else "")
     if not turns:
         yield ModelError(f"{what}, which does not turn", "name a joint that turns", at)
     elif joint.type in BALLS and not any(d.axis and m.drive_joint(n) == name for n, d in m.drives.items()):

@@ -26,7 +26,6 @@ from dalembert.model.values import (
     Value,
     Vector,
     at_item,
-    listed,
     name,
     numbers,
     signed,
@@ -96,11 +95,16 @@ class InertiaValue(Value):
             raise ModelError(
                 f"{shown(value)} stands where one number is needed", "in the plane, write inertia: 0.02"
             )
-        if len(listed(value, type(rules)(dimension=3), "")) and isinstance(value[0], (list, tuple)):
+        if len(value) != 3:
+            raise ModelError(
+                f"a list of {len(value)} is no inertia", "write 3 principal values, or the 3 rows of a matrix"
+            )
+        if isinstance(value[0], (list, tuple)):
             return _symmetric(
                 tuple(at_item(i, numbers, row, "inertia", rules) for i, row in enumerate(value))
             )
-        return tuple(signed(x, x, "not negative") for x in numbers(value, "inertia", rules))
+        found = numbers(value, "inertia", rules)
+        return tuple(at_item(i, signed, x, value[i], "not negative") for i, x in enumerate(found))
 
     def write(self, value: Inertia) -> Any:
         if isinstance(value, tuple):

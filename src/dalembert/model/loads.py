@@ -173,14 +173,16 @@ class ForceLoad(Part):
         return {**keys, "value": varying_tree(value, "force"), "direction": written(angle, "angle")}
 
     @model_validator(mode="after")
-    def _one_meaning(self) -> Self:
+    def _one_meaning(self, info: ValidationInfo) -> Self:
         vectorial = isinstance(self.value, tuple)
         if vectorial and self.direction is not None:
             raise ModelError("a vector needs no direction", "leave the direction out", ("direction",))
         if not vectorial and self.direction is None:
             raise ModelError(
                 f"{'an unknown force' if self.unknown else 'a single value'} needs a direction",
-                "write direction: 30 deg, or value: [x, y]",
+                "write direction: [0, 0, 1], or value: [x, y, z]"
+                if reading(info).dimension == 3
+                else "write direction: 30 deg, or value: [x, y]",
             )
         return self
 

@@ -25,10 +25,19 @@ def replaced(part: Any, keys: Sequence[str], value: Any, walked: tuple[str, ...]
         _known(key, [str(i) for i in range(len(part))], here)
         items = list(part)
         items[int(key)] = replaced(items[int(key)], rest, value, here) if rest else value
-        return tuple(items)
+        return _mirrored(tuple(items), keys) if walked[-1:] == ("inertia",) else tuple(items)
     raise ModelError(
         f"the path {'.'.join([*here, *rest])!r} goes into a single value", "leave out its end", walked
     )
+
+
+def _mirrored(rows: tuple[Any, ...], keys: Sequence[str]) -> tuple[Any, ...]:
+    """A matrix of inertia after one of its products was replaced: it stands in two places."""
+    if len(keys) < 2 or keys[0] == keys[1]:
+        return rows
+    i, j = int(keys[0]), int(keys[1])
+    other = (*rows[j][:i], rows[i][j], *rows[j][i + 1 :])
+    return (*rows[:j], other, *rows[j + 1 :])
 
 
 def fields(part: Part) -> dict[str, Any]:
@@ -95,4 +104,5 @@ def placed(part: Any, keys: Sequence[str], value: Any, walked: tuple[str, ...] =
         _known(keys[0], list(part), here)
         return {**part, keys[0]: placed(part[keys[0]], keys[1:], value, here)}
     index = int(keys[0])
-    return (*part[:index], placed(part[index], keys[1:], value, here), *part[index + 1 :])
+    changed = (*part[:index], placed(part[index], keys[1:], value, here), *part[index + 1 :])
+    return _mirrored(changed, keys) if walked[-1:] == ("inertia",) else changed

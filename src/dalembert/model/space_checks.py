@@ -79,7 +79,7 @@ def _drives(m: Mechanism) -> Iterator[ModelError]:
         if joint is None:
             continue
         ball = joint.type in BALLS and drive.freedom == "turn"
-        what = f"drive {name!r} turns joint {m.drive_joint(name)!r}, a {joint.type}"
+        what = f"drive {name!r} turns joint {m.drive_joint(name)!r}, a {joint.type} joint"
         if ball and drive.axis is None:
             yield ModelError(f"{what}, which turns any way", "write axis: [0, 0, 1]", ("drives", name))
         elif ball and not any(drive.axis or ()):

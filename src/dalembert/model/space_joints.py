@@ -60,9 +60,10 @@ class Dampings(Value):
     """Of the only freedom; or `{freedom: coefficient}`."""
 
     def read(self, value: Any, info: ValidationInfo) -> dict[str, float]:
-        rules, freedoms = reading(info), SPACE_FREEDOMS.get(str(info.data.get("type")), ())
+        rules, kind = reading(info), str(info.data.get("type"))
+        freedoms = damped_freedoms(kind)
         if not freedoms:
-            raise ModelError("this joint has no freedom to damp", "leave it out")
+            raise ModelError("this joint has no freedom about one axis to damp", "leave it out")
         keys = value if isinstance(value, dict) else {freedoms[0]: value}
         if not isinstance(value, dict) and len(freedoms) > 1:
             raise ModelError(f"it has the freedoms {', '.join(freedoms)}", f"write {{{freedoms[0]}: 0.2}}")
@@ -110,6 +111,16 @@ SPACE_FREEDOMS: dict[str, tuple[str, ...]] = {
 
 BALLS = ("spherical", "sphere_between_planes", "sphere_in_cylinder")
 """Joints that turn any way."""
+
+
+def damped_freedoms(kind: str) -> tuple[str, ...]:
+    """The freedoms of a joint type that can be damped: of a ball its slides, for it turns about no axis of its own.
+
+    >>> damped_freedoms("sphere_in_cylinder")
+    ('slide',)
+    """
+    return tuple(f for f in SPACE_FREEDOMS.get(kind, ()) if kind not in BALLS or f.startswith("slide"))
+
 
 MAIN: dict[str, str] = dict.fromkeys(SPACE_FREEDOMS, "x") | {"revolute": "z"}
 """The local axis that the short form `axis` means."""

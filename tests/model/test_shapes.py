@@ -1,0 +1,257 @@
+"""Mass, centre and inertia from shapes, against integrals by points, books and other shapes."""
+
+from __future__ import annotations
+
+import math
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.algebra import space
+from dalembert.errors import DalembertError, ModelError
+from dalembert.model import Box, Cylinder, Link, Mesh, SlenderBar, Sphere, Tube, load
+from dalembert.model.meshes import MeshFile
+from dalembert.model.shapes import ShapePart
+
+STEEL = 7850.0
+POINTS = {"A": (0.1, -0.2, 0.3), "B": (0.4, 0.2, 0.3)}
+
+
+def properties(*shapes: ShapePart, **keys: Any) -> tuple[float, np.ndarray, np.ndarray]:
+    link = Link(points=POINTS, shape=shapes if len(shapes) > 1 else shapes[0], **keys)
+    m = da.Mechanism(space="space", links={"ground": Link(), "part": link})
+    return m.mass("part"), np.array(m.center("part")), np.array(m.inertia("part"))
+
+
+def integrated(inside: Any, low: Any, high: Any, count: int = 120) -> tuple[float, np.ndarray, np.ndarray]:
+    """Volume, centre and inertia by the middles of small cubes: good to the surface's share of them."""
+    axes = [np.linspace(a, b, count + 1)[:-1] + (b - a) / (2 * count) for a, b in zip(low, high, strict=True)]
+    p = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    p = p[inside(p)]
+    volume = len(p) * np.prod((np.array(high) - low) / count)
+    center = p.mean(axis=0)
+    r = p - center
+    inertia = volume * ((r**2).sum() / len(r) * np.eye(3) - r.T @ r / len(r))
+    return float(volume), center, inertia
+
+
+def across(p: np.ndarray, a: np.ndarray, n: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    along = (p - a) @ n
+    return along, np.linalg.norm(p - a - along[:, None] * n, axis=1)
+
+
+AXIS = np.array([0.6, 0.8, 0.0])
+
+
+def in_tube(inner: float, outer: float) -> Any:
+    def inside(p: np.ndarray) -> np.ndarray:
+        along, away = across(p, np.array(POINTS["A"]), AXIS)
+        return (along > 0) & (along < 0.5) & (away > inner) & (away < outer)
+
+    return inside
+
+
+def in_box(p: np.ndarray) -> np.ndarray:
+    own = (p - [0.1, 0.0, 0.2]) @ np.array([[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1.0]]).T
+    return (np.abs(own) < np.array([0.3, 0.2, 0.1]) / 2).all(axis=1)
+
+
+ROUND: Any = ((-0.1, -0.4, 0.1), (0.6, 0.4, 0.5))
+SHAPES: list[Any] = [
+    (Cylinder(between=("A", "B"), radius=0.15, density=STEEL), in_tube(-1, 0.15), *ROUND),
+    (Tube(between=("A", "B"), radii=(0.1, 0.15), density=STEEL), in_tube(0.1, 0.15), *ROUND),
+    (
+        Sphere(radius=0.2, center=(0.1, 0, 0), density=STEEL),
+        lambda p: np.linalg.norm(p - [0.1, 0, 0], axis=1) < 0.2,
+        (-0.1, -0.2, -0.2),
+        (0.3, 0.2, 0.2),
+    ),
+    (
+        Box(size=(0.3, 0.2, 0.1), center=(0.1, 0, 0.2), axes={"x": (0.8, -0.6, 0), "z": (0, 0, 1)}, density=STEEL),
+        in_box,
+        (-0.2, -0.25, 0.1),
+        (0.4, 0.25, 0.3),
+    ),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("case", SHAPES, ids=lambda case: case[0].type)
+def test_a_shape_is_the_integral_over_its_volume(case: Any) -> None:
+    shape, inside, low, high = case
+    mass, center, inertia = properties(shape)
+    volume, middle, integral = integrated(inside, np.array(low), np.array(high))
+    size = np.abs(integral).max()
+    assert mass == pytest.approx(STEEL * volume, rel=0.01)
+    assert center == pytest.approx(middle, abs=1e-3)
+    assert inertia == pytest.approx(STEEL * integral, abs=0.015 * STEEL * size)
+
+
+def test_formulas_of_the_books() -> None:
+    """Meriam and Kraige, Dynamics, table D/4."""
+    m, r, length = 3.0, 0.2, 0.5
+    _, _, rod = properties(SlenderBar(length=length, axis=(1, 0, 0)), mass=m)
+    assert rod.diagonal() == pytest.approx([0, m * length**2 / 12, m * length**2 / 12])
+    _, _, cylinder = properties(Cylinder(length=length, radius=r), mass=m)
+    sideways = m * r**2 / 4 + m * length**2 / 12
+    assert cylinder.diagonal() == pytest.approx([sideways, sideways, m * r**2 / 2])
+    _, _, ball = properties(Sphere(radius=r), mass=m)
+    assert ball.diagonal() == pytest.approx([2 / 5 * m * r**2] * 3)
+    _, _, block = properties(Box(size=(0.1, 0.2, 0.3)), mass=m)
+    assert block.diagonal() == pytest.approx([m * 0.13 / 12, m * 0.10 / 12, m * 0.05 / 12])
+    _, _, shell = properties(Tube(length=length, radii=(r * (1 - 1e-9), r)), mass=m)
+    assert shell[2, 2] == pytest.approx(m * r**2)
+
+
+def test_a_turned_shape_has_the_turned_inertia() -> None:
+    turn = space.matrix(space.exp(np.array([0.3, -0.7, 0.5])))
+    x, _, z = turn.T
+    box = {"size": (0.1, 0.2, 0.3), "density": STEEL}
+    _, _, straight = properties(Box(**box))
+    _, _, turned = properties(Box(**box, axes={"x": tuple(x), "z": tuple(z)}))
+    assert turned == pytest.approx(turn @ straight @ turn.T, abs=1e-13)
+    _, _, upright = properties(Cylinder(length=0.5, radius=0.1, density=STEEL))
+    _, _, leaning = properties(Cylinder(length=0.5, radius=0.1, axis=tuple(5 * z), density=STEEL))
+    assert leaning == pytest.approx(turn @ upright @ turn.T, abs=1e-12)
+
+
+def test_two_halves_are_the_whole() -> None:
+    whole = properties(Box(size=(0.4, 0.2, 0.1), center=(0.2, 0, 0), density=STEEL))
+    half = {"size": (0.2, 0.2, 0.1), "density": STEEL}
+    halves = properties(Box(center=(0.1, 0, 0), **half), Box(center=(0.3, 0, 0), **half))
+    for one, other in zip(whole, halves, strict=True):
+        assert np.asarray(other) == pytest.approx(np.asarray(one))
+
+
+def test_a_tube_filled_with_another_material() -> None:
+    tube = Tube(length=0.5, radii=(0.1, 0.15), density=STEEL)
+    core = Cylinder(length=0.5, radius=0.1, density=1000)
+    mass, center, inertia = properties(tube, core)
+    parts = properties(tube), properties(core)
+    assert mass == pytest.approx(sum(p[0] for p in parts))
+    assert center == pytest.approx([0, 0, 0])
+    assert inertia == pytest.approx(sum(p[2] for p in parts))
+
+
+@pytest.mark.parametrize("keys", [{"mass": 5.0}, {"weight": 5.0 * 9.80665}])
+def test_a_given_mass_is_spread_evenly(keys: dict[str, float]) -> None:
+    shapes = Box(size=(0.4, 0.2, 0.1)), Sphere(radius=0.1, center=(0.5, 0, 0))
+    mass, center, inertia = properties(*shapes, **keys)
+    dense = properties(*(shape.model_copy(update={"density": 2.0}) for shape in shapes))
+    assert mass == pytest.approx(5.0)
+    assert center == pytest.approx(dense[1])
+    assert inertia == pytest.approx(dense[2] * 5.0 / dense[0])
+
+
+def test_a_shape_in_the_plane_gives_the_inertia_about_the_plane_s_normal() -> None:
+    rod = Link(
+        points={"A": (0, 0), "B": (0.3, 0.4)}, shape=Cylinder(between=("A", "B"), radius=0.01, density=STEEL)
+    )
+    disk = Link(points={"O": (0, 0)}, shape=Cylinder(length=0.02, radius=0.1, center=(0.1, 0), density=STEEL))
+    m = da.Mechanism(links={"ground": Link(), "rod": rod, "disk": disk})
+    assert m.center("rod") == pytest.approx((0.15, 0.2))
+    assert m.inertia("rod") == pytest.approx(m.mass("rod") * (3 * 0.01**2 + 0.25) / 12)
+    assert m.mass("disk") == pytest.approx(STEEL * math.pi * 0.01 * 0.02)
+    assert m.center("disk") == pytest.approx((0.1, 0.0))
+    assert m.inertia("disk") == pytest.approx(m.mass("disk") * 0.1**2 / 2)
+    assert m.point("rod", "center") == m.links["rod"].point("center")
+
+
+def test_a_plane_machine_of_shapes_is_that_of_their_numbers() -> None:
+    plain = da.slider_crank(crank=0.05, rod=0.2)
+    points = plain.links["rod"].points
+    shaped = plain.with_values(
+        {"links.rod": Link(points=points, shape=Cylinder(between=tuple(points), radius=0.01, density=STEEL))}
+    )
+    numbers = Link(
+        points=points, mass=shaped.mass("rod"), center=shaped.center("rod"), inertia=shaped.inertia("rod")
+    )
+    drive = plain.drives.keys().__iter__().__next__()
+    given = da.dynamics(plain.with_values({"links.rod": numbers})).effort(drive)
+    assert da.dynamics(shaped).effort(drive) == pytest.approx(given, rel=1e-13)
+    k = da.compile(
+        shaped, vary=["links.rod.shape.radius", "links.rod.shape.density"], outputs=[f"effort.{drive}"]
+    )
+    for radius, density in ((0.01, STEEL), (0.02, 1000.0)):
+        changed = shaped.with_values({"links.rod.shape.radius": radius, "links.rod.shape.density": density})
+        compiled = k(np.array([[radius, density]])).effort(drive)[0]
+        assert compiled == pytest.approx(da.dynamics(changed).effort(drive), rel=1e-10)
+
+
+# meshes
+
+
+def box_mesh(path: Path, size: tuple[float, float, float] = (1.0, 2.0, 3.0)) -> Any:
+    trimesh = pytest.importorskip("trimesh")
+    mesh = trimesh.creation.box(size)
+    mesh.apply_translation((10, 0, 0))
+    mesh.export(path)
+    return mesh
+
+
+FILE = """space: space
+units: {length: mm}
+links:
+  ground: {}
+  part:
+    points: {O: [0, 0, 0]}
+    shape: {type: mesh, file: parts/box.stl, density: 7850 kg/m^3}
+"""
+
+
+def test_a_mesh_stands_beside_the_model_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "parts").mkdir()
+    box_mesh(tmp_path / "parts" / "box.stl")
+    (tmp_path / "model.yaml").write_text(FILE)
+    monkeypatch.chdir(tmp_path / "parts")
+    m = load(tmp_path / "model.yaml")
+    own = properties(Box(size=(1e-3, 2e-3, 3e-3), center=(0.01, 0, 0), density=STEEL))
+    assert m.mass("part") == pytest.approx(own[0])
+    assert m.center("part") == pytest.approx(own[1])
+    assert np.array(m.inertia("part")) == pytest.approx(own[2], abs=1e-18)
+    m.save(tmp_path / "again.yaml")
+    assert load(tmp_path / "again.yaml") == m
+    inches = m.with_values({"links.part.shape.unit": 0.0254})
+    assert inches.mass("part") == pytest.approx(m.mass("part") * 25.4**3)
+    assert np.array(inches.inertia("part")) == pytest.approx(np.array(m.inertia("part")) * 25.4**5)
+
+
+def test_a_ball_of_triangles_is_nearly_a_ball(tmp_path: Path) -> None:
+    trimesh = pytest.importorskip("trimesh")
+    trimesh.creation.icosphere(subdivisions=5, radius=0.2).export(tmp_path / "ball.stl")
+    mesh = Mesh(file=MeshFile("ball.stl", str(tmp_path)), unit=1.0, density=STEEL)
+    own, round_ = properties(mesh), properties(Sphere(radius=0.2, density=STEEL))
+    assert own[0] == pytest.approx(round_[0], rel=1e-3)
+    assert own[2] == pytest.approx(round_[2], abs=2e-3 * round_[2].max())
+
+
+def test_meshes_that_are_no_solids(tmp_path: Path) -> None:
+    mesh = box_mesh(tmp_path / "closed.stl")
+    mesh.update_faces([k > 0 for k in range(len(mesh.faces))])
+    mesh.export(tmp_path / "open.stl")
+    (tmp_path / "text.stl").write_text("this is no mesh")
+    (tmp_path / "folder.stl").mkdir()
+    for name, says in {
+        "open.stl": "the surface of the mesh 'open.stl' is not closed, so it has no volume; "
+        "close its holes, or give mass, center and inertia",
+        "text.stl": "the mesh 'text.stl' ",
+        "folder.stl": "the mesh 'folder.stl' is no ordinary file",
+        "none.stl": "there is no file 'none.stl'; check the name; it is relative to the model file",
+    }.items():
+        with pytest.raises(ModelError) as caught:
+            Mesh(file=MeshFile(name, str(tmp_path)), density=1)
+        assert says in str(caught.value)
+
+
+def test_without_the_package_the_message_says_how_to_install_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    box_mesh(tmp_path / "box.stl")
+    monkeypatch.setitem(sys.modules, "trimesh", None)
+    with pytest.raises(
+        DalembertError, match=r"a mesh needs the package trimesh, .* pip install 'dalembert\[cad\]'"
+    ):
+        Mesh(file=MeshFile("box.stl", str(tmp_path)), density=1)
