@@ -1,4 +1,4 @@
-"""What does not fit in a description in space: poses, directions, inertias, drives of balls."""
+"""What does not fit in a description in space: poses of the plane, welds by an angle; and inertias of no body."""
 
 from __future__ import annotations
 
@@ -9,8 +9,6 @@ import numpy as np
 
 from dalembert.errors import ModelError
 from dalembert.model.assembly import SpacePose
-from dalembert.model.loads import ForceLoad
-from dalembert.model.space_joints import BALLS
 
 if TYPE_CHECKING:
     from dalembert.model.mechanism import Mechanism
@@ -35,75 +33,18 @@ def assembly_problems(m: Mechanism) -> Iterator[ModelError]:
             yield ModelError(
                 f"assembly gives link {link!r} a pose of the plane, and the mechanism is in space", POSE, path
             )
-        elif isinstance(pose, SpacePose) and not any(pose.axis):
-            yield ModelError(
-                f"the axis of the pose of link {link!r} has no direction",
-                "write one of its components other than 0",
-                (*path, "axis"),
-            )
 
 
 def space_problems(m: Mechanism) -> Iterator[ModelError]:
     """Everything that does not fit in space only."""
     if m.dimension == 2:
         return
-    yield from _inertias(m)
-    yield from _drives(m)
-    for name, load in m.loads.items():
-        if isinstance(load, ForceLoad) and load.direction is not None:
-            yield from _direction(name, load.direction)
     for name, joint in m.joints.items():
         if joint.type == "weld" and joint.angle:
             yield ModelError(
                 f"joint {name!r} is a weld by an angle, which is for the plane",
                 "write axes: {i: {x: [1, 0, 0], z: [0, 0, 1]}, j: {...}}",
                 ("joints", name, "angle"),
-            )
-
-
-def _direction(name: str, direction: Any) -> Iterator[ModelError]:
-    path = ("loads", name, "direction")
-    if not isinstance(direction, tuple):
-        yield ModelError(
-            f"the direction of load {name!r} is an angle, which is for the plane", "write [x, y, z]", path
-        )
-    elif not any(direction):
-        yield ModelError(
-            f"the direction of load {name!r} is 0", "write one of its components other than 0", path
-        )
-
-
-def _drives(m: Mechanism) -> Iterator[ModelError]:
-    for name, drive in m.drives.items():
-        joint = m.joints.get(m.drive_joint(name))
-        if joint is None:
-            continue
-        ball = joint.type in BALLS and drive.freedom == "turn"
-        what = f"drive {name!r} turns joint {m.drive_joint(name)!r}, a {joint.type} joint"
-        if ball and drive.axis is None:
-            yield ModelError(f"{what}, which turns any way", "write axis: [0, 0, 1]", ("drives", name))
-        elif ball and not any(drive.axis or ()):
-            yield ModelError(
-                f"the axis of drive {name!r} has no direction",
-                "write one of its components other than 0",
-                ("drives", name, "axis"),
-            )
-        elif not ball and drive.axis is not None:
-            yield ModelError(
-                f"drive {name!r} has an axis, and its freedom has one already",
-                "leave it out",
-                ("drives", name, "axis"),
-            )
-
-
-def _inertias(m: Mechanism) -> Iterator[ModelError]:
-    for name, link in m.links.items():
-        least = min(principal_inertias(link.inertia))
-        if least < -ROUNDED * max(map(abs, principal_inertias(link.inertia))):
-            yield ModelError(
-                f"the inertia of link {name!r} has a negative principal value",
-                "check its products of inertia: they stand in the matrix with the minus sign, -Ixy = -sum of m x y",
-                ("links", name, "inertia"),
             )
 
 
