@@ -11,7 +11,9 @@ from html import escape
 from pathlib import Path
 
 import dalembert as da
+from dalembert.analysis.pairs import PAIRS
 from dalembert.bundled import cases, examples
+from dalembert.cli.describing import JOINT_HEADS, joint_rows
 
 ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "build" / "gallery"
@@ -34,13 +36,15 @@ def shown() -> dict[str, Path]:
 def built(name: str, path: Path) -> Iterator[str]:
     """Write one problem's files; yields its part of the index."""
     r = da.solve(da.load(path))
-    report = da.report(r)
+    plane = r.mechanism.dimension == 2
     yield f"<h2>{escape(name)}</h2><p>{escape(r.mechanism.title)}: "
-    for kind in ("pdf", "html", "tex", "txt"):
+    report = da.report(r) if plane else None
+    for kind in ("pdf", "html", "tex", "txt") if report else ():
         report.save(OUT / f"{name}.{kind}", overwrite=True)
         yield f'<a href="{name}.{kind}">{kind}</a> '
-    yield "</p>"
-    views = [*VIEWS, "charts"] if len(r.status) > 7 else VIEWS
+    da.draw.solid_model(r).save(OUT / f"{name}.glb", overwrite=True)
+    yield f'<a href="{name}.glb">glb</a></p>'
+    views = [*(VIEWS if plane else VIEWS[:2]), *(["charts"] if len(r.status) > 7 else [])]
     for view in views:
         da.draw.view(r, view).save(OUT / f"{name}-{view}.svg", overwrite=True)
         yield f'<img src="{name}-{view}.svg" alt="{view}">'
@@ -56,8 +60,46 @@ def gallery() -> None:
             print(f"{name}: written")
         except da.ModelError as error:
             print(f"{name}: {error}")
+    parts.append("<h2>Joints in space</h2>")
+    for kind in PAIRS:
+        da.draw.joint(kind).save(OUT / f"joint-{kind}.svg", overwrite=True)
+        parts.append(f'<img src="joint-{kind}.svg" alt="{kind}">')
     (OUT / "index.html").write_text(PAGE.format(body="".join(parts)), encoding="utf-8")
     print(f"{OUT / 'index.html'}")
+
+
+JOINTS = """# Joints in space
+
+What each joint leaves free of link j in link i, and the reactions it carries along its own axes. `dalembert joints`
+prints this table, `dalembert joints -o pictures` draws it. What belongs to i is blue, to j
+yellow; forces have one head, moments two.
+[Space](space.md) says how the axes are given and which freedoms can be driven.
+
+| {heads} |
+| {rule} |
+{rows}
+
+A screw slides with its turn.
+
+![All joints in space with their reactions](figures/joints.svg)
+"""
+
+
+def joints_page() -> str:
+    """The page of the joints in space, from the table that the program computes with."""
+    rows = ["| " + " | ".join([f"`{kind}`", *rest]) + " |" for kind, *rest in joint_rows()]
+    return JOINTS.format(
+        heads=" | ".join(JOINT_HEADS), rule=" | ".join(["---"] * len(JOINT_HEADS)), rows="\n".join(rows)
+    )
+
+
+def space_figures() -> None:
+    """The page of the joints in space, and pictures of a mechanism."""
+    (FIGURES.parent / "joints.md").write_text(joints_page(), encoding="utf-8")
+    da.draw.joints().save(FIGURES / "joints.svg", overwrite=True)
+    r = da.dynamics(da.load(examples()["rssr"]), positions=36)
+    both = [da.draw.mechanism(r, at=4, forces=True), da.draw.free_body(r, r.links[-1], at=4)]
+    da.draw.beside(both, title=r.mechanism.title).save(FIGURES / "space.svg", overwrite=True)
 
 
 def figures() -> None:
@@ -73,6 +115,7 @@ def figures() -> None:
     rubbing = da.statics(da.load(cases()["seed-002-7g-engine-guide-100-mm"]))
     da.draw.mechanism(rubbing).save(FIGURES / "friction.svg", overwrite=True)
     force_systems()
+    space_figures()
 
 
 def force_systems() -> None:

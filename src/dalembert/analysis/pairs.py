@@ -26,31 +26,45 @@ class Pair(NamedTuple):
     """Local axes along which a joint carries forces, and about which moments; how j slides and turns in i.
 
     slides: axes of i, in the order of the freedoms; turns: axes about which j's axes are those of i turned one after
-    the other, the first fixed in i, a second one in j.
+    the other, the first fixed in i, a second one in j; local: what the axes are, in words.
     """
 
     forces: str
     moments: str
     slides: str = ""
     turns: str = ""
+    local: str = ""
+
+    @property
+    def reactions(self) -> tuple[str, ...]:
+        """Forces, then moments: Fx, Fy, Mz."""
+        return (*(f"F{a}" for a in self.forces), *(f"M{a}" for a in self.moments))
 
 
 PAIRS: dict[str, Pair] = {
-    "weld": Pair("xyz", "xyz"),
-    "revolute": Pair("xyz", "xy", turns="z"),
-    "prismatic": Pair("yz", "xyz", slides="x"),
-    "screw": Pair("xyz", "yz", turns="x"),
-    "cylindrical": Pair("yz", "yz", slides="x", turns="x"),
-    "universal": Pair("xyz", "x", turns="yz"),
-    "spherical": Pair("xyz", "", turns="xyz"),
-    "plane": Pair("x", "yz", slides="yz", turns="x"),
-    "sphere_between_planes": Pair("x", "", slides="yz", turns="xyz"),
-    "sphere_in_cylinder": Pair("yz", "", slides="x", turns="xyz"),
-    "cylinder_between_planes": Pair("x", "y", slides="yz", turns="xz"),
-    "slotted_sphere": Pair("xyz", "x", turns="yz"),
-    "torus": Pair("xyz", "x", turns="yz"),
-    "slotted_cylinder": Pair("yz", "xy", slides="x", turns="z"),
-    "slotted_sphere_in_cylinder": Pair("yz", "x", slides="x", turns="yz"),
+    "weld": Pair("xyz", "xyz", local="any"),
+    "revolute": Pair("xyz", "xy", turns="z", local="z along the axis"),
+    "prismatic": Pair("yz", "xyz", slides="x", local="x along the slide"),
+    "screw": Pair("xyz", "yz", turns="x", local="x along the axis; with Fx comes Mx = -lead Fx / 2 pi"),
+    "cylindrical": Pair("yz", "yz", slides="x", turns="x", local="x along the axis"),
+    "universal": Pair("xyz", "x", turns="yz", local="y the pin of i, z the pin of j, x across both"),
+    "spherical": Pair("xyz", "", turns="xyz", local="any"),
+    "plane": Pair("x", "yz", slides="yz", turns="x", local="x across the plane"),
+    "sphere_between_planes": Pair("x", "", slides="yz", turns="xyz", local="x across the planes"),
+    "sphere_in_cylinder": Pair("yz", "", slides="x", turns="xyz", local="x along the cylinder"),
+    "cylinder_between_planes": Pair(
+        "x", "y", slides="yz", turns="xz", local="x across the planes, z along the cylinder"
+    ),
+    "slotted_sphere": Pair("xyz", "x", turns="yz", local="x the blocked turn (another: blocked)"),
+    "torus": Pair("xyz", "x", turns="yz", local="x the blocked turn"),
+    "slotted_cylinder": Pair("yz", "xy", slides="x", turns="z", local="x along the slot, z along the pin"),
+    "slotted_sphere_in_cylinder": Pair(
+        "yz",
+        "x",
+        slides="x",
+        turns="yz",
+        local="x along the cylinder, the blocked turn (another: blocked)",
+    ),
 }
 """The classic table; ``blocked`` of a slotted sphere turns the local axes of its moment and turns."""
 

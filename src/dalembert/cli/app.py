@@ -288,6 +288,30 @@ def examples(
     return example_copied(name, output, force)
 
 
+@app.command(
+    help_epilogue="""Examples:
+  dalembert joints
+  dalembert joints -o joints.svg
+  dalembert joints -o pictures"""
+)
+def joints(
+    *,
+    output: Annotated[
+        Path | None,
+        output(
+            "Draw them: all in one .svg, .pdf, .png or .dxf, or, without an ending, a picture each in a folder."
+        ),
+    ] = None,
+    camera: Seen = None,
+    theme: Theme = "light",
+    force: Force = False,
+) -> int:
+    """Print the joints in space: what each leaves free, its own axes, and the reactions it carries along them."""
+    from dalembert.cli.describing import joints_shown
+
+    return joints_shown(output, camera, theme, force)
+
+
 app.command(systems.wrench, help_epilogue=systems.EXAMPLES)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 from dalembert.cli.text import table
 from dalembert.errors import ModelError
@@ -103,3 +104,42 @@ def template_file(name: str) -> str:
     from dalembert.model.library import template_text
 
     return template_text(name)
+
+
+JOINT_HEADS = ("joint", "turns", "slides", "reactions", "its own axes")
+
+
+def joint_rows() -> list[list[str]]:
+    """Type, turns and slides of j in i, reactions, own axes of every joint in space, a row each."""
+    from dalembert.analysis.pairs import PAIRS
+    from dalembert.views.pair_pictures import ordered
+
+    return [
+        [kind, str(len(p.turns)), str(len(p.slides)), " ".join(p.reactions), p.local]
+        for kind, p in ((kind, PAIRS[kind]) for kind in ordered())
+    ]
+
+
+def joint_table() -> str:
+    """The joints in space: turns and slides of j in i, and the reactions along the joint's own axes."""
+    shown = table(JOINT_HEADS, joint_rows(), len(JOINT_HEADS))
+    return f"{shown}\n\nA screw slides with its turn. `dalembert joints -o joints.svg` draws them."
+
+
+def joints_shown(output: Path | None, camera: str | None, theme: Any, force: bool) -> int:
+    """The table printed; or all joints in one picture, or a picture each in a folder."""
+    from dalembert.analysis.pairs import PAIRS
+    from dalembert.cli.drawing import camera_at
+    from dalembert.views import draw
+
+    if output is None:
+        return emitted(joint_table(), None, force)
+    seen = camera_at(camera)
+    if output.suffix:
+        draw.joints(seen).save(output, force, theme)
+    else:
+        output.mkdir(parents=True, exist_ok=True)
+        for kind in PAIRS:
+            draw.joint(kind, seen).save(output / f"{kind}.svg", force, theme)
+    print(f"Written: {output}")
+    return 0

@@ -54,14 +54,14 @@ def drawn(
     if output.suffix.lower() == ".glb":
         draw.solid_model(result).save(output, force)
     elif _moves(view, output):
-        draw.animation(result, notation, camera=_camera(camera)).save(output, force, theme)
+        draw.animation(result, notation, camera=camera_at(camera)).save(output, force, theme)
     else:
-        draw.view(result, view, at, notation, _camera(camera)).save(output, force, theme)
+        draw.view(result, view, at, notation, camera_at(camera)).save(output, force, theme)
     print(f"Written: {output}", file=sys.stderr)
     return OK if result.ok.all() else SOME_NOT_OK
 
 
-def _camera(text: str | None) -> str | tuple[float, float] | None:
+def camera_at(text: str | None) -> str | tuple[float, float] | None:
     """A camera by its name, or by azimuth and elevation in degrees."""
     if text is None or "," not in text:
         return text

@@ -28,6 +28,7 @@ from dalembert.views.inertia import displaced_inertia_scene
 from dalembert.views.mechanism import mechanism_scene, place_title
 from dalembert.views.motion import instant_centers_scene, motion_polygon_scene
 from dalembert.views.notation import Notation, Shown
+from dalembert.views.pair_pictures import pair_scene, pairs_scene
 from dalembert.views.polygons import force_chain_scene, force_polygon_scene, lines_of_action_scene
 from dalembert.views.rest import at_both_ends
 from dalembert.views.scene import Scene, stacked
@@ -222,6 +223,16 @@ def animation(
     return animation_scene(r, notation, seconds, camera=_camera(r, camera))
 
 
+def joint(kind: str, camera: Sighted = None) -> Scene:
+    """A joint in space by its type, with its local axes and the forces and moments it carries along them."""
+    return pair_scene(kind, camera_of(camera))
+
+
+def joints(camera: Sighted = None) -> Scene:
+    """All joints in space, those that carry least first."""
+    return pairs_scene(camera_of(camera))
+
+
 def solid_model(r: Result) -> SolidModel:
     """The links as solids in motion, for 3-D viewers; ``save`` writes .glb."""
     return glb.solid_model(r)
@@ -309,6 +320,8 @@ __all__ = [
     "free_bodies",
     "free_body",
     "instant_centers",
+    "joint",
+    "joints",
     "lines_of_action",
     "mechanism",
     "motion",

@@ -124,7 +124,7 @@ def one_head(tail: Point, head: Point, role: str, of: str, kind: str, value: flo
     return [Arrow(tail, head, role, of, kind, value)]
 
 
-def two_heads(tail: Point, head: Point, role: str, of: str, kind: str, value: float) -> list[Item]:
+def two_heads(tail: Point, head: Point, role: str, of: str, kind: str, value: float | None) -> list[Item]:
     """A moment in space: an arrow along its axis with two heads."""
     length = math.dist(tail, head)
     back = min(2.4, 0.4 * length) / max(length, 1e-12)

@@ -1,0 +1,81 @@
+"""`dalembert joints` and its page against the classic table of pairs, typed here by itself."""
+
+from __future__ import annotations
+
+import importlib.util
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import dalembert as da
+from dalembert.analysis.pairs import PAIRS
+from dalembert.cli import main
+from dalembert.views.canvas import text_over_lines, text_overlaps
+
+ROOT = Path(__file__).resolve().parents[2]
+
+CLASSIC = {
+    "sphere_between_planes": (3, 2, "Fx"),
+    "sphere_in_cylinder": (3, 1, "Fy Fz"),
+    "cylinder_between_planes": (2, 2, "Fx My"),
+    "spherical": (3, 0, "Fx Fy Fz"),
+    "slotted_sphere_in_cylinder": (2, 1, "Fy Fz Mx"),
+    "plane": (1, 2, "Fx My Mz"),
+    "slotted_sphere": (2, 0, "Fx Fy Fz Mx"),
+    "torus": (2, 0, "Fx Fy Fz Mx"),
+    "cylindrical": (1, 1, "Fy Fz My Mz"),
+    "slotted_cylinder": (1, 1, "Fy Fz Mx My"),
+    "revolute": (1, 0, "Fx Fy Fz Mx My"),
+    "prismatic": (0, 1, "Fy Fz Mx My Mz"),
+    "universal": (2, 0, "Fx Fy Fz Mx"),
+    "screw": (1, 0, "Fx Fy Fz My Mz"),
+    "weld": (0, 0, "Fx Fy Fz Mx My Mz"),
+}
+"""Turns, slides, reactions; a screw's slide goes with its turn."""
+
+
+def test_the_classic_table(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["joints"]) == 0
+    lines = capsys.readouterr().out.splitlines()[2:]
+    shown = {}
+    for line in lines[: len(CLASSIC)]:
+        kind, turns, slides, rest = line.split(maxsplit=3)
+        shown[kind] = (int(turns), int(slides), rest.split("  ")[0])
+    assert shown == CLASSIC
+    for turns, slides, reactions in CLASSIC.values():
+        assert turns + slides + len(reactions.split()) == 6
+
+
+@pytest.mark.parametrize("kind", list(PAIRS))
+@pytest.mark.parametrize("camera", ["isometric", (20.0, 15.0)])
+def test_pictures_show_the_reactions(kind: str, camera: Any) -> None:
+    scene = da.draw.joint(kind, camera)
+    named = dict.fromkeys(a.of for a in scene.arrows() if a.of)
+    assert list(named) == sorted(named, key=lambda name: "xyz".index(name[1]))
+    assert set(named) == set(CLASSIC[kind][2].split())
+    assert text_overlaps(scene) == []
+    assert text_over_lines(scene) == []
+
+
+def test_one_picture_or_many(tmp_path: Path) -> None:
+    assert main(["joints", "-o", str(tmp_path / "all.svg"), "--camera", "20,15"]) == 0
+    assert (tmp_path / "all.svg").read_text(encoding="utf-8").count("<text") > 100
+    assert main(["joints", "-o", str(tmp_path / "each")]) == 0
+    assert {path.stem for path in (tmp_path / "each").iterdir()} == set(PAIRS)
+
+
+def test_no_such_joint() -> None:
+    with pytest.raises(
+        da.ModelError, match="there is no joint 'sperical' in space; did you mean 'spherical'"
+    ):
+        da.draw.joint("sperical")
+
+
+def test_the_page_is_made_of_the_table() -> None:
+    spec = importlib.util.spec_from_file_location("gallery", ROOT / "docs" / "gallery.py")
+    assert spec
+    assert spec.loader
+    gallery = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(gallery)
+    assert (ROOT / "docs" / "joints.md").read_text(encoding="utf-8") == gallery.joints_page()
