@@ -14,6 +14,7 @@ from dalembert.analysis.friction import (
     friction_circle_radius,
     friction_of,
 )
+from dalembert.analysis.planar import refuse_space
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
@@ -72,6 +73,7 @@ def friction_circles(result: Result, joint: str) -> FrictionCircle:
     >>> round(circle.radius, 6), len(circle.others)
     (0.024, 3)
     """
+    refuse_space(result.mechanism, "a friction circle", "ask friction_moment and power_lost of the joint")
     f, _ = friction_of(result)
     e = bearing_contact(result, joint, "pin")
     force, center = result.reaction(joint), pin_center(result, joint)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.analysis.wrenches import Axes
+from dalembert.analysis.wrenches import Axes, turned
 from dalembert.units import KINDS, file_units
 
 if TYPE_CHECKING:
@@ -158,7 +158,7 @@ def columns(result: Result, axes: Axes = "ground") -> Iterator[Column]:
     for reaction in reactions(result, axes):
         yield from _reaction_columns(reaction)
     for joint in rubbing_joints(result):
-        yield from _friction_columns(result, joint)
+        yield from _friction_columns(result, joint, axes)
     for link in result.links:
         yield from _link_columns(result, link)
     yield Column("residual", "number", result.residual)
@@ -183,8 +183,15 @@ def rubbing_joints(result: Result) -> list[str]:
     return [n for n in result.joints if getattr(joints[n], "friction", None) or joint_damping(joints[n])]
 
 
-def _friction_columns(result: Result, joint: str) -> Iterator[Column]:
+def friction_in(result: Result, joint: str, axes: Axes) -> tuple[Array, Array]:
+    """Dry friction's force and moment in a joint, on j, in the axes of the reactions."""
     force, moment = result.friction_force(joint), result.friction_moment(joint)
+    whole = np.concatenate([force, moment.reshape((len(moment), -1))], axis=-1)
+    return force_and_moment(turned(result, joint, None, axes, whole))
+
+
+def _friction_columns(result: Result, joint: str, axes: Axes) -> Iterator[Column]:
+    force, moment = friction_in(result, joint, axes)
     name = f"friction {joint} on {result.mechanism.joints[joint].links[1]}"
     yield from _wrench_columns(name, force, moment)
     yield Column(f"power lost {joint}", "power", result.power_lost(joint))

@@ -17,6 +17,7 @@ from dalembert.analysis.columns import (
     UnitChoice,
     columns,
     drive_kinds,
+    friction_in,
     link_turning,
     load_kind,
     reactions,
@@ -154,7 +155,7 @@ def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -
     to = scale(result, units)
     data: dict[str, Any] = {"status": ("position", np.array(result.status, dtype=str))}
     data |= _drive_arrays(result, to) | _joint_arrays(result, to, axes) | _link_arrays(result, to)
-    data |= _friction_arrays(result, to)
+    data |= _friction_arrays(result, to, axes)
     for load in result.unknown_loads:
         kind = load_kind(result, load)
         data[f"unknown_load_{load}"] = (
@@ -208,12 +209,13 @@ def _joint_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
     }
 
 
-def _friction_arrays(result: Result, to: Scale) -> dict[str, Any]:
+def _friction_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
     """What dry friction does in each joint, on j, the power that all friction takes, and ends that it leaves open."""
     if result.friction is None:
         return {}
-    force = to("force", np.stack([result.friction_force(j) for j in result.joints], axis=1))
-    moment = to("moment", np.stack([result.friction_moment(j) for j in result.joints], axis=1))
+    parts = [friction_in(result, joint, axes) for joint in result.joints]
+    force = to("force", np.stack([part for part, _ in parts], axis=1))
+    moment = to("moment", np.stack([part for _, part in parts], axis=1))
     lost = to("power", np.stack([result.power_lost(j) for j in result.joints], axis=1))
     out: dict[str, Any] = {
         "friction_force": (("position", "joint", "component"), force, {"units": to.text("force")}),

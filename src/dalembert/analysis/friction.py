@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.contacts import circle, coefficient
+from dalembert.analysis.planar import refuse_space
 from dalembert.core.friction import Contacts, strength
 from dalembert.errors import ModelError
 
@@ -124,6 +125,7 @@ def guide_contact(result: Result, joint: str) -> GuideContact:
     The lower face pushes j to the left of the direction of the slide. S = max(|N|, |2M - (l2 - l1) N| / (l1 + l2)) is
     the sum of the contact forces, lower (S + N) / 2 and upper (S - N) / 2.
     """
+    refuse_space(result.mechanism, "the contact of a guide", "ask friction_force and power_lost of the joint")
     f, _ = friction_of(result)
     e = bearing_contact(result, joint, "guide")
     normal, tilting = f.argument[:, 0, e], f.argument[:, 2, e]
@@ -138,10 +140,12 @@ def guide_contact(result: Result, joint: str) -> GuideContact:
 
 
 def friction_circle_radius(result: Result, joint: str) -> float:
-    """R sin(phi) or mu R of a pin, m; 0 without friction."""
+    """R sin(phi) or mu R of a pin or revolute, m; 0 without friction, and of other joints in space."""
     j = result.mechanism.joints[joint]
     f = getattr(j, "friction", None)
     if result.friction is None or getattr(f, "radius", None) is None:
+        return 0.0
+    if result.mechanism.dimension == 3 and j.type != "revolute":
         return 0.0
     _, contacts = friction_of(result)
     return float(strength(contacts, 1.0)[bearing_contact(result, joint, "pin")])

@@ -158,7 +158,8 @@ def _member(r: Result, link: str, some: Sequence[Action], split: Sequence[Action
     if couples:
         kind = "two-force with couple" if kind == "two-force" else "general"
     tension = _tension(forces) if kind == "two-force" else None
-    circles = tuple(a.of for a in forces if a.kind == "joint" and friction_circle_radius(r, a.of))
+    pins = forces if r.mechanism.dimension == 2 else ()
+    circles = tuple(a.of for a in pins if a.kind == "joint" and friction_circle_radius(r, a.of))
     return Member(link, kind, tuple(map(_name, forces)), tuple(map(_name, couples)), tension, circles)
 
 

@@ -17,6 +17,7 @@ from dalembert.analysis.columns import (
     UnitChoice,
     drive_kinds,
     force_and_moment,
+    friction_in,
     in_plane,
     link_turning,
     load_kind,
@@ -26,7 +27,7 @@ from dalembert.analysis.columns import (
     unknown_kinds,
 )
 from dalembert.analysis.friction import bears_on_faces, guide_contact, joints_at_limit
-from dalembert.analysis.wrenches import Axes, turned
+from dalembert.analysis.wrenches import Axes
 from dalembert.saving import new_file
 from dalembert.units import KINDS
 
@@ -130,8 +131,9 @@ def _reaction_fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, .
             out["reactions", r.joint, "axes"] = numbers("number", result.joint_axes(r.joint))
     for joint in rubbing_joints(result):
         at = "reactions", joint, "friction"
-        out[*at, "force"] = numbers("force", turned(result, joint, None, axes, result.friction_force(joint)))
-        out[*at, "moment"] = numbers("moment", result.friction_moment(joint))
+        rubbing_force, rubbing_moment = friction_in(result, joint, axes)
+        out[*at, "force"] = numbers("force", rubbing_force)
+        out[*at, "moment"] = numbers("moment", rubbing_moment)
         out[*at, "power_lost"] = numbers("power", result.power_lost(joint))
         if bears_on_faces(result, joint):
             contact = guide_contact(result, joint)

@@ -9,7 +9,7 @@ import numpy as np
 from dalembert.analysis.columns import UnitChoice, drive_kinds, load_kind
 from dalembert.analysis.friction import unknown_names
 from dalembert.cli.answer import Printed, printed
-from dalembert.cli.text import number, table, tables, wrapped
+from dalembert.cli.text import number, rounded, table, tables, wrapped
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
@@ -121,15 +121,16 @@ def _powers(found: Any, drive: int, k: int, to: Printed) -> str:
     angular = drive_kinds(r, name)["effort"] == "moment"
     kind = "moment" if angular else "force"
     unit = "1 rad" if angular else "1 m"
-    rows = []
-    fastest = float(np.abs(found.velocity[:, k, drive]).max(initial=0.0))
-    for a, v, w, p in zip(found.actions, found.velocity, found.spin, found.power, strict=True):
-        speed = np.where(np.abs(v[k, drive]) > 1e-13 * fastest, v[k, drive], 0.0)
-        per = to("length", 1.0) if angular else 1.0
-        cells = [*(a.force[k] * to("force", 1.0)), *np.atleast_1d(a.couple[k] * to("moment", 1.0))]
-        turns = np.atleast_1d(w[k, drive] * (1.0 if angular else 1 / to("length", 1.0)))
-        moved = [*(speed * per), *turns]
-        rows.append([a.source, *(number(float(x), 5) for x in [*cells, *moved, p[k, drive] * to(kind, 1.0)])])
+    per = to("length", 1.0) if angular else 1.0
+    columns = (
+        (np.array([a.force[k] for a in found.actions]), to("force", 1.0)),
+        (np.array([a.couple[k] for a in found.actions]), to("moment", 1.0)),
+        (found.velocity[:, k, drive], per),
+        (found.spin[:, k, drive], 1.0 if angular else 1 / to("length", 1.0)),
+        (found.power[:, k, drive], to(kind, 1.0)),
+    )
+    numbers = [_cells(values * factor, len(found.actions)) for values, factor in columns]
+    rows = [[a.source, *(x for part in numbers for x in part[n])] for n, a in enumerate(found.actions)]
     total = float(found.power[:, k, drive].sum()) * to(kind, 1.0)
     heads = HEADS if r.mechanism.dimension == 2 else SPACE_HEADS
     rows.append(["sum", *[""] * (len(heads) - 2), number(total, 6)])
@@ -139,6 +140,13 @@ def _powers(found: Any, drive: int, k: int, to: Printed) -> str:
         f"{unit} of {name}: forces in {to.text('force')}, couples in {to.text('moment')}, moves in {length}\n\n"
         f"{table(heads, rows) if heads is HEADS else tables(heads, rows, 1)}\n\nEffort that balances the work: {effort}"
     )
+
+
+def _cells(values: Any, count: int) -> list[list[str]]:
+    """Numbers of some actions, those that are nothing but rounding beside the largest as 0."""
+    rows = np.reshape(values, (count, -1)).tolist()
+    largest = float(np.nan_to_num(np.abs(values)).max(initial=0.0))
+    return [[number(x, 5) for x in rounded(row, largest)] for row in rows]
 
 
 def _first(result: Result) -> int:

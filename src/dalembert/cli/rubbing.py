@@ -136,11 +136,10 @@ def friction_table(result: Result, to: Any) -> str:
     rows = []
     for joint in rubbing_joints(result):
         part = result.mechanism.joints[joint]
-        force = float(to("force", np.hypot(*result.friction_force(joint)[0])))
-        couple, lost = (
-            float(to("moment", result.friction_moment(joint)[0])),
-            float(to("power", result.power_lost(joint)[0])),
-        )
+        force = float(to("force", np.linalg.norm(result.friction_force(joint)[0])))
+        turning = result.friction_moment(joint)[0]
+        couple = float(to("moment", np.linalg.norm(turning) if np.ndim(turning) else turning))
+        lost = float(to("power", result.power_lost(joint)[0]))
         law = friction_text(result, joint)
         if bears_on_faces(result, joint):
             law += f", {guide_contact(result, joint).mode[0]}"
