@@ -5,9 +5,9 @@ the top. ``da.dynamics(m)`` is called on the loaded description, after one warmi
 thread; medians of the processor time, time a link, and the ratio of n = 400 to n = 50 (8 times the links) are printed.
 The efforts are checked against virtual work on the closed form: every stage rises by sin(angle).
 
-Measured (2 cores of a virtual x86-64 machine, busy with other work): 1 position 17 and 75 ms, ratio 4.3; 16 positions
-104 and 360 ms, ratio 3.5. It was 13.1 while stations of the march had to be less than 1.7 links' lengths apart, which
-the top of a long chain passes within a degree of the drive.
+Measured (2 cores of a virtual x86-64 machine): 1 position 14 and 61 ms, ratio 4.2; 16 positions 50 and 192 ms, ratio
+3.8. It was 13.1 while stations of the march had to be less than 1.7 links' lengths apart, which the top of a long chain
+passes within a degree of the drive.
 
     python benchmarks/scissor.py [--stages 50 400]
 """
