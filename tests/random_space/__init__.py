@@ -1,7 +1,7 @@
-"""Random mechanisms in space as model trees: drawn in a random pose first, then each link's numbers read off in its axes.
+"""Random mechanisms in space as model trees: drawn in a random pose, then each link's numbers read off in its axes.
 
 ``random_case(seed)`` -> drawing, well conditioned
-``tree(drawing, ...)`` -> model tree, moved, in other units, with loads scaled, joints' i and j exchanged, in other order
+``tree(drawing, Options(...))`` -> model tree, moved, in other units, loads scaled, joints' i and j exchanged, shuffled
 """
 
 from tests.random_space.drawing import Drawing, Rigid, turned_frame

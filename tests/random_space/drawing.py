@@ -138,7 +138,9 @@ class Drawing:
     joints' freedoms at 0, and the file says nothing. ``rods``: links free to spin, to be loaded on their line only.
     """
 
-    poses: dict[str, tuple[Array, Array]] = field(default_factory=lambda: {"ground": (np.eye(3), np.zeros(3))})
+    poses: dict[str, tuple[Array, Array]] = field(
+        default_factory=lambda: {"ground": (np.eye(3), np.zeros(3))}
+    )
     spots: dict[str, dict[str, Array]] = field(default_factory=lambda: {"ground": {}})
     joints: dict[str, Joint] = field(default_factory=dict)
     drives: dict[str, Drive] = field(default_factory=dict)

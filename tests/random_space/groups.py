@@ -28,7 +28,9 @@ def joined(
         i, j = j, i
     pair = PAIRS[kind]
     slides = rng.uniform(-0.5, 0.5, len(pair.slides))
-    turns = rng.uniform(-1, 1, len(pair.turns)) if len(pair.turns) > 1 else rng.uniform(-3, 3, len(pair.turns))
+    turns = (
+        rng.uniform(-1, 1, len(pair.turns)) if len(pair.turns) > 1 else rng.uniform(-3, 3, len(pair.turns))
+    )
     values = tuple(float(x) for x in (*slides, *turns)) if d.posed else (0.0,) * pair.count
     more = {"lead": float(rng.choice([-1, 1]) * rng.uniform(0.2, 1.0))} if kind == "screw" else {}
     if kind.startswith("slotted_sphere") and rng.random() < 0.5:

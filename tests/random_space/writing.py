@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from math import pi
-from typing import Any
 
 import numpy as np
 
@@ -31,7 +30,7 @@ class Options:
     speeds: float = 1.0
 
 
-def tree(d: Drawing, options: Options = Options()) -> Tree:  # noqa: B008
+def tree(d: Drawing, options: Options = Options()) -> Tree:
     """The model tree of a drawing."""
     if options.motion is not None:
         d = _moved(d, options.motion)
@@ -126,7 +125,11 @@ class _Writer:
         w = np.array([r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]])
         angle = np.arctan2(np.linalg.norm(w), np.trace(r) - 1.0)
         axis = w / np.linalg.norm(w) if np.linalg.norm(w) > 0 else np.array([0.0, 0.0, 1.0])
-        return {"position": self.lengths(o), "axis": [float(x) for x in axis], "angle": float(angle * 180 / pi)}
+        return {
+            "position": self.lengths(o),
+            "axis": [float(x) for x in axis],
+            "angle": float(angle * 180 / pi),
+        }
 
     def joint(self, name: str) -> Tree:
         j = self.d.joints[name]
@@ -252,5 +255,3 @@ def ball_directions(axis: Array, on_i: Array, on_j: Array) -> tuple[Array, Array
     b = np.cross(a, np.eye(3)[np.abs(a).argmin()])
     b /= np.linalg.norm(b)
     return on_i.T @ b, on_j.T @ b
-
-

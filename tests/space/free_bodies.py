@@ -11,9 +11,7 @@ from typing import Any
 import numpy as np
 
 from tests.random_space.drawing import AXES, Array, Drawing, Joint
-from tests.space.screw_motion import Places, State, at_origin, effort_screw, equations, rod_line, screws
-
-__all__ = ["Balance", "gaps", "rod_line"]
+from tests.space.screw_motion import Places, State, at_origin, effort_screw, equations, screws
 
 
 class Balance:
@@ -61,7 +59,9 @@ class Balance:
         return w
 
     def _pull(self, w: Array, load: Any) -> None:
-        (a, pa), (b, pb) = ((link, self.at.point(link, self.d.spots[link][p])) for link, p in (load.a, load.b))
+        (a, pa), (b, pb) = (
+            (link, self.at.point(link, self.d.spots[link][p])) for link, p in (load.a, load.b)
+        )
         length = np.linalg.norm(pb - pa, axis=-1, keepdims=True)
         e = (pb - pa) / length
         rate = np.sum(e * (self.at.velocity(b, pb) - self.at.velocity(a, pa)), -1, keepdims=True)
@@ -81,9 +81,7 @@ class Balance:
                     continue
                 unit = effort_screw(self.at, j, "turn")
                 deflection = self.turned(name) - load.free
-                moment = load.value * (
-                    deflection if load.type == "torsion_spring" else self._rate(j, unit)
-                )
+                moment = load.value * (deflection if load.type == "torsion_spring" else self._rate(j, unit))
                 self._between(w, j, -moment[:, None] * unit)
         return w
 
@@ -162,26 +160,3 @@ class Balance:
         return {
             name: -np.sum(self.known * found.solved(self.d, {name: 1.0}), (-2, -1)) for name in self.d.drives
         }
-
-
-def gaps(d: Drawing, s: State) -> dict[str, float]:
-    """How far each joint is from closing: lengths, and sines of angles."""
-    at, out = Places(d, s), {}
-    for name, j in d.joints.items():
-        (p, r), (on_i, on_j) = at.ends(j), at.frames(j)
-        slid = ((r - p)[:, None] @ np.swapaxes(on_i, -1, -2))[:, 0]
-        apart = [np.delete(slid, [AXES.index(k) for k in (j.pair.slides or "x" * (j.type == "screw"))], 1)]
-        turns = [AXES.index(k) for k in j.pair.turns]
-        cosines = on_i @ np.swapaxes(on_j, -1, -2)
-        if len(turns) == 0:
-            apart.append((cosines - np.eye(3)).reshape(len(p), -1))
-        elif len(turns) == 1:
-            apart.append(on_i[:, turns[0]] - on_j[:, turns[0]])
-        elif len(turns) == 2:
-            apart.append(cosines[:, turns[0], turns[1], None])
-        if j.type == "screw":
-            angle = np.arctan2(cosines[:, 2, 1], cosines[:, 1, 1])
-            turn = np.angle(np.exp(1j * (2 * np.pi * slid[:, 0] / j.lead - angle)))
-            apart.append(turn[:, None] * j.lead / (2 * np.pi))
-        out[name] = max(float(np.max(np.abs(a), initial=0.0)) for a in apart)
-    return out

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from tests.random_space.drawing import AXES, BALLS, Array, Drawing, Joint
+from tests.random_space.drawing import AXES, BALLS, Array, Drawing, Joint, about
 from tests.random_space.writing import ball_directions
 
 
@@ -98,7 +98,7 @@ class Places:
 def screws(at: Places, j: Joint) -> Array:
     """Motions (P, F, 6) that the joint allows j in i: velocity of j's point, spin."""
     on_i, on_j = at.frames(j)
-    zero = np.zeros(on_i.shape[:-2] + (3,))
+    zero = np.zeros((*on_i.shape[:-2], 3))
     out = [np.concatenate([on_i[:, AXES.index(k)], zero], -1) for k in j.pair.slides]
     turns = j.pair.turns
     axes = [on_i[:, AXES.index(k)] for k in turns]
@@ -112,7 +112,7 @@ def screws(at: Places, j: Joint) -> Array:
 def effort_screw(at: Places, j: Joint, freedom: str) -> Array:
     """Force at j's point and couple (P, 6) on j of a unit effort: its power is the freedom's rate."""
     on_i, on_j = at.frames(j)
-    zero = np.zeros(on_i.shape[:-2] + (3,))
+    zero = np.zeros((*on_i.shape[:-2], 3))
     if freedom.startswith("slide"):
         place = (int(freedom[-1:]) if freedom[-1:].isdigit() else 1) - 1
         along = on_i[:, AXES.index((j.pair.slides or "x")[place])]
@@ -211,3 +211,43 @@ def redundant(d: Drawing) -> int:
     """Constraints too many, as drawn."""
     matrix = equations(d, standing(d)).matrix[0]
     return int(len(matrix) - np.linalg.matrix_rank(matrix, tol=1e-7))
+
+
+def moved(d: Drawing, s: State, amounts: dict[str, float]) -> State:
+    """The state after small amounts of the drives' freedoms, by the midpoint rule."""
+    half = _carried(s, equations(d, s).solved(d, amounts) / 2)
+    return _carried(s, equations(d, half).solved(d, amounts))
+
+
+def _carried(s: State, twists: Array) -> State:
+    """Every link moved by a finite displacement with these twists at the ground's origin."""
+    v, w = twists[..., :3] + np.cross(twists[..., 3:], s.origin), twists[..., 3:]
+    angle = np.linalg.norm(w, axis=-1)
+    turned = [
+        [about(u if a > 0 else np.eye(3)[0], a) for u, a in zip(us, angles, strict=True)]
+        for us, angles in zip(w, angle, strict=True)
+    ]
+    return State(s.links, np.array(turned) @ s.rotation, s.origin + v, s.twist, s.rate)
+
+
+def gaps(d: Drawing, s: State) -> dict[str, float]:
+    """How far each joint is from closing: lengths, and sines of angles."""
+    at, out = Places(d, s), {}
+    for name, j in d.joints.items():
+        (p, r), (on_i, on_j) = at.ends(j), at.frames(j)
+        slid = ((r - p)[:, None] @ np.swapaxes(on_i, -1, -2))[:, 0]
+        apart = [np.delete(slid, [AXES.index(k) for k in (j.pair.slides or "x" * (j.type == "screw"))], 1)]
+        turns = [AXES.index(k) for k in j.pair.turns]
+        cosines = on_i @ np.swapaxes(on_j, -1, -2)
+        if len(turns) == 0:
+            apart.append((cosines - np.eye(3)).reshape(len(p), -1))
+        elif len(turns) == 1:
+            apart.append(on_i[:, turns[0]] - on_j[:, turns[0]])
+        elif len(turns) == 2:
+            apart.append(cosines[:, turns[0], turns[1], None])
+        if j.type == "screw":
+            angle = np.arctan2(cosines[:, 2, 1], cosines[:, 1, 1])
+            turn = np.angle(np.exp(1j * (2 * np.pi * slid[:, 0] / j.lead - angle)))
+            apart.append(turn[:, None] * j.lead / (2 * np.pi))
+        out[name] = max(float(np.max(np.abs(a), initial=0.0)) for a in apart)
+    return out

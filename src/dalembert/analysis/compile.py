@@ -161,8 +161,8 @@ def characteristic_length(m: Mechanism) -> float:
         for link, u in zip(joint.links, m.joint_points(name), strict=True):
             at.setdefault(link, []).append(tuple(u))
     for points in at.values():
-        p = np.array(points)
-        spans.append(float(np.linalg.norm(p.max(axis=0) - p.min(axis=0))))
+        p = np.unique(np.array(points), axis=0)  # distances, not extents: the same in whatever axes
+        spans.append(float(max(np.linalg.norm(p - u, axis=-1).max() for u in p)))
     spans = [s for s in spans if s > 0]
     return float(np.mean(spans)) if spans else 1.0
 

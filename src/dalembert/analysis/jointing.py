@@ -141,8 +141,8 @@ class SpaceJoints(_Joints):
         self.geometries += (at,)
         split = rubs(self.m, joint) or joint.stiffness is not None
         pairs.add_constraints(self.constraints, k, joint, self.ends[k], at, split)
-        drive = next((d for d in self.m.drives if self.m.drive_joint(d) == name), None)
-        axis = self.m.drives[drive].axis if drive else None
+        axes = (d.axis for key, d in self.m.drives.items() if self.m.drive_joint(key) == name)
+        axis = next((axis for axis in axes if axis is not None), None)
         self.freedoms.counted = max(self.freedoms.counted, self.constraints.counted)
         found = pairs.add_freedom(self.freedoms, k, joint, self.ends[k], at, axis)
         self.constraints.counted = self.freedoms.counted
@@ -150,7 +150,7 @@ class SpaceJoints(_Joints):
 
     def add_passive(self) -> tuple[str, ...]:
         """Links that can spin about the line of their two ball joints: set to no spin."""
-        driven = {self.m.drive_joint(d) for d in self.m.drives}
+        driven = {self.m.drive_joint(name) for name, drive in self.m.drives.items() if drive.turns}
         found = []
         for link, number in self.index.items():
             ends = [
@@ -173,7 +173,11 @@ class SpaceJoints(_Joints):
             drawn = space.IDENTITY
             if isinstance(given, SpacePose):
                 drawn = space.rotation(np.array(given.angle), given.axis)
-            self.constraints.add(Idle, -1, (len(self.index) - 1, number), p=line, drawn=drawn)
+            # a ball in a guide of the link moves in it, and the line with it
+            stands = all(joint.type == "spherical" or side == 1 for _, joint, side in ends)
+            self.constraints.add(
+                Idle, -1, (len(self.index) - 1, number), p=line, drawn=drawn, stands=float(stands)
+            )
             found.append(link)
         return tuple(found)
 

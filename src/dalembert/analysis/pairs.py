@@ -202,11 +202,12 @@ def add_freedom(
 
 
 def _about_vector(axis: Array, at: Geometry) -> dict[str, Any]:
-    """Angle about any axis of i, of directions with the same components in the joint's local axes of both links."""
-    a = axis / np.linalg.norm(axis)
+    """Angle about any axis of i, of directions with the same components in the joint's local axes of both links: across
+    the axis and the local axis farthest from it, so that it does not matter in which axes a link is described."""
+    a = at.on_i @ (axis / np.linalg.norm(axis))
     b = np.cross(a, np.eye(3)[np.abs(a).argmin()])
     b /= np.linalg.norm(b)
-    return {"a": a, "b": b, "p": at.on_j.T @ (at.on_i @ b)}
+    return {"a": at.on_i.T @ a, "b": at.on_i.T @ b, "p": at.on_j.T @ b}
 
 
 def hinge(joint: Any, ends: tuple[int, int], at: Geometry, drives: dict[str, int]) -> Hinge:

@@ -153,6 +153,7 @@ class Idle:
     """In space: spin of j about a direction p of its own, set to none.
 
     Its measure is 0 wherever it stands: the link stands as ``drawn``, turned by the least angle that points p right.
+    Where the line that it may spin about moves in the link (``stands`` is 0), it keeps the spin that it has.
     """
 
     row: Ints
@@ -160,6 +161,7 @@ class Idle:
     j: Ints
     p: Array
     drawn: Array  # (k, 9)
+    stands: Array  # (k,) 1 or 0
 
 
 @dataclass(frozen=True)

@@ -140,9 +140,10 @@ def settled(layout: Layout, pose: Pose) -> Pose:
     g = layout.algebra
     for f in layout.constraints.families:
         if isinstance(f, Idle):
-            rotation = pose.rotation.copy()
-            was, now = g.rotate(f.drawn, f.p), arm(g, pose, f.j, f.p)
-            rotation[..., f.j, :] = g.compose(g.least_turn(was, now), f.drawn)
+            rotation, link = pose.rotation.copy(), f.j[f.stands > 0]
+            p, drawn = f.p[f.stands > 0], f.drawn[f.stands > 0]
+            was, now = g.rotate(drawn, p), arm(g, pose, link, p)
+            rotation[..., link, :] = g.compose(g.least_turn(was, now), drawn)
             pose = pose._replace(rotation=rotation)
     if not layout.counted:
         return pose
