@@ -157,7 +157,7 @@ def _spherical(joint: Any, at: Geometry, sine: bool) -> Iterator[Bearing]:
     """Three parts of a couple about j's axes."""
     read: tuple[Read, Read, Read] = ({"Fx": 1.0}, {"Fy": 1.0}, {"Fz": 1.0})
     for axis in np.eye(3):
-        row = (Idle, {"p": axis, "drawn": space.IDENTITY})
+        row = (Idle, {"p": axis, "drawn": space.IDENTITY, "stands": 0.0})
         yield Bearing("ball", row, read, joint.friction.radius, sine, True, 1, joint.friction.radius)
 
 
