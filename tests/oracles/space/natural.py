@@ -235,14 +235,19 @@ def marched(tree: Tree, start: Array) -> tuple[Array, list[float]]:
     whole, q = Machine(tree), start[None]
     path, gaps = [], []
     for k in range(whole.count):
-        at = {
-            name: {**tree["drives"][name], "position": f"{d.position[k]} {_unit(d.freedom)}"}
-            for name, d in whole.drives.items()
-        }
-        q, gap = closed(Machine({**tree, "drives": at}), q, 1e-5)
+        q, gap = closed(at_position(tree, whole, k), q, 1e-5)
         path.append(q[0])
         gaps.append(gap)
     return np.array(path), gaps
+
+
+def at_position(tree: Tree, whole: Machine, k: int) -> Machine:
+    """The machine with its drives at one of their positions only."""
+    drives = {
+        name: {**tree["drives"][name], "position": f"{d.position[k]} {_unit(d.freedom)}"}
+        for name, d in whole.drives.items()
+    }
+    return Machine({**tree, "drives": drives})
 
 
 def _unit(freedom: str) -> str:

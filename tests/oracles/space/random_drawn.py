@@ -37,7 +37,7 @@ def mechanism(seed: int) -> tuple[Tree, natural.Machine, Array]:
         if tree is None:
             continue
         m = natural.Machine(tree)
-        start = _laid(m, tree)
+        start = laid(m, tree)
         if natural.idle(m) or not _well_driven(m, start):
             continue
         path, gaps = natural.marched(tree, start)
@@ -70,7 +70,7 @@ def _tree(rng: Any) -> Tree | None:
     driven = [movable[k] for k in rng.choice(len(movable), drives, replace=False)]
     tree = _whole(rng, links, drawn, places, rotations)
     m = natural.Machine(tree)
-    q = _laid(m, tree)
+    q = laid(m, tree)
     for joint, freedom in driven:
         tree["drives"][f"{joint} {freedom}"] = _drive(rng, joint, freedom, m.value(joint, freedom, q))
     return tree
@@ -178,7 +178,7 @@ def _pose(place: Array, r: Array) -> Tree:
     return {"position": plain(place), "axis": plain(w / np.linalg.norm(w)), "angle": float(angle)}
 
 
-def _laid(m: natural.Machine, tree: Tree) -> Array:
+def laid(m: natural.Machine, tree: Tree) -> Array:
     """Coordinates of the poses of `assembly`."""
     q = natural.drawn(m)
     for link, pose in tree["assembly"].items():
