@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from tests.oracles.jets import Jet, sqrt
-from tests.oracles.reading import Array
+from tests.oracles.reading import Array, Tree
 
 
 def fixed(value: Any) -> Jet:
@@ -72,6 +72,23 @@ def frame(z: Any, x: Any) -> Array:
     x = x - z * (x @ z)
     x = x / np.linalg.norm(x)
     return np.stack([x, np.cross(z, x), z], -1)
+
+
+def square(vector: Array, axis: Array) -> Array:
+    """The unit vector across an axis nearest to a vector."""
+    across = vector - axis * (vector @ axis)
+    return np.asarray(across / np.linalg.norm(across))
+
+
+def local_axes(joint: Tree, side: str) -> Array:
+    """The joint's axes as columns, in the axes of link `side`; the other axis is any where only one is given."""
+    main = "z" if joint["type"] in ("revolute", "universal") else "x"
+    given = joint.get("axes", {}).get(side, {main: joint.get("axis", [1.0, 0.0, 0.0])})
+    if "x" in given and "z" in given:
+        return frame(given["z"], given["x"])
+    u = next(iter(given.values()))
+    helper = np.eye(3)[np.argmin(np.abs(u))]
+    return frame(u, helper) if "z" in given else np.roll(frame(u, helper), 1, axis=-1)
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ import numpy as np
 
 from tests.oracles.jets import Jet
 from tests.oracles.reading import Array, Tree, drive
-from tests.oracles.space.moving import frame
+from tests.oracles.space.moving import local_axes, square
 from tests.oracles.space.natural_loads import applied, momentum
 
 
@@ -185,23 +185,6 @@ class Machine:
             return float(((p_j - p_i) @ q) @ (self.along(name, freedom) @ q))
         p, b, c, sense = self.angle(name, freedom)
         return float(sense * np.arctan2((p @ q) @ (c @ q), (p @ q) @ (b @ q)))
-
-
-def square(vector: Array, axis: Array) -> Array:
-    """The unit vector across an axis nearest to a vector."""
-    across = vector - axis * (vector @ axis)
-    return np.asarray(across / np.linalg.norm(across))
-
-
-def local_axes(joint: Tree, side: str) -> Array:
-    """The joint's axes as columns, in the axes of link `side`; the other axis is any where only one is given."""
-    main = "z" if joint["type"] in ("revolute", "universal") else "x"
-    given = joint.get("axes", {}).get(side, {main: joint.get("axis", [1.0, 0.0, 0.0])})
-    if "x" in given and "z" in given:
-        return frame(given["z"], given["x"])
-    u = next(iter(given.values()))
-    helper = np.eye(3)[np.argmin(np.abs(u))]
-    return frame(u, helper) if "z" in given else np.roll(frame(u, helper), 1, axis=-1)
 
 
 def closed(m: Machine, guess: Array, rcond: float = 1e-11) -> tuple[Array, float]:
