@@ -24,6 +24,7 @@ from dalembert.views.scene import Polygon
 from dalembert.views.solids import Ball, Cylinder, extent
 from dalembert.views.space_mechanism import every_place, whole_sight
 from tests.methods.space_machines import MACHINES, solved
+from tests.oracles.space import random_drawn
 
 each = pytest.mark.parametrize("name", list(MACHINES))
 VIEWS: list[Any] = ["isometric", "front", "top", "side", (20.0, 35.0)]
@@ -124,6 +125,18 @@ def test_components_make_up_the_reaction(name: str) -> None:
                 assert len(some) == len(longer)
                 total = sum((np.subtract(a.head, a.tail) for a in some), np.zeros(2))
                 assert total == pytest.approx(sum(longer, np.zeros(2)), abs=1e-6)
+
+
+SEEDS = [pytest.param(seed, marks=[pytest.mark.long] if seed >= 4 else []) for seed in range(40)]
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_random_mechanisms_of_all_pairs(seed: int) -> None:
+    r = da.dynamics(da.mechanism(random_drawn.mechanism(seed)[0]))
+    check(da.draw.mechanism(r, at=1, camera=(200.0, -25.0), forces=True))
+    for link in r.links:
+        check(da.draw.free_body(r, link, at=1))
+    assert len(da.draw.solid_model(r).document["nodes"]) == len(r.links) + 2
 
 
 def test_the_table_of_a_free_body() -> None:

@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 OWN = "Friction circles to scale; dash-dotted: the line of each reaction."
 TAKEN = f"{OWN[:-1]}, of a two-force link on both circles; faint: the common tangents not taken."
 
+NOISE = 1e-12
+"""Positions of drives below this, rad or m, are rounding."""
+
 ROLES = {"joint": "joint-force", "spring": "load", "damper": "friction"}
 
 
@@ -96,7 +99,8 @@ def place_title(r: Result, k: int, heading: str, shown: Shown) -> str:
     from dalembert.analysis.columns import drive_kinds
 
     at = [
-        f"{d} = {shown.text(drive_kinds(r, d)['position'], float(r.drive_position(d)[k]))}" for d in r.drives
+        f"{d} = {shown.text(drive_kinds(r, d)['position'], float(r.drive_position(d)[k]), NOISE)}"
+        for d in r.drives
     ]
     return f"{heading}, {', '.join(at)}"
 

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from dalembert.analysis.actions import actions, joint_place, link_place, on_link
 from dalembert.analysis.pairs import AXES, PAIRS, Pair, pair_of
 from dalembert.analysis.wrenches import axes_of
-from dalembert.views import symbols
 from dalembert.views.camera import Camera
 from dalembert.views.canvas import Canvas
 from dalembert.views.lettering import text_width
@@ -18,7 +17,7 @@ from dalembert.views.link_solids import nodes
 from dalembert.views.mechanism import ring, unit_size
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.scene import Item, Line, Point, Scene, Text
-from dalembert.views.space_mechanism import Arrows
+from dalembert.views.space_mechanism import Arrows, mark_center
 from dalembert.views.space_view import Sight, sight, standing, triad
 
 if TYPE_CHECKING:
@@ -43,7 +42,7 @@ def space_free_body_scene(
     canvas.add(*s.painted(standing(r, k, s.frame.per_mm, [link])))
     if r.mechanism.mass(link):
         at = s(r.center(link)[k])
-        canvas.add(*symbols.mass_center(at))
+        mark_center(canvas, at, [s(link_place(r, link, u)[k]) for u in nodes(r, link).values()])
         canvas.label("G", *ring(at, 1.0), size=2.8, role="note", leads=False)
     everything = actions(r)
     arrows = Arrows(canvas, r, s, shown, [a for a in everything if a.link != "ground"], k)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -100,7 +101,24 @@ def draw_machine(canvas: Canvas, r: Result, k: int, s: Sight) -> None:
     for link in r.links:
         at = s(r.center(link)[k])
         if m.mass(link) and all(math.dist(at, p) > 1.5 for p in joints):
-            canvas.add(*symbols.mass_center(at))
+            mark_center(canvas, at, [s(link_place(r, link, u)[k]) for u in nodes(r, link).values()])
+
+
+def mark_center(canvas: Canvas, at: Point, places: list[Point]) -> None:
+    """A mass centre; one beside its link has a thin line to the nearest of its places."""
+    far = [math.dist(at, p) for p in places]
+    beside = min((_off(at, a, b) for a, b in pairwise(places)), default=min(far, default=0.0))
+    if beside > 3.0 and len(places) > 1:
+        canvas.add(Line((at, places[far.index(min(far))]), "construction"))
+    canvas.add(*symbols.mass_center(at))
+
+
+def _off(p: Point, a: Point, b: Point) -> float:
+    """Distance of a place from a straight piece."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    t = ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / ((dx * dx + dy * dy) or 1.0)
+    t = min(max(t, 0.0), 1.0)
+    return math.dist(p, (a[0] + t * dx, a[1] + t * dy))
 
 
 def draw_names(canvas: Canvas, r: Result, k: int, s: Sight, shown: Shown) -> None:
