@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 
 from dalembert.model import (
     Answer,
+    Box,
     Couple,
+    Cylinder,
     Damper,
     Drive,
     Expression,
@@ -25,14 +27,17 @@ from dalembert.model import (
     Range,
     Rise,
     Rolling,
+    SlenderBar,
     Slider,
     Slot,
     SlotFriction,
+    Sphere,
     Spring,
     Table,
     TimeTable,
     TorsionDamper,
     TorsionSpring,
+    Tube,
     Weld,
 )
 
@@ -75,7 +80,29 @@ def links(draw: st.DrawFn) -> Link:
     start = draw(st.sampled_from(["P", "center"]))
     points = {"P": draw(vectors), "Q": Offset(start, draw(vectors)), "R": Offset("Q", draw(vectors))}
     center = draw(st.none() | vectors)
+    if draw(st.booleans()):
+        placed = {"P": draw(vectors), "Q": Offset("P", draw(vectors))}
+        return Link(
+            points=placed | {"R": Offset("center", draw(vectors))}, shape=draw(shapes(bool(keys))), **keys
+        )
     return Link(points=points, center=center, inertia=draw(positive), **keys)
+
+
+@st.composite
+def shapes(draw: st.DrawFn, weighed: bool) -> Any:
+    """One shape, or several."""
+    size = st.floats(1e-6, 1e3)
+    density = {} if weighed else {"density": draw(size)}
+    box = Box(size=(draw(size), draw(size), draw(size)), center=draw(st.none() | vectors), **density)
+    long = {"length": draw(size), "axis": (draw(size), draw(size)), **density}
+    inner = draw(size)
+    others = (
+        Sphere(radius=draw(size), **density),
+        Cylinder(radius=draw(size), **long),
+        Tube(radii=(inner, inner + draw(size)), **long),
+        SlenderBar(area=draw(size), **long),
+    )
+    return draw(st.sampled_from((box, *others, (box, *others))))
 
 
 @st.composite

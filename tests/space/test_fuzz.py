@@ -1,0 +1,84 @@
+"""Mutated files and changed trees in space: refused with their line, or answered honestly."""
+
+from __future__ import annotations
+
+import json
+import random
+from copy import deepcopy
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.bundled import examples
+from dalembert.cli.answer import answer_text
+from dalembert.model import loads, tree_text
+from tests.laws.mutations import mutated as changed
+from tests.model.test_fuzz import loaded, mutated
+from tests.oracles.space.machines import EXAMPLES
+
+TEXT = (Path(__file__).parents[1] / "model" / "rssr.yaml").read_text(encoding="utf-8")
+
+
+@cache
+def texts() -> dict[str, str]:
+    tree = loads(TEXT).to_tree()
+    return {"yaml": TEXT, "json": tree_text(tree, "json"), "toml": tree_text(tree, "toml")}
+
+
+def read(seed: int) -> None:
+    draw = random.Random(seed)
+    form = draw.choice(sorted(texts()))
+    found = loaded(mutated(texts()[form], draw), form)
+    if isinstance(found, da.ModelError):
+        assert str(found).startswith("file:")
+        assert found.line > 0
+    else:
+        assert loads(tree_text(found.to_tree())) == found
+
+
+@pytest.mark.parametrize("block", [0, *(pytest.param(b, marks=pytest.mark.long) for b in range(1, 40))])
+def test_a_mutated_file_is_a_mechanism_or_a_model_error(block: int) -> None:
+    for seed in range(250 * block, 250 * (block + 1)):
+        read(seed)
+
+
+@cache
+def bases() -> tuple[dict[str, Any], ...]:
+    """The oracles' mechanisms at three positions, with shapes, springs and damped turns in some."""
+    trees = [deepcopy(example.tree) for example in EXAMPLES.values()]
+    trees += [loads(TEXT).to_tree(), da.load(examples()["rssr"]).to_tree()]
+    for tree in trees:
+        tree.pop("answers", None)
+        for drive in tree["drives"].values():
+            if isinstance(drive.get("position"), dict):
+                drive["position"]["count"] = 3
+    return tuple(trees)
+
+
+def answered(seed: int) -> None:
+    try:
+        r = da.solve(da.mechanism(changed(bases()[seed % len(bases())], seed)))
+    except da.ModelError as error:
+        assert error.what  # noqa: PT017
+        return
+    for axes in ("ground", "joint") if r.mechanism.dimension == 3 else ("ground", "link"):
+        json.dumps(r.to_dict(axes=axes), allow_nan=False)  # type: ignore[arg-type]
+    assert answer_text(r)
+    for k, status in enumerate(r.status):
+        if status == "ok":
+            assert r.residual[k] < 1e-6
+            assert abs(r.power_balance[k]) < 1e-6
+            assert all(np.isfinite(r.least_norm(joint)[k]).all() for joint in r.joints)
+            assert all(np.isfinite(r.rotation(link)[k]).all() for link in r.links)
+        else:
+            assert r.reasons[k]
+
+
+@pytest.mark.parametrize("block", [0, *(pytest.param(b, marks=pytest.mark.long) for b in range(1, 40))])
+def test_a_changed_tree_is_refused_or_answered_honestly(block: int) -> None:
+    for seed in range(200 * block, 200 * (block + 1)):
+        answered(seed)
