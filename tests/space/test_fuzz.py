@@ -82,3 +82,13 @@ def answered(seed: int) -> None:
 def test_a_changed_tree_is_refused_or_answered_honestly(block: int) -> None:
     for seed in range(200 * block, 200 * (block + 1)):
         answered(seed)
+
+
+def test_a_drive_too_many_is_named() -> None:
+    """Found by a changed tree: drives that nothing closes with were laid although they were left out."""
+    tree = da.load(examples()["rssr"]).to_tree()
+    del tree["answers"]
+    tree["drives"]["C"] = {"position": "100 deg"}
+    with pytest.raises(da.ModelError) as caught:
+        da.solve(da.mechanism(tree))
+    assert str(caught.value) == "the mechanism has 1 freedom and 2 drives; leave out 1 drive of O, C"

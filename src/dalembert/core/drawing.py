@@ -156,7 +156,9 @@ class Drawing:
                 if (h.i in placed) == (h.j in placed):
                     continue
                 if driven:
-                    part[:, np.array(h.drives) >= 0] = drives[[d for d in h.drives if d >= 0]]
+                    wanted = np.array(h.drives, np.intp)
+                    known = (wanted >= 0) & (wanted < len(drives))  # none are where the drives are left out
+                    part[:, known] = drives[wanted[known]]
                 _place(layout, h, pose, part, h.i in placed, by_values)
                 placed |= {h.i, h.j}
                 grown = True

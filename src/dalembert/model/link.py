@@ -15,6 +15,7 @@ from dalembert.model.shapes import (
     Shape,
     ShapePart,
     check_densities,
+    finite,
     mass_properties,
 )
 from dalembert.model.values import (
@@ -202,7 +203,10 @@ class Link(Part):
                     f"both shape and {key} are given", "leave one of them out: a shape gives both", (key,)
                 )
         check_densities(self.shapes, self.mass is not None or self.weight is not None)
-        self.mass_properties(1.0 if self.weight is not None else self.mass)
+        if not finite(self.mass_properties, 1.0 if self.weight is not None else self.mass):
+            raise ModelError(
+                "its mass or inertia is no finite number", "check its size and units", ("shape",)
+            )
 
     def mass_properties(self, mass: Any = None) -> MassProperties:
         """Mass, centre and inertia of its shapes; of one density where the whole mass is given."""

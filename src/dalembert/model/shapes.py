@@ -276,6 +276,16 @@ def check_densities(shapes: tuple[ShapePart, ...], weighed: bool) -> None:
             raise ModelError("a bar needs the area of its section here", "give it: area: 2 cm^2", path)
 
 
+def finite(properties: Callable[[Any], MassProperties], mass: Any) -> bool:
+    """Whether a mass, its centre and its inertia can be told in numbers."""
+    try:
+        with np.errstate(all="ignore"):
+            found, center, inertia = properties(mass)
+    except (OverflowError, ZeroDivisionError):
+        return False
+    return all(map(math.isfinite, (found, *center, *inertia.flat)))
+
+
 def mass_properties(shapes: tuple[ShapePart, ...], points: Points, mass: Any = None) -> MassProperties:
     """Shapes taken together (parallel axes); of one density where the whole mass is given."""
     solids = [
