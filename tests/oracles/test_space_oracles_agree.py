@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.oracles.space import natural, shafts
+from tests.oracles.space.agreement import coordinates
 from tests.oracles.space.machines import EXAMPLES, hooke
 from tests.oracles.space.moving import Pose
 from tests.oracles.space.parts import turning
@@ -30,7 +31,7 @@ def test_hand_solution_is_that_of_natural_coordinates(name: str, dynamic: bool) 
     example = EXAMPLES[name]
     answer = example.answer(dynamic)
     m = natural.Machine(example.tree)
-    found = natural.solve(m, natural.coordinates(m, answer.poses), dynamic)
+    found = natural.solve(m, coordinates(m, answer.poses), dynamic)
     force, length = answer.force_scale(), answer.length()
     for joint, reaction in answer.reactions.items():
         close(found.forces[joint], reaction.force, force, f"force {joint}")
@@ -60,7 +61,7 @@ def test_no_constraint_is_redundant_and_drives_and_idle_spins_are_the_freedoms(n
     example = EXAMPLES[name]
     answer = example.answer(True)
     m = natural.Machine(example.tree)
-    freedoms, redundant, gap = natural.mobility(m, natural.coordinates(m, answer.poses)[3])
+    freedoms, redundant, gap = natural.mobility(m, coordinates(m, answer.poses)[3])
     assert (freedoms, redundant) == (len(answer.efforts) + len(answer.free), 0)
     assert gap > 1e6
 

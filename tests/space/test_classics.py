@@ -8,6 +8,7 @@ import pytest
 import dalembert as da
 from tests.oracles.space import natural
 from tests.oracles.space.classics import CLASSICS
+from tests.oracles.space.compliance import shared
 
 STEPS = 3
 
@@ -69,3 +70,22 @@ def test_every_constraint_closes_to_rounding_over_a_turn(name: str) -> None:
     assert solved.sum() >= 36
     phi, _, _, _ = natural.system(m.rows, q, 0 * q)
     assert np.max(np.abs(phi[solved])) < 1e-14
+
+
+@pytest.mark.parametrize("name", [n for n, c in CLASSICS.items() if c.drives])
+def test_stiffness_of_joints_shares_reactions_by_least_energy(name: str) -> None:
+    tree = CLASSICS[name].tree(STEPS)
+    m, path, _ = natural.followed(tree)
+    rng = np.random.default_rng(8)
+    stiffness = {joint: (rng.uniform(1e6, 5e6), rng.uniform(1e4, 5e4)) for joint in tree["joints"]}
+    for joint, (force, moment) in stiffness.items():
+        tree["joints"][joint]["stiffness"] = {"force": f"{force} N/m", "moment": f"{moment} N*m/rad"}
+    r = da.dynamics(da.mechanism(tree))
+    assert set(r.status) == {"ok"}, r.problems()
+    expected = shared(m, natural.solve(m, path), stiffness)
+    largest = max(float(np.max(np.abs(force))) for force, _ in expected.values())
+    for joint, (force, moment) in expected.items():
+        np.testing.assert_allclose(r.reaction(joint), force, rtol=0, atol=1e-10 * largest, err_msg=joint)
+        np.testing.assert_allclose(
+            r.reaction_moment(joint), moment, rtol=0, atol=1e-10 * largest, err_msg=joint
+        )

@@ -73,16 +73,16 @@ class _Joints:
             return None
         out = np.zeros(fixed.count)
         for k, stiffness in yielding.items():
-            for row, kind, axis in self.reactions(k, np.flatnonzero(fixed.joint == k), fixed):
+            for row, kind, axis, share in self.reactions(k, np.flatnonzero(fixed.joint == k), fixed):
                 given = getattr(stiffness, kind)
                 if given is not None:
-                    out[row] = 1 / (given[axis] if isinstance(given, tuple) else given)
+                    out[row] += share**2 / (given[axis] if isinstance(given, tuple) else given)
         return out
 
-    def reactions(self, k: int, rows: NDArray[np.intp], fixed: Rows) -> Iterator[tuple[int, str, int]]:
-        """Each row of a joint, force or moment, and its local axis."""
+    def reactions(self, k: int, rows: NDArray[np.intp], fixed: Rows) -> Iterator[tuple[int, str, int, float]]:
+        """Each row of a joint, force or moment, its local axis, and how much of it a unit of the row is."""
         for row in rows:
-            yield int(row), "moment" if fixed.angular[row] else "force", 0
+            yield int(row), "moment" if fixed.angular[row] else "force", 0, 1.0
 
     def add_passive(self) -> tuple[str, ...]:
         """Rows that hold freedoms which move nothing else; the names of their links."""
@@ -181,11 +181,13 @@ class SpaceJoints(_Joints):
             found.append(link)
         return tuple(found)
 
-    def reactions(self, k: int, rows: NDArray[np.intp], fixed: Rows) -> Iterator[tuple[int, str, int]]:
-        """Each row of a joint, force or moment, and its local axis."""
+    def reactions(self, k: int, rows: NDArray[np.intp], fixed: Rows) -> Iterator[tuple[int, str, int, float]]:
+        """Each row of a joint, force or moment, its local axis, and how much of it a unit of the row is."""
         joint = list(self.m.joints.values())[k]
         for name, row in pairs.reaction_rows(joint, int(rows[0])).items():
-            yield row, "force" if name[0] == "F" else "moment", pairs.AXES.index(name[1])
+            yield row, "force" if name[0] == "F" else "moment", pairs.AXES.index(name[1]), 1.0
+            if joint.type == "screw" and name == "Fx":  # the thread's couple goes with its force
+                yield row, "moment", 0, joint.lead / (2 * np.pi)
 
     def contacts(self, fixed: Rows) -> tuple[Contacts, tuple[str, ...]] | None:
         """The contacts of the joints with friction."""

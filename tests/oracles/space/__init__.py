@@ -8,6 +8,7 @@
 ``natural``    any mechanism: 12 coordinates a link (origin and axes), constraints of second degree, multipliers
 ``random_drawn``  random mechanisms of all pairs, drawn as they close, for ``natural``
 ``free_motion``   states of two published free motions
+``compliance``    reactions beyond equilibrium by least elastic energy of the joints
 ``screws``     mobility by the rank of the joints' screws, and of a loop that closes over a range (Denavit-Hartenberg)
 ``classics``   overconstrained linkages with their published mobility
 

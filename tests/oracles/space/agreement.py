@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from tests.oracles.reading import Array
+from tests.oracles.space.natural import Machine
 from tests.oracles.space.statics import Answer
 
 
@@ -48,3 +49,15 @@ def motion(r: Any, answer: Answer, length: float) -> dict[str, float]:
 
 def gap(found: Array, expected: Array, scale: float) -> float:
     return float(np.max(np.abs(np.asarray(found) - expected))) / (scale or 1.0)
+
+
+def coordinates(m: Machine, poses: dict[str, Any]) -> Array:
+    """Q of the poses of a hand solution."""
+    count = max(len(pose.origin.x) for pose in poses.values())
+    q = np.zeros((count, m.size, 3))
+    q[:, 1:4] = np.eye(3)
+    for link, pose in poses.items():
+        k = 4 * m.links.index(link)
+        q[:, k] = pose.origin.x
+        q[:, k + 1 : k + 4] = np.swapaxes(pose.rotation.x, -1, -2)
+    return q

@@ -333,17 +333,29 @@ def unique(m: Machine, path: Array) -> dict[str, Array]:
 
     Those that every set of multipliers without any load on the coordinates leaves at zero.
     """
-    _, J, _, _ = system(m.rows, path, 0 * path)
     out: dict[str, list[Array]] = {name: [] for name in m.tree["joints"]}
+    _, J, _, _ = system(m.rows, path, 0 * path)
     for q, jacobian in zip(path, J, strict=True):
-        _, values, right = np.linalg.svd(jacobian.T)
-        null = right[int(np.sum(values > 1e-9 * values[0])) :]
-        found = Natural(m.links, np.repeat(q[None], len(null), 0), 0 * q[None], 0 * q[None])
-        _reactions(m, found, null)
+        found = _unloaded(m, q, jacobian)
         for name, masks in out.items():
             both = np.concatenate([found.forces[name], found.moments[name]], -1)
             masks.append(np.all(np.abs(both) < 1e-9, 0))
     return {name: np.array(masks) for name, masks in out.items()}
+
+
+def null_reactions(m: Machine, q: Array) -> Natural:
+    """Reactions of a basis of multipliers that load no coordinate, at one pose (1, 4 L, 3); drives not counted."""
+    return _unloaded(
+        m, q[0], system(m.rows, np.repeat(q, m.count, 0), np.zeros((m.count, *q.shape[1:])))[1][0]
+    )
+
+
+def _unloaded(m: Machine, q: Array, jacobian: Array) -> Natural:
+    _, values, right = np.linalg.svd(jacobian.T)
+    null = right[int(np.sum(values > 1e-9 * values[0])) :]
+    found = Natural(m.links, np.repeat(q[None], len(null), 0), 0 * q[None], 0 * q[None])
+    _reactions(m, found, null)
+    return found
 
 
 def _reactions(m: Machine, found: Natural, multipliers: Array) -> None:
@@ -378,15 +390,3 @@ def mobility(m: Machine, q: Array) -> tuple[int, int, float]:
     rank = int(np.sum(~small))
     gap = values[~small][-1] / (values[small][0] if small.any() else 1e-16 * values[0])
     return J.shape[1] - rank, len(held) - rank, float(gap)
-
-
-def coordinates(m: Machine, poses: dict[str, Any]) -> Array:
-    """Q of the poses of a hand solution."""
-    count = max(len(pose.origin.x) for pose in poses.values())
-    q = np.zeros((count, m.size, 3))
-    q[:, 1:4] = np.eye(3)
-    for link, pose in poses.items():
-        k = 4 * m.links.index(link)
-        q[:, k] = pose.origin.x
-        q[:, k + 1 : k + 4] = np.swapaxes(pose.rotation.x, -1, -2)
-    return q
