@@ -186,7 +186,9 @@ class SpaceJoints(_Joints):
         joint = list(self.m.joints.values())[k]
         for name, row in pairs.reaction_rows(joint, int(rows[0])).items():
             yield row, "force" if name[0] == "F" else "moment", pairs.AXES.index(name[1]), 1.0
-            if joint.type == "screw" and name == "Fx":  # the thread's couple goes with its force
+            if (
+                joint.type == "screw" and name == "Fx" and joint.lead
+            ):  # the thread's couple goes with its force
                 yield row, "moment", 0, joint.lead / (2 * np.pi)
 
     def contacts(self, fixed: Rows) -> tuple[Contacts, tuple[str, ...]] | None:
