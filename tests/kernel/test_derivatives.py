@@ -24,7 +24,7 @@ def differences(k: Any, output: str, n: int, size: float = 1e-3) -> tuple[np.nda
     steps = np.stack([at + s * j * h * (np.arange(len(at)) == n) for j in WEIGHTS for s in (1, -1)])
     value = k(steps, redo=False).value(output)
     slope = sum(w * (value[2 * i] - value[2 * i + 1]) for i, w in enumerate(WEIGHTS.values())) / h
-    return np.asarray(slope), 1e-14 * float(np.abs(value).max()) / h
+    return np.asarray(slope), 1e-14 * float(np.nanmax(np.abs(value))) / h
 
 
 def checked(m: Any, outputs: list[str], reduce: str | None = None, tolerance: float = 1e-7) -> None:
