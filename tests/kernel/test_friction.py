@@ -153,6 +153,25 @@ def test_self_locking_has_numbers() -> None:
     assert peak.effort("O2")[0] == pytest.approx(np.abs(g.effort("O2")).max(), rel=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("name", "mu", "doubt"),
+    [
+        ("slider_crank", 0.9, False),
+        ("scotch_yoke", 0.5, False),
+        ("scotch_yoke", 0.9, True),
+        ("toggle_press", 1.5, True),
+    ],
+)
+def test_strong_friction(name: str, mu: float, doubt: bool) -> None:
+    """Where the rows' sums do not show that there is one solution, a power of the fixed point's matrix may."""
+    m = cycle(name, 24).with_values({"friction.coefficient": mu})
+    k, g = da.compile(m), da.dynamics(m)
+    r = k()
+    assert (r.redone > 0) is doubt
+    assert list(r.status[0]) == list(g.status)
+    assert difference(k, r, 0, g) < TOLERANCE
+
+
 def test_a_reduction_over_a_dead_centre() -> None:
     m = engine(position=[0, 45, 90])
     r = da.compile(m, outputs=["effort.O"], reduce="peak", static=True)()
@@ -210,22 +229,23 @@ def test_derivatives_where_the_general_executor_answers() -> None:
     assert np.isnan(r.gradient("load.rod")[1]).all()
 
 
-def test_c_function_and_casadi(tmp_path: Path) -> None:
-    """Marks and numbers of the exports, self-locking and at rest too."""
-    tree = cycle("slider_crank").to_tree()
+@pytest.mark.parametrize(("name", "mu"), [("slider_crank", 0.3), ("scotch_yoke", 0.5), ("toggle_press", 1.5)])
+def test_c_function_and_casadi(name: str, mu: float, tmp_path: Path) -> None:
+    """Marks and numbers of the exports, self-locking, at rest and in doubt too."""
+    tree = cycle(name).to_tree()
     tree["drives"]["O2"]["position"] = {"from": 0, "to": 360, "count": 181}
-    m = da.mechanism(tree).with_values({"friction.coefficient": 0.3})
+    m = da.mechanism(tree).with_values({"friction.coefficient": mu})
     k = da.compile(m, vary=["friction.coefficient", "joints.A.friction.radius"], outputs=["effort.O2"])
-    program, r, course = plain(k), k(), k.trace.course
+    program, r, course = plain(k), k(redo=False), k.trace.course
     columns = [k.trace.inputs.found[n](course) for n in program.used("channel")]
-    library, out = shared(tmp_path, k.to_c("crank"), "alone"), np.zeros(1)
+    library, out = shared(tmp_path, k.to_c("machine"), "alone"), np.zeros(1)
     function = pytest.importorskip("casadi") and k.to_casadi()
     for p in range(len(course.schedule.position)):
         given = np.array([float(column[p]) for column in columns])
-        mark = library.crank(pointer(k.nominal.copy()), pointer(given), pointer(out))
+        mark = library.machine(pointer(k.nominal.copy()), pointer(given), pointer(out))
         effort, other = function(k.nominal, given)
         assert mark == float(other) == r.code[0, p]
-        if CODES[mark] != "at_rest":
-            assert out[0] == pytest.approx(r.effort("O2")[0, p], rel=1e-11)
-            assert float(effort) == pytest.approx(r.effort("O2")[0, p], rel=1e-11)
-    assert set(r.status[0]) == {"ok", "self_locking", "at_rest"}
+        if CODES[mark] in ("ok", "self_locking"):
+            assert out[0] == pytest.approx(r.effort("O2")[0, p], rel=1e-10)
+            assert float(effort) == pytest.approx(r.effort("O2")[0, p], rel=1e-10)
+    assert {"ok", "self_locking"} & set(r.status[0])

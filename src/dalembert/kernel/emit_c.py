@@ -91,16 +91,19 @@ def marks(program: Program, name: Callable[[Node], str], indent: str) -> str:
         return f"({' || '.join(tests) or '0'})"
 
     out = [
-        f"int here = {below(m.open)} ? {code['open']} : {below(m.doubt, False)} ? {code['doubt']}",
-        f"  : {below(m.rest)} ? {code['rest']} : {below(m.turned)} ? {code['locked']} : 0;",
+        f"int here = {below(m.open)} ? {code['open']} : {below(m.doubt, False)} ? {code['doubt']} : 0;",
+        f"int locked = {below(m.turned)};",
     ]
-    if m.locked:
+    if m.seldom:
+        single = f"{below(m.unsure, False)} && {below(m.sure, False)}"
         out += [
-            f"if (here == {code['locked']}) {{",
+            f"if (!here && ({below(m.unsure, False)} || locked)) {{",
             lines(program.seldom, name, "  "),
-            f"  here = {below(m.still, False)} ? {code['doubt']} : {below(m.locked)} ? {code['locked']} : 0;",
+            f"  here = ({single}) || (locked && {below(m.still, False)}) ? {code['doubt']} : 0;",
+            f"  locked = locked && {below(m.locked) if m.locked else '1'};",
             "}",
         ]
+    out.append(f"if (!here) here = {below(m.rest)} ? {code['rest']} : locked ? {code['locked']} : 0;")
     return "\n".join(indent + line for line in "\n".join(out).splitlines())
 
 

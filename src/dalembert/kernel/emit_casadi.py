@@ -35,7 +35,8 @@ def _mark(ca: Any, program: Program, done: dict[int, Any]) -> Any:
 
     turned = below(m.turned)
     locked = ca.logic_and(turned, below(m.locked)) if m.locked else turned
-    doubt = ca.logic_or(unsure(m.doubt), ca.logic_and(turned, unsure(m.still)))
+    single = ca.logic_and(unsure(m.unsure), unsure(m.sure))
+    doubt = _any(ca, [unsure(m.doubt), single, ca.logic_and(turned, unsure(m.still))])
     mark: Any = ca.SX(0)
     found = {"open": below(m.open), "doubt": doubt, "rest": below(m.rest), "locked": locked}
     for name, test in reversed(found.items()):

@@ -10,35 +10,44 @@ from dalembert.kernel.program import CODES, Program
 
 def latch(program: Program) -> str:
     """The last block of the loop over the positions."""
-    return "%told" if program.marks.locked else "%loop"
+    return "%told" if program.marks.seldom else "%loop"
 
 
 def bits(t: Any, program: Program, names: dict[int, str]) -> dict[str, str]:
-    """Lanes of each mark that can occur; what is seldom asked stands in a block of its own, jumped over where no lane
-    asks for it."""
+    """Lanes of each mark that can occur."""
     marks = program.marks
     asked = (("open", marks.open, "olt"), ("doubt", marks.doubt, "ult"), ("rest", marks.rest, "olt"))
     out = {name: _any(t, nodes, names, how) for name, nodes, how in asked}
     out["locked"] = _any(t, marks.turned, names, "olt")
-    if marks.locked:
-        turned = out["locked"]
-        t.put(f"br i1 {some(t, turned)}, label %ask, label %told")
-        t.lines.append("ask:")
-        from dalembert.kernel.emit_llvm import operations
-
-        inside = dict(names)
-        operations(t, program.seldom, inside)
-        doubt, locked = (
-            t.let(f"and {t.bit} {turned}, {_any(t, nodes, inside, how)}")
-            for nodes, how in ((marks.still, "ult"), (marks.locked, "olt"))
-        )
-        t.put("br label %told")
-        t.lines.append("told:")
-        none = _none(t)
-        out["locked"] = t.let(f"phi {t.bit} [ {none}, %loop ], [ {locked}, %ask ]")
-        more = t.let(f"phi {t.bit} [ {none}, %loop ], [ {doubt}, %ask ]")
-        out["doubt"] = t.let(f"or {t.bit} {out['doubt']}, {more}")
+    if marks.seldom:
+        out["doubt"], out["locked"] = _seldom(t, program, names, out["doubt"], out["locked"])
     return {name: out[name] for name in marks.names}
+
+
+def _seldom(t: Any, program: Program, names: dict[int, str], doubt: str, turned: str) -> tuple[str, str]:
+    """Lanes in doubt and self-locking; what is seldom asked stands in a block of its own, jumped over where no lane
+    asks for it."""
+    from dalembert.kernel.emit_llvm import operations
+
+    marks, none = program.marks, _none(t)
+    unsure = _any(t, marks.unsure, names, "ult")
+    asks = some(t, t.let(f"or {t.bit} {unsure}, {turned if marks.locked else none}"))
+    t.put(f"br i1 {asks}, label %ask, label %told")
+    t.lines.append("ask:")
+    inside = dict(names)
+    operations(t, program.seldom, inside)
+    single = t.let(f"and {t.bit} {unsure}, {_any(t, marks.sure, inside, 'ult')}")
+    still = t.let(f"and {t.bit} {turned}, {_any(t, marks.still, inside, 'ult')}")
+    locked = turned
+    if marks.locked:
+        locked = t.let(f"and {t.bit} {turned}, {_any(t, marks.locked, inside, 'olt')}")
+    more = t.let(f"or {t.bit} {single}, {still}")
+    t.put("br label %told")
+    t.lines.append("told:")
+    before = none if marks.locked else turned
+    found = t.let(f"phi {t.bit} [ {before}, %loop ], [ {locked}, %ask ]")
+    more = t.let(f"phi {t.bit} [ {none}, %loop ], [ {more}, %ask ]")
+    return t.let(f"or {t.bit} {doubt}, {more}"), found
 
 
 def _none(t: Any) -> str:

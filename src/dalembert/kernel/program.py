@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -18,14 +19,17 @@ CODES = {"open": 1, "doubt": 2, "rest": 3, "locked": 9}
 class Marks:
     """Nodes that say whether the outputs are right, each below zero where it has something to say.
 
-    open: the linkage does not close. doubt (below zero, or no number): the general executor decides. rest: friction
-    has no rate to tell its sense. turned: it turns the power of the unknowns round; there ``still``, as doubt, and
-    ``locked``: it does so without inertia too. Without ``locked`` being turned is enough.
+    open: the linkage does not close. doubt (below zero, or no number): the general executor decides; so where both
+    ``unsure`` and ``sure`` are so. rest: friction has no rate to tell its sense. turned: it turns the power of the
+    unknowns round; there ``still``, as doubt, and ``locked``: it does so without inertia too. Without ``locked`` being
+    turned is enough.
     """
 
     open: tuple[Node, ...] = ()
     doubt: tuple[Node, ...] = ()
     rest: tuple[Node, ...] = ()
+    unsure: tuple[Node, ...] = ()
+    sure: tuple[Node, ...] = ()
     turned: tuple[Node, ...] = ()
     still: tuple[Node, ...] = ()
     locked: tuple[Node, ...] = ()
@@ -33,17 +37,22 @@ class Marks:
     @property
     def always(self) -> list[Node]:
         """Those asked at every position."""
-        return [*self.open, *self.doubt, *self.rest, *self.turned]
+        return [*self.open, *self.doubt, *self.rest, *self.unsure, *self.turned]
 
     @property
     def seldom(self) -> list[Node]:
-        """Those asked only where power is turned round."""
-        return [*self.still, *self.locked]
+        """Those asked only where something is unsure, or power turned round."""
+        return [*self.sure, *self.still, *self.locked]
 
     @property
     def names(self) -> list[str]:
         """Marks that can occur, the first counts."""
-        there = {"open": self.open, "doubt": self.doubt, "rest": self.rest, "locked": self.turned}
+        there: dict[str, Sequence[Node]] = {
+            "open": self.open,
+            "doubt": [*self.doubt, *self.sure, *self.still],
+            "rest": self.rest,
+            "locked": self.turned,
+        }
         return [name for name, nodes in there.items() if nodes]
 
 

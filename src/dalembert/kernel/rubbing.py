@@ -54,7 +54,7 @@ LAST = 1e-7
 CARRIES = 1e-8
 """A contact that carries more than this part of the largest force surely carries something."""
 
-POWERS = 8
+POWER = 12
 """Power of the fixed point's matrix whose norm bounds its spectral radius."""
 
 
@@ -72,9 +72,10 @@ class Rough:
 class Rubbed:
     """Multipliers x, total wrenches w, and friction's and damping's force (joints, 2) and moment (joints,) on j.
 
-    doubt: below zero where the general executor decides. rest: below zero where a contact that carries something has
-    no rate to tell its sense. turned, locked: below zero where friction turns the power of the unknowns round, with
-    inertia and without; ``locked`` and ``still`` (its doubt) are asked only where it is turned.
+    doubt: below zero where the general executor decides, so where both ``unsure`` and ``sure`` are below zero. rest:
+    below zero where a contact that carries something has no rate to tell its sense. turned, locked: below zero where
+    friction turns the power of the unknowns round, with inertia and without; ``locked`` and ``still`` (its doubt) are
+    asked only where it is turned.
     """
 
     x: Array
@@ -83,6 +84,8 @@ class Rubbed:
     moment: Array
     doubt: Nodes = ()
     rest: Nodes = ()
+    unsure: Nodes = ()
+    sure: Nodes = ()
     turned: Nodes = ()
     still: Nodes = ()
     locked: Nodes = ()
@@ -90,11 +93,14 @@ class Rubbed:
 
 @dataclass(frozen=True)
 class Slipped:
-    """z and S of each contact (E,), and what is below zero, or no number, where they are in doubt."""
+    """z and S of each contact (E,), and what is below zero, or no number, where they are in doubt: so where both
+    ``unsure`` and ``sure`` are."""
 
     z: Array
     bears: Array
     doubt: list[Node]
+    unsure: list[Node]
+    sure: list[Node]
 
 
 def rubbed(
@@ -134,6 +140,8 @@ def rubbed(
         moment=moment + damping[1],
         doubt=[*slip.doubt, *idle],
         rest=rest,
+        unsure=slip.unsure,
+        sure=slip.sure,
         turned=_used(turns),
         still=[] if same else doubt,
         locked=[] if same else [locked],
@@ -173,6 +181,8 @@ def slipped(graph: Graph, contacts: Contacts, r: Response, sense: Array) -> Slip
     acts = [b for b in range(count) if not is_zero(sense[b])]
     needs = {a: {b for b in acts if not all(is_zero(x) for x in r.h[:, a, b])} for a in range(count)}
     doubt: list[Node] = []
+    unsure: list[Node] = []
+    single: list[Node] = []
     for block in components({a: needs[a] - {a} if a in acts else needs[a] for a in range(count)}):
         k = np.array(sorted(block))
         others = sorted({b for a in block for b in needs[a]} - set(block))
@@ -183,25 +193,33 @@ def slipped(graph: Graph, contacts: Contacts, r: Response, sense: Array) -> Slip
             z[k] = -sense[k] * bears[k]
             continue
         inner = r._replace(y=y, h=r.h[:, k][:, :, k])
-        sure = _contraction(graph, inner.h, sense[k])
+        rough, sure = _contraction(graph, inner.h, sense[k])
         z[k], bears[k], last = _newton(graph, part, inner, sense[k], largest, sure)
-        doubt += [sure, last]
-    return Slipped(z, bears, [n for n in doubt if n.level != CONSTANT or not n.value >= 0])
+        doubt.append(last)
+        unsure.append(rough)
+        single.append(sure)
+    return Slipped(z, bears, *(_unfixed(nodes) for nodes in (doubt, unsure, single)))
 
 
-def _contraction(graph: Graph, h: Array, sense: Array) -> Node:
+def _unfixed(nodes: list[Node]) -> list[Node]:
+    return [n for n in nodes if n.level != CONSTANT or not n.value >= 0]
+
+
+def _contraction(graph: Graph, h: Array, sense: Array) -> tuple[Node, Node]:
     """Above zero where the fixed point is surely a contraction: then it is the only one, at any smaller scale too.
 
-    A power of its matrix, without signs, on a vector of ones. A length is at most 0.586 of the larger of its
-    components and 0.415 of both.
+    First by the sums of the rows of its matrix, without signs, then by those of a power of it. A length is at most
+    0.586 of the larger of its components and 0.415 of both.
     """
     first, second, tilting = np.abs(h)
     lever = larger(0.586 * larger(first, second) + 0.415 * (first + second), tilting)
     moves, reached = np.abs(sense), np.abs(sense)
-    for _ in range(POWERS):
+    bounds = []
+    for _ in range(POWER):
         reached = (lever @ (moves * reached)[:, None])[:, 0]
-    bound: Node = 1.0 - traced(graph, top(reached, 1)).item()
-    return bound
+        bounds.append(reached)
+    short, long = (1.0 - traced(graph, top(bounds[k], 1)).item() for k in (0, -1))
+    return short, long
 
 
 def _newton(

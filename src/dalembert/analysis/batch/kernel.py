@@ -133,7 +133,7 @@ class Kernel:
     def program(self, nodes: Sequence[Node]) -> Program:
         found = self.trace.catalogue.traced
         rub = found.rubbed
-        marks = (found.open, found.doubt, rub.rest, rub.turned, rub.still, rub.locked)
+        marks = (found.open, found.doubt, rub.rest, rub.unsure, rub.sure, rub.turned, rub.still, rub.locked)
         return Program(self.trace.catalogue.graph, tuple(nodes), Marks(*(tuple(m) for m in marks)))
 
     @cached_property
