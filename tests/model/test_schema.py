@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
-from dalembert.model import json_schema
+import pytest
+
+from dalembert.bundled import cases, examples
+from dalembert.model import json_schema, read_file
 
 SCHEMA = json_schema()
 
@@ -45,3 +49,66 @@ def test_the_keys_are_those_of_the_file() -> None:
     assert set(SCHEMA["$defs"]["Link"]["properties"]) == {
         "points", "mass", "weight", "center", "inertia", "shape",
     }  # fmt: skip
+
+
+TYPES: dict[str, Any] = {
+    "object": dict,
+    "array": list,
+    "string": str,
+    "integer": int,
+    "number": (int, float),
+    "boolean": bool,
+    "null": type(None),
+}
+
+
+def fits(part: dict[str, Any], value: Any) -> bool:
+    """Whether a value is one that a part of the schema describes; the words of the schema that ours uses."""
+    part = SCHEMA["$defs"][part["$ref"].rsplit("/", 1)[1]] | part if "$ref" in part else part
+    kinds = part.get("type", list(TYPES))
+    kinds = [kinds] if isinstance(kinds, str) else kinds
+    if not any(isinstance(value, TYPES[k]) and (k == "boolean" or value is not True) for k in kinds):
+        return False
+    if value not in part.get("enum", [value]) or value != part.get("const", value):
+        return False
+    for word in ("anyOf", "oneOf"):
+        if word in part and not any(fits(one, value) for one in part[word]):
+            return False
+    if isinstance(value, list) and not part.get("minItems", 0) <= len(value) <= part.get("maxItems", 10**9):
+        return False
+    if isinstance(value, list) and "items" in part:
+        return all(fits(part["items"], item) for item in value)
+    if not isinstance(value, dict):
+        return True
+    known, more = part.get("properties", {}), part.get("additionalProperties", True)
+    inner = [(known.get(key, more), item) for key, item in value.items()]
+    return set(part.get("required", ())) <= set(value) and all(
+        fits(one, item) if isinstance(one, dict) else one for one, item in inner
+    )
+
+
+FILES = {**examples(), **cases(), "rssr in the tests": Path(__file__).parent / "rssr.yaml"}
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_every_bundled_file_is_one_that_it_describes(name: str) -> None:
+    tree = json.loads(json.dumps(read_file(FILES[name])[0]))
+    for key, value in tree.items():
+        if key in ("links", "joints", "drives", "loads"):
+            for one, part in value.items():
+                assert fits(SCHEMA["properties"][key]["additionalProperties"], part), (key, one)
+    assert fits(SCHEMA, tree)
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("links", {"rod": {"shape": {"type": "bar", "size": 3}}}),
+        ("links", {"rod": {"shape": {"type": "cylinder", "radius": [3]}}}),
+        ("joints", {"A": {"type": "sperical", "links": ["a", "b"]}}),
+        ("loads", {"F": {"type": "torsion_spring", "joint": "A", "stiffness": 1, "freedom": "slide"}}),
+        ("answers", [{"quantity": "rotation", "axes": "joints"}]),
+    ],
+)
+def test_it_tells_what_is_wrong(key: str, value: Any) -> None:
+    assert not fits(SCHEMA, {"links": {"ground": {}}, key: value})

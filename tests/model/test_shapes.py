@@ -13,7 +13,7 @@ import pytest
 import dalembert as da
 from dalembert.algebra import space
 from dalembert.errors import DalembertError, ModelError
-from dalembert.model import Box, Cylinder, Link, Mesh, SlenderBar, Sphere, Tube, load
+from dalembert.model import Box, Cylinder, Link, SlenderBar, Sphere, StlMesh, Tube, load
 from dalembert.model.meshes import MeshFile
 from dalembert.model.shapes import ShapePart
 
@@ -222,7 +222,7 @@ def test_a_mesh_stands_beside_the_model_file(tmp_path: Path, monkeypatch: pytest
 def test_a_ball_of_triangles_is_nearly_a_ball(tmp_path: Path) -> None:
     trimesh = pytest.importorskip("trimesh")
     trimesh.creation.icosphere(subdivisions=5, radius=0.2).export(tmp_path / "ball.stl")
-    mesh = Mesh(file=MeshFile("ball.stl", str(tmp_path)), unit=1.0, density=STEEL)
+    mesh = StlMesh(file=MeshFile("ball.stl", str(tmp_path)), unit=1.0, density=STEEL)
     own, round_ = properties(mesh), properties(Sphere(radius=0.2, density=STEEL))
     assert own[0] == pytest.approx(round_[0], rel=1e-3)
     assert own[2] == pytest.approx(round_[2], abs=2e-3 * round_[2].max())
@@ -242,7 +242,7 @@ def test_meshes_that_are_no_solids(tmp_path: Path) -> None:
         "none.stl": "there is no file 'none.stl'; check the name; it is relative to the model file",
     }.items():
         with pytest.raises(ModelError) as caught:
-            Mesh(file=MeshFile(name, str(tmp_path)), density=1)
+            StlMesh(file=MeshFile(name, str(tmp_path)), density=1)
         assert says in str(caught.value)
 
 
@@ -254,4 +254,4 @@ def test_without_the_package_the_message_says_how_to_install_it(
     with pytest.raises(
         DalembertError, match=r"a mesh needs the package trimesh, .* pip install 'dalembert\[cad\]'"
     ):
-        Mesh(file=MeshFile("box.stl", str(tmp_path)), density=1)
+        StlMesh(file=MeshFile("box.stl", str(tmp_path)), density=1)

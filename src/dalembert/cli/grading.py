@@ -30,12 +30,12 @@ def graded(file: Path, answers: Path | None, interactive: bool, static: bool, fr
     return 0 if all(v.right for v in found) else 1
 
 
-def _asked(m: Any, static: bool) -> dict[str, dict[str, str]]:
+def _asked(m: Any, static: bool) -> dict[str, dict[str, Any]]:
     """Ask for every effort and joint force; an empty line skips one."""
     from dalembert.analysis import solve
 
     r = solve(m, static=static)
-    out: dict[str, dict[str, str]] = {"effort": {}, "unknown_load": {}, "reaction": {}}
+    out: dict[str, dict[str, Any]] = {"effort": {}, "unknown_load": {}, "reaction": {}}
     for drive in r.drives:
         out["effort"][drive] = input(
             f"Effort of {drive} (a number, or with its unit; empty to skip): "
@@ -44,7 +44,11 @@ def _asked(m: Any, static: bool) -> dict[str, dict[str, str]]:
         out["unknown_load"][name] = input(f"Load {name}: ").strip()
     for joint in r.joints:
         i, j = m.joints[joint].links
-        out["reaction"][joint] = input(f"Joint {joint}, force of {i} on {j} (size @ angle): ").strip()
+        form = "size @ angle" if m.dimension == 2 else "x, y, z"
+        said = input(f"Joint {joint}, force of {i} on {j} ({form}): ").strip()
+        out["reaction"][joint] = (
+            said if m.dimension == 2 or not said else [part.strip() for part in said.strip("[]").split(",")]
+        )
     return {quantity: {n: v for n, v in values.items() if v} for quantity, values in out.items()}
 
 

@@ -18,7 +18,7 @@ from dalembert.model.mechanism import Mechanism, mechanism
 from dalembert.model.messages import ModelErrors
 from dalembert.model.schedule import Schedule
 from dalembert.model.schema import json_schema
-from dalembert.model.shapes import Box, Cylinder, Mesh, SlenderBar, Sphere, Tube
+from dalembert.model.shapes import Box, Cylinder, SlenderBar, Sphere, StlMesh, Tube
 from dalembert.model.space_joints import SpaceJoint
 from dalembert.model.tables import Table
 from dalembert.model.varying import Varying, value_at
@@ -40,7 +40,6 @@ __all__ = [
     "Link",
     "Load",
     "Mechanism",
-    "Mesh",
     "ModelErrors",
     "Offset",
     "Pin",
@@ -56,6 +55,7 @@ __all__ = [
     "SpaceJoint",
     "Sphere",
     "Spring",
+    "StlMesh",
     "Table",
     "TimeTable",
     "TorsionDamper",

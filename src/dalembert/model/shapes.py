@@ -222,7 +222,7 @@ class SlenderBar(Long):
         return self.round(points, 1.0 if self.area is None else self.area, 0.0)
 
 
-class Mesh(ShapePart):
+class StlMesh(ShapePart):
     """A solid within a closed surface of triangles, from an STL file (needs the package trimesh)."""
 
     type: Literal["mesh"] = "mesh"
@@ -248,7 +248,7 @@ class Mesh(ShapePart):
 
 
 Shape = Annotated[
-    Box | Cylinder | Tube | Sphere | SlenderBar | Mesh, Field(discriminator="type", description="a shape")
+    Box | Cylinder | Tube | Sphere | SlenderBar | StlMesh, Field(discriminator="type", description="a shape")
 ]
 
 
