@@ -63,6 +63,40 @@ def test_axes_of_link_and_joint_are_the_same_vectors() -> None:
                 assert axes @ vector == pytest.approx(own[k]["reactions"][joint][name], abs=1e-12)
 
 
+def test_a_moment_may_have_axes_of_its_own() -> None:
+    """A slotted sphere in a cylinder: its forces keep to the cylinder, its moment to the slot."""
+    m = da.mechanism(
+        {
+            "space": "space",
+            "links": {
+                "ground": {"points": {"A": [0, 0, 0], "B": [1, 0, 0]}},
+                "beam": {"points": {"A": [0, 0, 0], "B": [1, 0, 0]}},
+            },
+            "joints": {
+                "A": {
+                    "type": "slotted_sphere_in_cylinder",
+                    "links": ["ground", "beam"],
+                    "axes": {
+                        "i": {"x": [1, 0, 0], "z": [0, 0, 1]},
+                        "j": {"x": [0.8, 0, -0.6], "z": [0.6, 0, 0.8]},
+                    },
+                },
+                "B": {"type": "spherical", "links": ["ground", "beam"]},
+            },
+            "loads": {"M": {"type": "couple", "on": "beam", "value": [1, 2, 3]}},
+        }
+    )
+    r = da.statics(m)
+    assert r.ok.all()
+    found = r.to_dict(axes="joint")["positions"][0]["reactions"]["A"]
+    ground = r.to_dict()["positions"][0]["reactions"]["A"]
+    assert np.array(found["axes"]) @ ground["force"] == pytest.approx(found["force"])
+    assert np.array(found["moment_axes"]) @ ground["moment"] == pytest.approx(found["moment"])
+    assert found["moment"][1:] == pytest.approx([0, 0], abs=1e-14)
+    assert abs(found["moment"][0]) > 0.1
+    assert "moment_axes" not in r.to_dict(axes="joint")["positions"][0]["reactions"]["B"]
+
+
 def test_a_rod_that_could_spin_is_named() -> None:
     r = da.dynamics(rssr())
     assert r.to_dict()["mobility"]["passive"] == ["rod"]

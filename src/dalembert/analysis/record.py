@@ -128,7 +128,10 @@ def _reaction_fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, .
             out["reactions", r.joint, "least_norm", "force"] = numbers("force", force)
             out["reactions", r.joint, "least_norm", "moment"] = numbers("moment", moment)
         if axes == "joint":
-            out["reactions", r.joint, "axes"] = numbers("number", result.joint_axes(r.joint))
+            own, of_moment = (result.joint_axes(r.joint, moment) for moment in (False, True))
+            out["reactions", r.joint, "axes"] = numbers("number", own)
+            if not np.array_equal(own, of_moment, equal_nan=True):
+                out["reactions", r.joint, "moment_axes"] = numbers("number", of_moment)
     for joint in rubbing_joints(result):
         at = "reactions", joint, "friction"
         rubbing_force, rubbing_moment = friction_in(result, joint, axes)

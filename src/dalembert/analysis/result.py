@@ -187,10 +187,13 @@ class Result:
         self._joint(joint, on)
         return wrench(self, joint, on, axes, least=True)
 
-    def joint_axes(self, joint: str) -> Array:
-        """In space: a joint's own axes x, y, z (P, 3, 3), a row each, in ground axes."""
+    def joint_axes(self, joint: str, moment: bool = False) -> Array:
+        """In space: a joint's own axes x, y, z (P, 3, 3), a row each, in ground axes.
+
+        Those of its ``moment`` are others in one joint only, the slotted sphere in a cylinder.
+        """
         self._joint(joint, None)
-        return axes_of(self, joint, "joint")
+        return axes_of(self, joint, "joint", moment)
 
     @property
     def _d(self) -> int:
