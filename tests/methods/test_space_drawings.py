@@ -181,6 +181,21 @@ def test_charts(name: str) -> None:
     assert text_overlaps(scene) == []
 
 
+def test_a_position_without_a_pose_is_refused_with_its_reason() -> None:
+    """Others are drawn, and move; where only the forces are missing they are left out."""
+    long = da.mechanism(MACHINES["rssr"]).with_values({"links.crank.points.B": ["0.2 m", "0 m", "0 m"]})
+    r = da.dynamics(long)
+    bad = r.status.index("not_assembled")
+    for drawn in (
+        lambda: da.draw.mechanism(r, at=bad + 1),
+        lambda: da.draw.free_body(r, "rocker", at=bad + 1),
+    ):
+        with pytest.raises(da.AnalysisError, match=f"position {bad + 1}: "):
+            drawn()
+    check(da.draw.mechanism(r))
+    assert len(da.draw.animation(r).frames) == int(r.ok.sum())
+
+
 PLANE_ONLY = [
     "force_chain",
     "velocity_polygon",

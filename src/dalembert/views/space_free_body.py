@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.analysis.actions import actions, joint_place, link_place, on_link
+from dalembert.analysis.actions import joint_place, link_place, on_link, whole_actions
 from dalembert.analysis.pairs import AXES, PAIRS, Pair, pair_of
 from dalembert.analysis.wrenches import axes_of
 from dalembert.views.camera import Camera
@@ -17,7 +17,7 @@ from dalembert.views.link_solids import nodes
 from dalembert.views.mechanism import ring, unit_size
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.scene import Item, Line, Point, Scene, Text
-from dalembert.views.space_mechanism import Arrows, mark_center
+from dalembert.views.space_mechanism import Arrows, check_pose, mark_center
 from dalembert.views.space_view import Sight, sight, standing, triad
 
 if TYPE_CHECKING:
@@ -36,6 +36,7 @@ def space_free_body_scene(
 
     Forces are arrows, moments arrows with two heads, of one scale for all links.
     """
+    check_pose(r, k)
     shown = Shown(r, notation or Notation())
     s = _sight(r, link, k, camera)
     canvas = Canvas()
@@ -44,7 +45,7 @@ def space_free_body_scene(
         at = s(r.center(link)[k])
         mark_center(canvas, at, [s(link_place(r, link, u)[k]) for u in nodes(r, link).values()])
         canvas.label("G", *ring(at, 1.0), size=2.8, role="note", leads=False)
-    everything = actions(r)
+    everything = whole_actions(r)
     arrows = Arrows(canvas, r, s, shown, [a for a in everything if a.link != "ground"], k)
     rows = []
     for name in joints_on(r, link):
