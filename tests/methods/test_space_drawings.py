@@ -181,6 +181,13 @@ def test_charts(name: str) -> None:
     assert text_overlaps(scene) == []
 
 
+def test_rounding_noise_is_no_force() -> None:
+    """The output shaft turns about its mass centre: its inertia force is rounding beside its couple."""
+    texts = [t.text for t in da.draw.mechanism(solved("hooke"), at=5, forces=True).texts()]
+    assert any(t.startswith("T_{I3} = ") for t in texts)
+    assert not any(t.startswith("F_{I3}") or "forces: 1 mm" in t for t in texts)
+
+
 def test_a_position_without_a_pose_is_refused_with_its_reason() -> None:
     """Others are drawn, and move; where only the forces are missing they are left out."""
     long = da.mechanism(MACHINES["rssr"]).with_values({"links.crank.points.B": ["0.2 m", "0 m", "0 m"]})

@@ -15,6 +15,7 @@ from dalembert.views.canvas import Canvas
 from dalembert.views.frame import round_up
 from dalembert.views.notation import Notation, Shown, pretty
 from dalembert.views.scene import Circle, Line, Point, Scene, Text
+from dalembert.views.space_view import NOTHING
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
@@ -231,11 +232,11 @@ def shaking_force(r: Result) -> Array:
 
 def chart_scenes(r: Result, notation: Notation | None = None) -> list[Scene]:
     """All charts of a cycle."""
-    loaded = [j for j in r.joints if np.nanmax(magnitude(r.reaction(j)), initial=0.0) > 0]
     shown = notation or Notation()
-    out = [*effort_chart(r, shown), reaction_chart(r, shown)]
     if r.mechanism.dimension == 3:
-        return [*out, *_space_charts(r, loaded, shown), shaking_chart(r, shown)]
+        return _space_charts(r, shown)
+    loaded = [j for j in r.joints if np.nanmax(magnitude(r.reaction(j)), initial=0.0) > 0]
+    out = [*effort_chart(r, shown), reaction_chart(r, shown)]
     out += [components_chart(r, j, shown) for j in loaded]
     pins = [j for j in loaded if r.mechanism.joints[j].type == "pin"][:6]
     if pins:
@@ -243,14 +244,26 @@ def chart_scenes(r: Result, notation: Notation | None = None) -> list[Scene]:
     return [*out, shaking_chart(r, shown)]
 
 
-def _space_charts(r: Result, loaded: Sequence[str], notation: Notation) -> list[Scene]:
-    """Moments of the joints that carry some, then each joint's components in its own axes."""
-    turned = [j for j in r.joints if np.nanmax(magnitude(r.reaction_moment(j)), initial=0.0) > 0]
-    out = [moment_chart(r, turned, notation)] if turned else []
+def _space_charts(r: Result, notation: Notation) -> list[Scene]:
+    """Sizes of all forces and moments, then components joint by joint; what is rounding is left out."""
+    sizes = {j: [_largest(r.reaction(j)), _largest(r.reaction_moment(j))] for j in r.joints}
+    length = r.compiled.layout.length
+    force = max([f for f, _ in sizes.values()], default=0.0)
+    moment = max([m for _, m in sizes.values()], default=0.0)
+    loaded = [j for j, (f, _) in sizes.items() if f > NOTHING * max(force, moment / length)]
+    turned = [j for j, (_, m) in sizes.items() if m > NOTHING * max(moment, force * length)]
+    out = effort_chart(r, notation)
+    out += [reaction_chart(r, notation)] if loaded else []
+    out += [moment_chart(r, turned, notation)] if turned else []
     for j in r.joints:
         out += [components_chart(r, j, notation)] if j in loaded else []
         out += [moment_components_chart(r, j, notation)] if j in turned else []
-    return out
+    return [*out, *([shaking_chart(r, notation)] if loaded else [])]
+
+
+def _largest(vectors: Array) -> float:
+    sizes = magnitude(vectors)
+    return float(sizes[np.isfinite(sizes)].max(initial=0.0))
 
 
 __all__ = ["chart_scenes", "curves_scene", "polar_scene", "pretty", "shaking_force", "ticks"]

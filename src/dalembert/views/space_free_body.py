@@ -25,8 +25,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[Any]
 WIDTH, HEIGHT = 56.0, 48.0
-NOTHING = 1e-9
-"""A component below this part of the largest on the machine is not drawn."""
 
 
 def space_free_body_scene(
@@ -62,7 +60,7 @@ def space_free_body_scene(
     notes, scales = arrows.stated()
     drawn = canvas.scene(heading=False, scales=scales)
     _, low, right, top = drawn.bounds
-    items = [*drawn.items, *_table(r, link, rows, shown, (right + 6.0, max(top, low + 24.0)))]
+    items = [*drawn.items, *_table(rows, shown, arrows.floor, (right + 6.0, max(top, low + 24.0)))]
     whole = Canvas()
     whole.add(*items)
     words = [_said(rows), *notes]
@@ -111,7 +109,7 @@ def _components(arrows: Arrows, at: Point, name: str, axes: list[Array], found: 
     for turning in (False, True):
         part = found.numbers[3:] if turning else found.numbers[:3]
         for axis, value, e in zip(AXES, part, axes[turning], strict=True):
-            if abs(float(value)) > NOTHING * arrows.sizes[turning]:
+            if abs(float(value)) > arrows.floor[turning]:
                 sign = f"M_{{{name}{axis}}}" if turning else f"{name}_{{{axis}}}"
                 arrows.vector(at, float(value) * e, "joint-force", name, sign, turning)
 
@@ -124,11 +122,11 @@ def _said(rows: list[Reaction]) -> str:
     return f"{text}." if rows else ""
 
 
-def _table(r: Result, link: str, rows: list[Reaction], shown: Shown, at: Point) -> list[Item]:
+def _table(rows: list[Reaction], shown: Shown, floor: tuple[float, float], at: Point) -> list[Item]:
     """The reactions' components, a row a joint; what a joint cannot carry has a stroke."""
     units = [shown.unit("force")] * 3 + [shown.unit("moment")] * 3
     head = ["", *(f"{letter}_{{{axis}}}" for letter in "FM" for axis in AXES)]
-    cells = [head, ["", *units], *([row.joint, *_numbers(row, shown)] for row in rows)]
+    cells = [head, ["", *units], *([row.joint, *_numbers(row, shown, floor)] for row in rows)]
     widths = [max(text_width(line[c], 2.6) for line in cells) + 3.0 for c in range(7)]
     items: list[Item] = []
     for n, line in enumerate(cells):
@@ -142,13 +140,11 @@ def _table(r: Result, link: str, rows: list[Reaction], shown: Shown, at: Point) 
     return [*items, Line(((at[0], y), (at[0] + sum(widths), y)), "axis")]
 
 
-def _numbers(row: Reaction, shown: Shown) -> list[str]:
+def _numbers(row: Reaction, shown: Shown, floor: tuple[float, float]) -> list[str]:
     out = []
-    for n, value in enumerate(row.numbers):
-        kind, part = ("force", row.numbers[:3]) if n < 3 else ("moment", row.numbers[3:])
-        floor = NOTHING * float(np.abs(part).max(initial=0.0))
-        text = shown.number(kind, float(value), floor)
-        if not row.carried[n] and abs(float(value)) <= max(floor, 1e-30):
+    for n, value in enumerate(map(float, row.numbers)):
+        text = shown.number("force" if n < 3 else "moment", value, floor[n // 3])
+        if not row.carried[n] and abs(value) <= floor[n // 3]:
             out.append("–")
         else:
             out.append(text if row.unique[n] else f"({text})")

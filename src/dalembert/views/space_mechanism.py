@@ -20,7 +20,7 @@ from dalembert.views.mechanism import drawn_once, place_title, ring, role_of, un
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.scene import Arrow, Line, Point, Scene
 from dalembert.views.solids import across
-from dalembert.views.space_view import Sight, end_on, seen_scales, sight, standing, triad
+from dalembert.views.space_view import NOTHING, Sight, end_on, seen_scales, sight, standing, triad
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
@@ -162,6 +162,9 @@ class Arrows:
     ) -> None:
         self.canvas, self.r, self.s, self.shown, self.values = canvas, r, s, shown, values
         self.sizes = [_largest([a.force[at] for a in some]), _largest([a.couple[at] for a in some])]
+        force, moment = self.sizes
+        length = r.compiled.layout.length
+        self.floor = (NOTHING * max(force, moment / length), NOTHING * max(moment, force * length))
         kinds = ("force", "moment")
         scales = [
             force_scale([size], longest, unit_size(r, kind, shown.notation))
@@ -174,10 +177,10 @@ class Arrows:
         """The force of an action at its place and its couple; what is nothing beside the largest is left out."""
         place, role = self.s(a.at[k]), role_of(a.kind)
         force, couple = np.linalg.norm(a.force[k]), np.linalg.norm(a.couple[k])
-        if float(force) > 1e-9 * self.sizes[0]:
+        if float(force) > self.floor[0]:
             text = f"{self.shown.symbol(a)} = {self.shown.text('force', float(force))}" if self.values else ""
             self.vector(place, a.force[k], role, a.of, text, inward=pushes(self.r, a, k))
-        if float(couple) > 1e-9 * self.sizes[1]:
+        if float(couple) > self.floor[1]:
             size = self.shown.text("moment", float(couple))
             text = f"{self.shown.turning_symbol(a)} = {size}" if self.values else ""
             self.vector(place, a.couple[k], role, a.of, text, turning=True)
@@ -212,7 +215,11 @@ class Arrows:
 
     def stated(self, everything: bool = False) -> tuple[list[str], dict[str, float]]:
         """The scales of what was drawn, or of all that there is, as notes and as numbers."""
-        force, moment = [size > 0 for size in self.sizes] if everything else self.drawn
+        force, moment = (
+            [size > least for size, least in zip(self.sizes, self.floor, strict=True)]
+            if everything
+            else self.drawn
+        )
         return seen_scales(
             self.shown, self.s, self.per_mm if force else None, self.moment_per_mm if moment else None
         )

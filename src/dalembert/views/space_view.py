@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from dalembert.analysis.result import Result
 
 Array = NDArray[Any]
+NOTHING = 1e-9
+"""A force, or a moment over the machine's length, below this part of the largest of both is rounding."""
+
 View = Camera | str | tuple[float, float] | None
 
 
