@@ -161,6 +161,21 @@ def test_solids_look_outwards(kind: str) -> None:
         assert (facing[big] > 0).all(), type(s).__name__
 
 
+def test_shapes_are_seen_through() -> None:
+    """The crank's box of 60 x 20 x 10 mm, turned in its link; a cylinder between two points."""
+    r = da.solve(da.load(examples()["rssr"]))
+    file = File(da.draw.solid_model(r).to_glb())
+    names = [m["name"] for m in file.tree["materials"]]
+    assert file.tree["materials"][names.index("shape")]["alphaMode"] == "BLEND"
+    for part in file.tree["meshes"]:
+        found = [p for p in part["primitives"] if p["material"] == names.index("shape")]
+        assert len(found) == (part["name"] != "ground")
+        if part["name"] == "crank":
+            points = file.values(found[0]["attributes"]["POSITION"])
+            assert np.ptp(points, axis=0) == pytest.approx([0.06, 0.02, 0.01], abs=1e-7)
+            assert (points.max(axis=0) + points.min(axis=0)) / 2 == pytest.approx([0.02, 0, 0], abs=1e-7)
+
+
 def test_only_glb(tmp_path: Path) -> None:
     model = da.draw.solid_model(solved("hooke"))
     with pytest.raises(da.ModelError, match="solid models are not written as that"):

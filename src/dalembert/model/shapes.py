@@ -13,7 +13,7 @@ from pydantic import Field, ValidationInfo, model_validator
 from dalembert.errors import ModelError
 from dalembert.model.meshes import MeshFile, MeshFileValue, MeshUnit, mesh_solid
 from dalembert.model.part import Part, reading
-from dalembert.model.space_joints import Frame, Frames, frames
+from dalembert.model.space_joints import Frame, Frames, Matrix, frames
 from dalembert.model.values import (
     NUMBER_OR_TEXT,
     Components,
@@ -67,6 +67,8 @@ class Lengths(Value):
         return {"type": "array", "items": NUMBER_OR_TEXT, "minItems": self.count, "maxItems": self.count}
 
 
+_LINK_AXES: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
 Length = Annotated[float, Scalar("length", "positive")]
 
 
@@ -107,13 +109,18 @@ class Box(Placed):
     )
     axes: Frame | None = Field(None, description="in space: directions of its x and z in link axes")
 
+    @property
+    def own_axes(self) -> Matrix:
+        """Its x, y and z in link axes."""
+        return frames(Frames(i=self.axes, j=self.axes), None, "z")[0] if self.axes else _LINK_AXES
+
     def solid(self, points: Points) -> Solid:
         """V = abc, I about x = V (b^2 + c^2) / 12."""
         a, b, c = (x * x for x in self.size)
         volume = self.size[0] * self.size[1] * self.size[2]
         inertia = volume / 12 * np.diag([b + c, a + c, a + b])
         if self.axes is not None:
-            own = np.array(frames(Frames(i=self.axes, j=self.axes), None, "z")[0])
+            own = np.array(self.own_axes)
             inertia = own.T @ inertia @ own
         return Solid(volume, self.middle(), inertia)
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from dalembert.algebra import space
 from dalembert.errors import ModelError
 from dalembert.saving import new_file
-from dalembert.views.link_solids import GROUND, ROD, link_solids, nodes, pose
+from dalembert.views.link_solids import GROUND, ROD, link_solids, nodes, pose, shape_solids
 from dalembert.views.meshes import Mesh, joined, mesh
 from dalembert.views.themes import SOLIDS
 
@@ -79,7 +79,7 @@ def solid_model(r: Result) -> SolidModel:
     meshes: list[dict[str, Any]] = []
     for link in links:
         by_role: dict[str, list[Mesh]] = {}
-        for s in solids[link]:
+        for s in [*solids[link], *shape_solids(r, link, size)]:
             role = "thread" if s.role == "hatch" else s.role
             by_role.setdefault(role, []).append(mesh(s, ROD * size))
         turn, at = pose(r, link, int(k[0]))
@@ -224,19 +224,23 @@ class _Writer:
         }
 
 
-MATERIALS = (*SOLIDS, "guide", "thread")
+MATERIALS = (*SOLIDS, "guide", "thread", "shape")
 """Roles of solids, one material each."""
+
+SEEN_THROUGH = ("guide", "shape")
 
 
 def _material(role: str) -> dict[str, Any]:
     colour = SOLIDS[role][1] if role in SOLIDS else "#6b7785"
     red, green, blue = (int(colour[n : n + 2], 16) / 255 for n in (1, 3, 5))
-    seen = {"baseColorFactor": [*(_linear(c) for c in (red, green, blue)), 0.3 if role == "guide" else 1.0]}
+    seen = {
+        "baseColorFactor": [*(_linear(c) for c in (red, green, blue)), 0.3 if role in SEEN_THROUGH else 1.0]
+    }
     out: dict[str, Any] = {
         "name": role,
         "pbrMetallicRoughness": seen | {"metallicFactor": 0.1, "roughnessFactor": 0.7},
     }
-    return out | ({"alphaMode": "BLEND", "doubleSided": True} if role == "guide" else {})
+    return out | ({"alphaMode": "BLEND", "doubleSided": True} if role in SEEN_THROUGH else {})
 
 
 def _linear(c: float) -> float:

@@ -13,9 +13,12 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.loads import point_of
 from dalembert.analysis.pairs import AXES, pair_of
+from dalembert.model.shapes import Box, Sphere
+from dalembert.model.shapes import Cylinder as Round
+from dalembert.model.shapes import Tube as Hollow
 from dalembert.views.outline import convex
 from dalembert.views.pair_symbols import Setting, Symbol, symbol
-from dalembert.views.solids import Cylinder, Plate, Ring, Solid, Wire, across, all_placed, circle
+from dalembert.views.solids import Ball, Block, Cylinder, Plate, Ring, Solid, Wire, across, all_placed, circle
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
@@ -313,4 +316,24 @@ def _wheels(r: Result, name: str, size: float) -> list[tuple[str, Solid]]:
             out.append((link, Cylinder(at - half, at + half, radius, thread=lead)))
             continue
         out.append((link, Plate(circle(at, axis, radius, 48)[:-1], 1.4 * size, spoke=True)))
+    return out
+
+
+def shape_solids(r: Result, link: str, size: float) -> list[Solid]:
+    """The shapes that a link is described by, in link axes; slender bars and meshes from files are left out."""
+    m = r.mechanism
+    height = lift(r, link, (0.0,) * m.dimension, size)
+    out: list[Solid] = []
+    for shape in m.links[link].shapes:
+        if isinstance(shape, Box):
+            out.append(
+                Block(shape.middle() + height, np.array(shape.own_axes), np.array(shape.size) / 2, "shape")
+            )
+        elif isinstance(shape, Sphere):
+            out.append(Ball(shape.middle() + height, shape.radius, "shape"))
+        elif isinstance(shape, (Round, Hollow)):
+            length, middle, axis = shape.line(lambda name: m.point(link, name))
+            radius = shape.radius if isinstance(shape, Round) else shape.radii[1]
+            ends = [middle + sign * length / 2 * axis + height for sign in (-1, 1)]
+            out.append(Cylinder(ends[0], ends[1], radius, "shape"))
     return out
