@@ -78,7 +78,9 @@ def _check(made: dict[str, Any]) -> None:
 
 def balanced(r: Any, k: int) -> bool:
     numbers = [r.effort(d)[k] for d in r.drives] + [r.unknown_load(x)[k] for x in r.unknown_loads]
-    numbers += [c for link in r.links for c in (*r.position(link)[k], r.angle(link)[k], *r.center(link)[k])]
+    for link in r.links:
+        turn = [r.angle(link)[k]] if r.mechanism.dimension == 2 else np.ravel(r.rotation(link)[k])
+        numbers += [*r.position(link)[k], *turn, *r.center(link)[k]]
     numbers += [c for joint in r.joints for c in (*r.least_norm(joint)[k],)]
     return bool(
         np.all(np.isfinite(numbers)) and r.residual[k] < BALANCED and abs(r.power_balance[k]) < BALANCED
