@@ -141,7 +141,7 @@ def test_turns_are_not_reduced(seed: int) -> None:
 
 def test_the_limits_have_been_met() -> None:
     """Among the seeds of the default run are joints of each kind."""
-    met: dict[str, Any] = {k: 0 for k in ("revolute", "universal", "cylindrical")}
+    met: dict[str, Any] = dict.fromkeys(("revolute", "universal", "cylindrical"), 0)
     for seed in range(40):
         for kind in met:
             met[kind] += len(candidates(random_case(seed), kind))

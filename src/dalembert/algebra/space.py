@@ -23,6 +23,10 @@ IDENTITY = np.eye(3).ravel()
 """The rotation that turns nothing."""
 
 
+FEW = 1200
+"""Numbers of rotations below which one call of matmul is faster than many of arithmetic."""
+
+
 def _vector(x: Array, y: Array, z: Array) -> Array:
     """Three components as the last axis (faster than numpy.stack)."""
     out = np.empty((*np.shape(x), 3), np.result_type(x, y, z))
@@ -96,6 +100,8 @@ def quaternion(r: Array) -> Array:
 
 def rotate(r: Array, u: Array) -> Array:
     """Ground components of a vector u given in rotated axes."""
+    if r.size < FEW:
+        return np.asarray((matrix(r) @ u[..., None])[..., 0])
     x, y, z = u[..., 0], u[..., 1], u[..., 2]
     return _vector(*(r[..., k] * x + r[..., k + 1] * y + r[..., k + 2] * z for k in (0, 3, 6)))
 

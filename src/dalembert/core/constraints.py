@@ -123,10 +123,9 @@ _MEASURES: dict[type[Family], Any] = {
 
 def _meet_wrench(g: Any, f: Meet, pose: Pose, on_i: Array, on_j: Array) -> None:
     ri, rj = arm(g, pose, f.i, f.ui), arm(g, pose, f.j, f.uj)
-    for axis, e in enumerate(np.eye(g.d)):
-        row = f.row[:, axis]
-        on_j[..., row, : g.d], on_j[..., row, g.d :] = e, g.cross(rj, e)
-        on_i[..., row, : g.d], on_i[..., row, g.d :] = -e, -g.cross(ri, e)
+    axes = np.eye(g.d)
+    on_j[..., f.row, : g.d], on_j[..., f.row, g.d :] = axes, g.cross(rj[..., None, :], axes)
+    on_i[..., f.row, : g.d], on_i[..., f.row, g.d :] = -axes, -g.cross(ri[..., None, :], axes)
 
 
 def _along_wrench(g: Any, f: Along, pose: Pose, on_i: Array, on_j: Array) -> None:
