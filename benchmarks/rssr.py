@@ -28,7 +28,7 @@ import numpy as np  # noqa: E402
 
 COUNT = 720
 SPEED, GRAVITY = 18.0, np.array([0.0, 0.0, -9.80665])
-O, A, B, C = (np.array(p) for p in ([0.0, 0, 0], [0.1, 0, 0], [0.4, 0.1, 0.3], [0.4, 0.1, 0.0]))
+P, A, B, C = (np.array(p) for p in ([0.0, 0, 0], [0.1, 0, 0], [0.4, 0.1, 0.3], [0.4, 0.1, 0.0]))
 CRANK_AXIS, ROCKER_AXIS = np.array([0.0, 0, 1]), np.array([0.1, 1.0, 0.05]) / np.sqrt(1.0125)
 ROD = (B - A) / np.linalg.norm(B - A)
 MASS = {"crank": 1.2, "rod": 0.9, "rocker": 1.7}
@@ -51,8 +51,8 @@ def description(count: int) -> dict[str, Any]:
         "space": "space",
         "gravity": GRAVITY.tolist(),
         "links": {
-            "ground": {"points": {"O": O.tolist(), "C": C.tolist()}},
-            "crank": link("crank", O=O, A=A),
+            "ground": {"points": {"O": P.tolist(), "C": C.tolist()}},
+            "crank": link("crank", O=P, A=A),
             "rod": link("rod", A=A, B=B),
             "rocker": link("rocker", C=C, B=B),
         },
@@ -129,10 +129,10 @@ class Pinocchio(Tree):
         self.pin, model = pin, pin.Model()
         model.gravity.linear = GRAVITY
         turn, ball = pin.JointModelRevoluteUnaligned, pin.JointModelSpherical()
-        crank = model.addJoint(0, turn(CRANK_AXIS), pin.SE3(np.eye(3), O), "O")
-        rod = model.addJoint(crank, ball, pin.SE3(np.eye(3), A - O), "A")
+        crank = model.addJoint(0, turn(CRANK_AXIS), pin.SE3(np.eye(3), P), "O")
+        rod = model.addJoint(crank, ball, pin.SE3(np.eye(3), A - P), "A")
         rocker = model.addJoint(0, turn(ROCKER_AXIS), pin.SE3(np.eye(3), C), "C")
-        for joint, name, origin in ((crank, "crank", O), (rod, "rod", A), (rocker, "rocker", C)):
+        for joint, name, origin in ((crank, "crank", P), (rod, "rod", A), (rocker, "rocker", C)):
             inertia = pin.Inertia(MASS[name], CENTER[name] - origin, INERTIA[name])
             model.appendBodyToJoint(joint, inertia, pin.SE3.Identity())
         self.ends = [
@@ -186,8 +186,8 @@ class Mujoco(Tree):
             mass = f'<inertial pos="{center}" mass="{MASS[name]}" fullinertia="{full}"/>'
             return f'<body name="{name}" pos="{_text(at)}">{mass}{joint}{end}{inner}</body>'
 
-        rod = body("rod", A - O, A, '<joint type="ball"/>')
-        crank = body("crank", O, O, f'<joint type="hinge" axis="{_text(CRANK_AXIS)}"/>', rod)
+        rod = body("rod", A - P, A, '<joint type="ball"/>')
+        crank = body("crank", P, P, f'<joint type="hinge" axis="{_text(CRANK_AXIS)}"/>', rod)
         rocker = body("rocker", C, C, f'<joint type="hinge" axis="{_text(ROCKER_AXIS)}"/>')
         option = f'<option gravity="{_text(GRAVITY)}"/><compiler boundmass="0"/>'
         self.mj = mujoco
@@ -239,13 +239,13 @@ class Drake(Tree):
         self.t, plant = mbt, mbp.MultibodyPlant(0.0)
         plant.mutable_gravity_field().set_gravity_vector(GRAVITY)
         world, bodies = plant.world_frame(), {}
-        for name, origin in (("crank", O), ("rod", A), ("rocker", C)):
+        for name, origin in (("crank", P), ("rod", A), ("rocker", C)):
             about = mbt.RotationalInertia(*np.diag(INERTIA[name]), *INERTIA[name][[0, 0, 1], [1, 2, 2]])
             spatial = mbt.SpatialInertia.MakeFromCentralInertia(MASS[name], CENTER[name] - origin, about)
             bodies[name] = plant.AddRigidBody(name, spatial)
         foot = plant.AddFrame(mbt.FixedOffsetFrame("C", world, RigidTransform(C)))
         knuckle = plant.AddFrame(
-            mbt.FixedOffsetFrame("A", bodies["crank"].body_frame(), RigidTransform(A - O))
+            mbt.FixedOffsetFrame("A", bodies["crank"].body_frame(), RigidTransform(A - P))
         )
         plant.AddJoint(mbt.RevoluteJoint("O", world, bodies["crank"].body_frame(), CRANK_AXIS))
         plant.AddJoint(mbt.BallRpyJoint("rod", knuckle, bodies["rod"].body_frame()))

@@ -1,4 +1,4 @@
-"""Spatial descriptions changed at random: a ModelError, a status with a sentence, or numbers that balance."""
+"""Random mechanisms of all pairs changed at random: a ModelError, a status with a sentence, or numbers that balance."""
 
 from __future__ import annotations
 
