@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
-from math import atan2, pi, radians, sqrt
+from math import atan2, cos, pi, radians, sqrt
 from typing import Any
 
 import numpy as np
@@ -16,13 +16,20 @@ from dalembert.errors import ModelError
 from dalembert.model import Mechanism, loads
 from dalembert.model.library import (
     TEMPLATES,
+    bennett,
     bucket,
     crank_shaper,
+    double_cardan,
     five_bar,
     four_bar,
+    hooke_joint,
     inverted_slider_crank,
+    rotating_shaft,
+    rssp,
+    rssr,
     scissor,
     slider_crank,
+    spherical_four_bar,
     stephenson_2,
     template,
     template_text,
@@ -82,10 +89,12 @@ def test_every_position_is_solved(name: str, text: bool) -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_the_motion_is_a_motion(name: str) -> None:
     """No position jumps into another assembly: links turn little from one position to the next, and come back."""
-    r = solve(template(name))
+    m = template(name)
+    r = solve(m)
     for link in r.links:
-        turns = np.abs(np.diff(np.unwrap(r.angle(link))))
-        assert np.max(turns) < radians(25), link
+        turn = np.swapaxes(r.rotation(link)[:-1], -1, -2) @ r.rotation(link)[1:]
+        cosine = (np.trace(turn, axis1=-2, axis2=-1) - (m.dimension == 3)) / 2
+        assert np.min(cosine) > cos(radians(25)), link
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -209,6 +218,44 @@ def test_toggle_press_comes_near_to_straight_and_not_through() -> None:
     assert lean.max() > radians(20)
 
 
+# in space
+
+
+def test_hooke_joint_turns_by_its_formula() -> None:
+    r = solve(hooke_joint(angle=35.0))
+    turn, slant = r.drive_position("I"), radians(35)
+    expected = 10 * pi * cos(slant) / (1 - (np.sin(slant) * np.sin(turn)) ** 2)
+    assert np.linalg.norm(r.speed("output"), axis=-1) == pytest.approx(expected, rel=1e-12)
+
+
+def test_double_cardan_turns_evenly() -> None:
+    r = solve(double_cardan())
+    assert r.speed("output") == pytest.approx(np.tile([10 * pi, 0.0, 0.0], (72, 1)), abs=1e-9)
+
+
+def test_rotating_shaft_pulls_at_its_bearings_by_the_rule() -> None:
+    r = solve(rotating_shaft())
+    spots = [(0.3, 0.05, 0.0, 0.2), (0.2, 0.08, 120.0, 0.45)]
+    turn = r.drive_position("A")
+    for bearing, share in (("A", lambda z: 1 - z / 0.6), ("B", lambda z: z / 0.6)):
+        parts = [(m * rad * (100 * pi) ** 2 * share(z), turn + radians(angle)) for m, rad, angle, z in spots]
+        expected = -np.stack(
+            [sum(f * np.cos(at) for f, at in parts), sum(f * np.sin(at) for f, at in parts)], -1
+        )
+        assert r.reaction(bearing)[:, :2] == pytest.approx(expected, abs=1e-8)
+    assert r.effort("A") == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("build", [bennett, spherical_four_bar])
+def test_four_revolutes_move_as_the_determinate_loop(build: Callable[..., Mechanism]) -> None:
+    r, four = solve(build()), solve(build(determinate=False))
+    assert set(four.status) == {"redundant"}
+    assert four.mobility is not None
+    assert (four.mobility.freedoms, four.mobility.redundant) == (1, 3)
+    for link in r.links:
+        assert four.rotation(link) == pytest.approx(r.rotation(link), abs=1e-10)
+
+
 # dimensions that do not go
 
 
@@ -288,6 +335,28 @@ BAD: list[tuple[Callable[[], Mechanism], str]] = [
         lambda: watt_1(upper_coupler=0.05),
         "watt_1 does not close from 0 to 118 degrees of the crank: upper rocker 0.18 m and upper coupler 0.05 m are "
         "0.0344 m too short to meet; lengthen the upper rocker or the upper coupler, or give the crank a smaller range",
+    ),
+    (
+        lambda: rssr(rod=0.15),
+        "rssr does not close from 220 to 234 degrees of the crank; change the rod or the rocker, or give the crank a "
+        "smaller range",
+    ),
+    (
+        lambda: rssp(direction=(0.0, 0.0, 0.0)),
+        "rssp: direction has no direction; give one component other than 0",
+    ),
+    (
+        lambda: bennett(twists=(40.0, 40.0)),
+        "bennett: twists 40 and 40, start 90 degrees; give two different twists and a start, all below 180 degrees",
+    ),
+    (
+        lambda: spherical_four_bar(arcs=(30.0, 20.0, 80.0, 30.0)),
+        "spherical_four_bar does not close from 0 to 360 degrees of the crank; change the angles, or give the crank a "
+        "smaller range",
+    ),
+    (
+        lambda: hooke_joint(angle=90.0),
+        "hooke_joint: angle is 90 degrees; give one between 0 and 90 degrees",
     ),
     (
         lambda: stephenson_2(rocker=0.9),

@@ -16,6 +16,8 @@ from dalembert.errors import ModelError
 from dalembert.model.library.four_bars import four_bar, inverted_slider_crank, scotch_yoke, slider_crank
 from dalembert.model.library.machines import bucket, five_bar, scissor, toggle_press
 from dalembert.model.library.quick_returns import crank_shaper, whitworth
+from dalembert.model.library.shafts import double_cardan, hooke_joint, rotating_shaft
+from dalembert.model.library.spatial import bennett, rccc, rssp, rssr, spherical_four_bar
 from dalembert.model.library.stephenson import stephenson_1, stephenson_2, stephenson_3
 from dalembert.model.library.watt import watt_1, watt_2
 
@@ -25,14 +27,22 @@ if TYPE_CHECKING:
 __all__ = [
     "TEMPLATES",
     "Template",
+    "bennett",
     "bucket",
     "crank_shaper",
+    "double_cardan",
     "five_bar",
     "four_bar",
+    "hooke_joint",
     "inverted_slider_crank",
+    "rccc",
+    "rotating_shaft",
+    "rssp",
+    "rssr",
     "scissor",
     "scotch_yoke",
     "slider_crank",
+    "spherical_four_bar",
     "stephenson_1",
     "stephenson_2",
     "stephenson_3",
@@ -70,6 +80,14 @@ TEMPLATES: dict[str, Template] = {
     "five_bar": Template(five_bar, "two driven cranks and two couplers, the simplest parallel robot"),
     "scissor": Template(scissor, "scissor lift of any number of stages"),
     "bucket": Template(bucket, "excavator bucket moved by a hydraulic cylinder"),
+    "rssr": Template(rssr, "in space: crank, rod with two balls, rocker about any axis"),
+    "rssp": Template(rssp, "in space: crank, rod with two balls, slider along any line"),
+    "rccc": Template(rccc, "in space: a revolute and three cylindrical joints, the general four-bar"),
+    "bennett": Template(bennett, "in space: four axes that should not move, and do"),
+    "spherical_four_bar": Template(spherical_four_bar, "in space: four axes through one point"),
+    "hooke_joint": Template(hooke_joint, "in space: a universal joint between two shafts at an angle"),
+    "double_cardan": Template(double_cardan, "in space: two universal joints that turn evenly"),
+    "rotating_shaft": Template(rotating_shaft, "in space: a shaft with masses off its axis on two bearings"),
 }
 """Name -> function and description, for `dalembert new NAME`."""
 

@@ -1,0 +1,384 @@
+"""Spatial four-bars: RSSR, RSSP, RCCC, Bennett's linkage, four revolutes through one point.
+
+Every link is described as it is drawn with the crank at 0: its axes parallel to ground's, its points where they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import atan2, cos, hypot, isfinite, pi, radians, sin, sqrt
+from typing import TYPE_CHECKING
+
+from dalembert.errors import ModelError
+from dalembert.model.library.closure import FULL_TURN
+from dalembert.model.library.parts import Tree, built, force, positive, turning
+from dalembert.model.library.vectors import Vector, cross, dot, less, plus, times
+
+if TYPE_CHECKING:
+    from dalembert.model import Mechanism
+
+
+def rssr(
+    *,
+    crank: float = 0.06,
+    rod: float = 0.25,
+    rocker: float = 0.15,
+    center: Vector = (0.2, 0.05, -0.08),
+    axis: Vector = (0.1, 1.0, 0.0),
+    mass_per_length: float = 2.0,
+    speed: float = 4 * pi,
+    sweep: tuple[float, float] = FULL_TURN,
+    positions: int = 72,
+) -> Mechanism:
+    r"""A spatial crank and rocker: revolute, two balls, revolute (RSSR).
+
+    ::
+
+          B (ball)
+         / \  rod
+        C    \
+              A (ball)
+        O ----/  crank, about z
+
+    `crank` O A in the plane of x and y about the z axis through O, `rod` A B and `rocker` C B in metres; the rocker
+    turns about the line through `center` C along `axis`, and B stands above the plane of C and A that holds the axis.
+    The rod can spin about A B and is set not to. Links uniform and slender with `mass_per_length` in kg/m, gravity
+    along -z; `speed` in rad/s, `sweep` in radians. Raises ModelError where it does not close.
+
+    >>> from dalembert.model.library import rssr
+    >>> rssr().joints["A"].type
+    'spherical'
+    """
+    positive("rssr", crank=crank, rod=rod, rocker=rocker)
+    positive("rssr", "kg/m", mass_per_length=mass_per_length)
+    e = _unit("rssr", "axis", axis)
+    c = _finite("rssr", "center", center)
+
+    def ball(turn: float) -> Vector | None:
+        """B: on the rocker's circle, at the rod's length from A."""
+        gap = less((crank * cos(turn), crank * sin(turn), 0.0), c)
+        along = dot(gap, e)
+        across = less(gap, times(along, e))
+        size = hypot(*across)
+        cosine = (dot(gap, gap) + rocker**2 - rod**2) / (2 * rocker * size) if size else 2.0
+        if abs(cosine) > 1:
+            return None
+        x = times(1 / size, across)
+        y = cross(x, e) if cross(x, e)[2] > 0 else cross(e, x)
+        return plus(c, times(rocker * cosine, x), times(rocker * sqrt(1 - cosine**2), y))
+
+    a, b = (crank, 0.0, 0.0), _closing("rssr", ball, sweep, "the rod or the rocker")
+    return built(
+        "Spatial four-bar RSSR",
+        gravity="standard",
+        space="space",
+        links={
+            "ground": {"points": {"O": [0.0, 0.0, 0.0], "C": list(c)}},
+            "crank": slim(mass_per_length, O=(0.0, 0.0, 0.0), A=a),
+            "rod": slim(mass_per_length, A=a, B=b),
+            "rocker": slim(mass_per_length, C=c, B=b),
+        },
+        joints={
+            "O": _on("revolute", "ground", "crank", (0.0, 0.0, 1.0)),
+            "A": {"type": "spherical", "links": ["crank", "rod"]},
+            "B": {"type": "spherical", "links": ["rod", "rocker"]},
+            "C": _on("revolute", "ground", "rocker", e),
+        },
+        drives={"O": turning(sweep, positions, speed)},
+    )
+
+
+def rssp(
+    *,
+    crank: float = 0.06,
+    rod: float = 0.25,
+    guide: Vector = (0.1, 0.05, 0.03),
+    direction: Vector = (1.0, 0.2, 0.3),
+    load: float = -200.0,
+    slider_mass: float = 1.0,
+    mass_per_length: float = 2.0,
+    speed: float = 4 * pi,
+    sweep: tuple[float, float] = FULL_TURN,
+    positions: int = 72,
+) -> Mechanism:
+    r"""A spatial slider-crank: revolute, two balls, prismatic (RSSP).
+
+    ::
+
+              rod    B
+        A -----------[ ]---> direction
+        O/ crank, about z
+
+    `crank` O A about the z axis through O, and `rod` A B, in metres; B slides on the line through `guide` along
+    `direction`, on its far side. `load` in N acts on the slider along the line; `slider_mass` in kg, crank and rod
+    uniform and slender with `mass_per_length` in kg/m, gravity along -z; `speed` in rad/s, `sweep` in radians. The
+    rod can spin about A B and is set not to. Raises ModelError where it does not close.
+
+    >>> from dalembert.model.library import rssp
+    >>> rssp().joints["guide"].type
+    'prismatic'
+    """
+    positive("rssp", crank=crank, rod=rod)
+    positive("rssp", "kg", slider_mass=slider_mass, mass_per_length=mass_per_length)
+    e, g = _unit("rssp", "direction", direction), _finite("rssp", "guide", guide)
+
+    def ball(turn: float) -> Vector | None:
+        gap = less((crank * cos(turn), crank * sin(turn), 0.0), g)
+        along = dot(gap, e)
+        square = rod**2 - dot(gap, gap) + along**2
+        return plus(g, times(along + sqrt(square), e)) if square >= 0 else None
+
+    a, b = (crank, 0.0, 0.0), _closing("rssp", ball, sweep, "the rod")
+    slider = {"points": {"B": list(b)}, "mass": slider_mass, "center": list(b)}
+    return built(
+        "Spatial slider-crank RSSP",
+        gravity="standard",
+        space="space",
+        links={
+            "ground": {"points": {"O": [0.0, 0.0, 0.0], "G": list(g)}},
+            "crank": slim(mass_per_length, O=(0.0, 0.0, 0.0), A=a),
+            "rod": slim(mass_per_length, A=a, B=b),
+            "slider": slider,
+        },
+        joints={
+            "O": _on("revolute", "ground", "crank", (0.0, 0.0, 1.0)),
+            "A": {"type": "spherical", "links": ["crank", "rod"]},
+            "B": {"type": "spherical", "links": ["rod", "slider"]},
+            "guide": _on("prismatic", "ground", "slider", e) | {"at": ["G", "B"]},
+        },
+        drives={"O": turning(sweep, positions, speed)},
+        loads={"load": force("slider", "B", tuple(load * x for x in e))},
+    )
+
+
+def rccc(
+    *,
+    axes: tuple[float, float, float, float] = (30.0, 70.0, 80.0, 75.0),
+    offsets: tuple[float, float, float, float] = (0.05, 0.12, 0.15, 0.2),
+    mass_per_length: float = 2.0,
+    speed: float = 4 * pi,
+    sweep: tuple[float, float] = FULL_TURN,
+    positions: int = 72,
+) -> Mechanism:
+    """A revolute and three cylindrical joints (RCCC), the general spatial four-bar.
+
+    `axes` are the angles between neighbouring joint axes in degrees (crank, coupler, rocker, ground), `offsets` the
+    crank's, coupler's, rocker's and ground's distances between the joints' points, in metres, as drawn: the turns are
+    those of the spherical four-bar with the same angles, the slides follow. Links uniform and slender with
+    `mass_per_length` in kg/m, gravity along -z; `speed` of the crank in rad/s, `sweep` in radians.
+
+    >>> from dalembert.model.library import rccc
+    >>> [joint.type for joint in rccc().joints.values()]
+    ['revolute', 'cylindrical', 'cylindrical', 'cylindrical']
+    """
+    positive("rccc", **dict(zip(("crank", "coupler", "rocker", "ground"), offsets, strict=True)))
+    positive("rccc", "kg/m", mass_per_length=mass_per_length)
+    u = _cone_axes("rccc", axes, sweep)
+    o = (0.0, 0.0, 0.0)
+    a = times(offsets[0], _unit("rccc", "axes", cross(u[0], u[1])))
+    b = plus(a, times(offsets[1], _unit("rccc", "axes", cross(u[1], u[2]))))
+    c = plus(b, times(offsets[2], _unit("rccc", "axes", cross(u[2], u[3]))))
+    c = plus(c, times(offsets[3] / 2, u[3]))
+    return built(
+        "Spatial four-bar RCCC",
+        gravity="standard",
+        space="space",
+        links={
+            "ground": {"points": {"O": list(o), "C": list(c)}},
+            "crank": slim(mass_per_length, O=o, A=a),
+            "coupler": slim(mass_per_length, A=a, B=b),
+            "rocker": slim(mass_per_length, B=b, C=c),
+        },
+        joints={
+            "O": _on("revolute", "ground", "crank", u[0]),
+            "A": _on("cylindrical", "crank", "coupler", u[1]),
+            "B": _on("cylindrical", "coupler", "rocker", u[2]),
+            "C": _on("cylindrical", "ground", "rocker", u[3]),
+        },
+        drives={"O": turning(sweep, positions, speed)},
+    )
+
+
+def spherical_four_bar(
+    *,
+    arcs: tuple[float, float, float, float] = (30.0, 70.0, 80.0, 75.0),
+    radius: float = 0.2,
+    determinate: bool = True,
+    mass_per_length: float = 2.0,
+    speed: float = 4 * pi,
+    sweep: tuple[float, float] = FULL_TURN,
+    positions: int = 72,
+) -> Mechanism:
+    """Four revolutes in space whose axes pass through one point: the spherical four-bar.
+
+    `arcs` are the angles between neighbouring axes in degrees: crank, coupler, rocker, ground; the joints lie at
+    `radius` in metres from the common point. Four revolutes carry three constraints too many; `determinate` makes the
+    one at B a ball and the one at C cylindrical, so that all reactions are unique. Links uniform and slender with
+    `mass_per_length` in kg/m, gravity along -z; `speed` of the crank in rad/s, `sweep` in radians.
+
+    >>> from dalembert.model.library import spherical_four_bar
+    >>> [joint.type for joint in spherical_four_bar().joints.values()]
+    ['revolute', 'revolute', 'spherical', 'cylindrical']
+    """
+    positive("spherical_four_bar", radius=radius)
+    positive("spherical_four_bar", "kg/m", mass_per_length=mass_per_length)
+    u = _cone_axes("spherical_four_bar", arcs, sweep)
+    o, a, b, c = (times(radius, axis) for axis in u)
+    return built(
+        "Spherical four-bar",
+        gravity="standard",
+        space="space",
+        links={
+            "ground": {"points": {"O": list(o), "C": list(c)}},
+            "crank": slim(mass_per_length, O=o, A=a),
+            "coupler": slim(mass_per_length, A=a, B=b),
+            "rocker": slim(mass_per_length, B=b, C=c),
+        },
+        joints=_loop(u, determinate),
+        drives={"O": turning(sweep, positions, speed)},
+    )
+
+
+def bennett(
+    *,
+    length: float = 0.2,
+    twists: tuple[float, float] = (40.0, 70.0),
+    start: float = 90.0,
+    determinate: bool = True,
+    mass_per_length: float = 2.0,
+    speed: float = 4 * pi,
+    sweep: tuple[float, float] = (-4 * pi / 9, 4 * pi / 9),
+    positions: int = 72,
+) -> Mechanism:
+    """Bennett's linkage: four revolutes, neither parallel nor through one point, that move all the same.
+
+    Opposite links are equal. `length` of the crank in metres and the `twists` of crank and coupler (degrees between
+    the axes at a link's ends) give the coupler: a / sin(alpha) = b / sin(beta). Drawn, and counted from, with the
+    crank at `start` degrees from ground's line. Four revolutes carry three constraints too many; `determinate` makes
+    the one at B a ball and the one at C cylindrical, which moves the same between the poses where all lies on one
+    line, at 0 and 180 degrees: there it can change into another motion. Links uniform and slender with
+    `mass_per_length` in kg/m, gravity along -z; `speed` in rad/s, `sweep` in radians.
+
+    >>> from dalembert.model.library import bennett
+    >>> len(bennett(determinate=False).joints)
+    4
+    """
+    positive("bennett", length=length)
+    positive("bennett", "degrees", twist=twists[0], other_twist=twists[1], start=start)
+    if max(*twists, start) >= 180 or twists[0] == twists[1]:
+        what = f"bennett: twists {twists[0]:g} and {twists[1]:g}, start {start:g} degrees"
+        raise ModelError(what, "give two different twists and a start, all below 180 degrees")
+    positive("bennett", "kg/m", mass_per_length=mass_per_length)
+    alpha, beta = (radians(t) for t in twists)
+    other, theta = length * sin(beta) / sin(alpha), radians(start)
+    half = sin((beta + alpha) / 2) / sin((beta - alpha) / 2) / (sin(theta / 2) / cos(theta / 2))
+    turns, points, axes = (theta, 2 * atan2(half, 1.0), -theta), [(0.0, 0.0, 0.0)], [(0.0, 0.0, 1.0)]
+    x: Vector = (1.0, 0.0, 0.0)
+    for turn, size, twist in zip(turns, (length, other, length), (alpha, beta, alpha), strict=True):
+        z = axes[-1]
+        x = plus(times(cos(turn), x), times(sin(turn), cross(z, x)))
+        points.append(plus(points[-1], times(size, x)))
+        axes.append(plus(times(cos(twist), z), times(sin(twist), cross(x, z))))
+    o, a, b, c = points
+    return built(
+        "Bennett's linkage",
+        gravity="standard",
+        space="space",
+        links={
+            "ground": {"points": {"O": list(o), "C": list(c)}},
+            "crank": slim(mass_per_length, O=o, A=a),
+            "coupler": slim(mass_per_length, A=a, B=b),
+            "rocker": slim(mass_per_length, B=b, C=c),
+        },
+        joints=_loop(axes, determinate),
+        drives={"O": turning(sweep, positions, speed)},
+    )
+
+
+def slim(mass_per_length: float, **ends: Vector) -> Tree:
+    """A uniform slender link between two points, as drawn.
+
+    >>> slim(2.0, A=(0.0, 0.0, 0.0), B=(0.0, 0.0, 0.6))["center"]
+    [0.0, 0.0, 0.3]
+    """
+    (first, p), (last, r) = ends.items()
+    line = less(r, p)
+    length = hypot(*line)
+    u, mass = times(1 / length, line), mass_per_length * length
+    size = mass * length**2 / 12
+    inertia = [[size * ((i == j) - u[i] * u[j]) for j in range(3)] for i in range(3)]
+    center = list(times(0.5, plus(p, r)))
+    return {"points": {first: list(p), last: list(r)}, "mass": mass, "center": center, "inertia": inertia}
+
+
+def _on(kind: str, i: str, j: str, axis: Vector) -> Tree:
+    return {"type": kind, "links": [i, j], "axis": list(axis)}
+
+
+def _loop(axes: list[Vector], determinate: bool) -> Tree:
+    """Joints of a loop of four revolutes, two of them freer where it is to be determinate."""
+    o, a, b, c = axes
+    ball: Tree = {"type": "spherical", "links": ["coupler", "rocker"]}
+    return {
+        "O": _on("revolute", "ground", "crank", o),
+        "A": _on("revolute", "crank", "coupler", a),
+        "B": ball if determinate else _on("revolute", "coupler", "rocker", b),
+        "C": _on("cylindrical" if determinate else "revolute", "ground", "rocker", c),
+    }
+
+
+def _cone_axes(
+    name: str, arcs: tuple[float, float, float, float], sweep: tuple[float, float]
+) -> list[Vector]:
+    """Axes through one point with these angles (degrees) between neighbours, as drawn: ground's in the plane x z."""
+    positive(name, "degrees", **dict(zip(("crank", "coupler", "rocker", "ground"), arcs, strict=True)))
+    crank, coupler, rocker, ground = (radians(arc) for arc in arcs)
+    last = (sin(ground), 0.0, cos(ground))
+
+    def second(turn: float) -> Vector:
+        return sin(crank) * cos(turn), sin(crank) * sin(turn), cos(crank)
+
+    def third(turn: float) -> Vector | None:
+        """The axis at the coupler's angle from the second and the rocker's from the last, on the left of both."""
+        a = second(turn)
+        cosine = dot(a, last)
+        square = 1 - cosine**2
+        if square < 1e-12:
+            return None
+        p = (cos(coupler) - cosine * cos(rocker)) / square
+        r = (cos(rocker) - cosine * cos(coupler)) / square
+        left = 1 - p**2 - r**2 - 2 * p * r * cosine
+        if left < 0:
+            return None
+        return plus(times(p, a), times(r, last), times(sqrt(left / square), cross(a, last)))
+
+    start = sweep[0]
+    return [(0.0, 0.0, 1.0), second(0.0), _closing(name, third, (start, sweep[1]), "the angles"), last]
+
+
+def _closing(
+    name: str, place: Callable[[float], Vector | None], sweep: tuple[float, float], what: str
+) -> Vector:
+    """The place at crank 0, if there is one all over the sweep."""
+    open_ = [turn for k in range(361) if place(turn := sweep[0] + (sweep[1] - sweep[0]) * k / 360) is None]
+    first = place(0.0)
+    if open_ or first is None:
+        low, high = (round(x * 180 / pi) for x in ((open_ or [0.0])[0], (open_ or [0.0])[-1]))
+        raise ModelError(
+            f"{name} does not close from {low} to {high} degrees of the crank",
+            f"change {what}, or give the crank a smaller range",
+        )
+    return first
+
+
+def _finite(name: str, key: str, vector: Vector) -> Vector:
+    if len(vector) != 3 or not all(isfinite(x) for x in vector):
+        raise ModelError(f"{name}: {key} is {vector}, not three numbers (x, y, z)", f"give {key} in metres")
+    return vector
+
+
+def _unit(name: str, key: str, vector: Vector) -> Vector:
+    size = hypot(*_finite(name, key, vector))
+    if size == 0:
+        raise ModelError(f"{name}: {key} has no direction", "give one component other than 0")
+    return times(1 / size, vector)
