@@ -17,6 +17,7 @@ from dalembert.model import Mechanism, loads
 from dalembert.model.library import (
     TEMPLATES,
     bennett,
+    bevel_differential,
     bucket,
     crank_shaper,
     double_cardan,
@@ -231,6 +232,13 @@ def test_hooke_joint_turns_by_its_formula() -> None:
 def test_double_cardan_turns_evenly() -> None:
     r = solve(double_cardan())
     assert r.speed("output") == pytest.approx(np.tile([10 * pi, 0.0, 0.0], (72, 1)), abs=1e-9)
+
+
+def test_differential_shares_the_torque_and_halves_the_sum() -> None:
+    r = solve(bevel_differential())
+    assert r.effort("left") == pytest.approx(-20.0)
+    assert r.effort("right") == pytest.approx(-20.0)
+    assert r.speed("carrier")[:, 2] == pytest.approx(20.0 * (1 + 1.2) / 2)
 
 
 def test_rotating_shaft_pulls_at_its_bearings_by_the_rule() -> None:

@@ -16,7 +16,7 @@ from dalembert.errors import ModelError
 from dalembert.model.library.four_bars import four_bar, inverted_slider_crank, scotch_yoke, slider_crank
 from dalembert.model.library.machines import bucket, five_bar, scissor, toggle_press
 from dalembert.model.library.quick_returns import crank_shaper, whitworth
-from dalembert.model.library.shafts import double_cardan, hooke_joint, rotating_shaft
+from dalembert.model.library.shafts import bevel_differential, double_cardan, hooke_joint, rotating_shaft
 from dalembert.model.library.spatial import bennett, rccc, rssp, rssr, spherical_four_bar
 from dalembert.model.library.stephenson import stephenson_1, stephenson_2, stephenson_3
 from dalembert.model.library.watt import watt_1, watt_2
@@ -28,6 +28,7 @@ __all__ = [
     "TEMPLATES",
     "Template",
     "bennett",
+    "bevel_differential",
     "bucket",
     "crank_shaper",
     "double_cardan",
@@ -87,6 +88,9 @@ TEMPLATES: dict[str, Template] = {
     "spherical_four_bar": Template(spherical_four_bar, "in space: four axes through one point"),
     "hooke_joint": Template(hooke_joint, "in space: a universal joint between two shafts at an angle"),
     "double_cardan": Template(double_cardan, "in space: two universal joints that turn evenly"),
+    "bevel_differential": Template(
+        bevel_differential, "in space: a carrier turns by half the sum of two wheels' turns"
+    ),
     "rotating_shaft": Template(rotating_shaft, "in space: a shaft with masses off its axis on two bearings"),
 }
 """Name -> function and description, for `dalembert new NAME`."""

@@ -1,4 +1,4 @@
-"""Shafts in space: Hooke's joint, two of them in a row, a rotating shaft with masses off its axis.
+"""Shafts in space: Hooke's joint, two of them in a row, a rotating shaft with masses off its axis, a differential.
 
 Bearings are chosen so that all reactions are unique: each shaft's thrust and each misalignment is taken once. Every
 link is described as it is drawn, its axes parallel to ground's.
@@ -188,6 +188,91 @@ def rotating_shaft(
         joints=joints,
         drives={"A": {"freedom": "turn", "axis": [0.0, 0.0, 1.0]} | turning(sweep, positions, speed)},
     )
+
+
+def bevel_differential(
+    *,
+    side_radius: float = 0.06,
+    planet_radius: float = 0.03,
+    torque: float = 40.0,
+    side_mass: float = 1.2,
+    planet_mass: float = 0.3,
+    carrier_mass: float = 2.0,
+    speed: float = 20.0,
+    sweep: tuple[float, float] = FULL_TURN,
+    second_sweep: tuple[float, float] = (0.0, 2.4 * pi),
+    positions: int = 72,
+) -> Mechanism:
+    r"""A bevel differential: the carrier turns by half the sum of both side wheels' turns.
+
+    ::
+
+            planet
+        left |X| right    all about z but the planet, about x of the carrier
+            carrier
+
+    Pitch radii `side_radius` and `planet_radius` in metres; `torque` in N m turns the carrier about z, and the side
+    wheels, whose turns are prescribed (a car in a curve), hold it with half of it each. Wheels are discs of
+    `side_mass` and `planet_mass` in kg, the carrier a ring of `carrier_mass` at the planet; `speed` of the left wheel
+    in rad/s through `sweep`, the right one goes as much faster or slower as `second_sweep` (radians) is longer or
+    shorter. Gravity along -z.
+
+    >>> from dalembert.model.library import bevel_differential
+    >>> sorted(bevel_differential().drives)
+    ['left', 'right']
+    """
+    positive("bevel_differential", side_radius=side_radius, planet_radius=planet_radius)
+    positive(
+        "bevel_differential", "kg", side_mass=side_mass, planet_mass=planet_mass, carrier_mass=carrier_mass
+    )
+    if sweep[0] == sweep[1]:
+        what = "bevel_differential: the sweep of the left wheel begins where it ends"
+        raise ModelError(what, "give two different angles")
+    z, size, place = [0.0, 0.0, 1.0], side_radius**2, [side_radius, 0.0, 0.0]
+    low, high = [0.0, 0.0, -planet_radius], [0.0, 0.0, planet_radius]
+    mesh: Tree = {
+        "type": "gear",
+        "radii": [side_radius, planet_radius],
+        "axes": {"i": {"z": z}, "j": {"z": list(X)}},
+    }
+    ring = [carrier_mass * size / 2, carrier_mass * size / 2, carrier_mass * size]
+    other = speed * (second_sweep[1] - second_sweep[0]) / (sweep[1] - sweep[0])
+    return built(
+        "Bevel differential",
+        gravity="standard",
+        space="space",
+        links={
+            "ground": {"points": {"left": low, "right": high, "carrier": [0.0, 0.0, 0.0]}},
+            "left": _disc(side_mass, side_radius, "left", low),
+            "right": _disc(side_mass, side_radius, "right", high),
+            "carrier": {
+                "points": {"carrier": [0.0, 0.0, 0.0], "planet": place},
+                "mass": carrier_mass,
+                "inertia": ring,
+            },
+            "planet": _disc(planet_mass, planet_radius, "planet", place, axis=0),
+        },
+        joints={
+            "left": {"type": "revolute", "links": ["ground", "left"], "axis": z},
+            "right": {"type": "revolute", "links": ["ground", "right"], "axis": z},
+            "carrier": {"type": "revolute", "links": ["ground", "carrier"], "axis": z},
+            "planet": {"type": "revolute", "links": ["carrier", "planet"], "axis": list(X)},
+            "left_mesh": {**mesh, "links": ["left", "planet"], "at": ["left", "planet"]},
+            "right_mesh": {**mesh, "links": ["right", "planet"], "at": ["right", "planet"]},
+        },
+        drives={
+            "left": turning(sweep, positions, speed),
+            "right": turning(second_sweep, positions, other),
+        },
+        loads={"torque": _torque("carrier", (0.0, 0.0, torque))},
+    )
+
+
+def _disc(mass: float, radius: float, name: str, at: list[float], axis: int = 2) -> Tree:
+    """A thin disc about one of its link's axes, at a point."""
+    size = mass * radius**2
+    inertia = [size / (2 if k == axis else 4) for k in range(3)]
+    return {"points": {name: at}, "mass": mass, "center": at, "inertia": inertia}
 
 
 def shaft(mass: float, radius: float, **ends: Vector) -> Tree:
