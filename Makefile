@@ -7,6 +7,8 @@
 VENV ?= .venv
 PYTEST_ARGS ?=
 BIN := $(VENV)/bin
+# The matrices are small and tests run side by side: more threads would only wait for each other.
+export OPENBLAS_NUM_THREADS ?= 1
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
 
 FIND_PYTHON = for p in $(PYTHON) python3 python3.14 python3.13 python3.12 python3.11 python; do \

@@ -142,6 +142,14 @@ def test_efforts_are_those_of_virtual_work(seed: int) -> None:
         assert np.max(np.abs(effort - b.r.effort(drive))) < 10 * TOLERANCE * b.scale, drive
 
 
+@over(10)
+def test_methods_on_paper_agree_with_the_matrix(seed: int) -> None:
+    """The product's own virtual work and superposition."""
+    r = answered(seed)
+    assert np.max(da.virtual_work(r).gap) < TOLERANCE
+    assert np.max(da.superposition(r).gap) < TOLERANCE
+
+
 @over(30)
 def test_every_link_is_in_equilibrium_without_inertia(seed: int) -> None:
     """Dampers act at the drives' speeds; of a motion, statics asks nothing else."""
