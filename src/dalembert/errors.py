@@ -67,7 +67,7 @@ STATUSES: dict[str, Status] = {
     ),
     "redundant": Status(
         "More constraints than needed: some reactions depend on the elasticity of the links.",
-        "Read the unique components; free a constraint to make the others unique.",
+        "Read the unique components; free a constraint, or give the joints a stiffness, to have the others.",
     ),
     "no_balance": Status(
         "No equilibrium with the known efforts and loads.",

@@ -253,3 +253,58 @@ def test_equilibrium_positions(run: Run, edited: Callable[..., str]) -> None:
     answer = json.loads(run("solve", file, "--json", "-").out)
     assert {p["stability"] for p in answer["positions"]} <= {"stable", "unstable", "neutral"}
     assert all(p["efforts"]["O2"] == pytest.approx(50 * 0.1129848290276167) for p in answer["positions"])
+
+
+JAMS = """\
+links: {ground: {points: {A: [0, 0]}}, block: {points: {A: [0, 0]}}}
+joints: {A: {type: slider, links: [ground, block], friction: {coefficient: 1.2}}}
+drives: {A: {position: [0, 1], speed: [1, -1], effort: 0}}
+loads:
+  Q: {type: force, on: block, at: A, value: [-100, 0]}
+  rod: {type: force, on: block, at: A, value: unknown, direction: 45}
+"""
+
+
+def test_a_drawing_says_which_positions_are_not_ok(run: Run, folder: Path) -> None:
+    """The picture is of the first position that is, so that the others have to be named."""
+    (folder / "jams.yaml").write_text(
+        f"dalembert: 1\nunits: {{length: m, angle: deg}}\n{JAMS}", encoding="utf-8"
+    )
+    ran = run("draw", "jams.yaml", "-o", "jams.svg")
+    assert ran.status == 1
+    assert ran.err.startswith("Written: jams.svg\njammed: position 1 (A 0 m): Friction jams")
+
+
+PRESS = """\
+dalembert: 1
+space: space
+links:
+  ground: {points: {N: [0, 0, 0.3], G: [0.1, 0, 0]}}
+  spindle: {points: {N: [0, 0, 0], K: [0, 0, -0.2]}}
+  ram: {points: {K: [0, 0, 0], G: [0.1, 0, -0.1]}}
+joints:
+  N: {type: screw, links: [ground, spindle], axis: [0, 0, 1], lead: 7 mm, friction: {coefficient: 0.12, radius: 18 mm}}
+  K:
+    {type: revolute, links: [spindle, ram], axis: [0, 0, 1],
+     friction: {coefficient: 0.1, radius: 10 mm, thrust_radius: 15 mm}}
+  G: {type: prismatic, links: [ground, ram], axis: [0, 0, 1]}
+drives: {N: {freedom: turn, position: 0, speed: -1 rad/s}}
+loads: {F: {type: force, on: ram, at: K, value: [0, 0, 20 kN]}}
+"""
+
+
+def test_friction_of_redundant_joints_points_to_stiffness(run: Run, folder: Path) -> None:
+    """Nothing is known, so nothing stands under the least-norm heading; with stiffness all is, and named."""
+    (folder / "press.yaml").write_text(PRESS, encoding="utf-8")
+    ran = run("solve", "press.yaml")
+    assert ran.status == 1
+    assert "least sum of squares" not in ran.out
+    assert "give the joints a stiffness" in " ".join(ran.out.split())
+    stiff = PRESS.replace(
+        "axis: [0, 0, 1]", "axis: [0, 0, 1], stiffness: {force: 100 kN/mm, moment: 100 kN*m/rad}"
+    )
+    (folder / "press.yaml").write_text(stiff, encoding="utf-8")
+    ran = run("solve", "press.yaml")
+    assert ran.status == 0
+    assert "mu 0.12, thread 18 mm" in ran.out
+    assert "collar 15 mm" in ran.out

@@ -200,3 +200,23 @@ def test_inertia_with_friction_in_the_worked_solution() -> None:
     still = float(da.statics(m).effort("O")[0])
     assert share.inertia == pytest.approx(abs(float(r.effort("O")[0]) - still), rel=1e-12)
     assert b"Inertia" in da.report(r).to_bytes("txt")
+
+
+@pytest.mark.parametrize("direction", [0, 180, 90, -30])
+def test_upper_is_said_where_it_is_not_above(direction: float) -> None:
+    """Faces are named along the slide: of a slide to the left the upper face lies below."""
+    tree = {
+        "links": {"ground": {"points": {"A": [0, 0]}}, "block": {"points": {"A": [0, 0]}}},
+        "joints": {
+            "A": {
+                "type": "slider",
+                "links": ["ground", "block"],
+                "direction": direction,
+                "friction": {"coefficient": 0.2},
+            }
+        },
+        "drives": {"A": {"position": 0, "speed": 1}},
+        "loads": {"F": {"type": "force", "on": "block", "at": "A", "value": [3, -10]}},
+    }
+    texts = " ".join(t.text for t in da.draw.mechanism(da.statics(da.mechanism(tree))).texts())
+    assert ("Upper is left of ahead" in texts) == (direction in (180, 90))

@@ -54,6 +54,6 @@ def test_friction_of_a_redundant_mechanism() -> None:
     assert r.status == ("redundant",)
     assert r.reasons[0] == (
         "Friction follows reactions that statics does not determine here: constraints are redundant. "
-        "Free a constraint, or switch friction off."
+        "Free a constraint, give the joints a stiffness, or switch friction off."
     )
     assert r.effort("A")[0] != r.effort("A")[0]

@@ -167,7 +167,7 @@ def test_animations(kind: str, tmp_path: Path) -> None:
 
 
 def test_an_animation_needs_positions() -> None:
-    with pytest.raises(da.ModelError, match="two solved positions"):
+    with pytest.raises(da.ModelError, match="two positions that close"):
         da.draw.animation(result("four_bar"))
 
 

@@ -17,6 +17,7 @@ from dalembert.algebra import space
 from dalembert.analysis.pairs import PAIRS
 from dalembert.views.camera import CAMERAS, Camera
 from dalembert.views.canvas import text_over_lines, text_overlaps
+from dalembert.views.charts import shaking_force
 from dalembert.views.link_solids import link_solids, mount, pose
 from dalembert.views.painter import painted
 from dalembert.views.pair_symbols import SYMBOLS, symbol
@@ -265,3 +266,27 @@ def test_quaternions(seed: int) -> None:
         axis = q[:3] / max(float(np.linalg.norm(q[:3])), 1e-300)
         assert space.exp(axis * w) == pytest.approx(r, abs=1e-14)
         assert float(q @ q) == pytest.approx(1.0)
+
+
+def lifted() -> da.Result:
+    """A plane four-bar in space, redundant at every position."""
+    return da.dynamics(da.lifted(da.four_bar(), {"coupler": "20 mm"}), positions=6)
+
+
+def test_redundant_positions_move_and_are_named() -> None:
+    """What is known is drawn: the motion, and that forces are left out."""
+    r = lifted()
+    assert not r.ok.any()
+    animation = da.draw.animation(r)
+    assert len(animation.frames) == 6
+    for frame in animation.frames:
+        assert any("redundant: unknown forces are left out" in t.text for t in frame.texts())
+
+
+def test_the_shaking_force_is_unique_where_reactions_are_not() -> None:
+    """A plane mechanism shakes its ground alike in the plane and in space."""
+    plane = da.dynamics(da.four_bar(), positions=6)
+    flat, lift = shaking_force(plane), shaking_force(lifted())
+    largest = float(np.abs(flat).max())
+    assert lift[:, :2] == pytest.approx(flat, abs=1e-10 * largest)
+    assert lift[:, 2] == pytest.approx(0, abs=1e-10 * largest)

@@ -181,10 +181,16 @@ def at_rest(result: Result, joint: str, kind: str, position: int) -> bool:
 
 
 def friction_text(result: Result, joint: str) -> str:
-    """The friction of a joint in words: 'mu 0.1, friction circle 2 mm'."""
+    """The friction of a joint in words: 'mu 0.1, friction circle 2 mm', in space also 'collar 15 mm'."""
     j = result.mechanism.joints[joint]
-    if getattr(j, "friction", None) is None:
+    f: Any = getattr(j, "friction", None)
+    if f is None:
         return "viscous"
     text = f"mu {coefficient(result.mechanism, j):.6g}"
     radius = friction_circle_radius(result, joint)
-    return f"{text}, friction circle {radius * 1e3:.6g} mm" if radius else text
+    if radius:
+        text += f", friction circle {radius * 1e3:.6g} mm"
+    if j.type == "screw":
+        text += f", thread {f.radius * 1e3:.6g} mm"
+    collar = getattr(f, "thrust_radius", None)
+    return f"{text}, collar {collar * 1e3:.6g} mm" if collar else text

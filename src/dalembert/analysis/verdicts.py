@@ -150,5 +150,5 @@ def _limits(c: Compiled, ends: tuple[Forces, ...], run: Run) -> str:
 def _blocked_sentence(c: Compiled) -> str:
     return (
         "Friction follows reactions that statics does not determine here: constraints are redundant. "
-        "Free a constraint, or switch friction off."
+        "Free a constraint, give the joints a stiffness, or switch friction off."
     )

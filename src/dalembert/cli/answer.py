@@ -172,7 +172,7 @@ def _reaction_table(result: Result, to: Printed, axes: Axes) -> str:
     for r in reactions(result, axes):
         f, m = significant(result, "force", r.force[0]), significant(result, "moment", r.moment[0])
         rows.append([r.joint, r.by, r.on, *_wrench(f, float(m), to)])
-        if r.least_norm is not None:
+        if r.least_norm is not None and np.isfinite(r.least_norm[0]).any():
             least.append([r.joint, r.by, r.on, *_wrench(r.least_norm[0, :2], r.least_norm[0, 2], to)])
     where = "ground axes" if axes == "ground" else "the axes of link j"
     note = f"F_ij is the force by link i on link j, in {where}; moments about j's point of the joint."
@@ -238,6 +238,8 @@ def _many(result: Result, to: Printed, axes: Axes, every: bool) -> Iterator[str]
     yield tables([*first, *heads], rows, len(first) + drives)
     if len(rows) < count:
         yield f"{len(rows)} of {count} positions are shown; --all prints every one, --csv FILE writes them."
+    if any(r.least_norm is not None and np.isfinite(r.least_norm).any() for r in reactions(result, axes)):
+        yield "Least-norm values of what is not unique: --csv, --json, or a single position."
     if count > 2:
         yield _peak_table(result, to, axes)
         yield cycle_text(result, to)

@@ -57,8 +57,7 @@ def drawn(
         draw.animation(result, notation, camera=camera_at(camera)).save(output, force, theme)
     else:
         draw.view(result, view, at, notation, camera_at(camera)).save(output, force, theme)
-    print(f"Written: {output}", file=sys.stderr)
-    return OK if result.ok.all() else SOME_NOT_OK
+    return _written(result, output)
 
 
 def camera_at(text: str | None) -> str | tuple[float, float] | None:
@@ -91,8 +90,18 @@ def reported(
     check_new(output, force)
     result, at = _solved(loaded(file, friction), at, static, positions)
     report(result, at, methods, notation, about).save(output, force)
+    return _written(result, output)
+
+
+def _written(result: Result, output: Path) -> int:
+    """Say what was written, and which positions are not ok and why; the exit status."""
+    from dalembert.cli.answer import printed, problems_text
+
     print(f"Written: {output}", file=sys.stderr)
-    return OK if result.ok.all() else SOME_NOT_OK
+    if result.ok.all():
+        return OK
+    print(problems_text(result, printed(result, "file")), file=sys.stderr)
+    return SOME_NOT_OK
 
 
 def _solved(m: Mechanism, at: str | None, static: bool, positions: int | None) -> tuple[Result, str | None]:

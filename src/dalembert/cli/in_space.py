@@ -31,7 +31,7 @@ def space_reaction_tables(reactions: Sequence[Reaction], to: Any, axes: Axes) ->
     least = [
         r._replace(force=r.least_norm[0, :3], moment=r.least_norm[0, 3:])
         for r in reactions
-        if r.least_norm is not None
+        if r.least_norm is not None and np.isfinite(r.least_norm[0]).any()
     ]
     return f"{shown}\n\n{NOT_UNIQUE}\n\n{_tables(least, to)}" if least else shown
 
@@ -64,6 +64,11 @@ def space_link_tables(result: Result, to: Any) -> str:
     kinds = ("length", "angular_speed", "angular_acceleration", "acceleration")
     vectors = [[to(kind, of(link)[0]) for link in result.links] for kind, of in zip(kinds, read, strict=True)]
     largest = [float(np.nan_to_num(np.abs(of)).max(initial=0.0)) for of in vectors]
+    fast = (
+        max((float(np.nan_to_num(np.abs(result.speed(n)[0])).max()) for n in result.links), default=0.0) ** 2
+    )
+    largest[2] = max(largest[2], fast)
+    largest[3] = max(largest[3], float(to("acceleration", fast * result.compiled.layout.length)))
     for n, link in enumerate(result.links):
         angle, axis = axis_and_angle(result.rotation(link)[0])
         place, speed, rate, moved = (rounded(of[n], size) for of, size in zip(vectors, largest, strict=True))

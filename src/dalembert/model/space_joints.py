@@ -135,6 +135,9 @@ FRICTION_KEYS: dict[str, tuple[str, ...]] = {
 }
 """Joints in space that can have friction, and what describes theirs beside the coefficients."""
 
+NEEDED_RADIUS = {"revolute": "journal", "spherical": "ball", "screw": "thread, the mean one"}
+"""Joints whose friction needs a radius, and what it is the radius of."""
+
 
 class SpaceJoint(JointPart):
     """A joint in space, described by its local axes.
@@ -217,8 +220,9 @@ class SpaceJoint(JointPart):
                 raise ModelError(
                     f"the friction of a {self.type} joint has no {key}", "leave it out", ("friction", key)
                 )
-        if friction.radius is None and self.type in ("revolute", "spherical", "screw"):
-            raise ModelError("its friction needs a radius", "write radius: 10 mm", ("friction",))
+        if friction.radius is None and self.type in NEEDED_RADIUS:
+            what = f"its friction needs the radius of its {NEEDED_RADIUS[self.type]}"
+            raise ModelError(what, "write radius: 10 mm", ("friction",))
 
     def _check_axes(self) -> None:
         if self.type == "universal":

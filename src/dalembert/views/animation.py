@@ -31,7 +31,7 @@ from dalembert.views.mechanism import (
 )
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.scene import Item, Scene, Text
-from dalembert.views.space_view import triad
+from dalembert.views.space_view import NOTHING, triad
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
@@ -144,14 +144,15 @@ def animation_scene(
 ) -> Animation:
     """The positions of a result as an animation, with loads, efforts and joint forces at one scale.
 
-    With a camera the mechanism is in space.
+    Positions whose forces are not known (redundant, at rest, jammed) are shown without them, and named so. With a
+    camera the mechanism is in space.
     """
-    solved = np.flatnonzero(r.ok)
-    if len(solved) < 2:
+    posed = np.flatnonzero(np.isfinite(r.point_array).all(axis=(1, 2)))
+    if len(posed) < 2:
         raise ModelError(
-            "an animation needs two solved positions", "ask for more: positions=36, or --positions 36"
+            "an animation needs two positions that close", "ask for more: positions=36, or --positions 36"
         )
-    which = solved[np.unique(np.linspace(0, len(solved) - 1, min(most, len(solved))).astype(int))]
+    which = posed[np.unique(np.linspace(0, len(posed) - 1, min(most, len(posed))).astype(int))]
     shown = Shown(r, notation or Notation())
     some = [
         a for a in whole_actions(r) if a.kind in ("load", "effort", "spring", "joint") and a.link != "ground"
@@ -211,10 +212,12 @@ def _fixed_texts(r: Result, bounds: Box, notes: Sequence[str]) -> list[Item]:
 
 def _lettered(r: Result, k: int, scene: Scene, bounds: Box, shown: Shown) -> Scene:
     """The position and the efforts of a frame, in words above it."""
-    parts = []
-    for d in r.drives:
-        kinds = drive_kinds(r, d)
+    parts = [] if r.ok[k] else [f"{r.status[k]}: unknown forces are left out"]
+    largest = float(np.nanmax(np.abs(r.effort_array), initial=0.0))
+    for d in reversed(r.drives):
+        kinds, effort = drive_kinds(r, d), float(r.effort(d)[k])
         place = shown.text(kinds["position"], float(r.drive_position(d)[k]))
-        parts.append(f"{d} = {place}, effort {shown.text(kinds['effort'], float(r.effort(d)[k]))}")
+        force = shown.text(kinds["effort"], effort, NOTHING * largest) if np.isfinite(effort) else "not known"
+        parts.insert(0, f"{d} = {place}, effort {force}")
     words = Text((bounds[0], bounds[3] + 5.0), "; ".join(parts), 2.8, "text", "start")
     return Scene((*scene.items, words), scene.title)

@@ -222,11 +222,13 @@ def shaking_chart(r: Result, notation: Notation | None = None) -> Scene:
 
 
 def shaking_force(r: Result) -> Array:
-    """Sum of the joints' forces on the ground (P, d), N."""
-    total = np.zeros((len(r.status), r.mechanism.dimension))
+    """Sum of the joints' forces on the ground (P, d), N: unique also where the single forces are not."""
+    d = r.mechanism.dimension
+    total = np.zeros((len(r.status), d))
     for joint in r.joints:
         if "ground" in r.mechanism.joints[joint].links:
-            total += r.reaction(joint, on="ground")
+            force, least = r.reaction(joint, on="ground"), r.least_norm(joint, on="ground")[:, :d]
+            total += np.where(np.isfinite(force), force, least)
     return total
 
 
@@ -258,7 +260,14 @@ def _space_charts(r: Result, notation: Notation) -> list[Scene]:
     for j in r.joints:
         out += [components_chart(r, j, notation)] if j in loaded else []
         out += [moment_components_chart(r, j, notation)] if j in turned else []
-    return [*out, *([shaking_chart(r, notation)] if loaded else [])]
+    return [
+        *out,
+        *(
+            [shaking_chart(r, notation)]
+            if _largest(shaking_force(r)) > NOTHING * max(force, moment / length)
+            else []
+        ),
+    ]
 
 
 def _largest(vectors: Array) -> float:

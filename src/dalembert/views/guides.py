@@ -84,6 +84,8 @@ def guide_words(r: Result, joint: str, k: int, shown: Shown, on: str) -> list[st
     mode, low, high = contact.mode[k], float(contact.lower[k]), float(contact.upper[k])
     if not math.isfinite(low):
         return [f"{angle}.", *out]
+    if slide_direction(r, joint)[k][0] < 0.5:
+        out.append("Upper is left of ahead, lower right of it.")
     if mode.endswith("face"):
         load = shown.text("force", low + high)
         return [f"The {mode} bears with {load}{_place(r, joint, k, shown)}; {angle}.", *out]
