@@ -5,8 +5,8 @@ positions, at a steady speed. dalembert is called as a user calls it on a descri
 (``da.dynamics(m)``, which gives all reactions too), after one warming call. Pinocchio, MuJoCo and Drake compute trees:
 their users open the loop at one ball, close it by Newton's method with the programs' Jacobians position by position
 (from the position before), and find the torque and the three forces of the cut from the programs' inverse dynamics:
-the same few lines around each of them. Medians of wall and of processor time over the repeats, in turns; those not
-installed are named. Exudyn prescribes no motion without a simulation in time and is left out.
+the same few lines around each of them. Their torques are compared with ours first. Medians of wall and of processor
+time over the repeats, in turns; those not installed are named. Exudyn is not compared yet.
 
     python benchmarks/rssr.py [--repeat 15]
 """
