@@ -106,3 +106,16 @@ def test_an_inertia_that_no_body_has_is_analysed_and_said() -> None:
         "of no real body: one principal value exceeds the sum of the others"
     )
     assert len(da.statics(m).assumptions) == len(da.dynamics(load(FILE)).assumptions) == 3
+
+
+@pytest.mark.parametrize(("times", "doubted"), [(1.0, False), (0.0, False), (1e-6, True), (1e6, True)])
+def test_an_inertia_in_the_wrong_unit_is_said(times: float, doubted: bool) -> None:
+    """kg m2 where the file has mm, or the other way round: a body a thousand times too small or too large."""
+    space = load(FILE).with_values({"links.rocker.inertia": (times * 1e-3, times * 1e-3, 0.0)})
+    flat = da.four_bar()
+    plane = flat.with_values({"links.coupler.inertia": times * flat.inertia("coupler")})
+    for m, link in ((space, "rocker"), (plane, "coupler")):
+        said = da.dynamics(m, positions=1).assumptions
+        assert [key for key, text in said.items() if text.endswith("check its unit")] == (
+            [f"inertia of {link}"] if doubted else []
+        )
