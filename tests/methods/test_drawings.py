@@ -171,6 +171,16 @@ def test_an_animation_needs_positions() -> None:
         da.draw.animation(result("four_bar"))
 
 
+def test_positions_at_rest_are_in_the_animation() -> None:
+    """Still, with dry friction: the efforts are intervals, and no force is drawn that is not known."""
+    m = da.load(cases()["seed-002-7d-engine-at-rest"])
+    animation = da.draw.animation(da.statics(m.with_values({"drives.O.position": [0.8, 0.9, 1.0]})))
+    assert len(animation.frames) == 3
+    for frame in animation.frames:
+        assert any("at_rest, forces not known: left out" in t.text for t in frame.texts())
+        assert {arrow.of for arrow in frame.arrows()} <= {"gas"}
+
+
 def test_the_arm_of_the_book() -> None:
     """Seed 000-A: the forces on the crank are 2.428 in apart."""
     r = result("seed-000-a-four-bar-loaded-rocker")

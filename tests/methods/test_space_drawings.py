@@ -274,13 +274,13 @@ def lifted() -> da.Result:
 
 
 def test_redundant_positions_move_and_are_named() -> None:
-    """What is known is drawn: the motion, and that forces are left out."""
+    """The motion is drawn, and said that forces are those of least norm."""
     r = lifted()
     assert not r.ok.any()
     animation = da.draw.animation(r)
     assert len(animation.frames) == 6
     for frame in animation.frames:
-        assert any("redundant: unknown forces are left out" in t.text for t in frame.texts())
+        assert any("redundant, forces not unique: those of least norm" in t.text for t in frame.texts())
 
 
 def test_the_shaking_force_is_unique_where_reactions_are_not() -> None:

@@ -144,8 +144,8 @@ def animation_scene(
 ) -> Animation:
     """The positions of a result as an animation, with loads, efforts and joint forces at one scale.
 
-    Positions whose forces are not known (redundant, at rest, jammed) are shown without them, and named so. With a
-    camera the mechanism is in space.
+    Positions whose forces are not known (at rest, jammed) are shown without them, and redundant ones with those of
+    least norm; the frames say so. With a camera the mechanism is in space.
     """
     posed = np.flatnonzero(np.isfinite(r.point_array).all(axis=(1, 2)))
     if len(posed) < 2:
@@ -212,7 +212,9 @@ def _fixed_texts(r: Result, bounds: Box, notes: Sequence[str]) -> list[Item]:
 
 def _lettered(r: Result, k: int, scene: Scene, bounds: Box, shown: Shown) -> Scene:
     """The position and the efforts of a frame, in words above it."""
-    parts = [] if r.ok[k] else [f"{r.status[k]}: unknown forces are left out"]
+    found = all(np.isfinite(r.least_norm(joint)[k]).all() for joint in r.joints)
+    said = "not unique: those of least norm" if found else "not known: left out"
+    parts = [] if r.ok[k] else [f"{r.status[k]}, forces {said}"]
     largest = float(np.nanmax(np.abs(r.effort_array), initial=0.0))
     for d in reversed(r.drives):
         kinds, effort = drive_kinds(r, d), float(r.effort(d)[k])
