@@ -184,6 +184,9 @@ class SpaceJoints(_Joints):
     def reactions(self, k: int, rows: NDArray[np.intp], fixed: Rows) -> Iterator[tuple[int, str, int, float]]:
         """Each row of a joint, force or moment, its local axis, and how much of it a unit of the row is."""
         joint = list(self.m.joints.values())[k]
+        if joint.type == "gear":
+            yield from super().reactions(k, rows, fixed)
+            return
         for name, row in pairs.reaction_rows(joint, int(rows[0])).items():
             yield row, "force" if name[0] == "F" else "moment", pairs.AXES.index(name[1]), 1.0
             if (

@@ -26,7 +26,9 @@ def lifted(
     ``offsets`` are heights z of links (their points and mass centres; default 0) and of joints (the middle of the
     bearing; default halfway between its two links), in metres or as texts with units. Pins become revolutes, sliders
     prismatic joints, slots slotted cylinders. Each closed loop is then redundant three times; ``become`` names pins
-    to be made cylindrical (free to slide along z) or spherical, so that all reactions follow from statics.
+    to be made cylindrical (free to slide along z) or spherical, so that all reactions follow from statics. A spring or
+    damper between two links keeps halfway between their heights, and so its length. A joint's stiffness is the same
+    along all its axes.
 
     Moments of inertia about axes in the plane do no work in a plane motion; half the plane one is written for both.
     Forces and efforts in the plane are those of the plane mechanism. Raises ModelError for what has no counterpart.
@@ -73,6 +75,7 @@ class _Lift:
 
         m = self.m
         joints = {name: self._joint(name) for name in m.joints}
+        loads = {name: self._load(name) for name in m.loads}
         tree = {
             "title": m.title,
             "source": m.source_text,
@@ -83,7 +86,7 @@ class _Lift:
             "links": {name: self._link(name) for name in m.links},
             "joints": joints,
             "drives": {name: self._drive(name) for name in m.drives},
-            "loads": {name: self._load(name) for name in m.loads},
+            "loads": loads,
             "friction": m.friction.model_dump(mode="json", exclude_none=True),
             "assembly": self._assembly(),
         }
@@ -126,17 +129,18 @@ class _Lift:
                 what, "lift a mechanism of pins, sliders, slots, welds and gears", ("joints", name)
             )
         at = [
-            self._point(link, point, name)
+            self._point(link, point, name, self.joint[name])
             for link, point in zip(joint.links, joint.point_names(name), strict=True)
         ]
-        return {"links": list(joint.links), "at": at, **kinds[joint.type](name, joint)}
+        yields = joint.stiffness
+        stiffness = {"stiffness": yields.model_dump(mode="json", exclude_none=True)} if yields else {}
+        return {"links": list(joint.links), "at": at, **stiffness, **kinds[joint.type](name, joint)}
 
-    def _point(self, link: str, point: str, joint: str) -> str:
-        """A point of the link at the joint's height: its own, or another one beside it."""
-        height = self.joint[joint]
+    def _point(self, link: str, point: str, of: str, height: float) -> str:
+        """A point of the link at the height of a joint or spring: its own, or another one beside it."""
         if height == self.link[link]:
             return point
-        name = f"{point} in {joint}"
+        name = f"{point} in {of}"
         while name in self.m.points(link):
             name += "'"
         place = self.m.center(link) if point == "center" else self.m.point(link, point)
@@ -169,7 +173,7 @@ class _Lift:
 
     def _friction(self, name: str, joint: Any) -> dict[str, Any]:
         """Friction of a pin or of a guide without faces at a height, which have the same meaning in space."""
-        if joint.friction is None:
+        if joint.friction is None or getattr(joint.friction, "radius", None) == 0:
             return {}
         if getattr(joint.friction, "half_height", None):
             what = f"the faces of guide {name!r} make a couple, which is not lifted"
@@ -205,6 +209,10 @@ class _Lift:
                 tree["at"] = self._at(load.at, self.link[load.on])
         elif load.type == "couple":
             tree["direction"] = UP
+        elif load.type in ("spring", "damper"):
+            height = sum(self.link[link] for link, _ in load.between) / 2
+            ends = ((link, self._point(link, point, name, height)) for link, point in load.between)
+            tree["between"] = [".".join(end) for end in ends]
         return tree
 
     def _assembly(self) -> dict[str, Any]:

@@ -147,8 +147,7 @@ def add_gear(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], at
     axes: dict[str, Any] = {"ai": at.on_i[2], "aj": at.on_j[2], "bi": at.on_i[0], "bj": at.on_j[0]}
     count = (rows.followed(), rows.followed())
     unknown: dict[str, Any] = {"way": np.zeros(3), "cone": np.array([1.0, 0.0]), "ki": np.nan, "kj": np.nan}
-    outward = -1.0 if rj < 0 else 1.0
-    sizes: dict[str, Any] = {"ri": ri, "rj": rj, "helix": joint.helix_angle, "outward": outward}
+    sizes: dict[str, Any] = {"ri": ri, "rj": rj, "helix": joint.helix_angle, "outward": 1.0}
     rows.add(Gearing, index, ends, ui=at.ui, uj=at.uj, count=count, **axes, **sizes, **unknown)
 
 
@@ -234,6 +233,7 @@ def hinge(joint: Any, ends: tuple[int, int], at: Geometry, drives: dict[str, int
         tuple(AXES.index(k) for k in pair.turns),
         driven,
         AXES.index(pair.turns) if len(pair.turns) == 1 else -1,
+        *((joint.lead / (2 * np.pi), drives.get("slide", -1)) if joint.type == "screw" else ()),
     )
 
 

@@ -148,9 +148,9 @@ def _check_meshes(c: Compiled, first: Pose) -> None:
 
 def _check_misfit(c: Compiled, misfit: Misfit) -> None:
     """Wheels in space touch at their pitch point, but for what rounded figures leave."""
-    for row, scale, gap in zip(misfit.row, misfit.scale, misfit.gap, strict=True):
+    for row, scale, gap, inside in zip(*misfit, strict=True):
+        name = c.joints[c.layout.constraints.joint[row]]
         if gap > MESH or abs(scale) > MESH:
-            name = c.joints[c.layout.constraints.joint[row]]
             wrong = (
                 f"radii {abs(scale):.2%} too {'small' if scale > 0 else 'large'}, "
                 if abs(scale) > MESH
@@ -159,6 +159,11 @@ def _check_misfit(c: Compiled, misfit: Misfit) -> None:
             what = f"gear {name!r}: the pitch circles do not touch ({wrong}{gap:.2%} of them apart)"
             remedy = "its points are the centres of the pitch circles; change the radii, or move a point or an axis"
             raise ModelError(what, remedy, ("joints", name))
+        internal = bool(getattr(c.mechanism.joints[name], "internal", False))
+        if inside and (inside > 0) != internal:
+            what = f"gear {name!r}: one wheel lies {'within' if inside > 0 else 'beside'} the other"
+            remedy = "write internal: true" if inside > 0 else "leave internal out, or move a centre"
+            raise ModelError(what, remedy, ("joints", name, "internal"))
 
 
 def _refuse_endless(c: Compiled, along: Course) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert.analysis.wrenches import marks
 from dalembert.core.equilibrium import (
     UNIQUE,
     Known,
@@ -14,9 +15,7 @@ from dalembert.core.equilibrium import (
     Statement,
     checked,
     reactions,
-    shifts,
     statement,
-    unique,
 )
 from dalembert.core.forcing import Forcing, Source, pair, summed
 from dalembert.core.friction import Contacts, Response, Senses, argument, bearing, response, senses, under
@@ -209,14 +208,20 @@ class _Made(NamedTuple):
         bare = checked(layout, s.forcing, s.known, s.pose, s.moving, self.stated, self.bare, self.stated.w)
         force, couple = reactions(layout, s.pose, s.rows, found)
         friction = self._friction(r, slip, sense, cz, bare.effort, bare.load)
-        marks: tuple[Any, Any] = (None, None)
-        if found.free is not None:
-            shift, others = shifts(layout, s.pose, s.rows, found.free)
-            marks = unique(shift), others
+        known_by = marks(s.c, s.pose, s.rows, found.free)
         force = force + friction.force + friction.viscous_force
         moment = couple.reshape(friction.moment.shape) + friction.moment + friction.viscous_moment
         checks = (found.residual, found.power_balance, found.rcond)
-        return Forces(force, moment, found.effort, found.load, *checks, *marks, friction)
+        return Forces(
+            force,
+            moment,
+            found.effort,
+            found.load,
+            *checks,
+            *known_by[:2],
+            friction,
+            unique_in=known_by.inside,
+        )
 
     def _friction(
         self, r: Response, slip: Slip, sense: Array, cz: Array, effort: Array, load: Array

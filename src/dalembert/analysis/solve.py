@@ -15,8 +15,8 @@ from dalembert.analysis.positions import Positions, drive_text, open_sentence, p
 from dalembert.analysis.result import Result
 from dalembert.analysis.rubbing import Forces, Setting, block_size, joined, rubbing
 from dalembert.analysis.verdicts import friction_checks, refuse_friction
-from dalembert.analysis.wrenches import in_axes
-from dalembert.core.equilibrium import balance, known_sources, motion, reactions, shifts, unique
+from dalembert.analysis.wrenches import marks
+from dalembert.core.equilibrium import balance, known_sources, motion, reactions
 from dalembert.core.follow import BLOCK
 from dalembert.core.forcing import summed
 from dalembert.core.layout import Pose
@@ -143,16 +143,10 @@ def _forces(
         return rubbing(Setting(c, c.contacts, forcing, known, pose, moving, rows, solver, sources), w)
     found = balance(layout, forcing, known, pose, moving, rows, solver, w)
     force, couple = reactions(layout, pose, rows, found)
-    marks: tuple[Any, Any] = (None, None)
-    inside = None
-    if found.free is not None:
-        shift, others = shifts(layout, pose, rows, found.free)
-        marks = unique(shift), others
-        if c.geometries:
-            inside = np.stack([unique(turned) for turned in in_axes(c, pose, shift)], axis=-2)
+    known_by = marks(c, pose, rows, found.free)
     checks = (found.residual, found.power_balance, found.rcond)
     moment = couple.reshape((*couple.shape[:-1], *_couple_shape(c)))
-    return Forces(force, moment, found.effort, found.load, *checks, *marks, unique_in=inside)
+    return Forces(force, moment, found.effort, found.load, *checks, *known_by[:2], unique_in=known_by.inside)
 
 
 def _sliced(c: Compiled, part: slice) -> tuple[Any, Any]:
@@ -179,7 +173,7 @@ def _result(followed: Positions, moved: _Moved, f: Forces, inertia: bool, forces
         _blank(lost, *part[:6], *(a for a in part.friction or () if a.dtype.kind == "f"))
     made = (c, inertia, followed.mobility, followed.mode, status, reasons, *moved[:5])
     result = Result(*made, *f[:6], *f[7:9], friction=f.friction, unique_in=f.unique_in)
-    ends = [Result(*made, *end[:6], *end[7:9], friction=end.friction) for end in f.ends]
+    ends = [Result(*made, *e[:6], *e[7:9], friction=e.friction, unique_in=e.unique_in) for e in f.ends]
     return replace(result, ends=tuple(zip(ends[::2], ends[1::2], strict=True)))
 
 

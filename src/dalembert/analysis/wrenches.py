@@ -6,14 +6,15 @@ A wrench is (force, moment about j's point of the joint): three numbers in the p
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.algebra import plane
 from dalembert.analysis.pairs import local_axes
-from dalembert.core.layout import Pose
+from dalembert.core.equilibrium import shifts, unique
+from dalembert.core.layout import Pose, System
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
@@ -41,6 +42,24 @@ def in_axes(c: Compiled, pose: Pose, shift: Array) -> Iterator[Array]:
                 axes = _axes(c, k, pose.rotation, place, ends.get(k, (0, 0)), part is PARTS[1])
                 turned[:, k, part] = axes @ shift[:, k, part]
         yield turned
+
+
+class Marks(NamedTuple):
+    """What statics alone determines: components (P, joints, n) of reactions, other unknowns (P, X - K), and in space
+    components (P, joints, 3, 6) in the axes of ``PLACES``."""
+
+    reactions: Array | None
+    others: Array | None
+    inside: Array | None
+
+
+def marks(c: Compiled, pose: Pose, rows: System, free: Array | None) -> Marks:
+    """Of the projector (P, X, X) on free multipliers; nothing where there is none."""
+    if free is None:
+        return Marks(None, None, None)
+    shift, others = shifts(c.layout, pose, rows, free)
+    inside = [unique(turned) for turned in in_axes(c, pose, shift)] if c.geometries else []
+    return Marks(unique(shift), others, np.stack(inside, axis=-2) if inside else None)
 
 
 def _axes(

@@ -19,7 +19,8 @@ from dalembert.core.constraints import measure
 from dalembert.core.course import course
 from dalembert.core.follow import path
 from dalembert.core.gearing import meshed
-from dalembert.core.layout import Angle, Layout, Pose
+from dalembert.core.layout import Angle, Helix, Layout, Pose
+from dalembert.core.turning import along_axis
 
 Array = NDArray[Any]
 
@@ -33,6 +34,7 @@ class Hinge(NamedTuple):
 
     The local axes of j are those of i turned about ``turns`` one after the other; ``drives`` (slides, then turns) are
     the drives that prescribe them, -1 where none does; ``parallel`` is the axis that both links share, -1 for none.
+    A screw advances by ``rise`` a radian of its turn; where its slide is driven, ``sliding`` is that drive, else -1.
     """
 
     i: int
@@ -45,6 +47,8 @@ class Hinge(NamedTuple):
     turns: tuple[int, ...]
     drives: tuple[int, ...]
     parallel: int
+    rise: float = 0.0
+    sliding: int = -1
 
 
 @dataclass(frozen=True)
@@ -90,7 +94,8 @@ class Drawing:
             phased = phase_rows(layout.constraints)
             ends = np.stack([zero, target])
             ends[:, phased] = measure(layout.algebra, layout.constraints, pose.at(0))[phased]
-            way = path(layout, pose.at(0), course(layout, ends), 0.0)
+            along = course(layout, ends)
+            way = path(layout, pose.at(0), along, along.at(0))
             if not way.reached[1]:
                 return None
             pose = way.pose.at(slice(1, 2))
@@ -159,6 +164,8 @@ class Drawing:
                     wanted = np.array(h.drives, np.intp)
                     known = (wanted >= 0) & (wanted < len(drives))  # none are where the drives are left out
                     part[:, known] = drives[wanted[known]]
+                    if 0 <= h.sliding < len(drives):
+                        part = np.full_like(part, drives[h.sliding] / h.rise)
                 _place(layout, h, pose, part, h.i in placed, by_values)
                 placed |= {h.i, h.j}
                 grown = True
@@ -166,6 +173,9 @@ class Drawing:
                 lone = min(set(range(layout.links)) - placed)
                 pose.point[:, lone] = 0.0
                 placed.add(lone)
+        for f in layout.constraints.families:
+            if isinstance(f, Helix):
+                turn[:, f.count] = -along_axis(g, f, pose) / f.pitch
         return pose._replace(turn=turn)
 
 
@@ -205,6 +215,9 @@ def _place(layout: Layout, h: Hinge, pose: Pose, values: Array, forward: bool, b
     for k, axis in enumerate(h.slides):
         e = g.rotate(pose.rotation[:, h.i], g.matrix(h.frame_i)[:, axis])
         offset = offset + e * (values[:, k, None] if h.drives[k] >= 0 else values[:, k, None] * size)
+    if h.rise and by_values:
+        e = g.rotate(pose.rotation[:, h.i], g.matrix(h.frame_i)[:, h.turns[0]])
+        offset = offset + h.rise * e * values
     if forward:
         pose.point[:, new] = pose.point[:, known] + ri + offset - rj
     else:

@@ -99,13 +99,17 @@ def _hermite(s: Array, nodes: Array) -> tuple[Array, Array]:
 def march(layout: Layout, first: Pose, along: Course, start: float, backward: bool = False) -> March:
     """Stations from parameter ``start`` to the end of the course (or its beginning), from the pose there."""
     end, sign = (0.0, -1.0) if backward else (along.end, 1.0)
-    s, poses, size, smooth = [start], [first], 1.0, 0
+    s, poses, size, smooth, exact = [start], [first], 1.0, 0, True
     rates = [_rate(layout, along, first.at(None), start, sign)] if start != end else []
     while sign * (end - s[-1]) > 0:
         ahead = s[-1] + sign * min(size * STRIDE, abs(along.limit(s[-1], sign) - s[-1]))
         recent = slice(max(smooth, len(s) - RECENT), None)
         new = _station(layout, along, s[recent], poses[recent], rates[recent], ahead)
         if new is None:
+            if not exact:  # what the corrector left of this station may be large beside a shorter step
+                poses[-1] = closed(layout, poses[-1].at(None), along.target(s[-1]))[0].at(0)
+                rates[-1] = _rate(layout, along, poses[-1].at(None), s[-1], sign)
+                exact = True
             size /= 2
             if size < SHORTEST:
                 break
@@ -113,7 +117,7 @@ def march(layout: Layout, first: Pose, along: Course, start: float, backward: bo
         s.append(ahead)
         poses.append(new[0])
         rates.append(new[1])
-        size = min(2 * size, 1.0)
+        size, exact = min(2 * size, 1.0), False
         if np.abs(along.breaks - ahead).min() < 1e-12:
             smooth = len(s) - 1
             rates[-1] = _rate(layout, along, new[0].at(None), ahead, sign)

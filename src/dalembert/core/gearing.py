@@ -144,11 +144,15 @@ def separation(g: Any, f: Gearing, pose: Pose) -> tuple[Array, Array]:
 
 
 class Misfit(NamedTuple):
-    """How far a mesh had to be moved to fit (k,): radii by a factor, less 1; a gap over the radii that is left."""
+    """How far a mesh had to be moved to fit (k,): radii by a factor, less 1; a gap over the radii that is left.
+
+    ``inside`` is positive where one wheel lies within the other, 0 where one is flat.
+    """
 
     row: NDArray[np.intp]
     scale: Array
     gap: Array
+    inside: Array
 
 
 def gearings(layout: Layout) -> list[Gearing]:
@@ -183,8 +187,22 @@ def _fitted(layout: Layout, f: Gearing, pose: Pose) -> tuple[Gearing, Misfit]:
     mesh, (ai, ei, aj, ej) = _mesh(g, made, pose, _still(pose)), _axes(g, made, pose, _still(pose))
     ki = made.ri * g.dot(g.cross(ai.at, ei.at), mesh.n.at)[0]
     kj = made.rj * g.dot(g.cross(aj.at, ej.at), mesh.n.at)[0]
+    outward, inside = _sides(made, mesh, ei.at, ej.at)
     scale, gap = (np.array([misfit[m] for _, misfit in parts]) for m in (0, 1))
-    return replace(made, ki=ki, kj=kj), Misfit(f.row, scale, gap)
+    return replace(made, ki=ki, kj=kj, outward=outward), Misfit(f.row, scale, gap, inside)
+
+
+def _sides(f: Gearing, mesh: _Mesh, ei: Array, ej: Array) -> tuple[Array, Array]:
+    """Whether separation pushes j along the normal (1) or against it (-1), and whether a wheel lies in the other.
+
+    The smaller wheel is pushed to that side of the tangent plane at C on which its centre lies; the larger may be flat.
+    """
+    side_i, side_j = (
+        np.round((-r[:, None] * e * mesh.normal).sum(axis=-1)[0] / np.abs(r), 6)
+        for r, e in ((f.ri, ei), (f.rj, ej))
+    )
+    away = np.where(np.abs(f.rj) <= np.abs(f.ri), side_j, -side_i)
+    return np.where(away < 0, -1.0, 1.0), side_i * side_j
 
 
 def _one(g: Any, f: Gearing, pose: Pose, k: int) -> tuple[dict[str, Any], tuple[float, float]]:
@@ -201,7 +219,7 @@ def _one(g: Any, f: Gearing, pose: Pose, k: int) -> tuple[dict[str, Any], tuple[
     meeting = not parallel and abs(span @ normal) / np.linalg.norm(normal) < MEETING * radii
     way = np.array([parallel, meeting, not (parallel or meeting)], float)
     ei, ej = (
-        _unit(v - (v @ a) * a)
+        _unit(v - (v @ a) * a, 1e-9 * radii)
         for v, a in (
             (way[0] * span + way[1] * aj + way[2] * normal, ai),
             (way[0] * span + way[1] * ai + way[2] * normal, aj),
@@ -212,6 +230,7 @@ def _one(g: Any, f: Gearing, pose: Pose, k: int) -> tuple[dict[str, Any], tuple[
         for p, q in product((1.0, -1.0), repeat=2)
     )
     (_, (si, sj, scale), gap), p, q = best
+    gap = gap if ei.any() and ej.any() else radii  # wheels about one centre, whose pitch circles meet nowhere
     ri, rj = float(f.ri[k]) * scale * p, float(f.rj[k]) * scale * q
     cone = _cone(ai, ei, ri, aj, span + sj * aj - si * ai) if meeting else np.array([1.0, 0.0])
     changed = {
@@ -244,5 +263,7 @@ def _cone(ai: Array, ei: Array, ri: float, aj: Array, span: Array) -> Array:
     return np.asarray(np.array([h, -ri]) / (np.hypot(h, ri) * (1.0 if h >= 0 else -1.0)))
 
 
-def _unit(v: Array) -> Array:
-    return np.asarray(v / np.linalg.norm(v))
+def _unit(v: Array, least: float) -> Array:
+    """Its direction; zeros where it is shorter than ``least``."""
+    size = np.linalg.norm(v)
+    return np.asarray(v / size if size > least else np.zeros_like(v))

@@ -175,7 +175,8 @@ class Gearing:
     n = cos(helix) a_i x e_i - sin(helix) (cone[0] a_i + cone[1] e_i). Measure ki psi_i - kj psi_j, with psi the angle
     of e in the wheel from its direction b, whole turns counted at ``count``, and k = r (a x e) . n.
 
-    ``outward`` is 1 where separation pushes j away from the axis of i, -1 in a ring wheel i.
+    ``outward`` is 1 where separation pushes j away from the axis of i, -1 in a ring wheel i; way, cone, outward, ki
+    and kj are those of the first pose (``core.gearing.meshed``).
     """
 
     row: Ints

@@ -98,7 +98,12 @@ def angle_drift(g: Any, f: Angle | Helix, pose: Pose, twist: Array) -> Array:
 
 def helix(g: Any, f: Helix, pose: Pose) -> Array:
     """Coordinate along the axis plus pitch times the angle."""
-    return np.asarray(g.dot(arm(g, pose, f.i, f.a), span(g, f, pose)) + f.pitch * angle(g, f, pose))
+    return np.asarray(along_axis(g, f, pose) + f.pitch * angle(g, f, pose))
+
+
+def along_axis(g: Any, f: Helix, pose: Pose) -> Array:
+    """Coordinate of j's point along the axis of i."""
+    return np.asarray(g.dot(arm(g, pose, f.i, f.a), span(g, f, pose)))
 
 
 def helix_wrench(g: Any, f: Helix, pose: Pose, on_i: Array, on_j: Array) -> None:

@@ -197,6 +197,10 @@ class SpaceJoint(JointPart):
             if self.type == "screw":
                 raise ModelError("a screw needs its lead", "write lead: 5 mm, the advance a turn")
             raise ModelError(f"a {self.type} joint has no lead", "leave it out", ("lead",))
+        if self.lead == 0:
+            raise ModelError(
+                "a screw of lead 0 does not advance", "write its lead, or type: revolute", ("lead",)
+            )
         if self.blocked is not None and not self.type.startswith("slotted_sphere"):
             raise ModelError(
                 f"a {self.type} joint has no blocked turn to choose", "leave it out", ("blocked",)
