@@ -183,3 +183,46 @@ def test_lifted_joints_keep_their_stiffness_and_pins_of_no_radius_have_no_fricti
     assert m.joints["A"].stiffness.force == 2e6
     assert getattr(m.joints["B"], "friction", None) is None
     assert mechanism(m.to_tree()) == m
+
+
+def crank_and_slide(position: list[str], driven: str = "S") -> da.Mechanism:
+    """A slider-crank with a ball and a pin that may slide, its slide driven."""
+    return mechanism(
+        {
+            "space": "space",
+            "gravity": [0, -10, 0],
+            "links": {
+                "ground": {"points": {"O": [0, 0, 0], "S": [0, 0, 0]}},
+                "crank": {"points": {"O": [0, 0, 0], "A": [0.1, 0, 0]}, "mass": 1, "center": [0.05, 0, 0]},
+                "rod": {"points": {"A": [0, 0, 0], "B": [0.3, 0, 0]}},
+                "slide": {"points": {"B": [0, 0, 0]}},
+            },
+            "joints": {
+                "O": {"type": "revolute", "links": ["ground", "crank"], "axis": [0, 0, 1]},
+                "A": {"type": "spherical", "links": ["crank", "rod"]},
+                "B": {"type": "cylindrical", "links": ["rod", "slide"], "axis": [0, 0, 1]},
+                "S": {"type": "prismatic", "links": ["ground", "slide"], "at": ["S", "B"], "axis": [1, 0, 0]},
+            },
+            "drives": {"S": {"position": position}},
+        }
+    )
+
+
+def test_modes_found_by_search_keep_every_axis_of_a_slide() -> None:
+    """Three right angles also hold where each axis lies along another one: no mode of a prismatic joint."""
+    r = da.statics(crank_and_slide(["0.35 m"]))
+    assert r.status == ("ok",)
+    assert r.rotation("slide")[0] == pytest.approx(np.eye(3), abs=1e-9)
+    assert r.mode is not None
+    assert r.mode.count("|") == 0
+    assert r.mode.count("deg") == 4
+
+
+@pytest.mark.parametrize("positions", [["0.4 m", "0.39 m", "0.3 m"], ["0.2 m", "0.21 m", "0.3 m"]])
+def test_a_first_position_at_a_dead_centre(positions: list[str]) -> None:
+    """The motion is taken up beside it, on whichever side the linkage closes."""
+    r = da.statics(crank_and_slide(positions))
+    assert r.status == ("singular", "ok", "ok")
+    x = np.array([0.39 if positions[0] == "0.4 m" else 0.21, 0.3])
+    cosine = (0.1**2 + x**2 - 0.3**2) / (0.2 * x)
+    assert r.rotation("crank")[1:, 0, 0] == pytest.approx(cosine)

@@ -83,8 +83,9 @@ def _beside(c: Compiled, along: Course, start: float, first: Modes) -> tuple[flo
     near = c.guess.near(first.pose.at(0))
     if along.end > 0:
         step = min(0.02, along.end / 2)
-        ahead = start + step if start + step <= along.end else start - step
-        return ahead, _in_phase(c, along.target(ahead)[0], near)
+        places = [s for s in (start + step, start - step) if 0 <= s <= along.end]
+        found = ((s, _in_phase(c, along.target(s)[0], near)) for s in places)
+        return next(((s, modes) for s, modes in found if modes is not None), (start, None))
     angular = c.layout.freedoms.angular[c.layout.driven]
     nudge = np.concatenate([np.zeros(len(c.target)), 0.05 * np.where(angular, 1.0, c.layout.length)])
     sides = (_in_phase(c, c.targets[0] + sign * nudge, near) for sign in (1, -1))

@@ -119,7 +119,11 @@ class Drawing:
         """Every mode that random starts find, the one that is turned least from the drawn or given poses first."""
         steps = np.modf(np.sqrt(np.arange(2, 2 + self._values) + 0.5) * 1.6180339887)[0]
         values = np.modf(0.5 + np.arange(STARTS)[:, None] * steps)[0] * 2 * np.pi - np.pi
-        pose = self._closed(layout, self._laid(layout, target, values, driven=True), target)
+        free = replace(
+            self, point=np.full_like(self.point, np.nan), rotation=np.full_like(self.rotation, np.nan)
+        )
+        start = free if self.given[:-1].all() else self  # where all are given, values would lay none
+        pose = self._closed(layout, start._laid(layout, target, values, driven=True), target)
         if pose is None:
             return None
         drawn = self.start(layout, target)
@@ -133,13 +137,14 @@ class Drawing:
         return Modes(pose.at(np.array(kept)), "nearest" if self.given.any() else "search")
 
     def _upright(self, layout: Layout, pose: Pose) -> NDArray[np.bool_]:
-        """Poses whose shared axes point the same way on both links, not against each other."""
+        """Poses whose shared axes point the same way on both links: three right angles between axes of j and other axes
+        of i hold where an axis points against its own, and where each lies along another's."""
         g, good = layout.algebra, np.ones(len(pose.point), bool)
         for h in self.hinges:
             for axis in range(3) if not h.turns else [h.parallel] * (h.parallel >= 0):
                 on_i = g.rotate(pose.rotation[:, h.i], g.matrix(h.frame_i)[:, axis])
                 on_j = g.rotate(pose.rotation[:, h.j], g.matrix(h.frame_j)[:, axis])
-                good &= g.dot(on_i, on_j) > 0
+                good &= g.dot(on_i, on_j) > 0.5
         return good
 
     def _laid(self, layout: Layout, target: Array, values: Array, driven: bool) -> Pose:
