@@ -112,6 +112,9 @@ def rod(d: Drawing, rng: np.random.Generator) -> None:
         joined(d, rng, str(rng.choice(kinds)), middle, b, place(rng))
     else:
         joints += [joined(d, rng, last, spinning, b, r)]
+    for joint in joints:  # what resists along a rod's own guide would depend on the spin that is set
+        if d.joints[joint].i == spinning:
+            d.joints[joint].damping.clear()
     ends = [ball(d, joint, spinning) for joint in joints]
     d.rods[spinning] = ends[0], ends[1]
 
