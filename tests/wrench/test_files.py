@@ -90,7 +90,7 @@ WRONG = [
      "plate.yaml:6: this is the model file of a mechanism; use dalembert solve, or da.load"),
     (("[-5, 4]", "[-5, 4, 0]"),
      "plate.yaml:8: at of force 'F2': a vector has 3 components where 2 are needed; "
-     "write [x, y] or polar text r @ angle"),
+     "write [x, y] or polar text r @ angle, or space: space at the top of the file"),
     (("points: {O: [0, 0], A: [-7, 0]}", "points:"),
      "plate.yaml:5: points has no value; write one, or leave it out"),
 ]  # fmt: skip

@@ -93,9 +93,8 @@ class InertiaValue(Value):
         if not isinstance(value, (list, tuple)):
             return signed(quantity(value, "inertia", rules.units), value, "not negative")
         if rules.dimension == 2:
-            raise ModelError(
-                f"{shown(value)} stands where one number is needed", "in the plane, write inertia: 0.02"
-            )
+            remedy = "in the plane, write inertia: 0.02; in space, space: space at the top"
+            raise ModelError(f"{shown(value)} stands where one number is needed", remedy)
         if len(value) != 3:
             raise ModelError(
                 f"a list of {len(value)} is no inertia", "write 3 principal values, or the 3 rows of a matrix"

@@ -152,9 +152,10 @@ def _missing(path: Path) -> ModelError:
 def _sentence(one: Mapping[str, Any]) -> tuple[str, str]:
     kind, given, ctx = one["type"], one.get("input"), one.get("ctx", {})
     if kind == "union_tag_invalid":
-        return f"there is no type {shown(ctx['tag'])}", closest(
-            str(ctx["tag"]), _quoted(ctx["expected_tags"]), 30
-        )
+        word, choices = str(ctx["tag"]), _quoted(ctx["expected_tags"])
+        meant = [name for name in MEANT.get(word.lower().replace(" ", "_"), ()) if name in choices]
+        remedy = f"write {' in the plane, '.join(meant)}" + (" in space" if len(meant) > 1 else "")
+        return f"there is no type {shown(word)}", remedy if meant else closest(word, choices, 30)
     if kind == "union_tag_not_found":
         return "the key 'type' is missing", HINTS["type"]
     if kind == "literal_error":
@@ -169,6 +170,18 @@ def _sentence(one: Mapping[str, Any]) -> tuple[str, str]:
     if kind == "string_type":
         return f"{shown(given)} is no text", "put it in quotes"
     return f"{shown(given)}: {one['msg'].lower()}", ""
+
+
+MEANT: dict[str, tuple[str, ...]] = {
+    **dict.fromkeys(("hinge", "bearing", "rotary"), ("pin", "revolute")),
+    **dict.fromkeys(("sliding", "translational", "translation", "guide"), ("slider", "prismatic")),
+    **dict.fromkeys(("ball", "ball_joint", "sphere"), ("spherical",)),
+    **dict.fromkeys(("cardan", "hooke", "u_joint", "u-joint"), ("universal",)),
+    **dict.fromkeys(("helical", "helix", "thread"), ("screw",)),
+    **dict.fromkeys(("fixed", "rigid", "clamp"), ("weld",)),
+    **dict.fromkeys(("torque", "moment"), ("couple",)),
+}
+"""What other programs and books call the types: in the plane, in space."""
 
 
 def _quoted(choices: str) -> list[str]:

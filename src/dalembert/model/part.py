@@ -106,11 +106,19 @@ class Part(BaseModel):
         return keys
 
 
+IN_SPACE = {"pin": "revolute", "slider": "prismatic", "slot": "slotted_cylinder"}
+"""Joints of the plane that have another name in space."""
+
+
 def check_keys(keys: Mapping[Any, Any], allowed: list[str]) -> None:
     """Raise for the first key that is not allowed."""
     for key in keys:
         if key not in allowed:
-            raise UnknownKey(f"there is no key {shown(key)}", closest(str(key), allowed, 20), (str(key),))
+            remedy = closest(str(key), allowed, 20)
+            if key in ("axis", "axes") and keys.get("type") in IN_SPACE:
+                kind = keys["type"]
+                remedy = f"a {kind} is for the plane and has none; in space, write type: {IN_SPACE[kind]}"
+            raise UnknownKey(f"there is no key {shown(key)}", remedy, (str(key),))
 
 
 def mapping(value: object, allowed: list[str], example: str) -> Mapping[str, Any]:

@@ -140,6 +140,8 @@ def listed(value: object, rules: Reading, example: str) -> Sequence[object]:
         raise ModelError(f"{shown(value)} is no vector", f"write {example}")
     wanted = (rules.dimension,) if rules.dimension else (2, 3)
     if len(value) not in wanted:
+        if rules.dimension == 2 and len(value) == 3:
+            example += ", or space: space at the top of the file"
         raise ModelError(
             f"a vector has {len(value)} components where {wanted[0]} are needed", f"write {example}"
         )
