@@ -308,3 +308,4 @@ def test_friction_of_redundant_joints_points_to_stiffness(run: Run, folder: Path
     assert ran.status == 0
     assert "mu 0.12, thread 18 mm" in ran.out
     assert "collar 15 mm" in ran.out
+    assert "where the load moves the drive (0 or less: self-locking)" in " ".join(ran.out.split())

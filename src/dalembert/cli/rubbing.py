@@ -70,7 +70,8 @@ def efficiency_note(result: Result) -> str:
     if not (result.schedule.speed != 0).any():
         return ""
     found = efficiency(result)
-    senses = ((found.forward[0], "drive moves the load"), (found.reverse[0], "load moves the drive"))
+    held = " (0 or less: self-locking)" if found.reverse[0] <= 0 else ""
+    senses = ((found.forward[0], "drive moves the load"), (found.reverse[0], f"load moves the drive{held}"))
     parts = [
         f"{number(100 * float(value), 4)} % where the {words}"
         for value, words in senses
