@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.bundled import examples
 from dalembert.model.mechanism import mechanism
 
 PIN = {"coefficient": 0.2, "radius": "8 mm"}
@@ -155,6 +156,37 @@ def test_ball_joint_turned_about_a_slanted_axis() -> None:
     couple = radius * sin(atan(mu)) * np.linalg.norm(force)
     assert r.reaction_moment("P")[0] == pytest.approx(-couple * axis)
     assert r.effort("P") == pytest.approx([couple])
+
+
+def test_a_rod_between_two_balls_spins_as_their_friction_lets_it() -> None:
+    """The balls' couples leave nothing about the rod's line; what goes in beyond no friction is lost."""
+    free = da.load(examples()["rssr"])
+    tree = free.to_tree()
+    for name, mu in (("A", 0.1), ("B", 0.25), ("O", 0.05)):
+        tree["joints"][name]["friction"] = {"coefficient": mu, "radius": "6 mm"}
+    r, bare = da.dynamics(mechanism(tree)), da.dynamics(free)
+    assert set(r.status) == {"ok"}
+    line = r.point("rod", "B") - r.point("rod", "A")
+    couple = sum(r.reaction_moment(name, on="rod") for name in "AB")
+    assert np.abs((couple * line).sum(axis=1)).max() < 1e-10 * np.abs(couple).max() * np.abs(line).max()
+    lost = sum(r.power_lost(name) for name in "ABO")
+    assert all((r.power_lost(name) > 0).all() for name in "ABO")
+    more = (r.effort("O") - bare.effort("O")) * r.drive_speed("O")
+    assert lost == pytest.approx(more, rel=1e-9)
+
+
+def test_a_rod_that_friction_cannot_hold() -> None:
+    """A couple about the rod's line larger than both balls' friction has no equilibrium."""
+    tree = da.load(examples()["rssr"]).to_tree()
+    tree["joints"]["A"]["friction"] = {"coefficient": 0.1, "radius": "6 mm"}
+    line = np.subtract(
+        da.load(examples()["rssr"]).point("rod", "B"), da.load(examples()["rssr"]).point("rod", "A")
+    )
+    value = [f"{9.0 * x} N*m" for x in line]
+    tree["loads"]["turning"] = {"type": "couple", "on": "rod", "axes": "link", "value": value}
+    r = da.dynamics(mechanism(tree))
+    assert set(r.status) == {"no_balance"}
+    assert "more than friction holds" in str(r.reasons[0])
 
 
 def test_what_is_refused() -> None:

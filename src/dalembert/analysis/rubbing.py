@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert.analysis.spinning import rods, settled, spun
 from dalembert.analysis.wrenches import marks
 from dalembert.core.equilibrium import (
     UNIQUE,
@@ -104,9 +105,9 @@ def rubbing(s: Setting, w: Array) -> Forces:
     layout, contacts = s.c.layout, s.contacts
     stated = statement(layout, s.known, s.pose, s.rows, s.solver, w)
     along, r = response(layout, contacts, s.pose, stated.forces, stated.w)
-    told = senses(layout, contacts, along, s.moving.twist)
     blocked = _blocked(contacts, stated)
     r = r._replace(y=np.where(blocked[:, None, None], np.nan, r.y))
+    told = _told(s, along, r)
     open_ = np.flatnonzero(told.open.any(axis=-1))
     slip = slipping(contacts, r, told.sense, told.open)
     if open_.size:
@@ -116,6 +117,24 @@ def rubbing(s: Setting, w: Array) -> Forces:
     if not open_.size:
         return made.forces(r, slip, told.sense)
     return _with_ends(made, r, slip, told, open_)
+
+
+def _told(s: Setting, along: System, r: Response) -> Senses:
+    """Senses of the contacts; rods between balls spin as the balls' friction lets them."""
+    layout, contacts = s.c.layout, s.contacts
+    told = senses(layout, contacts, along, s.moving.twist)
+    found = rods(layout, contacts, s.pose, along, told.rate) if s.c.passive else None
+    if found is None:
+        return told
+
+    def told_at(phi: Array) -> Senses:
+        return senses(layout, contacts, along, spun(s.moving.twist, found, phi))
+
+    def moment(phi: Array) -> Array:
+        now = told_at(phi)
+        return np.nan_to_num(slipping(contacts, r, now.sense, now.open).x[..., found.row])
+
+    return told_at(settled(found, moment))
 
 
 def _blocked(contacts: Contacts, stated: Statement) -> Flags:

@@ -223,10 +223,10 @@ def _no_balance_sentence(c: Compiled) -> str:
     unknown = ", ".join(c.unknown_loads)
     if c.passive:
         links = " or ".join(c.passive)
-        what = "they turn" if c.contacts is None else "they, or the friction of balls, spin"
+        holds = "which nothing holds" if c.contacts is None else "more than friction holds"
         return (
-            f"The loads have no equilibrium here: {what} {links} about the line of two ball joints, which nothing "
-            "holds. Put a universal joint in place of one of them, or bring the mass centre onto the line."
+            f"The loads have no equilibrium here: they turn {links} about the line of two ball joints, {holds}. "
+            "Put a universal joint in place of one of them, or bring the mass centre onto the line."
         )
     if unknown:
         return f"The unknown {unknown} cannot balance the given effort of {given}: it has no power here."
