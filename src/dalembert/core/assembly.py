@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from dalembert.core.closure import CLOSED, closed, distance
 from dalembert.core.constraints import dense, measure, stacked
 from dalembert.core.layout import Along, Distance, Gearing, Layout, Meet, Mesh, Pose, Rows, Turn, selected
+from dalembert.core.linear import generalized_inverse
 
 Array = NDArray[Any]
 
@@ -137,7 +138,7 @@ def held_wheels(
     pose = _laid(free, target, guess, one, np.full((1, free.constraints.count), layout.length))
     rows = stacked(free, pose)
     scaled = dense(free, rows)[0] * free.row_scale[:, None] * free.column_scale
-    idle = np.eye(layout.unknowns) - np.linalg.pinv(scaled, rcond=1e-7) @ scaled
+    idle = np.eye(layout.unknowns) - generalized_inverse(scaled, rcond=1e-7) @ np.nan_to_num(scaled)
     turn = np.arange(layout.links) * layout.algebra.n + layout.algebra.d
     i, j = layout.constraints.ends
     held: list[int] = []
@@ -268,7 +269,7 @@ def _settled(layout: Layout, target: Array, pose: Pose) -> Pose:
     rows = stacked(layout, pose).rows(kept)
     j = dense(layout, rows).reshape(len(pose.turn), len(kept), layout.links, g.n)[..., : g.d]
     missing = (target - measure(g, layout.stack, pose))[:, kept]
-    shift = np.linalg.pinv(j.reshape(len(pose.turn), len(kept), -1)) @ missing[..., None]
+    shift = generalized_inverse(j.reshape(len(pose.turn), len(kept), -1)) @ missing[..., None]
     point = pose.point.copy()
     point[:, :-1] += shift.reshape(len(pose.turn), layout.links, g.d)
     return pose._replace(point=point)

@@ -85,6 +85,12 @@ def _inverse(matrix: Array) -> Array:
         return np.concatenate([_inverse(matrix[:half]), _inverse(matrix[half:])])
 
 
+def generalized_inverse(matrix: Array, rcond: float = 1e-15) -> Array:
+    """Moore-Penrose inverses (..., m, k) of matrices (..., k, m); 0 where a matrix is not finite."""
+    finite = np.isfinite(matrix).all(axis=(-2, -1), keepdims=True)
+    return np.asarray(np.linalg.pinv(np.where(finite, matrix, 0.0), rcond=rcond))
+
+
 def solved(matrix: Array, right: Array) -> Array:
     """Solution (..., m) of each square system; NaN for a singular one."""
     try:
