@@ -12,27 +12,16 @@ import dalembert as da
 from dalembert.analysis.pairs import PAIRS
 from dalembert.cli import main
 from dalembert.views.canvas import text_over_lines, text_overlaps
+from tests.space.test_pairs import TABLE
 
 ROOT = Path(__file__).resolve().parents[2]
 
-CLASSIC = {
-    "sphere_between_planes": (3, 2, "Fx"),
-    "sphere_in_cylinder": (3, 1, "Fy Fz"),
-    "cylinder_between_planes": (2, 2, "Fx My"),
-    "spherical": (3, 0, "Fx Fy Fz"),
-    "slotted_sphere_in_cylinder": (2, 1, "Fy Fz Mx"),
-    "plane": (1, 2, "Fx My Mz"),
-    "slotted_sphere": (2, 0, "Fx Fy Fz Mx"),
-    "torus": (2, 0, "Fx Fy Fz Mx"),
-    "cylindrical": (1, 1, "Fy Fz My Mz"),
-    "slotted_cylinder": (1, 1, "Fy Fz Mx My"),
-    "revolute": (1, 0, "Fx Fy Fz Mx My"),
-    "prismatic": (0, 1, "Fy Fz Mx My Mz"),
+CLASSIC = TABLE | {
     "universal": (2, 0, "Fx Fy Fz Mx"),
     "screw": (1, 0, "Fx Fy Fz My Mz"),
     "weld": (0, 0, "Fx Fy Fz Mx My Mz"),
 }
-"""Turns, slides, reactions; a screw's slide goes with its turn."""
+"""Turns, slides, reactions of all joints; a screw's slide goes with its turn."""
 
 
 def test_the_classic_table(capsys: pytest.CaptureFixture[str]) -> None:

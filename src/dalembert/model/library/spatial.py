@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import atan2, cos, hypot, isfinite, pi, radians, sin, sqrt
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from dalembert.errors import ModelError
 from dalembert.model.library.closure import FULL_TURN
@@ -224,19 +224,8 @@ def spherical_four_bar(
     positive("spherical_four_bar", "kg/m", mass_per_length=mass_per_length)
     u = _cone_axes("spherical_four_bar", arcs, sweep)
     o, a, b, c = (times(radius, axis) for axis in u)
-    return built(
-        "Spherical four-bar",
-        gravity="standard",
-        space="space",
-        links={
-            "ground": {"points": {"O": list(o), "C": list(c)}},
-            "crank": slim(mass_per_length, O=o, A=a),
-            "coupler": slim(mass_per_length, A=a, B=b),
-            "rocker": slim(mass_per_length, B=b, C=c),
-        },
-        joints=_loop(u, determinate),
-        drives={"O": turning(sweep, positions, speed)},
-    )
+    loop = _four_links("Spherical four-bar", (o, a, b, c), mass_per_length, _loop(u, determinate))
+    return built(**loop, drives={"O": turning(sweep, positions, speed)})
 
 
 def bennett(
@@ -280,19 +269,8 @@ def bennett(
         points.append(plus(points[-1], times(size, x)))
         axes.append(plus(times(cos(twist), z), times(sin(twist), cross(x, z))))
     o, a, b, c = points
-    return built(
-        "Bennett's linkage",
-        gravity="standard",
-        space="space",
-        links={
-            "ground": {"points": {"O": list(o), "C": list(c)}},
-            "crank": slim(mass_per_length, O=o, A=a),
-            "coupler": slim(mass_per_length, A=a, B=b),
-            "rocker": slim(mass_per_length, B=b, C=c),
-        },
-        joints=_loop(axes, determinate),
-        drives={"O": turning(sweep, positions, speed)},
-    )
+    loop = _four_links("Bennett's linkage", (o, a, b, c), mass_per_length, _loop(axes, determinate))
+    return built(**loop, drives={"O": turning(sweep, positions, speed)})
 
 
 def slim(mass_per_length: float, **ends: Vector) -> Tree:
@@ -313,6 +291,18 @@ def slim(mass_per_length: float, **ends: Vector) -> Tree:
 
 def _on(kind: str, i: str, j: str, axis: Vector) -> Tree:
     return {"type": kind, "links": [i, j], "axis": list(axis)}
+
+
+def _four_links(title: str, at: Any, mass_per_length: float, joints: Any) -> dict[str, Any]:
+    """A closed loop of slender crank, coupler and rocker between four points, under gravity."""
+    o, a, b, c = at
+    links = {
+        "ground": {"points": {"O": list(o), "C": list(c)}},
+        "crank": slim(mass_per_length, O=o, A=a),
+        "coupler": slim(mass_per_length, A=a, B=b),
+        "rocker": slim(mass_per_length, B=b, C=c),
+    }
+    return {"title": title, "gravity": "standard", "space": "space", "links": links, "joints": joints}
 
 
 def _loop(axes: list[Vector], determinate: bool) -> Tree:
