@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
+import secrets
 import stat
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -43,12 +43,11 @@ def new_file(path: str | os.PathLike[str], overwrite: bool = False) -> Iterator[
     check_new(asked, overwrite)
     try:
         target = Path(os.path.realpath(asked))
-        handle, name = tempfile.mkstemp(target.suffix, f".{target.stem}.", target.parent)
-        os.close(handle)
+        temporary = target.with_name(f".{target.stem[:40]}.{secrets.token_hex(8)}{target.suffix}")
     except (OSError, ValueError) as error:  # a ValueError where the name has the character 0
         raise _unwritable(asked, error) from None
-    temporary = Path(name)
-    try:
+    try:  # the name is known before the file exists: an interruption at any moment leaves nothing behind
+        os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600))
         yield temporary
         temporary.chmod(stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask())
         temporary.replace(target)
