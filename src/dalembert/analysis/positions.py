@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.compile import Compiled
 from dalembert.analysis.mobility import Mobility, check_drives, mobility_at
+from dalembert.analysis.openings import drive_text
 from dalembert.core.assembly import Guess, Modes, phase_rows
-from dalembert.core.closure import CLOSED, closed, least_gap
+from dalembert.core.closure import CLOSED, closed
 from dalembert.core.constraints import measure
 from dalembert.core.course import Course, course
 from dalembert.core.drawing import Drawing
@@ -214,44 +215,3 @@ def _named(c: Compiled, pose: Pose) -> list[str]:
     moving = np.ptp(np.sin(turn / 2), axis=0) > 1e-6
     shown = [k for k in range(len(names)) if moving[k]][:4] or list(range(min(len(names), 4)))
     return [", ".join(f"{names[k]} {math.degrees(mode[k]):.2f} deg" for k in shown) for mode in turn]
-
-
-def open_sentence(c: Compiled, found: Path | None, where: NDArray[np.intp]) -> str:
-    """Why a run of positions does not close: the smallest gap that is left, where, and between which links."""
-    middle = int(where[len(where) // 2])
-    known = found.pose if found is not None else None
-    reached = np.flatnonzero(found.reached) if found is not None else np.zeros(0, np.intp)
-    span = _span_text(c, where)
-    if known is None or not reached.size:
-        start = c.guess.start(c.layout, c.targets[middle])
-    else:
-        start = known.at(reached[np.argmin(np.abs(reached - middle))])
-    missing = least_gap(c.layout, start, c.targets[middle])
-    at = c.layout.constraints.joint
-    gaps = {c.joints[k]: float(np.linalg.norm(missing[: len(c.target)][at == k])) for k in np.unique(at)}
-    total, widest = sum(gaps.values()), max(gaps, key=lambda name: gaps[name], default="")
-    drives = f", or give {' and '.join(c.schedule.names)} another range" if c.schedule.names else ""
-    return (
-        f"The linkage does not close {span}: its joints stay {total:.3g} m open in all, most at {widest}. "
-        f"Change a length or the assembly{drives}."
-    )
-
-
-def _span_text(c: Compiled, where: NDArray[np.intp]) -> str:
-    """'between 212 and 238 deg of O2'."""
-    if not c.schedule.names:
-        return "as it is described"
-    first = [drive_text(c, int(where[0]), k) for k in range(len(c.schedule.names))]
-    last = [drive_text(c, int(where[-1]), k) for k in range(len(c.schedule.names))]
-    if len(where) == 1:
-        return "at " + " and ".join(f"{n} = {a}" for n, a in zip(c.schedule.names, first, strict=True))
-    parts = [f"{a} and {b} of {n}" for n, a, b in zip(c.schedule.names, first, last, strict=True)]
-    return "between " + ", ".join(parts)
-
-
-def drive_text(c: Compiled, position: int, drive: int) -> str:
-    """A drive's position as a person writes it."""
-    value = float(c.schedule.position[position, drive])
-    if c.layout.freedoms.angular[c.layout.driven[drive]]:
-        return f"{math.degrees(value):.6g} deg"
-    return f"{value:.6g} m"

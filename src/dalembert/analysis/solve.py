@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.compile import Compiled, compiled
 from dalembert.analysis.mobility import check_knowns
-from dalembert.analysis.positions import Positions, drive_text, open_sentence, positions
+from dalembert.analysis.openings import drive_text, open_sentence
+from dalembert.analysis.positions import Positions, positions
 from dalembert.analysis.result import Result
 from dalembert.analysis.rubbing import Forces, Setting, block_size, joined, rubbing
 from dalembert.analysis.verdicts import friction_checks, refuse_friction

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.contacts import friction_on
+from dalembert.analysis.openings import drive_text, quantity_text
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
@@ -45,8 +46,6 @@ def friction_checks(c: Compiled, f: Forces, solvable: Array) -> list[tuple[str, 
 
 def arc(c: Compiled, run: Run) -> str:
     """' between 0 deg and 9 deg of O2', or ' at O2 = 9 deg'."""
-    from dalembert.analysis.positions import drive_text
-
     ends = [(n, *(drive_text(c, int(run[e]), k) for e in (0, -1))) for k, n in enumerate(c.schedule.names)]
     if not ends:
         return ""
@@ -60,13 +59,10 @@ def _unknowns(c: Compiled) -> list[str]:
     return [*asked, *c.unknown_loads]
 
 
-def _units(c: Compiled) -> list[str]:
-    """SI units of the unknowns."""
+def _kinds(c: Compiled) -> list[str]:
+    """What the unknowns are: forces or moments."""
     turns = c.layout.freedoms.angular[c.layout.driven][c.known.asked]
-    return [
-        *("N m" if turn else "N" for turn in turns),
-        *("N m" if couple else "N" for couple in c.known.couple),
-    ]
+    return ["moment" if turning else "force" for turning in (*turns, *c.known.couple)]
 
 
 def _jam_sentence(c: Compiled, f: Forces, run: Run) -> str:
@@ -85,8 +81,8 @@ def _locked_sentence(c: Compiled, f: Forces, run: Run) -> str:
     bare = np.concatenate([f.friction.bare_effort[:, c.known.asked], f.friction.bare_load], axis=1)[run]
     worst = int(np.argmax(np.abs(with_ - bare).sum(axis=1)))
     figures = ", ".join(
-        f"{name} needs {a:.6g} {unit} and without friction {b:.6g}"
-        for name, unit, a, b in zip(names, _units(c), with_[worst], bare[worst], strict=True)
+        f"{name} needs {quantity_text(c, kind, a)} and without friction {quantity_text(c, kind, b)}"
+        for name, kind, a, b in zip(names, _kinds(c), with_[worst], bare[worst], strict=True)
     )
     where = "" if len(run) == 1 else arc(c, run[[worst]])
     return f"Self-locking{arc(c, run)}: the load cannot drive the machine against its friction;{where} {figures}."

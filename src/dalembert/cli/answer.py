@@ -315,11 +315,9 @@ def problems_text(result: Result, to: Printed) -> str:
     """Runs of positions that are not ok, with their sentence."""
     lines = []
     for which, status, sentence in result.problems():
-        place = (
-            ""
-            if len(result.status) == 1
-            else f" position{'s' if '-' in which else ''} {which}{_range(result, to, which)}:"
-        )
+        said = any(f"{text} {d}" in sentence for d in result.drives for text in ("of", "at"))
+        at = "" if said else _range(result, to, which)
+        place = "" if len(result.status) == 1 else f" position{'s' if '-' in which else ''} {which}{at}:"
         lines.append(wrapped(f"{status}:{place} {sentence}", "  "))
     return "\n".join(lines)
 

@@ -13,7 +13,7 @@ from dalembert.analysis.batch.outputs import Catalogue
 from dalembert.analysis.batch.symbols import Number, numbers, symbolic
 from dalembert.analysis.compile import compiled
 from dalembert.analysis.mobility import check_knowns
-from dalembert.analysis.positions import open_sentence
+from dalembert.analysis.openings import open_sentence
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph
 from dalembert.kernel.rubbing import Rough
