@@ -272,7 +272,7 @@ def test_a_drawing_says_which_positions_are_not_ok(run: Run, folder: Path) -> No
     )
     ran = run("draw", "jams.yaml", "-o", "jams.svg")
     assert ran.status == 1
-    assert ran.err.startswith("Written: jams.svg\njammed: position 1 (A 0 m): Friction jams")
+    assert ran.err.startswith("Written: jams.svg\njammed: position 1: Friction jams the mechanism at A = 0 m")
 
 
 PRESS = """\

@@ -255,12 +255,23 @@ def _series(result: Result, to: Printed, axes: Axes) -> tuple[list[str], list[An
     for load in result.unknown_loads:
         named.append((load, load_kind(result, load), result.unknown_load(load)))
     for r in () if _without_reactions(result) else reactions(result, axes):
-        named.append((f"|F| {r.joint}", "force", np.linalg.norm(r.force, axis=-1)))
-        if r.moment.ndim == 2 and np.any(np.nan_to_num(r.moment)):
-            named.append((f"|M| {r.joint}", "moment", np.linalg.norm(r.moment, axis=-1)))
+        named += [(name, "force", values) for name, values in _sizes(f"F {r.joint}", r.force)]
+        moments = _sizes(f"M {r.joint}", r.moment) if r.moment.ndim == 2 else ()
+        named += [
+            (n, "moment", v) for n, v in moments if np.any(np.nan_to_num(significant(result, "moment", v)))
+        ]
     return [f"{name}\n{to.text(kind)}" for name, kind, _ in named], [
         to(kind, significant(result, kind, values)) for _, kind, values in named
     ]
+
+
+def _sizes(name: str, vectors: Any) -> list[tuple[str, Any]]:
+    """The magnitudes of vectors (P, d); where none is known because a component is not, the components that are."""
+    known = np.isfinite(vectors).any(axis=0)
+    if known.all() or not known.any():
+        letter, _, joint = name.partition(" ")
+        return [(f"|{letter}| {joint}", np.linalg.norm(vectors, axis=-1))]
+    return [(f"{name} {axis}", vectors[:, k]) for k, axis in enumerate("xyz") if known[k]]
 
 
 def _without_reactions(result: Result) -> bool:
@@ -329,16 +340,41 @@ def _range(result: Result, to: Printed, which: str) -> str:
     return f" ({result.drives[0]} {' to '.join(ends)})"
 
 
+NOT_IN_FULL = {
+    "redundant": "solved but for the reactions that are not unique",
+    "self_locking": "solved, self-locking",
+    "at_rest": "solved to an interval",
+}
+"""Statuses that come with an answer all the same, in the words that count them."""
+
+
+def _count(result: Result) -> str:
+    """How many positions are solved, and what became of the others."""
+    many, solved = len(result.status), int(result.ok.sum())
+    if many == 1:
+        return ""
+    if solved == many:
+        return f"{solved} of {many} positions solved"
+    answered = np.isfinite(result.power_balance) | np.isfinite(result.effort_array).any(axis=-1)
+    said = [
+        NOT_IN_FULL[s] if s in NOT_IN_FULL and (known or s == "at_rest") else "without an answer"
+        for s, known in zip(result.status, answered, strict=True)
+        if s != "ok"
+    ]
+    others = "; ".join(f"{said.count(words)} {words}" for words in dict.fromkeys(said))
+    return f"{solved} of {many} positions solved in full; {others}"
+
+
 def checks_text(result: Result) -> str:
-    """Residual and power balance, the worst over the positions that are solved."""
+    """How many positions are solved, and the worst residual and power balance of what is solved."""
     found = [
         (n, v[np.isfinite(v)])
         for n, v in (("residual", result.residual), ("power balance", result.power_balance))
     ]
-    shown = [f"{name} {np.abs(values).max():.1e}" for name, values in found if values.size]
-    solved = int(result.ok.sum())
-    count = f"{solved} of {len(result.status)} positions solved" if len(result.status) > 1 else ""
-    return _sentence(", ".join([part for part in (count, *shown) if part])) + "." if count or shown else ""
+    shown = ", ".join(f"{name} {np.abs(values).max():.1e}" for name, values in found if values.size)
+    count = _count(result)
+    between = "; " if ";" in count else ", "
+    return wrapped(_sentence(between.join(filter(None, (count, shown)))) + ".") if count or shown else ""
 
 
 __all__ = ["answer_text", "checks_text", "heading", "printed", "problems_text", "scale"]

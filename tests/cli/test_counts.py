@@ -1,0 +1,47 @@
+"""What is said of many positions where not all are solved in full."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import dalembert as da
+from tests.cli.conftest import Run
+
+
+def lifted(folder: Path) -> str:
+    """A four-bar in space, three constraints too many, its effort known and a couple asked for."""
+    m = da.lifted(da.four_bar(), {"coupler": "20 mm"})
+    asked = {"drives.O2.effort": 5.0, "loads.torque.value": "unknown"}
+    m.with_values(asked).save(folder / "lifted.yaml")
+    return "lifted.yaml"
+
+
+def test_redundant_positions_count_as_answered_but_for_what_is_not_unique(run: Run, folder: Path) -> None:
+    printed = run("solve", lifted(folder), "--positions", "8").out
+    last = " ".join(printed.split("\n\n")[-1].split())
+    assert last.startswith(
+        "0 of 8 positions solved in full; 8 solved but for the reactions that are not unique; residual "
+    )
+    assert max(map(len, printed.splitlines())) <= 80
+
+
+def test_the_components_that_are_unique_stand_in_the_table(run: Run, folder: Path) -> None:
+    printed = run("solve", lifted(folder), "--positions", "8").out
+    assert "F O4 y" in printed
+    for not_unique in ("F O4 z", "|F| O4", "M O4 x"):
+        assert not_unique not in printed
+
+
+def test_positions_without_an_answer_and_at_rest_are_counted(run: Run, folder: Path) -> None:
+    text = (folder / "four_bar.yaml").read_text(encoding="utf-8")
+    open_ = text.replace("A: [5, 0]", "A: [12, 0]").replace("60 deg", "{from: 60, to: 300, count: 13}")
+    (folder / "open.yaml").write_text(open_, encoding="utf-8")
+    assert "positions solved in full; 7 without an answer; residual" in run("solve", "open.yaml").out
+    rest = text.replace("speed: 25 rad/s, acceleration: -40 rad/s^2", "speed: 0 rad/s").replace(
+        "gravity:", "friction: {coefficient: 0.1}\ngravity:"
+    )
+    pin = "O4: {type: pin, links: [ground, rocker]"
+    (folder / "rest.yaml").write_text(rest.replace(pin, pin + ", friction: {radius: 0.5}"), encoding="utf-8")
+    assert "0 of 6 positions solved in full; 6 solved to an interval" in run(
+        "solve", "rest.yaml", "--positions", "6"
+    ).out.replace("\n", " ")
