@@ -14,11 +14,12 @@ import dalembert
 PACKAGE = Path(dalembert.__file__).parent
 MODULES = sorted(PACKAGE.rglob("*.py"))
 
-BASE = {"errors", "wording", "symbols", "units", "saving", "bundled"}
+BASE = {"errors", "wording", "printing", "symbols", "units", "saving", "bundled"}
 ANALYSIS = BASE | {"algebra", "core", "kernel", "model", "analysis"}
 MAY_IMPORT = {
     "errors": set(),
     "wording": set(),
+    "printing": set(),
     "bundled": set(),
     "saving": BASE,
     "symbols": BASE,

@@ -45,3 +45,32 @@ def test_positions_without_an_answer_and_at_rest_are_counted(run: Run, folder: P
     assert "0 of 6 positions solved in full; 6 solved to an interval" in run(
         "solve", "rest.yaml", "--positions", "6"
     ).out.replace("\n", " ")
+
+
+def test_a_printed_result_is_what_solve_prints(run: Run, folder: Path) -> None:
+    m = da.load(folder / "four_bar.yaml")
+    for positions in (None, 36):
+        options = () if positions is None else ("--positions", str(positions))
+        assert f"{da.dynamics(m, positions=positions)}\n" == run("solve", "four_bar.yaml", *options).out
+    assert repr(da.dynamics(m, positions=36)) == "<Result of 'Four-bar linkage, dynamic': positions 36 ok>"
+
+
+def test_a_printed_motion_has_no_columns_of_forces() -> None:
+    for m in (da.four_bar(), da.rssr()):
+        printed = str(da.kinematics(m, positions=6))
+        assert "effort" not in printed
+        assert "|F|" not in printed
+        assert "rocker" in printed
+    assert "angle rocker" in str(da.kinematics(da.four_bar(), positions=6))
+
+
+def test_a_printed_mechanism_is_its_file() -> None:
+    m = da.four_bar()
+    assert da.loads(str(m)) == m
+    assert repr(m) == "<Mechanism 'Four-bar linkage': 3 moving links, 4 joints, driven by O2>"
+    assert str(da.mobility(m)) == "mobility 1, driven by 1 drive, no redundant constraint"
+
+
+def test_a_lifted_mechanism_keeps_the_units_of_its_file(folder: Path) -> None:
+    m = da.load(folder / "four_bar.yaml")
+    assert da.lifted(m, {}).units == m.units

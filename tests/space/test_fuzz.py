@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.summary.answer import answer_text
 from dalembert.bundled import examples
-from dalembert.cli.answer import answer_text
 from dalembert.model import loads, tree_text
 from tests.laws.mutations import mutated as changed
 from tests.model.test_fuzz import loaded, mutated

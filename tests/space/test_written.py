@@ -13,9 +13,9 @@ import pytest
 
 import dalembert as da
 from dalembert.algebra import space
+from dalembert.analysis.summary.in_space import axis_and_angle
 from dalembert.bundled import examples
 from dalembert.cli import main
-from dalembert.cli.in_space import axis_and_angle
 from tests.space.machines import door, oracle, rssr
 
 AXES = ("ground", "link", "joint")

@@ -90,7 +90,7 @@ class _Lift:
             "friction": m.friction.model_dump(mode="json", exclude_none=True),
             "assembly": self._assembly(),
         }
-        return mechanism(tree)
+        return mechanism(tree).model_copy(update={"units": m.units})
 
     def _at(self, vector: Any, height: float) -> list[float]:
         return [float(vector[0]), float(vector[1]), height]

@@ -42,6 +42,9 @@ class Mobility:
         )
         return f"mobility {self.freedoms}, driven by {drives}, {more}{where}{spin}"
 
+    def __str__(self) -> str:
+        return self.sentence
+
 
 def mobility(m: Mechanism) -> Mobility:
     """Freedoms, drives and redundant constraints of a mechanism, by the rank of its constraints where it first closes.

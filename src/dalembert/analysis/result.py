@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 Array = NDArray[Any]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Result:
     """Answer of one analysis over P positions (a leading axis design may stand before position).
 
@@ -35,29 +35,39 @@ class Result:
     asked for, at that link's point of the joint. NaN where there is no value; ``status`` and ``reasons`` say why.
     """
 
-    compiled: Compiled = field(repr=False)
+    compiled: Compiled
     inertia: bool
     mobility: Mobility | None
     mode: str | None
     status: tuple[str, ...]
     reasons: tuple[str | None, ...]
-    point_array: Array = field(repr=False)  # (P, L, 2) links' reference points
-    turn_array: Array = field(repr=False)  # (P, L) links' angles; in space (P, T) the followed relative ones
-    rotation_array: Array = field(repr=False)  # (P, L, 2) cosine and sine; in space (P, L, 9) matrices
-    twist_array: Array = field(repr=False)  # (P, L, 3); in space 6
-    acceleration_array: Array = field(repr=False)  # (P, L, 3); in space 6
-    force_array: Array = field(repr=False)  # (P, joints, 2) on j; in space 3
-    moment_array: Array = field(repr=False)  # (P, joints); in space (P, joints, 3)
-    effort_array: Array = field(repr=False)  # (P, D)
-    load_array: Array = field(repr=False)  # (P, U)
-    residual: Array = field(repr=False)
-    power_balance: Array = field(repr=False)
-    unique_array: NDArray[np.bool_] | None = field(repr=False, default=None)  # (P, joints, 3)
-    unique_unknowns: NDArray[np.bool_] | None = field(repr=False, default=None)  # (P, D asked + U)
-    unique_in: NDArray[np.bool_] | None = field(repr=False, default=None)  # in space (P, joints, 3, 6): AXES
+    point_array: Array  # (P, L, 2) links' reference points
+    turn_array: Array  # (P, L) links' angles; in space (P, T) the followed relative ones
+    rotation_array: Array  # (P, L, 2) cosine and sine; in space (P, L, 9) matrices
+    twist_array: Array  # (P, L, 3); in space 6
+    acceleration_array: Array  # (P, L, 3); in space 6
+    force_array: Array  # (P, joints, 2) on j; in space 3
+    moment_array: Array  # (P, joints); in space (P, joints, 3)
+    effort_array: Array  # (P, D)
+    load_array: Array  # (P, U)
+    residual: Array
+    power_balance: Array
+    unique_array: NDArray[np.bool_] | None = None  # (P, joints, 3)
+    unique_unknowns: NDArray[np.bool_] | None = None  # (P, D asked + U)
+    unique_in: NDArray[np.bool_] | None = None  # in space (P, joints, 3, 6): AXES
     stability: tuple[str | None, ...] | None = None
-    friction: Friction | None = field(repr=False, default=None)
-    ends: tuple[tuple[Result, Result], ...] = field(repr=False, default=())
+    friction: Friction | None = None
+    ends: tuple[tuple[Result, Result], ...] = ()
+
+    def __str__(self) -> str:
+        """What `dalembert solve` prints."""
+        from dalembert.analysis.summary.answer import answer_text
+
+        return answer_text(self)
+
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{self.status.count(s)} {s}" for s in dict.fromkeys(self.status))
+        return f"<Result of {self.mechanism.title or 'a mechanism'!r}: positions {counts}>"
 
     # what was asked
 
@@ -108,21 +118,13 @@ class Result:
         out: list[tuple[str, str, str]] = []
         start = 0
         for k in range(1, len(self.status) + 1):
-            same = k < len(self.status) and (self.status[k], self.reasons[k]) == (
-                self.status[start],
-                self.reasons[start],
-            )
-            if not same:
-                if self.status[start] != "ok":
-                    which = str(start + 1) if k == start + 1 else f"{start + 1}-{k}"
-                    out.append(
-                        (
-                            which,
-                            self.status[start],
-                            self.reasons[start] or STATUSES[self.status[start]].sentence,
-                        )
-                    )
-                start = k
+            status, reason = self.status[start], self.reasons[start]
+            if k < len(self.status) and (self.status[k], self.reasons[k]) == (status, reason):
+                continue
+            if status != "ok":
+                which = str(start + 1) if k == start + 1 else f"{start + 1}-{k}"
+                out.append((which, status, reason or STATUSES[status].sentence))
+            start = k
         return out
 
     # drives and unknown loads

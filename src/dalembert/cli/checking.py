@@ -9,8 +9,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from dalembert.cli.text import table, wrapped
 from dalembert.errors import ModelError
+from dalembert.printing import table, wrapped
 
 if TYPE_CHECKING:
     from dalembert.analysis.answers import Row
@@ -59,7 +59,7 @@ def _model_files(named: Iterable[Path]) -> Iterator[Path]:
 def _compared(files: Sequence[Path], friction: bool = True) -> tuple[list[Row], int]:
     """Rows of all files, and how many files are wrong; what is wrong is said at once."""
     from dalembert.analysis.answers import check
-    from dalembert.cli.rubbing import loaded
+    from dalembert.cli.loading import loaded
 
     rows: list[Row] = []
     wrong = 0

@@ -6,8 +6,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from dalembert.cli.text import table
 from dalembert.errors import ModelError
+from dalembert.printing import table
 from dalembert.saving import check_new, new_file
 from dalembert.wording import closest
 

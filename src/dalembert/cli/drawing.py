@@ -34,7 +34,7 @@ def drawn(
     camera: str | None = None,
 ) -> int:
     """Draw a file; 1 where some position has a status other than ok."""
-    from dalembert.cli.rubbing import loaded
+    from dalembert.cli.loading import loaded
     from dalembert.views import draw
 
     if output.suffix.lower() not in PICTURES:
@@ -84,7 +84,7 @@ def reported(
     friction: bool = True,
 ) -> int:
     """Write the worked solution; 1 where some position has a status other than ok."""
-    from dalembert.cli.rubbing import loaded
+    from dalembert.cli.loading import loaded
     from dalembert.report import report
 
     check_new(output, force)
@@ -95,7 +95,8 @@ def reported(
 
 def _written(result: Result, output: Path) -> int:
     """Say what was written, and which positions are not ok and why; the exit status."""
-    from dalembert.cli.answer import printed, problems_text
+    from dalembert.analysis.summary.answer import problems_text
+    from dalembert.analysis.summary.printed import printed
 
     print(f"Written: {output}", file=sys.stderr)
     if result.ok.all():

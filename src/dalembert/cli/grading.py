@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from dalembert.cli.text import table
 from dalembert.errors import ModelError
+from dalembert.printing import table
 
 if TYPE_CHECKING:
     from dalembert.analysis.mistakes import Verdict
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 def graded(file: Path, answers: Path | None, interactive: bool, static: bool, friction: bool = True) -> int:
     """Compare figures with what is computed; 1 where one is not right."""
     from dalembert.analysis.mistakes import check_answers, figures
-    from dalembert.cli.rubbing import loaded
+    from dalembert.cli.loading import loaded
     from dalembert.model.files import read_file
 
     m = loaded(file, friction)

@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.columns import UnitChoice, drive_kinds, load_kind
+from dalembert.analysis.columns import UnitChoice, drive_kinds, load_kind, unknown_kinds
 from dalembert.analysis.friction import unknown_names
-from dalembert.cli.answer import Printed, printed
-from dalembert.cli.text import number, rounded, table, tables, wrapped
+from dalembert.analysis.summary.printed import Printed, printed
 from dalembert.errors import ModelError
+from dalembert.printing import number, rounded, table, tables, wrapped
+from dalembert.units import KINDS
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
@@ -153,3 +154,32 @@ def _first(result: Result) -> int:
     """The first solved position."""
     good = np.flatnonzero(result.ok)
     return int(good[0]) if len(good) else 0
+
+
+MOST_STEPS = 24
+"""Steps of the taught iteration that are printed."""
+
+
+def fixed_point_text(result: Result) -> str:
+    """The taught iteration at the first position: unknowns and friction at each step, and its rate."""
+    from dalembert.analysis.fixed_point import fixed_point
+
+    table = fixed_point(result)
+    kinds = unknown_kinds(result)
+    heads = ["step", *(f"{name}\n{KINDS[kinds[name]].si}" for name in table.unknowns)]
+    heads += [f"friction\n{name}" for name in table.friction] + ["change"]
+    every = [[f"{row[0]:.0f}", *(number(v, 8) for v in row[1:-1]), f"{row[-1]:.1e}"] for row in table.rows()]
+    every[0][-1] = "-"
+    rows = (
+        every if len(every) <= MOST_STEPS else [*every[: MOST_STEPS - 3], ["..."] * len(heads), *every[-2:]]
+    )
+    end = (
+        f"arrives after {table.steps} steps"
+        if table.arrived
+        else f"has not arrived after {table.steps} steps"
+    )
+    words = (
+        f"The taught iteration {end}; each step leaves {table.rate:.3g} of the change. Friction on j in N or N*m; "
+        "solve, set friction by the reactions found, solve again."
+    )
+    return f"{tables(heads, rows, 1)}\n{wrapped(words)}"

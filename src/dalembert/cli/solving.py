@@ -102,7 +102,7 @@ def _check_ending(kind: str, path: Path) -> None:
 
 def _result(file: Path, static: bool, positions: int | None, friction: bool) -> Result:
     from dalembert.analysis import solve
-    from dalembert.cli.rubbing import loaded
+    from dalembert.cli.loading import loaded
 
     m = loaded(file, friction)
     with _waiting(f"Solving {file}"):
@@ -113,8 +113,7 @@ def by_method(method: str, result: Result, units: Literal["SI", "file"]) -> tupl
     """The answer as the method finds it, and what it shows besides."""
     if method == "matrix":
         return result, ""
-    from dalembert.cli.methods import superposition_text, virtual_work_answer
-    from dalembert.cli.rubbing import fixed_point_text
+    from dalembert.cli.methods import fixed_point_text, superposition_text, virtual_work_answer
 
     if method == "fixed-point":
         return result, fixed_point_text(result)
@@ -146,7 +145,7 @@ def _printed(result: Result, wanted: Wanted, more: str) -> None:
 
         write_csv(result, sys.stdout, wanted.written_units, wanted.axes)
     else:
-        from dalembert.cli.answer import answer_text
+        from dalembert.analysis.summary.answer import answer_text
 
         print(answer_text(result, wanted.printed_units, wanted.axes, wanted.every))
         if more:

@@ -12,7 +12,7 @@ from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_
 from dalembert.errors import ModelError
 from dalembert.model.answers import Answer
 from dalembert.model.assembly import Pose, PoseValue
-from dalembert.model.checks import problems
+from dalembert.model.checks import GROUND, problems
 from dalembert.model.drives import Drive
 from dalembert.model.friction import FrictionDefaults
 from dalembert.model.gravity import STANDARD, Gravity, GravityValue
@@ -140,6 +140,17 @@ class Mechanism(Part):
         return all(getattr(self, name) == getattr(other, name) for name in type(self).model_fields)
 
     __hash__ = None  # type: ignore[assignment]
+
+    def __str__(self) -> str:
+        """The text of its model file, as `save` writes it."""
+        from dalembert.model.files import tree_text
+
+        return tree_text(self.to_tree())
+
+    def __repr__(self) -> str:
+        links = len({*self.links} - {GROUND})
+        drives = f"driven by {', '.join(self.drives)}" if self.drives else "no drive"
+        return f"<Mechanism {self.title!r}: {links} moving links, {len(self.joints)} joints, {drives}>"
 
     @property
     def source(self) -> Source | None:

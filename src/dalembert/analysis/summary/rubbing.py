@@ -8,22 +8,10 @@ import numpy as np
 
 from dalembert.analysis.columns import rubbing_joints, unknown_kinds
 from dalembert.analysis.friction import bears_on_faces, friction_text, guide_contact
-from dalembert.cli.text import number, tables, wrapped
-from dalembert.units import KINDS
+from dalembert.printing import number, tables
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
-    from dalembert.analysis import Result
-    from dalembert.model import Mechanism
-
-
-def loaded(file: Path, friction: bool) -> Mechanism:
-    """The mechanism of a file, with its friction or without."""
-    from dalembert.model import load
-
-    m = load(file)
-    return m if friction else m.with_values({"friction.enabled": False})
+    from dalembert.analysis.result import Result
 
 
 def ends_text(result: Result, name: str, to: Any, position: int = 0) -> str:
@@ -99,35 +87,6 @@ def cycle_text(result: Result, to: Any) -> str:
     cycle = 0.0 if abs(found.cycle) < NOTHING else 100 * found.cycle
     words = f"Efficiency over the positions, inertia and all: {number(cycle, 4)} %."
     return f"{tables(heads, rows, 1)}\n{words}"
-
-
-MOST_STEPS = 24
-"""Steps of the taught iteration that are printed."""
-
-
-def fixed_point_text(result: Result) -> str:
-    """The taught iteration at the first position: unknowns and friction at each step, and its rate."""
-    from dalembert.analysis.fixed_point import fixed_point
-
-    table = fixed_point(result)
-    kinds = unknown_kinds(result)
-    heads = ["step", *(f"{name}\n{KINDS[kinds[name]].si}" for name in table.unknowns)]
-    heads += [f"friction\n{name}" for name in table.friction] + ["change"]
-    every = [[f"{row[0]:.0f}", *(number(v, 8) for v in row[1:-1]), f"{row[-1]:.1e}"] for row in table.rows()]
-    every[0][-1] = "-"
-    rows = (
-        every if len(every) <= MOST_STEPS else [*every[: MOST_STEPS - 3], ["..."] * len(heads), *every[-2:]]
-    )
-    end = (
-        f"arrives after {table.steps} steps"
-        if table.arrived
-        else f"has not arrived after {table.steps} steps"
-    )
-    words = (
-        f"The taught iteration {end}; each step leaves {table.rate:.3g} of the change. Friction on j in N or N*m; "
-        "solve, set friction by the reactions found, solve again."
-    )
-    return f"{tables(heads, rows, 1)}\n{wrapped(words)}"
 
 
 def friction_table(result: Result, to: Any) -> str:

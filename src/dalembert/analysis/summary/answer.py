@@ -8,50 +8,28 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.columns import (
-    Scale,
     UnitChoice,
     drive_kinds,
     in_plane,
     load_kind,
     reactions,
-    scale,
     unknown_kinds,
 )
-from dalembert.analysis.wrenches import Axes
-from dalembert.cli.in_space import NOT_UNIQUE, space_link_tables, space_reaction_tables
-from dalembert.cli.rubbing import (
-    branch_note,
-    cycle_text,
-    efficiency_note,
-    ends_text,
-    friction_table,
-    with_ends,
+from dalembert.analysis.summary.in_space import NOT_UNIQUE, space_link_tables, space_reaction_tables
+from dalembert.analysis.summary.printed import (
+    Printed,
+    motion_only,
+    printed,
+    significant,
+    without_reactions,
 )
-from dalembert.cli.text import number, rounded, table, tables, with_unit, wrapped
+from dalembert.analysis.summary.rubbing import branch_note, efficiency_note, ends_text, friction_table
+from dalembert.analysis.summary.series import position_tables, where
+from dalembert.analysis.wrenches import Axes
+from dalembert.printing import number, rounded, table, tables, with_unit, wrapped
 
 if TYPE_CHECKING:
-    from dalembert.analysis import Result
-
-MANY = 12
-"""Positions that are printed without `--all`."""
-
-
-class Printed(Scale):
-    """The units of the file, but angular rates in rad/s: a bare angular rate has no unit in a file."""
-
-    def text(self, kind: str) -> str:
-        return RADIANS.get(kind) or super().text(kind)
-
-    def __call__(self, kind: str, values: Any) -> Any:
-        return values if kind in RADIANS else super().__call__(kind, values)
-
-
-RADIANS = {"angular_speed": "rad/s", "angular_acceleration": "rad/s^2"}
-
-
-def printed(result: Result, units: UnitChoice) -> Printed:
-    """The scale of a printed answer."""
-    return Printed(None if units == "SI" else result.mechanism.units)
+    from dalembert.analysis.result import Result
 
 
 def answer_text(
@@ -63,7 +41,7 @@ def answer_text(
     if len(result.status) == 1:
         parts += _one(result, to, axes)
     else:
-        parts += _many(result, to, axes, every)
+        parts += position_tables(result, to, axes, every)
     parts += [problems_text(result, to), wrapped(branch_note(result)), checks_text(result)]
     return "\n\n".join(part for part in parts if part)
 
@@ -97,7 +75,7 @@ def _one(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
         yield _load_table(result, to)
     if status == "at_rest" and result.ends:
         yield from _ends(result, to, axes)
-    elif result.joints and not _without_reactions(result):
+    elif result.joints and not without_reactions(result):
         yield _reactions(result, to, axes)
         if result.friction is not None and np.isfinite(result.friction.cz[0]).all():
             yield friction_table(result, to)
@@ -117,6 +95,8 @@ def _drive_table(result: Result, to: Printed) -> str:
             "acceleration": result.drive_acceleration(drive),
             "effort": significant(result, kinds["effort"], result.effort(drive)),
         }
+        if motion_only(result):
+            del values["effort"]
         cells = [with_unit(float(to(kinds[n], v[0])), to.text(kinds[n]), 7) for n, v in values.items()]
         if result.status[0] == "at_rest" and drive in unknown_kinds(result):
             cells[-1] = ends_text(result, drive, to)
@@ -126,7 +106,7 @@ def _drive_table(result: Result, to: Printed) -> str:
         "position",
         "speed",
         "acceleration",
-        "effort",
+        *([] if motion_only(result) else ["effort"]),
         *(["stability"] if result.stability else []),
     ]
     return tables(heads, rows, 1)
@@ -214,111 +194,6 @@ def _link_tables(result: Result, to: Printed) -> str:
     return tables(heads, cells, 1)
 
 
-# many positions
-
-
-def _many(result: Result, to: Printed, axes: Axes, every: bool) -> Iterator[str]:
-    count = len(result.status)
-    shown = (
-        range(count)
-        if every or count <= MANY
-        else sorted(set(np.linspace(0, count - 1, MANY).round().astype(int).tolist()))
-    )
-    heads, values = _series(result, to, axes)
-    rows = []
-    for k in shown:
-        mark = [] if result.ok.all() else [result.status[k]]
-        stability = [result.stability[k] or "-"] if result.stability else []
-        cells = [number(float(v[k]), 5) for v in values]
-        if result.status[k] == "at_rest":
-            cells = with_ends(result, to, k, cells)
-        rows.append([str(k + 1), *mark, *stability, *cells])
-    first = ["no.", *([] if result.ok.all() else ["status"]), *(["stability"] if result.stability else [])]
-    drives = len(result.drives)
-    yield tables([*first, *heads], rows, len(first) + drives)
-    if len(rows) < count:
-        yield f"{len(rows)} of {count} positions are shown; --all prints every one, --csv FILE writes them."
-    if any(r.least_norm is not None and np.isfinite(r.least_norm).any() for r in reactions(result, axes)):
-        yield "Least-norm values of what is not unique: --csv, --json, or a single position."
-    if count > 2:
-        yield _peak_table(result, to, axes)
-        yield cycle_text(result, to)
-
-
-def _series(result: Result, to: Printed, axes: Axes) -> tuple[list[str], list[Any]]:
-    """Columns of the table of positions: drives, efforts, unknown loads, magnitudes of the reactions."""
-    named: list[tuple[str, str, Any]] = []
-    for drive in result.drives:
-        named.append((drive, drive_kinds(result, drive)["position"], result.drive_position(drive)))
-    for drive in result.drives:
-        named.append((f"effort {drive}", drive_kinds(result, drive)["effort"], result.effort(drive)))
-    for load in result.unknown_loads:
-        named.append((load, load_kind(result, load), result.unknown_load(load)))
-    for r in () if _without_reactions(result) else reactions(result, axes):
-        named += [(name, "force", values) for name, values in _sizes(f"F {r.joint}", r.force)]
-        moments = _sizes(f"M {r.joint}", r.moment) if r.moment.ndim == 2 else ()
-        named += [
-            (n, "moment", v) for n, v in moments if np.any(np.nan_to_num(significant(result, "moment", v)))
-        ]
-    return [f"{name}\n{to.text(kind)}" for name, kind, _ in named], [
-        to(kind, significant(result, kind, values)) for _, kind, values in named
-    ]
-
-
-def _sizes(name: str, vectors: Any) -> list[tuple[str, Any]]:
-    """The magnitudes of vectors (P, d); where none is known because a component is not, the components that are."""
-    known = np.isfinite(vectors).any(axis=0)
-    if known.all() or not known.any():
-        letter, _, joint = name.partition(" ")
-        return [(f"|{letter}| {joint}", np.linalg.norm(vectors, axis=-1))]
-    return [(f"{name} {axis}", vectors[:, k]) for k, axis in enumerate("xyz") if known[k]]
-
-
-def _without_reactions(result: Result) -> bool:
-    """Whether the method has found none, as virtual work does, where there is an answer."""
-    return bool(result.ok.any()) and not np.isfinite(result.force_array).any()
-
-
-def significant(result: Result, kind: str, values: Any) -> Any:
-    """Forces and moments, those that are nothing but rounding beside the largest of the whole result as 0.
-
-    >>> from dalembert.analysis import statics
-    >>> from dalembert.model.library import four_bar
-    >>> significant(statics(four_bar()), "force", np.array([1e-30, 5.0]))
-    array([0., 5.])
-    """
-    if kind not in ("force", "moment"):
-        return values
-    parts = (result.force_array, result.moment_array, result.effort_array)
-    largest = max(
-        (float(np.nanmax(np.abs(a), initial=0.0)) for a in parts if np.isfinite(a).any()), default=0.0
-    )
-    return np.where(np.abs(values) < 1e-14 * largest, 0.0, values)
-
-
-def _peak_table(result: Result, to: Printed, axes: Axes) -> str:
-    """Largest and smallest value of each effort, unknown load and reaction, and where."""
-    drives = len(result.drives)
-    heads, values = _series(result, to, axes)
-    rows = []
-    for head, series in zip(heads[drives:], values[drives:], strict=True):
-        if np.isfinite(series).any():
-            name, unit = head.split("\n")
-            least, most = int(np.nanargmin(series)), int(np.nanargmax(series))
-            cells = [number(float(series[most])), _where(result, to, most), number(float(series[least]))]
-            rows.append([name, unit, *cells, _where(result, to, least)])
-    return tables(["over the positions", "unit", "largest", "at", "smallest", "at"], rows, 2) if rows else ""
-
-
-def _where(result: Result, to: Printed, position: int) -> str:
-    """'60 deg', or the number of the position."""
-    if len(result.drives) != 1:
-        return f"no. {position + 1}"
-    kind = drive_kinds(result, result.drives[0])["position"]
-    value = float(to(kind, result.drive_position(result.drives[0])[position]))
-    return f"{number(value)} {to.text(kind)}"
-
-
 # what did not work, and how far the rest can be trusted
 
 
@@ -336,7 +211,7 @@ def problems_text(result: Result, to: Printed) -> str:
 def _range(result: Result, to: Printed, which: str) -> str:
     if len(result.drives) != 1:
         return ""
-    ends: Sequence[str] = [_where(result, to, int(k) - 1) for k in which.split("-")]
+    ends: Sequence[str] = [where(result, to, int(k) - 1) for k in which.split("-")]
     return f" ({result.drives[0]} {' to '.join(ends)})"
 
 
@@ -375,6 +250,3 @@ def checks_text(result: Result) -> str:
     count = _count(result)
     between = "; " if ";" in count else ", "
     return wrapped(_sentence(between.join(filter(None, (count, shown)))) + ".") if count or shown else ""
-
-
-__all__ = ["answer_text", "checks_text", "heading", "printed", "problems_text", "scale"]

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.cli.text import number, rounded, tables, wrapped
+from dalembert.printing import number, rounded, tables, wrapped
 
 if TYPE_CHECKING:
-    from dalembert.analysis import Result
     from dalembert.analysis.columns import Reaction
+    from dalembert.analysis.result import Result
     from dalembert.analysis.wrenches import Axes
 
 
