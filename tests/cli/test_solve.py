@@ -306,6 +306,6 @@ def test_friction_of_redundant_joints_points_to_stiffness(run: Run, folder: Path
     (folder / "press.yaml").write_text(stiff, encoding="utf-8")
     ran = run("solve", "press.yaml")
     assert ran.status == 0
-    assert "mu 0.12, thread 18 mm" in ran.out
-    assert "collar 15 mm" in ran.out
+    assert "mu 0.12, thread 0.018 m" in ran.out  # in the units of the file
+    assert "collar 0.015 m" in ran.out
     assert "where the load moves the drive (0 or less: self-locking)" in " ".join(ran.out.split())

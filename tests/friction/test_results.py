@@ -145,7 +145,7 @@ def test_printed(capsys: pytest.CaptureFixture[str]) -> None:
     main(["solve", str(CASES / "seed-002-7g-engine-guide-100-mm.yaml")])
     out = capsys.readouterr().out
     assert "mu 0.07, lower ahead, upper behind" in out
-    assert "mu 0.4, friction circle 28 mm" in out
+    assert "mu 0.4, friction circle 0.028 m" in out
 
 
 def test_the_taught_table_printed(capsys: pytest.CaptureFixture[str]) -> None:

@@ -14,6 +14,7 @@ import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.views.canvas import text_over_lines, text_overlaps
 from dalembert.views.polygons import forces_of
+from dalembert.views.scene import Text
 
 SHOWN = [
     "seed-000-a-four-bar-loaded-rocker",
@@ -31,10 +32,16 @@ def result(name: str, **options: Any) -> Any:
     return da.solve(da.load((cases() | examples())[name]), **options)
 
 
+def words(scene: Any) -> set[str]:
+    """Every text of a drawing."""
+    return {item.text for item in scene.items if isinstance(item, Text)}
+
+
 @pytest.mark.parametrize("name", SHOWN)
 @pytest.mark.parametrize("view", VIEWS)
 def test_texts_cover_nothing_and_lengths_are_to_scale(name: str, view: Any) -> None:
-    scene = da.draw.view(result(name), view)
+    r = result(name)
+    scene = da.draw.view(r, view if r.drives or view != "motion" else "mechanism")
     assert text_overlaps(scene) == []
     ElementTree.fromstring(scene.to_svg())
     json.dumps(scene.to_dict())
@@ -167,7 +174,7 @@ def test_animations(kind: str, tmp_path: Path) -> None:
 
 
 def test_an_animation_needs_positions() -> None:
-    with pytest.raises(da.ModelError, match="two positions that close"):
+    with pytest.raises(da.ModelError, match="an animation needs two positions; ask for more"):
         da.draw.animation(result("four_bar"))
 
 
@@ -221,3 +228,56 @@ def test_the_command_goes_to_a_position(tmp_path: Path) -> None:
     assert f"{whole.effort('O2')[3] / 0.1129848290276167:.1f} lbf·in" in path.read_text(
         encoding="utf-8"
     ).replace("−", "-")
+
+
+STRUCTURE = (
+    "an?( velocity polygon| animation| chart) shows a motion, and a structure has none; draw the mechanism"
+)
+
+
+def test_a_structure_has_no_motion_to_draw() -> None:
+    r = result("truss")
+    for drawn in (da.draw.animation, da.draw.charts, da.draw.motion):
+        with pytest.raises(da.ModelError, match=STRUCTURE):
+            drawn(r)
+
+
+def test_equilibria_and_single_positions_are_no_motion() -> None:
+    with pytest.raises(da.ModelError, match="and here are equilibrium positions"):
+        da.draw.animation(result("balance_position"))
+    with pytest.raises(da.ModelError, match="a chart needs two positions; ask for more: positions=36"):
+        da.draw.charts(result("four_bar"))
+
+
+def test_a_position_that_is_not_assembled_cannot_be_drawn() -> None:
+    m = da.load(examples()["four_bar"]).with_values({"links.crank.points.A": [0.3, 0.0]})
+    r = da.dynamics(m, positions=36)
+    bad = r.status.index("not_assembled") + 1
+    with pytest.raises(da.AnalysisError, match=f"position {bad}: The linkage does not close between "):
+        da.draw.mechanism(r, at=bad)
+    assert da.draw.mechanism(r).items  # the first that is ok
+
+
+def test_forces_that_are_not_unique_or_not_known_are_said_on_the_picture() -> None:
+    beam = {
+        "links": {
+            "ground": {"points": {"A": [0, 0], "B": [4, 0]}},
+            "beam": {"points": {"A": [0, 0], "B": [4, 0]}},
+        },
+        "joints": {n: {"type": "pin", "links": ["ground", "beam"]} for n in "AB"},
+        "loads": {"F": {"type": "force", "on": "beam", "at": [1.0, 0.5], "value": [5.0, -9.0]}},
+    }
+    r = da.statics(da.Mechanism(**beam))
+    for drawn in (da.draw.free_body, da.draw.force_polygon, da.draw.lines_of_action):
+        assert "Not unique, drawn with the least norm: the reactions of A, B." in words(drawn(r, "beam"))
+    flat = da.four_bar(ground=0.3, crank=0.1, coupler=0.3, rocker=0.1).with_values(
+        {"drives.O2.position": 0.0}
+    )
+    r = da.statics(flat)
+    assert r.status == ("singular",)
+    assert {"forces not known", "Not known (singular): the reactions of B, O4."} <= words(
+        da.draw.force_polygon(r, "rocker")
+    )
+    assert any("torque" in text for text in words(da.draw.free_body(r, "rocker")))  # the load is known
+    with pytest.raises(da.AnalysisError, match="position 1 has no velocities: Dead centre or change point"):
+        da.draw.velocity_polygon(r)

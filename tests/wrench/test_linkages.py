@@ -63,4 +63,4 @@ def test_what_cannot_be_asked() -> None:
     assert broken.status == ("not_assembled",)
     with pytest.raises(da.AnalysisError) as error:
         da.wrench.on(broken, "crank")
-    assert str(error.value) == broken.reasons[0]
+    assert str(error.value) == f"position 1: {broken.reasons[0]}"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.analysis.contacts import circle, coefficient
+from dalembert.analysis.contacts import circle
 from dalembert.analysis.planar import refuse_space
 from dalembert.core.friction import Contacts, strength
 from dalembert.errors import ModelError
@@ -178,19 +178,3 @@ def at_rest(result: Result, joint: str, kind: str, position: int) -> bool:
     """Whether nothing tells the sense of a joint's contact of a kind but its impending motion."""
     f, _ = friction_of(result)
     return bool(f.open[position, bearing_contact(result, joint, kind)])
-
-
-def friction_text(result: Result, joint: str) -> str:
-    """The friction of a joint in words: 'mu 0.1, friction circle 2 mm', in space also 'collar 15 mm'."""
-    j = result.mechanism.joints[joint]
-    f: Any = getattr(j, "friction", None)
-    if f is None:
-        return "viscous"
-    text = f"mu {coefficient(result.mechanism, j):.6g}"
-    radius = friction_circle_radius(result, joint)
-    if radius:
-        text += f", friction circle {radius * 1e3:.6g} mm"
-    if j.type == "screw":
-        text += f", thread {f.radius * 1e3:.6g} mm"
-    collar = getattr(f, "thrust_radius", None)
-    return f"{text}, collar {collar * 1e3:.6g} mm" if collar else text

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.columns import drive_kinds, scale
-from dalembert.errors import ModelError
+from dalembert.errors import STATUSES, AnalysisError, ModelError
 from dalembert.units import file_units, quantity
 
 if TYPE_CHECKING:
@@ -15,9 +15,21 @@ if TYPE_CHECKING:
 
 
 def position_at(r: Result, at: Any = None) -> int:
-    """Index from 0 of a position given by its number from 1, or nearest to a value of the first drive (`60 deg`)."""
+    """Index from 0 of a position given by its number from 1, or nearest to a value of the first drive (`60 deg`).
+
+    Without ``at`` the first that is ok, or else that has a pose. Raises AnalysisError, with its reason, for a position
+    that has none.
+    """
+    k = _place(r, at)
+    if r.status[k] == "not_assembled":
+        raise AnalysisError(f"position {k + 1}: {r.reasons[k] or STATUSES[r.status[k]].sentence}")
+    return k
+
+
+def _place(r: Result, at: Any) -> int:
     if at is None:
-        good = np.flatnonzero(r.ok)
+        posed = np.array([s != "not_assembled" for s in r.status])
+        good = np.flatnonzero(r.ok if r.ok.any() else posed)
         return int(good[0]) if len(good) else 0
     if isinstance(at, int) or (isinstance(at, str) and at.strip().isdigit()):
         n = int(at)

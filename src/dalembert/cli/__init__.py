@@ -6,7 +6,7 @@ import os
 import sys
 from collections.abc import Sequence
 
-WRONG_INPUT, INTERRUPTED = 2, 130
+NO_ANSWER, WRONG_INPUT, INTERRUPTED = 1, 2, 130
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -31,12 +31,15 @@ def _run(arguments: list[str]) -> int:
     from cyclopts import CycloptsError
 
     from dalembert.cli.app import app, command_line_error
-    from dalembert.errors import DalembertError
+    from dalembert.errors import AnalysisError, DalembertError
 
     try:
         status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
     except CycloptsError as error:
         return _refused(command_line_error(error, arguments))
+    except AnalysisError as error:
+        _refused(str(error))
+        return NO_ANSWER
     except DalembertError as error:
         return _refused(str(error))
     except BrokenPipeError:

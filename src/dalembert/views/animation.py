@@ -29,6 +29,7 @@ from dalembert.views.mechanism import (
     unit_size,
     whole_frame,
 )
+from dalembert.views.moving import refuse_still
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.scene import Item, Scene, Text
 from dalembert.views.space_view import NOTHING, triad
@@ -147,11 +148,8 @@ def animation_scene(
     Positions whose forces are not known (at rest, jammed) are shown without them, and redundant ones with those of
     least norm; the frames say so. With a camera the mechanism is in space.
     """
+    refuse_still(r, "an animation")
     posed = np.flatnonzero(np.isfinite(r.point_array).all(axis=(1, 2)))
-    if len(posed) < 2:
-        raise ModelError(
-            "an animation needs two positions that close", "ask for more: positions=36, or --positions 36"
-        )
     which = posed[np.unique(np.linspace(0, len(posed) - 1, min(most, len(posed))).astype(int))]
     shown = Shown(r, notation or Notation())
     some = [

@@ -27,6 +27,7 @@ from dalembert.views.glb import SolidModel
 from dalembert.views.inertia import displaced_inertia_scene
 from dalembert.views.mechanism import mechanism_scene, place_title
 from dalembert.views.motion import instant_centers_scene, motion_polygon_scene
+from dalembert.views.moving import refuse_still
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.pair_pictures import pair_scene, pairs_scene
 from dalembert.views.polygons import force_chain_scene, force_polygon_scene, lines_of_action_scene
@@ -128,6 +129,7 @@ def instant_centers(r: Result, at: Any = None, notation: Notation | None = None)
 
 def charts(r: Result, notation: Notation | None = None) -> Scene:
     """Efforts, joint forces, polar diagrams and the shaking force over the cycle."""
+    refuse_still(r, "a chart")
     return stacked(_charts.chart_scenes(r, notation), title=r.mechanism.title, width=270.0)
 
 
@@ -206,13 +208,14 @@ def force_system(
 def motion(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
     """Velocity and acceleration polygons and instant centres."""
     refuse_space(r.mechanism, "a velocity polygon", FREE_BODIES)
+    if not r.drives:
+        refuse_still(r, "a velocity polygon")
     k = position_at(r, at)
     scenes = [
         motion_polygon_scene(r, k, "velocity", notation),
         motion_polygon_scene(r, k, "acceleration", notation),
     ]
-    if r.drives:
-        scenes.append(instant_centers_scene(r, k, notation))
+    scenes.append(instant_centers_scene(r, k, notation))
     return stacked(scenes, title=_title(r, k, "Motion", notation))
 
 
@@ -262,7 +265,7 @@ def view(
     parts = [mechanism(r, at, notation, camera=camera), free_bodies(r, at, notation, camera)]
     if r.mechanism.dimension == 2:
         parts.append(force_polygons(r, at, notation))
-    if len(r.status) > 2:
+    if len(r.status) > 2 and r.drives and r.stability is None:
         parts.append(charts(r, notation))
     return stacked(parts, title=r.mechanism.title)
 

@@ -13,6 +13,7 @@ from dalembert.analysis.lines import acting_lines
 from dalembert.analysis.members import components_along, members
 from dalembert.views import symbols
 from dalembert.views.canvas import Canvas
+from dalembert.views.certainty import doubts, on_one
 from dalembert.views.circles import circled, draw_circles
 from dalembert.views.details import detail_scenes, with_details
 from dalembert.views.frame import Frame, fitted, force_scale
@@ -38,7 +39,7 @@ def free_body_scene(
     frame = _frame(r, link, k, shown, everything)
     canvas = Canvas()
     _draw_link(canvas, r, link, k, frame, shown)
-    joints = [n for n in r.joints if link in r.mechanism.joints[n].links]
+    joints = on_one(r, link)
     draw_circles(canvas, r, k, frame, circled(r, joints), link)
     mine = list(on_link(everything, link))
     per_mm = draw_actions(canvas, r, mine, k, frame, shown, LONGEST, common_scale(r, everything, k, shown))
@@ -48,6 +49,7 @@ def free_body_scene(
         part for part in (member.kind, "member", member.state(k) and f"in {member.state(k)}") if part
     )
     notes = [f"{kind[0].upper()}{kind[1:]}. {_distances(r, link, k, shown)}".strip(), *notes]
+    notes += doubts(r, k, joints)
     if member.touching:
         notes.insert(1, f"{member.touching[0].upper()}{member.touching[1:]}.")
     scene = canvas.scene(f"Link {shown.heading(link)}", notes=notes, scales=scales)
@@ -149,6 +151,7 @@ def components_scene(r: Result, link: str, k: int, notation: Notation | None = N
         if a.kind == "joint":
             _resolved(canvas, a, k, frame, shown, per_mm, components_along(r, a, k), along, across)
     notes, scales = stated(shown, frame, per_mm)
+    notes += doubts(r, k, on_one(r, link))
     return canvas.scene(f"Link {shown.heading(link)}: along and across", notes=notes, scales=scales)
 
 

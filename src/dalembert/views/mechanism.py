@@ -200,6 +200,7 @@ def draw_actions(
     values: bool = True,
 ) -> float | None:
     """Arrows and curved arrows of actions at their places; returns newtons a millimetre, None without forces."""
+    some = [a for a in some if np.isfinite(a.force[k]).all() and np.isfinite(a.couple[k])]
     sizes = [float(np.hypot(*a.force[k])) for a in some]
     largest = max(sizes, default=0.0)
     couples = [abs(float(a.couple[k])) for a in some]

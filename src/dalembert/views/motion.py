@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.actions import state
 from dalembert.analysis.loads import point_of
+from dalembert.errors import AnalysisError
 from dalembert.views.canvas import Canvas
 from dalembert.views.frame import force_scale
 from dalembert.views.mechanism import canvas_names, draw_links, stated, unit_size, whole_frame
@@ -29,6 +30,9 @@ def motion_polygon_scene(r: Result, k: int, order: Order, notation: Notation | N
     """Velocities (or accelerations) of all joints and mass centres from one pole; each link has its image."""
     shown = Shown(r, notation or Notation())
     found = _vectors(r, k, order)
+    if not np.isfinite(list(found.values())).all():
+        what = "velocities" if order == "velocity" else "accelerations"
+        raise AnalysisError(f"position {k + 1} has no {what}: {r.reasons[k]}")
     kind = "speed" if order == "velocity" else "acceleration"
     per_mm = force_scale([math.hypot(*v) for v in found.values()], 60.0, unit_size(r, kind, shown.notation))
     heads = {name: (v[0] / per_mm, v[1] / per_mm) for name, v in found.items()}

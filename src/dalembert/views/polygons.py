@@ -21,6 +21,7 @@ from dalembert.analysis.circles import friction_circles
 from dalembert.analysis.lines import acting_lines
 from dalembert.analysis.members import concurrency, members, order_of_solution
 from dalembert.views.canvas import Canvas
+from dalembert.views.certainty import doubts, known, on_one
 from dalembert.views.circles import circled, draw_circle
 from dalembert.views.frame import Frame, force_scale
 from dalembert.views.mechanism import draw_actions, draw_links, role_of, stated, unit_size, whole_frame
@@ -61,8 +62,8 @@ def force_polygon_scene(
 ) -> Scene:
     """The forces on a link head to tail; the gap between end and start is the residual."""
     shown = Shown(r, notation or Notation())
-    some = case_actions(r, case)
-    mine = forces_of(some, link, k)
+    found = known(r, link, k)
+    mine = forces_of(case_actions(r, case), link, k) if found else []
     per_mm = force_scale(
         [float(np.hypot(*a.force[k])) for a in mine], LONGEST, unit_size(r, "force", shown.notation)
     )
@@ -70,11 +71,11 @@ def force_polygon_scene(
     gap = draw_polygon(canvas, mine, k, shown, per_mm, (0.0, 0.0))[1]
     heading = f"Force polygon of link {shown.heading(link)}" + (f": {case} alone" if case else "")
     if not mine:
-        canvas.label("no forces", (0.0, 0.0))
+        canvas.label("no forces" if found else "forces not known", (0.0, 0.0))
     notes, scales = stated(shown, None, per_mm)
     return canvas.scene(
         heading,
-        notes=[f"{notes[0]}; {_gap_text(gap, mine, k)}"],
+        notes=[f"{notes[0]}; {_gap_text(gap, mine, k)}", *doubts(r, k, on_one(r, link))],
         scales=scales,
         numbers=_numbers(gap, mine, k),
     )
@@ -87,7 +88,7 @@ def _numbers(gap: float, mine: Sequence[Action], k: int) -> dict[str, float]:
 
 def _gap_text(gap: float, mine: Sequence[Action], k: int) -> str:
     largest = _numbers(gap, mine, k)["largest"]
-    return f"closure gap {gap / largest:.0e} of the largest force" if largest else "no forces"
+    return f"closure gap {gap / largest:.0e} of the largest force" if largest else "none drawn"
 
 
 def draw_polygon(
@@ -154,7 +155,7 @@ def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case:
     worst, bottom = 0.0, 0.0
     everything: list[Action] = []
     for link in _order(r):
-        mine = forces_of(some, link, k)
+        mine = forces_of(some, link, k) if known(r, link, k) else []
         shared = next((a for a in mine if a.kind == "joint" and a.of in placed), None)
         if shared is not None:
             head = placed[shared.of][1]
@@ -172,7 +173,7 @@ def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case:
     text = f"Order of solution: {order}. A force shared by two polygons is drawn once."
     return canvas.scene(
         "Force polygons of the chain" + (f": {case} alone" if case else ""),
-        notes=[text, f"{notes[0]}; {_gap_text(worst, everything, k)}"],
+        notes=[text, f"{notes[0]}; {_gap_text(worst, everything, k)}", *doubts(r, k, r.joints)],
         scales=scales,
         numbers=_numbers(worst, everything, k),
     )
@@ -213,7 +214,7 @@ def lines_of_action_scene(
     per_mm = draw_actions(canvas, r, flat, k, frame, shown, 24.0)
     texts, scales = stated(shown, frame, per_mm)
     heading = f"Lines of action on link {shown.heading(link)}" + (f": {case} alone" if case else "")
-    return canvas.scene(heading, notes=[*notes, *texts], scales=scales)
+    return canvas.scene(heading, notes=[*notes, *texts, *doubts(r, k, on_one(r, link))], scales=scales)
 
 
 def _meeting(

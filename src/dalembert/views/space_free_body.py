@@ -17,7 +17,7 @@ from dalembert.views.link_solids import nodes
 from dalembert.views.mechanism import ring, unit_size
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.scene import Item, Line, Point, Scene, Text
-from dalembert.views.space_mechanism import Arrows, check_pose, mark_center
+from dalembert.views.space_mechanism import Arrows, mark_center
 from dalembert.views.space_view import Sight, sight, standing, triad
 
 if TYPE_CHECKING:
@@ -34,7 +34,6 @@ def space_free_body_scene(
 
     Forces are arrows, moments arrows with two heads, of one scale for all links.
     """
-    check_pose(r, k)
     shown = Shown(r, notation or Notation())
     s = _sight(r, link, k, camera)
     canvas = Canvas()

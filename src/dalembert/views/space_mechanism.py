@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.actions import Action, actions, joint_place, link_place
-from dalembert.errors import STATUSES, AnalysisError
 from dalembert.views import symbols
 from dalembert.views.camera import Camera
 from dalembert.views.canvas import Canvas
@@ -38,7 +37,6 @@ def space_mechanism_scene(
 
     Lengths and forces are to scale, both stated below; vectors are seen shorter by their slope to the paper.
     """
-    check_pose(r, k)
     shown = Shown(r, notation or Notation())
     s = whole_sight(r, k, camera, WIDTH, HEIGHT)
     canvas = Canvas()
@@ -56,12 +54,6 @@ def space_mechanism_scene(
     return canvas.scene(
         place_title(r, k, r.mechanism.title or "Mechanism", shown), notes=notes, scales=scales
     )
-
-
-def check_pose(r: Result, k: int) -> None:
-    """Raise, with its reason, where a position has no pose to be drawn."""
-    if not np.isfinite(r.point_array[k]).all():
-        raise AnalysisError(f"position {k + 1}: {r.reasons[k] or STATUSES[r.status[k]].sentence}")
 
 
 def every_place(r: Result, k: int) -> list[Array]:

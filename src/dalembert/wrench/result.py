@@ -37,8 +37,8 @@ def on(r: Result, *links: str, at: Any = None) -> System:
     if not links:
         raise ModelError("no link is named", f"name some of {', '.join(r.links)}")
     k = position_at(r, at)
-    if r.status[k] not in ("ok", "redundant"):
-        raise AnalysisError(r.reasons[k] or STATUSES[r.status[k]].sentence)
+    if r.status[k] not in ("ok", "redundant", "self_locking"):
+        raise AnalysisError(f"position {k + 1}: {r.reasons[k] or STATUSES[r.status[k]].sentence}")
     outside = [a for a in actions(r) if a.link in links and a.by not in links]
     title = " and ".join(links) + (f", position {k + 1}" if len(r.status) > 1 else "")
     title += ", least-norm reactions" if r.status[k] == "redundant" else ""

@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.columns import rubbing_joints, unknown_kinds
-from dalembert.analysis.friction import bears_on_faces, friction_text, guide_contact
-from dalembert.printing import number, tables
+from dalembert.analysis.columns import Scale, rubbing_joints, unknown_kinds
+from dalembert.analysis.contacts import coefficient
+from dalembert.analysis.friction import bears_on_faces, friction_circle_radius, guide_contact
+from dalembert.printing import number, tables, with_unit
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
@@ -100,8 +101,25 @@ def friction_table(result: Result, to: Any) -> str:
         turning = result.friction_moment(joint)[0]
         couple = float(to("moment", np.linalg.norm(turning) if np.ndim(turning) else turning))
         lost = float(to("power", result.power_lost(joint)[0]))
-        law = friction_text(result, joint)
+        law = friction_text(result, joint, to)
         if bears_on_faces(result, joint):
             law += f", {guide_contact(result, joint).mode[0]}"
         rows.append([joint, part.links[1], number(force), number(couple), number(lost), law])
     return tables(heads, rows, 2)
+
+
+def friction_text(result: Result, joint: str, to: Scale) -> str:
+    """The friction of a joint in words: 'mu 0.1, friction circle 2 mm', in space also 'collar 15 mm'."""
+    part = result.mechanism.joints[joint]
+    friction: Any = getattr(part, "friction", None)
+    if friction is None:
+        return "viscous"
+    sizes = {
+        "friction circle": friction_circle_radius(result, joint),
+        "thread": friction.radius if part.type == "screw" else None,
+        "collar": getattr(friction, "thrust_radius", None),
+    }
+    shown = [
+        f"{name} {with_unit(to('length', size), to.text('length'))}" for name, size in sizes.items() if size
+    ]
+    return ", ".join([f"mu {coefficient(result.mechanism, part):.6g}", *shown])
