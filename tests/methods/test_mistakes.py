@@ -226,3 +226,51 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     out = capsys.readouterr().out
     assert "effort of O2: the sense is opposite: action taken for reaction." in out
     assert out.endswith("1 of 2 right.\n")
+
+
+def verdict(quantity: str, of: str, value: Any, **more: Any) -> Any:
+    answer = da.Answer(quantity=quantity, of=of, value=value, **more)
+    (found,) = da.check_answers(da.load(examples()["four_bar"]), [answer])
+    return found
+
+
+@pytest.mark.parametrize(
+    ("value", "right"),
+    [
+        ("155 @ 220 deg", True),  # 154.805 lbf at 220.322 deg
+        ("154.8 lbf @ -139.68 deg", True),
+        ("155 @ 220.0 deg", False),  # four digits that are not those of the direction
+        ("155 @ 221 deg", False),
+        ("160 @ 220 deg", False),
+        ("2e2 @ 220 deg", False),
+        ([-118, -100], True),  # -118.026, -100.172
+        ([-120, -100], False),
+    ],
+)
+def test_the_digits_written_decide_what_rounding_is_forgiven(value: Any, right: bool) -> None:
+    assert verdict("reaction", "A", value).right is right
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_a_figure_rounded_to_three_digits_and_whole_degrees_is_right(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    m = da.four_bar().with_values({"drives.O2.position": float(rng.uniform(0, 6)), "loads.torque.value": 7.0})
+    force = da.dynamics(m).reaction("B")[0]
+    size, angle = float(np.hypot(*force)), math.degrees(math.atan2(force[1], force[0]))
+    polar = da.Answer(quantity="reaction", of="B", value=f"{size:.3g} N @ {angle:.0f} deg")
+    cartesian = da.Answer(quantity="reaction", of="B", value=[f"{c:.3g} N" for c in force])
+    direction = da.Answer(quantity="reaction", of="B", component="direction", value=f"{angle % 360:.0f} deg")
+    far = da.Answer(quantity="reaction", of="B", value=f"{1.02 * size:.3g} N @ {angle:.0f} deg")
+    found = da.check_answers(m, [polar, cartesian, direction, far])
+    assert [v.right for v in found] == [True, True, True, False]
+
+
+def test_a_stated_tolerance_is_the_only_one() -> None:
+    assert not verdict("reaction", "A", "155 @ 220 deg", tolerance="0.1 %").right
+    assert verdict("effort", "O2", "250", tolerance="5 %").right
+
+
+def test_a_figure_nearly_right_is_called_close() -> None:
+    found = verdict("effort", "O2", "240 lbf*in")
+    assert (found.right, found.mistake) == (False, "close: rounded too early, or a small slip")
+    assert verdict("reaction", "A", "155 @ 221 deg").computed == "154.805 @ 220.322"

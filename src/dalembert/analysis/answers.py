@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert.analysis.closeness import radians
 from dalembert.analysis.columns import drive_kinds
 from dalembert.analysis.quantities import QUANTITIES, WHOLE, WORDS, Series, component, size
 from dalembert.errors import STATUSES, ModelError
@@ -254,7 +255,7 @@ def _measured(result: Result, answer: Answer, series: Series, case: str) -> Row:
         named(answer),
         value_text(answer.value),
         "" if exact is None else _shortened(value_text(answer.exact)),
-        computed_text(found, published, series.kind, units),
+        computed_text(found, published, series.kind, units, answer.value),
         said,
         _deviation(away, _size(published.value) and scale, series.kind, published.unit),
         near and met,
@@ -325,8 +326,8 @@ def _shortened(text: str) -> str:
     return re.sub(rf"(?<![\w.]){NUMBER}", lambda found: f"{float(found[0]):.{DIGITS}g}", text)
 
 
-def computed_text(found: Array, published: Target, kind: str, units: Units) -> str:
-    """A computed value in the unit and the form of the published one."""
+def computed_text(found: Array, published: Target, kind: str, units: Units, form: Any = "") -> str:
+    """A computed value in the unit and the form of the published one, its direction in the turn of that."""
     if not np.isfinite(found).all():
         return "-"
     own = unit(published.unit).of_si if published.unit else float
@@ -334,10 +335,21 @@ def computed_text(found: Array, published: Target, kind: str, units: Units) -> s
     if found.ndim == 0:
         return f"{own(float(found)):.{DIGITS}g}{behind}"
     if published.polar:
-        angle = units.unit("angle").of_si(math.atan2(found[1], found[0]))
+        turn = float(np.angle(complex(*found) * complex(*published.value).conjugate()))
+        angle = units.unit("angle").of_si(_direction(form, units, published.value) + turn)
         return f"{own(float(np.hypot(*found))):.{DIGITS}g} @ {angle:.6g}{behind}"
     clean = np.where(np.abs(found) < 1e-12 * np.abs(found).max(), 0.0, found)
     return _bracketed(clean, own) + behind
+
+
+def _direction(form: Any, units: Units, vector: Array) -> float:
+    """The angle of a polar value in radians as it was written, 220 deg and not -140."""
+    number = re.search(NUMBER, str(form).partition("@")[2])
+    angle = math.atan2(vector[1], vector[0])
+    if number is None:
+        return angle
+    written = radians(float(number[0]), str(form), units)
+    return angle + 2 * math.pi * round((written - angle) / (2 * math.pi))
 
 
 def _bracketed(values: Array, own: Any) -> str:

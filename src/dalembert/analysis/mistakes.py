@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.answers import computed_text, named, position_of, target, value_text
+from dalembert.analysis.closeness import Closeness, closeness
 from dalembert.analysis.quantities import QUANTITIES, Series, component
 from dalembert.analysis.slips import Hypothesis, of_units, of_value
 from dalembert.analysis.wrong_problems import Variants
@@ -25,9 +26,6 @@ if TYPE_CHECKING:
     from dalembert.model import Answer, Mechanism
 
 Array = NDArray[Any]
-
-NEAR = 0.005
-"""Relative difference up to which a figure is right, or a mistake explains it, where the answer states no tolerance."""
 
 
 class Verdict(NamedTuple):
@@ -88,15 +86,15 @@ def _verdict(result: Result, answer: Answer, variants: Variants) -> Verdict:
     units = file_units(result.mechanism.units)
     given = target(answer.value, series, units, "value")
     right = np.asarray(series.values[k], dtype=float)
-    near = _allowed(answer)
-    off = _off(right, given.value, series.kind)
-    mistake = "" if off <= near else _explained(variants, answer, series, k, right, given.value, near)
+    close = closeness(answer, given, series.kind, units)
+    met = close.holds(right)
+    mistake = "" if met else _explained(variants, answer, series, k, right, close)
     return Verdict(
         named(answer),
         value_text(answer.value),
-        computed_text(right, given, series.kind, units),
-        off,
-        off <= near,
+        computed_text(right, given, series.kind, units, answer.value),
+        close.off(right),
+        met,
         mistake,
     )
 
@@ -105,34 +103,36 @@ def _series(result: Result, answer: Answer) -> Series:
     return component(QUANTITIES[answer.quantity](result, answer), answer.component)
 
 
-def _allowed(answer: Answer) -> float:
-    text = str(answer.tolerance or "").strip()
-    return float(text.removesuffix("%")) / 100 if text.endswith("%") else NEAR
-
-
-def _off(right: Array, given: Array, kind: str) -> float:
-    """Relative difference; of an angle the difference over one radian."""
-    difference = np.atleast_1d(right - given)
-    if kind == "angle":
-        return float(np.abs(np.angle(np.exp(1j * difference))).max())
-    scale = float(np.linalg.norm(np.atleast_1d(given))) or float(np.linalg.norm(np.atleast_1d(right))) or 1.0
-    return float(np.linalg.norm(difference)) / scale
-
-
 def _explained(
-    variants: Variants, answer: Answer, series: Series, k: int, right: Array, given: Array, near: float
+    variants: Variants, answer: Answer, series: Series, k: int, right: Array, close: Closeness
 ) -> str:
-    """The likeliest mistake that gives the figure: close ones are taken in the order of likelihood."""
+    """The likeliest mistake that gives the figure: close ones are taken in the order of likelihood.
+
+    So many mistakes are tried that some come near any figure: one that is itself nearly right is explained only by a
+    mistake that comes much nearer.
+    """
+    mine = close.off(right)
+    small = mine <= SMALL
     found: list[tuple[float, str]] = []
     for hypothesis in _hypotheses(variants, answer, series, k, right):
-        if hypothesis.value is not None and np.isfinite(hypothesis.value).all():
-            off = _off(hypothesis.value, given, series.kind)
-            if off <= near:
-                found.append((off, hypothesis.sentence))
+        if hypothesis.value is None or not np.isfinite(hypothesis.value).all():
+            continue
+        off = close.off(hypothesis.value)
+        if off <= mine / MUCH if small else close.holds(hypothesis.value):
+            found.append((off, hypothesis.sentence))
     if not found:
-        return "none of the usual mistakes explains it"
+        return ROUNDED if small else "none of the usual mistakes explains it"
     best = min(off for off, _ in found)
     return next(sentence for off, sentence in found if off <= 3 * best + 2e-4)
+
+
+SMALL = 0.03
+"""Relative difference up to which a figure is nearly right."""
+
+MUCH = 5
+"""How many times nearer than the right value a mistake must come to explain a figure that is nearly right."""
+
+ROUNDED = "close: rounded too early, or a small slip"
 
 
 def _hypotheses(
