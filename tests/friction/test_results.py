@@ -254,3 +254,25 @@ def test_printed_efficiency_and_virtual_work(capsys: pytest.CaptureFixture[str])
     out = capsys.readouterr().out
     assert "At the low end of O:" in out
     assert "O = -7304.02 N*m" in out
+
+
+def test_other_solutions_on_the_command_line(capsys: pytest.CaptureFixture[str]) -> None:
+    """Only where they are asked for, beside the contract's own keys."""
+    case = str(CASES / "seed-f-2d-rod-at-45-deg-12.yaml")
+    main(["solve", case, "--other-solutions", "--json", "-"])
+    jammed, moved = (p["friction"] for p in json.loads(capsys.readouterr().out)["positions"])
+    assert jammed["other_solutions"] == []
+    (other,) = moved["other_solutions"]
+    assert other["unknown_loads"]["rod"] == pytest.approx(-707.1068, rel=1e-6)
+    assert other["determinant_ratio"] == pytest.approx(-0.2, rel=1e-9)
+    main(["solve", case, "--json", "-"])
+    assert "other_solutions" not in capsys.readouterr().out
+    main(["solve", case, "--other-solutions"])
+    assert "\n2                -707.107         -0.2\n" in capsys.readouterr().out
+    for name, said in (
+        ("seed-002-7a-engine-friction-circles", "it is proved that there are none"),
+        ("seed-002-7d-engine-at-rest", "at no position here"),
+    ):
+        main(["solve", str(CASES / f"{name}.yaml"), "--other-solutions"])
+        assert said in capsys.readouterr().out.replace("\n", " ")
+    assert main(["solve", str(CASES / "seed-001-a-four-bar-rocker-force.yaml"), "--other-solutions"]) == 2

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from dalembert.analysis.fixed_point import stated
 from dalembert.core.friction import Response
 from dalembert.core.slip import roots
+from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
@@ -60,3 +61,20 @@ def other_solutions(r: Result, position: int = 0) -> list[Solution]:
             values = {name: float(v) for name, v in zip(names, x[k, count:], strict=True)}
             found.append(Solution(values, float(determinant[k])))
     return found
+
+
+SOUGHT = ("ok", "self_locking", "jammed")
+"""Statuses whose senses of friction are known."""
+
+
+def every_other_solution(r: Result) -> dict[int, list[Solution]]:
+    """Other solutions at each position (counted from 0) where the physical one is not proved to be the only one.
+
+    Raises ModelError without friction: the equations are linear then.
+    """
+    if r.friction is None:
+        raise ModelError(
+            "without friction the equations are linear and have one solution", "do not ask for others"
+        )
+    doubtful = [k for k, s in enumerate(r.status) if s in SOUGHT and not r.friction.single[k]]
+    return {k: other_solutions(r, k) for k in doubtful}

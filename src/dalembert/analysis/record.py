@@ -70,14 +70,15 @@ def head(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> dic
 
 
 def position_records(
-    result: Result, units: UnitChoice = "SI", axes: Axes = "ground"
+    result: Result, units: UnitChoice = "SI", axes: Axes = "ground", others: bool = False
 ) -> Iterator[dict[str, Any]]:
-    """One mapping a position, made a block at a time."""
+    """One mapping a position, made a block at a time; ``others`` seeks the other solutions of friction."""
     fields = _fields(result, scale(result, units), axes)
+    sought = _other_solutions(result, scale(result, units)) if others else {}
     for start in range(0, len(result.status), BLOCK):
         part = slice(start, start + BLOCK)
         yield from (
-            _record(result, start + k, group)
+            _with_others(_record(result, start + k, group), sought.get(start + k))
             for k, group in enumerate(_transposed({name: lists(part) for name, lists in fields.items()}))
         )
 
@@ -227,11 +228,45 @@ def _solution(result: Result, position: int) -> dict[str, Any]:
     }
 
 
-def write_json(result: Result, stream: IO[str], units: UnitChoice = "SI", axes: Axes = "ground") -> None:
+def _other_solutions(result: Result, to: Scale) -> dict[int, list[dict[str, Any]]]:
+    """What `--other-solutions` found at each position where it had to seek."""
+    from dalembert.analysis.branches import every_other_solution
+
+    kinds = unknown_kinds(result)
+    return {
+        k: [
+            {
+                group: {
+                    name: float(to(kinds[name], v))
+                    for name, v in s.unknowns.items()
+                    if (name in result.drives) == drive
+                }
+                for group, drive in (("efforts", True), ("unknown_loads", False))
+            }
+            | {"determinant_ratio": s.determinant}
+            for s in found
+        ]
+        for k, found in every_other_solution(result).items()
+    }
+
+
+def _with_others(record: dict[str, Any], others: list[dict[str, Any]] | None) -> dict[str, Any]:
+    if others is not None:
+        record["friction"]["other_solutions"] = others
+    return record
+
+
+def write_json(
+    result: Result,
+    stream: IO[str],
+    units: UnitChoice = "SI",
+    axes: Axes = "ground",
+    others: bool = False,
+) -> None:
     """The JSON answer into an open text file, one position a line."""
     opening = json.dumps(head(result, units, axes), ensure_ascii=False, allow_nan=False, indent=1)
     stream.write(opening.removesuffix("\n}") + ',\n "positions": [')
-    for k, record in enumerate(position_records(result, units, axes)):
+    for k, record in enumerate(position_records(result, units, axes, others)):
         stream.write((",\n  " if k else "\n  ") + json.dumps(record, ensure_ascii=False, allow_nan=False))
     stream.write("]}\n")
 
@@ -242,7 +277,8 @@ def to_json(
     overwrite: bool = False,
     units: UnitChoice = "SI",
     axes: Axes = "ground",
+    others: bool = False,
 ) -> None:
     """The JSON answer as a file."""
     with new_file(path, overwrite) as temporary, open(temporary, "w", encoding="utf-8") as stream:
-        write_json(result, stream, units, axes)
+        write_json(result, stream, units, axes, others)

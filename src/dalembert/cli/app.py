@@ -94,13 +94,19 @@ def solve(
         ReactionAxes, said("Axes of the reactions: ground, the link they act on, in space the joint's own.")
     ] = "ground",
     no_friction: NoFriction = False,
+    other_solutions: Annotated[
+        bool,
+        flag(
+            "Seek the other solutions of friction's equations, where the physical one may not be the only one."
+        ),
+    ] = False,
     every: Annotated[bool, flag("Print every position, however many.", "--all")] = False,
     force: Force = False,
 ) -> int:
     """Solve FILE and print drives, efforts, reactions and motion, in the units of the file."""
     from dalembert.cli.solving import Wanted, solved
 
-    wanted = Wanted(json, csv, xlsx, netcdf, units, axes, every, force)
+    wanted = Wanted(json, csv, xlsx, netcdf, units, axes, every, force, other_solutions)
     return solved(file, wanted, static=static, positions=positions, method=method, friction=not no_friction)
 
 

@@ -183,3 +183,26 @@ def fixed_point_text(result: Result) -> str:
         "solve, set friction by the reactions found, solve again."
     )
     return f"{tables(heads, rows, 1)}\n{wrapped(words)}"
+
+
+def other_solutions_text(result: Result, units: UnitChoice) -> str:
+    """Solutions of friction's equations beside the physical one, where that is not proved to be the only one."""
+    from dalembert.analysis.branches import SOUGHT, every_other_solution
+
+    found, to, kinds = every_other_solution(result), printed(result, units), unknown_kinds(result)
+    if not any(found.values()):
+        proved = "it is proved that there are none" if not found else "none was found"
+        if not any(s in SOUGHT for s in result.status):
+            proved = "they are sought where the senses of friction are given, at no position here"
+        return wrapped(f"Other solutions of friction: {proved}.")
+    heads = ["other solutions\nat position", *(f"{name}\n{to.text(kind)}" for name, kind in kinds.items())]
+    heads.append("determinant\nratio")
+    rows = [
+        [str(k + 1), *(number(float(to(kinds[n], v))) for n, v in s.unknowns.items()), number(s.determinant)]
+        for k, some in found.items()
+        for s in some
+    ]
+    words = (
+        "The physical solution, above, is continued from no friction and has a positive determinant ratio."
+    )
+    return f"{tables(heads, rows, 1)}\n{wrapped(words)}"

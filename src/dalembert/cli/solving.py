@@ -40,6 +40,7 @@ class Wanted(NamedTuple):
     axes: Literal["ground", "link", "joint"]
     every: bool
     force: bool
+    others: bool = False
 
     @property
     def written_units(self) -> Literal["SI", "file"]:
@@ -65,6 +66,10 @@ def solved(
     _check_targets(file, wanted)
     result = _result(file, static, positions, friction)
     shown, more = by_method(method, result, wanted.printed_units)
+    if wanted.others:
+        from dalembert.cli.methods import other_solutions_text
+
+        more = "\n\n".join(filter(None, (more, other_solutions_text(result, wanted.printed_units))))
     _printed(shown, wanted, more)
     for kind, path in wanted.files.items():
         _write(shown, kind, path, wanted)
@@ -139,7 +144,7 @@ def _printed(result: Result, wanted: Wanted, more: str) -> None:
     if str(wanted.json) == "-":
         from dalembert.analysis.record import write_json
 
-        write_json(result, sys.stdout, wanted.written_units, wanted.axes)
+        write_json(result, sys.stdout, wanted.written_units, wanted.axes, wanted.others)
     elif str(wanted.csv) == "-":
         from dalembert.analysis.export import write_csv
 
@@ -155,10 +160,8 @@ def _printed(result: Result, wanted: Wanted, more: str) -> None:
 def _write(result: Result, kind: str, path: Path, wanted: Wanted) -> None:
     from dalembert.analysis import export
 
-    writers = {
-        "json": export.to_json,
-        "csv": export.to_csv,
-        "xlsx": export.to_xlsx,
-        "netcdf": export.to_netcdf,
-    }
+    if kind == "json":
+        export.to_json(result, path, wanted.force, wanted.written_units, wanted.axes, wanted.others)
+        return
+    writers = {"csv": export.to_csv, "xlsx": export.to_xlsx, "netcdf": export.to_netcdf}
     writers[kind](result, path, wanted.force, wanted.written_units, wanted.axes)

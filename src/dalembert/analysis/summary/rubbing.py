@@ -44,7 +44,7 @@ def branch_note(result: Result) -> str:
     which = "here" if len(several) == 1 else f"at {int(several.sum())} positions"
     return (
         f"Friction is so strong {which} that its equations may have other solutions: given is the physical one, "
-        "continued from no friction (`dalembert.other_solutions` seeks the others)."
+        "continued from no friction (`--other-solutions` seeks the others, in Python `da.other_solutions`)."
     )
 
 
