@@ -161,3 +161,45 @@ def test_wheels_that_do_not_touch() -> None:
     m = pair(wheel([0, 0, 0], Z, 0.05), wheel([0.16, 0, 0], Z, 0.1), [0, 0, TORQUE])
     with pytest.raises(da.ModelError, match="gear 'G': the pitch circles do not touch"):
         da.statics(m)
+
+
+@pytest.mark.parametrize("helix", [0.0, 25.0])
+def test_components_in_the_axes_of_the_mesh_are_steady(helix: float) -> None:
+    """Radial, tangential, axial: they stay with the line of centres, whatever the wheels' turn and the links' axes."""
+    m = pair(wheel([0, 0, 0], Z, 0.05), wheel([0.15, 0, 0], Z, 0.1), [0, 0, -TORQUE], helix_angle=helix)
+    r = da.statics(m)
+    assert np.ptp(r.rotation("a"), axis=0).max() > 1.9
+    tangential, beta = TORQUE / 0.1, radians(helix)
+    expected = [tangential * tan(ALPHA) / cos(beta), -tangential, tangential * tan(beta)]
+    assert r.reaction("G", on="b", axes="joint") == pytest.approx(np.tile(expected, (13, 1)))
+    assert r.joint_axes("G") == pytest.approx(np.tile(np.eye(3), (13, 1, 1)), abs=1e-9)
+
+
+def test_axes_of_a_mesh_go_with_the_carrier() -> None:
+    """A planet on a ring wheel's inside: x from the planet's axis to the pitch point, on the line of centres."""
+    x = {"type": "revolute", "axis": Z}
+    m = mechanism(
+        {
+            "space": "space",
+            "links": {
+                "ground": {"points": {"O": [0, 0, 0]}},
+                "arm": {"points": {"O": [0, 0, 0], "P": [0.1, 0, 0]}},
+                "planet": {"points": {"P": [0, 0, 0]}},
+            },
+            "joints": {
+                "O": {**x, "links": ["ground", "arm"]},
+                "P": {**x, "links": ["arm", "planet"]},
+                "G": {"type": "gear", "links": ["ground", "planet"], "at": ["O", "P"], "axis": Z, "radii": [0.15, 0.05]}
+                | {"internal": True},
+            },
+            "drives": {"O": {"position": {"from": 0, "to": 360, "count": 9}, "speed": "1 rad/s"}},
+            "loads": {"T": {"type": "couple", "on": "planet", "value": [0, 0, 3.0]}},
+        }
+    )
+    r = da.statics(m)
+    line = r.point("planet", "P") / 0.1
+    assert r.joint_axes("G")[:, 0] == pytest.approx(line, abs=1e-9)
+    force = r.reaction("G", axes="joint")
+    assert force == pytest.approx(np.tile(force[0], (9, 1)))
+    assert abs(force[0, 1]) == pytest.approx(3.0 / 0.05)
+    assert np.linalg.norm(force, axis=-1) == pytest.approx(np.linalg.norm(r.reaction("G"), axis=-1))

@@ -243,7 +243,7 @@ def local_axes(joint: Any, at: Geometry, on_i: Array, on_j: Array, moment: bool 
     They are those of i, but where a turn is blocked between a direction of i and one of j: both, and their normal. A
     slotted sphere in a cylinder has them for its moment only; its forces keep to the cylinder.
     """
-    pair = PAIRS["weld"] if joint.type == "gear" else pair_of(joint)
+    pair = pair_of(joint)
     if len(pair.turns) == 2 and (moment or joint.type != "slotted_sphere_in_cylinder"):
         first, second = (AXES.index(name) for name in pair.turns)
         n, p = space.rotate(on_i, at.on_i[first]), space.rotate(on_j, at.on_j[second])

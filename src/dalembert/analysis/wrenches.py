@@ -12,8 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.algebra import plane
+from dalembert.analysis.freedoms import whole_pose
 from dalembert.analysis.pairs import local_axes
 from dalembert.core.equilibrium import shifts, unique
+from dalembert.core.gearing import gearings, own_axes
 from dalembert.core.layout import Pose, System
 from dalembert.errors import ModelError
 
@@ -39,7 +41,7 @@ def in_axes(c: Compiled, pose: Pose, shift: Array) -> Iterator[Array]:
         turned = np.empty_like(shift)
         for k in range(c.layout.joints):
             for part in PARTS:
-                axes = _axes(c, k, pose.rotation, place, ends.get(k, (0, 0)), part is PARTS[1])
+                axes = _axes(c, k, pose, place, ends.get(k, (0, 0)), part is PARTS[1])
                 turned[:, k, part] = axes @ shift[:, k, part]
         yield turned
 
@@ -62,11 +64,15 @@ def marks(c: Compiled, pose: Pose, rows: System, free: Array | None) -> Marks:
     return Marks(unique(shift), others, np.stack(inside, axis=-2) if inside else None)
 
 
-def _axes(
-    c: Compiled, k: int, rotation: Array, place: str, ends: tuple[int, int], moment: bool = False
-) -> Array:
-    """Axes (P, 3, 3), a row each, in ground axes, from the rotations (P, L+1, 9) of all links."""
-    i, j = rotation[..., ends[0], :], rotation[..., ends[1], :]
+def _axes(c: Compiled, k: int, pose: Pose, place: str, ends: tuple[int, int], moment: bool = False) -> Array:
+    """Axes (P, 3, 3), a row each, in ground axes, from the poses of all links."""
+    i, j = (pose.rotation[..., end, :] for end in ends)
+    if place == "joint" and c.mechanism.joints[c.joints[k]].type == "gear":
+        rows = c.layout.constraints
+        f, mesh = next(
+            (f, m) for f in gearings(c.layout) for m, row in enumerate(f.row) if rows.joint[row] == k
+        )
+        return np.asarray(own_axes(c.layout.algebra, f, pose)[..., mesh, :, :])
     if place == "joint":
         return local_axes(c.mechanism.joints[c.joints[k]], c.geometries[k], i, j, moment)
     r = i if place == "i" else j
@@ -83,8 +89,7 @@ def axes_of(result: Result, joint: str, place: str, moment: bool = False) -> Arr
         raise ModelError("a joint of the plane has no axes of its own", "take ground's or the link's")
     index = {name: k for k, name in enumerate(c.links)} | {"ground": len(c.links)}
     i, j = (index[name] for name in c.mechanism.joints[joint].links)
-    _, rotation = c.layout.algebra.with_ground(result.turn_array, result.rotation_array)
-    return _axes(c, c.joints.index(joint), rotation, place, (i, j), moment)
+    return _axes(c, c.joints.index(joint), whole_pose(result), place, (i, j), moment)
 
 
 def wrench(result: Result, joint: str, on: str | None, axes: Axes, least: bool = False) -> Array:

@@ -143,6 +143,14 @@ def separation(g: Any, f: Gearing, pose: Pose) -> tuple[Array, Array]:
     return m.normal * f.outward[:, None], m.contact.at
 
 
+def own_axes(g: Any, f: Gearing, pose: Pose) -> Array:
+    """Axes of the meshes (..., k, 3, 3), a row each: radial, from the axis of wheel i to C; tangential, the way its
+    teeth go there when it turns; and that axis. They go with the line of centres, not with the wheels."""
+    a, e, _, _ = _axes(g, f, pose, _still(pose))
+    radial = e.at * np.sign(f.ri)[:, None]
+    return np.stack([radial, g.cross(a.at, radial), a.at], axis=-2)
+
+
 class Misfit(NamedTuple):
     """How far a mesh had to be moved to fit (k,): radii by a factor, less 1; a gap over the radii that is left.
 
