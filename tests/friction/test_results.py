@@ -35,6 +35,22 @@ def test_the_ends_at_rest_are_the_two_slow_motions(template: str) -> None:
     assert np.all((low < bare)[held] & (bare < high)[held])
 
 
+def test_a_machine_that_moves_beside_a_joint_that_does_not_is_not_said_to_be_at_rest() -> None:
+    m = pushed_slider(0.1)
+    tree = m.to_tree()
+    tree["links"]["ground"]["points"] |= {"P": [0.5, 0.5], "Q": [0.8, 0.5]}
+    tree["links"]["bar"] = {"points": {"P": [0, 0], "Q": [0.3, 0]}}
+    tree["loads"]["on bar"] = {"type": "couple", "on": "bar", "value": 3.0}
+    tree["joints"] |= {
+        "P": {"type": "pin", "links": ["ground", "bar"], "friction": {"coefficient": 0.1, "radius": 0.01}},
+        "Q": {"type": "slot", "links": ["ground", "bar"], "direction": 0.0},
+    }
+    del tree["joints"]["guide"]["friction"]
+    r = da.statics(da.mechanism(tree))
+    assert r.status == ("at_rest",)
+    assert str(r.reasons[0]).startswith("No relative motion in P at ")
+
+
 def test_an_end_that_no_effort_reaches_is_null() -> None:
     r = da.statics(pushed_slider(1.2, speed=0.0))
     assert r.status == ("at_rest",)

@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert.analysis.friction import friction_of
 from dalembert.core.equilibrium import known_sources, motion, statement
 from dalembert.core.forcing import summed
-from dalembert.core.friction import argument, bearing, multiplier, response, senses, strength
+from dalembert.core.friction import Senses, argument, bearing, multiplier, response, strength
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
-    from dalembert.core.friction import Contacts, Response, Senses
+    from dalembert.core.friction import Contacts, Response
 
 Array = NDArray[Any]
 
@@ -53,7 +54,7 @@ def fixed_point(r: Result, position: int = 0, most: int = 1000, tolerance: float
     found.
     """
     contacts, problem, sense = stated(r, position)
-    c = strength(contacts, 1.0)[None]
+    c = strength(contacts, 1.0, sense=sense)
     z = np.where(contacts.fixed, -sense * bearing(contacts, problem.y), 0.0)
     x, forces, change = [problem.x[0]], [(c * z)[0]], [np.nan]
     for _ in range(most):
@@ -92,10 +93,8 @@ def posed(r: Result, position: int) -> tuple[Contacts, Response, Senses]:
     from dalembert.analysis.freedoms import whole_pose
     from dalembert.analysis.solve import _sliced
 
-    c = r.compiled
-    if c.contacts is None:
-        raise ModelError("this result has no friction", "give a joint `friction`, and do not switch it off")
-    part = slice(position, position + 1)
+    f, contacts = friction_of(r)
+    c, part = r.compiled, slice(position, position + 1)
     pose = whole_pose(r, part)
     forcing, known = _sliced(c, part)
     moving, rows, solver = motion(c.layout, pose, r.schedule.speed[part], r.schedule.acceleration[part])
@@ -103,9 +102,8 @@ def posed(r: Result, position: int) -> tuple[Contacts, Response, Senses]:
     w = summed(c.layout, *sources.values())
     w = np.broadcast_to(w, (1, *w.shape[1:]))
     stated = statement(c.layout, known, pose, rows, solver, w)
-    along, problem = response(c.layout, c.contacts, pose, stated.forces, stated.w)
-    told = senses(c.layout, c.contacts, along, moving.twist)
-    return c.contacts, problem, told
+    _, problem = response(c.layout, contacts, pose, stated.forces, stated.w)
+    return contacts, problem, Senses(f.sense[part], f.open[part], f.rate[part])
 
 
 def _unknowns(r: Result, x: Array) -> dict[str, Array]:

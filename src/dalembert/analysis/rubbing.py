@@ -112,7 +112,7 @@ def rubbing(s: Setting, w: Array) -> Forces:
     slip = slipping(contacts, r, told.sense, told.open)
     if open_.size:
         slip.x[open_], slip.z[open_], slip.critical[open_] = np.nan, np.nan, np.nan
-    locked = _locked(s, stated, told, r, slip)
+    locked = _locked(s, stated, along, r, slip)
     made = _Made(s, stated, along, told, blocked, locked, without_friction(contacts, r))
     if not open_.size:
         return made.forces(r, slip, told.sense)
@@ -150,7 +150,7 @@ def _blocked(contacts: Contacts, stated: Statement) -> Flags:
     return np.asarray(np.abs(stated.forces.null[..., read, :]).max(axis=(-2, -1), initial=0.0) > UNIQUE)
 
 
-def _locked(s: Setting, stated: Statement, told: Senses, r: Response, slip: Slip) -> Flags:
+def _locked(s: Setting, stated: Statement, along: System, r: Response, slip: Slip) -> Flags:
     """Where friction turns the power of the unknowns round, also without inertia."""
     locked = _turned(s, stated, r, slip)
     if "inertia" not in s.sources or not locked.any():
@@ -159,6 +159,7 @@ def _locked(s: Setting, stated: Statement, told: Senses, r: Response, slip: Slip
     w = np.broadcast_to(w, stated.w.shape)
     still = statement(s.c.layout, s.known, s.pose, s.rows, s.solver, w)
     r = under(s.c.layout, s.contacts, s.pose, still.forces, still.w, r)
+    told = _told(s, along, r)
     return locked & _turned(s, still, r, slipping(s.contacts, r, told.sense, told.open))
 
 

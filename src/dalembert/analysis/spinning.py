@@ -3,6 +3,7 @@
 A rod that could spin about the line of its two ball joints is set to no spin. Friction in the balls decides it: their
 couples, against the relative angular velocities, must leave nothing about the line, which nothing else holds. That
 moment falls as the spin grows, so there is one spin, or none where the loads turn the rod more than friction holds.
+The spin's own inertia about the line is left out.
 
 s   spin, tan(phi) times the fastest rate of the rod's balls
 """
@@ -20,6 +21,7 @@ from dalembert.core.geometry import arm
 from dalembert.core.layout import Idle, Layout, Pose, System
 
 Array = NDArray[Any]
+Flags = NDArray[np.bool_]
 
 STEPS = 60
 """Halvings and secants after which the last spin is taken."""
@@ -29,6 +31,12 @@ STEEPEST = 1.56
 
 SETTLED = 1e-14
 """Change of phi at which it has arrived."""
+
+SWEEPS = 8
+"""Times that every rod is settled while the others spin as they do: its couples change the others' forces little."""
+
+NEAR, SECANTS = 1e-4, 12
+"""First step and number of the secants of all rods together."""
 
 
 class Rods(NamedTuple):
@@ -61,8 +69,47 @@ def spun(twist: Array, found: Rods, phi: Array) -> Array:
 
 
 def settled(found: Rods, moment: Callable[[Array], Array]) -> Array:
-    """phi (P, k) at which the moments (P, k) about the lines vanish: a bracket, closed by secants and halvings."""
-    low, high = np.full(found.rate.shape, -STEEPEST), np.full(found.rate.shape, STEEPEST)
+    """phi (P, k) at which the moments (P, k) about the lines vanish: rod after rod, then all together."""
+    phi: Array = np.zeros(found.rate.shape)
+    for _ in range(SWEEPS if phi.shape[-1] > 1 else 1):
+        for n in range(phi.shape[-1]):
+            phi[..., n] = _bracketed(_of_one(moment, phi, n), phi[..., n].shape)
+        if phi.shape[-1] > 1:
+            phi, arrived = _together(moment, phi)
+            if arrived.all():
+                break
+    return phi
+
+
+def _together(moment: Callable[[Array], Array], phi: Array) -> tuple[Array, Flags]:
+    """Secants of all rods at once from close by, and the positions where they arrive; elsewhere what was given."""
+    last, here = phi + NEAR, moment(phi)
+    before, new, size = moment(last), phi, np.full(phi.shape[:-1], np.inf)
+    for _ in range(SECANTS):
+        with np.errstate(all="ignore"):
+            step = np.nan_to_num(here * (new - last) / (here - before), posinf=0.0, neginf=0.0)
+        last, before, new = new, here, np.clip(new - step, -STEEPEST, STEEPEST)
+        here, size = moment(new), np.abs(step).max(axis=-1)
+        if (size < SETTLED).all():
+            break
+    arrived = size < 10 * SETTLED
+    return np.where(arrived[..., None], new, phi), arrived
+
+
+def _of_one(moment: Callable[[Array], Array], phi: Array, n: int) -> Callable[[Array], Array]:
+    """The moment about the line of rod n with its own phi, the others' as they are."""
+
+    def own(value: Array) -> Array:
+        tried = phi.copy()
+        tried[..., n] = value
+        return moment(tried)[..., n]
+
+    return own
+
+
+def _bracketed(moment: Callable[[Array], Array], shape: tuple[int, ...]) -> Array:
+    """phi at which a moment vanishes, by secants and halvings of a bracket; 0 where it does not change its sign."""
+    low, high = np.full(shape, -STEEPEST), np.full(shape, STEEPEST)
     at_low, at_high = moment(low), moment(high)
     none = ~(at_low * at_high < 0)
     for k in range(STEPS):

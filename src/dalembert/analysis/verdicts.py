@@ -98,7 +98,7 @@ def _open_sentence(c: Compiled, f: Forces, run: Run) -> str:
             "Switch it off for the reactions without it. To ask what friction holds, leave out the joint in whose "
             "place it is to hold, and give the freedom that this leaves a drive without speed."
         )
-    if open_.all(axis=None) or not f.friction.sense[run].any():
+    if not c.schedule.speed[run].any():
         return _rest_sentence(c, f, run, names)
     joints = ", ".join(dict.fromkeys(c.joints[k] for k in c.contacts.joint[open_.any(axis=0)]))  # type: ignore[union-attr]
     verb = "lies in an interval" if len(names) == 1 else "each lie in an interval of their own"

@@ -121,28 +121,20 @@ def senses(layout: Layout, contacts: Contacts, along: System, twist: Array) -> S
     return Senses(sense, still & holds, rate)
 
 
-def _directed(contacts: Contacts, rate: Array, still: Flags, resting: bool = False) -> tuple[Array, Flags]:
+def _directed(contacts: Contacts, rate: Array, still: Flags) -> tuple[Array, Flags]:
     """Part of each contact in the direction of its group's slip, and the groups that do not slip at all."""
     assert contacts.reckoned is not None
-    part = sign(contacts, rate * contacts.reckoned, still, resting)
+    part = sign(contacts, rate * contacts.reckoned, still)
     return part, ~moving_together(contacts, ~still)
 
 
-def sign(contacts: Contacts, value: Array, none: Flags, resting: bool = False) -> Array:
-    """Sign of each value (..., E), 0 where ``none``; of a group of contacts its direction, a unit vector.
-
-    Where a group has friction circles of R sin(phi), its reaction includes the part s of the friction that goes around
-    the axis: the direction is divided by sqrt(1 + (mu s)^2).
-    """
+def sign(contacts: Contacts, value: Array, none: Flags) -> Array:
+    """Sign of each value (..., E), 0 where ``none``; of a group of contacts its direction, a unit vector."""
     value = np.where(none, 0.0, value)
-    if contacts.group is None or contacts.around is None:
+    if contacts.group is None:
         return np.sign(value)
-    together = _together(contacts)
-    size = np.sqrt((value * value) @ together)
-    part = value / np.where(size > 0, size, 1.0)
-    mu = np.where(contacts.around, contacts.resting if resting else contacts.coefficient, 0.0)
-    slope = (mu * part * contacts.rows.angular) ** 2 @ together
-    return np.asarray(part / np.sqrt(1 + slope))
+    size = np.sqrt((value * value) @ _together(contacts))
+    return np.asarray(value / np.where(size > 0, size, 1.0))
 
 
 def moving_together(contacts: Contacts, moves: Flags) -> Flags:
@@ -162,13 +154,22 @@ def impending(contacts: Contacts, g: Array, moves: Flags) -> Array:
     """Part of each contact (..., E) in the impending slip of rates -g."""
     if contacts.group is None:
         return np.where(moves, -np.sign(g)[..., contacts.led], 0.0)
-    return _directed(contacts, -g, ~moves, resting=True)[0]
+    return _directed(contacts, -g, ~moves)[0]
 
 
-def strength(contacts: Contacts, scale: Array | float, resting: Array | bool = False) -> Array:
-    """c (..., E) at a scale of all coefficients; ``resting`` contacts take the coefficient at rest."""
+def strength(
+    contacts: Contacts, scale: Array | float, resting: Array | bool = False, sense: Array | None = None
+) -> Array:
+    """c (..., E) at a scale of all coefficients; ``resting`` contacts take the coefficient at rest.
+
+    Where a group has friction circles of R sin(phi), its reaction includes the part s of the friction that goes around
+    the axis, of the direction ``sense``: c is divided by sqrt(1 + (mu s)^2).
+    """
     mu = scale * np.where(resting, contacts.resting, contacts.coefficient)
     friction = np.where(contacts.circle, mu / root(1 + mu * mu), mu)
+    if sense is not None and contacts.around is not None and contacts.around.any():
+        turning = (mu * sense * (contacts.around & contacts.rows.angular)) ** 2 @ _together(contacts)
+        friction = friction / np.sqrt(1 + turning)
     return np.asarray(contacts.lever * np.where(contacts.fixed, 1.0, friction))
 
 

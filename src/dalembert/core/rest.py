@@ -67,4 +67,4 @@ def _influence(contacts: Contacts, r: Response, found: Slip, sense: Array, g: Ar
     j = jacobian(strong(r, found.c), slope(contacts, y, largest)[0], sense)
     a = solved(np.swapaxes(j, -1, -2), found.c * g)
     negligible = np.abs(a) <= STILL * np.abs(a).max(axis=-1, keepdims=True, initial=0.0)
-    return sign(contacts, np.nan_to_num(a), negligible, resting=True)
+    return sign(contacts, np.nan_to_num(a), negligible)

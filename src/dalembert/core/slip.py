@@ -91,7 +91,7 @@ def without_friction(contacts: Contacts, r: Response) -> Array:
 def slipping(contacts: Contacts, r: Response, sense: Array, resting: Array) -> Slip:
     """Friction at each position; sense (P, E), where ``resting`` (P, E) with the coefficients at rest."""
     r = Response(*(np.broadcast_to(a, (len(sense), *a.shape[1:])) for a in r))
-    c = np.broadcast_to(strength(contacts, 1.0, resting), sense.shape)
+    c = np.broadcast_to(strength(contacts, 1.0, resting, sense), sense.shape)
     first = _newton(contacts, r, sense, c, np.zeros_like(sense))
     single = spread(contacts, strong(r, c * np.abs(sense))) < 1
     z, determinant, count = first.z, first.determinant, first.iterations
@@ -108,7 +108,7 @@ def slipping(contacts: Contacts, r: Response, sense: Array, resting: Array) -> S
 
 def roots(contacts: Contacts, r: Response, sense: Array, starts: Array) -> tuple[Array, Array, Array]:
     """Where Newton arrives from many starts (P, E): c z, multipliers and determinants of those that do."""
-    c = np.broadcast_to(strength(contacts, 1.0), sense.shape)
+    c = np.broadcast_to(strength(contacts, 1.0, sense=sense), sense.shape)
     found = _newton(contacts, r, sense, c, starts, most=4 * NEWTON)
     cz = (c * found.z)[found.arrived]
     return cz, multiplier(_at(r, found.arrived), cz), found.determinant[found.arrived]
@@ -173,7 +173,7 @@ def _continued(contacts: Contacts, r: Response, sense: Array, resting: Array) ->
         if not on.size:
             break
         aim = np.minimum(scale[on] + step[on], 1.0)
-        part, raised = _at(r, on), strength(contacts, aim[:, None], resting[on])
+        part, raised = _at(r, on), strength(contacts, aim[:, None], resting[on], sense[on])
         before = argument(part, c[on] * z[on])
         new = _newton(contacts, part, sense[on], raised, z[on], before, 10)
         good = new.arrived & (new.determinant > 0) & _same_branch(z[on], new)

@@ -6,6 +6,8 @@
 ``shafts``     Hooke's joint with its cross, and the double Cardan shaft
 ``spinning``   a rotor with skew inertia in two bearings, and a chain of revolutes (gyroscope, disk on an arm)
 ``natural``    any mechanism: 12 coordinates a link (origin and axes), constraints of second degree, multipliers
+``rubbing``    friction on top of it: Newton and Euler link by link, each joint's law on its whole reaction
+``rough_machines``  closed linkages with friction in their joints, for ``rubbing``
 ``random_drawn``  random mechanisms of all pairs, drawn as they close, for ``natural``
 ``free_motion``   states of two published free motions
 ``compliance``    reactions beyond equilibrium by least elastic energy of the joints
