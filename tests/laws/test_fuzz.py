@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import signal
 from collections.abc import Iterator
+from copy import deepcopy
 from functools import cache
 from typing import Any
 
@@ -30,6 +31,8 @@ def bases() -> tuple[dict[str, Any], ...]:
 
 
 def shortened(made: dict[str, Any]) -> dict[str, Any]:
+    """A copy at four positions."""
+    made = deepcopy(made)
     for drive in made["drives"].values():
         drive["position"]["count"] = 4
     return made
