@@ -175,9 +175,11 @@ def test_a_rod_between_two_balls_spins_as_their_friction_lets_it() -> None:
     assert lost == pytest.approx(more, rel=1e-9)
 
 
-def test_a_rod_that_friction_cannot_hold() -> None:
-    """A couple about the rod's line larger than both balls' friction has no equilibrium."""
+@pytest.mark.parametrize("speed", ["1 rad/s", "0 rad/s"])
+def test_a_rod_that_friction_cannot_hold(speed: str) -> None:
+    """A couple about the rod's line larger than both balls' friction has no equilibrium, at rest neither."""
     tree = da.load(examples()["rssr"]).to_tree()
+    tree["drives"]["O"] |= {"speed": speed, "acceleration": "0 rad/s^2"}
     tree["joints"]["A"]["friction"] = {"coefficient": 0.1, "radius": "6 mm"}
     line = np.subtract(
         da.load(examples()["rssr"]).point("rod", "B"), da.load(examples()["rssr"]).point("rod", "A")
@@ -186,6 +188,7 @@ def test_a_rod_that_friction_cannot_hold() -> None:
     tree["loads"]["turning"] = {"type": "couple", "on": "rod", "axes": "link", "value": value}
     r = da.dynamics(mechanism(tree))
     assert set(r.status) == {"no_balance"}
+    assert np.isnan(r.effort("O")).all()
     assert "more than friction holds" in str(r.reasons[0])
 
 

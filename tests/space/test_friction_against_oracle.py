@@ -75,6 +75,22 @@ def test_the_ends_of_a_bearing_bear_on_one_side_and_on_opposite_ones(name: str, 
     assert sides == {(True, True), (True, False), (False, True), (False, False)}
 
 
+@pytest.mark.parametrize("name", [n for n in rough_machines.FRICTION if n != "press"])
+def test_the_ends_at_rest_are_the_two_slow_motions(name: str) -> None:
+    """Rods between balls spin as they do in the slow motion: each end is in equilibrium."""
+    tree = deepcopy(rough_machines.machine(name)[0])
+    drive = tree["drives"]["O"]
+    drive["position"]["count"] = 3
+    del drive["acceleration"]
+    found = []
+    for speed in (-1e-3, 1e-3, 0.0):
+        drive["speed"] = f"{speed} rad/s"
+        found.append(da.statics(da.mechanism(tree)))
+    slow = np.sort([r.effort("O") for r in found[:2]], axis=0).T
+    assert found[2].interval("O") == pytest.approx(slow, rel=1e-10)
+    assert all(np.max(end.residual) < TOLERANCE for end in found[2].ends[0])
+
+
 @pytest.mark.parametrize("name", ["rssr", "rccc"])
 def test_the_taught_iteration_arrives_at_the_answer(name: str) -> None:
     """With the rod spinning as in the answer, and the circles of a cylinder that turns."""

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.analysis.spinning import rods, settled, spun
 from dalembert.analysis.wrenches import marks
 from dalembert.core.equilibrium import (
     UNIQUE,
@@ -25,6 +24,7 @@ from dalembert.core.linear import Factor, PseudoInverse
 from dalembert.core.losses import by_joint, in_joints, turned, viscous
 from dalembert.core.rest import extreme
 from dalembert.core.slip import Slip, slipping, without_friction
+from dalembert.core.spinning import Spins, rods, settled, spun
 
 if TYPE_CHECKING:
     from dalembert.analysis.compile import Compiled
@@ -107,7 +107,7 @@ def rubbing(s: Setting, w: Array) -> Forces:
     along, r = response(layout, contacts, s.pose, stated.forces, stated.w)
     blocked = _blocked(contacts, stated)
     r = r._replace(y=np.where(blocked[:, None, None], np.nan, r.y))
-    told = _told(s, along, r)
+    told, spins = _told(s, along, r)
     open_ = np.flatnonzero(told.open.any(axis=-1))
     slip = slipping(contacts, r, told.sense, told.open)
     if open_.size:
@@ -116,16 +116,16 @@ def rubbing(s: Setting, w: Array) -> Forces:
     made = _Made(s, stated, along, told, blocked, locked, without_friction(contacts, r))
     if not open_.size:
         return made.forces(r, slip, told.sense)
-    return _with_ends(made, r, slip, told, open_)
+    return _with_ends(made, r, slip, told, open_, spins)
 
 
-def _told(s: Setting, along: System, r: Response) -> Senses:
+def _told(s: Setting, along: System, r: Response) -> tuple[Senses, Spins | None]:
     """Senses of the contacts; rods between balls spin as the balls' friction lets them."""
     layout, contacts = s.c.layout, s.contacts
     told = senses(layout, contacts, along, s.moving.twist)
     found = rods(layout, contacts, s.pose, along, told.rate) if s.c.passive else None
     if found is None:
-        return told
+        return told, None
 
     def told_at(phi: Array) -> Senses:
         return senses(layout, contacts, along, spun(s.moving.twist, found, phi))
@@ -134,7 +134,7 @@ def _told(s: Setting, along: System, r: Response) -> Senses:
         now = told_at(phi)
         return np.nan_to_num(slipping(contacts, r, now.sense, now.open).x[..., found.row])
 
-    return told_at(settled(found, moment))
+    return told_at(settled(found.rate.shape, moment)), Spins(found, lambda phi: told_at(phi).sense)
 
 
 def _blocked(contacts: Contacts, stated: Statement) -> Flags:
@@ -159,7 +159,7 @@ def _locked(s: Setting, stated: Statement, along: System, r: Response, slip: Sli
     w = np.broadcast_to(w, stated.w.shape)
     still = statement(s.c.layout, s.known, s.pose, s.rows, s.solver, w)
     r = under(s.c.layout, s.contacts, s.pose, still.forces, still.w, r)
-    told = _told(s, along, r)
+    told, _ = _told(s, along, r)
     return locked & _turned(s, still, r, slipping(s.contacts, r, told.sense, told.open))
 
 
@@ -168,14 +168,16 @@ def _turned(s: Setting, stated: Statement, r: Response, slip: Slip) -> Flags:
     return np.asarray(turned(s.c.layout, stated.unknown, s.moving.twist, stated.w, slip.x, bare))
 
 
-def _with_ends(made: _Made, r: Response, slip: Slip, told: Senses, open_: NDArray[np.intp]) -> Forces:
+def _with_ends(
+    made: _Made, r: Response, slip: Slip, told: Senses, open_: NDArray[np.intp], spins: Spins | None
+) -> Forces:
     """Both ends of every unknown at the open positions; where all are one, the number itself."""
     s, contacts = made.s, made.s.contacts
     count = s.c.layout.constraints.count
     part = Response(*(a[open_] for a in r))
     known = Senses(*(a[open_] for a in told))
     ends = [
-        (extreme(s.c.layout, contacts, part, known, unknown, end))
+        extreme(s.c.layout, contacts, part, known, unknown, end, spins and spins.at(open_))
         for unknown in range(count, r.x.shape[-1])
         for end in (-1.0, 1.0)
     ]

@@ -171,7 +171,8 @@ def _result(followed: Positions, moved: _Moved, f: Forces, inertia: bool, forces
     _blank(open_, moved.point, moved.turn, moved.rotation)
     _blank(lost, moved.twist, moved.acceleration)
     for part in (f, *f.ends):
-        _blank(lost, *part[:6], *(a for a in part.friction or () if a.dtype.kind == "f"))
+        none = lost | (part.residual > UNBALANCED)
+        _blank(none, *part[:6], *(a for a in part.friction or () if a.dtype.kind == "f"))
     made = (c, inertia, followed.mobility, followed.mode, status, reasons, *moved[:5])
     result = Result(*made, *f[:6], *f[7:9], friction=f.friction, unique_in=f.unique_in)
     ends = [Result(*made, *e[:6], *e[7:9], friction=e.friction, unique_in=e.unique_in) for e in f.ends]
@@ -191,12 +192,14 @@ def _statuses(
     assert path is not None
     limit = singular_below(c.layout)
     unbalanced = (f.rcond < limit) | ~(f.residual <= UNBALANCED)
+    unheld = np.array([e.residual for e in f.ends] or [np.zeros(len(f.rcond))]) > UNBALANCED
     partial = f.unique is not None and not f.unique.all()
     checks: list[tuple[str, Any, Callable[[Any], str]]] = [
         ("not_assembled", ~path.reached, lambda k: open_sentence(c, path, k)),
         ("singular", ~(moved.rcond >= limit), lambda k: _singular_sentence(c, k)),
     ]
     if forces:
+        checks += [("no_balance", unheld.all(axis=0), lambda k: _no_balance_sentence(c))]
         checks += friction_checks(c, f, f.rcond >= limit)
         checks += [
             ("no_balance", unbalanced, lambda k: _no_balance_sentence(c)),

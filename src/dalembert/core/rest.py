@@ -29,8 +29,10 @@ from dalembert.core.friction import (
 )
 from dalembert.core.linear import solved
 from dalembert.core.slip import Slip, slipping
+from dalembert.core.spinning import Spins, settled
 
 Array = NDArray[Any]
+Flags = NDArray[np.bool_]
 
 ROUNDS = 12
 """Changes of the senses of contacts without impending motion after which the last is taken."""
@@ -43,20 +45,43 @@ class Extreme(NamedTuple):
     sense: Array
 
 
-def extreme(layout: Any, contacts: Contacts, r: Response, known: Senses, unknown: int, end: float) -> Extreme:
-    """The lowest (end -1) or highest (end 1) value of one of the multipliers."""
+def extreme(
+    layout: Any,
+    contacts: Contacts,
+    r: Response,
+    known: Senses,
+    unknown: int,
+    end: float,
+    spins: Spins | None = None,
+) -> Extreme:
+    """The lowest (end -1) or highest (end 1) value of one of the multipliers; rods between balls spin as they must."""
     g = np.broadcast_to(r.change[..., unknown, :], known.sense.shape)
-    size = np.abs(g) * np.where(contacts.rows.angular, layout.length, 1.0)
-    moves = (size > STILL * size.max(axis=-1, keepdims=True, initial=0.0))[..., contacts.led]
-    told = end * impending(contacts, g, moves)
-    sense = np.where(known.open, told, known.sense)
-    idle = known.open & ~moving_together(contacts, moves)
-    found = slipping(contacts, r, sense, known.open)
-    for _ in range(ROUNDS if idle.any() else 0):
-        new = np.where(idle, -end * _influence(contacts, r, found, sense, g)[..., contacts.led], sense)
-        if np.array_equal(new, sense):
+    row = np.zeros(0, np.intp) if spins is None else spins.rods.row
+    held = np.zeros(known.sense.shape)
+
+    def told(phi: Array) -> tuple[Array, Flags]:
+        """Senses where the rods spin at phi, and the contacts that do not move."""
+        rate = g if spins is None else g + spins.added(r, g, phi)
+        size = np.abs(rate) * np.where(contacts.rows.angular, layout.length, 1.0)
+        moves = (size > STILL * size.max(axis=-1, keepdims=True, initial=0.0))[..., contacts.led]
+        still = known.open & ~moving_together(contacts, moves)
+        sense = np.where(known.open, end * impending(contacts, rate, moves), known.sense)
+        if spins is not None:
+            sense = np.where(known.open, sense, spins.sense(phi))
+        return np.where(still, held, sense), still
+
+    def moment(phi: Array) -> Array:
+        return np.nan_to_num(slipping(contacts, r, told(phi)[0], known.open).x[..., row])
+
+    for _ in range(ROUNDS):
+        sense, idle = told(settled((len(g), len(row)), moment))
+        found = slipping(contacts, r, sense, known.open)
+        if not idle.any():
             break
-        sense, found = new, slipping(contacts, r, new, known.open)
+        new = np.where(idle, -end * _influence(contacts, r, found, sense, g)[..., contacts.led], 0.0)
+        if np.array_equal(new, held):
+            break
+        held = new
     return Extreme(found, sense)
 
 

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.friction import Contacts
+from dalembert.core.friction import Contacts, Response
 from dalembert.core.geometry import arm
 from dalembert.core.layout import Idle, Layout, Pose, System
 
@@ -40,12 +40,43 @@ NEAR, SECANTS = 1e-4, 12
 
 
 class Rods(NamedTuple):
-    """Rows, links and directions (P, k, 3) of rods that spin in balls with friction, and the balls' rates (P, k)."""
+    """Rods that spin in balls with friction: rows, links, directions (P, k, 3), whose contacts (k, E), rates (P, k).
+
+    The rate is the fastest of the rod's balls.
+    """
 
     row: NDArray[np.intp]
     link: NDArray[np.intp]
     line: Array
+    touched: Flags
     rate: Array
+
+    def fastest(self, rate: Array) -> Array:
+        """The fastest (..., k) of a rod's contacts, of rates (..., E)."""
+        return np.asarray(np.where(self.touched, np.abs(rate)[..., None, :], 0.0).max(axis=-1))
+
+
+class Spins(NamedTuple):
+    """Rods that spin, and the sense (P, E) of each contact that moves where they spin at phi (P, k)."""
+
+    rods: Rods
+    sense: Callable[[Array], Array]
+
+    def at(self, some: NDArray[np.intp]) -> Spins:
+        """Of some positions."""
+
+        def sense(phi: Array) -> Array:
+            every = np.zeros(self.rods.rate.shape)
+            every[some] = phi
+            return self.sense(every)[some]
+
+        return Spins(self.rods, sense)
+
+    def added(self, r: Response, rate: Array, phi: Array) -> Array:
+        """What spins at phi add to the rates (P, E) of an impending motion: a unit of spin turns each contact as far
+        as the contact's couple turns the rod."""
+        unit = r.change[..., self.rods.row, :]
+        return np.asarray(((self.rods.fastest(rate) * np.tan(phi))[..., None] * unit).sum(axis=-2))
 
 
 def rods(layout: Layout, contacts: Contacts, pose: Pose, along: System, rate: Array) -> Rods | None:
@@ -55,9 +86,9 @@ def rods(layout: Layout, contacts: Contacts, pose: Pose, along: System, rate: Ar
             touched = (along.i == f.j[:, None]) | (along.j == f.j[:, None])
             which = np.flatnonzero(touched.any(axis=1))
             if which.size:
-                fastest = np.where(touched[which], np.abs(rate)[..., None, :], 0.0).max(axis=-1)
                 line = arm(layout.algebra, pose, f.j, f.p)[..., which, :]
-                return Rods(f.row[which], f.j[which], line, fastest)
+                found = Rods(f.row[which], f.j[which], line, touched[which], rate)
+                return found._replace(rate=found.fastest(rate))
     return None
 
 
@@ -68,9 +99,9 @@ def spun(twist: Array, found: Rods, phi: Array) -> Array:
     return out
 
 
-def settled(found: Rods, moment: Callable[[Array], Array]) -> Array:
-    """phi (P, k) at which the moments (P, k) about the lines vanish: rod after rod, then all together."""
-    phi: Array = np.zeros(found.rate.shape)
+def settled(shape: tuple[int, ...], moment: Callable[[Array], Array]) -> Array:
+    """phi (P, k) of a shape at which the moments (P, k) about the lines vanish: rod after rod, then all together."""
+    phi: Array = np.zeros(shape)
     for _ in range(SWEEPS if phi.shape[-1] > 1 else 1):
         for n in range(phi.shape[-1]):
             phi[..., n] = _bracketed(_of_one(moment, phi, n), phi[..., n].shape)
