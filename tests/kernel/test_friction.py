@@ -219,16 +219,6 @@ def test_derivatives_of_random_mechanisms(seed: int) -> None:
     slopes_are_differences(m, frictional(m), (1e-2, 1e-3, 1e-4, 1e-5))
 
 
-def test_derivatives_where_the_general_executor_answers() -> None:
-    """There are none: no number rather than one that may be wrong."""
-    k = da.compile(
-        pushed_slider(0.5), vary=["joints.guide.friction.coefficient"], static=True, derivatives=True
-    )
-    r = k([[0.5], [1.2]])
-    assert np.isfinite(r.gradient("load.rod")[0]).all()
-    assert np.isnan(r.gradient("load.rod")[1]).all()
-
-
 @pytest.mark.parametrize(("name", "mu"), [("slider_crank", 0.3), ("scotch_yoke", 0.5), ("toggle_press", 1.5)])
 def test_c_function_and_casadi(name: str, mu: float, tmp_path: Path) -> None:
     """Marks and numbers of the exports, self-locking, at rest and in doubt too."""

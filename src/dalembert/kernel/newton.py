@@ -37,10 +37,10 @@ class Found:
     doubt: list[Node]
 
 
-def newton(m: Motion, guess: Pose, links: list[int]) -> Found:
-    """Place some links; all others stand where the guess has them."""
+def newton(m: Motion, guess: Pose, links: list[int], steps: int = STEPS) -> Found:
+    """Place some links in so many steps and one; all others stand where the guess has them."""
     pose = guess
-    for _ in range(STEPS):
+    for _ in range(steps):
         pose = _moved(m, pose, _step(m, pose, links), links)
     still = _detached(m.graph, pose, links)
     dq = _step(m, still, links)

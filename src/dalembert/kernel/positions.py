@@ -238,3 +238,11 @@ def _kind(found: list[Relation]) -> str | None:
 def positions(motion: Motion) -> Placed:
     """Poses of all links from the drives' positions."""
     return Groups(motion).grow()
+
+
+def settled(motion: Motion) -> Placed:
+    """Poses of all links where the known motion is the solution: a last step of Newton carries the derivatives."""
+    parts = Parts(motion)
+    motion.placed = {parts.ground}
+    found = newton(motion, parts.pose(partial=True), list(range(parts.ground)), steps=0)
+    return Placed(found.pose, doubt=found.doubt)

@@ -104,17 +104,27 @@ class Slipped:
 
 
 def rubbed(
-    graph: Graph, layout: Layout, rough: Rough, pose: Pose, moving: Motion, s: Statement, still: Array | None
+    graph: Graph,
+    layout: Layout,
+    rough: Rough,
+    pose: Pose,
+    moving: Motion,
+    s: Statement,
+    still: Array | None,
+    slips: Array | None = None,
 ) -> Rubbed:
-    """Multipliers with friction; ``still``: what loads the links beside inertia, None where there is none."""
+    """Multipliers with friction; ``still``: what loads the links beside inertia, None where there is none.
+
+    ``slips``: z of each contact where the solution is known; then there are no verdicts, which are known too.
+    """
     contacts = _traced(graph, rough.contacts)
     along, found = response(layout, contacts, pose, s.forces, s.w)
     r = Response(*(traced(graph, a) for a in found))
     told = senses(layout, contacts, along, moving.twist)
     sense, c = traced(graph, told.sense), traced(graph, strength(contacts, 1.0))
-    slip = slipped(graph, contacts, strong(r, c), sense)
+    slip = slipped(graph, contacts, strong(r, c), sense, slips)
     x = multiplier(r, c * slip.z)
-    unknown = layout.constraints.count < len(x)
+    unknown = layout.constraints.count < len(x) and slips is None
 
     def turning(problem: Response, x: Array, w: Array) -> Node:
         bare = without(graph, contacts, problem)
@@ -174,8 +184,10 @@ def _at_rest(graph: Graph, open_: Array, bears: Array, largest: Array) -> tuple[
     return _used(-rest), _used(-(idle & ~rest.positive()))
 
 
-def slipped(graph: Graph, contacts: Contacts, r: Response, sense: Array) -> Slipped:
-    """Friction forces z of known senses, from the response with H after z."""
+def slipped(
+    graph: Graph, contacts: Contacts, r: Response, sense: Array, slips: Array | None = None
+) -> Slipped:
+    """Friction forces z of known senses, from the response with H after z; ``slips`` where they are known."""
     count, largest = contacts.count, traced(graph, top(np.abs(r.y), 2))
     z, bears = traced(graph, np.zeros(count)), traced(graph, np.zeros(count))
     acts = [b for b in range(count) if not is_zero(sense[b])]
@@ -194,8 +206,11 @@ def slipped(graph: Graph, contacts: Contacts, r: Response, sense: Array) -> Slip
             continue
         inner = r._replace(y=y, h=r.h[:, k][:, :, k])
         rough, sure = _contraction(graph, inner.h, sense[k])
-        z[k], bears[k], last = _newton(graph, part, inner, sense[k], largest, sure)
+        known = None if slips is None else slips[k]
+        z[k], bears[k], last = _newton(graph, part, inner, sense[k], largest, sure, known)
         doubt.append(last)
+        if slips is not None:
+            continue
         unsure.append(rough)
         single.append(sure)
     return Slipped(z, bears, *(_unfixed(nodes) for nodes in (doubt, unsure, single)))
@@ -223,20 +238,29 @@ def _contraction(graph: Graph, h: Array, sense: Array) -> tuple[Node, Node]:
 
 
 def _newton(
-    graph: Graph, contacts: Contacts, r: Response, sense: Array, largest: Array, sure: Node
+    graph: Graph,
+    contacts: Contacts,
+    r: Response,
+    sense: Array,
+    largest: Array,
+    sure: Node,
+    known: Array | None,
 ) -> tuple[Array, Array, Node]:
     """z and S of one block, and what is below zero where the last step is not small.
 
-    The steps start from no friction. All but the last are constants to derivatives: it carries them exactly.
+    The steps start from no friction; from what is known only the last one is taken. All but the last are constants to
+    derivatives: it carries them exactly.
     """
     detached: Any = np.frompyfunc(graph.detached, 1, 1)
-    fixed, scale, z = detached(r.h), np.asarray(detached(largest)), traced(graph, np.zeros(len(sense)))
+    fixed, scale, z = detached(r.h), np.asarray(detached(largest)), known
+    if z is None:
+        z = traced(graph, np.zeros(len(sense)))
 
     def solve(matrix: Array, right: Array) -> Array:
         rows = [{c: x for c, x in enumerate(row) if not is_zero(x)} for row in matrix]
         return structural(graph, rows, len(rows)).motion(right)
 
-    enough = False
+    enough = known is not None
     for k in range(1, MOST + 1):
         y = argument(r, z)
         steep, bears = slope(contacts, detached(y), scale)

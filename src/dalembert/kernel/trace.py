@@ -19,7 +19,7 @@ from dalembert.kernel.eliminate import Structural
 from dalembert.kernel.graph import CONSTANT, Graph, Node, traced
 from dalembert.kernel.newton import solver
 from dalembert.kernel.parts import Motion, Placed
-from dalembert.kernel.positions import positions
+from dalembert.kernel.positions import positions, settled
 from dalembert.kernel.rubbing import Rough, Rubbed, rubbed
 
 Array = NDArray[Any]
@@ -42,7 +42,8 @@ class Drives:
 @dataclass(frozen=True)
 class Problem:
     """A compiled mechanism whose numbers are nodes; ``like`` is the same with the file's numbers, ``like_target`` its
-    stacked targets at the first position."""
+    stacked targets at the first position. Where there are ``slips`` the known motion is the solution, and they are the
+    friction of each contact in it: then one step of Newton is left, which carries the derivatives."""
 
     graph: Graph
     layout: Layout
@@ -59,6 +60,7 @@ class Problem:
     first_path: Any
     signs: Any
     rough: Rough | None
+    slips: Array | None
 
 
 @dataclass(frozen=True)
@@ -105,13 +107,7 @@ def trace(p: Problem) -> Traced:
         load=traced(g, found.load),
         residual=_residual(g, layout, summed(layout, pair(s.unknown, x)), rub.total),
         open=placed.open,
-        doubt=[
-            *apart,
-            *placed.doubt,
-            *_singular(g, factors),
-            *(_singular(g, s.forces) if s.forces is not factors else []),
-            *rub.doubt,
-        ],
+        doubt=[*apart, *placed.doubt, *_singular(p, factors, s.forces), *rub.doubt],
         rubbed=rub,
         flips=placed.flips,
     )
@@ -133,7 +129,7 @@ def _balanced(
         x, total = _multipliers(p, layout, pose, s)
         return s, Rubbed(x, total, np.zeros((layout.joints, 2)), np.zeros(layout.joints))
     still = stated(*(kind for kind in sources if kind != "inertia")).w if p.inertia else None
-    return s, rubbed(p.graph, layout, p.rough, pose, moving, s, still)
+    return s, rubbed(p.graph, layout, p.rough, pose, moving, s, still, p.slips)
 
 
 def _placed(p: Problem, layout: Layout, target: Array, drives: Drives, path: Any) -> Placed:
@@ -143,7 +139,8 @@ def _placed(p: Problem, layout: Layout, target: Array, drives: Drives, path: Any
     turns = {int(r): (_cos(target[r]), _sin(target[r])) for r in np.flatnonzero(layout.constraints.angular)}
     turns |= {count + int(k): (drives.cosine[k], drives.sine[k]) for k in np.flatnonzero(angular)}
     whole = traced(p.graph, np.concatenate([target, drives.position]))
-    return positions(Motion(p.graph, layout, whole, turns, path, p.signs))
+    place = positions if p.slips is None else settled
+    return place(Motion(p.graph, layout, whole, turns, path, p.signs))
 
 
 def _cos(angle: Any) -> Any:
@@ -222,12 +219,19 @@ NEAR = 1e-5
 """Square of a pivot over its size in the file's own motion, below which a position is left to the general executor."""
 
 
-def _singular(graph: Graph, factors: Any) -> list[Node]:
-    assert isinstance(factors, Structural)
-    pivots = [p for p in factors.pivots if type(p) is Node and p.level != CONSTANT]
+def _singular(p: Problem, *factors: Any) -> list[Node]:
+    """Below zero near where the system is singular; known solutions are not."""
+    if p.slips is not None:
+        return []
+    pivots = [x for f in {id(f): f for f in factors}.values() for x in _pivots(f)]
     out = []
-    for pivot, sample in zip(pivots, graph.evaluated(pivots, {}), strict=True):
+    for pivot, sample in zip(pivots, p.graph.evaluated(pivots, {}), strict=True):
         usual = float(np.nanquantile(np.abs(sample), 0.75))
         if usual > 0:
             out.append(pivot * pivot * (1 / usual**2) - NEAR)
     return out
+
+
+def _pivots(factors: Any) -> list[Node]:
+    assert isinstance(factors, Structural)
+    return [x for x in factors.pivots if type(x) is Node and x.level != CONSTANT]

@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.compile import Compiled, compiled
 from dalembert.analysis.positions import Positions, positions
+from dalembert.analysis.result import Result
+from dalembert.core.friction import bearing
 from dalembert.core.layout import Pose
 from dalembert.kernel.graph import POSITION, Graph, Node
 from dalembert.kernel.trace import Drives
@@ -22,10 +24,14 @@ Array = NDArray[Any]
 
 @dataclass(frozen=True)
 class Course:
-    """The mechanism with the file's numbers at a list of positions, followed when its motion is asked for."""
+    """The mechanism with the file's numbers at a list of positions, followed when its motion is asked for.
+
+    With the ``result`` of the general executor, which may be of another design, its motion is that.
+    """
 
     mechanism: Mechanism
     schedule: Schedule
+    result: Result | None = None
 
     @cached_property
     def compiled(self) -> Compiled:
@@ -38,6 +44,8 @@ class Course:
     @cached_property
     def pose(self) -> Pose:
         """Its poses, NaN where it does not close."""
+        if self.result is not None:
+            return _found(self.result)
         path = self.followed.path
         assert path is not None
         lost = ~path.reached
@@ -49,12 +57,24 @@ class Course:
     @cached_property
     def first(self) -> int:
         """The first position that closes."""
+        if self.result is not None:
+            return int(np.argmax(np.isfinite(self.pose.point).all(axis=(1, 2))))
         path = self.followed.path
         return int(np.argmax(path.reached)) if path is not None else 0
 
     @property
     def drives(self) -> dict[str, Array]:
         return {name: self.schedule.position[:, k] for k, name in enumerate(self.schedule.names)}
+
+    @cached_property
+    def slips(self) -> Array:
+        """Friction z (P, E) of each contact in the result: c z is its force or couple; 0 where there is none."""
+        f = None if self.result is None else self.result.friction
+        if f is None:
+            return np.zeros((len(self.schedule.position), 0))
+        contacts = self.result.compiled.contacts  # type: ignore[union-attr]
+        assert contacts is not None
+        return np.asarray(np.nan_to_num(-f.sense * bearing(contacts, f.argument)))
 
     def at(self, positions: Array) -> Course:
         """Another list of positions, at the same speeds and accelerations."""
@@ -122,6 +142,14 @@ class Inputs:
 
         return quantity
 
+    def slips(self, count: int) -> Array:
+        """Friction of so many contacts in a known solution."""
+        nodes = [
+            self.make("channel", f"known slip {e}", lambda c, e=e: c.slips[:, e])  # type: ignore[misc]
+            for e in range(count)
+        ]
+        return np.array(nodes, object)
+
     def signs(self, plus: Any, minus: Any, a: int, b: int) -> Any:
         """Which of two rotations of link b against link a the known motion has: 1 or -1, or an input if it changes."""
         kind = "channel" if any(n.level & POSITION for n in plus if isinstance(n, Node)) else "common"
@@ -143,6 +171,17 @@ class Inputs:
         off = [np.hypot(x - cos, y - sin) for x, y in ((pc, ps), (mc, ms))]
         gain = np.nan_to_num(np.broadcast_to(off[1] - off[0], cos.shape))
         return np.where(np.abs(gain) > 1e-5, np.sign(gain), 0.0)
+
+
+def _found(result: Result) -> Pose:
+    """Poses of a result, with those of the ground."""
+    count = len(result.status)
+    point, turn, rotation = (a.copy() for a in (result.point_array, result.turn_array, result.rotation_array))
+    return Pose(
+        np.concatenate([point, np.zeros((count, 1, 2))], axis=1),
+        np.concatenate([turn, np.zeros((count, 1))], axis=1),
+        np.concatenate([rotation, np.broadcast_to([1.0, 0.0], (count, 1, 2))], axis=1),
+    )
 
 
 def _one(kind: str, c: Course, column: Array) -> Any:

@@ -1,22 +1,89 @@
-"""The general executor for the designs that a kernel is not sure of, answering by the same names."""
+"""The general executor for the designs that a kernel is not sure of, answering by the same names.
+
+It gives no derivatives: those are one step of the compiled equations from its solution.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.analysis.batch.answer import CODES
+from dalembert.analysis.batch import reduction
+from dalembert.analysis.batch.answer import CODES, NUMBERED, first_mark
+from dalembert.analysis.batch.course import Course
 from dalembert.analysis.batch.symbols import Number, with_numbers
 from dalembert.analysis.result import Result
 from dalembert.analysis.solve import at_schedule
 from dalembert.errors import DalembertError
 from dalembert.model import Mechanism, Schedule
 
+if TYPE_CHECKING:
+    from dalembert.analysis.batch.kernel import Kernel
+
 Array = NDArray[Any]
+
+AGREES = 1e-8
+"""Difference of the compiled equations from the general executor's value, over the largest value of an output along the
+motion, above which they are not taken for its derivative."""
+
+NOTHING = 1e-4
+"""An output below this part of the largest one is compared with that."""
+
+
+def redone(
+    k: Kernel,
+    d: int,
+    values: Array,
+    course: Course,
+    undecided: Any,
+    code: Any,
+    arrays: dict[str, Array],
+    rates: dict[str, Array],
+) -> None:
+    """Put the general executor's answer for design ``d`` in its place: where it is undecided, or all of it reduced."""
+    marks, result = answered(k.mechanism, k.trace.numbers, values, course.schedule, k.trace.inertia)
+    here = np.ones(len(marks), bool) if k.reduce else undecided
+    for rate in rates.values():
+        rate[d][... if k.reduce else here] = np.nan
+    code[d] = first_mark(marks) if k.reduce else np.where(here, marks, code[d])
+    if result is None or (k.reduce and code[d] not in NUMBERED):
+        return
+    found = {name: quantity(result, name) for name in k.outputs}
+    for name, value in found.items():
+        if k.reduce:
+            arrays[name][d] = reduction.reduced(k.reduce, value).reshape(arrays[name][d].shape)
+        else:
+            arrays[name][d, here] = value[here].reshape(arrays[name][d, here].shape)
+    if not rates or not np.isin(marks[here], NUMBERED).any():
+        return
+    for name, rate in slopes(k, values, replace(course, result=result), found, here).items():
+        if k.reduce:
+            rates[name][d] = reduction.slope(k.reduce, found[name], rate).reshape(rates[name][d].shape)
+        else:
+            rates[name][d, here] = rate.reshape(rates[name][d, here].shape)
+
+
+def slopes(
+    k: Kernel, values: Array, course: Course, found: dict[str, Array], here: NDArray[np.bool_]
+) -> dict[str, Array]:
+    """Derivatives (position, component, number) at some positions of a course that has been solved; NaN in doubt."""
+    runner = k.settled.runner
+    program, machine, _ = runner.machine("pairs")
+    columns, common = runner.inputs(program, course)
+    many = np.repeat(values[None], here.sum(), axis=0)
+    out, doubt = runner.at_pairs(program, machine, many, columns[here], common, 1)
+    _, again, rates = runner.named(out.T[None], doubt[None])
+    largest = max(np.nanmax(np.abs(value), initial=0.0) for value in found.values())
+    for name, value in found.items():
+        own = max(np.nanmax(np.abs(value), initial=0.0), NOTHING * largest)
+        off = np.abs(again[name].reshape(value[here].shape) - value[here]).max(axis=1)
+        rates[name] = rates[name].reshape((*value[here].shape, -1))
+        rates[name][(doubt != 0) | ~(off <= AGREES * own)] = np.nan
+    return dict(rates)
 
 
 def answered(

@@ -11,12 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dalembert.analysis.batch import reduction
-from dalembert.analysis.batch.answer import CODES, NUMBERED, BatchResult, first_mark
+from dalembert.analysis.batch.answer import CODES, NUMBERED, BatchResult
 from dalembert.analysis.batch.course import Course
-from dalembert.analysis.batch.general import answered, quantity
+from dalembert.analysis.batch.general import redone
 from dalembert.analysis.batch.symbols import geometric
 from dalembert.analysis.batch.tracing import Trace, traced
 from dalembert.analysis.planar import refuse_space
+from dalembert.analysis.solve import at_schedule
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.graph import Node
@@ -151,6 +152,14 @@ class Kernel:
 
         return Runner(self)
 
+    @cached_property
+    def settled(self) -> Kernel:
+        """The same outputs and their derivatives from solutions of the general executor; compiled when first used."""
+        course = self.trace.course
+        solved = at_schedule(self.mechanism, course.schedule, self.trace.inertia)
+        trace = traced(self.mechanism, self.numbers, self.trace.inertia, solved)
+        return replace(self, trace=trace, reduce=None, derivatives=True)
+
     def warm(self) -> None:
         """Compile now what the file's own positions need."""
         self.runner.prepare(len(self.trace.course.schedule.position))
@@ -246,31 +255,10 @@ class Kernel:
         undecided = code == CODES.index("undecided")
         again = np.flatnonzero(undecided.reshape(len(code), -1).any(axis=1)) if redo else np.zeros(0, int)
         for d in again:
-            self._redone(int(d), values, course, undecided, code, arrays, rates)
+            redone(self, int(d), values[d], course, undecided[d], code, arrays, rates)
         lost = ~np.isin(code, NUMBERED)
         for found in (arrays, rates):
             for array in found.values():
                 if array.dtype.kind == "f":
                     array[lost] = np.nan
         return BatchResult(self, values, course.schedule.position, code, arrays, rates, len(again))
-
-    def _redone(
-        self, d: int, values: Array, course: Course, undecided: Any, code: Any, arrays: Any, rates: Any
-    ) -> None:
-        marks, result = answered(
-            self.mechanism, self.trace.numbers, values[d], course.schedule, self.trace.inertia
-        )
-        for found in rates.values():
-            found[d][... if self.reduce else undecided[d]] = np.nan
-        if self.reduce is not None:
-            code[d] = first_mark(marks)
-            if result is not None and code[d] in NUMBERED:
-                for name in self.outputs:
-                    found = reduction.reduced(self.reduce, quantity(result, name))
-                    arrays[name][d] = found.reshape(arrays[name][d].shape)
-            return
-        here = undecided[d]
-        code[d, here] = marks[here]
-        if result is not None:
-            for name in self.outputs:
-                arrays[name][d, here] = quantity(result, name)[here].reshape(arrays[name][d, here].shape)

@@ -61,3 +61,24 @@ def reduced(reduce: str, values: Array) -> Array:
     power = 2 if reduce == "rms" else 8
     mean: Array = (values**power).mean(axis=0)
     return np.asarray(mean ** (1 / power))
+
+
+def slope(reduce: str, values: Array, rates: Array) -> Array:
+    """Derivatives (component[, side of the envelope], number) of the reduction of values (position, component), from
+    theirs (position, component, number)."""
+    if reduce == "mean":
+        return np.asarray(rates.mean(axis=0))
+    if reduce in ("rms", "norm8"):
+        power = 2 if reduce == "rms" else 8
+        size = reduced(reduce, values)
+        with np.errstate(all="ignore"):
+            return np.asarray(
+                (values[..., None] ** (power - 1) * rates).mean(axis=0) / size[:, None] ** (power - 1)
+            )
+    each = np.arange(values.shape[1])
+    if reduce == "envelope":
+        return np.stack(
+            [rates[place, each] for place in (values.argmin(axis=0), values.argmax(axis=0))], axis=1
+        )
+    place = np.abs(values).argmax(axis=0)
+    return np.asarray(np.sign(values[place, each])[:, None] * rates[place, each])

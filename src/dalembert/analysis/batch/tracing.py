@@ -14,6 +14,7 @@ from dalembert.analysis.batch.symbols import Number, numbers, symbolic
 from dalembert.analysis.compile import compiled
 from dalembert.analysis.mobility import check_knowns
 from dalembert.analysis.openings import open_sentence
+from dalembert.analysis.result import Result
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph
 from dalembert.kernel.rubbing import Rough
@@ -32,12 +33,15 @@ class Trace:
     inertia: bool
 
 
-def traced(m: Mechanism, vary: Iterable[str], inertia: bool) -> Trace:
-    """Everything an analysis computes, as nodes; raises ModelError for what the kernel leaves to the analyses."""
+def traced(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Result | None = None) -> Trace:
+    """Everything an analysis computes, as nodes; raises ModelError for what the kernel leaves to the analyses.
+
+    With the general executor's answer for the file's own numbers, ``solved``: from a known solution, not from nothing.
+    """
     schedule = m.schedule()
     if schedule.unknown is not None:
         raise ModelError("equilibrium positions cannot be compiled", "give the drive positions", ("drives",))
-    course = Course(m, schedule)
+    course = Course(m, schedule, solved)
     check_knowns(course.compiled)
     _check(course)
     graph = Graph()
@@ -62,6 +66,7 @@ def traced(m: Mechanism, vary: Iterable[str], inertia: bool) -> Trace:
         path=inputs.path("channel"),
         first_path=inputs.path("common"),
         signs=inputs.signs,
+        slips=None if solved is None else inputs.slips(0 if c.contacts is None else c.contacts.count),
         rough=None if c.contacts is None else Rough(c.contacts, c.damping, c.second, c.joint_at),
     )
     return Trace(course, inputs, where, Catalogue(graph, c, _run(problem)), inertia)

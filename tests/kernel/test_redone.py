@@ -1,0 +1,157 @@
+"""What the general executor answers for a kernel, with derivatives by one step of the compiled equations from there."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.analysis.batch.answer import NUMBERED
+from dalembert.analysis.batch.general import quantity
+from dalembert.analysis.batch.kernel import Kernel
+from dalembert.analysis.batch.reduction import PARTS
+from tests.friction.engines import pushed_slider
+from tests.friction.rough import cycle, rough_tree
+from tests.kernel.comparing import every_number, frictional, general
+from tests.kernel.machines import KINDS, ROUGH, four_bar
+from tests.kernel.test_derivatives import WEIGHTS
+from tests.random_mechanisms import random_case, tree
+
+
+def both(m: Any, monkeypatch: pytest.MonkeyPatch, reduce: str | None = None) -> None:
+    """The program's own derivatives, exact by the complex step, and those from the general executor's solutions."""
+    outputs = [f"effort.{next(iter(m.drives))}", f"magnitude.{next(iter(m.joints))}"]
+    k = da.compile(m, vary=every_number(m), outputs=outputs, derivatives=True, reduce=reduce)
+    own = k(redo=False)
+    monkeypatch.setattr(Kernel, "_flipped", lambda self, values: np.ones(len(values), bool))
+    other = k()
+    assert other.redone == 1
+    size = max(np.nanmax(np.abs(own.value(o)), initial=0.0) for o in outputs)
+    for output in outputs:
+        a, b = own.gradient(output)[0], other.gradient(output)[0]
+        sure = np.isfinite(own.value(output)[0]) if reduce is None else np.ones(a.shape[:-1], bool)
+        assert (np.isfinite(b) == np.isfinite(a))[sure].all()
+        for n, name in enumerate(k.numbers):
+            off = np.abs(a[..., n] - b[..., n])[sure].max(initial=0.0)
+            rounding = 1e-12 * size / max(abs(k.nominal[n]), 2e-2)
+            assert off <= 1e-8 * np.abs(a[..., n][sure]).max(initial=0.0) + rounding, name
+
+
+@pytest.mark.parametrize(
+    "kind", ["pin-pin-pin", "slots", "two drives", "law of a cylinder", "no closed form"]
+)
+def test_slopes_from_a_solution_are_those_of_the_program(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    both(KINDS[kind](), monkeypatch)
+
+
+@pytest.mark.parametrize("name", ["slider_crank", "whitworth", "stephenson_2"])
+def test_slopes_with_friction(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    both(ROUGH[name](), monkeypatch)
+
+
+@pytest.mark.parametrize("reduce", [r for r in PARTS if r != "argpeak"])
+def test_slopes_of_reductions(reduce: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    both(four_bar(24), monkeypatch, reduce)
+
+
+@pytest.mark.parametrize("seed", [11, 42, *(pytest.param(s, marks=pytest.mark.long) for s in range(50, 65))])
+def test_slopes_of_random_mechanisms(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Wheels among them, whose phases follow from the first position."""
+    both(da.mechanism(tree(random_case(seed).drawing)), monkeypatch)
+
+
+def slopes_are_the_executor_s(m: Any, vary: list[str], output: str, at: np.ndarray, sizes: Any) -> int:
+    """Every number has a slope, and it is the general executor's difference of sixth order, at the best of several
+    steps; how many positions were the general executor's."""
+    k = da.compile(m, vary=vary, outputs=[output], derivatives=True, static=not m.has_speeds)
+    undecided = k([at], redo=False).code[0] == 2
+    r = k([at])
+    here = undecided & np.isin(r.code[0], NUMBERED)
+    assert np.isfinite(r.gradient(output)[0][here]).all()
+    assert np.isnan(r.gradient(output)[0][undecided & ~here]).all()
+    for n, name in enumerate(k.numbers):
+        exact = r.gradient(output)[0][here].reshape(here.sum(), -1, len(at))[..., n]
+        off = []
+        for size in sizes:
+            h = size * max(abs(at[n]), 2e-2)
+            steps = [at + s * j * h * (np.arange(len(at)) == n) for j in WEIGHTS for s in (1, -1)]
+            q = [quantity(general(m, k, step), output)[here] for step in steps]
+            slope = sum(w * (q[2 * i] - q[2 * i + 1]) for i, w in enumerate(WEIGHTS.values())) / h
+            off.append(np.abs(slope - exact).max(axis=1) - 1e-12 * np.abs(q).max() / h)
+        assert np.nanmin(off, axis=0).max() <= 1e-7 * np.abs(exact).max(), name
+    return int(here.sum())
+
+
+@pytest.mark.parametrize(("name", "mu", "count"), [("scotch_yoke", 0.9, 20), ("toggle_press", 1.5, 10)])
+def test_strong_friction(name: str, mu: float, count: int) -> None:
+    """Where the kernel does not show that there is one solution only; where it jams there is no derivative."""
+    m = cycle(name, 24).with_values({"friction.coefficient": mu})
+    vary = frictional(m)[1:2]
+    at = da.compile(m, vary=vary).nominal
+    assert slopes_are_the_executor_s(m, vary, "effort.O2", at, (1e-3,)) == count
+
+
+def test_a_parallelogram_s_neighbours() -> None:
+    """Every design of other geometry goes to the general executor."""
+    m = da.four_bar(ground=0.3, crank=0.1, coupler=0.3, rocker=0.1, sweep=(0.3, 3.6), positions=6)
+    vary = ["links.ground.points.O4.0", "links.rocker.mass"]
+    at = da.compile(m, vary=vary).nominal * [1.001, 1.0]
+    assert slopes_are_the_executor_s(m, vary, "reaction.B", at, (1e-4,)) >= 5
+
+
+def test_beside_a_dead_centre() -> None:
+    """A tenth of a degree beside it, where the closed form is left."""
+    m = da.four_bar(ground=0.3, crank=0.1, coupler=0.25, rocker=0.1500002, positions=24)
+    vary = ["links.coupler.points.B.0", "links.ground.points.O4.0"]
+    at = da.compile(m, vary=vary).nominal
+    assert slopes_are_the_executor_s(m, vary, "effort.O2", at, (1e-8, 1e-9)) == 1
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", [12, 14, 26])
+def test_random_mechanisms_with_strong_friction(seed: int) -> None:
+    m = da.mechanism(rough_tree(seed))
+    vary = frictional(m)[:2]
+    slopes_are_the_executor_s(
+        m, vary, f"effort.{next(iter(m.drives))}", da.compile(m, vary=vary).nominal, (1e-3, 1e-5)
+    )
+
+
+def test_a_peak_over_positions_of_both() -> None:
+    """A design with some positions in doubt is reduced as a whole, its slopes too."""
+    m = cycle("toggle_press", 24).with_values({"friction.coefficient": 1.5})
+    vary = frictional(m)[:3]
+    k, whole = (
+        da.compile(m, vary=vary, outputs=["effort.O2"], reduce=reduce, derivatives=True)
+        for reduce in ("peak", None)
+    )
+    r, w = k(), whole()
+    value, rate = w.effort("O2")[0], w.gradient("effort.O2")[0]
+    place = np.abs(value).argmax()
+    assert r.redone == w.redone == 1
+    assert np.allclose(r.gradient("effort.O2")[0], np.sign(value[place]) * rate[place], rtol=1e-9)
+
+
+def test_what_has_no_answer_has_no_slope() -> None:
+    """A rod at 45 degrees: nearly jammed by the general executor's answer, and jammed."""
+    k = da.compile(
+        pushed_slider(0.5), vary=["joints.guide.friction.coefficient"], static=True, derivatives=True
+    )
+    mu = np.array([0.5, 0.999999, 1.2])
+    r = k(mu[:, None])
+    assert list(r.status[:, 0]) == ["ok", "ok", "jammed"]
+    exact = 100 * np.sqrt(2) / (1 - mu[:2]) ** 2
+    assert r.gradient("load.rod")[:2, 0, 0] == pytest.approx(exact, rel=1e-8)
+    assert np.isnan(r.gradient("load.rod")[2]).all()
+
+
+def test_designs_that_are_refused_have_no_slope() -> None:
+    k = da.compile(four_bar(12), vary=["links.rocker.points.B"], outputs=["effort.O2"], derivatives=True)
+    r = k([k.nominal, [0.08, 0.0], [np.nan, 0.0]])
+    assert np.isfinite(r.gradient("effort.O2")[0]).all()
+    closed = r.ok[1]
+    assert np.isfinite(r.gradient("effort.O2")[1][closed]).all()
+    assert np.isnan(r.gradient("effort.O2")[1][~closed]).all()
+    assert np.isnan(r.gradient("effort.O2")[2]).all()
