@@ -269,3 +269,19 @@ def test_rates_are_the_differences_of_positions(seed: int) -> None:
 def in_time(drive: Any, h: float) -> tuple[float, ...]:
     """The drawn position first (it carries the rates and the phases), then seven around it in time."""
     return (0.0, *(drive.speed * t + drive.acceleration * t * t / 2 for t in h * np.arange(-3.0, 4.0)))
+
+
+@pytest.mark.parametrize(("start", "end"), [(0, 360), (360, 0), (0, -360)])
+def test_turns_behind_a_gap_are_counted_as_the_drive_counts_them(start: int, end: int) -> None:
+    """What lies behind a dead centre is reached around the other way: a spring on the crank is wound by the crank."""
+    tree = da.four_bar(ground=0.3, crank=0.1, coupler=0.3, rocker=0.12).to_tree()
+    tree["links"]["ground"]["points"]["O4"] = [0.303, 0]
+    tree["links"]["rocker"]["points"]["B"] = [0.1, 0]
+    tree["drives"]["O2"]["position"] = {"from": start, "to": end, "count": 24}
+    plain = da.statics(da.mechanism(tree))
+    tree["loads"]["wound"] = {"type": "torsion_spring", "joint": "O2", "stiffness": 3, "free_angle": 0}
+    r = da.statics(da.mechanism(tree))
+    assert 15 < r.ok.sum() < 24
+    angle = r.drive_position("O2")[r.ok]
+    assert r.angle("crank")[r.ok] == pytest.approx(angle, abs=1e-12)
+    assert (r.effort("O2") - plain.effort("O2"))[r.ok] == pytest.approx(3 * angle, abs=1e-9)

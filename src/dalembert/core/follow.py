@@ -20,7 +20,7 @@ from dalembert.core.closure import CLOSED, closed, distance, gap, largest, moved
 from dalembert.core.constraints import dense, stacked
 from dalembert.core.course import Course, course
 from dalembert.core.factor import SPARSE, displacement
-from dalembert.core.layout import Layout, Pose
+from dalembert.core.layout import Angle, Layout, Pose, Turn
 from dalembert.core.turning import settled
 
 Array = NDArray[Any]
@@ -248,8 +248,27 @@ def _around(layout: Layout, along: Course, period: Array, known: Path) -> Path:
     for sign, place in ((-1, 0), (1, count - 1)):
         if known.reached[place] and not known.reached.all():
             cycle = course(layout, np.concatenate([listed + sign * period, listed[place : place + 1]]))
-            known = _joined(known, _both_ways(layout, known.pose.at(place), cycle, cycle.at(count), count))
+            found = _both_ways(layout, known.pose.at(place), cycle, cycle.at(count), count)
+            known = _joined(known, found._replace(pose=_counted(layout, found.pose, -sign * period)))
     return known
+
+
+def _counted(layout: Layout, pose: Pose, more: Array) -> Pose:
+    """The pose with its whole turns counted further by ``more`` (K + D) in the relative turns that have a target."""
+    turn, known, rows = pose.turn.copy(), {layout.links: 0.0}, []
+    for f in layout.stack.families:
+        if isinstance(f, Angle):
+            turn[..., f.count] += more[f.row]
+        elif isinstance(f, Turn):
+            rows += zip(f.i.tolist(), f.j.tolist(), more[f.row], strict=True)
+    while rows:
+        i, j, add = next((row for row in rows if row[0] in known or row[1] in known), rows[0])
+        rows.remove((i, j, add))
+        first = known.setdefault(i, known.get(j, add) - add)
+        known.setdefault(j, first + add)
+    if known.keys() - {layout.links}:
+        turn[..., list(known)] += list(known.values())
+    return pose._replace(turn=turn)
 
 
 def _filled(layout: Layout, along: Course, piece: March, count: int) -> Path:
