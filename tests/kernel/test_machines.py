@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from typing import Any
 
 import numpy as np
 import pytest
@@ -115,6 +116,64 @@ def test_refusals() -> None:
         k(np.zeros((3, 2)))
     with pytest.raises(da.ModelError, match="was not compiled"):
         k().reaction("A")
+
+
+CALLS: list[tuple[str, dict[str, Any]]] = [
+    ("values are not all numbers", {"values": [["heavy"]]}),
+    ("positions are not all numbers", {"positions": ["half a turn"]}),
+    ("positions are not all finite", {"positions": [0.0, np.nan]}),
+    ("positions of shape (0, 1) do not fit 1 drive(s)", {"positions": []}),
+    ("threads=0 is no number of threads; give 1 or more", {"threads": 0}),
+    ("there is no device 'gpu'; there are: cpu, cuda", {"device": "gpu"}),
+]
+
+
+@pytest.mark.parametrize(("sentence", "arguments"), CALLS)
+def test_calls_that_are_refused(sentence: str, arguments: dict[str, Any]) -> None:
+    k = da.compile(da.four_bar(), vary="links.coupler.mass", outputs="reaction.A")
+    with pytest.raises(da.ModelError) as refusal:
+        k(**arguments)
+    assert sentence in str(refusal.value)
+
+
+def test_more_refusals() -> None:
+    m = da.four_bar()
+    for text, arguments in (
+        ("there is no output 'residual.A'", {"outputs": ["residual.A"]}),
+        ("lanes=0 is no number of lanes", {"lanes": 0}),
+    ):
+        with pytest.raises(da.ModelError, match=text):
+            da.compile(m, **arguments)
+    k = da.compile(m, outputs=["reaction.A", "angle.coupler"])
+    with pytest.raises(da.ModelError, match="there are no axes 'joint'; there are: ground, link"):
+        k().reaction("A", axes="joint")
+    pytest.importorskip("casadi")
+    with pytest.raises(da.ModelError, match="'1 x' is no name for a casadi Function"):
+        k.to_casadi("1 x")
+
+
+@pytest.mark.parametrize("reduce", [None, "peak", "mean"])
+def test_no_designs_and_designs_without_a_number(reduce: str | None) -> None:
+    """Of no designs there are no answers; a number that is none fails its design alone, whatever it is of."""
+    k = da.compile(
+        da.four_bar(), vary=["links.coupler.mass"], outputs=["effort.O2"], reduce=reduce, derivatives=True
+    )
+    none = k(np.zeros((0, 1)))
+    assert none.effort("O2").shape[0] == none.gradient("effort.O2").shape[0] == 0
+    assert none.problems() == []
+    r = k([[1.0], [np.nan], [np.inf]])
+    assert [which for which, status, _ in r.problems() if status == "failed"] == [1, 2]
+    assert np.isfinite(r.effort("O2")[0]).all()
+    assert np.isnan(r.effort("O2")[1:]).all()
+    assert np.isnan(r.gradient("effort.O2")[1:]).all()
+
+
+@pytest.mark.parametrize("reduce", ["rms", "norm8"])
+def test_what_is_always_zero_has_slope_zero(reduce: str) -> None:
+    k = da.compile(
+        da.four_bar(), vary=["links.coupler.mass"], outputs=["moment.A"], reduce=reduce, derivatives=True
+    )
+    assert (k().gradient("moment.A") == 0).all()
 
 
 def test_redundancy_is_refused_with_its_joints() -> None:

@@ -255,7 +255,8 @@ def _around(layout: Layout, along: Course, period: Array, known: Path) -> Path:
 
 def _counted(layout: Layout, pose: Pose, more: Array) -> Pose:
     """The pose with its whole turns counted further by ``more`` (K + D) in the relative turns that have a target."""
-    turn, known, rows = pose.turn.copy(), {layout.links: 0.0}, []
+    turn, known = pose.turn.copy(), {layout.links: 0.0}
+    rows: list[tuple[int, int, float]] = []
     for f in layout.stack.families:
         if isinstance(f, Angle):
             turn[..., f.count] += more[f.row]

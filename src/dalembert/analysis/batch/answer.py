@@ -65,7 +65,7 @@ class BatchResult:
 
     def problems(self) -> list[tuple[int, str, str]]:
         """Designs with something that is not ok: number from 0, status and its sentence."""
-        worst = first_mark(self.code.reshape(len(self.code), -1))
+        worst = self.code if self.code.ndim < 2 else first_mark(self.code)
         bad = np.flatnonzero(worst)
         return [(int(d), CODES[worst[d]], _sentence(CODES[worst[d]])) for d in bad]
 
@@ -94,6 +94,8 @@ class BatchResult:
 
     def reaction(self, joint: str, on: str | None = None, axes: str = "ground") -> Array:
         """Force of a joint on one of its links, default its j; reduced component by component."""
+        if axes not in ("ground", "link"):
+            raise ModelError(f"there are no axes {axes!r}", "there are: ground, link")
         force = self._sign(joint, on) * self.value(f"reaction.{joint}")
         if axes != "link":
             return force

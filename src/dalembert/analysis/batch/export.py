@@ -57,6 +57,9 @@ def functions(graph: Graph) -> dict[str, Any]:
     return out | {"atan": lambda x: graph.binary("atan2", node(x), graph.one)}
 
 
+_LETTERS = "use letters, digits and single _, a letter first"
+
+
 def _refuse_reduced(k: Kernel) -> None:
     if k.reduce is not None:
         raise ModelError("a reduced analysis cannot be exported", "compile it without reduce")
@@ -66,7 +69,7 @@ def c_source(k: Kernel, name: str) -> str:
     """Self-contained C of one position."""
     _refuse_reduced(k)
     if not re.fullmatch(r"[A-Za-z_]\w*", name):
-        raise ModelError(f"{name!r} is no name for a C function", "use letters, digits and _")
+        raise ModelError(f"{name!r} is no name for a C function", _LETTERS)
     program = plain(k)
     return emit_c.function(program, name, _comment(k, program, name))
 
@@ -111,3 +114,5 @@ def casadi_function(k: Kernel, name: str) -> Any:
         return emit_casadi.function(alone, name, len(k.numbers), sizes)
     except ImportError:
         raise ModelError("casadi is not installed", "pip install 'dalembert[fast]'") from None
+    except RuntimeError:
+        raise ModelError(f"{name!r} is no name for a casadi Function", _LETTERS) from None

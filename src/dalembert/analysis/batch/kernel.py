@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -59,12 +59,13 @@ def compile(  # noqa: A001
     (2, 72)
     """
     reduction.check(reduce)
+    _check_count("lanes", lanes)
     try:
         refuse_space(mechanism, "da.compile", "use da.dynamics or da.statics")
-        trace = traced(mechanism, vary, mechanism.has_speeds and not static)
+        trace = traced(mechanism, _several(vary), mechanism.has_speeds and not static)
     except ModelError as error:
         raise error.located(mechanism.source) from None
-    names = tuple(outputs) if outputs is not None else tuple(trace.catalogue.defaults())
+    names = _several(outputs) if outputs is not None else tuple(trace.catalogue.defaults())
     if derivatives and reduce == "argpeak":
         raise ModelError(
             "the place of a peak has no derivative", 'leave derivatives out, or reduce by "peak"'
@@ -74,6 +75,25 @@ def compile(  # noqa: A001
         kernel = replace(kernel, lanes=2 * kernel.lanes)
     kernel.warm()
     return kernel
+
+
+def _several(names: Sequence[str]) -> tuple[str, ...]:
+    """Names; a single one may stand by itself."""
+    return (names,) if isinstance(names, str) else tuple(names)
+
+
+def _check_count(name: str, count: Any) -> None:
+    if count is not None and not (isinstance(count, int | np.integer) and count > 0):
+        raise ModelError(f"{name}={count!r} is no number of {name}", "give 1 or more, or leave it out")
+
+
+def _numbers(name: str, given: ArrayLike) -> Array:
+    try:
+        return np.asarray(given, float)
+    except (TypeError, ValueError):
+        raise ModelError(
+            f"{name} are not all numbers", "give an array of numbers, in SI and radians"
+        ) from None
 
 
 def _waits(program: Program) -> bool:
@@ -94,8 +114,8 @@ def _host_lanes() -> int:
 class Kernel:
     """A compiled analysis; call it with values (design, number) in SI, in the order of ``numbers``."""
 
-    mechanism: Mechanism
-    trace: Trace
+    mechanism: Mechanism = field(repr=False)
+    trace: Trace = field(repr=False)
     outputs: tuple[str, ...]
     reduce: str | None
     derivatives: bool
@@ -169,10 +189,12 @@ class Kernel:
         known = self.trace.course
         if positions is None:
             return known
-        given = np.asarray(positions, float)
+        given = _numbers("positions", positions)
         drives = len(known.schedule.names)
         given = given.reshape(-1, drives) if given.ndim < 2 else given
-        if given.ndim != 2 or given.shape[1] != drives or not len(given) or not np.isfinite(given).all():
+        if not np.isfinite(given).all():
+            raise ModelError("positions are not all finite", "give numbers that are")
+        if given.ndim != 2 or given.shape[1] != drives or not len(given):
             raise ModelError(
                 f"positions of shape {given.shape} do not fit {drives} drive(s)",
                 "give (position, drive)",
@@ -200,6 +222,7 @@ class Kernel:
         progress: called with (designs done, designs). redo: ask the general executor where the kernel is not sure.
         device: ``cpu``, or ``cuda`` for an NVIDIA card through cupy.
         """
+        _check_count("threads", threads)
         given = self._values(values)
         course = self.course(positions)
         if device not in ("cpu", "cuda"):
@@ -209,6 +232,7 @@ class Kernel:
         except RuntimeError as error:
             raise ModelError(f"device {device!r} cannot be used: {error}", 'use device="cpu"') from None
         code[self._flipped(given)] = CODES.index("undecided")
+        code[~np.isfinite(given).all(axis=1)] = CODES.index("failed")
         return self._finished(given, course, code, arrays, rates, redo)
 
     def to_c(self, name: str = "mechanism") -> str:
@@ -233,7 +257,7 @@ class Kernel:
 
     def _values(self, values: ArrayLike | None) -> Array:
         count = len(self.trace.numbers)
-        given = np.asarray(self.nominal if values is None else values, float)
+        given = self.nominal if values is None else _numbers("values", values)
         if given.ndim < 2:  # one design, or many of one number
             given = given.reshape(-1, 1) if count == 1 else given.reshape(1, -1)
         if given.ndim != 2 or given.shape[1] != count:
@@ -253,7 +277,7 @@ class Kernel:
         redo: bool,
     ) -> BatchResult:
         undecided = code == CODES.index("undecided")
-        again = np.flatnonzero(undecided.reshape(len(code), -1).any(axis=1)) if redo else np.zeros(0, int)
+        again = np.flatnonzero(undecided.any(axis=tuple(range(1, code.ndim)))) if redo else np.zeros(0, int)
         for d in again:
             redone(self, int(d), values[d], course, undecided[d], code, arrays, rates)
         lost = ~np.isin(code, NUMBERED)

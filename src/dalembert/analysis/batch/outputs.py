@@ -30,10 +30,9 @@ class Catalogue:
     def nodes(self, name: str) -> list[Node]:
         """The components of one output."""
         kind, _, of = name.partition(".")
-        if kind not in KINDS:
-            raise ModelError(
-                f"there is no output {name!r}", "there are: " + ", ".join(f"{k}.NAME" for k in KINDS)
-            )
+        if kind not in KINDS or (kind == "residual" and of):
+            there = ", ".join(k if k == "residual" else f"{k}.NAME" for k in KINDS)
+            raise ModelError(f"there is no output {name!r}", f"there are: {there}")
         return list(traced(self.graph, np.ravel(np.asarray(KINDS[kind](self, of), object))))
 
     def defaults(self) -> list[str]:

@@ -71,6 +71,7 @@ def slope(reduce: str, values: Array, rates: Array) -> Array:
     if reduce in ("rms", "norm8"):
         power = 2 if reduce == "rms" else 8
         size = reduced(reduce, values)
+        size[~rates.any(axis=(0, 2))] = 1.0  # always zero
         with np.errstate(all="ignore"):
             return np.asarray(
                 (values[..., None] ** (power - 1) * rates).mean(axis=0) / size[:, None] ** (power - 1)

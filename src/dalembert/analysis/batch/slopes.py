@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.batch import reduction
+from dalembert.kernel.graph import CONSTANT
 
 if TYPE_CHECKING:
     from dalembert.analysis.batch.course import Course
@@ -28,12 +29,15 @@ def slopes(
 ) -> dict[str, Array]:
     """Gradients (design[, component][, side of the envelope], number) of every reduced output."""
     k, out = runner.k, {}
-    flat = sum(len(nodes) for nodes in k.nodes.values())
+    nodes_of = [n for nodes in k.nodes.values() for n in nodes]
+    flat = len(nodes_of)
     for name, nodes in found.items():
         each = []
         for m in nodes:
             if k.reduce in ("peak", "envelope"):
                 each.append(_active(runner, values, course, m, places, threads))
+            elif nodes_of[m].level == CONSTANT:
+                each.append(np.zeros((len(values), len(k.trace.numbers))))
             else:
                 first = flat + m * len(k.trace.numbers)
                 total = np.stack([parts[first + n, "sum"] for n in range(len(k.trace.numbers))], axis=-1)
