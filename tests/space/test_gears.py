@@ -189,7 +189,13 @@ def test_axes_of_a_mesh_go_with_the_carrier() -> None:
             "joints": {
                 "O": {**x, "links": ["ground", "arm"]},
                 "P": {**x, "links": ["arm", "planet"]},
-                "G": {"type": "gear", "links": ["ground", "planet"], "at": ["O", "P"], "axis": Z, "radii": [0.15, 0.05]}
+                "G": {
+                    "type": "gear",
+                    "links": ["ground", "planet"],
+                    "at": ["O", "P"],
+                    "axis": Z,
+                    "radii": [0.15, 0.05],
+                }
                 | {"internal": True},
             },
             "drives": {"O": {"position": {"from": 0, "to": 360, "count": 9}, "speed": "1 rad/s"}},
