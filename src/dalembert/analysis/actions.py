@@ -200,15 +200,12 @@ def link_speed(r: Result, link: str) -> Array:
 def effort_actions(r: Result) -> tuple[Action, ...]:
     """Efforts of the drives on both links; given ones are sources of their own."""
     out = []
-    with np.errstate(all="ignore"):
-        rows = system(r.compiled.layout.algebra, r.compiled.layout.freedoms, whole_pose(r))
     for k, drive in enumerate(r.drives):
         joint = r.mechanism.drives[drive].joint or drive
-        row = int(r.compiled.layout.driven[k])
         i, j = r.mechanism.joints[joint].links
         source = "" if r.compiled.known.asked[k] else f"effort of {drive}"
         at = joint_place(r, joint)
-        force, couple = _effort(r, rows, row, (*r.links, GROUND).index(j), r.effort(drive))
+        force, couple = drive_wrench(r, drive, r.effort(drive))
         out += [
             Action(drive, "effort", source, on, by, at, s * force, s * couple)
             for on, by, s in ((j, i, 1), (i, j, -1))
@@ -216,9 +213,12 @@ def effort_actions(r: Result) -> tuple[Action, ...]:
     return tuple(out)
 
 
-def _effort(r: Result, rows: System, row: int, j: int, value: Array) -> tuple[Array, Array]:
-    """Force and couple on link number j at its point of the joint: one of both is zero."""
-    d = r.compiled.layout.algebra.d
+def drive_wrench(r: Result, drive: str, value: Array) -> tuple[Array, Array]:
+    """Force and couple of an effort of a drive (P,) on j at its point of the joint: one of both is zero."""
+    d, row = r.compiled.layout.algebra.d, int(r.compiled.layout.driven[r.drives.index(drive)])
+    with np.errstate(all="ignore"):
+        rows = system(r.compiled.layout.algebra, r.compiled.layout.freedoms, whole_pose(r))
+    j = (*r.links, GROUND).index(r.mechanism.joints[r.mechanism.drives[drive].joint or drive].links[1])
     unit = (rows.on_j if rows.j[row] == j else rows.on_i)[:, row, :]
     if not r.compiled.layout.freedoms.angular[row]:
         return value[:, None] * unit[:, :d], np.zeros((len(value), 3) if d == 3 else len(value))

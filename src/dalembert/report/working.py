@@ -13,7 +13,7 @@ from dalembert.analysis.columns import drive_kinds, load_kind
 from dalembert.analysis.members import components_along
 from dalembert.analysis.planar import refuse_space
 from dalembert.analysis.which import position_at
-from dalembert.report import balance, rubbing
+from dalembert.report import balance, matrix, rubbing
 from dalembert.report.chosen import METHODS, Chosen, Method, as_formula
 from dalembert.report.given import knowns
 from dalembert.report.methods import checks, cycle, graphical, superposition, virtual_work
@@ -99,7 +99,7 @@ def _bodies(sheet: Sheet, c: Chosen) -> None:
         place = "the mass centre G" if about.name == "G" else f"joint {about.name}"
         sheet.text(f"Link {shown.heading(link)}, moments about {place}; R from there to each force:")
         sheet.equations(lines)
-    found = balance.matrix_equation(r, c.k, shown, c.about)
+    found = matrix.matrix_equation(r, c.k, shown, c.about)
     if found is not None:
         sheet.heading(f"The {len(found.unknowns)} equations as one", 2)
         units = f"forces in {shown.unit('force')}, lengths in {shown.unit('length')}, moments in {shown.unit('moment')}"

@@ -128,14 +128,16 @@ class Shown(Figures):
 
     def reaction(self, joint: str, on: str) -> str:
         """Sign of a joint's force on a link: F_{12}."""
+        return f"{self.notation.letter}_{{{self._between(joint, on)}}}"
+
+    def _between(self, joint: str, on: str) -> str:
+        """Index of what a joint does to a link, with its name where another joint is between the same links."""
         i, j = self.r.mechanism.joints[joint].links
-        by = i if on == j else j
         twin = [n for n, d in self.r.mechanism.joints.items() if set(d.links) == {i, j}]
-        extra = f",{joint}" if len(twin) > 1 else ""
-        return f"{self.notation.letter}_{{{self.pair(by, on)}{extra}}}"
+        return self.pair(i if on == j else j, on) + (f",{joint}" if len(twin) > 1 else "")
 
     def symbol(self, a: Action) -> str:
-        """Sign of an action: F_{12}, T_{12}, W_{3}, F_{I3}, T_{I3}, or the load's own name."""
+        """Sign of an action: F_{12}, T_{12}, W_{3}, F_{I3}, T_{I3}, D_{A} of damping, or the load's own name."""
         turning = not a.force.any()
         if a.kind == "joint":
             return self._part(self.reaction(a.of, a.link), a.part)
@@ -144,8 +146,9 @@ class Shown(Figures):
                 f"{'T' if turning else 'F'}_{{{self.pair(a.by or GROUND, a.link)}{'' if turning else ',d'}}}"
             )
         if a.kind == "friction":
-            pair = self.pair(a.by or GROUND, a.link)
-            return f"{'M' if turning else self.notation.letter}_{{f{pair}}}"
+            return f"{'M' if turning else self.notation.letter}_{{f{self._between(a.of, a.link)}}}"
+        if a.kind == "damper" and a.of in self.r.joints:
+            return f"D_{{{a.of}}}"
         if a.kind == "weight":
             return f"W_{{{self.link(a.link)}}}"
         if a.kind == "inertia":
@@ -166,8 +169,18 @@ class Shown(Figures):
 
     def joint_moment(self, joint: str, on: str) -> str:
         """Sign of a joint's couple on a link: M_{14}."""
-        i, j = self.r.mechanism.joints[joint].links
-        return f"M_{{{self.pair(i if on == j else j, on)}}}"
+        return f"M_{{{self._between(joint, on)}}}"
+
+
+def along(sign: str, axis: str) -> str:
+    """The sign of a vector's component along an axis.
+
+    >>> along("F_{12}", "x"), along("F_{12,A}", "x'"), along("gas", "z")
+    ('F_{12x}', "F_{12,A,x'}", 'gas_{z}')
+    """
+    head, _, index = sign.partition("_{")
+    index = index.rstrip("}")
+    return f"{head}_{{{index}{',' if ',' in index else ''}{axis}}}"
 
 
 def own_name(name: str) -> str:
