@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -36,9 +37,18 @@ class Loop(NamedTuple):
     sides: tuple[Vector, ...]
 
 
+Ring = list[tuple[str, str, str]]
+"""Steps through a loop: the joint, the links before and after it."""
+
+
 def loops(r: Result, k: int) -> list[Loop]:
     """Independent loops through pins, sliders, slots and welds; each side at position k."""
-    edges = {n: d.links for n, d in r.mechanism.joints.items() if d.type in CLOSING}
+    return [_loop(r, k, ring) for ring in rings(r, CLOSING)]
+
+
+def rings(r: Result, closing: Collection[str]) -> list[Ring]:
+    """Independent loops through joints of some types: each of a joint outside a tree from the ground."""
+    edges = {n: d.links for n, d in r.mechanism.joints.items() if d.type in closing}
     parent: dict[str, tuple[str, str] | None] = {GROUND: None}
     queue, tree = [GROUND], set()
     for link in queue:
@@ -48,16 +58,20 @@ def loops(r: Result, k: int) -> list[Loop]:
                 parent[other] = (joint, link)
                 tree.add(joint)
                 queue.append(other)
-    return [_loop(r, k, joint, parent) for joint in edges if joint not in tree and edges[joint][0] in parent]
+    left = [joint for joint in edges if joint not in tree and edges[joint][0] in parent]
+    return [_ring(joint, *edges[joint], parent) for joint in left]
 
 
-def _loop(r: Result, k: int, joint: str, parent: dict[str, Any]) -> Loop:
+def _ring(joint: str, i: str, j: str, parent: dict[str, Any]) -> Ring:
     """Through one joint outside the tree and back through the tree."""
-    i, j = r.mechanism.joints[joint].links
     to_i, to_j = _way(i, parent), _way(j, parent)
     while to_i and to_j and to_i[0] == to_j[0]:
         to_i, to_j = to_i[1:], to_j[1:]
-    ring = [*to_i, (joint, i, j), *((name, b, a) for name, a, b in reversed(to_j))]
+    return [*to_i, (joint, i, j), *((name, b, a) for name, a, b in reversed(to_j))]
+
+
+def _loop(r: Result, k: int, ring: Ring) -> Loop:
+    """Its sides, through links and along slides."""
     sides: list[Vector] = []
     for n, (name, before, after) in enumerate(ring):
         sides += _crossing(r, k, name, before, after)
@@ -66,9 +80,9 @@ def _loop(r: Result, k: int, joint: str, parent: dict[str, Any]) -> Loop:
     return Loop(tuple(after for _, _, after in ring), tuple(s for s in sides if s.length > 1e-12 or s.slide))
 
 
-def _way(link: str, parent: dict[str, Any]) -> list[tuple[str, str, str]]:
+def _way(link: str, parent: dict[str, Any]) -> Ring:
     """Steps (joint, from, to) from the ground to a link."""
-    out: list[tuple[str, str, str]] = []
+    out: Ring = []
     while parent[link] is not None:
         joint, before = parent[link]
         out.insert(0, (joint, before, link))
@@ -76,14 +90,15 @@ def _way(link: str, parent: dict[str, Any]) -> list[tuple[str, str, str]]:
     return out
 
 
-def _place(r: Result, joint: str, link: str, k: int) -> Any:
+def joint_end(r: Result, joint: str, link: str, k: int) -> Any:
+    """A joint's point on one of its links, in ground axes, metres."""
     described = r.mechanism.joints[joint]
     return link_place(r, link, r.mechanism.joint_points(joint)[described.links.index(link)])[k]
 
 
 def _side(r: Result, k: int, link: str, start: str, end: str) -> list[Vector]:
     """From one joint's point of a link to the next's."""
-    span = _place(r, end, link, k) - _place(r, start, link, k)
+    span = joint_end(r, end, link, k) - joint_end(r, start, link, k)
     alpha = 0.0 if link == GROUND else float(r.acceleration(link)[k])
     angle = math.atan2(float(span[1]), float(span[0]))
     name = f"{start}{end}"

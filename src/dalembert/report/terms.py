@@ -106,12 +106,11 @@ def terms(s: Setting, some: tuple[Action, ...]) -> list[Term]:
 def _in_space(s: Setting, a: Action) -> list[Term]:
     if a.kind == "effort" and not a.source:
         kind = drive_kinds(s.r, a.of)["effort"]
-        named = replace(a, force=np.zeros_like(a.force) + (kind == "force"))
         mine = s.r.mechanism.joints[_joint(s.r, a.of)].links[1] == a.link
         force, couple = (
             v[s.k] * (1 if mine else -1) for v in drive_wrench(s.r, a.of, np.ones(len(s.r.status)))
         )
-        return [Line(s, s.shown.symbol(named), float(s.r.effort(a.of)[s.k]), kind, force, couple, a)]
+        return [Line(s, s.shown.effort(a), float(s.r.effort(a.of)[s.k]), kind, force, couple, a)]
     if a.of in s.r.unknown_loads and a.kind == "load":
         force, couple = (v[s.k] for v in unit_load(s.r, s.r.unknown_loads.index(a.of)))
         kind = "force" if force.any() else "moment"

@@ -7,7 +7,9 @@ import re
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
-from dalembert.analysis.columns import Scale
+import numpy as np
+
+from dalembert.analysis.columns import Scale, drive_kinds
 
 if TYPE_CHECKING:
     from dalembert.analysis.actions import Action
@@ -160,6 +162,11 @@ class Shown(Figures):
         if part == "normal":
             return "N" + sign.removeprefix(self.notation.letter)
         return f"{sign[:-1]},{part}}}" if part else sign
+
+    def effort(self, a: Action) -> str:
+        """Sign of a drive's effort: T_{12}, or F_{14,d}, also where it is zero."""
+        kind = drive_kinds(self.r, a.of)["effort"]
+        return self.symbol(replace(a, force=np.full_like(a.force, kind == "force")))
 
     def turning_symbol(self, a: Action) -> str:
         """Sign of an action's couple: M_{14} of a joint, T_{12} of a drive."""
