@@ -38,8 +38,8 @@ def built(name: str, path: Path) -> Iterator[str]:
     r = da.solve(da.load(path))
     plane = r.mechanism.dimension == 2
     yield f"<h2>{escape(name)}</h2><p>{escape(r.mechanism.title)}: "
-    report = da.report(r) if plane else None
-    for kind in ("pdf", "html", "tex", "txt") if report else ():
+    report = da.report(r)
+    for kind in ("pdf", "html", "tex", "txt"):
         report.save(OUT / f"{name}.{kind}", overwrite=True)
         yield f'<a href="{name}.{kind}">{kind}</a> '
     da.draw.solid_model(r).save(OUT / f"{name}.glb", overwrite=True)

@@ -16,11 +16,7 @@ from dalembert.report.sheet import Equations, Figure, Matrix, Sheet, Table
 from dalembert.report.working import working
 from dalembert.views.canvas import text_over_lines, text_overlaps
 
-IN_SPACE = ("rssr",)
-GALLERY = [
-    *sorted(name for name in cases() if name.startswith("seed-")),
-    *sorted(examples().keys() - set(IN_SPACE)),
-]
+GALLERY = [*sorted(name for name in cases() if name.startswith("seed-")), *sorted(examples())]
 
 
 def result(name: str, **options: Any) -> Any:
@@ -55,17 +51,6 @@ def test_everything_stands_in_the_report_of_norton() -> None:
     assert "−117.6 + 118.0 − 0.4663 = 0 lbf" in found
     assert "T_I3 = −I_3 α_3 = −1.500 · 120.9 = −181.3 lbf·in" in found
     assert "gravity none; inertia on (D'Alembert); friction off" in found
-
-
-@pytest.mark.parametrize("name", IN_SPACE)
-def test_a_mechanism_in_space_is_refused_with_what_to_do_instead(name: str) -> None:
-    with pytest.raises(da.ModelError) as caught:
-        text(name)
-    assert str(caught.value) == (
-        "the worked solution is for mechanisms of the plane, and this one is in space; use dalembert solve, with "
-        "--method superposition or virtual-work; in Python da.forces_on, or da.report of da.wrench.on(r, link): "
-        "a link with all its forces"
-    )
 
 
 def test_every_equation_has_numbers() -> None:

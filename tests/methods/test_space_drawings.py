@@ -144,7 +144,7 @@ def test_the_table_of_a_free_body() -> None:
     r = solved("shaft")
     texts = [t.text for t in da.draw.free_body(r, "shaft", at=4).texts()]
     fx, fy, fz = r.reaction("A", axes="joint")[3]
-    row = texts.index("A", texts.index("F_{z}"))
+    row = texts.index("A", texts.index("F_{z'}"))
     shown = [float(t.replace("−", "-")) for t in texts[row + 1 : row + 4]]
     assert shown == pytest.approx([fx, fy, fz], rel=1e-3)
     assert texts[row + 4 : row + 7] == ["–"] * 3

@@ -13,7 +13,6 @@ import pytest
 
 import dalembert as da
 from dalembert.algebra import space
-from dalembert.analysis.summary.in_space import axis_and_angle
 from dalembert.bundled import examples
 from dalembert.cli import main
 from tests.space.machines import door, oracle, rssr
@@ -243,6 +242,6 @@ def test_axis_and_angle_give_the_rotation() -> None:
     for angle in (0.0, 1e-12, 1e-5, 1.0, 3.0, np.pi - 1e-5, np.pi - 1e-9, np.pi):
         w = rng.normal(size=3)
         w *= angle / np.linalg.norm(w)
-        found, axis = axis_and_angle(space.matrix(space.exp(w)))
+        found, axis = space.angle_and_axis(space.matrix(space.exp(w)))
         again = space.matrix(space.exp(found * np.array(axis)))
         assert again == pytest.approx(space.matrix(space.exp(w)), abs=3e-9)

@@ -98,6 +98,28 @@ def quaternion(r: Array) -> Array:
     return np.where(q[..., 3:] < 0, -q, q)
 
 
+def angle_and_axis(rotation: Array) -> tuple[float, Array]:
+    """Angle (0 to pi) and axis (3,) of a rotation (3, 3); an axis of zeros where it turns nothing, NaN where unknown.
+
+    >>> angle_and_axis(np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]))
+    (1.5707963267948966, array([0., 0., 1.]))
+    """
+    if not np.isfinite(rotation).all():
+        return float("nan"), np.full(3, np.nan)
+    skew = np.array(
+        [rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]]
+    )
+    angle = float(np.arctan2(np.linalg.norm(skew), np.trace(rotation) - 1))
+    if angle < 1e-9:
+        return 0.0, np.zeros(3)
+    if np.pi - angle > 1e-4:
+        return angle, skew / np.linalg.norm(skew)
+    # near half a turn the symmetric part, (1 - cos) n n + cos, gives the axis up to its sign
+    square = (rotation + rotation.T) / 2 + np.eye(3)
+    axis = square[int(np.diag(square).argmax())]
+    return angle, axis / np.linalg.norm(axis) * (1.0 if axis @ skew >= 0 else -1.0)
+
+
 def rotate(r: Array, u: Array) -> Array:
     """Ground components of a vector u given in rotated axes."""
     if r.size < FEW:

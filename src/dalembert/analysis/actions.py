@@ -128,10 +128,11 @@ def joint_actions(r: Result, split: bool = True) -> tuple[Action, ...]:
         for on, by in ((j, i), (i, j)):
             force, moment = force_and_moment(r.least_norm(joint, on))
             rub, turn = r.friction_force(joint, on), r.friction_moment(joint, on)
-            if not split or not (rub.any() or turn.any()):
+            rubs, turns = (np.nan_to_num(v).any() for v in (rub, turn))
+            if not split or not (rubs or turns):
                 out.append(Action(joint, "joint", "", on, by, at, force, moment))
                 continue
-            part = "normal" if rub.any() else ""
+            part = "normal" if rubs else ""
             out.append(Action(joint, "joint", "", on, by, at, force - rub, moment - turn, part))
             out.append(Action(joint, "friction", "", on, by, at, rub, turn))
     return tuple(out)

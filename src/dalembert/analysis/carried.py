@@ -47,6 +47,11 @@ def table_row(joint: Any) -> Pair:
     return pair_of(joint) if joint.type in PAIRS else Pair("", "")
 
 
+def local_words(joint: Any) -> str:
+    """What a joint's own axes are, in words."""
+    return PAIRS[joint.type].local if joint.type in PAIRS else "x radial, y tangential, z along the axis of i"
+
+
 def unknown_count(r: Result, joint: str) -> int:
     """How many constraints a joint has, and so how many unknown components its reaction."""
     return int((r.compiled.layout.constraints.joint == r.joints.index(joint)).sum())

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.contacts import circle
 from dalembert.analysis.planar import refuse_space
-from dalembert.core.friction import Contacts, strength
+from dalembert.core.friction import Contacts, bearing, strength
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
@@ -178,3 +178,34 @@ def at_rest(result: Result, joint: str, kind: str, position: int) -> bool:
     """Whether nothing tells the sense of a joint's contact of a kind but its impending motion."""
     f, _ = friction_of(result)
     return bool(f.open[position, bearing_contact(result, joint, kind)])
+
+
+@dataclass(frozen=True)
+class Rub:
+    """One contact of a joint at a position: what it bears and the friction that makes.
+
+    kind: `pin`, `collar`, `guide`, `ball`, `thread`; coefficient mu; bearing S (N), the size of the forces it reads;
+    part: sense of the slip, or the part of its direction along this contact's row; strength c: friction over bearing, m
+    or 1; amount -part c S along its row on j, N or N m.
+    """
+
+    kind: str
+    coefficient: float
+    bearing: float
+    part: float
+    strength: float
+    amount: float
+
+
+def rubs_of(result: Result, joint: str, position: int) -> tuple[Rub, ...]:
+    """The contacts of a joint's dry friction at a position, in the order of its law."""
+    f, contacts = friction_of(result)
+    k, out = result.joints.index(joint), []
+    size = bearing(contacts, f.argument[position])
+    strong = strength(contacts, 1.0, f.open[position])
+    for e in (e for e in range(contacts.count) if contacts.joint[e] == k and not contacts.fixed[e]):
+        mu = (contacts.resting if f.open[position, e] else contacts.coefficient)[e]
+        part, kind = float(f.sense[position, e]), result.compiled.contact_kinds[e]
+        numbers = (float(size[e]), part, float(strong[e]), float(f.cz[position, e]))
+        out.append(Rub(kind, float(mu), *numbers))
+    return tuple(out)

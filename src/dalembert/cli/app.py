@@ -159,6 +159,7 @@ def draw(
     help_epilogue="""Examples:
   dalembert report four_bar.yaml -o four_bar.pdf
   dalembert report four_bar.yaml -o four_bar.html --method virtual-work --names
+  dalembert report rssr.yaml -o rssr.pdf --at 30deg
   dalembert report engine.yaml -o engine.tex --at 60deg --units si --decimals 2"""
 )
 def report(
@@ -171,7 +172,9 @@ def report(
     static: Static = False,
     method: Annotated[
         list[Literal["matrix", "graphical", "superposition", "virtual-work"]] | None,
-        Parameter(negative=(), help="Methods to show, one or more (default: all)."),
+        Parameter(
+            negative=(), help="Methods to show, one or more (default: all); graphical is for the plane."
+        ),
     ] = None,
     style: Style = AS_USUAL,
     about: Annotated[str, said("Joint to take moments about, where a link has it.")] = "",

@@ -70,9 +70,9 @@ def report(
 ) -> Report:
     """The worked solution of one position of a result, or of a force system of `da.wrench`.
 
-    ``methods``: some of `matrix`, `graphical`, `superposition`, `virtual-work`; all by default. ``about``: a joint to
-    take moments about where a link has it; one that is not there is a ModelError. Of a force system ``at`` is the
-    point to take moments about (m), and methods do not apply.
+    ``methods``: some of `matrix`, `graphical` (in the plane), `superposition`, `virtual-work`; all by default.
+    ``about``: a joint to take moments about where a link has it; one that is not there is a ModelError. Of a force
+    system ``at`` is the point to take moments about (m), and methods do not apply.
     """
     from dalembert.wrench import System
 

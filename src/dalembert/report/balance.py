@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from dalembert.analysis.actions import actions, joint_place, on_link
 from dalembert.analysis.carried import table_row
 from dalembert.report.sheet import Working
-from dalembert.report.terms import AXES, About, Piece, Signed, setting, terms
+from dalembert.report.terms import AXES, About, Piece, setting, signed, terms
+from dalembert.report.terms import about as at
 from dalembert.views.notation import Shown
 
 if TYPE_CHECKING:
@@ -18,8 +19,8 @@ if TYPE_CHECKING:
 def moment_point(r: Result, link: str, k: int, wanted: str = "") -> About:
     """A joint of one's choice if the link has it.
 
-    Else in the plane the mass centre, or the first joint; in space the joint with the most forces, whose unknowns then
-    are not in the moments.
+    Else in the plane the mass centre, or the first joint; in space the joint with the most unknown forces, which then
+    are not in the moments, and of several that with the most unknowns.
     """
     joints = [name for name, d in r.mechanism.joints.items() if link in d.links]
     if wanted in joints:
@@ -28,7 +29,8 @@ def moment_point(r: Result, link: str, k: int, wanted: str = "") -> About:
         return About("G", r.center(link)[k])
     if r.mechanism.dimension == 2:
         return About(joints[0], joint_place(r, joints[0])[k])
-    most = max(joints, key=lambda n: len(table_row(r.mechanism.joints[n]).forces))
+    rows = {n: table_row(r.mechanism.joints[n]) for n in joints}
+    most = max(joints, key=lambda n: (len(rows[n].forces), len(rows[n].moments)))
     return About(most, joint_place(r, most)[k])
 
 
@@ -46,7 +48,7 @@ def link_equations(
         lines.append(_line(f"sum F_{{{letter}}}", pieces, shown, "force"))
     for axis, letter in [(2, "")] if plane else list(enumerate(axes)):
         pieces = [piece for t in some for piece in t.moment(axis)]
-        lines.append(_line(f"sum M_{{{about.name}{letter}}}", pieces, shown, "moment"))
+        lines.append(_line(f"sum M_{{{at(about.name, letter)}}}", pieces, shown, "moment"))
     return lines, about
 
 
@@ -55,13 +57,5 @@ def _line(left: str, pieces: list[Piece], shown: Shown, kind: str) -> Working:
     total = math.fsum(p.value for p in pieces)
     largest = max((abs(p.value) for p in pieces), default=0.0)
     shown_total = shown.notation.number(0.0 if abs(total) < 1e-9 * largest else total)
-    letters, numbers = _signed([p.letters for p in pieces]), _signed([p.numbers for p in pieces])
+    letters, numbers = signed([p.letters for p in pieces]), signed([p.numbers for p in pieces])
     return Working(f"{left}: quad {letters} = 0", f'{numbers} = {shown_total} "{shown.unit(kind)}"')
-
-
-def _signed(parts: list[Signed]) -> str:
-    """Terms with their signs between them."""
-    out = ""
-    for n, (minus, text) in enumerate(parts):
-        out += ("−" if minus else "") + text if n == 0 else f" {'−' if minus else '+'} {text}"
-    return out or "0"

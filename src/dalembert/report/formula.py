@@ -34,6 +34,7 @@ _GREEK = {
     "omega": "ω",
     "phi": "φ",
     "mu": "μ",
+    "pi": "π",
 }
 
 WORDS: dict[str, Word] = {

@@ -2,40 +2,35 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
-from dalembert.analysis.actions import actions
+import numpy as np
+
+from dalembert.analysis.actions import GROUND, actions
+from dalembert.analysis.carried import local_words
 from dalembert.analysis.columns import drive_kinds
 from dalembert.analysis.contacts import coefficient, resting_coefficient
+from dalembert.analysis.pairs import AXES
+from dalembert.analysis.turning import inertia_matrix
 from dalembert.report.chosen import Chosen, as_formula
+from dalembert.report.pictures import given_picture
 from dalembert.report.sheet import Sheet
-from dalembert.views.mechanism import mechanism_scene
 from dalembert.views.notation import Shown, own_name
 
 
 def knowns(sheet: Sheet, c: Chosen) -> None:
     r, shown, m = c.r, c.shown, c.r.mechanism
     sheet.heading("Given")
-    rows = []
-    for link in r.links:
-        g = m.center(link)
-        rows.append(
-            [
-                shown.heading(link),
-                "; ".join(f"{n} ({_pair(shown, p)})" for n, p in m.points(link).items()),
-                shown.text("mass", m.mass(link)) if m.mass(link) else "massless",
-                _pair(shown, g) if m.mass(link) else "–",
-                shown.text("inertia", m.inertia(link)) if m.inertia(link) else "–",
-            ]
-        )
-    length = shown.unit("length")
-    sheet.table(["Link", f"Points, own axes ({length})", "Mass", f"Centre ({length})", "Inertia"], rows)
+    _links(sheet, c)
     joints = [
         [name, f"{d.type}{_rubbing(c, d)}", f"{shown.heading(d.links[0])} – {shown.heading(d.links[1])}"]
         for name, d in m.joints.items()
     ]
     drives = [[f"drive {d}", *_drive_row(c, d)] for d in r.drives]
     sheet.table(["Joint or drive", "Type or motion", "Links"], [*joints, *drives])
+    if m.dimension == 3:
+        joint_axes(sheet, c)
     loads = [
         [as_formula(own_name(n)), load.type.replace("_", " "), _load_text(c, n)]
         for n, load in m.loads.items()
@@ -43,7 +38,75 @@ def knowns(sheet: Sheet, c: Chosen) -> None:
     sheet.table(["Load", "Type", "Value"], loads)
     assumed = "; ".join(f"{name} {value}" for name, value in r.assumptions.items())
     sheet.text(f"Assumptions: {assumed}. {_convention(c)}")
-    sheet.figure(mechanism_scene(r, c.k, c.notation, friction=False))
+    sheet.figure(given_picture(c))
+
+
+def _links(sheet: Sheet, c: Chosen) -> None:
+    """Points, mass and mass centre of each link; its inertia, in space as a table of its own."""
+    r, shown, m = c.r, c.shown, c.r.mechanism
+    rows = []
+    for link in r.links:
+        g = m.center(link)
+        cells = [
+            shown.heading(link),
+            "; ".join(f"{n} ({_pair(shown, p)})" for n, p in m.points(link).items()),
+            shown.text("mass", m.mass(link)) if m.mass(link) else "massless",
+            _pair(shown, g) if m.mass(link) else "–",
+        ]
+        if m.dimension == 2:
+            cells.append(shown.text("inertia", m.inertia(link)) if m.inertia(link) else "–")
+        rows.append(cells)
+    length = shown.unit("length")
+    heads = ["Link", f"Points, own axes ({length})", "Mass", f"Centre ({length})"]
+    sheet.table([*heads, "Inertia"] if m.dimension == 2 else heads, rows)
+    if m.dimension == 3:
+        ground = "; ".join(f"{n} ({_pair(shown, p)})" for n, p in m.points(GROUND).items())
+        sheet.text(f"On the ground ({length}): {ground}." if ground else "")
+        _inertias(sheet, c)
+
+
+def _inertias(sheet: Sheet, c: Chosen) -> None:
+    """Matrices J of inertia about the mass centres; off its diagonal stand the products with their minus."""
+    r, shown = c.r, c.shown
+    found = {link: inertia_matrix(r, link) for link in r.links}
+    found = {link: j for link, j in found.items() if j.any()}
+    diagonal = not any((j - np.diag(np.diag(j))).any() for j in found.values())
+    places = [(0, 0), (1, 1), (2, 2), *([] if diagonal else [(0, 1), (0, 2), (1, 2)])]
+    heads = ["Link", *(f"$J_{{{AXES[a]}{AXES[b]}}}$" for a, b in places)]
+    rows = []
+    for link, j in found.items():
+        least = 1e-12 * float(np.abs(j).max())
+        rows.append([shown.heading(link), *(shown.number("inertia", float(j[p]), least) for p in places)])
+    about = f"Inertia ({shown.unit('inertia')}) about the mass centre, in the link's own axes"
+    sheet.table(
+        heads, rows, about if diagonal else f"{about}; off the diagonal J holds the products with a minus"
+    )
+
+
+def joint_axes(sheet: Sheet, c: Chosen) -> None:
+    """Each joint's own axes at this position, in ground axes."""
+    rows = []
+    for joint in c.r.joints:
+        described = c.r.mechanism.joints[joint]
+        axes = c.r.joint_axes(joint)[c.k]
+        rows.append(
+            [
+                joint,
+                *(f"({', '.join(_cosine(float(x)) for x in e)})" for e in axes),
+                _primed(local_words(described)),
+            ]
+        )
+    heads = ["Joint", "x'", "y'", "z'", "What they are"]
+    sheet.table(heads, rows, "The joints' own axes, marked by a prime, at this position in ground axes")
+
+
+def _primed(words: str) -> str:
+    """The letters of a joint's own axes with their prime."""
+    return re.sub(r"\b([xyz])\b", r"\1'", words)
+
+
+def _cosine(x: float) -> str:
+    return "0" if abs(x) < 1e-12 else f"{x:.4f}".rstrip("0").rstrip(".").replace("-", "−")
 
 
 def _rubbing(c: Chosen, joint: Any) -> str:
@@ -64,14 +127,22 @@ def _rubbing(c: Chosen, joint: Any) -> str:
 
 def _convention(c: Chosen) -> str:
     n = c.notation
+    space = c.r.mechanism.dimension == 3
     first = "by link i on link j" if n.order == "by-on" else "on link i by link j"
     sense = "counter-clockwise" if n.torque > 0 else "clockwise"
-    axes = "ground axes (x right, y up)" if n.axes == "ground" else "the axes of the link acted on"
+    ground = "ground axes" if space else "ground axes (x right, y up)"
+    axes = ground if n.axes == "ground" else "the axes of the link acted on"
+    if space:
+        return (
+            f"${n.letter}_{{ij}}$ is the force and $M_{{ij}}$ the moment about the joint {first}; moments are positive "
+            f"by the right hand; components in {axes}, with a prime along the joint's own."
+        )
     return f"${n.letter}_{{ij}}$ is the force {first}; moments are positive {sense}; components in {axes}."
 
 
 def _pair(shown: Shown, p: Any) -> str:
-    return ", ".join(shown.notation.number(shown.value("length", float(x))) for x in p)
+    least = 1e-12 * shown.r.compiled.layout.length
+    return ", ".join(shown.number("length", float(x), least) for x in p)
 
 
 def _drive_row(c: Chosen, d: str) -> list[str]:
@@ -96,7 +167,6 @@ def _load_text(c: Chosen, name: str) -> str:
         return ""
     a = some[0]
     if a.force.any():
-        fx, fy = (float(f) for f in a.force[c.k])
         where = f" on {c.shown.heading(a.link)}"
         spot = getattr(load, "at", None)
         at = (
@@ -106,5 +176,15 @@ def _load_text(c: Chosen, name: str) -> str:
             if spot is not None
             else ""
         )
-        return c.shown.polar((fx, fy)) + where + at
-    return f"{c.shown.text('moment', float(a.couple[c.k]))} on {c.shown.heading(a.link)}"
+        return _vector_text(c, "force", a.force[c.k]) + where + at
+    return f"{_vector_text(c, 'moment', a.couple[c.k])} on {c.shown.heading(a.link)}"
+
+
+def _vector_text(c: Chosen, kind: str, v: Any) -> str:
+    """A force or couple as the reader writes it: in the plane by size and angle, in space by components."""
+    if np.ndim(v) == 0:
+        return c.shown.text(kind, float(v))
+    if len(v) == 2:
+        return c.shown.polar((float(v[0]), float(v[1])))
+    least = 1e-12 * float(np.abs(v).max())
+    return f"({', '.join(c.shown.number(kind, float(x), least) for x in v)}) {c.shown.unit(kind)}"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -34,7 +36,7 @@ MOST = 15
 class Unknown(NamedTuple):
     """One unknown number: its sign, value (SI), kind, and what one unit of it does to links: force, couple, place.
 
-    ``of``: kind and name of the actions it stands for.
+    ``of``: kinds and names of the actions it stands for.
     """
 
     sign: str
@@ -42,7 +44,7 @@ class Unknown(NamedTuple):
     kind: str
     on: dict[str, tuple[Array, Array]]
     place: Array
-    of: tuple[str, str]
+    of: tuple[tuple[str, str], ...]
 
 
 def matrix_equation(
@@ -52,9 +54,11 @@ def matrix_equation(
     wanted: str = "",
     links: tuple[str, ...] = (),
     some: list[Unknown] | None = None,
+    following: Mapping[str, int] = MappingProxyType({}),
 ) -> Matrix | None:
     """A x = b of all links, or some with ``some`` unknowns, about their moment points, knowns on the right.
 
+    ``following``: links of which the moments about one axis follow from their other equations, and that axis.
     None where it is too large or not square, and with friction, which is not linear in the unknowns.
     """
     if r.friction is not None or r.compiled.forcing.separation.any():
@@ -62,7 +66,7 @@ def matrix_equation(
     links = links or r.links
     found = unknowns(r, k, shown) if some is None else some
     n = 3 if r.mechanism.dimension == 2 else 6
-    if len(found) > MOST or len(found) != n * len(links):
+    if len(found) > MOST or len(found) != n * len(links) - len(following):
         return None
     per = {kind: abs(shown.value(kind, 1.0)) for kind in ("force", "moment")}
     number, everything = shown.notation.number, actions(r)
@@ -73,13 +77,16 @@ def matrix_equation(
         known = _known(everything, found, link, k, about)
         columns = [_column(u, link, about) for u in found]
         for axis in range(n):
+            if axis >= 3 and axis - 3 == following.get(link):
+                continue
             # rows in the reader's units: force rows per force, moment rows per moment
             kind = "force" if axis < r.mechanism.dimension else "moment"
             row_unit = per[kind]
             cells = [c[axis] * row_unit / per[u.kind] for c, u in zip(columns, found, strict=True)]
             largest = max(map(abs, cells), default=0.0)
             rows.append(tuple(number(c) if abs(c) > 1e-9 * largest else "0" for c in cells))
-            right.append(number(-known[axis] * row_unit if abs(known[axis]) > 10 * least["force"] else 0.0))
+            floor = 10 * least["force" if n == 3 else kind]
+            right.append(number(-known[axis] * row_unit if abs(known[axis]) > floor else 0.0))
     values = tuple(number(u.value * per[u.kind] if abs(u.value) > least[u.kind] else 0.0) for u in found)
     return Matrix(tuple(rows), tuple(u.sign for u in found), tuple(right), values)
 
@@ -88,7 +95,7 @@ def _known(
     everything: tuple[Action, ...], some: list[Unknown], link: str, k: int, about: About
 ) -> list[float]:
     """Forces and moments on a link of what is not among the unknowns."""
-    taken = {u.of for u in some}
+    taken = {of for u in some for of in u.of}
     place = np.asarray(about.place)[None]
     known = [a for a in on_link(everything, link) if (a.kind, a.of) not in taken]
     force = sum((a.force[k] for a in known), np.zeros(place.shape[-1]))
@@ -119,7 +126,7 @@ def unknowns(r: Result, k: int, shown: Shown) -> list[Unknown]:
 def _plane_reaction(r: Result, joint: str, k: int, shown: Shown) -> list[Unknown]:
     described, out = r.mechanism.joints[joint], []
     i, j = described.links
-    sign, place, of = shown.reaction(joint, j), joint_place(r, joint)[k], ("joint", joint)
+    sign, place, of = shown.reaction(joint, j), joint_place(r, joint)[k], (("joint", joint),)
     force, moment = r.least_norm(joint)[k, :2], float(r.least_norm(joint)[k, 2])
     axes: list[tuple[str, Array]] = []
     if described.type in ("pin", "weld", "rolling"):
@@ -146,7 +153,7 @@ def _reaction(r: Result, joint: str, k: int, shown: Shown) -> list[Unknown]:
         on = {j: (c.force, c.couple), i: (-c.force, -c.couple)}
         kind = "moment" if c.turning else "force"
         name = along(sign, c.axis) if c.axis else sign
-        out.append(Unknown(name, c.value, kind, on, joint_place(r, joint)[k], ("joint", joint)))
+        out.append(Unknown(name, c.value, kind, on, joint_place(r, joint)[k], (("joint", joint),)))
     return out
 
 
@@ -159,7 +166,7 @@ def _efforts(r: Result, k: int, shown: Shown) -> list[Unknown]:
         force, couple = (v[k] for v in drive_wrench(r, a.of, np.ones(len(r.status))))
         on = {a.link: (force, couple), a.by or "ground": (-force, -couple)}
         kind, place = drive_kinds(r, a.of)["effort"], joint_place(r, joint)[k]
-        out.append(Unknown(shown.effort(a), float(r.effort(a.of)[k]), kind, on, place, ("effort", a.of)))
+        out.append(Unknown(shown.effort(a), float(r.effort(a.of)[k]), kind, on, place, (("effort", a.of),)))
     return out
 
 
@@ -170,5 +177,7 @@ def _loads(r: Result, k: int) -> list[Unknown]:
         a = next(a for a in actions(r) if a.kind == "load" and a.of == name)
         kind = "force" if force.any() else "moment"
         on = {a.link: (force, couple)}
-        out.append(Unknown(own_name(name), float(r.unknown_load(name)[k]), kind, on, a.at[k], ("load", name)))
+        out.append(
+            Unknown(own_name(name), float(r.unknown_load(name)[k]), kind, on, a.at[k], (("load", name),))
+        )
     return out

@@ -62,14 +62,19 @@ def inertia(sheet: Sheet, c: Chosen) -> None:
     sheet.equations(lines)
     displaced = [k for k in heavy if r.mechanism.inertia(k) and float(r.acceleration(k)[c.k])]
     sheet.figure(*(draw.displaced_inertia(r, k, c.k + 1, c.notation) for k in displaced[:3]))
-    shares = inertia_shares(r)
-    if shares:
-        least = max(s.share for s in shares)
-        worst = shares[0]
+    shares(sheet, c)
+
+
+def shares(sheet: Sheet, c: Chosen) -> None:
+    """Whether inertia could be left out."""
+    found = inertia_shares(c.r)
+    if found:
+        least = max(s.share for s in found)
+        worst = found[0]
         said = "could be left out" if least < 0.05 else "must not be left out"
         sheet.text(
             f"Inertia {said}: it makes up to {100 * least:.0f} % of the largest {worst.quantity} of {worst.of}"
-            f"{' over the cycle' if len(r.status) > 1 else ''}."
+            f"{' over the cycle' if len(c.r.status) > 1 else ''}."
         )
 
 

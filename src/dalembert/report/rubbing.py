@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -20,11 +21,9 @@ from dalembert.analysis.friction import (
     unknown_names,
 )
 from dalembert.report.chosen import Chosen
+from dalembert.report.pictures import rubbing_pictures
 from dalembert.report.sheet import Sheet, Working
 from dalembert.views import rest
-from dalembert.views.details import detail_scenes
-from dalembert.views.mechanism import mechanism_scene
-from dalembert.views.scene import Scene
 
 GROUND = "ground"
 
@@ -38,7 +37,7 @@ def friction(sheet: Sheet, c: Chosen) -> None:
         "Signs follow the relative motion. The reaction of a pin touches its friction circle on the side that turns "
         "the link against that motion; on a guide it leans from the normal by phi, against the sliding."
     )
-    sheet.figure(*_figures(c))
+    sheet.figure(*rubbing_pictures(c))
     for joint in (n for n in c.r.joints if friction_circle_radius(c.r, n)):
         sheet.equations(pin_lines(c, joint))
     for two in _two_force_links(c):
@@ -47,15 +46,7 @@ def friction(sheet: Sheet, c: Chosen) -> None:
         sheet.equations(lines)
     for joint in (n for n in c.r.joints if bears_on_faces(c.r, n)):
         sheet.equations(guide_lines(c, joint))
-    _cost(sheet, c)
-
-
-def _figures(c: Chosen) -> list[Scene]:
-    """The mechanism with its friction circles, then its pins and guides at a larger scale."""
-    if c.r.friction is None:
-        return [mechanism_scene(c.r, c.k, c.notation)]
-    whole = mechanism_scene(c.r, c.k, c.notation, details=False)
-    return [whole, *detail_scenes(c.r, c.k, None, c.shown)]
+    cost(sheet, c)
 
 
 def pin_lines(c: Chosen, joint: str) -> list[Working]:
@@ -184,7 +175,7 @@ def guide_lines(c: Chosen, joint: str) -> list[Working]:
     return out
 
 
-def _cost(sheet: Sheet, c: Chosen) -> None:
+def cost(sheet: Sheet, c: Chosen) -> None:
     """Power that each joint loses and its share; the efficiency in both senses."""
     r, shown, k = c.r, c.shown, c.k
     lost = {n: float(r.power_lost(n)[k]) for n in rubbing_joints(r)}
@@ -213,7 +204,7 @@ def _cost(sheet: Sheet, c: Chosen) -> None:
     if len(r.status) > 1 and math.isfinite(found.cycle):
         parts.append(f"{100 * found.cycle:.2f} % over all positions, inertia and all")
     if parts:
-        sheet.text(f"Efficiency, without inertia: {'; '.join(parts)}.".replace("-", "−"))
+        sheet.text(re.sub(r"-(?=\d)", "−", f"Efficiency, without inertia: {'; '.join(parts)}."))
 
 
 def at_rest(sheet: Sheet, c: Chosen, answers: Any) -> None:
@@ -226,7 +217,7 @@ def at_rest(sheet: Sheet, c: Chosen, answers: Any) -> None:
         sheet.heading(words, 2)
         if known:
             there = replace(c, r=end)
-            sheet.figure(*_figures(there))
+            sheet.figure(*rubbing_pictures(there))
             answers(sheet, there)
 
 

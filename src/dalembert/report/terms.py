@@ -76,6 +76,14 @@ class Term(Protocol):
     def moment(self, axis: int) -> list[Piece]: ...
 
 
+def signed(parts: list[Signed]) -> str:
+    """Terms with their signs between them."""
+    out = ""
+    for n, (minus, text) in enumerate(parts):
+        out += ("−" if minus else "") + text if n == 0 else f" {'−' if minus else '+'} {text}"
+    return out or "0"
+
+
 def setting(
     r: Result, link: str, k: int, shown: Shown, about: About, everything: tuple[Action, ...]
 ) -> Setting:
@@ -92,7 +100,17 @@ def floors(r: Result, k: int, everything: tuple[Action, ...]) -> tuple[float, fl
         return 1e-10 * force, 1e-12 * force, 1e-9 * length
     force = max((float(np.abs(np.nan_to_num(a.force[k])).max()) for a in everything), default=0.0)
     moment = max((float(np.abs(np.nan_to_num(a.couple[k])).max()) for a in everything), default=0.0)
-    return 1e-10 * max(force, moment / length), 1e-10 * max(moment, force * length), 1e-9 * length
+    force, moment = max(force, moment / length), max(moment, force * length)
+    whole = _inertia_scale(r, k) if r.inertia else (0.0, 0.0)
+    return max(1e-10 * force, 1e-13 * whole[0]), max(1e-10 * moment, 1e-13 * whole[1]), 1e-9 * length
+
+
+def _inertia_scale(r: Result, k: int) -> tuple[float, float]:
+    """In space: the force and the couple that the largest mass and inertia would take at the fastest turning."""
+    fastest = max((float(np.abs(np.nan_to_num(r.speed(n)[k])).max()) for n in r.links), default=0.0) ** 2
+    numbers, length = r.compiled.forcing.inertia, r.compiled.layout.length
+    mass, inertia = (float(np.max(v, initial=0.0)) for v in (numbers.mass, numbers.inertia))
+    return fastest * mass * length, fastest * max(inertia, mass * length**2)
 
 
 def terms(s: Setting, some: tuple[Action, ...]) -> list[Term]:
@@ -139,7 +157,7 @@ def _reaction(s: Setting, a: Action) -> list[Term]:
 
 
 def _line(s: Setting, a: Action, c: Component) -> Line:
-    sign = s.shown.joint_moment(a.of, a.link) if c.turning else s.shown.reaction(a.of, a.link)
+    sign = s.shown.joint_moment(a.of, a.link) if c.turning else s.shown.symbol(a)
     kind = "moment" if c.turning else "force"
     return Line(s, along(sign, c.axis) if c.axis else sign, c.value, kind, c.force, c.couple, a)
 
@@ -150,7 +168,7 @@ class Vector:
     def __init__(self, s: Setting, a: Action, force: Array, couple: Array, unknown: bool = False) -> None:
         self.s, self.action, self.unknown = s, a, unknown
         self.plane = s.r.mechanism.dimension == 2
-        self.sign = _sign(s.shown, a)
+        self.sign = s.shown.symbol(a)
         self.values = s.vector("force", force, 0)
         self.arm = s.arm(a.at[s.k])
         if self.plane:
@@ -188,7 +206,7 @@ class Vector:
         if not self.forced or not self.arm[arm] or not (self.plane or self.unknown or value):
             return []
         place, number = place_of(self.s, self.action), self.s.number
-        letters = f"R_{{{place}{AXES[arm]}}} {along(self.sign, AXES[component])}"
+        letters = f"R_{{{about(place, AXES[arm])}}} {along(self.sign, AXES[component])}"
         product = (-1 if minus else 1) * self.arm[arm] * value
         return [Piece((minus, letters), (minus, f"({number(self.arm[arm])})({number(value)})"), product)]
 
@@ -236,7 +254,7 @@ class Line:
         if not factor or not self.arm[arm]:
             return []
         place, number = place_of(self.s, self.action), self.s.number
-        letters = f"R_{{{place}{AXES[arm]}}} {self.sign}"
+        letters = f"R_{{{about(place, AXES[arm])}}} {self.sign}"
         numbers = f"({number(self.arm[arm])})({number(self.value)})"
         return [Piece((factor < 0, letters), (factor < 0, numbers), factor * self.arm[arm] * self.value)]
 
@@ -259,9 +277,9 @@ def _cleaned(v: Array) -> list[float]:
     return [float(np.sign(x)) if abs(abs(x) - 1) < PARALLEL else x for x in out]
 
 
-def _sign(shown: Shown, a: Action) -> str:
-    """Sign of an action's force; of damping in a joint D."""
-    return shown.reaction(a.of, a.link) if a.kind == "joint" and not a.part else shown.symbol(a)
+def about(place: str, axis: str) -> str:
+    """Index of a place and an axis: Ax, but piston,x."""
+    return f"{place}{',' if len(place) > 2 and axis else ''}{axis}"
 
 
 def place_of(s: Setting, a: Action) -> str:

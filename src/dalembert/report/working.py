@@ -11,25 +11,26 @@ import numpy as np
 from dalembert.analysis.actions import actions
 from dalembert.analysis.columns import drive_kinds, load_kind
 from dalembert.analysis.members import components_along
-from dalembert.analysis.planar import refuse_space
 from dalembert.analysis.which import position_at
+from dalembert.errors import ModelError
 from dalembert.report import balance, matrix, rubbing
 from dalembert.report.chosen import METHODS, Chosen, Method, as_formula
+from dalembert.report.freedom import degrees_of_freedom
 from dalembert.report.given import knowns
-from dalembert.report.methods import checks, cycle, graphical, superposition, virtual_work
+from dalembert.report.methods import checks, cycle, graphical
 from dalembert.report.moving import inertia, motion
+from dalembert.report.reactions import reaction_tables
 from dalembert.report.sheet import Sheet, Working
+from dalembert.report.solution import order_and_solution
+from dalembert.report.sources import superposition, virtual_work
+from dalembert.report.space_friction import space_friction
+from dalembert.report.space_motion import space_inertia, space_motion
+from dalembert.report.terms import floors
 from dalembert.views import draw, rest
 from dalembert.views.notation import Notation, Shown, own_name
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
-
-INSTEAD = (
-    "use dalembert solve, with --method superposition or virtual-work; in Python da.forces_on, or da.report of "
-    "da.wrench.on(r, link): a link with all its forces"
-)
-
 
 ANSWERED = ("ok", "redundant", "self_locking")
 """Statuses whose forces are worked out."""
@@ -43,12 +44,19 @@ def working(
     about: str = "",
 ) -> Sheet:
     """The worked solution of one position of a result, with charts where there are more."""
-    refuse_space(r.mechanism, "the worked solution", INSTEAD)
     notation = notation or Notation()
+    plane = r.mechanism.dimension == 2
+    if not plane and notation.torque < 0:
+        raise ModelError(
+            "moments cannot be counted clockwise in space",
+            "leave it out: they are positive by the right hand",
+        )
     c = Chosen(r, position_at(r, at), Shown(r, notation), methods, about, notation)
     m = r.mechanism
     sheet = Sheet(m.title or "Force analysis", m.source_text, _where(c))
     knowns(sheet, c)
+    if not plane:
+        degrees_of_freedom(sheet, c)
     if rest.open_at(r, c.k):
         rubbing.at_rest(sheet, c, _joint_forces)
         return sheet
@@ -58,12 +66,12 @@ def working(
         return sheet
     if r.reasons[c.k]:
         sheet.text(f"{r.status[c.k]}: {r.reasons[c.k]}")
-    motion(sheet, c)
-    inertia(sheet, c)
-    rubbing.friction(sheet, c)
+    (motion if plane else space_motion)(sheet, c)
+    (inertia if plane else space_inertia)(sheet, c)
+    (rubbing.friction if plane else space_friction)(sheet, c)
     _bodies(sheet, c)
     _answers(sheet, c)
-    if "graphical" in methods:
+    if "graphical" in methods and plane:
         graphical(sheet, c)
     if "superposition" in methods:
         superposition(sheet, c)
@@ -89,16 +97,24 @@ def _bodies(sheet: Sheet, c: Chosen) -> None:
     sheet.figure(*(draw.free_body(r, link, c.k + 1, c.notation) for link in r.links))
     if "matrix" not in c.methods:
         return
-    if r.friction is not None:
+    if r.friction is not None and r.mechanism.dimension == 2:
         sheet.text(
             "A reaction on its friction circle is the same as the force at the pin's centre and the couple "
             "$M_{f} = ± r F$; on a guide $N$ is the normal force and $F_{f}$ the friction. So the equations are:"
+        )
+    if any(r.mechanism.joints[joint].type == "gear" for joint in r.joints) and r.mechanism.dimension == 3:
+        sheet.text(
+            "Teeth press with one force, along their line of pressure: the figures before it are the cosines of that "
+            "line, in the moments its arms."
         )
     for link in r.links:
         lines, about = balance.link_equations(r, link, c.k, shown, c.about)
         place = "the mass centre G" if about.name == "G" else f"joint {about.name}"
         sheet.text(f"Link {shown.heading(link)}, moments about {place}; R from there to each force:")
         sheet.equations(lines)
+    if r.mechanism.dimension == 3:
+        order_and_solution(sheet, c)
+        return
     found = matrix.matrix_equation(r, c.k, shown, c.about)
     if found is not None:
         sheet.heading(f"The {len(found.unknowns)} equations as one", 2)
@@ -108,12 +124,16 @@ def _bodies(sheet: Sheet, c: Chosen) -> None:
 
 
 def _answers(sheet: Sheet, c: Chosen) -> None:
-    sheet.heading("Joint forces and efforts")
+    sheet.heading("Joint forces and efforts" if c.r.mechanism.dimension == 2 else "Reactions and efforts")
     _joint_forces(sheet, c)
 
 
 def _joint_forces(sheet: Sheet, c: Chosen) -> None:
     """Table of the joint forces, then the efforts and unknown loads."""
+    if c.r.mechanism.dimension == 3:
+        reaction_tables(sheet, c)
+        sheet.equations(_efforts(c))
+        return
     heads = ["Joint", "Force", "x", "y", "size", "angle °", "along", "across"]
     sheet.table(
         [*heads, f"couple ({c.shown.unit('moment')})"],
@@ -149,12 +169,14 @@ def _force_row(c: Chosen, joint: str) -> list[Any]:
 def _efforts(c: Chosen) -> list[Working]:
     """Efforts and unknown loads with their values."""
     r, k = c.r, c.k
+    least = dict(zip(("force", "moment"), floors(r, k, actions(r)), strict=False))
 
     def line(name: str, kind: str, value: float) -> Working:
-        return Working(f'{name} = {c.shown.number(kind, value)} "{c.shown.unit(kind)}"')
+        floor = least[kind] if r.mechanism.dimension == 3 else 0.0
+        return Working(f'{name} = {c.shown.number(kind, value, floor)} "{c.shown.unit(kind)}"')
 
     lines = []
     for d in r.drives:
         a = next(a for a in actions(r) if a.kind == "effort" and a.of == d)
-        lines.append(line(c.shown.symbol(a), drive_kinds(r, d)["effort"], float(r.effort(d)[k])))
+        lines.append(line(c.shown.effort(a), drive_kinds(r, d)["effort"], float(r.effort(d)[k])))
     return lines + [line(own_name(u), load_kind(r, u), float(r.unknown_load(u)[k])) for u in r.unknown_loads]

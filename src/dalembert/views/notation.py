@@ -130,9 +130,9 @@ class Shown(Figures):
 
     def reaction(self, joint: str, on: str) -> str:
         """Sign of a joint's force on a link: F_{12}."""
-        return f"{self.notation.letter}_{{{self._between(joint, on)}}}"
+        return f"{self.notation.letter}_{{{self.between(joint, on)}}}"
 
-    def _between(self, joint: str, on: str) -> str:
+    def between(self, joint: str, on: str) -> str:
         """Index of what a joint does to a link, with its name where another joint is between the same links."""
         i, j = self.r.mechanism.joints[joint].links
         twin = [n for n, d in self.r.mechanism.joints.items() if set(d.links) == {i, j}]
@@ -140,15 +140,14 @@ class Shown(Figures):
 
     def symbol(self, a: Action) -> str:
         """Sign of an action: F_{12}, T_{12}, W_{3}, F_{I3}, T_{I3}, D_{A} of damping, or the load's own name."""
-        turning = not a.force.any()
+        turning = not np.nan_to_num(a.force).any()
         if a.kind == "joint":
             return self._part(self.reaction(a.of, a.link), a.part)
         if a.kind == "effort":
-            return (
-                f"{'T' if turning else 'F'}_{{{self.pair(a.by or GROUND, a.link)}{'' if turning else ',d'}}}"
-            )
+            extra = f"{'' if turning else ',d'}{self._drive(a)}"
+            return f"{'T' if turning else 'F'}_{{{self.pair(a.by or GROUND, a.link)}{extra}}}"
         if a.kind == "friction":
-            return f"{'M' if turning else self.notation.letter}_{{f{self._between(a.of, a.link)}}}"
+            return f"{'M' if turning else self.notation.letter}_{{f{self.between(a.of, a.link)}}}"
         if a.kind == "damper" and a.of in self.r.joints:
             return f"D_{{{a.of}}}"
         if a.kind == "weight":
@@ -168,15 +167,28 @@ class Shown(Figures):
         kind = drive_kinds(self.r, a.of)["effort"]
         return self.symbol(replace(a, force=np.full_like(a.force, kind == "force")))
 
+    def _drive(self, a: Action) -> str:
+        """The name of a drive where another one acts in the same way between the same links."""
+        links = {a.link, a.by or GROUND}
+        kind = drive_kinds(self.r, a.of)["effort"]
+        m = self.r.mechanism
+        twins = [
+            d
+            for d in self.r.drives
+            if set(m.joints[m.drives[d].joint or d].links) == links
+            and drive_kinds(self.r, d)["effort"] == kind
+        ]
+        return f",{a.of}" if len(twins) > 1 else ""
+
     def turning_symbol(self, a: Action) -> str:
         """Sign of an action's couple: M_{14} of a joint, T_{12} of a drive."""
         if a.kind == "joint":
             return self.joint_moment(a.of, a.link)
-        return self.symbol(replace(a, force=0.0 * a.force))
+        return self.symbol(replace(a, force=np.zeros_like(a.force)))
 
     def joint_moment(self, joint: str, on: str) -> str:
         """Sign of a joint's couple on a link: M_{14}."""
-        return f"M_{{{self._between(joint, on)}}}"
+        return f"M_{{{self.between(joint, on)}}}"
 
 
 def along(sign: str, axis: str) -> str:

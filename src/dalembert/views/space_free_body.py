@@ -15,9 +15,9 @@ from dalembert.views.canvas import Canvas
 from dalembert.views.lettering import text_width
 from dalembert.views.link_solids import nodes
 from dalembert.views.mechanism import ring, unit_size
-from dalembert.views.notation import Notation, Shown
+from dalembert.views.notation import Notation, Shown, along
 from dalembert.views.scene import Item, Line, Point, Scene, Text
-from dalembert.views.space_mechanism import Arrows, mark_center
+from dalembert.views.space_mechanism import Arrows, mark_center, rims
 from dalembert.views.space_view import Sight, sight, standing, triad
 
 if TYPE_CHECKING:
@@ -48,7 +48,7 @@ def space_free_body_scene(
     for name in joints_on(r, link):
         rows.append(reaction(r, name, link, k))
         axes = [axes_of(r, name, "joint", moment)[k] for moment in (False, True)]
-        _components(arrows, s(joint_place(r, name)[k]), name, axes, rows[-1])
+        _components(arrows, s(joint_place(r, name)[k]), link, name, axes, rows[-1])
         at = s(joint_place(r, name)[k])
         canvas.label(name, *ring(at, 2.4), size=3.4, role="title")
     for a in on_link(everything, link):
@@ -91,6 +91,7 @@ def reaction(r: Result, joint: str, link: str, k: int) -> Reaction:
 
 def _sight(r: Result, link: str, k: int, camera: Camera) -> Sight:
     places = [link_place(r, link, u)[k] for u in nodes(r, link).values()]
+    places += rims(r, link, k)
     if r.mechanism.mass(link):
         places.append(r.center(link)[k])
     found = sight(camera, places, WIDTH, HEIGHT, unit_size(r, "length"))
@@ -103,19 +104,20 @@ def _sight(r: Result, link: str, k: int, camera: Camera) -> Sight:
     return found
 
 
-def _components(arrows: Arrows, at: Point, name: str, axes: list[Array], found: Reaction) -> None:
-    """Arrows along the joint's axes."""
+def _components(arrows: Arrows, at: Point, link: str, name: str, axes: list[Array], found: Reaction) -> None:
+    """Arrows along the joint's axes, which a prime marks."""
     for turning in (False, True):
         part = found.numbers[3:] if turning else found.numbers[:3]
         for axis, value, e in zip(AXES, part, axes[turning], strict=True):
             if abs(float(value)) > arrows.floor[turning]:
-                sign = f"M_{{{name}{axis}}}" if turning else f"{name}_{{{axis}}}"
+                whole = (arrows.shown.joint_moment if turning else arrows.shown.reaction)(name, link)
+                sign = along(whole, f"{axis}'")
                 arrows.vector(at, float(value) * e, "joint-force", name, sign, turning)
 
 
 def _said(rows: list[Reaction]) -> str:
     free = [row.joint for row in rows if not row.unique[row.carried].all()]
-    text = "Reactions on this link, along the axes of each joint"
+    text = "Reactions on this link, along the axes x', y', z' of each joint"
     if free:
         text += "; in brackets, of " + ", ".join(free) + ": not unique, least-norm values"
     return f"{text}." if rows else ""
@@ -124,7 +126,7 @@ def _said(rows: list[Reaction]) -> str:
 def _table(rows: list[Reaction], shown: Shown, floor: tuple[float, float], at: Point) -> list[Item]:
     """The reactions' components, a row a joint; what a joint cannot carry has a stroke."""
     units = [shown.unit("force")] * 3 + [shown.unit("moment")] * 3
-    head = ["", *(f"{letter}_{{{axis}}}" for letter in "FM" for axis in AXES)]
+    head = ["", *(f"{letter}_{{{axis}'}}" for letter in "FM" for axis in AXES)]
     cells = [head, ["", *units], *([row.joint, *_numbers(row, shown, floor)] for row in rows)]
     widths = [max(text_width(line[c], 2.6) for line in cells) + 3.0 for c in range(7)]
     items: list[Item] = []

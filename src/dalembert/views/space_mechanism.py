@@ -60,12 +60,23 @@ def every_place(r: Result, k: int) -> list[Array]:
     """All places of the mechanism at a position, metres."""
     out = [joint_place(r, joint)[k] for joint in r.joints]
     out += [link_place(r, link, u)[k] for link in (*r.links, GROUND) for u in nodes(r, link).values()]
-    for name in r.joints:
-        if r.mechanism.joints[name].type == "gear":
-            for link, at, axis, radius in wheels(r, name):
-                turn, origin = pose(r, link, k)
-                out += [turn @ (at + radius * e) + origin for v in across(axis) for e in (v, -v)]
+    out += [p for link in (*r.links, GROUND) for p in rims(r, link, k)]
     return out + [r.center(link)[k] for link in r.links if r.mechanism.mass(link)]
+
+
+def rims(r: Result, link: str, k: int) -> list[Array]:
+    """Places around the wheels of a link at a position, metres."""
+    gears = [
+        n for n in r.joints if r.mechanism.joints[n].type == "gear" and link in r.mechanism.joints[n].links
+    ]
+    turn, origin = pose(r, link, k)
+    found = [wheel for name in gears for wheel in wheels(r, name) if wheel[0] == link]
+    return [
+        turn @ (at + radius * e) + origin
+        for _, at, axis, radius in found
+        for v in across(axis)
+        for e in (v, -v)
+    ]
 
 
 def whole_sight(r: Result, k: int, camera: Camera, width: float, height: float) -> Sight:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dalembert.algebra.space import angle_and_axis
 from dalembert.printing import number, rounded, tables, wrapped
 
 if TYPE_CHECKING:
@@ -70,9 +71,9 @@ def space_link_tables(result: Result, to: Any) -> str:
     largest[2] = max(largest[2], fast)
     largest[3] = max(largest[3], float(to("acceleration", fast * result.compiled.layout.length)))
     for n, link in enumerate(result.links):
-        angle, axis = axis_and_angle(result.rotation(link)[0])
+        angle, axis = angle_and_axis(result.rotation(link)[0])
         place, speed, rate, moved = (rounded(of[n], size) for of, size in zip(vectors, largest, strict=True))
-        parts = ([float(to("angle", angle)), *axis, *place], [*speed, *rate], moved)
+        parts = ([float(to("angle", angle)), *rounded(axis), *place], [*speed, *rate], moved)
         for row, part in zip(rows, parts, strict=True):
             row.append([link, *(number(v, 5) for v in part)])
     heads = (turned, turning, _heads("acc. of center", to.text("acceleration")))
@@ -83,27 +84,3 @@ def space_link_tables(result: Result, to: Any) -> str:
 
 def _heads(name: str, unit: str) -> list[str]:
     return [f"{name} {axis}\n{unit}" for axis in "xyz"]
-
-
-def axis_and_angle(rotation: Any) -> tuple[float, tuple[float, float, float]]:
-    """Angle (0 to pi) and axis of a rotation (3, 3); an axis of zeros where it turns nothing, NaN where unknown.
-
-    >>> axis_and_angle(np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]]))
-    (1.5707963267948966, (0.0, 0.0, 1.0))
-    """
-    if not np.isfinite(rotation).all():
-        return math.nan, (math.nan, math.nan, math.nan)
-    skew = np.array(
-        [rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0], rotation[1, 0] - rotation[0, 1]]
-    )
-    angle = math.atan2(float(np.linalg.norm(skew)), float(np.trace(rotation)) - 1)
-    if angle < 1e-9:
-        return 0.0, (0.0, 0.0, 0.0)
-    if math.pi - angle > 1e-4:
-        axis = skew / np.linalg.norm(skew)
-    else:  # near half a turn the symmetric part, (1 - cos) n n + cos, gives the axis up to its sign
-        square = (rotation + rotation.T) / 2 + np.eye(3)
-        axis = square[int(np.diag(square).argmax())]
-        axis = axis / np.linalg.norm(axis) * (1.0 if axis @ skew >= 0 else -1.0)
-    x, y, z = rounded(axis)
-    return angle, (x, y, z)

@@ -1,0 +1,28 @@
+"""The mechanism as a report shows it, in plane and space."""
+
+from __future__ import annotations
+
+from dalembert.report.chosen import Chosen
+from dalembert.views import draw
+from dalembert.views.camera import ISOMETRIC
+from dalembert.views.details import detail_scenes
+from dalembert.views.mechanism import mechanism_scene
+from dalembert.views.scene import Scene
+from dalembert.views.space_mechanism import space_mechanism_scene
+
+
+def given_picture(c: Chosen) -> Scene:
+    """The mechanism with its loads, without friction."""
+    if c.r.mechanism.dimension == 3:
+        return space_mechanism_scene(c.r, c.k, ISOMETRIC, c.notation)
+    return mechanism_scene(c.r, c.k, c.notation, friction=False)
+
+
+def rubbing_pictures(c: Chosen) -> list[Scene]:
+    """The mechanism with its friction circles, then its pins and guides at a larger scale; in space its free bodies."""
+    if c.r.mechanism.dimension == 3:
+        return [draw.free_body(c.r, link, c.k + 1, c.notation) for link in c.r.links]
+    if c.r.friction is None:
+        return [mechanism_scene(c.r, c.k, c.notation)]
+    whole = mechanism_scene(c.r, c.k, c.notation, details=False)
+    return [whole, *detail_scenes(c.r, c.k, None, c.shown)]

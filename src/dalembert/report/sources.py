@@ -1,0 +1,216 @@
+"""What each source does: the answer split by superposition, and the work of each for a displacement of the drives."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.analysis.actions import GROUND, Action, actions
+from dalembert.analysis.columns import drive_kinds, load_kind
+from dalembert.errors import ModelError
+from dalembert.report.chosen import Chosen, as_formula
+from dalembert.report.sheet import Sheet, Working
+from dalembert.report.terms import floors
+from dalembert.views import draw
+from dalembert.views.notation import Shown, along, own_name
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result import Result
+    from dalembert.analysis.virtual_work import VirtualWork
+
+Column = tuple[str, NDArray[Any], str]
+"""Sign, parts by source (S,), and kind of one number."""
+
+
+def superposition(sheet: Sheet, c: Chosen) -> None:
+    """Tables of the efforts and joint forces by source; in the plane the chain's polygon for each load."""
+    from dalembert.analysis.superposition import superposition as split
+
+    r, shown, k = c.r, c.shown, c.k
+    try:
+        parts = split(r)
+    except ModelError as error:
+        sheet.heading("Superposition")
+        sheet.text(f"{error.what[:1].upper()}{error.what[1:]}.")
+        return
+    if len(parts.sources) < 2:
+        return
+    sheet.heading("Superposition")
+    efforts: list[Column] = [
+        (shown_name(c, "effort", d), parts.efforts[:, k, n], drive_kinds(r, d)["effort"])
+        for n, d in enumerate(r.drives)
+    ]
+    efforts += [(own_name(u), parts.loads[:, k, n], load_kind(r, u)) for n, u in enumerate(r.unknown_loads)]
+    forces: list[Column] = []
+    for n, joint in enumerate(r.joints):
+        sign = shown.reaction(joint, r.mechanism.joints[joint].links[1])
+        for axis in range(r.mechanism.dimension):
+            forces.append((along(sign, "xyz"[axis]), parts.force[:, k, n, axis], "force"))
+    units = f"Forces in {shown.unit('force')}, couples in {shown.unit('moment')}"
+    tables = _tables(efforts, forces, r.mechanism.dimension)
+    for n, columns in enumerate(tables):
+        last = (
+            f"{units}; the parts sum to the whole within {parts.gap[k]:.0e}" if n == len(tables) - 1 else ""
+        )
+        heads = ["Source", *(f"{as_formula(name)}" for name, _, _ in columns)]
+        sheet.table(heads, _rows(c, parts.sources, columns, [*efforts, *forces]), last, total=True)
+    external = [s for s in parts.sources if s in r.mechanism.loads]
+    if 2 <= len(external) <= 4 and "graphical" in c.methods and r.mechanism.dimension == 2:
+        sheet.figure(*(draw.force_chain(r, k + 1, c.notation, case=s) for s in external))
+
+
+def _tables(efforts: list[Column], forces: list[Column], dimension: int) -> list[list[Column]]:
+    """Columns side by side: in the plane the first nine; in space all of up to six joints, whole joints a table."""
+    if dimension == 2:
+        return [[*efforts, *forces[:10]][:9]]
+    first = max(0, (9 - len(efforts)) // 3 * 3)
+    out = [[*efforts, *forces[:first]]]
+    return [*out, *(forces[n : min(n + 9, 18)] for n in range(first, min(len(forces), 18), 9))]
+
+
+def _rows(
+    c: Chosen, sources: tuple[str, ...], columns: list[Column], everything: list[Column]
+) -> list[list[str]]:
+    """A row a source and the sum; rounding beside the largest of a kind is 0."""
+    space = c.r.mechanism.dimension == 3
+    beside = everything if space else columns
+    floor = {
+        kind: 1e-10 * max((np.abs(v).max() for _, v, q in beside if q == kind), default=0.0)
+        for _, _, kind in columns
+    }
+    if space:
+        least = floors(c.r, c.k, actions(c.r))
+        floor = {kind: max(x, least[kind == "moment"]) for kind, x in floor.items()}
+    rows = [
+        [source_sign(c, s), *(c.shown.number(kind, float(v[n]), floor[kind]) for _, v, kind in columns)]
+        for n, s in enumerate(sources)
+        if not space or any(abs(float(v[n])) > floor[kind] for _, v, kind in columns)
+    ]
+    return [*rows, ["sum", *(c.shown.number(kind, float(v.sum()), floor[kind]) for _, v, kind in columns)]]
+
+
+def shown_name(c: Chosen, kind: str, of: str) -> str:
+    """The sign of a drive's effort."""
+    a = next(a for a in actions(c.r) if a.kind == kind and a.of == of)
+    return c.shown.effort(a) if kind == "effort" else c.shown.symbol(a)
+
+
+def source_sign(c: Chosen, source: str) -> str:
+    """A contribution as the reader writes it."""
+    if source in c.r.mechanism.loads:
+        return as_formula(own_name(source))
+    for words, letter in (
+        ("inertia force of ", "F_{I"),
+        ("inertia couple of ", "T_{I"),
+        ("weight of ", "W_{"),
+    ):
+        if source.startswith(words):
+            return f"${letter}{c.shown.link(source.removeprefix(words))}}}$"
+    return source
+
+
+def virtual_work(sheet: Sheet, c: Chosen) -> None:
+    from dalembert.analysis.virtual_work import virtual_work as by_virtual_work
+
+    r, shown, k = c.r, c.shown, c.k
+    if not r.drives:
+        return
+    found = by_virtual_work(r)
+    if found.independent:
+        sheet.heading("Virtual work, the independent check")
+    else:
+        sheet.heading("Virtual work, a check")
+        sheet.text(
+            "The work of friction contains the joint forces found above: with friction virtual work checks that "
+            "solution, it is no independent one."
+        )
+    least = floors(r, k, actions(r)) if r.mechanism.dimension == 3 else (0.0, 0.0, 0.0)
+    idle = "no reaction does work" if found.independent else "of the reactions friction alone does work"
+    for n, drive in enumerate(r.drives):
+        kind = drive_kinds(r, drive)["effort"]
+        angular = kind == "moment"
+        unit = "rad" if angular else shown.unit("length")
+        sheet.text(f"Displacements for one {unit} of drive {drive}; {idle}.")
+        length = shown.value("length", 1.0)
+        move, turn = (length, 1.0) if angular else (1.0, 1.0 / length)
+        rows = []
+        floor = max(least[angular], 1e-12 * float(np.abs(found.power[:, k, n]).max(initial=0.0)))
+        for a, v, w, p in zip(found.actions, found.velocity, found.spin, found.power, strict=True):
+            if _nothing(a, k, least):
+                continue
+            force = bool(np.nan_to_num(a.force).any())
+            acts = [_vector_of(shown, "force", a.force[k], least[0])] if force else []
+            moves = [_moved(shown, v[k, n], move)] if force else []
+            if np.abs(a.couple[k]).max() > least[1] or not force:
+                acts.append(_vector_of(shown, "moment", a.couple[k], least[1]))
+                moves.append(_moved(shown, w[k, n], turn * c.notation.torque))
+            work = shown.number(kind, float(p[k, n]) * c.notation.torque**angular, floor)
+            rows.append([source_sign(c, a.source), " and ".join(acts), " and ".join(moves), work])
+        total = float(found.power[:, k, n].sum())
+        rows.append(["sum", "", "", shown.number(kind, total * c.notation.torque**angular, floor)])
+        heads = ["Load", "Force or couple", "Displacement or turn", f"Work ({shown.unit(kind)})"]
+        sheet.table(heads, rows, total=True)
+        sign = shown_name(c, "effort", drive)
+        effort = shown.number(kind, float(found.effort[k, n]), floor)
+        sheet.equations(
+            [Working(f"{sign} = −sum (F cdot delta r + T delta theta)", "", f'{effort} "{shown.unit(kind)}"')]
+        )
+    sheet.text(f"The matrix answer agrees within {float(found.gap[k]):.0e} of the largest work.")
+    if r.mechanism.dimension == 3:
+        _powers(sheet, c, found)
+
+
+def _powers(sheet: Sheet, c: Chosen, found: VirtualWork) -> None:
+    """Power of the drives, loads, inertia and friction at the speeds of this position: their sum is zero."""
+    r, k = c.r, c.k
+    speed = r.schedule.speed[k]
+    if not speed.any():
+        return
+    words = {kind: f"{kind}s" for kind in ("weight", "damper", "spring")}
+    words |= {kind: kind for kind in ("inertia", "friction")}
+    parts = {"drives": float(r.effort_array[k] @ speed)}
+    for a, power in zip(found.actions, found.power[:, k], strict=True):
+        name = words.get(a.kind, "loads")
+        parts[name] = parts.get(name, 0.0) + float(power @ speed)
+    for name in r.unknown_loads:
+        a = next(a for a in actions(r) if a.kind == "load" and a.of == name)
+        parts["loads"] = parts.get("loads", 0.0) + _power(r, a, k)
+    fastest = max(float(np.abs(v).max()) for v in (speed, *(r.speed(link)[k] for link in r.links)))
+    least = max(1e-10 * max(map(abs, parts.values())), floors(r, k, actions(r))[1] * fastest)
+    rows = [[name, c.shown.number("power", value, least)] for name, value in parts.items()]
+    total = sum(parts.values())
+    rows.append(["sum", c.shown.number("power", total, least)])
+    heads = ["Power put in by", f"Power ({c.shown.unit('power')})"]
+    sheet.table(heads, rows, "At the speeds of this position; no reaction has power", total=True)
+
+
+def _power(r: Result, a: Action, k: int) -> float:
+    """Power of an action on a link in space at the speeds of a position."""
+    if a.link == GROUND:
+        return 0.0
+    w = r.speed(a.link)[k]
+    v = r.velocity(a.link)[k] + np.cross(w, a.at[k] - r.position(a.link)[k])
+    return float(a.force[k] @ v + a.couple[k] @ w)
+
+
+def _nothing(a: Action, k: int, least: tuple[float, ...]) -> bool:
+    """Whether an action in space is rounding at this position."""
+    return bool(np.abs(a.force[k]).max() <= least[0] and np.abs(a.couple[k]).max() <= least[1] and least[2])
+
+
+def _vector_of(shown: Shown, kind: str, v: Any, least: float) -> str:
+    """A number, or a vector by its components; rounding in one is 0."""
+    least = max(least, 1e-12 * float(np.abs(v).max())) if np.size(v) == 3 else 0.0
+    numbers = [shown.number(kind, float(x), least) for x in np.atleast_1d(v)]
+    return f"({', '.join(numbers)})" if np.ndim(v) else numbers[0]
+
+
+def _moved(shown: Shown, v: Any, factor: float) -> str:
+    """A displacement or turn for a unit of the drive, in the reader's units."""
+    least = 1e-12 if np.ndim(v) else 0.0
+    numbers = [
+        shown.notation.number(float(x) * factor if abs(float(x)) > least else 0.0) for x in np.atleast_1d(v)
+    ]
+    return f"({', '.join(numbers)})" if np.ndim(v) else numbers[0]
