@@ -132,10 +132,3 @@ def test_the_command_writes(kind: str, tmp_path: Path) -> None:
     assert main(["report", str(examples()["four_bar"]), "-o", str(path)]) == 0
     assert path.stat().st_size > 5000
     assert main(["report", str(examples()["four_bar"]), "-o", str(path)]) == 2
-
-
-def test_latex_is_balanced() -> None:
-    source = da.report(result("four_bar")).to_bytes("tex").decode()
-    for name in set(re.findall(r"\\begin\{(\w+\*?)\}", source)):
-        assert source.count(f"\\begin{{{name}}}") == source.count(f"\\end{{{name}}}")
-    assert source.count("{") - source.count("\\{") == source.count("}") - source.count("\\}")

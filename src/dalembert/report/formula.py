@@ -49,7 +49,8 @@ WORDS: dict[str, Word] = {
     "angle": Word("angle", "\\angle", "∠"),
 }
 
-_TOKEN = re.compile(r'"[^"]*"|[_^]\{[^}]*\}|frac\(|[A-Za-z]+|\d[\d.]*(?:e[−-]?\d+)?|\s+|.', re.DOTALL)
+_TOKEN = re.compile(r'"[^"]*"|[_^]\{[^}]*\}|frac\(|[^\W\d_]+|\d[\d.]*(?:e[−+-]?\d+)?|\s+|.', re.DOTALL)
+"""Names are the user's: letters of any script, and signs that mean something in a notation, are written as they are."""
 
 
 def _written(text: str, atom: Callable[[str], str], fraction: Callable[[str, str], str]) -> str:
@@ -84,52 +85,124 @@ def typst(text: str) -> str:
     """As typst's mathematics."""
 
     def atom(token: str) -> str:
-        if token[0] == '"':
-            return f' upright("{token[1:-1]}")'
+        if token[0] == '"' and len(token) > 1:
+            return f" upright({_typst_string(token[1:-1])})"
         if token[0] in "_^" and len(token) > 1:
-            inside = token[2:-1]
-            return f'{token[0]}"{inside}"'
+            return f"{token[0]}{_typst_string(token[2:-1])}"
         if token in WORDS:
             return WORDS[token].typst
-        if token[0].isalpha() and len(token) > 1:
-            return f'"{token}"'
-        return {"−": "-", "·": "dot.c", "#": "\\#", "/": "\\/"}.get(token, token)
+        if token[0].isalpha() and (len(token) > 1 or not token.isascii()):
+            return _typst_string(token)
+        if token in loose:
+            return "\\" + token
+        return _TYPST.get(token, token)
 
+    loose = {sign for a, b in ("()", "[]") if text.count(a) != text.count(b) for sign in (a, b)}
     return _written(text, atom, lambda a, b: f"frac({a}, {b})")
+
+
+_TYPST = {"−": "-", "·": "dot.c"} | {sign: "\\" + sign for sign in "#/$&_^\\\"~`{}<>|'"}
+
+
+def _typst_string(text: str) -> str:
+    """Text in quotes."""
+    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
 def latex(text: str) -> str:
     """As LaTeX's mathematics."""
 
     def atom(token: str) -> str:
-        if token[0] == '"':
+        if token[0] == '"' and len(token) > 1:
             return rf"\,\mathrm{{{_latex_text(token[1:-1])}}}"
         if token[0] in "_^" and len(token) > 1:
             return rf"{token[0]}{{\mathrm{{{_latex_text(token[2:-1])}}}}}"
         if token in WORDS:
             return WORDS[token].latex
         if token[0].isalpha() and len(token) > 1:
-            return rf"\mathrm{{{token}}}"
-        return {"−": "-", "·": r"\cdot "}.get(token, token)
+            return rf"\mathrm{{{_latex_text(token)}}}"
+        if token[0].isdigit():
+            number, _, power = token.replace("−", "-").partition("e")
+            return rf"{number} \cdot 10^{{{int(power)}}}" if power else number
+        return {"·": r"\cdot ", "'": "'"}.get(token) or _latex_text(token)
 
     return _written(text, atom, lambda a, b: rf"\frac{{{a}}}{{{b}}}")
 
 
-_LATEX = {
-    "·": r"{\cdot}", "²": "^2", "³": "^3", "°": r"^\circ", "−": "-", "_": r"\_", "%": r"\%", "&": r"\&",
-    "∥": r"\parallel", "⊥": r"\perp", "#": r"\#",
+_LETTERS = (
+    *(
+        "alpha α",
+        "beta β",
+        "gamma γ",
+        "delta δ",
+        "epsilon ε",
+        "zeta ζ",
+        "eta η",
+        "theta θ",
+        "iota ι",
+        "kappa κ",
+    ),
+    *(
+        "lambda λ",
+        "mu μ",
+        "mu µ",
+        "nu ν",
+        "xi ξ",
+        "pi π",
+        "rho ρ",
+        "sigma σ",
+        "tau τ",
+        "phi φ",
+        "chi χ",
+        "psi ψ",
+    ),
+    *(
+        "omega ω",
+        "Gamma Γ",
+        "Delta Δ",
+        "Theta Θ",
+        "Lambda Λ",
+        "Xi Ξ",
+        "Pi Π",
+        "Sigma Σ",
+        "Phi Φ",
+        "Psi Ψ",
+        "Omega Ω",
+    ),
+    *(
+        "pm ±",
+        "times ×",
+        "le ≤",
+        "ge ≥",
+        "approx ≈",
+        "surd √",
+        "angle ∠",
+        "parallel ∥",
+        "perp ⊥",
+        "to →",
+        "cdot ·",
+    ),
+)
+
+LATEX_SIGNS = {sign: "\\" + name for name, sign in (pair.split() for pair in _LETTERS)}
+"""Signs that LaTeX has in its mathematics only, and their commands."""
+
+_LATEX = {sign: f"{command} " for sign, command in LATEX_SIGNS.items()} | {
+    "·": r"{\cdot}", "²": "^2", "³": "^3", "°": r"^\circ", "−": "-", "'": "{}'", "\\": r"\backslash ",
+    "~": r"\sim ", "^": r"\hat{}", "–": r"\text{--}", **{sign: "\\" + sign for sign in "_%&#${}"},
 }  # fmt: skip
 
 
 def _latex_text(text: str) -> str:
-    return "".join(_LATEX.get(c, c) for c in text)
+    """Text within mathematics; letters beyond ASCII only in text."""
+    return "".join(_LATEX.get(c, c if c.isascii() else rf"\text{{{c}}}") for c in text)
 
 
 def plain(text: str) -> str:
     """As plain text."""
 
     def atom(token: str) -> str:
-        if token[0] == '"':
+        if token[0] == '"' and len(token) > 1:
             return f" {token[1:-1]}"
         if token[0] in "_^" and len(token) > 1:
             return f"{token[0]}{token[2:-1]}" if token[0] == "_" else f"^{token[2:-1]}"
@@ -139,6 +212,8 @@ def plain(text: str) -> str:
 
 
 def mixed(text: str, formula: Callable[[str], str], words: Callable[[str], str]) -> list[str]:
-    """Words and the formulas between dollar signs, each written."""
+    """Words and the formulas between dollar signs, each written; a dollar sign without its other is a word."""
     parts = text.split("$")
+    if not len(parts) % 2:
+        return [words(text)]
     return [formula(p) if n % 2 else words(p) for n, p in enumerate(parts)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dalembert.report.formula import latex, mixed
+from dalembert.report.formula import LATEX_SIGNS, latex, mixed
 from dalembert.report.sheet import Block, Equations, Figure, Heading, Matrix, Paragraph, Sheet, Table, Working
 from dalembert.views.lettering import plain as plain_sign
 
@@ -15,11 +15,10 @@ HEAD = r"""\documentclass[a4paper,10pt]{article}
 \setlength{\parindent}{0pt}
 """
 
-_ESCAPED = {
+_ESCAPED = {sign: f"${command}$" for sign, command in LATEX_SIGNS.items()} | {
     "\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "#": r"\#", "_": r"\_", "{": r"\{", "}": r"\}", "~": r"\~{}",
-    "^": r"\^{}", "·": r"$\cdot$", "²": r"$^2$", "³": r"$^3$", "°": r"$^\circ$", "−": "$-$", "–": "--",
-    "∠": r"$\angle$", "∥": r"$\parallel$", "⊥": r"$\perp$", "→": r"$\to$", "α": r"$\alpha$", "ω": r"$\omega$",
-    "θ": r"$\theta$", "μ": r"$\mu$", "φ": r"$\phi$", "β": r"$\beta$", "δ": r"$\delta$", "—": "---",
+    "^": r"\^{}", "$": r"\$", "²": "$^2$", "³": "$^3$", "°": r"$^\circ$", "−": "$-$", "–": "--", "—": "---",
+    "’": "'", "‘": "`", "“": "``", "”": "''", "„": ",,", "…": r"\dots{}", "\u00a0": "~",
 }  # fmt: skip
 
 

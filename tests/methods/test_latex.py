@@ -1,0 +1,128 @@
+"""Worked solutions as LaTeX: what a compiler would stop at, found by a reader of its own; names with any sign."""
+
+from __future__ import annotations
+
+import importlib.util
+from typing import Any
+
+import pytest
+
+import dalembert as da
+from dalembert.bundled import cases, examples
+from tests.methods.latex_source import problems
+
+IN_PLANE = [
+    name
+    for n, (name, path) in enumerate((examples() | cases()).items())
+    if (name in examples() or n % 5 == 0) and "space: space" not in path.read_text(encoding="utf-8")
+]
+SIGNS = [
+    "é",
+    "ß",
+    "#",
+    "%",
+    "&",
+    "_",
+    "$",
+    "{",
+    "}",
+    "\\",
+    '"',
+    "'",
+    "~",
+    "^",
+    "<",
+    "μ",
+    "Ω",
+    "≤",
+    "(",
+    "–",
+    " b",
+]
+
+
+def source(m: da.Mechanism, **options: Any) -> str:
+    return str(da.report(da.solve(m), **options).to_bytes("tex").decode())
+
+
+@pytest.mark.parametrize("name", IN_PLANE)
+def test_reports_compile(name: str) -> None:
+    assert problems(source(da.load((examples() | cases())[name]))) == []
+
+
+@pytest.mark.parametrize(
+    "notation", [da.Notation(links="name", axes="link"), da.Notation(decimals=1, torque=-1)]
+)
+def test_reports_compile_in_every_notation(notation: da.Notation) -> None:
+    assert problems(source(da.load(examples()["four_bar"]), notation=notation)) == []
+
+
+def test_force_systems_compile() -> None:
+    r = da.dynamics(da.load(examples()["four_bar"]))
+    assert problems(da.report(da.wrench.on(r, "coupler")).to_bytes("tex").decode()) == []
+
+
+def named(sign: str) -> da.Mechanism:
+    """A four-bar with the sign in its title, a link, a joint and a load."""
+    rod, joint = f"rod{sign}1", f"A{sign}x"
+    return da.Mechanism(
+        title=f"Title {sign} of it",
+        source=f"Book {sign}",
+        links={
+            "ground": {"points": {"O": [0, 0], "C": [0.3, 0]}},
+            "crank": {"points": {"O": [0, 0], joint: [0.1, 0]}, "mass": 1.0},
+            rod: {"points": {joint: [0, 0], "B": [0.3, 0]}, "mass": 2.0, "center": [0.1, 0.02]},
+            "rocker": {"points": {"C": [0, 0], "B": [0.2, 0]}},
+        },
+        joints={
+            name: {"type": "pin", "links": list(links)}
+            for name, links in {
+                "O": ("ground", "crank"),
+                joint: ("crank", rod),
+                "B": (rod, "rocker"),
+                "C": ("ground", "rocker"),
+            }.items()
+        },
+        drives={"O": {"position": 1.0, "speed": 10.0}},
+        loads={f"F{sign}": {"type": "force", "on": rod, "at": "B", "value": [1e8, -30.0]}},
+    )
+
+
+@pytest.mark.parametrize("sign", SIGNS)
+def test_names_may_have_any_sign(sign: str) -> None:
+    for links in ("number", "name"):
+        assert problems(source(named(sign), notation=da.Notation(links=links))) == []  # type: ignore[arg-type]
+
+
+@pytest.mark.skipif(importlib.util.find_spec("typst") is None, reason="extra report")
+@pytest.mark.parametrize("signs", ["é#%&", "_${", '}\\"', "'~^<", "μΩ≤(", "– b"])
+def test_names_may_have_any_sign_in_html(signs: str) -> None:
+    for sign in signs:
+        assert da.report(da.solve(named(sign.strip() or "x"))).to_bytes("html")
+
+
+def test_numbers_with_powers_of_ten() -> None:
+    from dalembert.report.formula import latex
+
+    assert latex("F = −1.234e−14 + 1.000e+07") == r"F = -1.234 \cdot 10^{-14} + 1.000 \cdot 10^{7}"
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        (r"a_b", "_ outside mathematics"),
+        (r"$a_b_c$", "two of _ on one atom"),
+        (r"50 % of it", "% unescaped"),
+        (r"\[ a", r"never closed"),
+        (r"{\small a", "document is closed, and open is {"),
+        (r"\begin{tabular}{ll} a & b & c \\ \end{tabular}", "a row of tabular has 3 cells, not 2"),
+        (r"\[\begin{bmatrix}1&2\\3\end{bmatrix}\]", "a row of bmatrix has 1 cells, not 2"),
+        (r"\foo", r"an unknown command \foo"),
+        (r"\alpha", r"\alpha outside mathematics"),
+        ("$a −$", "(2212) is not in the encoding"),
+        ("see \\ref{x}", "refers to {'x'}"),
+    ],
+)
+def test_the_reader_finds_what_is_wrong(wrong: str, said: str) -> None:
+    document = "\\documentclass{article}\n\\begin{document}\n" + wrong + "\n\\end{document}\n"
+    assert any(said in problem for problem in problems(document)), problems(document)
