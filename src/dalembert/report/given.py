@@ -165,7 +165,7 @@ def _load_text(c: Chosen, name: str) -> str:
     some = [a for a in actions(c.r) if a.of == name and a.kind in ("load", "spring", "damper")]
     if not some:
         return ""
-    a = some[0]
+    a = next((a for a in some if a.link != GROUND), some[0])
     if a.force.any():
         where = f" on {c.shown.heading(a.link)}"
         spot = getattr(load, "at", None)

@@ -183,7 +183,8 @@ def _powers(sheet: Sheet, c: Chosen, found: VirtualWork) -> None:
     total = sum(parts.values())
     rows.append(["sum", c.shown.number("power", total, least)])
     heads = ["Power put in by", f"Power ({c.shown.unit('power')})"]
-    sheet.table(heads, rows, "At the speeds of this position; no reaction has power", total=True)
+    idle = "no reaction has power" if found.independent else "of the reactions friction alone has power"
+    sheet.table(heads, rows, f"At the speeds of this position; {idle}", total=True)
 
 
 def _power(r: Result, a: Action, k: int) -> float:

@@ -150,7 +150,7 @@ def _reaction(s: Setting, a: Action) -> list[Term]:
                 sum((c.value * v for c, v in zip(mine, part, strict=True)), np.zeros(3))
                 for part in ([c.force for c in mine], [c.couple for c in mine])
             )
-            out.append(Vector(s, a, force, couple, unknown=True))
+            out.append(Vector(s, a, force, couple, "moment" if turning else "force"))
     if np.abs(rest[0]).max() > s.floors[0] or np.abs(rest[1]).max() > s.floors[1]:
         out.append(Vector(s, replace(a, kind="damper"), *rest))
     return out
@@ -163,9 +163,12 @@ def _line(s: Setting, a: Action, c: Component) -> Line:
 
 
 class Vector:
-    """An action by its components along all axes, in the reader's units."""
+    """An action by its components along all axes, in the reader's units.
 
-    def __init__(self, s: Setting, a: Action, force: Array, couple: Array, unknown: bool = False) -> None:
+    ``unknown``: force or moment of a joint, whose components are written where they are zero too.
+    """
+
+    def __init__(self, s: Setting, a: Action, force: Array, couple: Array, unknown: str = "") -> None:
         self.s, self.action, self.unknown = s, a, unknown
         self.plane = s.r.mechanism.dimension == 2
         self.sign = s.shown.symbol(a)
@@ -176,7 +179,7 @@ class Vector:
             self.forced = bool(a.force.any()) or a.kind == "joint"
         else:
             self.couple = s.vector("moment", couple, 1)
-            self.forced = bool(force.any())
+            self.forced = bool(force.any()) or unknown == "force"
 
     @property
     def turned(self) -> bool:
@@ -212,7 +215,7 @@ class Vector:
 
     def _couple(self, axis: int) -> list[Piece]:
         value = self.couple[0 if self.plane else axis]
-        there = self.turned if self.plane else value or (self.unknown and not self.forced)
+        there = self.turned if self.plane else value or self.unknown == "moment"
         if not there:
             return []
         sign = self.s.shown.turning_symbol(self.action)

@@ -125,8 +125,8 @@ class Shown(Figures):
     def pair(self, by: str, on: str) -> str:
         """Index of a force by one link on another."""
         first, second = (by, on) if self.notation.order == "by-on" else (on, by)
-        gap = "," if self.notation.links == "name" else ""
-        return f"{self.link(first)}{gap}{self.link(second)}"
+        signs = [self.link(first), self.link(second)]
+        return ("," if any(len(sign) > 1 for sign in signs) else "").join(signs)
 
     def reaction(self, joint: str, on: str) -> str:
         """Sign of a joint's force on a link: F_{12}."""
