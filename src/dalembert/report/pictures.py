@@ -14,7 +14,7 @@ from dalembert.views.space_mechanism import space_mechanism_scene
 def given_picture(c: Chosen) -> Scene:
     """The mechanism with its loads, without friction."""
     if c.r.mechanism.dimension == 3:
-        return space_mechanism_scene(c.r, c.k, ISOMETRIC, c.notation)
+        return space_mechanism_scene(c.r, c.k, ISOMETRIC, c.notation, friction=False)
     return mechanism_scene(c.r, c.k, c.notation, friction=False)
 
 

@@ -65,7 +65,7 @@ def _own_line(canvas: Canvas, found: FrictionCircle, k: int, frame: Frame) -> No
     """A short line of action where the circle is touched."""
     if np.isfinite(found.taken.direction[k]).all() and found.taken.direction[k].any():
         at, e = frame(found.taken.point[k]), found.taken.direction[k]
-        canvas.add(Line((_along(at, e, -BEYOND), _along(at, e, BEYOND)), "line-of-action"))
+        canvas.add(Line((onward(at, e, -BEYOND), onward(at, e, BEYOND)), "line-of-action"))
 
 
 def _common_lines(canvas: Canvas, r: Result, k: int, frame: Frame, name: str, found: FrictionCircle) -> None:
@@ -81,10 +81,10 @@ def _common_lines(canvas: Canvas, r: Result, k: int, frame: Frame, name: str, fo
             continue
         e = e * math.copysign(1.0, float(e @ toward))
         at = frame(line.point[k])
-        canvas.add(Line((_along(at, e, -BEYOND), _along(at, e, length + BEYOND)), role))
+        canvas.add(Line((onward(at, e, -BEYOND), onward(at, e, length + BEYOND)), role))
 
 
-def _along(at: Point, e: Any, distance: float) -> Point:
+def onward(at: Point, e: Any, distance: float) -> Point:
     return (at[0] + distance * float(e[0]), at[1] + distance * float(e[1]))
 
 
@@ -104,9 +104,9 @@ def pin_detail(r: Result, joint: str, k: int, shown: Shown, on: str, words: bool
         canvas.add(Circle((0.0, 0.0), journal, "journal"))
     canvas.add(Circle((0.0, 0.0), radius, "friction-circle"), Circle((0.0, 0.0), 0.5, "mark"))
     for line in found.others:
-        _chord(canvas, frame(line.point[k]), line.direction[k], "faint")
+        chord(canvas, frame(line.point[k]), line.direction[k], "faint")
     touch = frame(found.taken.point[k])
-    _chord(canvas, touch, found.taken.direction[k], "line-of-action")
+    chord(canvas, touch, found.taken.direction[k], "line-of-action")
     canvas.add(Line(((0.0, 0.0), touch), "dimension"))
     canvas.label(f"r = {shown.text('length', float(found.radii[k]))}", (touch[0] / 2, touch[1] / 2), size=2.6)
     _reaction(canvas, r, joint, k, shown, on, touch)
@@ -147,18 +147,18 @@ def _draw_links(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on:
         ways = [np.asarray(p) - center for p in link_points(r, link, k).values()]
         ways = [w / np.hypot(*w) for w in ways if np.hypot(*w) > 1e-9]
         for w in ways[:3]:
-            canvas.add(Line(((0.0, 0.0), _along((0.0, 0.0), w, WINDOW)), "link"))
+            canvas.add(Line(((0.0, 0.0), onward((0.0, 0.0), w, WINDOW)), "link"))
         if ways:
-            canvas.label(shown.link(link), _along((0.0, 0.0), ways[0], WINDOW), size=3.0, role="note")
+            canvas.label(shown.link(link), onward((0.0, 0.0), ways[0], WINDOW), size=3.0, role="note")
 
 
-def _chord(canvas: Canvas, at: Point, e: Any, role: str) -> None:
+def chord(canvas: Canvas, at: Point, e: Any, role: str) -> None:
     """A line through a point, as far as the detail reaches."""
     if not np.isfinite([*at, *e]).all() or not np.any(e):
         return
-    along = at[0] * float(e[0]) + at[1] * float(e[1])
-    half = math.sqrt(max(WINDOW**2 - (at[0] ** 2 + at[1] ** 2 - along**2), 1.0))
-    canvas.add(Line((_along(at, e, -along - half), _along(at, e, -along + half)), role))
+    foot = at[0] * float(e[0]) + at[1] * float(e[1])
+    half = math.sqrt(max(WINDOW**2 - (at[0] ** 2 + at[1] ** 2 - foot**2), 1.0))
+    canvas.add(Line((onward(at, e, -foot - half), onward(at, e, -foot + half)), role))
 
 
 def _reaction(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on: str, touch: Point) -> None:
@@ -170,7 +170,7 @@ def _reaction(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on: s
     e = force / size
     middle = np.mean([np.asarray(p) for p in link_points(r, on, k).values()] or [np.zeros(2)], axis=0)
     inward = float((middle - friction_circles(r, joint).center[k]) @ e) > 0
-    free = _along(touch, e, -WINDOW if inward else WINDOW)
+    free = onward(touch, e, -WINDOW if inward else WINDOW)
     ends = (free, touch) if inward else (touch, free)
     canvas.add(Arrow(*ends, "joint-force", joint, "direction"))
     text = f"{shown.reaction(joint, on)} = {shown.text('force', size)}"

@@ -60,9 +60,13 @@ def mechanism(
     ``camera``, in space: isometric (default), front, side, top, (azimuth, elevation) in degrees, or a `Camera`.
     """
     k, seen = position_at(r, at), _camera(r, camera)
-    if seen is not None:
-        return space_mechanism_scene(r, k, seen, notation, forces)
-    return _whole(r, k, notation, lambda end: mechanism_scene(end, k, notation, forces))
+
+    def drawn(end: Result) -> Scene:
+        if seen is None:
+            return mechanism_scene(end, k, notation, forces)
+        return space_mechanism_scene(end, k, seen, notation, forces)
+
+    return _whole(r, k, notation, drawn)
 
 
 def free_body(
@@ -70,9 +74,13 @@ def free_body(
 ) -> Scene:
     """One link with everything that acts on it, to scale; in space reactions are in their joints' own axes."""
     k, seen = position_at(r, at), _camera(r, camera)
-    if seen is not None:
-        return space_free_body_scene(r, _link(r, link), k, seen, notation)
-    return _whole(r, k, notation, lambda end: free_body_scene(end, _link(r, link), k, notation))
+
+    def drawn(end: Result) -> Scene:
+        if seen is None:
+            return free_body_scene(end, _link(r, link), k, notation)
+        return space_free_body_scene(end, _link(r, link), k, seen, notation)
+
+    return _whole(r, k, notation, drawn)
 
 
 def components(r: Result, link: str, at: Any = None, notation: Notation | None = None) -> Scene:
@@ -137,12 +145,11 @@ def free_bodies(r: Result, at: Any = None, notation: Notation | None = None, cam
     """All links as free bodies, one force scale."""
     k = position_at(r, at)
     title, seen = _title(r, k, "Free bodies", notation), _camera(r, camera)
-    if seen is not None:
-        scenes = [space_free_body_scene(r, link, k, seen, notation) for link in r.links]
-        return stacked(scenes, title=title)
 
     def drawn(end: Result) -> Scene:
-        return stacked([free_body_scene(end, link, k, notation) for link in r.links], title=title)
+        if seen is None:
+            return stacked([free_body_scene(end, link, k, notation) for link in r.links], title=title)
+        return stacked([space_free_body_scene(end, n, k, seen, notation) for n in r.links], title=title)
 
     return _whole(r, k, notation, drawn, title)
 

@@ -12,11 +12,13 @@ from dalembert.analysis.pairs import AXES, PAIRS, Pair, pair_of
 from dalembert.analysis.wrenches import axes_of
 from dalembert.views.camera import Camera
 from dalembert.views.canvas import Canvas
+from dalembert.views.details import with_details
 from dalembert.views.lettering import text_width
 from dalembert.views.link_solids import nodes
 from dalembert.views.mechanism import ring, unit_size
 from dalembert.views.notation import Notation, Shown, along
 from dalembert.views.scene import Item, Line, Point, Scene, Text
+from dalembert.views.space_friction import draw_friction, friction_details, rubs
 from dalembert.views.space_mechanism import Arrows, mark_center, rims
 from dalembert.views.space_view import Sight, sight, standing, triad
 
@@ -25,6 +27,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[Any]
 WIDTH, HEIGHT = 56.0, 48.0
+
+FRICTION = "friction"
+"""Name of a row that is friction's part of the reaction above it."""
 
 
 def space_free_body_scene(
@@ -46,9 +51,12 @@ def space_free_body_scene(
     arrows = Arrows(canvas, r, s, shown, [a for a in everything if a.link != "ground"], k)
     rows = []
     for name in joints_on(r, link):
-        rows.append(reaction(r, name, link, k))
         axes = [axes_of(r, name, "joint", moment)[k] for moment in (False, True)]
-        _components(arrows, s(joint_place(r, name)[k]), link, name, axes, rows[-1])
+        both = [reaction(r, name, link, k), _friction(r, name, link, k, axes)]
+        rows += [row for row in both if row.joint == name or row.carried.any()]
+        numbers = both[0].numbers - both[1].numbers
+        _components(arrows, s(joint_place(r, name)[k]), link, name, axes, numbers)
+        draw_friction(arrows, name, link, k)
         at = s(joint_place(r, name)[k])
         canvas.label(name, *ring(at, 2.4), size=3.4, role="title")
     for a in on_link(everything, link):
@@ -63,7 +71,8 @@ def space_free_body_scene(
     whole = Canvas()
     whole.add(*items)
     words = [_said(rows), *notes]
-    return whole.scene(f"Link {shown.heading(link)}", notes=[w for w in words if w], scales=scales)
+    scene = whole.scene(f"Link {shown.heading(link)}", notes=[w for w in words if w], scales=scales)
+    return with_details(scene, friction_details(r, k, shown, link))
 
 
 def joints_on(r: Result, link: str) -> list[str]:
@@ -89,6 +98,14 @@ def reaction(r: Result, joint: str, link: str, k: int) -> Reaction:
     return Reaction(joint, r.least_norm(joint, link, "joint")[k], np.isfinite(exact), carried)
 
 
+def _friction(r: Result, joint: str, link: str, k: int, axes: list[Array]) -> Reaction:
+    """Friction's part of a reaction, in the joint's own axes."""
+    parts = [e @ v for e, v in zip(axes, rubs(r, joint, link, k), strict=True)]
+    numbers = np.nan_to_num(np.concatenate(parts))
+    least = 1e-12 * max(float(np.abs(numbers).max()), 1e-300)
+    return Reaction(FRICTION, numbers, np.ones(6, bool), np.abs(numbers) > least)
+
+
 def _sight(r: Result, link: str, k: int, camera: Camera) -> Sight:
     places = [link_place(r, link, u)[k] for u in nodes(r, link).values()]
     places += rims(r, link, k)
@@ -104,10 +121,10 @@ def _sight(r: Result, link: str, k: int, camera: Camera) -> Sight:
     return found
 
 
-def _components(arrows: Arrows, at: Point, link: str, name: str, axes: list[Array], found: Reaction) -> None:
+def _components(arrows: Arrows, at: Point, link: str, name: str, axes: list[Array], numbers: Array) -> None:
     """Arrows along the joint's axes, which a prime marks."""
     for turning in (False, True):
-        part = found.numbers[3:] if turning else found.numbers[:3]
+        part = numbers[3:] if turning else numbers[:3]
         for axis, value, e in zip(AXES, part, axes[turning], strict=True):
             if abs(float(value)) > arrows.floor[turning]:
                 whole = (arrows.shown.joint_moment if turning else arrows.shown.reaction)(name, link)
@@ -118,6 +135,8 @@ def _components(arrows: Arrows, at: Point, link: str, name: str, axes: list[Arra
 def _said(rows: list[Reaction]) -> str:
     free = [row.joint for row in rows if not row.unique[row.carried].all()]
     text = "Reactions on this link, along the axes x', y', z' of each joint"
+    if any(row.joint == FRICTION for row in rows):
+        text += ", friction in them; its part stands below each, and as arrows of its own"
     if free:
         text += "; in brackets, of " + ", ".join(free) + ": not unique, least-norm values"
     return f"{text}." if rows else ""
@@ -134,7 +153,8 @@ def _table(rows: list[Reaction], shown: Shown, floor: tuple[float, float], at: P
         x, y = at[0], at[1] - 4.4 * n - (0.8 if n > 1 else 0.0)
         for c, cell in enumerate(line):
             x += widths[c]
-            role = "note" if n < 2 else "title" if c == 0 else "text"
+            part = n < 2 or (c == 0 and cell == FRICTION)
+            role = "note" if part else "title" if c == 0 else "text"
             if cell:
                 items.append(Text((x, y), cell, 2.6, role, "end"))
     y = at[1] - 4.4 * 2 + 1.9

@@ -11,14 +11,17 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.actions import Action, actions, joint_place, link_place
 from dalembert.views import symbols
+from dalembert.views.bearings import journals
 from dalembert.views.camera import Camera
 from dalembert.views.canvas import Canvas
+from dalembert.views.details import with_details
 from dalembert.views.frame import force_scale
 from dalembert.views.link_solids import GROUND, nodes, pose, wheels
 from dalembert.views.mechanism import drawn_once, place_title, ring, role_of, unit_size
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.scene import Arrow, Line, Point, Scene
 from dalembert.views.solids import across
+from dalembert.views.space_friction import draw_circle, friction_details
 from dalembert.views.space_view import NOTHING, Sight, end_on, seen_scales, sight, standing, triad
 
 if TYPE_CHECKING:
@@ -31,11 +34,17 @@ LONGEST = 22.0
 
 
 def space_mechanism_scene(
-    r: Result, k: int, camera: Camera, notation: Notation | None = None, forces: bool = False
+    r: Result,
+    k: int,
+    camera: Camera,
+    notation: Notation | None = None,
+    forces: bool = False,
+    friction: bool = True,
 ) -> Scene:
     """The mechanism at one position; with ``forces`` the efforts, weights and inertia forces too.
 
-    Lengths and forces are to scale, both stated below; vectors are seen shorter by their slope to the paper.
+    Lengths and forces are to scale, both stated below; vectors are seen shorter by their slope to the paper. With
+    ``friction`` (where there is some) the friction circles, and journals and guides at a larger scale.
     """
     shown = Shown(r, notation or Notation())
     s = whole_sight(r, k, camera, WIDTH, HEIGHT)
@@ -50,10 +59,12 @@ def space_mechanism_scene(
         arrows.action(a, k)
     left, bottom, _, _ = Scene(tuple(canvas.items)).bounds
     triad(canvas, camera, (left - 12.0, bottom))
+    for joint in journals(r, k, r.joints) if friction else ():
+        draw_circle(canvas, r, s, joint, k)
     notes, scales = arrows.stated()
-    return canvas.scene(
-        place_title(r, k, r.mechanism.title or "Mechanism", shown), notes=notes, scales=scales
-    )
+    title = place_title(r, k, r.mechanism.title or "Mechanism", shown)
+    scene = canvas.scene(title, notes=notes, scales=scales)
+    return with_details(scene, friction_details(r, k, shown) if friction else [])
 
 
 def every_place(r: Result, k: int) -> list[Array]:
