@@ -138,7 +138,10 @@ def draw(
             "animation",
             "all",
         ],
-        said("What to draw."),
+        said(
+            "What to draw; motion: velocity and acceleration polygons and instant centres; charts: over a cycle; "
+            "superposition: one load at a time; all (default): mechanism, free bodies, force polygons, charts."
+        ),
     ] = "all",
     at: At = None,
     positions: Positions = None,
@@ -214,7 +217,9 @@ def check(
   dalembert check-answers four_bar.yaml mine.yaml
   dalembert check-answers four_bar.yaml --interactive
 
-The file of answers: {efforts: {O2: 243 lbf*in}, reactions: {A: 155 @ 220 deg}}, or a list as in a model file.""",
+The file of answers, or a list as in a model file:
+  efforts: {O2: 243 lbf*in}
+  reactions: {A: 155 @ 220 deg}""",
 )
 def check_answers(
     file: ModelFile,

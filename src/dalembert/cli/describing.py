@@ -123,7 +123,11 @@ def joint_rows() -> list[list[str]]:
 def joint_table() -> str:
     """The joints in space: turns and slides of j in i, and the reactions along the joint's own axes."""
     shown = table(JOINT_HEADS, joint_rows(), len(JOINT_HEADS))
-    return f"{shown}\n\nA screw slides with its turn. `dalembert joints -o joints.svg` draws them."
+    more = (
+        "Beside these there are gears in space, and in the plane pin, slider, slot, weld, gear and rolling."
+    )
+    drawn = "`dalembert joints -o joints.svg` draws them."
+    return f"{shown}\n\nA screw slides with its turn. {drawn}\n{more}"
 
 
 def joints_shown(output: Path | None, camera: str | None, theme: Any, force: bool) -> int:

@@ -13,7 +13,11 @@ EXAMPLES = """Examples:
   dalembert wrench plate.yaml --about A --drawing plate.svg
   dalembert wrench box.yaml --view front --report box.pdf
 
-A file: {units: {length: mm}, points: {A: [200, 0]}, forces: {F: {value: 600 @ 90, at: A}}, couples: {M: 5 N*m}}"""
+A file:
+  units: {length: mm}
+  points: {A: [200, 0]}
+  forces: {F: {value: 600 @ 90, at: A}}
+  couples: {M: 5 N*m}"""
 
 
 def wrench(

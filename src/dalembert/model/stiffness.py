@@ -12,6 +12,9 @@ from dalembert.model.values import NUMBER_OR_TEXT, JsonSchema, Value, at_item, n
 from dalembert.units import quantity
 
 
+AXES = ", or [x, y, z] for the joint's own axes (of a joint that turns in two ways those of its link i)"
+
+
 class Stiffnesses(Value):
     """One number; in space also one for each of the joint's own axes x, y, z."""
 
@@ -24,7 +27,7 @@ class Stiffnesses(Value):
             return signed(quantity(value, self.kind, rules.units), value, "positive")
         if rules.dimension == 2 or len(value) != 3:
             what = f"a list of {len(value)} is no stiffness"
-            raise ModelError(what, "write one number" + ("" if rules.dimension == 2 else ", or [x, y, z]"))
+            raise ModelError(what, "write one number" + ("" if rules.dimension == 2 else AXES))
         found = numbers(value, self.kind, rules)
         return tuple(at_item(k, signed, x, value[k], "positive") for k, x in enumerate(found))
 
@@ -50,7 +53,9 @@ class Stiffness(Part):
     """
 
     force: Annotated[float | tuple[float, ...], Stiffnesses("stiffness")] | None = Field(
-        None, description="force per length; in space also [x, y, z] along the joint's own axes"
+        None,
+        description="force per length; in space also [x, y, z] along the joint's own axes, of a joint that turns in two "
+        "ways along those of its link i",
     )
     moment: Annotated[float | tuple[float, ...], Stiffnesses("torsion_stiffness")] | None = Field(
         None, description="moment per angle; in space also [x, y, z] about the joint's own axes"
