@@ -11,7 +11,6 @@ from dalembert.model.part import Part, reading
 from dalembert.model.values import NUMBER_OR_TEXT, JsonSchema, Value, at_item, numbers, signed, written
 from dalembert.units import quantity
 
-
 AXES = ", or [x, y, z] for the joint's own axes (of a joint that turns in two ways those of its link i)"
 
 
@@ -54,8 +53,8 @@ class Stiffness(Part):
 
     force: Annotated[float | tuple[float, ...], Stiffnesses("stiffness")] | None = Field(
         None,
-        description="force per length; in space also [x, y, z] along the joint's own axes, of a joint that turns in two "
-        "ways along those of its link i",
+        description="force per length; in space also [x, y, z] along the joint's own axes, "
+        "of a joint that turns in two ways along those of its link i",
     )
     moment: Annotated[float | tuple[float, ...], Stiffnesses("torsion_stiffness")] | None = Field(
         None, description="moment per angle; in space also [x, y, z] about the joint's own axes"
