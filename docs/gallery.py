@@ -45,7 +45,7 @@ def built(name: str, path: Path) -> Iterator[str]:
     da.draw.solid_model(r).save(OUT / f"{name}.glb", overwrite=True)
     yield f'<a href="{name}.glb">glb</a></p>'
     views = [*(VIEWS if plane else VIEWS[:2]), *(["charts"] if len(r.status) > 7 else [])]
-    for view in views:
+    for view in views if r.drives else [v for v in views if v != "motion"]:
         da.draw.view(r, view).save(OUT / f"{name}-{view}.svg", overwrite=True)
         yield f'<img src="{name}-{view}.svg" alt="{view}">'
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -14,7 +15,7 @@ import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.views.canvas import text_over_lines, text_overlaps
 from dalembert.views.polygons import forces_of
-from dalembert.views.scene import Text
+from dalembert.views.scene import Line, Text
 
 SHOWN = [
     "seed-000-a-four-bar-loaded-rocker",
@@ -281,3 +282,28 @@ def test_forces_that_are_not_unique_or_not_known_are_said_on_the_picture() -> No
     assert any("torque" in text for text in words(da.draw.free_body(r, "rocker")))  # the load is known
     with pytest.raises(da.AnalysisError, match="position 1 has no velocities: Dead centre or change point"):
         da.draw.velocity_polygon(r)
+
+
+def test_a_trace_has_a_gap_where_the_linkage_does_not_close() -> None:
+    m = da.load(examples()["four_bar"]).with_values({"links.crank.points.A": [0.3, 0.0]})
+    r = da.dynamics(m, positions=90)
+    closed = [r.status[k] == "ok" for k in range(90)]
+    arcs = sum(a and not b for a, b in zip(closed, [*closed[1:], closed[0]], strict=True))
+    assert 0 < sum(closed) < 90
+    traces = [i for i in da.draw.mechanism(r).items if isinstance(i, Line) and i.role == "trace"]
+    joins = closed[0] and closed[-1]
+    assert len(traces) == 2 * (arcs + joins)  # of A and B
+    step = 0.3 * 2 * math.pi / 90
+    reach = max(math.dist(*pair) for t in traces for pair in pairwise(t.points))
+    assert reach < 2.5 * step / (da.draw.mechanism(r).scales["length"])
+
+
+def test_a_slot_is_named_where_its_pin_is() -> None:
+    m = da.scotch_yoke()
+    r = da.dynamics(m, positions=4)
+    (slot,) = (name for name, joint in m.joints.items() if joint.type == "slot")
+    arm = m.joints[slot].links[0]
+    scene = da.draw.free_body(r, arm, at=2)
+    (label,) = (item for item in scene.items if isinstance(item, Text) and item.text == slot)
+    (force,) = (a for a in scene.arrows() if a.of == slot and a.kind == "force")
+    assert min(math.dist(label.at, end) for end in (force.tail, force.head)) < 6.0

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.actions import Action, on_link, whole_actions
+from dalembert.analysis.actions import Action, joint_place, on_link, whole_actions
 from dalembert.analysis.circles import friction_circles
 from dalembert.analysis.lines import acting_lines
 from dalembert.analysis.members import components_along, members
@@ -97,14 +97,18 @@ def _draw_link(canvas: Canvas, r: Result, link: str, k: int, frame: Frame, shown
     for name, joint in m.joints.items():
         if link not in joint.links:
             continue
-        end = joint.links.index(link)
-        at = frame(r._place(link, np.asarray(m.joint_points(name)[end], float))[k])
+        end, at = joint.links.index(link), frame(joint_place(r, name)[k])
         if name in guided(r, [name]) and end == 1:
             canvas.add(guide_block(r, name, k, frame))
         elif joint.type == "slider" and end == 1:
             angle = float(r.angle(link)[k]) - float(getattr(joint, "angle", 0.0) or 0.0)
             canvas.add(*symbols.slider(at, angle))
-        canvas.add(*(symbols.pin(at) if joint.type != "weld" else symbols.weld(at)))
+        if joint.type == "weld":
+            canvas.add(*symbols.weld(at))
+        elif (
+            end == 1 or joint.type == "pin"
+        ):  # the pin of a slot or slider is j's, and wheels meet without one
+            canvas.add(*(symbols.pin(at) if joint.type not in ("gear", "rolling") else ()))
         canvas.label(name, *_corners(at), size=3.2, role="title", leads=False)
     at = frame(r.center(link)[k])
     if m.mass(link):
@@ -125,11 +129,13 @@ def _distances(r: Result, link: str, k: int, shown: Shown) -> str:
     def sign(name: str) -> str:
         return own_name(name) if name in r.mechanism.loads else name
 
-    parts = [
-        f"{first}–{sign(n)} = {shown.text('length', math.dist(places[first], places[n]))}"
-        for n in names[1:]
-        if math.dist(places[first], places[n]) > 0
-    ]
+    parts, told = [], [places[first]] if first else []
+    for name in names[1:]:
+        if all(math.dist(places[name], other) > 0 for other in told):
+            parts.append(
+                f"{first}–{sign(name)} = {shown.text('length', math.dist(places[first], places[name]))}"
+            )
+            told.append(places[name])
     if r.mechanism.mass(link) and first:
         g = tuple(map(float, r.center(link)[k]))
         if math.dist(g, places[first]) > 0:

@@ -16,7 +16,15 @@ from dalembert.views.details import detail_scenes, with_details
 from dalembert.views.frame import Frame, fitted, force_scale
 from dalembert.views.guides import guided
 from dalembert.views.notation import Figures, Notation, Shown
-from dalembert.views.outline import GROUND, draw_joint, every_place, link_points, link_shape, rail
+from dalembert.views.outline import (
+    GROUND,
+    draw_joint,
+    every_place,
+    link_points,
+    link_shape,
+    rail,
+    unbroken,
+)
 from dalembert.views.scene import Arrow, Line, Point, Scene
 
 if TYPE_CHECKING:
@@ -121,16 +129,13 @@ def whole_frame(r: Result, k: int, width: float, height: float) -> Frame:
 
 def draw_traces(canvas: Canvas, r: Result, frame: Frame) -> None:
     """Paths of moving joints over the cycle."""
-    if len(r.status) < 8:
+    if len(r.status) < 8 or r.stability is not None:
         return
     for name, joint in r.mechanism.joints.items():
         if GROUND in joint.links and joint.type == "pin":
             continue
         path = link_place(r, joint.links[1], r.mechanism.joint_points(name)[1])
-        path = path[np.isfinite(path).all(axis=1)]
-        if len(path) and float(np.ptp(path, axis=0).max()) > 1e-9:
-            closed = [*path, path[0]] if np.hypot(*(path[0] - path[-1])) < 0.2 * np.ptp(path) else path
-            canvas.add(Line(tuple(frame(p) for p in closed), "trace"))
+        canvas.add(*(Line(tuple(frame(p) for p in run), "trace") for run in unbroken(path)))
 
 
 def draw_links(canvas: Canvas, r: Result, k: int, frame: Frame) -> None:

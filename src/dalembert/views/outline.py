@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dalembert.analysis.actions import joint_place, link_angle, link_place, slide_direction
 from dalembert.views import symbols
@@ -180,3 +181,20 @@ def _draw_wheels(canvas: Canvas, r: Result, name: str, joint: Any, k: int, frame
         e = slide_direction(r, name)[k]
         at = frame(joint_place(r, name)[k])
         canvas.add(*symbols.hatch(at, math.atan2(float(e[1]), float(e[0])), 22.0))
+
+
+def unbroken(path: NDArray[Any]) -> list[NDArray[Any]]:
+    """Runs of a point's places (P, d) without gaps, the end joined to the beginning where they are near.
+
+    >>> [len(run) for run in unbroken(np.array([[0.0, 0], [1, 0], [np.nan, 0], [1, 1], [0, 1], [0, 0.1]]))]
+    [2, 4]
+    """
+    known = np.isfinite(path).all(axis=1)
+    where = np.flatnonzero(known)
+    span = float(np.ptp(path[where], axis=0).max()) if where.size else 0.0
+    if span <= 1e-9:
+        return []
+    runs = np.split(path[where], np.flatnonzero(np.diff(where) > 1) + 1)
+    if known[0] and known[-1] and float(np.linalg.norm(path[0] - path[-1])) < 0.2 * span:
+        runs[-1] = np.concatenate([runs[-1], path[:1]])
+    return [run for run in runs if len(run) > 1]

@@ -19,6 +19,7 @@ from dalembert.views.frame import force_scale
 from dalembert.views.link_solids import GROUND, nodes, pose, wheels
 from dalembert.views.mechanism import drawn_once, place_title, ring, role_of, unit_size
 from dalembert.views.notation import Notation, Shown
+from dalembert.views.outline import unbroken
 from dalembert.views.scene import Arrow, Line, Point, Scene
 from dalembert.views.solids import across
 from dalembert.views.space_friction import draw_circle, friction_details
@@ -101,14 +102,11 @@ def whole_sight(r: Result, k: int, camera: Camera, width: float, height: float) 
 
 def draw_traces(canvas: Canvas, r: Result, s: Sight) -> None:
     """Paths of moving joints over the cycle."""
-    if len(r.status) < 8:
+    if len(r.status) < 8 or r.stability is not None:
         return
     for joint in r.joints:
         path = joint_place(r, joint)
-        path = path[np.isfinite(path).all(axis=1)]
-        if len(path) and float(np.ptp(path, axis=0).max()) > 1e-9:
-            near = np.linalg.norm(path[0] - path[-1]) < 0.2 * float(np.ptp(path, axis=0).max())
-            canvas.add(Line(tuple(s(p) for p in ([*path, path[0]] if near else path)), "trace"))
+        canvas.add(*(Line(tuple(s(p) for p in run), "trace") for run in unbroken(path)))
 
 
 def draw_machine(canvas: Canvas, r: Result, k: int, s: Sight) -> None:
