@@ -202,7 +202,7 @@ def rubs_of(result: Result, joint: str, position: int) -> tuple[Rub, ...]:
     f, contacts = friction_of(result)
     k, out = result.joints.index(joint), []
     size = bearing(contacts, f.argument[position])
-    strong = strength(contacts, 1.0, f.open[position])
+    strong = strength(contacts, 1.0, f.open[position], f.sense[position])
     for e in (e for e in range(contacts.count) if contacts.joint[e] == k and not contacts.fixed[e]):
         mu = (contacts.resting if f.open[position, e] else contacts.coefficient)[e]
         part, kind = float(f.sense[position, e]), result.compiled.contact_kinds[e]

@@ -22,7 +22,8 @@ LAWS = {
     "a collar its radius times the force along the axis",
     "prismatic": "the force along x' is the coefficient times S, the force across the slide",
     "cylindrical": "the coefficient times S, the force across the axis, lies along the slip, which is made of the "
-    "slide and of the radius times the turn; p is the part of its direction along x', and around it",
+    "slide and of the radius times the turn; p is the part of its direction along x', and around it; with k for the "
+    "coefficient S is without the friction around the axis",
     "spherical": "the couple is the radius times the force S, against the relative angular velocity",
     "screw": "the coefficient times the thread's normal force, and times the force across the axis, lies along the "
     "helix at the mean radius",
@@ -136,23 +137,41 @@ class _Joint:
     def _cylindrical(self) -> list[Working]:
         guides = [rub for rub in self.rubs if rub.kind == "guide"]
         pins = [rub for rub in self.rubs if rub.kind == "pin"]
-        of, mu = len(guides), f"mu_{{{self.joint}}}"
+        of, rub, name = len(guides), guides[0], self.joint
         out = [self._bearing(rub, n, of, "yz") for n, rub in enumerate(guides)]
-        shares = [f"p_{{x'}} = {_figure(guides[0].part)}"]
-        shares += [f"p_{{t}} = {_figure(pins[0].part)}"] if pins else []
-        out.append(Working(", quad ".join(shares)))
-        coefficient = f"{guides[0].coefficient:.6g} cdot {_figure(abs(guides[0].part))}"
-        parts = [self._product(f"{mu} |p_{{x'}}|", coefficient, rub, n, of) for n, rub in enumerate(guides)]
-        out.append(self._sum(along(self.force_sign, "x'"), "force", parts, [rub.amount for rub in guides]))
+        parts = [("p_{x'}", rub.part), *([("p_{t}", pins[0].part)] if pins else [])]
+        out.append(Working(", quad ".join(f"{sign} = {self._figure(part)}" for sign, part in parts)))
+        factor, figure = f"mu_{{{name}}}", f"{rub.coefficient:.6g}"
+        if pins and circle_kind(self.c.r.mechanism, self.described) == "sin":
+            below = f"(1 + ({figure} cdot {self._figure(abs(pins[0].part))})^{{2}})^{{1/2}}"
+            letters = f"k_{{{name}}} = frac(mu_{{{name}}}; (1 + (mu_{{{name}}} p_{{t}})^{{2}})^{{1/2}})"
+            factor, figure = f"k_{{{name}}}", self._figure(rub.strength)
+            out.append(Working(letters, f"frac({rub.coefficient:.6g}; {below})", figure))
+        out.append(
+            self._shared(
+                "force", f"{factor} |p_{{x'}}|", f"{figure} cdot {self._figure(abs(rub.part))}", guides
+            )
+        )
         if pins:
-            arm = self._number("length", self.described.friction.radius)
-            coefficient = f"{pins[0].coefficient:.6g} cdot {arm} cdot {_figure(abs(pins[0].part))}"
-            factor = f"{mu} R_{{{self.joint}}} |p_{{t}}|"
-            parts = [self._product(factor, coefficient, rub, n, of) for n, rub in enumerate(pins)]
+            arm, part = (
+                self._number("length", self.described.friction.radius),
+                self._figure(abs(pins[0].part)),
+            )
             out.append(
-                self._sum(along(self.couple_sign, "x'"), "moment", parts, [rub.amount for rub in pins])
+                self._shared(
+                    "moment", f"{factor} R_{{{name}}} |p_{{t}}|", f"{figure} cdot {arm} cdot {part}", pins
+                )
             )
         return out
+
+    def _shared(self, kind: str, factor: str, figure: str, rubs: list[Rub]) -> Working:
+        """The part of the friction along x', or around it."""
+        parts = [self._product(factor, figure, rub, n, len(rubs)) for n, rub in enumerate(rubs)]
+        sign = along(self.couple_sign if kind == "moment" else self.force_sign, "x'")
+        return self._sum(sign, kind, parts, [rub.amount for rub in rubs])
+
+    def _figure(self, x: float) -> str:
+        return self.c.notation.number(x if abs(x) > 1e-12 else 0.0)
 
     def _spherical(self) -> list[Working]:
         rub = self.rubs[0]
@@ -221,7 +240,3 @@ class _Joint:
     def _made(self) -> tuple[Array, Array]:
         r, k = self.c.r, self.c.k
         return r.friction_force(self.joint)[k], r.friction_moment(self.joint)[k]
-
-
-def _figure(x: float) -> str:
-    return f"{x:.4g}".replace("-", "−")
