@@ -11,13 +11,14 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.bearings import bearing_axis, bearing_ends
+from dalembert.analysis.bearings import bearing_axis, bearing_ends, thread
 from dalembert.views.bearings import along_axis, journal_detail
 from dalembert.views.camera import CAMERAS
 from dalembert.views.canvas import text_over_lines, text_overlaps
 from dalembert.views.guides import guide_detail
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.scene import Arc, Circle
+from dalembert.views.space_guides import slide_on_paper
 from tests.oracles.space import rough_machines
 
 MACHINES = ("rssr", "rssp", "rccc", "press")
@@ -110,6 +111,26 @@ def test_a_guide_shows_the_angle_of_friction_at_each_end(name: str, joint: str) 
         assert (rub.head[0] - rub.tail[0]) * (slide.head[0] - slide.tail[0]) < 0
         total += (rub.head[0] - rub.tail[0]) * per_mm
     assert total == pytest.approx(r.friction_force(joint)[k] @ bearing_axis(r, joint)[k])
+
+
+def test_a_thread_unrolled_carries_the_force_along_the_axis_and_the_couple_about_it() -> None:
+    """Down the thread and up again: its normal force and friction are the screw's axial force and torque."""
+    r = solved("press")
+    axis, found, radius = r.joint_axes("H")[:, 0], thread(r, "H"), 0.022
+    along, around = (np.sum(v * axis, -1) for v in (r.reaction("H"), r.reaction_moment("H") / radius))
+    assert found.climb == pytest.approx(math.atan(-0.04 / (2 * math.pi * radius)))
+    across = np.array([-math.sin(found.climb), math.cos(found.climb)])
+    for k in range(len(along)):
+        e = slide_on_paper(r, "H", k)
+        assert np.array([around[k], along[k]]) == pytest.approx(
+            found.normal[k] * across + found.friction[k] * e
+        )
+    scene = guide_detail(r, "H", 1, Shown(r, Notation()), "spindle")
+    check(scene)
+    angle = math.degrees(math.atan2(abs(found.friction[1]), abs(found.normal[1])))
+    assert f"φ = {angle:.2f}°" in [t.text for t in scene.texts()]
+    slide, rub = (next(a for a in scene.arrows() if a.role == role) for role in ("velocity", "friction"))
+    assert np.subtract(slide.head, slide.tail) @ np.subtract(rub.head, rub.tail) < 0
 
 
 @pytest.mark.parametrize("name", MACHINES)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -69,3 +70,33 @@ def bearing_ends(r: Result, joint: str, kind: str) -> list[BearingEnd]:
         BearingEnd(part, along, f.argument[:, 0, e, None] * u + f.argument[:, 1, e, None] * v, f.cz[:, e])
         for (part, along), e in zip(places, mine, strict=False)
     ]
+
+
+@dataclass(frozen=True)
+class Thread:
+    """The thread of a screw at its mean radius, over P positions.
+
+    climb: lead angle, negative of a left-hand thread; normal (P,): force across the helix on j, positive with a part
+    along the axis; friction (P,): along the helix on j, positive with a part along the axis; across (P,): force across
+    the axis, which rubs too
+    """
+
+    climb: float
+    normal: Array
+    friction: Array
+    across: Array
+
+
+def thread(r: Result, joint: str) -> Thread:
+    """What a screw with friction carries on its thread: friction over normal force is the tangent of its angle.
+
+    The normal force is its part in the plane of axis and turn: of a thread with flanks at an angle less than the whole.
+    """
+    screw: Any = r.mechanism.joints[joint]
+    f, contacts = friction_of(r)
+    mine = np.flatnonzero(contacts.joint == r.joints.index(joint))
+    climb = math.atan2(screw.lead / (2 * math.pi), screw.friction.radius)
+    by_kind = {r.compiled.contact_kinds[e]: e for e in mine}
+    normal = f.argument[:, 0, by_kind["thread"]] * math.cos(screw.friction.thread_angle or 0.0)
+    across = np.hypot(f.argument[:, 0, by_kind["pin"]], f.argument[:, 1, by_kind["pin"]])
+    return Thread(climb, normal, f.cz[:, mine].sum(axis=-1) / abs(math.sin(climb)), across)

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.actions import joint_place, slide_direction
-from dalembert.analysis.bearings import bearing_ends
 from dalembert.analysis.friction import (
     at_rest,
     bears_on_faces,
@@ -24,6 +23,7 @@ from dalembert.views.frame import Frame, force_scale, round_up
 from dalembert.views.notation import Shown
 from dalembert.views.outline import GROUND
 from dalembert.views.scene import Arc, Arrow, Circle, Line, Point, Polygon, Scene
+from dalembert.views.space_guides import ends_on_paper, ends_words, laid_out, slide_on_paper, sliding_contact
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
@@ -38,18 +38,19 @@ HALF = 3.2
 def guided(r: Result, joints: Sequence[str]) -> list[str]:
     """Those of some joints that slide with dry friction."""
     m = r.mechanism.joints
-    some = [n for n in joints if m[n].type in ("slider", "slot", "prismatic", "cylindrical")]
+    some = [n for n in joints if m[n].type in ("slider", "slot", "prismatic", "cylindrical", "screw")]
     return [n for n in some if r.friction is not None and getattr(m[n], "friction", None) is not None]
 
 
 def guide_detail(r: Result, joint: str, k: int, shown: Shown, on: str, words: bool = True) -> Scene:
     """A guide with the normal force, friction and reaction at each place that bears, on one of its links, to scale.
 
-    In space the slide runs to the right, and the forces at each end are turned about it into the paper.
+    In space the slide runs to the right, and the forces at each end are turned about it into the paper; the thread of a
+    screw is unrolled at its mean radius, with its axis upward.
     """
     faces = faces_of(r, joint, k)
     sign = 1.0 if on == r.mechanism.joints[joint].links[1] else -1.0
-    sketch = _Sketch(r, joint, k, shown, faces, _direction(r, joint, k))
+    sketch = _Sketch(r, joint, k, shown, faces, slide_on_paper(r, joint, k))
     sketch.block()
     per_mm = force_scale(
         [float(np.hypot(*(f.normal[k] + f.friction[k]))) for f in faces], LONGEST, shown.size("force")
@@ -64,7 +65,7 @@ def guide_detail(r: Result, joint: str, k: int, shown: Shown, on: str, words: bo
     if not sketch.height and bears_on_faces(r, joint):
         notes[0] += "; faces drawn apart, with no half_height given"
     if r.mechanism.dimension == 3:
-        notes[0] += "; forces turned about the slide into the paper"
+        notes[0] += f"; {laid_out(r, joint)}"
     if words:
         notes = [*guide_words(r, joint, k, shown, on), *notes]
     scene = sketch.canvas.scene(f"Joint {joint}: angle of friction", notes=notes)
@@ -76,16 +77,16 @@ def guide_words(r: Result, joint: str, k: int, shown: Shown, on: str) -> list[st
     """Which faces bear with how much, the angle of friction, and why friction points as it does."""
     mu = friction_coefficient(r, joint, k)
     angle = f"μ = {mu:.6g}, φ = {math.degrees(math.atan(mu)):.2f}°"
-    sense = friction_sense(r, joint, "guide", k)
+    sense = friction_sense(r, joint, sliding_contact(r, joint), k)
     i, j = r.mechanism.joints[joint].links
     out = []
     if np.isfinite(sense) and sense != 0:
         way, against = ("ahead", "back") if sense > 0 else ("back", "ahead")
-        verb = "is about to slide" if at_rest(r, joint, "guide", k) else "slides"
+        verb = "is about to slide" if at_rest(r, joint, sliding_contact(r, joint), k) else "slides"
         words = f"{j} {verb} {way} on {i}, so friction on {j} points {against}."
         out.append(words[:1].upper() + words[1:])
     if r.mechanism.dimension == 3:
-        return [f"{angle}.", *_ends_words(r, joint, k, shown), *out]
+        return [f"{angle}.", *ends_words(r, joint, k, shown), *out]
     if not bears_on_faces(r, joint):
         return [f"{angle}.", *out]
     contact = guide_contact(r, joint)
@@ -133,44 +134,9 @@ def guide_corners(r: Result, joint: str, k: int) -> list[Point]:
 def faces_of(r: Result, joint: str, k: int) -> list[FaceForce]:
     """Where a joint that slides with friction bears at a position; none where that is not known."""
     if r.mechanism.dimension == 3:
-        return _turned_ends(r, joint)
+        return ends_on_paper(r, joint)
     faces = bearing_faces(r, joint, k) if bears_on_faces(r, joint) else [slot_face(r, joint)]
     return [f for f in faces if np.isfinite(f.normal[k]).all()]
-
-
-def _direction(r: Result, joint: str, k: int) -> Any:
-    """The slide on paper."""
-    if r.mechanism.dimension == 3:
-        return np.array([1.0, 0.0])
-    return np.asarray(slide_direction(r, joint)[k], float)
-
-
-def _turned_ends(r: Result, joint: str) -> list[FaceForce]:
-    """The ends of a guide in space, turned into the paper: on the lower face behind, ahead on the side it is nearer."""
-    ends = [end for end in bearing_ends(r, joint, "guide") if np.isfinite(end.force).all()]
-    out = []
-    for end in ends:
-        side = np.where((ends[0].force * end.force).sum(axis=-1) < 0, -1.0, 1.0)
-        normal, at = side * np.linalg.norm(end.force, axis=-1), np.zeros((len(side), 2))
-        along = np.full(len(side), end.along)
-        forces = (np.stack([0 * side, normal], axis=-1), np.stack([end.friction, 0 * side], axis=-1))
-        out.append(FaceForce(end.part, at, along, *forces))
-    return out
-
-
-def _ends_words(r: Result, joint: str, k: int, shown: Shown) -> list[str]:
-    """How much each end of a guide in space bears, and how far one is turned from the other."""
-    ends = [end.force[k] for end in bearing_ends(r, joint, "guide")]
-    size = [float(np.linalg.norm(v)) for v in ends]
-    figures = [shown.text("force", x) for x in size]
-    ahead = "Ahead is along x' of the joint."
-    if len(ends) < 2:
-        return [f"The guide bears with {figures[0]}.", ahead]
-    words = f"The guide bears with {figures[0]} behind and {figures[1]} ahead"
-    if min(size) > 1e-9 * max(size):
-        angle = math.degrees(math.acos(np.clip(ends[0] @ ends[1] / (size[0] * size[1]), -1.0, 1.0)))
-        words += f", in truth {angle:.1f}° apart"
-    return [f"{words}.", ahead]
 
 
 def _point(p: Any) -> Point:
@@ -287,7 +253,8 @@ class _Sketch:
     def motion(self, on: str) -> None:
         """An arrow: how the link slides, or is about to slide, against the other one."""
         i, j = self.r.mechanism.joints[self.joint].links
-        sense = friction_sense(self.r, self.joint, "guide", self.k) * (1.0 if on == j else -1.0)
+        contact = sliding_contact(self.r, self.joint)
+        sense = friction_sense(self.r, self.joint, contact, self.k) * (1.0 if on == j else -1.0)
         if not np.isfinite(sense) or sense == 0:
             return
         low, _ = self.reach

@@ -48,7 +48,7 @@ def draw_friction(arrows: Arrows, joint: str, link: str, k: int) -> None:
             arrows.vector(at, v, "friction", joint, text, bool(turning))
     if journals(r, k, [joint]):
         draw_circle(arrows.canvas, r, arrows.s, joint, k)
-    if guided(r, [joint]):
+    if guided(r, [joint]) and r.mechanism.joints[joint].type != "screw":
         _slide(arrows, joint, link, k)
 
 
@@ -82,7 +82,7 @@ def _slide(arrows: Arrows, joint: str, link: str, k: int) -> None:
 
 
 def friction_details(r: Result, k: int, shown: Shown, link: str | None = None) -> list[Scene]:
-    """Journals seen along their axes and guides from the side, of one link, or of all with words."""
+    """Journals seen along their axes, guides from the side, threads unrolled; of one link, or of all with words."""
     joints = [n for n in r.joints if link is None or link in r.mechanism.joints[n].links]
     known = [n for n in guided(r, joints) if np.isfinite(r.reaction(n)[k]).all()]
     some = [(n, journal_detail) for n in journals(r, k, joints)] + [(n, guide_detail) for n in known]
