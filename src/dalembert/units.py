@@ -182,6 +182,11 @@ def _split_text(text: str, kind: str) -> tuple[float, str]:
     number, rest = match.groups()
     if re.match(r",\s*\d", rest):
         raise ModelError(f"{shown(text)} has a decimal comma", f"write {text.replace(',', '.', 1)!r}")
+    if polar := re.fullmatch(rf"(.*?)\s*(?:\bat\b|∠)\s*({NUMBER}.*)", rest):
+        raise ModelError(
+            f"{shown(text)} is not one number",
+            f"a size and a direction are written {' '.join(filter(None, (number, polar[1])))} @ {polar[2]}",
+        )
     if re.match(r"[\d/]", rest) and not re.match(r"1/[^\W\d]", rest):
         raise ModelError(f"{shown(text)} is not one number", "write a decimal: 1.5 in for 1 1/2 in")
     return _float(number), rest

@@ -93,7 +93,7 @@ def check_drives(c: Compiled, found: Rank, mobility: Mobility) -> None:
     if missing > 0 or found.loose.any():
         loose = ", ".join(name for name, moves in zip(c.links, found.loose, strict=True) if moves)
         free = [f"{j} ({kind})" for (j, kind), moves in zip(c.freedoms, found.free, strict=True) if moves]
-        where = f" at one of {', '.join(free[:6])}" if free else ""
+        where = f" at {'one' if missing <= 1 else 'some'} of {', '.join(free[:6])}" if free else ""
         remedy = f"add {_count(max(missing, 1), 'drive')}{where}, or join the links that still move: {loose}"
         raise ModelError(counts, remedy, path)
 
@@ -105,7 +105,7 @@ def check_knowns(c: Compiled) -> None:
     if given == unknown:
         return
     efforts = _count(given, "drive effort") + (" is" if given <= 1 else " are") + " given"
-    loads = _count(unknown, "load") + (" is" if unknown == 1 else " are") + " unknown"
+    loads = _count(unknown, "load") + (" is" if unknown <= 1 else " are") + " unknown"
     if given > unknown:
         more = _count(given - unknown, "load")
         remedy = f"make {more} unknown (`value: unknown` with a direction) or leave the efforts out"

@@ -142,9 +142,10 @@ def listed(value: object, rules: Reading, example: str) -> Sequence[object]:
     if len(value) not in wanted:
         if rules.dimension == 2 and len(value) == 3:
             example += ", or space: space at the top of the file"
-        raise ModelError(
-            f"a vector has {len(value)} components where {wanted[0]} are needed", f"write {example}"
-        )
+        if len(value) == 1 and len(parts := str(value[0]).split()) in wanted:
+            example = f"[{', '.join(parts)}]: commas stand between the components"
+        counted = f"{len(value)} component{'' if len(value) == 1 else 's'}"
+        raise ModelError(f"a vector has {counted} where {wanted[0]} are needed", f"write {example}")
     return value
 
 
