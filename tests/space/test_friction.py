@@ -124,6 +124,19 @@ def test_journal_of_two_ends_and_collar(kind: str) -> None:
     assert r.reaction_moment("P")[0] == pytest.approx([-3, 5, -torque])
 
 
+def test_a_collar_alone() -> None:
+    """A thrust bearing: mu R_t |F_z|, whatever is across the axis; drawn and worked out like any."""
+    friction = {"coefficient": 0.12, "thrust_radius": 0.03}
+    joint = {"type": "revolute", "axis": [0, 0, 1], "friction": friction}
+    r = body(joint, [400.0, -200.0, -900.0], [0, 0, 0], P={"position": 0, "speed": "3 rad/s"})
+    assert abs(r.friction_moment("P")[0, 2]) == pytest.approx(0.12 * 0.03 * 900)
+    assert r.power_lost("P")[0] == pytest.approx(3 * 0.12 * 0.03 * 900)
+    assert da.draw.view(r, "all").items
+    assert "R_t" in da.report(r).to_bytes("txt").decode()
+    with pytest.raises(da.ModelError, match="has a guide, and no radius of the journal in it"):
+        body({**joint, "friction": {**friction, "guide": [0.1, 0.1]}}, [0, 0, 0], [0, 0, 0])
+
+
 def test_guide_of_two_ends_in_a_prismatic_joint() -> None:
     """A couple twice as large as the force times the guide's length: both ends bear, each with its own force."""
     mu = 0.2

@@ -130,7 +130,7 @@ def _ends(guide: tuple[float, float] | None, axis: int) -> list[tuple[Read, Read
 
 def _revolute(joint: Any, at: Geometry, sine: bool) -> Iterator[Bearing]:
     f = joint.friction
-    for first, second in _ends(f.guide, 2):
+    for first, second in _ends(f.guide, 2) if f.radius else ():
         yield Bearing("pin", _turning(at, 2), (first, second, {}), f.radius, sine)
     if f.thrust_radius:
         yield Bearing("collar", _turning(at, 2), ({"Fz": 1.0}, {}, {}), f.thrust_radius)

@@ -224,9 +224,14 @@ class SpaceJoint(JointPart):
                 raise ModelError(
                     f"the friction of a {self.type} joint has no {key}", "leave it out", ("friction", key)
                 )
-        if friction.radius is None and self.type in NEEDED_RADIUS:
+        if friction.thrust_radius is not None and friction.radius is None:
+            if friction.guide is not None:
+                what = "its friction has a guide, and no radius of the journal in it"
+                raise ModelError(what, "write radius: 10 mm, or leave guide out", ("friction", "guide"))
+        elif friction.radius is None and self.type in NEEDED_RADIUS:
             what = f"its friction needs the radius of its {NEEDED_RADIUS[self.type]}"
-            raise ModelError(what, "write radius: 10 mm", ("friction",))
+            collar = ", or thrust_radius alone for a collar" if self.type == "revolute" else ""
+            raise ModelError(what, f"write radius: 10 mm{collar}", ("friction",))
 
     def _check_axes(self) -> None:
         if self.type == "universal":

@@ -111,11 +111,13 @@ class _Joint:
     def _revolute(self) -> list[Working]:
         pins = [rub for rub in self.rubs if rub.kind == "pin"]
         collars = [rub for rub in self.rubs if rub.kind == "collar"]
-        out = [self._radius(pins[0], self.described.friction.radius)]
+        out = (
+            [self._radius(pins[0], self.described.friction.radius)] if pins else []
+        )  # none of a collar alone
         out += [self._bearing(rub, n, len(pins), "xy") for n, rub in enumerate(pins)]
-        radius = self._number("length", pins[0].strength)
         parts = [
-            self._product(f"r_{{{self.joint}}}", radius, rub, n, len(pins)) for n, rub in enumerate(pins)
+            self._product(f"r_{{{self.joint}}}", self._number("length", rub.strength), rub, n, len(pins))
+            for n, rub in enumerate(pins)
         ]
         for rub in collars:
             mu, arm = f"{rub.coefficient:.6g}", self._number("length", self.described.friction.thrust_radius)
