@@ -122,6 +122,11 @@ RUBBING: dict[str, tuple[dict[str, Any], list[float], dict[str, Any]]] = {
         [100, 20, -60],
         {"P": {"position": "30 deg", "speed": "2 rad/s"}},
     ),
+    "thrust": (
+        {"type": "revolute", "axis": [0, 0, 1], "friction": {"coefficient": 0.25, "thrust_radius": 0.03}},
+        [100, 20, -60],
+        {"P": {"position": "30 deg", "speed": "-2 rad/s"}},
+    ),
     "guide": (
         {"type": "prismatic", "axis": [1, 0, 0], "friction": {"coefficient": 0.2, "guide": [0.05, 0.05]}},
         [0, 30, -40],
@@ -169,11 +174,12 @@ def test_friction_in_figures(name: str) -> None:
     joint, load, drives = RUBBING[name]
     r = body(joint, load, [0, 0, 0] if name == "screw" else [0.3, -0.5, 0.2], **drives)
     sheet = working(r)
-    axis = r.joint_axes("P")[0, 2 if name == "journal" else 0]
+    axis = r.joint_axes("P")[0, 2 if name in ("journal", "thrust") else 0]
     exact = {"F": float(r.friction_force("P")[0] @ axis), "M": float(r.friction_moment("P")[0] @ axis)}
     last = [line for line in lines(sheet) if re.match(r"[FM]_\{f12[xz]'\} = ", line.letters)]
     assert {line.letters[0] for line in last} == {
         "journal": {"M"},
+        "thrust": {"M"},
         "guide": {"F"},
         "sleeve": {"F", "M"},
         "screw": {"F", "M"},
