@@ -52,6 +52,24 @@ def displacement(layout: Layout, rows: System, scaled_gap: Array) -> Array:
     return dq
 
 
+def displacements(layout: Layout, rows: System, scaled_gaps: Array) -> tuple[Array, Array | None]:
+    """Solutions (R, n L) of J dq = gap for several gaps (R, K), scaled, at a single pose (1, ...): one elimination.
+
+    Also J itself (K, n L), its rows scaled; None where it is too large to be handled dense.
+    """
+    scale, j = row_scale(layout, rows.angular), None
+    if layout.unknowns <= SPARSE:
+        j = dense(layout, rows)[0] * scale[:, None]
+    if j is not None and layout.square:
+        try:
+            dq = np.linalg.solve(j, scaled_gaps.T).T
+        except np.linalg.LinAlgError:
+            dq = np.zeros((len(scaled_gaps), layout.unknowns))
+    else:
+        dq = factor(layout, rows).motion(scaled_gaps / scale)
+    return np.asarray(np.where(np.isfinite(dq), dq, 0.0)), j
+
+
 @dataclass(frozen=True)
 class Sparse:
     """Square systems by sparse LU, one a position; cost grows with the number of links."""
@@ -71,13 +89,16 @@ class Sparse:
 
     def _each(self, right: Array, trans: str, side: Callable[[Any], Any]) -> Array:
         size = right.shape[-1]
-        flat = np.broadcast_to(right, (*self.lead, size)).reshape(-1, size)
+        lead = np.broadcast_shapes(self.lead, right.shape[:-1])
+        which = np.broadcast_to(np.arange(len(self.solvers)).reshape(self.lead), lead).ravel()
+        flat = np.broadcast_to(right, (*lead, size)).reshape(-1, size)
         out = np.full(flat.shape, np.nan)
-        for p, lu in enumerate(self.solvers):
+        for k, p in enumerate(which):
+            lu = self.solvers[p]
             if lu is not None:
-                x = lu.solve(flat[p], trans)
-                out[p] = x + lu.solve(flat[p] - side(self.matrices[p]) @ x, trans)
-        return out.reshape((*self.lead, size))
+                x = lu.solve(flat[k], trans)
+                out[k] = x + lu.solve(flat[k] - side(self.matrices[p]) @ x, trans)
+        return out.reshape((*lead, size))
 
 
 def sparse(layout: Layout, rows: System, row: Array, column: Array) -> Sparse:

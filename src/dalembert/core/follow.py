@@ -1,9 +1,7 @@
-"""A motion followed from its first pose: a coarse march, then all positions corrected at once.
+"""A motion followed from its first pose: marched from station to station, then all positions corrected at once.
 
-The march goes from station to station with a predictor through the last ones, halving its step where the corrector
-moves far. Where the determinant of J changes its sign smoothly the motion passed a change point, and goes on. Where
-no step is small enough it has come to a dead centre, and ends. Between stations the poses are interpolated and
-corrected together; a position whose correction is not small next to the spacing of the stations is not trusted.
+Between stations the poses are interpolated and corrected together; a position whose correction is not small next to
+the spacing of the stations is not trusted.
 
 s  parameter of the course
 """
@@ -16,182 +14,23 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.closure import CLOSED, closed, distance, gap, largest, moved
-from dalembert.core.constraints import dense, stacked
+from dalembert.core.closure import CLOSED, closed, distance
+from dalembert.core.constraints import stacked
 from dalembert.core.course import Course, course
-from dalembert.core.factor import SPARSE, displacement
+from dalembert.core.factor import displacement
 from dalembert.core.layout import Angle, Layout, Pose, Turn
-from dalembert.core.turning import settled
+from dalembert.core.march import POOR, March, Nodes, interpolated, march, orientation, twists
 
 Array = NDArray[Any]
-
-STRIDE = 0.43
-"""Radians of a drive (or slide over characteristic length) between stations; no divisor of a quarter turn."""
-
-NODES = 5
-"""Stations in an interpolation, each with pose and rate."""
-
-RECENT = 3
-"""Stations in an extrapolation."""
-
-CLOSE, POOR, STEPS = 0.01, 0.1, 5
-"""Newton's step over the travel at which it may stop, the whole correction that is refused, most steps."""
-
-FAR = 4 * STRIDE
-"""Longest travel of a link between stations: radians, or lengths over the machine's reach."""
 
 BLOCK = 2048
 """Positions corrected at once: enough to hide the cost of a numpy call, few enough to stay in the cache."""
 
-TRUSTED = 0.02
+TRUSTED = 1e-6
 """Correction of an interpolated pose, radians or characteristic lengths, that is never suspicious."""
 
 MOST_GAPS = 8
 """Times a motion is taken up again behind a gap."""
-
-SHORTEST = 2.0**-14
-"""Part of a stride at which the march gives up: a dead centre lies within."""
-
-
-class March(NamedTuple):
-    """Stations of a march: parameters (S,) ascending, their poses (S, L+1, ...), whether the course's end was met."""
-
-    s: Array
-    pose: Pose
-    whole: bool
-
-
-class Nodes(NamedTuple):
-    """Stations with their rates: parameters (S,) ascending, poses (S, L+1, ...), twists per unit of s (S, L+1, n)."""
-
-    s: Array
-    pose: Pose
-    rate: Array
-
-
-def interpolated(layout: Layout, s: Array, nodes: Nodes) -> Pose:
-    """Poses at s (P,) by Hermite polynomials through the ``NODES`` nearest stations; also outside them."""
-    count, g = min(NODES, len(nodes.s)), layout.algebra
-    first = np.clip(np.searchsorted(nodes.s, s) - count // 2, 0, len(nodes.s) - count)
-    index = first[:, None] + np.arange(count)
-    value, slope = _hermite(s, nodes.s[index])
-    weights = np.concatenate([value, slope], axis=1)
-    q, rate = g.coordinates(*nodes.pose), g.coordinate_rates(nodes.pose.rotation, nodes.rate)
-    q = np.concatenate([q[index], rate[index]], axis=1)
-    q = (weights[:, None] @ q.reshape((*q.shape[:2], -1))).reshape((len(s), *q.shape[2:]))
-    nearest = index[np.arange(len(s)), np.abs(s[:, None] - nodes.s[index]).argmin(axis=1)]
-    return settled(layout, Pose(*g.from_coordinates(q, nodes.pose.turn[nearest])))
-
-
-def _hermite(s: Array, nodes: Array) -> tuple[Array, Array]:
-    """Weights (P, k) of values and of slopes at nodes (P, k), for s (P,)."""
-    count = nodes.shape[1]
-    apart = nodes[:, :, None] - nodes[:, None, :] + np.eye(count)
-    away = s[:, None] - nodes
-    product = np.repeat(away[:, None, :], count, axis=1)
-    product[:, np.arange(count), np.arange(count)] = 1.0
-    lagrange = (product / apart).prod(axis=2)
-    steep = (1 / apart).sum(axis=2) - 1.0
-    square = lagrange * lagrange
-    return square * (1 - 2 * steep * away), square * away
-
-
-def march(layout: Layout, first: Pose, along: Course, start: float, backward: bool = False) -> March:
-    """Stations from parameter ``start`` to the end of the course (or its beginning), from the pose there."""
-    end, sign = (0.0, -1.0) if backward else (along.end, 1.0)
-    s, poses, size, smooth, exact = [start], [first], 1.0, 0, True
-    rates = [_rate(layout, along, first.at(None), start, sign)] if start != end else []
-    while sign * (end - s[-1]) > 0:
-        ahead = s[-1] + sign * min(size * STRIDE, abs(along.limit(s[-1], sign) - s[-1]))
-        recent = slice(max(smooth, len(s) - RECENT), None)
-        new = _station(layout, along, s[recent], poses[recent], rates[recent], ahead)
-        if new is None:
-            if not exact:  # what the corrector left of this station may be large beside a shorter step
-                poses[-1] = closed(layout, poses[-1].at(None), along.target(s[-1]))[0].at(0)
-                rates[-1] = _rate(layout, along, poses[-1].at(None), s[-1], sign)
-                exact = True
-            size /= 2
-            if size < SHORTEST:
-                break
-            continue
-        s.append(ahead)
-        poses.append(new[0])
-        rates.append(new[1])
-        size, exact = min(2 * size, 1.0), False
-        if np.abs(along.breaks - ahead).min() < 1e-12:
-            smooth = len(s) - 1
-            rates[-1] = _rate(layout, along, new[0].at(None), ahead, sign)
-    whole = sign * (end - s[-1]) <= 0
-    order = np.argsort(s)
-    return March(np.array(s)[order], stack([poses[k] for k in order]), bool(whole))
-
-
-def stack(poses: list[Pose]) -> Pose:
-    """Single poses as one with a leading axis."""
-    return Pose(*(np.stack(part) for part in zip(*poses, strict=True)))
-
-
-def _rate(layout: Layout, along: Course, pose: Pose, s: float, side: float) -> Array:
-    """Twists (L+1, n) of the links per unit of s at a single pose, on one side of it."""
-    right = along.slope(s, side) * layout.row_scale
-    with np.errstate(all="ignore"):
-        rate: Array = _twist(layout, displacement(layout, stacked(layout, pose), right))[0]
-    return rate
-
-
-def _twist(layout: Layout, dq: Array) -> Array:
-    """Displacements (..., n L) by link, ground's zeros included."""
-    moving: Array = dq.reshape((*dq.shape[:-1], layout.links, layout.algebra.n))
-    return np.concatenate([moving, np.zeros_like(moving[..., :1, :])], axis=-2)
-
-
-def _station(
-    layout: Layout, along: Course, s: list[float], poses: list[Pose], rates: list[Array], ahead: float
-) -> tuple[Pose, Array] | None:
-    """Pose and rate at ``ahead``, predicted from the last stations and corrected; None where that is far off.
-
-    Newton stops when its step is small next to the travel: what it leaves is the square of that, and the whole march
-    is polished later. The matrix of the last step gives the rate as well.
-    """
-    there, slope = along.target(ahead), along.slope(ahead, s[-1] - ahead) * layout.row_scale
-    guess = pose = _predicted(layout, s, poses, rates, ahead)
-    for _ in range(STEPS):
-        dq = _twist(layout, _corrections(layout, pose, gap(layout, pose, there), slope))
-        pose = moved(layout, pose, dq[:1, :-1])
-        travel = distance(layout, pose, poses[-1].at(None))[0]
-        if not distance(layout, pose, guess)[0] <= POOR * travel + 1e-6 or _is_far(
-            layout, poses[-1], pose.at(0)
-        ):
-            return None
-        if largest(layout, dq[:1])[0] <= CLOSE * travel + 1e-9:
-            return settled(layout, pose).at(0), dq[1]
-    return None
-
-
-def _is_far(layout: Layout, before: Pose, after: Pose) -> bool:
-    """Whether a link travelled too far between two poses (L+1, ...) for all branches to be told apart.
-
-    Shifts are compared with the reach of the moving links, not with one link's length: what stands at the end of a
-    long chain goes far by the chain's turns alone.
-    """
-    reach = max(np.ptp(before.point[:-1], axis=0).max(initial=0.0), layout.length)
-    shift = np.abs(after.point - before.point).max() / reach
-    turned = layout.algebra.apart(after.rotation, before.rotation, after.turn, before.turn).max()
-    return bool(max(shift, turned) > FAR)
-
-
-def _predicted(layout: Layout, s: list[float], poses: list[Pose], rates: list[Array], ahead: float) -> Pose:
-    """Hermite polynomial through the last stations."""
-    order = np.argsort(s)
-    nodes = Nodes(np.array(s)[order], stack([poses[k] for k in order]), np.stack([rates[k] for k in order]))
-    return interpolated(layout, np.array([ahead]), nodes)
-
-
-def _corrections(layout: Layout, pose: Pose, missing: Array, slope: Array) -> Array:
-    """Newton step and rate at a single pose, with one matrix."""
-    both = Pose(*(np.concatenate([a, a]) for a in pose))
-    with np.errstate(all="ignore"):
-        return displacement(layout, stacked(layout, both), np.concatenate([missing, slope]))
 
 
 class Path(NamedTuple):
@@ -293,7 +132,7 @@ def _polished(layout: Layout, along: Course, s: Array, pose: Pose, inside: float
     pose, _ = closed(layout, pose, targets)
     slopes = np.concatenate([along.slope(x, inside - x) for x in s]) * layout.row_scale
     with np.errstate(all="ignore"):
-        return Nodes(s, pose, _twist(layout, displacement(layout, stacked(layout, pose), slopes)))
+        return Nodes(s, pose, twists(layout, displacement(layout, stacked(layout, pose), slopes)))
 
 
 def _fill(layout: Layout, along: Course, nodes: Nodes, places: NDArray[np.intp], found: Path) -> None:
@@ -355,11 +194,3 @@ def _entry(layout: Layout, target: Array, known: Path, sign: float) -> Pose | No
     if not fits.any():
         return None
     return pose.at(np.flatnonzero(fits)[np.argmin(distance(layout, pose, guess)[fits])])
-
-
-def orientation(layout: Layout, pose: Pose) -> Array:
-    """Sign of det J: it tells the two sides of a dead centre apart. 0 where J is not square or too large to ask."""
-    if layout.redundant or layout.unknowns > SPARSE or layout.stack.count != layout.unknowns:
-        return np.zeros(len(pose.point))
-    sign, _ = np.linalg.slogdet(dense(layout, stacked(layout, pose)))
-    return np.asarray(sign)

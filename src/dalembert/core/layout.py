@@ -345,3 +345,8 @@ class Layout:
     def unknowns(self) -> int:
         """n L, the number of velocities, and of equilibrium equations."""
         return int(self.algebra.n) * self.links
+
+    @property
+    def square(self) -> bool:
+        """As many rows as unknowns, none repeated: J has a determinant."""
+        return self.stack.count == self.unknowns and not self.redundant
