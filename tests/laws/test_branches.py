@@ -142,3 +142,24 @@ def test_a_parallelogram_goes_straight_through_its_change_points(count: int) -> 
     crank, rocker = r.angle("crank"), r.angle("rocker")
     clear = np.abs(np.sin(crank)) > 1e-6
     np.testing.assert_allclose(np.cos(rocker - crank)[clear], 1.0, atol=1e-12)
+
+
+def test_what_lies_behind_a_turn_too_sharp_to_follow_is_said_to_close() -> None:
+    sizes = (0.969245892, 1.551008023, 1.551008023, 0.969245821)
+    r = da.kinematics(four_bar(sizes, 187.15, 200.0, 181, 1.0))
+    ((where, status, sentence),) = r.problems()
+    assert (where, status) == ("157-181", "not_assembled")
+    assert sentence.startswith("The linkage closes between 360.483 deg and 387.15 deg of O2, but the motion")
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_lifted_linkage_stays_with_the_plane_one(seed: int) -> None:
+    """Its constraints repeat each other: there is no determinant that tells branches apart."""
+    rng = np.random.default_rng(100 + seed)
+    sizes = lengths(rng, 10 ** rng.uniform(-5, -1))
+    m = four_bar(sizes, rng.uniform(0, 360), 360.0, 73, 1.0)
+    plane, space = da.kinematics(m), da.kinematics(da.lifted(m))
+    turned = space.rotation("rocker")
+    assert plane.ok.all()
+    angle = np.arctan2(turned[:, 1, 0], turned[:, 0, 0])
+    np.testing.assert_allclose(np.exp(1j * angle), np.exp(1j * plane.angle("rocker")), atol=1e-6)

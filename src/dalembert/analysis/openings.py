@@ -33,6 +33,12 @@ def open_sentence(c: Compiled, found: Path | None, where: NDArray[np.intp]) -> s
     shift, turn = _openings(c, found, middle)
     lengths = _most(c, shift, "length", c.layout.length, "apart")
     parts = [part for part in (lengths, _most(c, turn, "angle", 1.0, "out of line")) if part]
+    if found is not None and not parts:
+        return (
+            f"The linkage closes {_span(c, where)}, but the motion could not be followed there: on the way lies a dead "
+            "centre, or two branches come too near to each other to be told apart. Solve these positions by "
+            "themselves, with an assembly, or change a length."
+        )
     there = f"at {_values(c, middle)} " if len(where) > 1 and c.schedule.names else ""
     gap = f": {there}{' and '.join(parts)}" if parts else ""
     drives = f", or give {' and '.join(c.schedule.names)} another range" if c.schedule.names else ""
