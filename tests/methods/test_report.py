@@ -132,3 +132,23 @@ def test_the_command_writes(kind: str, tmp_path: Path) -> None:
     assert main(["report", str(examples()["four_bar"]), "-o", str(path)]) == 0
     assert path.stat().st_size > 5000
     assert main(["report", str(examples()["four_bar"]), "-o", str(path)]) == 2
+
+
+def test_the_motion_of_wheels_in_mesh() -> None:
+    """Against the line of centres; what a joint has of its own is given."""
+    found = text("gear_train")
+    assert "gear, pitch radii 52.00 mm and 16.00 mm, internal, pressure angle 20.00°" in found
+    assert "r_2 (ω_2 − ω_c) + r_3 (ω_3 − ω_c) = 0" in found
+    assert "20.00 · (151.8 − 42.18) + 16.00 · (−94.90 − 42.18) = 0 mm/s" in found
+    assert "52.00 · (0 − 42.18) + (−16.00) · (−94.90 − 42.18) = 0 mm/s" in found
+    assert "of an internal pair the inner radius is negative" in found.replace("\n", " ")
+
+
+def test_rates_of_the_line_of_centres_are_those_of_the_carrier() -> None:
+    from dalembert.report.meshes import _Line
+
+    r = da.dynamics(da.load(examples()["gear_train"]).with_values({"drives.sun_bearing.acceleration": 70.0}))
+    for joint in ("sun_mesh", "ring_mesh"):
+        line = _Line(r, 0, joint)
+        assert line.speed == pytest.approx(float(r.speed("carrier")[0]))
+        assert line.acceleration == pytest.approx(float(r.acceleration("carrier")[0]))

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.report.chosen import as_formula
+from dalembert.report.formula import bracketed
 from dalembert.report.sheet import Sheet, Working
 from dalembert.views import draw
 from dalembert.views.notation import Figures, Notation, own_name, pretty
@@ -221,7 +222,7 @@ class _Work:
         )
 
     def _equation(self, r: Array, m: float) -> str:
-        return f"{self.force(r[1])} x − {_bracketed(self.force(r[0]))} y = {self.moment(m)}"
+        return f"{self.force(r[1])} x − {bracketed(self.force(r[0]))} y = {self.moment(m)}"
 
     def _cut(self, axis: Any, name: str) -> str:
         """Where a line crosses the axes or planes through the point."""
@@ -240,7 +241,7 @@ class _Work:
         size, found = math.hypot(*r), self.s.central_axis()
         moment, force, length = self.unit("moment"), self.unit("force"), self.unit("length")
         product = _joined(
-            [f"{self.force(a)} cdot {_bracketed(self.moment(b))}" for a, b in zip(r, m, strict=True)]
+            [f"{self.force(a)} cdot {bracketed(self.moment(b))}" for a, b in zip(r, m, strict=True)]
         )
         value = self.shown.value("force", 1.0) * self.shown.value("moment", float(r @ m))
         foot = np.cross(r / size, m) / size
@@ -298,7 +299,3 @@ def _joined(numbers: list[str]) -> str:
         minus, size = text.startswith("−"), text.removeprefix("−")
         out += f" {'−' if minus else '+'} {size}" if out else text
     return out or "0"
-
-
-def _bracketed(number: str) -> str:
-    return f"({number})" if number.startswith("−") else number

@@ -211,6 +211,15 @@ def plain(text: str) -> str:
     return _written(text, atom, lambda a, b: f"({a})/({b})")
 
 
+def bracketed(number: str) -> str:
+    """A number behind an operator: a negative one in brackets.
+
+    >>> bracketed("−3.5"), bracketed("2")
+    ('(−3.5)', '2')
+    """
+    return f"({number})" if number.startswith("−") else number
+
+
 def mixed(text: str, formula: Callable[[str], str], words: Callable[[str], str]) -> list[str]:
     """Words and the formulas between dollar signs, each written; a dollar sign without its other is a word."""
     parts = text.split("$")

@@ -24,7 +24,11 @@ def knowns(sheet: Sheet, c: Chosen) -> None:
     sheet.heading("Given")
     _links(sheet, c)
     joints = [
-        [name, f"{d.type}{_rubbing(c, d)}", f"{shown.heading(d.links[0])} – {shown.heading(d.links[1])}"]
+        [
+            name,
+            f"{d.type}{_measures(shown, d)}{_rubbing(c, d)}",
+            f"{shown.heading(d.links[0])} – {shown.heading(d.links[1])}",
+        ]
         for name, d in m.joints.items()
     ]
     drives = [[f"drive {d}", *_drive_row(c, d)] for d in r.drives]
@@ -107,6 +111,33 @@ def _primed(words: str) -> str:
 
 def _cosine(x: float) -> str:
     return "0" if abs(x) < 1e-12 else f"{x:.4f}".rstrip("0").rstrip(".").replace("-", "−")
+
+
+def _measures(shown: Shown, joint: Any) -> str:
+    """What a joint has of its own besides its points: ', pitch radii 80 mm and 40 mm, pressure angle 20°'."""
+    parts = []
+    radii = joint.pitch_radii if joint.type == "gear" else getattr(joint, "radii", None)
+    if radii is not None:
+        both = " and ".join(shown.text("length", float(x)) for x in radii)
+        parts.append(f"{'pitch ' if joint.type == 'gear' else ''}radii {both}")
+        parts.append("internal" if joint.internal else "")
+    elif joint.type == "rolling":
+        parts.append(f"radius {shown.text('length', float(joint.radius))}")
+    for key, words, kind in OWN_MEASURES:
+        value = getattr(joint, key, None)
+        parts.append(
+            f"{words} {shown.text(kind, float(value))}" if isinstance(value, float) and value else ""
+        )
+    return "".join(f", {part}" for part in parts if part)
+
+
+OWN_MEASURES = (
+    ("direction", "along", "angle"),
+    ("pressure_angle", "pressure angle", "angle"),
+    ("helix_angle", "helix angle", "angle"),
+    ("lead", "lead", "length"),
+)
+"""Keys of joints, what they are called and of which kind."""
 
 
 def _rubbing(c: Chosen, joint: Any) -> str:

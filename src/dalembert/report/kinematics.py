@@ -128,10 +128,10 @@ def position_lines(loop: Loop, shown: Shown) -> list[Working]:
     for function, turn in (("cos", math.cos), ("sin", math.sin)):
         letters = " + ".join(f"r_{{{s.name}}} {function} theta_{{{s.name}}}" for s in loop.sides)
         numbers = " + ".join(
-            f"{_num(shown, 'length', s.length)} {function} {_degrees(s.angle)}" for s in loop.sides
+            f"{number_text(shown, 'length', s.length)} {function} {_degrees(s.angle)}" for s in loop.sides
         )
         total = math.fsum(s.length * turn(s.angle) for s in loop.sides)
-        out.append(_closed(letters, numbers, total, max(s.length for s in loop.sides), shown, "length"))
+        out.append(closed(letters, numbers, total, max(s.length for s in loop.sides), shown, "length"))
     return out
 
 
@@ -203,8 +203,8 @@ def _summed(axes: list[tuple[list[str], list[float]]], shown: Shown, kind: str) 
     out = []
     for letters, values in axes:
         kept = [v if abs(v) > 1e-9 * largest else 0.0 for v in values]
-        numbers = [f"{'−' if v < 0 else '+'} {_num(shown, kind, abs(v))}" for v in kept]
-        out.append(_closed(_first(letters), _first(numbers), math.fsum(values), largest, shown, kind))
+        numbers = [f"{'−' if v < 0 else '+'} {number_text(shown, kind, abs(v))}" for v in kept]
+        out.append(closed(_first(letters), _first(numbers), math.fsum(values), largest, shown, kind))
     return out
 
 
@@ -214,7 +214,7 @@ def _first(parts: list[str]) -> str:
     return text.removeprefix("+ ") or "0"
 
 
-def _num(shown: Shown, kind: str, value: float) -> str:
+def number_text(shown: Shown, kind: str, value: float) -> str:
     return shown.notation.number(shown.value(kind, value))
 
 
@@ -223,6 +223,6 @@ def _degrees(angle: float) -> str:
     return f"{value:.2f}".replace("-", "−") + " deg" if value >= 0 else f"(−{-value:.2f} deg)"
 
 
-def _closed(letters: str, numbers: str, total: float, largest: float, shown: Shown, kind: str) -> Working:
+def closed(letters: str, numbers: str, total: float, largest: float, shown: Shown, kind: str) -> Working:
     value = 0.0 if abs(total) < 1e-9 * largest else total
-    return Working(f"{letters} = 0", f'{numbers} = {_num(shown, kind, value)} "{shown.unit(kind)}"')
+    return Working(f"{letters} = 0", f'{numbers} = {number_text(shown, kind, value)} "{shown.unit(kind)}"')

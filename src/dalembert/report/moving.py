@@ -9,6 +9,8 @@ import numpy as np
 from dalembert.analysis.members import displaced_inertia, inertia_shares
 from dalembert.report import kinematics
 from dalembert.report.chosen import Chosen
+from dalembert.report.formula import bracketed
+from dalembert.report.meshes import mesh
 from dalembert.report.sheet import Sheet, Working
 from dalembert.views import draw
 
@@ -26,6 +28,11 @@ def motion(sheet: Sheet, c: Chosen) -> None:
         if moving:
             sheet.equations(kinematics.velocity_lines(loop, shown))
             sheet.equations(kinematics.acceleration_lines(loop, shown))
+    for name, joint in r.mechanism.joints.items() if moving else ():
+        if joint.type == "gear":
+            words, lines = mesh(r, c.k, name, shown)
+            sheet.text(words)
+            sheet.equations(lines)
     heads, rows = _motion_table(c, moving)
     sheet.table(heads, rows, "Solved for the motion of the links and of their mass centres")
     if moving:
@@ -100,7 +107,7 @@ def _inertia_lines(c: Chosen, link: str) -> list[Working]:
         out.append(
             Working(
                 f"T_{{I{n}}} = −I_{{{n}}} alpha_{{{n}}}",
-                f"−{number('inertia', inertia)} cdot {_bracketed(alpha)}",
+                f"−{number('inertia', inertia)} cdot {bracketed(alpha)}",
                 f'{couple} "{moment}"',
             )
         )
@@ -114,7 +121,3 @@ def _inertia_lines(c: Chosen, link: str) -> list[Working]:
                 )
             )
     return out
-
-
-def _bracketed(text: str) -> str:
-    return f"({text})" if text.startswith("−") else text
