@@ -5,8 +5,10 @@ positions, at a steady speed. dalembert is called as a user calls it on a descri
 (``da.dynamics(m)``, which gives all reactions too), after one warming call. Pinocchio, MuJoCo and Drake compute trees:
 their users open the loop at one ball, close it by Newton's method with the programs' Jacobians position by position
 (from the position before), and find the torque and the three forces of the cut from the programs' inverse dynamics:
-the same few lines around each of them. Their torques are compared with ours first. Medians of wall and of processor
-time over the repeats, in turns; those not installed are named. Exudyn is not compared yet.
+the same few lines around each of them. Exudyn simulates: its user holds the crank's speed, starts from consistent
+velocities (ours) and reads the torque of the constraint, one implicit step a position; only its solver is timed, and
+its torque is as good as the step. Their torques are compared with ours first. Medians of wall and of processor time
+over the repeats, in turns; those not installed are named.
 
     python benchmarks/rssr.py [--repeat 15]
 """
@@ -297,6 +299,57 @@ class Drake(Tree):
         return self.plant.CalcInverseDynamics(self.context, a, self.none)
 
 
+class Exudyn:
+    """A simulation of one turn with the crank's speed held: joints as constraints, generalized-alpha steps."""
+
+    def __init__(self, motion: Any) -> None:
+        import exudyn as exu
+        from exudyn import utilities as eu
+
+        self.system = mbs = exu.SystemContainer().AddSystem()
+        ground, bodies = mbs.CreateGround(), {}
+        for name, mass in MASS.items():
+            bodies[name] = mbs.CreateRigidBody(
+                inertia=eu.RigidBodyInertia(mass=mass, inertiaTensor=INERTIA[name]),
+                referencePosition=CENTER[name],
+                initialVelocity=motion.center_velocity(name)[0],
+                initialAngularVelocity=motion.speed(name)[0],
+                gravity=GRAVITY,
+                nodeType=exu.NodeType.RotationEulerParameters,
+            )
+        mbs.CreateSphericalJoint(itemNumbers=[bodies["crank"], bodies["rod"]], position=A)
+        mbs.CreateSphericalJoint(itemNumbers=[bodies["rod"], bodies["rocker"]], position=B)
+        mbs.CreateRevoluteJoint(itemNumbers=[ground, bodies["crank"]], position=P, axis=CRANK_AXIS)
+        mbs.CreateRevoluteJoint(itemNumbers=[ground, bodies["rocker"]], position=C, axis=ROCKER_AXIS)
+        node = mbs.GetObject(bodies["crank"])["nodeNumber"]
+        turn = mbs.AddMarker(eu.MarkerNodeRotationCoordinate(nodeNumber=node, rotationCoordinate=2))
+        still = mbs.AddNode(eu.NodePointGround())
+        base = mbs.AddMarker(eu.MarkerNodeCoordinate(nodeNumber=still, coordinate=0))
+        held = eu.CoordinateConstraint(markerNumbers=[base, turn], offset=SPEED, velocityLevel=True)
+        torque = exu.OutputVariableType.Force
+        self.sensor = mbs.AddSensor(
+            eu.SensorObject(
+                objectNumber=mbs.AddObject(held),
+                outputVariableType=torque,
+                storeInternal=True,
+                writeToFile=False,
+            )
+        )
+        mbs.Assemble()
+        self.settings = exu.SimulationSettings()
+        steps = self.settings.timeIntegration
+        steps.numberOfSteps, steps.endTime, steps.verboseMode = COUNT, 2 * np.pi / SPEED, 0
+        self.settings.solution.file.write = False
+        self.settings.solution.sensors.writePeriod = steps.endTime / COUNT
+
+    def torque(self) -> Any:
+        self.turn()
+        return -self.system.GetSensorStoredData(self.sensor)[:COUNT, 1]
+
+    def turn(self) -> None:
+        self.system.SolveDynamic(self.settings)
+
+
 def medians(ways: dict[str, Callable[[], Any]], repeat: int) -> dict[str, tuple[float, float]]:
     """Wall and processor time (ms) of each, in turns."""
     spent: dict[str, list[tuple[float, float]]] = {name: [] for name in ways}
@@ -328,6 +381,14 @@ def main() -> None:
         off = np.max(np.abs(cycle(tree, turns) - expected)) / np.max(np.abs(expected))
         print(f"{kind.__name__}: torque differs by {off:.1e} of the largest")
         ways[kind.__name__] = lambda tree=tree: cycle(tree, turns)  # type: ignore[misc]
+    try:
+        steps = Exudyn(r)
+    except ImportError as error:
+        print(f"Exudyn: left out, {error}")
+    else:
+        off = np.max(np.abs(steps.torque() - expected)) / np.max(np.abs(expected))
+        print(f"Exudyn: torque differs by {off:.1e} of the largest, by its steps")
+        ways["Exudyn"] = steps.turn
     print(f"{'':12}{'wall ms':>10}{'CPU ms':>10}{'CPU us a position':>20}")
     for name, (wall, cpu) in medians(ways, repeat).items():
         print(f"{name:12}{wall:10.1f}{cpu:10.1f}{cpu / COUNT * 1e3:20.1f}")
