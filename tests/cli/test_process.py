@@ -12,6 +12,8 @@ from dalembert.bundled import examples
 
 COMMAND = [sys.executable, "-m", "dalembert"]
 FOUR_BAR = str(examples()["four_bar"])
+HANGS = 300
+"""Seconds behind which a process that takes 2 is said to hang: far more, for machines that are busy."""
 
 
 def test_status_and_streams() -> None:
@@ -34,15 +36,21 @@ def test_a_reader_that_goes_away_is_no_error() -> None:
         process.stdout.readline()
         process.stdout.close()
         assert process.stderr.read() == b""
-        assert process.wait(30) == 0
+        assert process.wait(HANGS) == 0
 
 
 def test_interruption_is_quiet(tmp_path: Path) -> None:
-    command = [*COMMAND, "solve", FOUR_BAR, "--positions", "30000", "--csv", str(tmp_path / "out.csv")]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
-        while not any(tmp_path.iterdir()) and process.poll() is None:
-            time.sleep(0.01)
-        process.send_signal(signal.SIGINT)
-        _, err = process.communicate(timeout=30)
-        assert (process.returncode, err) == (130, b"")
+    """Interrupted while it writes; where it was done before it could be, it is given more to write."""
+    path = tmp_path / "out.csv"
+    for positions in ("30000", "100000", "300000"):
+        command = [*COMMAND, "solve", FOUR_BAR, "--positions", positions, "--csv", str(path)]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            while not any(tmp_path.iterdir()) and process.poll() is None:
+                time.sleep(0.01)
+            process.send_signal(signal.SIGINT)
+            _, err = process.communicate(timeout=HANGS)
+        if process.returncode:
+            break
+        path.unlink()
+    assert (process.returncode, err) == (130, b"")
     assert list(tmp_path.iterdir()) == []

@@ -16,7 +16,8 @@ from dalembert.views.canvas import text_over_lines, text_overlaps
 from dalembert.views.scene import Circle, Line, Scene
 from tests.friction.engines import collar, engine, guided
 from tests.friction.rough import rough
-from tests.friction.test_laws import over, solved
+from tests.friction.test_laws import solved
+from tests.tiers import over
 
 RUBBING = [name for name, path in cases().items() if "friction:" in path.read_text(encoding="utf-8")]
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from copy import deepcopy
-from functools import wraps
 from types import SimpleNamespace
 from typing import Any
 
@@ -20,27 +18,11 @@ from tests.friction.rough import CYCLES, cycle, rough, rough_tree, unlawful
 from tests.laws.measures import joint_wrenches, known_wrenches
 from tests.oracles.reading import machine
 from tests.random_mechanisms import Rigid, pose_array, random_mechanism
+from tests.tiers import over
 
 SOLVED = ("ok", "self_locking")
 OFF = {"enabled": False, "coefficient": 0.1}
 VERDICTS = (*SOLVED, "jammed", "at_rest", "not_assembled", "singular", "redundant")
-
-
-def over(quick: int, long: int) -> Callable[..., Any]:
-    """A law on the first seeds, one test each, and with the mark ``long`` on the rest, a block of 50 a test."""
-    blocks = [
-        pytest.param(range(s, min(s + 50, long)), marks=pytest.mark.long) for s in range(quick, long, 50)
-    ]
-
-    def decorated(law: Callable[[int], None]) -> Callable[..., None]:
-        @wraps(law)
-        def each(seed: int | range) -> None:
-            for s in [seed] if isinstance(seed, int) else seed:
-                law(s)
-
-        return pytest.mark.parametrize("seed", [*range(quick), *blocks])(each)
-
-    return decorated
 
 
 def solved(r: Any) -> Any:

@@ -8,6 +8,7 @@ import pytest
 import dalembert as da
 from tests.kernel.comparing import changed, difference, every_number, general
 from tests.random_mechanisms import random_case, tree
+from tests.tiers import tiers
 
 TOLERANCE = 1e-10
 
@@ -27,16 +28,7 @@ def test_random_mechanisms(seed: int) -> None:
     assert worst < TOLERANCE
 
 
-LONG, ALL = range(12, 150), range(150, 1000)
-
-
-@pytest.mark.parametrize(
-    "seed",
-    [
-        *(pytest.param(s, marks=pytest.mark.long) for s in LONG),
-        *(pytest.param(s, marks=pytest.mark.exhaustive) for s in ALL),
-    ],
-)
+@pytest.mark.parametrize("seed", tiers((), range(12, 100), range(100, 1000)))
 def test_many_random_mechanisms(seed: int) -> None:
     worst, _ = compared(seed)
     assert worst < TOLERANCE

@@ -12,6 +12,7 @@ from tests.kernel.comparing import every_number
 from tests.kernel.complex_step import slopes
 from tests.kernel.machines import KINDS, four_bar
 from tests.random_mechanisms import random_case, tree
+from tests.tiers import tiers
 
 WEIGHTS = {1: 3 / 4, 2: -3 / 20, 3: 1 / 60}
 """Of the central difference of sixth order."""
@@ -55,9 +56,7 @@ def test_reductions(reduce: str) -> None:
     checked(four_bar(24), ["effort.O2", "magnitude.B"], reduce, tolerance=1e-6)
 
 
-@pytest.mark.parametrize(
-    "seed", [*range(3), *(pytest.param(seed, marks=pytest.mark.long) for seed in range(3, 60))]
-)
+@pytest.mark.parametrize("seed", tiers(range(3), range(3, 30), range(30, 60)))
 def test_random_mechanisms(seed: int) -> None:
     """By the complex step, which loses no digits where a derivative is small beside the value over the number."""
     m = da.mechanism(tree(random_case(seed).drawing))

@@ -18,6 +18,7 @@ from tests.kernel.comparing import changed, difference, every_number, frictional
 from tests.kernel.machines import ROUGH
 from tests.kernel.test_derivatives import checked, differences
 from tests.kernel.test_running import pointer, shared
+from tests.tiers import tiers
 
 TOLERANCE = 1e-10
 
@@ -38,16 +39,7 @@ def test_random_mechanisms(seed: int) -> None:
     compared(da.mechanism(rough_tree(seed)), seed, shape=1e-5)
 
 
-LONG, ALL = range(12, 150), range(150, 1000)
-
-
-@pytest.mark.parametrize(
-    "seed",
-    [
-        *(pytest.param(s, marks=pytest.mark.long) for s in LONG),
-        *(pytest.param(s, marks=pytest.mark.exhaustive) for s in ALL),
-    ],
-)
+@pytest.mark.parametrize("seed", tiers((), range(12, 72), range(72, 1000)))
 def test_many_random_mechanisms(seed: int) -> None:
     compared(da.mechanism(rough_tree(seed)), seed, shape=1e-5)
 
@@ -212,8 +204,7 @@ def test_derivatives_of_reductions(reduce: str) -> None:
     checked(m, ["effort.O2", "magnitude.A"], reduce, tolerance=1e-6)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", tiers((), range(20), range(20, 40)))
 def test_derivatives_of_random_mechanisms(seed: int) -> None:
     m = da.mechanism(rough_tree(seed, most=0.3))
     slopes_are_differences(m, frictional(m), (1e-2, 1e-3, 1e-4, 1e-5))

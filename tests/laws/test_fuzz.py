@@ -17,6 +17,7 @@ import dalembert as da
 from tests.laws.mutations import mutated
 from tests.oracles.catalogue import EXAMPLES, assembled
 from tests.random_mechanisms import random_mechanism, tree
+from tests.tiers import tiers
 
 BALANCED = 1e-6
 
@@ -43,24 +44,27 @@ SECONDS = 60
 
 @pytest.fixture(autouse=True)
 def answered_in_time() -> Iterator[None]:
-    """A description that keeps the program busy for ever is a failure too (where the system has alarms)."""
-    if not hasattr(signal, "SIGALRM"):
+    """A description that keeps the program busy for ever is a failure too (where the system has such timers).
+
+    Counted is the processor's time: on a busy machine the answer comes later, and is no failure.
+    """
+    if not hasattr(signal, "SIGPROF"):
         yield
         return
-    before = signal.signal(signal.SIGALRM, _late)
+    before = signal.signal(signal.SIGPROF, _late)
     yield
-    signal.alarm(0)
-    signal.signal(signal.SIGALRM, before)
+    signal.setitimer(signal.ITIMER_PROF, 0)
+    signal.signal(signal.SIGPROF, before)
 
 
 def _late(*_: object) -> None:
-    raise AssertionError(f"no answer within {SECONDS} s")
+    raise AssertionError(f"no answer within {SECONDS} s of the processor's time")
 
 
 def check(made: dict[str, Any]) -> None:
     """The answer to any description is honest, and comes."""
-    if hasattr(signal, "SIGALRM"):
-        signal.alarm(SECONDS)
+    if hasattr(signal, "SIGPROF"):
+        signal.setitimer(signal.ITIMER_PROF, SECONDS)
     _check(made)
 
 
@@ -104,13 +108,7 @@ def test_a_changed_tree_is_refused_or_answered_honestly(seed: int) -> None:
     check(mutated(bases()[seed % len(bases())], seed))
 
 
-@pytest.mark.parametrize(
-    "block",
-    [
-        *(pytest.param(b, marks=pytest.mark.long) for b in range(10)),
-        *(pytest.param(b, marks=pytest.mark.exhaustive) for b in range(10, 100)),
-    ],
-)
+@pytest.mark.parametrize("block", tiers((), range(5), range(5, 100)))
 def test_a_hundred_thousand_changed_trees(block: int) -> None:
     for seed in range(1000 * (block + 1), 1000 * (block + 2)):
         check(mutated(bases()[seed % len(bases())], seed))
@@ -138,13 +136,13 @@ KEYS = (
 )
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.sampled_from(KEYS), odd_trees)
 def test_any_value_under_any_key(key: str, value: Any) -> None:
     check({**bases()[0], key: value})
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(
     st.sampled_from(sorted(("crank", "coupler", "rocker"))),
     st.sampled_from(("points", "mass", "center", "inertia")),
@@ -155,7 +153,7 @@ def test_any_value_in_a_link(link: str, key: str, value: Any) -> None:
     check({**made, "links": {**made["links"], link: {**made["links"][link], key: value}}})
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(st.lists(st.floats(0.02, 2.0), min_size=4, max_size=4), st.floats(-360, 360), st.floats(-100, 100))
 def test_any_four_bar_closes_or_says_why(lengths: list[float], start: float, speed: float) -> None:
     a, b, c, d = lengths

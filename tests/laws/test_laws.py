@@ -1,14 +1,13 @@
 """The laws of mechanics on random, well-conditioned mechanisms, to 1e-9 of the largest force (times length).
 
-Each law runs on a few mechanisms by default and on many more with the mark ``long``.
+Each law runs on the first mechanisms by default, on 1,000 in all (`tests/tiers.py`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from copy import deepcopy
 from dataclasses import replace
-from functools import lru_cache, wraps
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -40,26 +39,9 @@ from tests.random_mechanisms import (
     random_case,
     tree,
 )  # fmt: skip
+from tests.tiers import over
 
 TOLERANCE = 1e-9
-LONG = 200
-
-
-def over(quick: int, long: int = 1000) -> Callable[..., Any]:
-    """A law on the first seeds, one test each; on more with the mark ``long``, on the rest with ``exhaustive``, a
-    block of 50 a test."""
-    marks = pytest.mark.long, pytest.mark.exhaustive
-    blocks = [pytest.param(range(s, s + 50), marks=marks[s >= LONG]) for s in range(quick, long, 50)]
-
-    def decorated(law: Callable[..., None]) -> Callable[..., None]:
-        @wraps(law)
-        def each(seed: int | range, **more: Any) -> None:
-            for s in [seed] if isinstance(seed, int) else seed:
-                law(seed=s, **more)
-
-        return pytest.mark.parametrize("seed", [*range(quick), *blocks])(each)
-
-    return decorated
 
 
 def dynamics(made: dict[str, Any]) -> Any:

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from tests.laws.test_laws import TOLERANCE, dynamics, over
+from tests.laws.test_laws import TOLERANCE, dynamics
 from tests.random_mechanisms import random_case
+from tests.tiers import over
 
 
 @over(10, 200)

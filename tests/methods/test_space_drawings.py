@@ -26,6 +26,7 @@ from dalembert.views.solids import Ball, Cylinder, extent
 from dalembert.views.space_mechanism import every_place, whole_sight
 from tests.methods.space_machines import MACHINES, solved
 from tests.oracles.space import random_drawn
+from tests.tiers import tiers
 
 each = pytest.mark.parametrize("name", list(MACHINES))
 VIEWS: list[Any] = ["isometric", "front", "top", "side", (20.0, 35.0)]
@@ -128,10 +129,7 @@ def test_components_make_up_the_reaction(name: str) -> None:
                 assert total == pytest.approx(sum(longer, np.zeros(2)), abs=1e-6)
 
 
-SEEDS = [pytest.param(seed, marks=[pytest.mark.long] if seed >= 4 else []) for seed in range(40)]
-
-
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("seed", tiers(range(4), range(4, 20), range(20, 40)))
 def test_random_mechanisms_of_all_pairs(seed: int) -> None:
     r = da.dynamics(da.mechanism(random_drawn.mechanism(seed)[0]))
     check(da.draw.mechanism(r, at=1, camera=(200.0, -25.0), forces=True))

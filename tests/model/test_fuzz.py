@@ -10,6 +10,7 @@ import pytest
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, loads, tree_text
 from tests.model.parts import FOUR_BAR
+from tests.tiers import tiers
 
 PIECES = (
     "null true 1e999 -0 .nan {} [] [1] {a:1} 3@4 3@ @ lb mm rad/s Hz 1/s 60deg unknown ground center O2 A [O2,A] "
@@ -66,8 +67,7 @@ def test_a_mutated_file_is_a_mechanism_or_a_model_error() -> None:
         attempt(seed)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("block", range(100))
+@pytest.mark.parametrize("block", tiers((), range(40), range(40, 100)))
 def test_a_hundred_thousand_mutated_files(block: int) -> None:
     for seed in range(1000 * block, 1000 * (block + 1)):
         attempt(seed)

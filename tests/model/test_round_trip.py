@@ -14,24 +14,28 @@ from hypothesis import strategies as st
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, convert, load, loads, read_text, tree_text
 from tests.model.parts import FOUR_BAR, mechanisms, texts
+from tests.tiers import tiers
 
 
 @pytest.mark.parametrize("form", ["yaml", "json", "toml"])
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(mechanism=mechanisms())
 def test_what_is_written_reads_back_equal(form: str, mechanism: Mechanism) -> None:
     assert loads(tree_text(mechanism.to_tree(), form), form) == mechanism
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("form", ["yaml", "json", "toml"])
-@settings(max_examples=2000, deadline=None)
-@given(mechanism=mechanisms())
-def test_what_is_written_reads_back_equal_at_length(form: str, mechanism: Mechanism) -> None:
-    assert loads(tree_text(mechanism.to_tree(), form), form) == mechanism
+@pytest.mark.parametrize("count", tiers((), [500], [2000]))
+def test_what_is_written_reads_back_equal_at_length(form: str, count: int) -> None:
+    @settings(max_examples=count)
+    @given(mechanism=mechanisms())
+    def reads_back_equal(mechanism: Mechanism) -> None:
+        assert loads(tree_text(mechanism.to_tree(), form), form) == mechanism
+
+    reads_back_equal()
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=300)
 @given(
     st.dictionaries(
         texts, texts | st.integers(-99, 99) | st.floats(allow_nan=False, allow_infinity=False), min_size=1

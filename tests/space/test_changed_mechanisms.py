@@ -15,6 +15,7 @@ from tests.laws.test_fuzz import answered_in_time, check, odd_trees, shortened
 from tests.oracles.space.machines import EXAMPLES
 from tests.random_space import random_drawing, tree
 from tests.random_space.drawing import PAIRS
+from tests.tiers import tiers
 
 __all__ = ["answered_in_time"]
 
@@ -43,19 +44,13 @@ def test_a_changed_tree_is_refused_or_answered_honestly(seed: int) -> None:
     check(retyped(mutated(bases()[seed % len(bases())], seed), seed))
 
 
-@pytest.mark.parametrize(
-    "block",
-    [
-        *(pytest.param(b, marks=pytest.mark.long) for b in range(5)),
-        *(pytest.param(b, marks=pytest.mark.exhaustive) for b in range(5, 50)),
-    ],
-)
+@pytest.mark.parametrize("block", tiers((), range(4), range(4, 200)))
 def test_fifty_thousand_changed_trees(block: int) -> None:
-    for seed in range(1000 * (block + 1), 1000 * (block + 2)):
+    for seed in range(250 * (block + 4), 250 * (block + 5)):
         check(retyped(mutated(bases()[seed % len(bases())], seed), seed))
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.sampled_from(("axes", "axis", "lead", "blocked", "damping", "at", "type", "links")), odd_trees)
 def test_any_value_in_a_joint(key: str, value: Any) -> None:
     made = bases()[0]
@@ -63,7 +58,7 @@ def test_any_value_in_a_joint(key: str, value: Any) -> None:
     check({**made, "joints": {**made["joints"], name: {**made["joints"][name], key: value}}})
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.sampled_from(("inertia", "center", "points", "mass")), odd_trees)
 def test_any_value_in_a_link(key: str, value: Any) -> None:
     made = bases()[0]
@@ -71,7 +66,7 @@ def test_any_value_in_a_link(key: str, value: Any) -> None:
     check({**made, "links": {**made["links"], name: {**made["links"][name], key: value}}})
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.sampled_from(("position", "axis", "angle")), odd_trees)
 def test_any_value_in_the_assembly(key: str, value: Any) -> None:
     made = bases()[0]

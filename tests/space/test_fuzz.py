@@ -19,6 +19,7 @@ from dalembert.model import loads, tree_text
 from tests.laws.mutations import mutated as changed
 from tests.model.test_fuzz import loaded, mutated
 from tests.oracles.space.machines import EXAMPLES
+from tests.tiers import tiers
 
 TEXT = (Path(__file__).parents[1] / "model" / "rssr.yaml").read_text(encoding="utf-8")
 
@@ -40,7 +41,7 @@ def read(seed: int) -> None:
         assert loads(tree_text(found.to_tree())) == found
 
 
-@pytest.mark.parametrize("block", [0, *(pytest.param(b, marks=pytest.mark.long) for b in range(1, 40))])
+@pytest.mark.parametrize("block", tiers([0], range(1, 20), range(20, 40)))
 def test_a_mutated_file_is_a_mechanism_or_a_model_error(block: int) -> None:
     for seed in range(250 * block, 250 * (block + 1)):
         read(seed)
@@ -78,7 +79,7 @@ def answered(seed: int) -> None:
             assert r.reasons[k]
 
 
-@pytest.mark.parametrize("block", [0, *(pytest.param(b, marks=pytest.mark.long) for b in range(1, 40))])
+@pytest.mark.parametrize("block", tiers([0], range(1, 15), range(15, 40)))
 def test_a_changed_tree_is_refused_or_answered_honestly(block: int) -> None:
     for seed in range(200 * block, 200 * (block + 1)):
         answered(seed)

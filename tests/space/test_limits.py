@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from tests.laws.test_laws import over
 from tests.random_space import Drawing, random_case, random_drawing, tree
 from tests.random_space.drawing import Array, Drive, Joint, Load
 from tests.space.screw_motion import redundant
 from tests.space.test_laws import TOLERANCE, solved, undamped, wrenches
+from tests.tiers import over
 
 
 def candidates(d: Drawing, kind: str) -> list[str]:

@@ -9,13 +9,12 @@ import dalembert as da
 from tests.oracles.reading import Array
 from tests.oracles.space import natural, random_drawn
 from tests.oracles.space.agreement import gap
+from tests.tiers import tiers
 
 TOLERANCE = 1e-11
 
-SEEDS = [pytest.param(seed, marks=[pytest.mark.long] if seed >= 40 else []) for seed in range(500)]
 
-
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("seed", tiers(range(40), range(40, 200), range(200, 500)))
 def test_every_number_is_that_of_natural_coordinates(seed: int) -> None:
     tree, m, path = random_drawn.mechanism(seed)
     for dynamic, analysis in ((True, da.dynamics), (False, da.statics)):

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import pytest
 
 from dalembert.wrench import Couple, Force, System
+from tests.tiers import tiers
 
-SEEDS = [*range(6), *(pytest.param(s, marks=pytest.mark.long) for s in range(6, 100))]
+SEEDS = tiers(range(6), range(6, 40), range(40, 100))
 DIMENSIONS = (2, 3)
 
 

@@ -1,0 +1,40 @@
+"""How far random tests go: the first few by default, more with the mark ``long``, the rest with ``exhaustive``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from functools import wraps
+from typing import Any
+
+import pytest
+
+BLOCK, LONG = 50, 2
+"""Mechanisms in one test of a block, and how many blocks of each law are long."""
+
+
+def tiers(quick: Iterable[Any], long: Iterable[Any], exhaustive: Iterable[Any] = ()) -> list[Any]:
+    """The values of a parameter, each with the mark of its tier.
+
+    >>> [(p.values[0], [m.name for m in p.marks]) for p in tiers([0], [1], [2])[1:]]
+    [(1, ['long']), (2, ['exhaustive'])]
+    """
+    return [
+        *quick,
+        *(pytest.param(value, marks=pytest.mark.long) for value in long),
+        *(pytest.param(value, marks=pytest.mark.exhaustive) for value in exhaustive),
+    ]
+
+
+def over(quick: int, whole: int = 1000) -> Callable[..., Any]:
+    """A law on the first seeds, one test each, and on the rest of the whole a block a test."""
+    blocks = [range(s, min(s + BLOCK, whole)) for s in range(quick, whole, BLOCK)]
+
+    def decorated(law: Callable[..., None]) -> Callable[..., None]:
+        @wraps(law)
+        def each(seed: int | range, **more: Any) -> None:
+            for s in [seed] if isinstance(seed, int) else seed:
+                law(seed=s, **more)
+
+        return pytest.mark.parametrize("seed", tiers(range(quick), blocks[:LONG], blocks[LONG:]))(each)
+
+    return decorated
