@@ -1,9 +1,8 @@
-"""The worked solution: contents, time, size, pages, notation."""
+"""The worked solution: contents, size, pages, notation."""
 
 from __future__ import annotations
 
 import re
-import time
 from pathlib import Path
 from typing import Any
 
@@ -79,16 +78,11 @@ def test_every_report_of_the_gallery(name: str) -> None:
         assert all(len(row) == len(b.heads) for row in b.rows)
 
 
-def test_time_size_and_pages_of_the_dynamic_four_bar() -> None:
-    """Warm under 1 s, PDF and HTML under 300 kB, at most 6 pages (a loaded machine is allowed for by the fastest)."""
+def test_size_and_pages_of_the_dynamic_four_bar() -> None:
+    """PDF and HTML under 300 kB, at most 6 pages (its time: `benchmarks/report.py`)."""
     pytest.importorskip("typst")
-    times = []
-    for _ in range(4):
-        started = time.process_time()
-        report = da.report(result("four_bar"))
-        pdf, html = report.to_bytes("pdf"), report.to_bytes("html")
-        times.append(time.process_time() - started)
-    assert min(times) < 1.0
+    report = da.report(result("four_bar"))
+    pdf, html = report.to_bytes("pdf"), report.to_bytes("html")
     assert len(pdf) < 300_000
     assert len(html) < 300_000
     assert len(re.findall(rb"/Type\s*/Page\b(?!L)", pdf)) <= 6
