@@ -1,12 +1,13 @@
 # make run        a private environment in .venv, then the first example solved and printed
 # make test       the same environment with what the tests need; ruff, mypy --strict, pytest
 # make gallery    drawings and worked solutions of the bundled problems, in build/gallery
-# make test-long  the long tests too, on two cores; make test-exhaustive all there are (over an hour)
+# make test-long  the long tests too, 12 minutes on two cores; make test-exhaustive all there are (over an hour)
 # Needs nothing but make and Python 3.11 or newer.
 
 VENV ?= .venv
 PYTEST_ARGS ?=
 BIN := $(VENV)/bin
+PYTEST = $(BIN)/python -m pytest -n 2 --dist worksteal
 # The matrices are small and tests run side by side: more threads would only wait for each other.
 export OPENBLAS_NUM_THREADS ?= 1
 PIP := $(BIN)/python -m pip --disable-pip-version-check --quiet
@@ -23,13 +24,13 @@ run: $(VENV)/.run
 	@$(BIN)/dalembert solve examples/four_bar.yaml
 
 test: lint
-	@$(BIN)/python -m pytest -n 2 $(PYTEST_ARGS)
+	@$(PYTEST) $(PYTEST_ARGS)
 
 test-long: lint
-	@$(BIN)/python -m pytest -m "not exhaustive" -n 2 $(PYTEST_ARGS)
+	@$(PYTEST) -m "not exhaustive" $(PYTEST_ARGS)
 
 test-exhaustive: lint
-	@$(BIN)/python -m pytest -m "" -n 2 $(PYTEST_ARGS)
+	@$(PYTEST) -m "" $(PYTEST_ARGS)
 
 gallery: $(VENV)/.test
 	@$(BIN)/python docs/gallery.py

@@ -27,7 +27,12 @@ def tiers(quick: Iterable[Any], long: Iterable[Any], exhaustive: Iterable[Any] =
 
 def over(quick: int, whole: int = 1000) -> Callable[..., Any]:
     """A law on the first seeds, one test each, and on the rest of the whole a block a test."""
-    blocks = [range(s, min(s + BLOCK, whole)) for s in range(quick, whole, BLOCK)]
+    return over_seeds(range(quick), range(quick, whole))
+
+
+def over_seeds(quick: Iterable[int], rest: range) -> Callable[..., Any]:
+    """A law on the quick seeds, one test each, and on the rest a block a test."""
+    blocks = [rest[k : k + BLOCK] for k in range(0, len(rest), BLOCK)]
 
     def decorated(law: Callable[..., None]) -> Callable[..., None]:
         @wraps(law)
@@ -35,6 +40,6 @@ def over(quick: int, whole: int = 1000) -> Callable[..., Any]:
             for s in [seed] if isinstance(seed, int) else seed:
                 law(seed=s, **more)
 
-        return pytest.mark.parametrize("seed", tiers(range(quick), blocks[:LONG], blocks[LONG:]))(each)
+        return pytest.mark.parametrize("seed", tiers(quick, blocks[:LONG], blocks[LONG:]))(each)
 
     return decorated

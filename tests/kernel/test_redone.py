@@ -18,6 +18,7 @@ from tests.kernel.comparing import every_number, frictional, general
 from tests.kernel.machines import KINDS, ROUGH, four_bar
 from tests.kernel.test_derivatives import WEIGHTS
 from tests.random_mechanisms import random_case, tree
+from tests.tiers import tiers
 
 
 def both(m: Any, monkeypatch: pytest.MonkeyPatch, reduce: str | None = None) -> None:
@@ -56,7 +57,7 @@ def test_slopes_of_reductions(reduce: str, monkeypatch: pytest.MonkeyPatch) -> N
     both(four_bar(24), monkeypatch, reduce)
 
 
-@pytest.mark.parametrize("seed", [11, 42, *(pytest.param(s, marks=pytest.mark.long) for s in range(50, 65))])
+@pytest.mark.parametrize("seed", tiers([11, 42], range(50, 65)))
 def test_slopes_of_random_mechanisms(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Wheels among them, whose phases follow from the first position."""
     both(da.mechanism(tree(random_case(seed).drawing)), monkeypatch)

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from tests.laws.test_laws import over as over_seeds
+from tests import tiers
 from tests.oracles.reading import Array
 from tests.oracles.space import natural, random_drawn, rough_machines, rubbing
 from tests.space.rough import SOLVED, roughened, solved
 
 TOLERANCE = 1e-11
-over: Any = partial(over_seeds, long=200)
+over: Any = partial(tiers.over, whole=200)
 
 
 def largest(b: rubbing.Rubbed) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache, wraps
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ from tests.random_space.drawing import about
 from tests.space.free_bodies import Balance
 from tests.space.rough import SOLVED, across_line, drawing, friction_laws, rough, roughened, solved
 from tests.space.screw_motion import seen
+from tests.tiers import over_seeds
 
 TOLERANCE = 1e-9
 VERDICTS = (*SOLVED, "jammed", "at_rest", "no_balance")
@@ -24,18 +25,8 @@ QUICK = (39, 58, 45, 54, 42, 40, 50, 22)
 
 
 def over(quick: int) -> Callable[..., Any]:
-    """A law on some of the quick seeds, one test each, and with the mark ``long`` on 200, a block of 50 a test."""
-    blocks = [pytest.param(range(s, s + 50), marks=pytest.mark.long) for s in range(0, 200, 50)]
-
-    def decorated(law: Callable[..., None]) -> Callable[..., None]:
-        @wraps(law)
-        def each(seed: int | range, **more: Any) -> None:
-            for s in [seed] if isinstance(seed, int) else seed:
-                law(seed=s, **more)
-
-        return pytest.mark.parametrize("seed", [*QUICK[:quick], *blocks])(each)
-
-    return decorated
+    """A law on some of the quick seeds, one test each, and on 200."""
+    return over_seeds(QUICK[:quick], range(200))
 
 
 @lru_cache(maxsize=64)

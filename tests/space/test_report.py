@@ -28,6 +28,7 @@ from tests.random_space import random_case
 from tests.space.machines import oracle
 from tests.space.printed import adds_up, blocks, close, half_digit, lines, table, value, words
 from tests.space.test_laws import solved as random_result
+from tests.tiers import tiers
 
 AT = 3
 """The position shown, from 1."""
@@ -84,9 +85,16 @@ def without_drawings(r: Any, k: int) -> Sheet:
 
 
 RANDOM = [f"random {seed}" for seed in range(60)]
-every = pytest.mark.parametrize(
-    "name", [n if n in SOON else pytest.param(n, marks=pytest.mark.long) for n in (*RESULTS, *RANDOM)]
-)
+
+
+def each(*names: str) -> Any:
+    """A test of each of these results, those of SOON in every run."""
+    return pytest.mark.parametrize(
+        "name", tiers([n for n in names if n in SOON], [n for n in names if n not in SOON])
+    )
+
+
+every = each(*RESULTS, *RANDOM)
 
 
 @every
@@ -258,9 +266,7 @@ def test_degree_of_freedom_and_powers(name: str) -> None:
         assert sum(value(text) for text in rows.values()) == pytest.approx(0.0, abs=1.05 * error)
 
 
-@pytest.mark.parametrize(
-    "name", [n if n in SOON else pytest.param(n, marks=pytest.mark.long) for n in RESULTS]
-)
+@each(*RESULTS)
 def test_drawings_and_tables_of_a_report(name: str) -> None:
     _, _, sheet = made(name)
     for scene in (s for b in blocks(sheet, Figure) for s in b.scenes):
