@@ -30,6 +30,15 @@ def with_unit(value: float, unit: str, digits: int = 6) -> str:
     return f"{number(value, digits)} {unit}" if math.isfinite(value) else "-"
 
 
+def remainder(value: float, decimals: int = 0) -> str:
+    """What rounding leaves of a sum that should be 0, as its power of ten.
+
+    >>> remainder(2.3e-16), remainder(2.3e-16, 1), remainder(0.0)
+    ('2e-16', '2.3e-16', '0')
+    """
+    return f"{value:.{decimals}e}" if value else "0"
+
+
 def rounded(vector: Any, beside: float = 0.0) -> list[float]:
     """Components of a vector; what is nothing but rounding beside its largest, or beside another size, is 0.
 

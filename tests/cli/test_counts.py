@@ -74,3 +74,13 @@ def test_a_printed_mechanism_is_its_file() -> None:
 def test_a_lifted_mechanism_keeps_the_units_of_its_file(folder: Path) -> None:
     m = da.load(folder / "four_bar.yaml")
     assert da.lifted(m, {}).units == m.units
+
+
+def test_standard_gravity_and_the_way_to_another_mode_are_said(run: Run, folder: Path) -> None:
+    text = (
+        (folder / "four_bar.yaml").read_text(encoding="utf-8").replace("gravity: none", "gravity: standard")
+    )
+    (folder / "heavy.yaml").write_text(text.split("assembly:")[0], encoding="utf-8")
+    printed = " ".join(run("solve", "heavy.yaml").out.split())
+    assert "gravity standard (9.80665 m/s2 along -y)" in printed
+    assert "(found by search); other modes (the file's `assembly` chooses): coupler" in printed

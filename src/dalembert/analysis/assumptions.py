@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from dalembert.analysis import friction
+from dalembert.model.gravity import STANDARD
 from dalembert.model.space_checks import impossible, principal_inertias
 
 if TYPE_CHECKING:
@@ -21,9 +22,11 @@ def assumptions(result: Result) -> dict[str, str]:
     'off (static)'
     """
     gravity = result.mechanism.gravity_vector
-    shown = "none" if not any(gravity) else "[" + ", ".join(f"{c:.6g}" for c in gravity) + "] m/s2"
+    shown = "[" + ", ".join(f"{c:.6g}" for c in gravity) + "] m/s2"
+    if result.mechanism.gravity == "standard":
+        shown = f"standard ({STANDARD:.6g} m/s2 along -{'xyz'[len(gravity) - 1]})"
     found = {
-        "gravity": shown,
+        "gravity": shown if any(gravity) else "none",
         "inertia": "on (D'Alembert)" if result.inertia else "off (static)",
         "friction": friction.assumption(result),
     }

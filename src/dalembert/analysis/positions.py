@@ -199,7 +199,9 @@ def _mode(c: Compiled, found: Modes) -> str | None:
         return None
     names = _named(c, found.pose)
     why = "nearest to the file's assembly" if found.chosen_by == "nearest" else "found by search"
-    others = f"; other modes: {' | '.join(names[1:5])}" if len(names) > 1 else ""
+    others = (
+        f"; other modes (the file's `assembly` chooses): {' | '.join(names[1:5])}" if len(names) > 1 else ""
+    )
     more = f" and {len(names) - 5} more" if len(names) > 5 else ""
     return f"assembly mode {names[0]} ({why}){others}{more}"
 

@@ -7,6 +7,7 @@ import numpy as np
 from dalembert.analysis.actions import actions, magnitude, on_link
 from dalembert.analysis.columns import drive_kinds
 from dalembert.analysis.members import members, order_of_solution
+from dalembert.printing import remainder
 from dalembert.report.chosen import Chosen
 from dalembert.report.sheet import Sheet
 from dalembert.report.terms import floors
@@ -63,11 +64,11 @@ def checks(sheet: Sheet, c: Chosen) -> None:
         some = on_link(actions(r), link)
         total = sum((a.force[k] for a in some), np.zeros(r.mechanism.dimension))
         largest = max((float(magnitude(a.force[k])) for a in some), default=0.0) or 1.0
-        links.append(f"{c.shown.heading(link)} {float(magnitude(total)) / largest:.0e}")
+        links.append(f"{c.shown.heading(link)} {remainder(float(magnitude(total)) / largest)}")
     gaps = "Closure gaps of the force polygons" if r.mechanism.dimension == 2 else "Sums of all forces"
     sheet.text(
-        f"Out-of-balance force or moment over the largest force: {float(r.residual[k]):.0e}; power balance: "
-        f"{float(r.power_balance[k]):.0e}. {gaps} over their largest force: {', '.join(links)}."
+        f"Out-of-balance force or moment over the largest force: {remainder(float(r.residual[k]))}; power balance: "
+        f"{remainder(float(r.power_balance[k]))}. {gaps} over their largest force: {', '.join(links)}."
     )
     if r.mobility is not None and r.mechanism.dimension == 2:
         sheet.text(

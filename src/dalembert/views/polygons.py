@@ -20,6 +20,7 @@ from dalembert.analysis.actions import (
 from dalembert.analysis.circles import friction_circles
 from dalembert.analysis.lines import acting_lines
 from dalembert.analysis.members import concurrency, members, order_of_solution
+from dalembert.printing import remainder
 from dalembert.views.canvas import Canvas
 from dalembert.views.certainty import doubts, known, on_one
 from dalembert.views.circles import circled, draw_circle
@@ -88,7 +89,7 @@ def _numbers(gap: float, mine: Sequence[Action], k: int) -> dict[str, float]:
 
 def _gap_text(gap: float, mine: Sequence[Action], k: int) -> str:
     largest = _numbers(gap, mine, k)["largest"]
-    return f"closure gap {gap / largest:.0e} of the largest force" if largest else "none drawn"
+    return f"closure gap {remainder(gap / largest)} of the largest force" if largest else "none drawn"
 
 
 def draw_polygon(

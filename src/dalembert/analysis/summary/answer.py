@@ -26,7 +26,7 @@ from dalembert.analysis.summary.printed import (
 from dalembert.analysis.summary.rubbing import branch_note, efficiency_note, ends_text, friction_table
 from dalembert.analysis.summary.series import position_tables, where
 from dalembert.analysis.wrenches import Axes
-from dalembert.printing import number, rounded, table, tables, with_unit, wrapped
+from dalembert.printing import number, remainder, rounded, table, tables, with_unit, wrapped
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
@@ -246,7 +246,9 @@ def checks_text(result: Result) -> str:
         (n, v[np.isfinite(v)])
         for n, v in (("residual", result.residual), ("power balance", result.power_balance))
     ]
-    shown = ", ".join(f"{name} {np.abs(values).max():.1e}" for name, values in found if values.size)
+    shown = ", ".join(
+        f"{name} {remainder(float(np.abs(values).max()), 1)}" for name, values in found if values.size
+    )
     count = _count(result)
     between = "; " if ";" in count else ", "
     return wrapped(_sentence(between.join(filter(None, (count, shown)))) + ".") if count or shown else ""
