@@ -84,3 +84,16 @@ def test_standard_gravity_and_the_way_to_another_mode_are_said(run: Run, folder:
     printed = " ".join(run("solve", "heavy.yaml").out.split())
     assert "gravity standard (9.80665 m/s2 along -y)" in printed
     assert "(found by search); other modes (the file's `assembly` chooses): coupler" in printed
+
+
+def test_what_is_only_rounding_is_0_in_the_tables_of_methods(run: Run, folder: Path) -> None:
+    """A crank straight down holds its weight without a torque; moves and turns of what stands are 0."""
+    text = (
+        (folder / "four_bar.yaml").read_text(encoding="utf-8").replace("gravity: none", "gravity: standard")
+    )
+    (folder / "heavy.yaml").write_text(text.replace("60 deg", "90 deg"), encoding="utf-8")
+    for method in ("superposition", "virtual-work"):
+        printed = run("solve", "heavy.yaml", "--static", "--method", method).out
+        *tables, _ = printed.partition(f"{method.replace('-', ' ').capitalize()}\n")[2].split("\n\n")
+        assert tables
+        assert not any("e-" in part for part in tables), printed

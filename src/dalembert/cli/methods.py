@@ -10,7 +10,7 @@ from dalembert.analysis.columns import UnitChoice, drive_kinds, load_kind, unkno
 from dalembert.analysis.friction import unknown_names
 from dalembert.analysis.summary.printed import Printed, printed
 from dalembert.errors import ModelError
-from dalembert.printing import number, rounded, table, tables, wrapped
+from dalembert.printing import number, remainder, rounded, table, tables, wrapped
 from dalembert.units import KINDS
 
 if TYPE_CHECKING:
@@ -23,17 +23,33 @@ def superposition_text(result: Result, units: UnitChoice) -> str:
 
     parts, to, k = superposition(result), printed(result, units), _first(result)
     rows = []
+    floor = _rounding(result, [(kind, values[:, k]) for _, values, kind in _quantities(parts, to)])
     for n, source in [*enumerate(parts.sources), (None, "sum")]:
         row = [str(source)]
         for _, values, kind in _quantities(parts, to):
-            column = values[:, k] if n is None else values[n : n + 1, k]
-            row.append(number(float(np.sum(column)) * to(kind, 1.0), 5))
+            total = float(np.sum(values[:, k] if n is None else values[n : n + 1, k]))
+            row.append(number(total * to(kind, 1.0) if abs(total) > floor[kind] else 0.0, 5))
         rows.append(row)
     heads = [f"{name}\n[{to.text(kind)}]" for name, _, kind in _quantities(parts, to)]
     gap = float(np.nanmax(parts.gap, initial=0.0))
-    words = f"Joint forces are those on j. The parts sum to the whole within {gap:.1e} of the largest."
+    words = (
+        f"Joint forces are those on j. The parts sum to the whole within {remainder(gap, 1)} of the largest."
+    )
     where = f" at position {k + 1} of {len(result.status)}" if len(result.status) > 1 else ""
-    return f"Superposition{where}\n\n{_split(['source', *heads], rows)}\n\n{words}"
+    return f"Superposition{where}\n\n{_split(['source', *heads], rows)}\n\n{wrapped(words)}"
+
+
+def _rounding(result: Result, quantities: list[tuple[str, Any]]) -> dict[str, float]:
+    """Force and moment below which a part is nothing but rounding, beside the largest of both."""
+    length = result.compiled.layout.length
+    largest = max(
+        (float(np.abs(v).max()) / (1.0 if kind == "force" else length) for kind, v in quantities), default=0.0
+    )
+    return {"force": NOTHING * largest, "moment": NOTHING * largest * length}
+
+
+NOTHING = 1e-12
+"""Part of the largest below which a number is rounding."""
 
 
 def _split(heads: list[str], rows: list[list[str]]) -> str:
@@ -96,7 +112,7 @@ def _agreement(found: Any) -> list[str]:
             "that answer, it is no independent solution."
         )
     if np.isfinite(found.gap).any():
-        gap = f"{float(np.nanmax(found.gap)):.1e}"
+        gap = remainder(float(np.nanmax(found.gap)), 1)
         words.append(
             f"No reaction appears. The matrix answer agrees within {gap}."
             if found.independent
@@ -121,32 +137,45 @@ def _powers(found: Any, drive: int, k: int, to: Printed) -> str:
     name = r.drives[drive]
     angular = drive_kinds(r, name)["effort"] == "moment"
     kind = "moment" if angular else "force"
-    unit = "1 rad" if angular else "1 m"
+    unit = "rad" if angular else to.text("length")
     per = to("length", 1.0) if angular else 1.0
+    length = r.compiled.layout.length
+    reach = (
+        1.0 if angular else 1 / length
+    )  # turn of a link that moves its ends by its length, or by the drive's
+    force = np.array([a.force[k] for a in found.actions])
+    couple = np.array([a.couple[k] for a in found.actions])
+    load = max(_largest(force), _largest(couple) / length)
     columns = (
-        (np.array([a.force[k] for a in found.actions]), to("force", 1.0)),
-        (np.array([a.couple[k] for a in found.actions]), to("moment", 1.0)),
-        (found.velocity[:, k, drive], per),
-        (found.spin[:, k, drive], 1.0 if angular else 1 / to("length", 1.0)),
-        (found.power[:, k, drive], to(kind, 1.0)),
+        (force, to("force", 1.0), load),
+        (couple, to("moment", 1.0), load * length),
+        (found.velocity[:, k, drive], per, reach * length),
+        (found.spin[:, k, drive], 1.0 if angular else 1 / to("length", 1.0), reach),
+        (found.power[:, k, drive], to(kind, 1.0), 0.0),
     )
-    numbers = [_cells(values * factor, len(found.actions)) for values, factor in columns]
+    numbers = [
+        _cells(values * factor, len(found.actions), least * factor) for values, factor, least in columns
+    ]
     rows = [[a.source, *(x for part in numbers for x in part[n])] for n, a in enumerate(found.actions)]
     total = float(found.power[:, k, drive].sum()) * to(kind, 1.0)
     heads = HEADS if r.mechanism.dimension == 2 else SPACE_HEADS
     rows.append(["sum", *[""] * (len(heads) - 2), number(total, 6)])
     effort = f"{name} = {number(float(found.effort[k, drive]) * to(kind, 1.0))} {to.text(kind)}"
-    length = to.text("length") if angular else "1"
+    units = f"forces in {to.text('force')}, couples in {to.text('moment')}, moves in {to.text('length')}"
     return (
-        f"{unit} of {name}: forces in {to.text('force')}, couples in {to.text('moment')}, moves in {length}\n\n"
+        f"1 {unit} of {name}: {units}, turns in rad\n\n"
         f"{table(heads, rows) if heads is HEADS else tables(heads, rows, 1)}\n\nEffort that balances the work: {effort}"
     )
 
 
-def _cells(values: Any, count: int) -> list[list[str]]:
-    """Numbers of some actions, those that are nothing but rounding beside the largest as 0."""
+def _largest(values: Any) -> float:
+    return float(np.nan_to_num(np.abs(values)).max(initial=0.0))
+
+
+def _cells(values: Any, count: int, beside: float) -> list[list[str]]:
+    """Numbers of some actions, those that are nothing but rounding beside the largest, or beside a size, as 0."""
     rows = np.reshape(values, (count, -1)).tolist()
-    largest = float(np.nan_to_num(np.abs(values)).max(initial=0.0))
+    largest = max(_largest(values), beside)
     return [[number(x, 5) for x in rounded(row, largest)] for row in rows]
 
 
