@@ -60,6 +60,9 @@ FAR = 4 * STRIDE
 SHORTEST = 2.0**-20
 """Part of a stride at which the march gives up: a dead centre lies within."""
 
+SHORT, MOST_SHORT = 1e-3, 500
+"""Part of a stride that is a short step, and how many may follow each other: a sharp turn takes some fifty."""
+
 
 class March(NamedTuple):
     """Stations of a march: parameters (S,) ascending, their poses (S, L+1, ...), whether the course's end was met."""
@@ -159,10 +162,11 @@ def march(layout: Layout, first: Pose, along: Course, start: float, backward: bo
     if start == end:
         return March(np.array([start]), stack([first]), True)
     at = _setting(layout, along)
-    found, size, smooth, exact = [_standing(at, start, first, sign)], 1.0, 0, True
-    while sign * (end - found[-1].s) > 0:
+    found, size, smooth, exact, short = [_standing(at, start, first, sign)], 1.0, 0, True, 0
+    while sign * (end - found[-1].s) > 0 and short < MOST_SHORT:
         last, recent = found[-1], found[max(smooth, len(found) - RECENT) :]
-        step = min(size * STRIDE, _safe(recent), abs(along.limit(last.s, sign) - last.s))
+        ahead = abs(along.limit(last.s, sign) - last.s)
+        step = min(size * STRIDE, _safe(recent), ahead)
         new = _station(at, recent, last.s + sign * step)
         if new is None:
             if not exact:  # what the corrector left of this station may be large beside a shorter step
@@ -173,6 +177,7 @@ def march(layout: Layout, first: Pose, along: Course, start: float, backward: bo
                 break
             continue
         found.append(new)
+        short = short + 1 if step < min(SHORT * STRIDE, ahead) else 0
         size, exact = min(2 * max(size, step / STRIDE), 1.0), False
         if np.abs(along.breaks - new.s).min() < 1e-12:
             smooth = len(found) - 1
