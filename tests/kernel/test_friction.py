@@ -88,7 +88,7 @@ def test_the_engine_with_guides_of_finite_length() -> None:
 
 
 def test_a_rod_at_45_degrees() -> None:
-    """With more friction than 1 it jams, which the general executor says."""
+    """With more friction than 1 it jams, which the kernel proves."""
     mu = np.array([0.0, 0.3, 0.9, 0.999, 1.001, 2.0])
     r = da.compile(pushed_slider(0.5), vary=["joints.guide.friction.coefficient"], static=True)(mu)
     assert r.unknown_load("rod")[:4, 0] == pytest.approx(
@@ -96,7 +96,7 @@ def test_a_rod_at_45_degrees() -> None:
     )
     assert list(r.status[:, 0]) == ["ok"] * 4 + ["jammed"] * 2
     assert np.isnan(r.unknown_load("rod")[4:]).all()
-    assert r.redone == 2
+    assert r.redone == 0
 
 
 def test_all_contacts_of_a_guide() -> None:
@@ -210,7 +210,9 @@ def test_derivatives_of_random_mechanisms(seed: int) -> None:
     slopes_are_differences(m, frictional(m), (1e-2, 1e-3, 1e-4, 1e-5))
 
 
-@pytest.mark.parametrize(("name", "mu"), [("slider_crank", 0.3), ("scotch_yoke", 0.5), ("toggle_press", 1.5)])
+@pytest.mark.parametrize(
+    ("name", "mu"), [("slider_crank", 0.3), ("scotch_yoke", 0.5), ("scotch_yoke", 0.9), ("toggle_press", 1.5)]
+)
 def test_c_function_and_casadi(name: str, mu: float, tmp_path: Path) -> None:
     """Marks and numbers of the exports, self-locking, at rest and in doubt too."""
     tree = cycle(name).to_tree()

@@ -92,18 +92,25 @@ def marks(program: Program, name: Callable[[Node], str], indent: str) -> str:
 
     out = [
         f"int here = {below(m.open)} ? {code['open']} : {below(m.doubt, False)} ? {code['doubt']} : 0;",
-        f"int locked = {below(m.turned)};",
+        f"int rest = {below(m.rest)}, jam = 0, locked = {below(m.turned)};",
+        f"int doubt = {below(m.slips, False)};",
     ]
     if m.seldom:
         single = f"{below(m.unsure, False)} && {below(m.sure, False)}"
         out += [
-            f"if (!here && ({below(m.unsure, False)} || locked)) {{",
+            f"if (!here && !rest && ({below(m.unsure, False)} || locked)) {{",
             lines(program.seldom, name, "  "),
-            f"  here = ({single}) || (locked && {below(m.still, False)}) ? {code['doubt']} : 0;",
+            f"  const int single = {single};",
+            f"  doubt = doubt || single || (locked && {below(m.still, False)});",
             f"  locked = locked && {below(m.locked) if m.locked else '1'};",
+            "  if (single) {",
+            lines(program.rare, name, "    "),
+            f"    jam = {below(m.jam)};",
+            "  }",
             "}",
         ]
-    out.append(f"if (!here) here = {below(m.rest)} ? {code['rest']} : locked ? {code['locked']} : 0;")
+    then = f"rest ? {code['rest']} : jam ? {code['jam']} : doubt ? {code['doubt']} : locked ? {code['locked']} : 0"
+    out.append(f"if (!here) here = {then};")
     return "\n".join(indent + line for line in "\n".join(out).splitlines())
 
 

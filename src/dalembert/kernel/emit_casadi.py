@@ -36,9 +36,11 @@ def _mark(ca: Any, program: Program, done: dict[int, Any]) -> Any:
     turned = below(m.turned)
     locked = ca.logic_and(turned, below(m.locked)) if m.locked else turned
     single = ca.logic_and(unsure(m.unsure), unsure(m.sure))
-    doubt = _any(ca, [unsure(m.doubt), single, ca.logic_and(turned, unsure(m.still))])
+    slips = _any(ca, [unsure(m.slips), single, ca.logic_and(turned, unsure(m.still))])
+    rest, jam = below(m.rest), ca.logic_and(single, below(m.jam))
+    doubt = ca.logic_or(unsure(m.doubt), ca.logic_and(ca.logic_not(ca.logic_or(rest, jam)), slips))
     mark: Any = ca.SX(0)
-    found = {"open": below(m.open), "doubt": doubt, "rest": below(m.rest), "locked": locked}
+    found = {"open": below(m.open), "doubt": doubt, "rest": rest, "jam": jam, "locked": locked}
     for name, test in reversed(found.items()):
         mark = ca.if_else(test, CODES[name], mark)
     return mark

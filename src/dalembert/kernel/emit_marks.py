@@ -19,19 +19,34 @@ def bits(t: Any, program: Program, names: dict[int, str]) -> dict[str, str]:
     asked = (("open", marks.open, "olt"), ("doubt", marks.doubt, "ult"), ("rest", marks.rest, "olt"))
     out = {name: _any(t, nodes, names, how) for name, nodes, how in asked}
     out["locked"] = _any(t, marks.turned, names, "olt")
+    slips = _any(t, marks.slips, names, "ult")
     if marks.seldom:
-        out["doubt"], out["locked"] = _seldom(t, program, names, out["doubt"], out["locked"])
+        slips, out["jam"], out["locked"] = _seldom(t, program, names, slips, out["locked"], out["rest"])
+    for certain in ("rest", "jam"):
+        if getattr(marks, certain):
+            slips = _but(t, slips, out[certain])
+    if marks.slips or marks.seldom:
+        out["doubt"] = t.let(f"or {t.bit} {out['doubt']}, {slips}")
     return {name: out[name] for name in marks.names}
 
 
-def _seldom(t: Any, program: Program, names: dict[int, str], doubt: str, turned: str) -> tuple[str, str]:
-    """Lanes in doubt and self-locking; what is seldom asked stands in a block of its own, jumped over where no lane
-    asks for it."""
+def _but(t: Any, a: str, b: str) -> str:
+    """Lanes of a that are not of b."""
+    every = "true" if t.lanes == 1 else "<" + ", ".join(["i1 true"] * t.lanes) + ">"
+    return str(t.let(f"and {t.bit} {a}, {t.let(f'xor {t.bit} {b}, {every}')}"))
+
+
+def _seldom(
+    t: Any, program: Program, names: dict[int, str], slips: str, turned: str, rest: str
+) -> tuple[str, str, str]:
+    """Lanes in doubt, jammed and self-locking. What is seldom asked stands in a block of its own, jumped over where no
+    lane asks for it: none that is at rest does; and so does the proof of a jam behind it."""
     from dalembert.kernel.emit_llvm import operations
 
     marks, none = program.marks, _none(t)
     unsure = _any(t, marks.unsure, names, "ult")
-    asks = some(t, t.let(f"or {t.bit} {unsure}, {turned if marks.locked else none}"))
+    asking = t.let(f"or {t.bit} {unsure}, {turned if marks.locked else none}")
+    asks = some(t, _but(t, asking, rest) if marks.rest else asking)
     t.put(f"br i1 {asks}, label %ask, label %told")
     t.lines.append("ask:")
     inside = dict(names)
@@ -42,12 +57,19 @@ def _seldom(t: Any, program: Program, names: dict[int, str], doubt: str, turned:
     if marks.locked:
         locked = t.let(f"and {t.bit} {turned}, {_any(t, marks.locked, inside, 'olt')}")
     more = t.let(f"or {t.bit} {single}, {still}")
+    t.put(f"br i1 {some(t, single)}, label %prove, label %told")
+    t.lines.append("prove:")
+    operations(t, program.rare, inside)
+    jam = t.let(f"and {t.bit} {single}, {_any(t, marks.jam, inside, 'olt')}")
     t.put("br label %told")
     t.lines.append("told:")
     before = none if marks.locked else turned
-    found = t.let(f"phi {t.bit} [ {before}, %loop ], [ {locked}, %ask ]")
-    more = t.let(f"phi {t.bit} [ {none}, %loop ], [ {more}, %ask ]")
-    return t.let(f"or {t.bit} {doubt}, {more}"), found
+
+    def joined(loop: str, ask: str, prove: str) -> str:
+        return str(t.let(f"phi {t.bit} [ {loop}, %loop ], [ {ask}, %ask ], [ {prove}, %prove ]"))
+
+    found, more, jam = joined(before, locked, locked), joined(none, more, more), joined(none, none, jam)
+    return t.let(f"or {t.bit} {slips}, {more}"), jam, found
 
 
 def _none(t: Any) -> str:

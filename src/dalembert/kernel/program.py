@@ -11,7 +11,7 @@ from dalembert.kernel.graph import CONSTANT, INPUTS, POSITION, Graph, Node
 SLOW = {"inv": 6, "rsqrt": 7, "sqrt": 8, "sin": 15, "cos": 15, "atan2": 30, "neg": 0, "detach": 0}
 """How long operations take that are no addition or product, in additions."""
 
-CODES = {"open": 1, "doubt": 2, "rest": 3, "locked": 9}
+CODES = {"open": 1, "doubt": 2, "rest": 3, "jam": 7, "locked": 9}
 """The mark of a position, the first of these that applies, else 0; of many positions the first too."""
 
 
@@ -19,17 +19,19 @@ CODES = {"open": 1, "doubt": 2, "rest": 3, "locked": 9}
 class Marks:
     """Nodes that say whether the outputs are right, each below zero where it has something to say.
 
-    open: the linkage does not close. doubt (below zero, or no number): the general executor decides; so where both
-    ``unsure`` and ``sure`` are so. rest: friction has no rate to tell its sense. turned: it turns the power of the
-    unknowns round; there ``still``, as doubt, and ``locked``: it does so without inertia too. Without ``locked`` being
-    turned is enough.
+    open: the linkage does not close. doubt (below zero, or no number): the general executor decides. rest: friction
+    has no rate to tell its sense. Elsewhere ``slips``, as doubt, and so where both ``unsure`` and ``sure`` are, but for
+    ``jam``, which is asked there: it surely jams. turned: friction turns the power of the unknowns round; there
+    ``still``, as doubt, and ``locked``: it does so without inertia too. Without ``locked`` being turned is enough.
     """
 
     open: tuple[Node, ...] = ()
     doubt: tuple[Node, ...] = ()
     rest: tuple[Node, ...] = ()
+    slips: tuple[Node, ...] = ()
     unsure: tuple[Node, ...] = ()
     sure: tuple[Node, ...] = ()
+    jam: tuple[Node, ...] = ()
     turned: tuple[Node, ...] = ()
     still: tuple[Node, ...] = ()
     locked: tuple[Node, ...] = ()
@@ -37,7 +39,7 @@ class Marks:
     @property
     def always(self) -> list[Node]:
         """Those asked at every position."""
-        return [*self.open, *self.doubt, *self.rest, *self.unsure, *self.turned]
+        return [*self.open, *self.doubt, *self.rest, *self.slips, *self.unsure, *self.turned]
 
     @property
     def seldom(self) -> list[Node]:
@@ -49,8 +51,9 @@ class Marks:
         """Marks that can occur, the first counts."""
         there: dict[str, Sequence[Node]] = {
             "open": self.open,
-            "doubt": [*self.doubt, *self.sure, *self.still],
+            "doubt": [*self.doubt, *self.slips, *self.sure, *self.still],
             "rest": self.rest,
+            "jam": self.jam,
             "locked": self.turned,
         }
         return [name for name, nodes in there.items() if nodes]
@@ -67,7 +70,7 @@ class Program:
     @cached_property
     def order(self) -> list[Node]:
         """Every node needed, arguments first."""
-        return self.graph.order([*self.outputs, *self.marks.always, *self.marks.seldom])
+        return self.graph.order([*self.outputs, *self.marks.always, *self.marks.seldom, *self.marks.jam])
 
     @cached_property
     def design(self) -> list[Node]:
@@ -83,8 +86,18 @@ class Program:
     @cached_property
     def seldom(self) -> list[Node]:
         """Operations of the marks that are seldom asked."""
-        known = {n.index for n in self.position}
-        return [n for n in self.order if n.a is not None and n.level & POSITION and n.index not in known]
+        return self._beyond(self.marks.seldom, self.position)
+
+    @cached_property
+    def rare(self) -> list[Node]:
+        """Operations of the proof of a jam."""
+        return self._beyond(self.marks.jam, [*self.position, *self.seldom])
+
+    def _beyond(self, nodes: Sequence[Node], done: list[Node]) -> list[Node]:
+        """Operations of every position that some nodes need besides those done."""
+        known = {n.index for n in done}
+        needed = self.graph.order(nodes)
+        return [n for n in needed if n.a is not None and n.level & POSITION and n.index not in known]
 
     @cached_property
     def inputs(self) -> list[Node]:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.choice import above, larger, top
+from dalembert.core.choice import above, top
 from dalembert.core.equilibrium import Motion, Statement
 from dalembert.core.forcing import Resistances, pair, summed
 from dalembert.core.friction import (
@@ -36,6 +36,7 @@ from dalembert.core.layout import Layout, Pose
 from dalembert.core.losses import in_joints, turned, viscous
 from dalembert.kernel.eliminate import components, structural
 from dalembert.kernel.graph import CONSTANT, Graph, Node, is_zero, traced
+from dalembert.kernel.jamming import jams, lever
 
 Array = NDArray[Any]
 Nodes = Sequence[Node]
@@ -72,10 +73,10 @@ class Rough:
 class Rubbed:
     """Multipliers x, total wrenches w, and friction's and damping's force (joints, 2) and moment (joints,) on j.
 
-    doubt: below zero where the general executor decides, so where both ``unsure`` and ``sure`` are below zero. rest:
-    below zero where a contact that carries something has no rate to tell its sense. turned, locked: below zero where
-    friction turns the power of the unknowns round, with inertia and without; ``locked`` and ``still`` (its doubt) are
-    asked only where it is turned.
+    rest: below zero where a contact that carries something has no rate to tell its sense. doubt: below zero where the
+    general executor decides elsewhere, so where both ``unsure`` and ``sure`` are, but for ``jam``: surely a jam.
+    turned, locked: below zero where friction turns the power of the unknowns round, with inertia and without;
+    ``locked`` and ``still`` (its doubt) are asked only where it is turned, ``jam`` where it is unsure and not sure.
     """
 
     x: Array
@@ -86,6 +87,7 @@ class Rubbed:
     rest: Nodes = ()
     unsure: Nodes = ()
     sure: Nodes = ()
+    jam: Nodes = ()
     turned: Nodes = ()
     still: Nodes = ()
     locked: Nodes = ()
@@ -94,13 +96,14 @@ class Rubbed:
 @dataclass(frozen=True)
 class Slipped:
     """z and S of each contact (E,), and what is below zero, or no number, where they are in doubt: so where both
-    ``unsure`` and ``sure`` are."""
+    ``unsure`` and ``sure`` are; and what is below zero where they jam."""
 
     z: Array
     bears: Array
     doubt: list[Node]
     unsure: list[Node]
     sure: list[Node]
+    jam: list[Node]
 
 
 def rubbed(
@@ -152,6 +155,7 @@ def rubbed(
         rest=rest,
         unsure=slip.unsure,
         sure=slip.sure,
+        jam=slip.jam,
         turned=_used(turns),
         still=[] if same else doubt,
         locked=[] if same else [locked],
@@ -195,25 +199,33 @@ def slipped(
     doubt: list[Node] = []
     unsure: list[Node] = []
     single: list[Node] = []
+    stuck: list[Node] = []
+    right: dict[int, Node] = {}
     for block in components({a: needs[a] - {a} if a in acts else needs[a] for a in range(count)}):
         k = np.array(sorted(block))
         others = sorted({b for a in block for b in needs[a]} - set(block))
         y = argument(r._replace(y=r.y[:, k], h=r.h[:, k][:, :, others]), z[others])
         part = replace(contacts, signed=contacts.signed[k])
+        known = graph.one
+        for b in others:
+            known = known * right.get(b, graph.one)
         if len(block) == 1 and (block[0] not in acts or block[0] not in needs[block[0]]):
             bears[k] = bearing(part, y)
             z[k] = -sense[k] * bears[k]
+            right |= dict.fromkeys(block, known)
             continue
         inner = r._replace(y=y, h=r.h[:, k][:, :, k])
         rough, sure = _contraction(graph, inner.h, sense[k])
-        known = None if slips is None else slips[k]
-        z[k], bears[k], last = _newton(graph, part, inner, sense[k], largest, sure, known)
+        start = None if slips is None else slips[k]
+        z[k], bears[k], last = _newton(graph, part, inner, sense[k], largest, sure, start)
         doubt.append(last)
         if slips is not None:
             continue
         unsure.append(rough)
         single.append(sure)
-    return Slipped(z, bears, *(_unfixed(nodes) for nodes in (doubt, unsure, single)))
+        stuck.append(jams(graph, part, inner, sense[k]) * known)
+        right |= dict.fromkeys(block, known * last.positive() * rough.positive().larger(sure.positive()))
+    return Slipped(z, bears, *(_unfixed(nodes) for nodes in (doubt, unsure, single, stuck)))
 
 
 def _unfixed(nodes: list[Node]) -> list[Node]:
@@ -223,15 +235,13 @@ def _unfixed(nodes: list[Node]) -> list[Node]:
 def _contraction(graph: Graph, h: Array, sense: Array) -> tuple[Node, Node]:
     """Above zero where the fixed point is surely a contraction: then it is the only one, at any smaller scale too.
 
-    First by the sums of the rows of its matrix, without signs, then by those of a power of it. A length is at most
-    0.586 of the larger of its components and 0.415 of both.
+    First by the sums of the rows of its matrix, without signs, then by those of a power of it.
     """
-    first, second, tilting = np.abs(h)
-    lever = larger(0.586 * larger(first, second) + 0.415 * (first + second), tilting)
+    bound = lever(h)
     moves, reached = np.abs(sense), np.abs(sense)
     bounds = []
     for _ in range(POWER):
-        reached = (lever @ (moves * reached)[:, None])[:, 0]
+        reached = (bound @ (moves * reached)[:, None])[:, 0]
         bounds.append(reached)
     short, long = (1.0 - traced(graph, top(bounds[k], 1)).item() for k in (0, -1))
     return short, long

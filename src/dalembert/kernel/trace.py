@@ -107,7 +107,7 @@ def trace(p: Problem) -> Traced:
         load=traced(g, found.load),
         residual=_residual(g, layout, summed(layout, pair(s.unknown, x)), rub.total),
         open=placed.open,
-        doubt=[*apart, *placed.doubt, *_singular(p, factors, s.forces), *rub.doubt],
+        doubt=[*apart, *placed.doubt, *_singular(p, factors, s.forces)],
         rubbed=rub,
         flips=placed.flips,
     )

@@ -83,9 +83,12 @@ def _comment(k: Kernel, program: Program, name: str) -> str:
     said = f"{title}: {name}(v, c, out) at one position, SI and radians; made by dalembert."
     result = (
         "Returns 0; 1 where the linkage does not close; 2 where the numbers may be poor (near a dead centre, or "
-        "friction may jam);"
+        "friction may jam or have several solutions);"
     )
-    more = "3 where friction leaves an interval (a contact at rest); 9 where it is self-locking (the numbers hold)."
+    more = (
+        "3 where friction leaves an interval (a contact at rest); 7 where it jams; "
+        "9 where it is self-locking (the numbers hold)."
+    )
     return "\n".join([said, result, more, *numbers, *inputs, *outputs])
 
 

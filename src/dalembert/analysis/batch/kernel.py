@@ -154,8 +154,9 @@ class Kernel:
     def program(self, nodes: Sequence[Node]) -> Program:
         found = self.trace.catalogue.traced
         rub = found.rubbed
-        marks = (found.open, found.doubt, rub.rest, rub.unsure, rub.sure, rub.turned, rub.still, rub.locked)
-        return Program(self.trace.catalogue.graph, tuple(nodes), Marks(*(tuple(m) for m in marks)))
+        rubbing = (rub.rest, rub.doubt, rub.unsure, rub.sure, rub.jam, rub.turned, rub.still, rub.locked)
+        marks = (tuple(m) for m in (found.open, found.doubt, *rubbing))
+        return Program(self.trace.catalogue.graph, tuple(nodes), Marks(*marks))
 
     @cached_property
     def flat(self) -> list[Node]:
