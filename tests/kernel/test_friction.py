@@ -214,7 +214,7 @@ def test_derivatives_of_random_mechanisms(seed: int) -> None:
     ("name", "mu"), [("slider_crank", 0.3), ("scotch_yoke", 0.5), ("scotch_yoke", 0.9), ("toggle_press", 1.5)]
 )
 def test_c_function_and_casadi(name: str, mu: float, tmp_path: Path) -> None:
-    """Marks and numbers of the exports, self-locking, at rest and in doubt too."""
+    """Marks and numbers of the exports, self-locking, at rest, jammed and in doubt too."""
     tree = cycle(name).to_tree()
     tree["drives"]["O2"]["position"] = {"from": 0, "to": 360, "count": 181}
     m = da.mechanism(tree).with_values({"friction.coefficient": mu})
@@ -231,4 +231,4 @@ def test_c_function_and_casadi(name: str, mu: float, tmp_path: Path) -> None:
         if CODES[mark] in ("ok", "self_locking"):
             assert out[0] == pytest.approx(r.effort("O2")[0, p], rel=1e-10)
             assert float(effort) == pytest.approx(r.effort("O2")[0, p], rel=1e-10)
-    assert {"ok", "self_locking"} & set(r.status[0])
+    assert {"ok", "self_locking", "jammed"} & set(r.status[0])
