@@ -70,7 +70,9 @@ def _turns(r: Result, k: int, order: Order, shown: Shown) -> str:
         if order == "velocity"
         else ("angular_acceleration", r.acceleration, "α")
     )
-    parts = [f"{letter}{shown.link(link)} = {shown.text(kind, float(read(link)[k]))}" for link in r.links]
+    parts = [
+        f"{letter}_{{{shown.link(link)}}} = {shown.text(kind, float(read(link)[k]))}" for link in r.links
+    ]
     return ", ".join(parts)
 
 
@@ -146,15 +148,20 @@ def instant_centers_scene(r: Result, k: int, notation: Notation | None = None) -
             canvas.add(Line(_ends(three), "construction"))
     merged: dict[Point, list[str]] = {}
     for (a, b), p in near.items():
-        merged.setdefault((round(p[0], 1), round(p[1], 1)), []).append(f"{shown.link(a)}{shown.link(b)}")
+        merged.setdefault((round(p[0], 1), round(p[1], 1)), []).append(_sign(shown, a, b))
     for p, names in merged.items():
         canvas.add(Circle(p, 0.8, "mark"))
-        canvas.label(", ".join(f"I_{{{n}}}" for n in names), p, size=3.0, role="velocity")
-    far = [f"{shown.link(a)}{shown.link(b)}" for (a, b) in centers if (a, b) not in near]
+        canvas.label(", ".join(names), p, size=3.0, role="velocity")
+    far = [_sign(shown, a, b) for (a, b) in centers if (a, b) not in near]
     notes, scales = stated(shown, frame, None)
     if far:
         notes.append(f"Outside the drawing or at infinity: {', '.join(far)}.")
     return canvas.scene("Instant centres", notes=notes, scales=scales)
+
+
+def _sign(shown: Shown, a: str, b: str) -> str:
+    """Sign of the instant centre of two links: I_{12}."""
+    return f"I_{{{shown.pair(*((a, b) if shown.notation.order == 'by-on' else (b, a)))}}}"
 
 
 def _within(p: Point, span: tuple[float, ...], room: float) -> bool:

@@ -19,24 +19,31 @@ POINT = 72 / 25.4
 def write_figure(scene: Scene, path: str | Path, theme: str = "light", dpi: int = 200) -> None:
     """Write a PDF or a PNG, to scale."""
     path = Path(path)
-    figure = _figure(scene, theme, scene.bounds)
     metadata: dict[str, Any] = {"Title": scene.title} if path.suffix != ".png" else {}
     if path.suffix == ".pdf":
         metadata["CreationDate"] = None
-    figure.savefig(path, dpi=dpi, metadata=metadata, format=path.suffix[1:])
+    _save(scene, theme, scene.bounds, path, dpi=dpi, metadata=metadata, format=path.suffix[1:])
 
 
 def png_bytes(scene: Scene, theme: str = "light", dpi: int = 110, bounds: Box | None = None) -> bytes:
     """A PNG picture; ``bounds`` in mm keep the frames of an animation alike."""
     out = BytesIO()
-    _figure(scene, theme, bounds or scene.bounds).savefig(out, dpi=dpi, format="png")
+    _save(scene, theme, bounds or scene.bounds, out, dpi=dpi, format="png")
     return out.getvalue()
 
 
-def _figure(scene: Scene, theme: str, bounds: Box) -> Any:
+SETTINGS = {"pdf.fonttype": 42, "text.hinting": "none"}
+"""Fonts as such in a PDF; letters as wide in a PNG as they are, for what stands behind others is placed by that."""
+
+
+def _save(scene: Scene, theme: str, bounds: Box, target: Any, **options: Any) -> None:
     import matplotlib
 
-    matplotlib.rcParams["pdf.fonttype"] = 42
+    with matplotlib.rc_context(SETTINGS):
+        _figure(scene, theme, bounds).savefig(target, **options)
+
+
+def _figure(scene: Scene, theme: str, bounds: Box) -> Any:
     from matplotlib.figure import Figure
 
     left, bottom, right, top = bounds
