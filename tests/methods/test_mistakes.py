@@ -274,3 +274,39 @@ def test_a_figure_nearly_right_is_called_close() -> None:
     found = verdict("effort", "O2", "240 lbf*in")
     assert (found.right, found.mistake) == (False, "close: rounded too early, or a small slip")
     assert verdict("reaction", "A", "155 @ 221 deg").computed == "154.805 @ 220.322"
+
+
+def test_a_single_number_for_a_force_is_its_magnitude() -> None:
+    found = da.check_answers(
+        da.load(examples()["four_bar"]), figures({"reactions": {"A": 155, "B": "87.4 lbf"}})
+    )
+    assert [v.right for v in found] == [True, True]
+
+
+@pytest.mark.parametrize(
+    ("tree", "said"),
+    [
+        ({"effort": 3}, r"effort stands without names of what the figures are of; write effort: \{NAME: 3\}"),
+        ([3], "the answers are neither a mapping nor a list of mappings; write efforts: "),
+        (None, "the answers are neither a mapping nor a list of mappings"),
+        ({"forces": {"A": 3}}, "there is no quantity 'force'"),
+    ],
+)
+def test_answers_that_cannot_be_read(tree: Any, said: str) -> None:
+    with pytest.raises(da.ModelError, match=said):
+        figures(tree)
+
+
+def test_asked_one_by_one(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """An empty line skips one; the end of the input ends the questions."""
+    given = iter(["243", "", "-118, -100"])
+
+    def answered(question: str) -> str:
+        try:
+            return next(given)
+        except StopIteration:
+            raise EOFError from None
+
+    monkeypatch.setattr("builtins.input", answered)
+    assert main(["check-answers", str(examples()["four_bar"]), "--interactive"]) == 0
+    assert capsys.readouterr().out.endswith("2 of 2 right.\n")

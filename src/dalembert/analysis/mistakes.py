@@ -6,7 +6,7 @@ parts of the superposition left out or scaled (inertia, weights, loads), or the 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -56,28 +56,49 @@ def check_answers(mechanism: Mechanism, answers: Sequence[Answer], static: bool 
 
 
 def figures(tree: Any) -> list[Answer]:
-    """Answers of a file: a list as in a model file's `answers`, or {efforts: {O2: 27.5}, reactions: {A: 155 @ 40}}."""
+    """Answers of a file: a list as in a model file's `answers`, or {efforts: {O2: 27.5}, reactions: {A: 155 @ 40}}.
+
+    In the short form a single number for a vector is its magnitude.
+
+    >>> figures({"reactions": {"A": "155 N"}})[0].component
+    'magnitude'
+    """
     from dalembert.model import Answer
 
-    if isinstance(tree, dict) and "answers" in tree:
+    if isinstance(tree, Mapping) and "answers" in tree:
         tree = tree["answers"]
-    if isinstance(tree, dict):
-        tree = [
-            {
-                "quantity": quantity.removesuffix("s") if quantity != "status" else quantity,
-                "of": of,
-                "value": value,
-            }
-            for quantity, values in tree.items()
-            for of, value in dict(values).items()
-        ]
-    for item in tree:
+    items = list(_short(tree)) if isinstance(tree, Mapping) else tree
+    if not isinstance(items, list) or not all(isinstance(item, Mapping) for item in items):
+        raise ModelError(
+            "the answers are neither a mapping nor a list of mappings",
+            "write efforts: {O2: 243 lbf*in} and reactions: {A: 155 @ 220 deg}",
+        )
+    for item in items:
         if item.get("quantity") not in QUANTITIES:
             raise ModelError(
                 f"there is no quantity {item.get('quantity')!r}",
                 closest(str(item.get("quantity")), [*QUANTITIES]),
             )
-    return [Answer(**item) for item in tree]
+    return [Answer(**item) for item in items]
+
+
+VECTORS = ("reaction", "center", "velocity", "position", "point")
+"""Quantities of which a single number can only be the magnitude (in space more of them are vectors)."""
+
+
+def _short(tree: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+    """The items of {efforts: {O2: 27.5}, reactions: {A: 155 @ 40}}."""
+    for name, values in tree.items():
+        quantity = str(name).removesuffix("s") if name != "status" else name
+        if not isinstance(values, Mapping):
+            raise ModelError(
+                f"{name} stands without names of what the figures are of", f"write {name}: {{NAME: {values}}}"
+            )
+        for of, value in values.items():
+            item = {"quantity": quantity, "of": of, "value": value}
+            single = isinstance(value, int | float) or (isinstance(value, str) and "@" not in value)
+            whole = quantity.startswith(VECTORS) and single and value != ""
+            yield item | ({"component": "magnitude"} if whole else {})
 
 
 def _verdict(result: Result, answer: Answer, variants: Variants) -> Verdict:

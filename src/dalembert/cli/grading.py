@@ -31,25 +31,27 @@ def graded(file: Path, answers: Path | None, interactive: bool, static: bool, fr
 
 
 def _asked(m: Any, static: bool) -> dict[str, dict[str, Any]]:
-    """Ask for every effort and joint force; an empty line skips one."""
+    """Ask for every effort and joint force; an empty line skips one, the end of the input all that follow."""
     from dalembert.analysis import solve
 
     r = solve(m, static=static)
-    out: dict[str, dict[str, Any]] = {"effort": {}, "unknown_load": {}, "reaction": {}}
-    for drive in r.drives:
-        out["effort"][drive] = input(
-            f"Effort of {drive} (a number, or with its unit; empty to skip): "
-        ).strip()
-    for name in r.unknown_loads:
-        out["unknown_load"][name] = input(f"Load {name}: ").strip()
+    form = "size @ angle" if m.dimension == 2 else "x, y, z"
+    asked = [("effort", d, f"Effort of {d} (a number, or with its unit; empty to skip): ") for d in r.drives]
+    asked += [("unknown_load", name, f"Load {name}: ") for name in r.unknown_loads]
     for joint in r.joints:
         i, j = m.joints[joint].links
-        form = "size @ angle" if m.dimension == 2 else "x, y, z"
-        said = input(f"Joint {joint}, force of {i} on {j} ({form}): ").strip()
-        out["reaction"][joint] = (
-            said if m.dimension == 2 or not said else [part.strip() for part in said.strip("[]").split(",")]
-        )
-    return {quantity: {n: v for n, v in values.items() if v} for quantity, values in out.items()}
+        asked.append(("reaction", joint, f"Joint {joint}, force of {i} on {j} ({form}): "))
+    out: dict[str, dict[str, Any]] = {"effort": {}, "unknown_load": {}, "reaction": {}}
+    for quantity, name, question in asked:
+        try:
+            said = input(question).strip()
+        except EOFError:
+            print()
+            break
+        if said:
+            parts = [part.strip() for part in said.strip("[]").split(",")]
+            out[quantity][name] = parts if quantity == "reaction" and len(parts) > 1 else said
+    return out
 
 
 def _text(found: list[Verdict]) -> str:
