@@ -97,3 +97,27 @@ def test_what_is_only_rounding_is_0_in_the_tables_of_methods(run: Run, folder: P
         *tables, _ = printed.partition(f"{method.replace('-', ' ').capitalize()}\n")[2].split("\n\n")
         assert tables
         assert not any("e-" in part for part in tables), printed
+
+
+def test_where_nothing_acts_methods_say_so(run: Run, folder: Path) -> None:
+    bare = da.four_bar().with_values({f"links.{link}.mass": 0.0 for link in ("crank", "coupler", "rocker")})
+    bare = bare.with_values(
+        {f"links.{link}.inertia": 0.0 for link in ("crank", "coupler", "rocker")} | {"loads": {}}
+    )
+    bare.save(folder / "bare.yaml")
+    for method in ("superposition", "virtual-work"):
+        printed = run("solve", "bare.yaml", "--method", method)
+        assert (printed.status, printed.err) == (0, "")
+        assert "No given load, weight or inertia acts" in printed.out
+
+
+def test_a_file_of_forces_is_no_mechanism(run: Run, folder: Path) -> None:
+    (folder / "plate.yaml").write_text(
+        "points: {A: [1, 2]}\nforces: {F: {value: 3 @ 4, at: A}}\n", encoding="utf-8"
+    )
+    ran = run("solve", "plate.yaml")
+    assert ran.status == 2
+    assert (
+        ran.err
+        == "plate.yaml:1: this is a file of forces and couples; use dalembert wrench, or da.wrench.load\n"
+    )

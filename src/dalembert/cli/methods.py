@@ -10,7 +10,7 @@ from dalembert.analysis.columns import UnitChoice, drive_kinds, load_kind, unkno
 from dalembert.analysis.friction import unknown_names
 from dalembert.analysis.summary.printed import Printed, printed
 from dalembert.errors import ModelError
-from dalembert.printing import number, remainder, rounded, table, tables, wrapped
+from dalembert.printing import number, remainder, rounded, table, tables, with_unit, wrapped
 from dalembert.units import KINDS
 
 if TYPE_CHECKING:
@@ -22,6 +22,8 @@ def superposition_text(result: Result, units: UnitChoice) -> str:
     from dalembert.analysis.superposition import superposition
 
     parts, to, k = superposition(result), printed(result, units), _first(result)
+    if not parts.sources:
+        return f"Superposition\n\n{NOTHING_ACTS}: all forces are 0."
     rows = []
     floor = _rounding(result, [(kind, values[:, k]) for _, values, kind in _quantities(parts, to)])
     for n, source in [*enumerate(parts.sources), (None, "sum")]:
@@ -47,6 +49,8 @@ def _rounding(result: Result, quantities: list[tuple[str, Any]]) -> dict[str, fl
     )
     return {"force": NOTHING * largest, "moment": NOTHING * largest * length}
 
+
+NOTHING_ACTS = "No given load, weight or inertia acts"
 
 NOTHING = 1e-12
 """Part of the largest below which a number is rounding."""
@@ -137,6 +141,10 @@ def _powers(found: Any, drive: int, k: int, to: Printed) -> str:
     name = r.drives[drive]
     angular = drive_kinds(r, name)["effort"] == "moment"
     kind = "moment" if angular else "force"
+    found_effort = with_unit(float(found.effort[k, drive]) * to(kind, 1.0), to.text(kind))
+    effort = f"Effort that balances the work: {name} = {found_effort}"
+    if not found.actions:
+        return f"{NOTHING_ACTS}.\n\n{effort}"
     unit = "rad" if angular else to.text("length")
     per = to("length", 1.0) if angular else 1.0
     length = r.compiled.layout.length
@@ -160,11 +168,10 @@ def _powers(found: Any, drive: int, k: int, to: Printed) -> str:
     total = float(found.power[:, k, drive].sum()) * to(kind, 1.0)
     heads = HEADS if r.mechanism.dimension == 2 else SPACE_HEADS
     rows.append(["sum", *[""] * (len(heads) - 2), number(total, 6)])
-    effort = f"{name} = {number(float(found.effort[k, drive]) * to(kind, 1.0))} {to.text(kind)}"
     units = f"forces in {to.text('force')}, couples in {to.text('moment')}, moves in {to.text('length')}"
     return (
         f"1 {unit} of {name}: {units}, turns in rad\n\n"
-        f"{table(heads, rows) if heads is HEADS else tables(heads, rows, 1)}\n\nEffort that balances the work: {effort}"
+        f"{table(heads, rows) if heads is HEADS else tables(heads, rows, 1)}\n\n{effort}"
     )
 
 

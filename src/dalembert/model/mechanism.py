@@ -285,6 +285,10 @@ def mechanism(tree: Mapping[str, Any], source: Source | None = None) -> Mechanis
         ).located(source)
     try:
         refuse_empty(tree)
+        if "links" not in tree and ("forces" in tree or "couples" in tree):
+            raise ModelError(
+                "this is a file of forces and couples", "use dalembert wrench, or da.wrench.load"
+            )
         folder = os.path.dirname(source.name) if source else ""
         found = Mechanism.model_validate(tree, context=file_rules(tree, folder))
     except ModelError as error:
