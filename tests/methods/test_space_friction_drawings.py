@@ -21,7 +21,7 @@ from dalembert.views.scene import Arc, Circle
 from dalembert.views.space_guides import slide_on_paper
 from tests.oracles.space import rough_machines
 
-MACHINES = ("rssr", "rssp", "rccc", "press")
+MACHINES = ("rssp", "press", *(pytest.param(name, marks=pytest.mark.long) for name in ("rssr", "rccc")))
 JOURNALS = (("rssr", "O"), ("rssr", "F"), ("rccc", "A"), ("rccc", "B"), ("press", "R"))
 GUIDES = (("rssp", "F"), ("rccc", "C"), ("rccc", "A"))
 
@@ -65,7 +65,7 @@ def test_ends_of_a_bearing_make_up_its_reaction(name: str, joint: str) -> None:
 
 
 @pytest.mark.parametrize(("name", "joint"), JOURNALS)
-@pytest.mark.parametrize("k", [0, 2])
+@pytest.mark.parametrize("k", [0, pytest.param(2, marks=pytest.mark.long)])
 def test_forces_touch_the_circle_against_the_turn(name: str, joint: str, k: int) -> None:
     """Each arrow passes the middle at the circle's radius, turning against the curved arrow; radii are to scale."""
     r = solved(name)

@@ -20,7 +20,7 @@ from tests.tiers import over_seeds
 
 TOLERANCE = 1e-9
 VERDICTS = (*SOLVED, "jammed", "at_rest", "no_balance")
-QUICK = (39, 58, 45, 54, 42, 40, 50, 22)
+QUICK = (39, 58, 45, 54, 42, 50)
 """Seeds with all kinds of joints, rods, a lock, a jam and joints at rest."""
 
 
@@ -58,7 +58,7 @@ def close(r: Any, other: Any, factor: float = 1.0, turn: Array | None = None, wi
         assert np.allclose(other.effort(drive), factor * r.effort(drive), **room), drive
 
 
-@over(8)
+@over(6)
 def test_solved_or_a_verdict_and_no_wrong_number(seed: int) -> None:
     """Every link balances, no loss is negative, the power that goes in is lost; else no number, and a sentence."""
     r, d = answered(seed), drawing(seed)
@@ -82,7 +82,7 @@ def test_solved_or_a_verdict_and_no_wrong_number(seed: int) -> None:
     assert np.max(da.virtual_work(r).gap[good]) < TOLERANCE
 
 
-@over(8)
+@over(6)
 def test_friction_is_mu_times_what_bears_against_the_slip(seed: int) -> None:
     r, d = answered(seed), drawing(seed)
     good, s = solved(r), seen(r, drawing(seed))

@@ -64,7 +64,7 @@ def machine(name: str) -> tuple[Tree, natural.Machine, Array]:
     drawn = {"rccc": _rccc, "press": _press, "two_rods": _two_rods}.get(name)
     tree = deepcopy(EXAMPLES[name].tree) if drawn is None else drawn()
     tree["friction"] = {"coefficient": 0.1}
-    tree["drives"]["O"]["position"]["count"] = 12 if name == "two_rods" else COUNT
+    tree["drives"]["O"]["position"]["count"] = 8 if name == "two_rods" else COUNT
     for joint, friction in FRICTION[name].items():
         tree["joints"][joint]["friction"] = friction
     m = natural.Machine(tree)
