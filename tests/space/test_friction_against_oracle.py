@@ -123,6 +123,23 @@ def test_a_cycle_that_jams_ends_at_the_same_scale_of_friction() -> None:
     assert b.scale[jammed] == pytest.approx(r.friction.critical[jammed], abs=1e-5)  # type: ignore[union-attr]
 
 
+@pytest.mark.long
+def test_a_rod_that_jams_between_its_balls() -> None:
+    """Circles that reach along most of the rod, which spins as friction lets it on the way to the branch's end."""
+    tree, _, path = rough_machines.machine("rssr")
+    tree = deepcopy(tree)
+    for joint in "AB":
+        tree["joints"][joint]["friction"] = {"coefficient": 0.6, "radius": 0.3, "circle": "tan"}
+    r, m = da.statics(da.mechanism(tree)), natural.Machine(tree)
+    b = rubbing.solve(m, natural.solve(m, path, False), False, smallest=1e-7)
+    jammed = ~solved(r)
+    assert 0 < np.sum(jammed) < len(jammed)
+    assert ((b.scale == 1) == ~jammed).all()
+    assert b.scale[jammed] == pytest.approx(r.friction.critical[jammed], abs=2e-5)  # type: ignore[union-attr]
+    part, off = worst(disagreement(r, b))
+    assert off < TOLERANCE, part
+
+
 @over(2)
 def test_random_mechanisms(seed: int) -> None:
     """Solved where the oracle's branch goes on to all of friction, jammed where that ends, at the same scale."""

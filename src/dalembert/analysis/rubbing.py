@@ -18,13 +18,24 @@ from dalembert.core.equilibrium import (
     statement,
 )
 from dalembert.core.forcing import Forcing, Source, pair, summed
-from dalembert.core.friction import Contacts, Response, Senses, argument, bearing, response, senses, under
+from dalembert.core.friction import (
+    Contacts,
+    Response,
+    Senses,
+    argument,
+    bearing,
+    multiplier,
+    response,
+    senses,
+    strength,
+    under,
+)
 from dalembert.core.layout import Pose, System
 from dalembert.core.linear import Factor, PseudoInverse
 from dalembert.core.losses import by_joint, in_joints, turned, viscous
 from dalembert.core.rest import extreme
 from dalembert.core.slip import Slip, slipping, without_friction
-from dalembert.core.spinning import Spins, rods, settled, spun
+from dalembert.core.spinning import Spins, raised, rods, settled, spun
 
 if TYPE_CHECKING:
     from dalembert.analysis.compile import Compiled
@@ -107,9 +118,8 @@ def rubbing(s: Setting, w: Array) -> Forces:
     along, r = response(layout, contacts, s.pose, stated.forces, stated.w)
     blocked = _blocked(contacts, stated)
     r = r._replace(y=np.where(blocked[:, None, None], np.nan, r.y))
-    told, spins = _told(s, along, r)
+    told, spins, slip = _slipped(s, along, r)
     open_ = np.flatnonzero(told.open.any(axis=-1))
-    slip = slipping(contacts, r, told.sense, told.open)
     if open_.size:
         slip.x[open_], slip.z[open_], slip.critical[open_] = np.nan, np.nan, np.nan
     locked = _locked(s, stated, along, r, slip)
@@ -117,6 +127,41 @@ def rubbing(s: Setting, w: Array) -> Forces:
     if not open_.size:
         return made.forces(r, slip, told.sense)
     return _with_ends(made, r, slip, told, open_, spins)
+
+
+def _slipped(s: Setting, along: System, r: Response) -> tuple[Senses, Spins | None, Slip]:
+    """Senses and friction; with rods that spin the branch is followed with them where it ends or leaves a moment."""
+    contacts = s.contacts
+    told, spins = _told(s, along, r)
+    slip = slipping(contacts, r, told.sense, told.open)
+    if spins is None:
+        return told, None, slip
+    left = np.abs(slip.x[..., spins.rods.row]).max(axis=-1) > SAME * np.abs(slip.x).max(axis=-1)
+    some = np.flatnonzero(~told.open.any(axis=-1) & (np.isfinite(slip.critical) | left))
+    if not some.size:
+        return told, spins, slip
+    here = Response(*(np.broadcast_to(a, (len(told.sense), *a.shape[1:]))[some] for a in r))
+    found = raised(contacts, here, told.open[some], spins.at(some))
+    new, on = found.scale > 0, some[found.scale > 0]
+    told = Senses(*(_with(a, on, b[new]) for a, b in zip(told, spins.at(some).told(found.phi), strict=True)))
+    z = np.where(found.scale < 1, np.nan, found.z.T).T[new]
+    c = strength(contacts, 1.0, told.open[on], told.sense[on])
+    slip = slip._replace(
+        z=_with(slip.z, on, z),
+        c=_with(slip.c, on, c),
+        x=_with(slip.x, on, multiplier(Response(*(a[new] for a in here)), c * z)),
+        determinant=_with(slip.determinant, on, found.determinant[new]),
+        critical=_with(slip.critical, on, np.where(found.scale < 1, found.scale, np.nan)[new]),
+        single=_with(slip.single, on, False),
+    )
+    return told, spins, slip
+
+
+def _with(whole: Array, on: NDArray[np.intp], part: Any) -> Array:
+    """A copy with other values at some positions."""
+    out = np.array(whole)
+    out[on] = part
+    return out
 
 
 def _told(s: Setting, along: System, r: Response) -> tuple[Senses, Spins | None]:
@@ -134,7 +179,7 @@ def _told(s: Setting, along: System, r: Response) -> tuple[Senses, Spins | None]
         now = told_at(phi)
         return np.nan_to_num(slipping(contacts, r, now.sense, now.open).x[..., found.row])
 
-    return told_at(settled(found.rate.shape, moment)), Spins(found, lambda phi: told_at(phi).sense)
+    return told_at(settled(found.rate.shape, moment)), Spins(found, told_at)
 
 
 def _blocked(contacts: Contacts, stated: Statement) -> Flags:
@@ -159,8 +204,7 @@ def _locked(s: Setting, stated: Statement, along: System, r: Response, slip: Sli
     w = np.broadcast_to(w, stated.w.shape)
     still = statement(s.c.layout, s.known, s.pose, s.rows, s.solver, w)
     r = under(s.c.layout, s.contacts, s.pose, still.forces, still.w, r)
-    told, _ = _told(s, along, r)
-    return locked & _turned(s, still, r, slipping(s.contacts, r, told.sense, told.open))
+    return locked & _turned(s, still, r, _slipped(s, along, r)[2])
 
 
 def _turned(s: Setting, stated: Statement, r: Response, slip: Slip) -> Flags:

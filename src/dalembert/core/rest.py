@@ -67,7 +67,7 @@ def extreme(
         still = known.open & ~moving_together(contacts, moves)
         sense = np.where(known.open, end * impending(contacts, rate, moves), known.sense)
         if spins is not None:
-            sense = np.where(known.open, sense, spins.sense(phi))
+            sense = np.where(known.open, sense, spins.told(phi).sense)
         return np.where(still, held, sense), still
 
     def moment(phi: Array) -> Array:

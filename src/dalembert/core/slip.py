@@ -69,7 +69,7 @@ class Slip(NamedTuple):
     single: Flags
 
 
-class _Try(NamedTuple):
+class Try(NamedTuple):
     """Newton's answer; ``landing``, where its first step led."""
 
     z: Array
@@ -85,21 +85,21 @@ def without_friction(contacts: Contacts, r: Response) -> Array:
         return r.x
     sense = np.broadcast_to(np.where(contacts.fixed, -1.0, 0.0), r.y.shape[:-2] + r.y.shape[-1:])
     c = np.broadcast_to(strength(contacts, 0.0), sense.shape)
-    return multiplier(r, c * _newton(contacts, r, sense, c, np.zeros_like(sense)).z)
+    return multiplier(r, c * newton(contacts, r, sense, c, np.zeros_like(sense)).z)
 
 
 def slipping(contacts: Contacts, r: Response, sense: Array, resting: Array) -> Slip:
     """Friction at each position; sense (P, E), where ``resting`` (P, E) with the coefficients at rest."""
     r = Response(*(np.broadcast_to(a, (len(sense), *a.shape[1:])) for a in r))
     c = np.broadcast_to(strength(contacts, 1.0, resting, sense), sense.shape)
-    first = _newton(contacts, r, sense, c, np.zeros_like(sense))
+    first = newton(contacts, r, sense, c, np.zeros_like(sense))
     single = spread(contacts, strong(r, c * np.abs(sense))) < 1
     z, determinant, count = first.z, first.determinant, first.iterations
     critical = np.full(len(sense), np.nan)
     finite = np.isfinite(r.y).all(axis=(-2, -1))
     rest = np.flatnonzero(~(first.arrived & single) & finite)
     if rest.size:
-        part, scale = _continued(contacts, _at(r, rest), sense[rest], resting[rest])
+        part, scale = _continued(contacts, at(r, rest), sense[rest], resting[rest])
         z[rest], determinant[rest], count[rest] = part.z, part.determinant, part.iterations
         critical[rest] = np.where(part.arrived, np.nan, scale)
         z[rest[~part.arrived]] = np.nan
@@ -109,16 +109,17 @@ def slipping(contacts: Contacts, r: Response, sense: Array, resting: Array) -> S
 def roots(contacts: Contacts, r: Response, sense: Array, starts: Array) -> tuple[Array, Array, Array]:
     """Where Newton arrives from many starts (P, E): c z, multipliers and determinants of those that do."""
     c = np.broadcast_to(strength(contacts, 1.0, sense=sense), sense.shape)
-    found = _newton(contacts, r, sense, c, starts, most=4 * NEWTON)
+    found = newton(contacts, r, sense, c, starts, most=4 * NEWTON)
     cz = (c * found.z)[found.arrived]
-    return cz, multiplier(_at(r, found.arrived), cz), found.determinant[found.arrived]
+    return cz, multiplier(at(r, found.arrived), cz), found.determinant[found.arrived]
 
 
-def _at(r: Response, where: Any) -> Response:
+def at(r: Response, where: Any) -> Response:
+    """Of some positions."""
     return Response(*(a[where] for a in r))
 
 
-def _newton(
+def newton(
     contacts: Contacts,
     r: Response,
     sense: Array,
@@ -126,7 +127,7 @@ def _newton(
     z: Array,
     before: Array | None = None,
     most: int = NEWTON,
-) -> _Try:
+) -> Try:
     """Newton on z + s S(y0 + H c z) = 0 from z, all positions together.
 
     S is homogeneous: S = slope . y. The first step takes the slope at ``before``, the arguments of a solution close
@@ -154,38 +155,38 @@ def _newton(
             break
     steep, _ = slope(contacts, y, _largest(y))
     determinant = np.linalg.det(np.nan_to_num(jacobian(r, steep, sense)))
-    return _Try(np.where(arrived[:, None], z, np.nan), arrived, determinant, count, landing)
+    return Try(np.where(arrived[:, None], z, np.nan), arrived, determinant, count, landing)
 
 
 def _largest(y: Array) -> Array:
     return np.asarray(np.abs(y).max(axis=(-2, -1), initial=0.0))
 
 
-def _continued(contacts: Contacts, r: Response, sense: Array, resting: Array) -> tuple[_Try, Array]:
+def _continued(contacts: Contacts, r: Response, sense: Array, resting: Array) -> tuple[Try, Array]:
     """The branch from scale 0 to 1 and the scale it reaches."""
     count = len(sense)
     scale, step = np.zeros(count), np.full(count, LONGEST)
     c = np.array(np.broadcast_to(strength(contacts, 0.0), sense.shape))
-    found = _newton(contacts, r, sense, c, np.zeros_like(sense))
+    found = newton(contacts, r, sense, c, np.zeros_like(sense))
     z, determinant, iterations = found.z, found.determinant, found.iterations.copy()
     while True:
         on = np.flatnonzero((scale < 1) & (step > SMALLEST))
         if not on.size:
             break
         aim = np.minimum(scale[on] + step[on], 1.0)
-        part, raised = _at(r, on), strength(contacts, aim[:, None], resting[on], sense[on])
+        part, raised = at(r, on), strength(contacts, aim[:, None], resting[on], sense[on])
         before = argument(part, c[on] * z[on])
-        new = _newton(contacts, part, sense[on], raised, z[on], before, 10)
+        new = newton(contacts, part, sense[on], raised, z[on], before, 10)
         good = new.arrived & (new.determinant > 0) & _same_branch(z[on], new)
         iterations[on] += new.iterations
         kept = on[good]
         z[kept], determinant[kept] = new.z[good], new.determinant[good]
         scale[kept], c[kept] = aim[good], raised[good]
         step[on] = np.where(good, np.minimum(2 * step[on], LONGEST), step[on] / 2)
-    return _Try(z, scale >= 1, determinant, iterations, z), scale
+    return Try(z, scale >= 1, determinant, iterations, z), scale
 
 
-def _same_branch(start: Array, new: _Try) -> Flags:
+def _same_branch(start: Array, new: Try) -> Flags:
     """Whether Newton went almost where its first step led, or went hardly anywhere."""
     first, more, size = (
         np.abs(a).max(axis=-1, initial=0.0) for a in (new.landing - start, new.z - new.landing, new.z)

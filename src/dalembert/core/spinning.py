@@ -16,9 +16,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.friction import Contacts, Response
+from dalembert.core.friction import Contacts, Response, Senses, multiplier, strength
 from dalembert.core.geometry import arm
 from dalembert.core.layout import Idle, Layout, Pose, System
+from dalembert.core.linear import solved
+from dalembert.core.slip import LONGEST, Try, newton
 
 Array = NDArray[Any]
 Flags = NDArray[np.bool_]
@@ -37,6 +39,12 @@ SWEEPS = 8
 
 NEAR, SECANTS = 1e-4, 12
 """First step and number of the secants of all rods together."""
+
+FIRST, ENDED = 0.01, 1e-8
+"""First step of the scale of friction of a branch with spinning rods, and the one below which it has ended."""
+
+SPUN, FAR, ALMOST, CLOSE = 8, 0.3, 1e-9, 1e-7
+"""Newton's steps on the spins, their largest change, when they have arrived, and the step of their differences."""
 
 
 class Rods(NamedTuple):
@@ -57,20 +65,20 @@ class Rods(NamedTuple):
 
 
 class Spins(NamedTuple):
-    """Rods that spin, and the sense (P, E) of each contact that moves where they spin at phi (P, k)."""
+    """Rods that spin, and the senses of the contacts where they spin at phi (P, k)."""
 
     rods: Rods
-    sense: Callable[[Array], Array]
+    told: Callable[[Array], Senses]
 
     def at(self, some: NDArray[np.intp]) -> Spins:
         """Of some positions."""
 
-        def sense(phi: Array) -> Array:
+        def told(phi: Array) -> Senses:
             every = np.zeros(self.rods.rate.shape)
             every[some] = phi
-            return self.sense(every)[some]
+            return Senses(*(a[some] for a in self.told(every)))
 
-        return Spins(self.rods, sense)
+        return Spins(self.rods, told)
 
     def added(self, r: Response, rate: Array, phi: Array) -> Array:
         """What spins at phi add to the rates (P, E) of an impending motion: a unit of spin turns each contact as far
@@ -156,3 +164,71 @@ def _bracketed(moment: Callable[[Array], Array], shape: tuple[int, ...]) -> Arra
         if (none | (high - low < SETTLED) | (here == 0)).all():
             break
     return np.where(none, 0.0, np.where(np.abs(at_low) < np.abs(at_high), low, high))
+
+
+class Raised(NamedTuple):
+    """Where the branch with spinning rods ends: spins phi (P, k), friction z (P, E), determinant and scale (P,)."""
+
+    phi: Array
+    z: Array
+    determinant: Array
+    scale: Array
+
+
+def raised(contacts: Contacts, r: Response, resting: Flags, spins: Spins) -> Raised:
+    """The branch from no friction, the rods spinning all along as the balls let them.
+
+    It is followed as that of ``slip``: where no step of the scale of friction goes further it ends.
+    """
+    z, count = np.zeros(resting.shape), len(resting)
+    row, least = spins.rods.row, np.full(count, FIRST)
+    phi = settled((count, len(row)), lambda phi: _moment(contacts, r, resting, spins, _Aim(least, z, phi))[1])
+    scale, step, sign, determinant = np.zeros(count), least, np.zeros(count), np.ones(count)
+    while ((scale < 1) & (step > ENDED)).any():
+        aim = np.where(step > ENDED, np.minimum(scale + step, 1.0), scale)
+        new, turned, there = _spun_newton(contacts, r, resting, spins, _Aim(aim, z, phi))
+        near = (np.abs(turned - phi) < FAR).all(axis=-1)
+        good = new.arrived & near & (new.determinant > 0) & (there * sign >= 0) & (aim > scale)
+        phi = np.where(good[:, None], turned, phi)
+        z, determinant = np.where(good[:, None], new.z, z), np.where(good, new.determinant, determinant)
+        sign, scale = np.where(good, there, sign), np.where(good, aim, scale)
+        step = np.where(good, np.minimum(2 * step, LONGEST), step / 2)
+    return Raised(phi, z, determinant, scale)
+
+
+class _Aim(NamedTuple):
+    """A scale of friction (P,), and friction z and spins phi to start from."""
+
+    scale: Array
+    z: Array
+    phi: Array
+
+
+def _moment(contacts: Contacts, r: Response, resting: Flags, spins: Spins, aim: _Aim) -> tuple[Try, Array]:
+    """Friction where the rods spin at phi, and the moments (P, k) about their lines that it leaves."""
+    sense = spins.told(aim.phi).sense
+    c = strength(contacts, aim.scale[:, None], resting, sense)
+    found = newton(contacts, r, sense, c, aim.z, most=12)
+    return found, np.nan_to_num(multiplier(r, c * found.z)[..., spins.rods.row])
+
+
+def _spun_newton(
+    contacts: Contacts, r: Response, resting: Flags, spins: Spins, aim: _Aim
+) -> tuple[Try, Array, Array]:
+    """Newton on friction within Newton on the spins, whose derivatives are differences; sign of their determinant."""
+    phi, unit = aim.phi, np.eye(len(spins.rods.row))
+
+    def moment(tried: Array) -> tuple[Try, Array]:
+        return _moment(contacts, r, resting, spins, aim._replace(phi=tried))
+
+    for _ in range(SPUN):
+        _, here = moment(phi)
+        steep = np.stack([(moment(phi + CLOSE * e)[1] - here) / CLOSE for e in unit], axis=-1)
+        change = np.nan_to_num(solved(steep, -here))
+        phi = phi + np.clip(change, -FAR, FAR)
+        if (np.abs(change) < SETTLED).all():
+            break
+    found, left = moment(phi)
+    balanced = np.abs(left).max(axis=-1) <= ALMOST * np.abs(r.x).max(axis=-1)
+    arrived = found.arrived & balanced & (np.abs(change).max(axis=-1) < ALMOST)
+    return found._replace(arrived=arrived), phi, np.sign(np.linalg.det(steep))
