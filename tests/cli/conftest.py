@@ -28,6 +28,7 @@ Run = Callable[..., Ran]
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     shutil.copy(examples()["four_bar"], tmp_path / "four_bar.yaml")
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")  # the width that help is set in
     return tmp_path
 
 
