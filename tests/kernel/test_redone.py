@@ -136,6 +136,20 @@ def test_a_peak_over_positions_of_both() -> None:
     assert np.allclose(r.gradient("effort.O2")[0], np.sign(value[place]) * rate[place], rtol=1e-9)
 
 
+def test_contacts_that_the_file_s_numbers_do_not_have(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Faces without height have no couple: another design has one contact more, or one less."""
+    tree = cycle("slider_crank", 12).to_tree()
+    tree["joints"]["guide"]["friction"]["half_height"] = 0
+    m = da.mechanism(tree)
+    k = da.compile(m, vary=frictional(m), outputs=["effort.O2"], derivatives=True)
+    values = np.stack([k.nominal, k.nominal + 0.004])
+    own = k(values)
+    monkeypatch.setattr(Kernel, "_flipped", lambda self, values: np.ones(len(values), bool))
+    other = k(values)
+    assert (own.redone, other.redone) == (0, 2)
+    assert np.allclose(own.gradient("effort.O2"), other.gradient("effort.O2"), rtol=1e-9, atol=1e-9)
+
+
 def test_what_has_no_answer_has_no_slope() -> None:
     """A rod at 45 degrees: nearly jammed by the general executor's answer, and jammed."""
     k = da.compile(

@@ -258,7 +258,8 @@ def _newton(
 ) -> tuple[Array, Array, Node]:
     """z and S of one block, and what is below zero where the last step is not small.
 
-    The steps start from no friction; from what is known only the last one is taken. All but the last are constants to
+    The steps start from no friction; from what is known only the last one is taken, and has to be felt little: a
+    contact without strength may not be known. All but the last are constants to
     derivatives: it carries them exactly.
     """
     detached: Any = np.frompyfunc(graph.detached, 1, 1)
@@ -276,7 +277,8 @@ def _newton(
         steep, bears = slope(contacts, detached(y), scale)
         off = z + sense * (steep * y).sum(axis=0)
         step = traced(graph, correction(r._replace(h=fixed), steep, sense, off, solve))
-        change = traced(graph, top(np.abs(step), 1))
+        felt = step if known is None else (fixed @ step[:, None])[..., 0]
+        change = traced(graph, top(np.abs(felt), felt.ndim))
         if k == MOST or enough:
             break
         enough = k + 1 >= FEWEST and _small(graph, change, scale, sure)

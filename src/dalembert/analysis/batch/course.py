@@ -67,14 +67,15 @@ class Course:
         return {name: self.schedule.position[:, k] for k, name in enumerate(self.schedule.names)}
 
     @cached_property
-    def slips(self) -> Array:
-        """Friction z (P, E) of each contact in the result: c z is its force or couple; 0 where there is none."""
+    def slips(self) -> dict[tuple[str, str], Array]:
+        """Friction z (P,) of each contact of the result, by joint and kind: c z is its force or couple."""
         f = None if self.result is None else self.result.friction
-        if f is None:
-            return np.zeros((len(self.schedule.position), 0))
-        contacts = self.result.compiled.contacts  # type: ignore[union-attr]
-        assert contacts is not None
-        return np.asarray(np.nan_to_num(-f.sense * bearing(contacts, f.argument)))
+        if self.result is None or f is None:
+            return {}
+        c = self.result.compiled
+        assert c.contacts is not None
+        z = np.nan_to_num(-f.sense * bearing(c.contacts, f.argument))
+        return dict(zip(contact_keys(c), z.T, strict=True))
 
     def at(self, positions: Array) -> Course:
         """Another list of positions, at the same speeds and accelerations."""
@@ -142,13 +143,14 @@ class Inputs:
 
         return quantity
 
-    def slips(self, count: int) -> Array:
-        """Friction of so many contacts in a known solution."""
-        nodes = [
-            self.make("channel", f"known slip {e}", lambda c, e=e: c.slips[:, e])  # type: ignore[misc]
-            for e in range(count)
-        ]
-        return np.array(nodes, object)
+    def slips(self, c: Compiled) -> Array:
+        """Friction of each contact in a known solution; none where a radius or height of that design is zero."""
+
+        def slip(key: tuple[str, str]) -> Node:
+            name = " ".join(("known slip", *key))
+            return self.make("channel", name, lambda c: c.slips.get(key, np.zeros(len(c.schedule.position))))
+
+        return np.array([slip(key) for key in contact_keys(c)], object)
 
     def signs(self, plus: Any, minus: Any, a: int, b: int) -> Any:
         """Which of two rotations of link b against link a the known motion has: 1 or -1, or an input if it changes."""
@@ -171,6 +173,13 @@ class Inputs:
         off = [np.hypot(x - cos, y - sin) for x, y in ((pc, ps), (mc, ms))]
         gain = np.nan_to_num(np.broadcast_to(off[1] - off[0], cos.shape))
         return np.where(np.abs(gain) > 1e-5, np.sign(gain), 0.0)
+
+
+def contact_keys(c: Compiled) -> list[tuple[str, str]]:
+    """Joint and kind of each contact."""
+    if c.contacts is None:
+        return []
+    return [(c.joints[k], kind) for k, kind in zip(c.contacts.joint, c.contact_kinds, strict=True)]
 
 
 def _found(result: Result) -> Pose:

@@ -66,7 +66,7 @@ def traced(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Result | No
         path=inputs.path("channel"),
         first_path=inputs.path("common"),
         signs=inputs.signs,
-        slips=None if solved is None else inputs.slips(0 if c.contacts is None else c.contacts.count),
+        slips=None if solved is None else inputs.slips(c),
         rough=None if c.contacts is None else Rough(c.contacts, c.damping, c.second, c.joint_at),
     )
     return Trace(course, inputs, where, Catalogue(graph, c, _run(problem)), inertia)
