@@ -163,3 +163,39 @@ def test_a_lifted_linkage_stays_with_the_plane_one(seed: int) -> None:
     assert plane.ok.all()
     angle = np.arctan2(turned[:, 1, 0], turned[:, 0, 0])
     np.testing.assert_allclose(np.exp(1j * angle), np.exp(1j * plane.angle("rocker")), atol=1e-6)
+
+
+@pytest.mark.parametrize("ratio", [0.5, 1.0, 1.5, 2.0])
+def test_wheels_keep_their_phase_behind_a_gap(ratio: float) -> None:
+    """The other way around the gap leads there only where the wheels come round in whole turns."""
+    first, second = 0.1, 0.1 * ratio
+    link = {"A": [0.0, 0.0], "C": [0.1, 0.0]}
+    tree = {
+        "links": {
+            "ground": {"points": {"O": [0.0, 0.0], "Q": [first + second, 0.0]}},
+            "wheel": {"points": {"O": [0.0, 0.0], "A": [0.08, 0.0]}},
+            "other": {"points": {"Q": [0.0, 0.0], "B": [0.07, 0.0]}},
+            "one": {"points": link},
+            "two": {"points": {"B": link["A"], "C": link["C"]}},
+        },
+        "joints": {
+            "O": {"type": "pin", "links": ["ground", "wheel"]},
+            "Q": {"type": "pin", "links": ["ground", "other"]},
+            "mesh": {
+                "type": "gear",
+                "links": ["wheel", "other"],
+                "at": ["O", "Q"],
+                "radii": [first, second],
+            },
+            "A": {"type": "pin", "links": ["wheel", "one"]},
+            "B": {"type": "pin", "links": ["other", "two"]},
+            "C": {"type": "pin", "links": ["one", "two"]},
+        },
+        "drives": {"O": {"position": {"from": 0.0, "to": 360.0, "count": 72}}},
+    }
+    r = da.kinematics(da.mechanism(tree))
+    turned, other, ok = r.angle("wheel"), r.angle("other"), r.ok
+    np.testing.assert_allclose(turned[ok], r.drive_position("O")[ok], atol=1e-12)
+    np.testing.assert_allclose((other - other[0])[ok] * ratio, -turned[ok], atol=1e-9)
+    assert np.flatnonzero(~ok).size
+    assert ok[-1] == (ratio in (0.5, 1.0))

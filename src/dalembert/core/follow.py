@@ -18,7 +18,7 @@ from dalembert.core.closure import CLOSED, closed, distance
 from dalembert.core.constraints import stacked
 from dalembert.core.course import Course, course
 from dalembert.core.factor import displacement
-from dalembert.core.layout import Angle, Layout, Pose, Turn
+from dalembert.core.layout import Angle, Layout, Mesh, Pose, Turn
 from dalembert.core.march import POOR, March, Nodes, interpolated, march, orientation, twists
 
 Array = NDArray[Any]
@@ -28,6 +28,9 @@ BLOCK = 2048
 
 TRUSTED = 1e-6
 """Correction of an interpolated pose, radians or characteristic lengths, that is never suspicious."""
+
+SAME = 1e-6
+"""Distance over characteristic length, or change of a rotation, below which two poses are the same."""
 
 MOST_GAPS = 8
 """Times a motion is taken up again behind a gap."""
@@ -88,24 +91,50 @@ def _around(layout: Layout, along: Course, period: Array, known: Path) -> Path:
         if known.reached[place] and not known.reached.all():
             cycle = course(layout, np.concatenate([listed + sign * period, listed[place : place + 1]]))
             found = _both_ways(layout, known.pose.at(place), cycle, cycle.at(count), count)
-            known = _joined(known, found._replace(pose=_counted(layout, found.pose, -sign * period)))
+            known = _joined(known, _same(layout, found, listed, -sign * period))
     return known
 
 
+def _same(layout: Layout, found: Path, targets: Array, more: Array) -> Path:
+    """What was reached a cycle away, as poses of this cycle; not where wheels stand in another phase there."""
+    there = np.flatnonzero(found.reached)
+    counted = _counted(layout, found.pose.at(there), more)
+    pose, missing = closed(layout, Pose(*(part.copy() for part in counted)), targets[there])
+    off = [np.abs(a - b).max(axis=(-2, -1)) for a, b in zip(pose[::2], counted[::2], strict=True)]
+    same = (missing <= CLOSED * layout.length) & (off[0] <= SAME * layout.length) & (off[1] <= SAME)
+    reached = found.reached.copy()
+    reached[there] = same
+    for whole, part in zip(found.pose, pose, strict=True):
+        whole[there] = part
+    return Path(found.pose, reached)
+
+
 def _counted(layout: Layout, pose: Pose, more: Array) -> Pose:
-    """The pose with its whole turns counted further by ``more`` (K + D) in the relative turns that have a target."""
+    """The pose with its whole turns counted further by ``more`` (K + D) in the relative turns that have a target.
+
+    Wheels that mesh with a link so turned are turned back by the ratio of their radii, where that is whole turns.
+    """
     turn, known = pose.turn.copy(), {layout.links: 0.0}
     rows: list[tuple[int, int, float]] = []
+    meshes: list[tuple[int, int, float]] = []
     for f in layout.stack.families:
         if isinstance(f, Angle):
             turn[..., f.count] += more[f.row]
         elif isinstance(f, Turn):
             rows += zip(f.i.tolist(), f.j.tolist(), more[f.row], strict=True)
+        elif isinstance(f, Mesh):
+            meshes += zip(f.i.tolist(), f.j.tolist(), f.ri / f.rj, strict=True)
+            meshes += zip(f.j.tolist(), f.i.tolist(), f.rj / f.ri, strict=True)
     while rows:
         i, j, add = next((row for row in rows if row[0] in known or row[1] in known), rows[0])
         rows.remove((i, j, add))
         first = known.setdefault(i, known.get(j, add) - add)
         known.setdefault(j, first + add)
+    for _ in meshes:
+        for i, j, ratio in meshes:
+            back = -ratio * known.get(i, 0.0) / (2 * np.pi)
+            if i in known and j not in known and abs(back - round(back)) < SAME:
+                known[j] = 2 * np.pi * round(back)
     if known.keys() - {layout.links}:
         turn[..., list(known)] += list(known.values())
     return pose._replace(turn=turn)
