@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 import dalembert as da
 from dalembert.model.library import bennett
+from tests.tiers import over
 
 Array = NDArray[Any]
 
@@ -36,7 +37,7 @@ def lengths(rng: np.random.Generator, missing: float) -> tuple[float, float, flo
     return (shortest, a, b, c) if rng.random() < 0.6 else (a, b, c, shortest)
 
 
-def meeting(a: Array, coupler: float, o4: float, rocker: float, side: float) -> Array:
+def meeting(a: Array, coupler: float, o4: complex, rocker: float, side: float) -> Array:
     """Where coupler and rocker meet, on one side of the way from A to O4."""
     way = o4 - a
     distance = np.abs(way)
@@ -44,34 +45,42 @@ def meeting(a: Array, coupler: float, o4: float, rocker: float, side: float) -> 
     return np.asarray(a + coupler * way / distance * np.exp(1j * side * angle))
 
 
+def angle(way: Array | complex) -> float:
+    return float(np.angle(way, deg=True))
+
+
 def four_bar(sizes: tuple[float, ...], start: float, turn: float, count: int, side: float) -> da.Mechanism:
+    return da.mechanism(four_bar_tree(sizes, start, turn, count, side))
+
+
+def four_bar_tree(
+    sizes: tuple[float, ...], start: float, turn: float, count: int, side: float
+) -> dict[str, Any]:
     crank, coupler, rocker, ground = (float(size) for size in sizes)
     a = np.array(crank * np.exp(1j * radians(start)))
     b = complex(meeting(a, coupler, ground, rocker, side))
-    return da.mechanism(
-        {
-            "links": {
-                "ground": {"points": {"O2": [0.0, 0.0], "O4": [ground, 0.0]}},
-                "crank": {"points": {"O2": [0.0, 0.0], "A": [crank, 0.0]}},
-                "coupler": {"points": {"A": [0.0, 0.0], "B": [coupler, 0.0]}},
-                "rocker": {"points": {"O4": [0.0, 0.0], "B": [rocker, 0.0]}},
-            },
-            "joints": {
-                "O2": {"type": "pin", "links": ["ground", "crank"]},
-                "A": {"type": "pin", "links": ["crank", "coupler"]},
-                "B": {"type": "pin", "links": ["coupler", "rocker"]},
-                "O4": {"type": "pin", "links": ["ground", "rocker"]},
-            },
-            "drives": {
-                "O2": {"position": {"from": start, "to": start + turn, "count": count}},
-            },
-            "assembly": {
-                "crank": start,
-                "coupler": float(np.angle(b - a, deg=True)),
-                "rocker": float(np.angle(b - ground, deg=True)),
-            },
-        }
-    )
+    return {
+        "links": {
+            "ground": {"points": {"O2": [0.0, 0.0], "O4": [ground, 0.0]}},
+            "crank": {"points": {"O2": [0.0, 0.0], "A": [crank, 0.0]}},
+            "coupler": {"points": {"A": [0.0, 0.0], "B": [coupler, 0.0]}},
+            "rocker": {"points": {"O4": [0.0, 0.0], "B": [rocker, 0.0]}},
+        },
+        "joints": {
+            "O2": {"type": "pin", "links": ["ground", "crank"]},
+            "A": {"type": "pin", "links": ["crank", "coupler"]},
+            "B": {"type": "pin", "links": ["coupler", "rocker"]},
+            "O4": {"type": "pin", "links": ["ground", "rocker"]},
+        },
+        "drives": {
+            "O2": {"position": {"from": start, "to": start + turn, "count": count}},
+        },
+        "assembly": {
+            "crank": start,
+            "coupler": float(np.angle(b - a, deg=True)),
+            "rocker": float(np.angle(b - ground, deg=True)),
+        },
+    }
 
 
 @pytest.mark.parametrize("seed", range(SEEDS))
@@ -199,3 +208,66 @@ def test_wheels_keep_their_phase_behind_a_gap(ratio: float) -> None:
     np.testing.assert_allclose((other - other[0])[ok] * ratio, -turned[ok], atol=1e-9)
     assert not ok.all()
     assert ok[-1] or ratio not in (0.5, 1.0)
+
+
+def blocked(rng: np.random.Generator) -> tuple[float, float, float, float]:
+    """Crank, coupler, rocker, ground of a linkage whose crank swings only, over half a turn or more."""
+    while True:
+        a, b, c, ground = rng.uniform(0.5, 2, 4)
+        reach = np.abs(ground - a * np.exp(1j * np.linspace(0, 2 * pi, 361)))
+        if 0 < ((reach > b + c) | (reach < abs(b - c))).mean() < 0.5:
+            return a, b, c, ground
+
+
+def starting(rng: np.random.Generator, sizes: tuple[float, ...]) -> float:
+    """An angle of the crank, in degrees, where the linkage closes well."""
+    crank, coupler, rocker, ground = sizes
+    while True:
+        start = rng.uniform(0, 360)
+        reach = abs(ground - crank * np.exp(1j * radians(start)))
+        if abs(coupler - rocker) + 0.02 < reach < coupler + rocker - 0.02:
+            return float(start)
+
+
+@over(8, 200)
+def test_what_lies_behind_a_dead_centre_keeps_the_side_of_every_group(seed: int) -> None:
+    """Where two groups of a six-bar linkage are both on their other side, det J has the same sign."""
+    rng = np.random.default_rng(seed)
+    sizes = blocked(rng)
+    crank, coupler, rocker, ground = sizes
+    start, turn = starting(rng, sizes), rng.choice([360.0, 330.0, 700.0, -300.0, 1080.0])
+    first, second = rng.choice([-1.0, 1.0], 2)
+    pivot = complex(ground + rng.uniform(-1, 1), rng.uniform(-1, 1))
+    far, near = abs(pivot - ground) + rocker, abs(abs(pivot - ground) - rocker)
+    total, apart = far + 0.2, rng.uniform(-0.7, 0.7) * near
+    p, q = (total + apart) / 2, (total - apart) / 2
+    b = meeting(np.array(crank * np.exp(1j * radians(start))), coupler, ground, rocker, first)
+    c = meeting(b, p, pivot, q, second)
+    tree = four_bar_tree(sizes, start, turn, 73, first)
+    tree["links"]["ground"]["points"]["G"] = [pivot.real, pivot.imag]
+    tree["links"] |= {
+        "arm": {"points": {"B": [0.0, 0.0], "C": [p, 0.0]}},
+        "lever": {"points": {"G": [0.0, 0.0], "C": [q, 0.0]}},
+    }
+    tree["joints"] |= {
+        "B2": {"type": "pin", "links": ["rocker", "arm"], "at": "B"},
+        "C": {"type": "pin", "links": ["arm", "lever"]},
+        "G": {"type": "pin", "links": ["ground", "lever"]},
+    }
+    tree["assembly"] |= {"arm": angle(c - b), "lever": angle(c - pivot)}
+    r = da.kinematics(da.mechanism(tree))
+    where = ("crank", "A"), ("rocker", "B"), ("lever", "C")
+    a, b, c = (r.point(*point)[r.ok] @ [1, 1j] for point in where)
+    assert np.abs(b - meeting(a, coupler, ground, rocker, first)).max() < 1e-6
+    assert np.abs(c - meeting(b, p, pivot, q, second)).max() < 1e-6
+
+
+@over(3, 100)
+def test_a_lifted_linkage_behind_a_dead_centre_is_never_on_the_other_side(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    sizes = blocked(rng)
+    _, coupler, rocker, ground = sizes
+    turn, side = rng.choice([360.0, 330.0, 700.0, -300.0]), rng.choice([-1.0, 1.0])
+    r = da.kinematics(da.lifted(four_bar(sizes, starting(rng, sizes), turn, 37, side)))
+    a, b = (r.point(*point)[r.ok] @ [1, 1j, 0] for point in (("crank", "A"), ("rocker", "B")))
+    assert np.abs(b - meeting(a, coupler, ground, rocker, side)).max() < 1e-6

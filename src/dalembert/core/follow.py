@@ -18,8 +18,9 @@ from dalembert.core.closure import CLOSED, closed, distance
 from dalembert.core.constraints import stacked
 from dalembert.core.course import Course, course
 from dalembert.core.factor import displacement
+from dalembert.core.groups import Group, groups, senses
 from dalembert.core.layout import Angle, Layout, Mesh, Pose, Turn
-from dalembert.core.march import POOR, March, Nodes, interpolated, march, orientation, twists
+from dalembert.core.march import POOR, March, Nodes, interpolated, march, twists
 
 Array = NDArray[Any]
 
@@ -48,7 +49,7 @@ def path(layout: Layout, first: Pose, along: Course, start: float, period: Array
 
     ``period`` (K + D) is what a whole cycle adds to the targets, if the list is one: then what lies behind a dead
     centre is also reached around the other way. What is still missing is looked for from the poses already known,
-    on the first one's side of the dead centre (same sign of det J).
+    on the first one's side of every group's dead centres (``core.groups``).
     """
     result = _both_ways(layout, first, along, start, len(along.s))
     if len(along.s) == 1 or result.reached.all():
@@ -197,12 +198,20 @@ def _over(mask: NDArray[np.bool_], array: Array) -> NDArray[np.bool_]:
 
 
 def _reentered(layout: Layout, first: Pose, along: Course, known: Path) -> Path:
-    """Positions behind a gap: entered at some sample position from poses already known, then followed both ways."""
-    sign = orientation(layout, first.at(None))[0]
+    """Positions behind a gap: entered at some sample position from poses already known, then followed both ways.
+
+    Where no signs tell the branches apart there, what lies behind a gap counts as not reached.
+    """
+    kinds = groups(layout, _some(known))
+    if not kinds:
+        return known
+    sense = senses(layout, kinds, first.at(None))
     for _ in range(MOST_GAPS):
         missing = np.flatnonzero(~known.reached)
         sample = missing[np.unique(np.linspace(0, len(missing) - 1, min(len(missing), 12)).astype(int))]
-        entries = ((int(k), _entry(layout, along.target(along.at(int(k)))[0], known, sign)) for k in sample)
+        entries = (
+            (int(k), _entry(layout, along.target(along.at(int(k)))[0], known, kinds, sense)) for k in sample
+        )
         where, entry = next(((k, e) for k, e in entries if e is not None), (0, None))
         if entry is None:
             return known
@@ -213,13 +222,18 @@ def _reentered(layout: Layout, first: Pose, along: Course, known: Path) -> Path:
     return known
 
 
-def _entry(layout: Layout, target: Array, known: Path, sign: float) -> Pose | None:
-    """A pose at one target, from the nearest of the known poses that leads there with the given orientation."""
+def _some(known: Path) -> Pose:
+    """A few of the known poses, spread over all of them."""
     good = np.flatnonzero(known.reached)
-    good = good[np.linspace(0, len(good) - 1, min(len(good), 24)).astype(int)]
-    guess = known.pose.at(good)
-    pose, missing = closed(layout, guess, np.broadcast_to(target, (len(good), len(target))).copy())
-    fits = (missing <= CLOSED * layout.length) & (orientation(layout, pose) * sign >= 0)
+    return known.pose.at(good[np.linspace(0, len(good) - 1, min(len(good), 24)).astype(int)])
+
+
+def _entry(layout: Layout, target: Array, known: Path, kinds: list[Group], sense: Array) -> Pose | None:
+    """A pose at one target, from the nearest of the known poses that leads there with the groups' given senses (G,)."""
+    guess = _some(known)
+    pose, missing = closed(layout, guess, np.broadcast_to(target, (len(guess.point), len(target))).copy())
+    same = (senses(layout, kinds, pose) * sense >= 0).all(axis=1)
+    fits = (missing <= CLOSED * layout.length) & same
     if not fits.any():
         return None
     return pose.at(np.flatnonzero(fits)[np.argmin(distance(layout, pose, guess)[fits])])

@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.core.closure import closed, distance, gap, largest, moved
-from dalembert.core.constraints import dense, stacked
+from dalembert.core.constraints import stacked
 from dalembert.core.course import Course
-from dalembert.core.factor import SPARSE, displacements
+from dalembert.core.factor import displacements
 from dalembert.core.layout import Idle, Layout, Pose
 from dalembert.core.linear import RANK, generalized_inverse
 from dalembert.core.turning import settled
@@ -265,14 +265,6 @@ def _side(layout: Layout, matrix: Array | None, before: Station | None) -> float
     back = generalized_inverse(before.matrix * scale, RANK)
     sign, size = np.linalg.slogdet(back @ (matrix * scale))
     return float(sign) * before.side if size > LOST else 0.0
-
-
-def orientation(layout: Layout, pose: Pose) -> Array:
-    """Sign of det J: it tells the two sides of a dead centre apart. 0 where J is not square or too large to ask."""
-    if not layout.square or layout.unknowns > SPARSE:
-        return np.zeros(len(pose.point))
-    sign, _ = np.linalg.slogdet(dense(layout, stacked(layout, pose)))
-    return np.asarray(sign)
 
 
 def twists(layout: Layout, dq: Array) -> Array:
