@@ -56,7 +56,8 @@ def path(layout: Layout, first: Pose, along: Course, start: float, period: Array
         return result
     if period is not None and result.reached.any():
         result = _around(layout, along, period, result)
-    return result if result.reached.all() else _reentered(layout, first, along, result)
+    known = result.reached
+    return result if known.all() or not known.any() else _reentered(layout, first, along, result)
 
 
 def _both_ways(layout: Layout, first: Pose, along: Course, start: float, count: int) -> Path:

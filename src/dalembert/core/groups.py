@@ -23,7 +23,6 @@ NOTHING = 1e-9
 LARGEST = 600
 """Unknowns above which J is not asked."""
 
-
 TOLD_APART = 3
 """Links up to which a group closes in two ways, of opposite signs: two, and one that a drive holds to one of them.
 Larger ones close in more ways, several of the same sign."""
