@@ -77,8 +77,8 @@ def four_bar_tree(
         },
         "assembly": {
             "crank": start,
-            "coupler": float(np.angle(b - a, deg=True)),
-            "rocker": float(np.angle(b - ground, deg=True)),
+            "coupler": angle(b - a),
+            "rocker": angle(b - ground),
         },
     }
 
@@ -133,11 +133,13 @@ def test_an_offset_slider_crank_that_hardly_turns_over(missing: float, side: flo
 @pytest.mark.parametrize("start", [52.5, 90.0, 130.0])
 def test_bennett_over_the_poses_where_all_lies_on_one_line(start: float, determinate: bool) -> None:
     """tan(theta / 2) tan(phi / 2) = sin((beta + alpha) / 2) / sin((beta - alpha) / 2): Bennett, 1903."""
-    m = bennett(start=start, sweep=(0.0, 2 * pi), positions=145, determinate=determinate)
+    twists = 40.0, 70.0
+    m = bennett(start=start, twists=twists, sweep=(0.0, 2 * pi), positions=145, determinate=determinate)
     r = da.kinematics(m)
     o, a, b = r.point("crank", "O"), r.point("crank", "A"), r.point("rocker", "B")
     theta = radians(start) + r.drive_position("O")
-    half = sin(radians(55)) / sin(radians(15)) / np.tan(theta / 2)
+    alpha, beta = (radians(twist) for twist in twists)
+    half = sin((beta + alpha) / 2) / sin((beta - alpha) / 2) / np.tan(theta / 2)
     cosine = np.sum((a - o) * (b - a), axis=1) / (
         np.linalg.norm(a - o, axis=1) * np.linalg.norm(b - a, axis=1)
     )

@@ -79,6 +79,10 @@ class Friction(NamedTuple):
     bare_effort: Array
     bare_load: Array
 
+    def known(self, position: int) -> bool:
+        """Whether every contact has its numbers at a position."""
+        return bool(np.isfinite(self.cz[position]).all())
+
 
 class Forces(NamedTuple):
     """Forces of some positions; ``ends``: the low and high end of each unknown where friction leaves it open."""

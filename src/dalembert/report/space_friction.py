@@ -33,7 +33,7 @@ LAWS = {
 
 def space_friction(sheet: Sheet, c: Chosen) -> None:
     """The section on friction of a solved position; none without friction."""
-    if c.r.friction is None or not np.isfinite(c.r.friction.cz[c.k]).all():
+    if c.r.friction is None or not c.r.friction.known(c.k):
         return
     sheet.heading("Friction")
     sheet.text(

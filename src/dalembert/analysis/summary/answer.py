@@ -73,13 +73,14 @@ def _one(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
         return
     if result.unknown_loads:
         yield _load_table(result, to)
+    rubbed = result.friction is not None and result.friction.known(0)
     if status == "at_rest" and result.ends:
         yield from _ends(result, to, axes)
     elif result.joints and not without_reactions(result):
         yield _reactions(result, to, axes)
-        if result.friction is not None and np.isfinite(result.friction.cz[0]).all():
+        if rubbed:
             yield friction_table(result, to)
-    if status != "at_rest" and result.friction is not None and np.isfinite(result.friction.cz[0]).all():
+    if status != "at_rest" and rubbed:
         yield wrapped(efficiency_note(result))
     if result.links:
         yield (_link_tables if in_plane(result) else space_link_tables)(result, to)
