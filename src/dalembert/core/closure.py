@@ -1,4 +1,4 @@
-"""Positions by Newton: A^T dq = closure error, many positions at once (THEORY.md 1).
+"""Positions by Newton: A^T dq = closure error, many positions at once (docs/theory.md 3.2).
 
 target  measures to be reached (..., K + D): constants of the constraints, positions of the drives
 gap     target - measure, angles times the characteristic length: a length

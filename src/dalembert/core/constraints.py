@@ -1,4 +1,4 @@
-"""The one matrix A: measures, wrenches and drifts of rows (THEORY.md 1).
+"""The one matrix A: measures, wrenches and drifts of rows (docs/theory.md 1).
 
 r   arm of the acting point from the link's reference point, ground axes
 e   axis of a row, ground axes

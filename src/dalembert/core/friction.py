@@ -1,4 +1,6 @@
-"""Wrenches that follow the joints' own reactions: dry friction, and the separation of teeth beside it (THEORY.md 4).
+"""Wrenches that follow the joints' own reactions: dry friction, and the separation of teeth beside it.
+
+Mechanics: docs/theory.md 6 and 5.4.
 
 A contact e acts along one row with c z, so that  A x + w + B c z = 0  and  z = -s S(y),  y = Y x.  With A factored
 once, x = x0 - A^-1 B c z leaves a small system in z at every position, solved for all of them at once.

@@ -6,7 +6,7 @@ d,n components of a force (2, 3) and of a wrench (3, 6)
 
 A *row* is one scalar condition between two links i and j: its measure m(q), the wrench it exerts on j per unit of
 multiplier, and the drift, the part of the second derivative of m that does not contain accelerations. Constraints keep
-their measure at a target; freedoms are the same thing left free, driven, damped or sprung (THEORY: one matrix A).
+their measure at a target; freedoms are the same thing left free, driven, damped or sprung (docs/theory.md 1).
 
 All arms (``ui``, ``uj``) are in link axes from the link's own reference point. Shapes: (K, d), or (design, 1, K, d).
 """

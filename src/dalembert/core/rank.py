@@ -1,4 +1,4 @@
-"""Mobility and redundancy by rank of the constraints at a pose, not by count (THEORY.md 1)."""
+"""Mobility and redundancy by rank of the constraints at a pose, not by count (docs/theory.md 3.4)."""
 
 from __future__ import annotations
 

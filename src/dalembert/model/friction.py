@@ -1,4 +1,4 @@
-"""Dry friction of joints, as a file describes it; its mechanics are in THEORY.md 4."""
+"""Dry friction of joints, as a file describes it; its mechanics are in docs/theory.md 6.1."""
 
 from __future__ import annotations
 
