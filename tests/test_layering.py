@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -128,6 +129,17 @@ def test_solving_a_file_loads_nothing_it_does_not_need() -> None:
 def test_public_names_are_there_and_described(name: str) -> None:
     assert getattr(dalembert, name).__doc__
     assert name in dir(dalembert)
+
+
+def test_no_function_of_a_package_has_the_name_of_one_of_its_modules() -> None:
+    """Whichever is imported last would take the name: `'module' object is not callable`."""
+    called = {}
+    for init in PACKAGE.rglob("__init__.py"):
+        package = import_module(".".join(init.relative_to(PACKAGE.parent).parent.parts))
+        for name in getattr(package, "__all__", ()):
+            called[f"{package.__name__}.{name}"] = (init.parent / f"{name}.py").exists()
+    assert len(called) > 150
+    assert [name for name, clash in called.items() if clash] == ["dalembert.views.draw"]  # the module itself
 
 
 def test_a_name_that_is_not_there() -> None:

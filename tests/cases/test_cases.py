@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from dalembert.analysis.answers import Row, check_file
-from dalembert.analysis.solve import solve
+from dalembert.analysis.solution import solve
 from dalembert.model import load
 
 FILES = sorted((Path(__file__).parents[2] / "cases").glob("*.yaml"))

@@ -11,7 +11,7 @@ from dalembert.algebra import space
 from dalembert.analysis.compile import Compiled, compiled
 from dalembert.core.layout import Pose
 from dalembert.model import Mechanism
-from dalembert.model.mechanism import mechanism
+from dalembert.model.description import mechanism
 
 Array = NDArray[Any]
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.model.mechanism import mechanism
+from dalembert.model.description import mechanism
 from tests.space.test_gears import TORQUE, Z, pair, wheel
 
 LEAD = 5e-3

@@ -10,7 +10,7 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import examples
-from dalembert.model.mechanism import mechanism
+from dalembert.model.description import mechanism
 
 PIN = {"coefficient": 0.2, "radius": "8 mm"}
 

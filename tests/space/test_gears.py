@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.model.mechanism import mechanism
+from dalembert.model.description import mechanism
 
 TORQUE, ALPHA = 10.0, radians(20)
 

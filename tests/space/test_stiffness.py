@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.model.mechanism import mechanism
+from dalembert.model.description import mechanism
 
 
 def table(stiffness: dict[str, Any], kind: str = "spherical") -> da.Mechanism:

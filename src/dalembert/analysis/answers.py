@@ -67,7 +67,7 @@ def check_file(path: str | Path) -> list[Row]:
 
 def check(mechanism: Mechanism, case: str = "") -> list[Row]:
     """The answers of a mechanism compared with what is computed: one row an answer."""
-    from dalembert.analysis.solve import solve
+    from dalembert.analysis.solution import solve
 
     if not mechanism.answers:
         return []

@@ -67,7 +67,7 @@ def efficiency(r: Result) -> Efficiency:
 
 def _static(r: Result, sign: float) -> tuple[Array, Array, Array]:
     """Power of the unknowns without and with friction in a sense, per unit of the given speeds; jammed or not."""
-    from dalembert.analysis.solve import at_schedule
+    from dalembert.analysis.solution import at_schedule
 
     schedule = replace(r.schedule, speed=sign * r.schedule.speed, acceleration=0 * r.schedule.acceleration)
     turned = at_schedule(r.mechanism, schedule, inertia=False)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.result import Result
-from dalembert.analysis.solve import at_schedule
+from dalembert.analysis.solution import at_schedule
 from dalembert.model import Mechanism, Schedule
 
 Array = NDArray[Any]

@@ -91,7 +91,7 @@ def stated(r: Result, position: int) -> tuple[Contacts, Response, Array]:
 def posed(r: Result, position: int) -> tuple[Contacts, Response, Senses]:
     """The same, at rest too."""
     from dalembert.analysis.freedoms import whole_pose
-    from dalembert.analysis.solve import _sliced
+    from dalembert.analysis.solution import _sliced
 
     f, contacts = friction_of(r)
     c, part = r.compiled, slice(position, position + 1)

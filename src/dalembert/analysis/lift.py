@@ -71,7 +71,7 @@ class _Lift:
 
     def mechanism(self) -> Mechanism:
         """The lifted mechanism."""
-        from dalembert.model.mechanism import mechanism
+        from dalembert.model.description import mechanism
 
         m = self.m
         joints = {name: self._joint(name) for name in m.joints}
@@ -217,7 +217,7 @@ class _Lift:
 
     def _assembly(self) -> dict[str, Any]:
         """Poses of the links where the plane mechanism first closes."""
-        from dalembert.analysis.solve import kinematics
+        from dalembert.analysis.solution import kinematics
 
         result = kinematics(self.m)
         found = np.flatnonzero(np.isfinite(result.point_array).all(axis=(1, 2)))

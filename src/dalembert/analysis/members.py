@@ -308,7 +308,7 @@ def inertia_shares(r: Result) -> tuple[Share, ...]:
 def _parts_of_inertia(r: Result) -> tuple[Array, Array]:
     """Inertia's part of the efforts (P, D) and joint forces (P, J, 2)."""
     if r.friction is not None or r.compiled.forcing.separation.any():
-        from dalembert.analysis.solve import at_schedule
+        from dalembert.analysis.solution import at_schedule
 
         still = at_schedule(r.mechanism, r.schedule, inertia=False)
         return r.effort_array - still.effort_array, r.force_array - still.force_array

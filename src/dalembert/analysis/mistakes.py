@@ -48,7 +48,7 @@ def check_answers(mechanism: Mechanism, answers: Sequence[Answer], static: bool 
     >>> da.check_answers(da.load(examples()["four_bar"]), [mine])[0].mistake
     'the sense is opposite: action taken for reaction'
     """
-    from dalembert.analysis.solve import solve
+    from dalembert.analysis.solution import solve
 
     result = solve(mechanism, static=static)
     variants = Variants(result)

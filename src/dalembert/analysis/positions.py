@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.compile import Compiled
-from dalembert.analysis.mobility import Mobility, check_drives, mobility_at
+from dalembert.analysis.degree_of_freedom import Mobility, check_drives, mobility_at
 from dalembert.analysis.openings import drive_text
 from dalembert.core.assembly import Guess, Modes, phase_rows
 from dalembert.core.closure import CLOSED, closed

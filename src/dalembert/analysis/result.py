@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import xarray
 
     from dalembert.analysis.compile import Compiled
-    from dalembert.analysis.mobility import Mobility
+    from dalembert.analysis.degree_of_freedom import Mobility
     from dalembert.analysis.rubbing import Friction
     from dalembert.model import Mechanism, Schedule
 

@@ -206,7 +206,7 @@ def _other_modes(r: Result) -> Iterator[dict[str, float]]:
 
 
 def _again(r: Result, change: dict[str, Any]) -> Result | None:
-    from dalembert.analysis.solve import dynamics, statics
+    from dalembert.analysis.solution import dynamics, statics
 
     try:
         return (dynamics if r.inertia else statics)(r.mechanism.with_values(change))

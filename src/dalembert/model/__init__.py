@@ -6,15 +6,15 @@
 """
 
 from dalembert.model.answers import Answer
+from dalembert.model.description import Mechanism, mechanism
 from dalembert.model.drives import Drive, Range
 from dalembert.model.expressions import Expression
 from dalembert.model.files import convert, load, loads, read_file, read_text, save_tree, tree_text
+from dalembert.model.forces import Couple, Damper, ForceLoad, Load, Spring, TorsionDamper, TorsionSpring
 from dalembert.model.friction import FrictionDefaults, GearFriction, GuideFriction, PinFriction, SlotFriction
 from dalembert.model.joints import Gear, Joint, Pin, Rolling, Slider, Slot, Weld
 from dalembert.model.laws import Rise, TimeTable
 from dalembert.model.link import Link, Offset
-from dalembert.model.loads import Couple, Damper, ForceLoad, Load, Spring, TorsionDamper, TorsionSpring
-from dalembert.model.mechanism import Mechanism, mechanism
 from dalembert.model.messages import ModelErrors
 from dalembert.model.schedule import Schedule
 from dalembert.model.schema import json_schema

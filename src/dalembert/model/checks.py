@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from dalembert.errors import ModelError
+from dalembert.model.forces import Couple, Damper, ForceLoad, Spring, TorsionDamper, TorsionSpring
 from dalembert.model.joint_part import JointPart
 from dalembert.model.link import CENTER, Link, Offset
-from dalembert.model.loads import Couple, Damper, ForceLoad, Spring, TorsionDamper, TorsionSpring
 from dalembert.model.space_checks import assembly_problems, space_problems
 from dalembert.model.space_joints import BALLS, SpaceJoint
 from dalembert.model.tables import Table
@@ -16,8 +16,8 @@ from dalembert.model.varying import Varying
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
+    from dalembert.model.description import Mechanism
     from dalembert.model.drives import Drive
-    from dalembert.model.mechanism import Mechanism
 
 GROUND = "ground"
 """The reserved name of the fixed link."""

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from dalembert.errors import ModelError
-from dalembert.model.mechanism import Mechanism, mechanism
+from dalembert.model.description import Mechanism, mechanism
 from dalembert.model.source import Lines, Source
 from dalembert.saving import new_file
 from dalembert.wording import nearest

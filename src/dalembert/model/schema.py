@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from dalembert.model.mechanism import Mechanism
+from dalembert.model.description import Mechanism
 
 
 def json_schema() -> dict[str, Any]:

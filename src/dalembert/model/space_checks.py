@@ -11,7 +11,7 @@ from dalembert.errors import ModelError
 from dalembert.model.assembly import SpacePose
 
 if TYPE_CHECKING:
-    from dalembert.model.mechanism import Mechanism
+    from dalembert.model.description import Mechanism
 
 ROUNDED = 1e-6
 """Relative excess of a principal inertia over the sum of the others that rounding may bring in."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dalembert.analysis.carried import table_row, unknown_count
-from dalembert.analysis.mobility import Mobility
+from dalembert.analysis.degree_of_freedom import Mobility
 from dalembert.report.chosen import Chosen
 from dalembert.report.sheet import Sheet, Working
 

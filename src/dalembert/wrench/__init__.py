@@ -13,7 +13,7 @@ their units.
 array([-0.9704,  0.    ])
 """
 
-from dalembert.wrench.arrangement import arrangement, concurrency, parallel_center
+from dalembert.wrench.arrangements import arrangement, concurrency, parallel_center
 from dalembert.wrench.equilibrium import Balance
 from dalembert.wrench.files import load, loads
 from dalembert.wrench.forces import Axis, Couple, Force, components

@@ -8,9 +8,9 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, ValidationInfo, model_validator
 
 from dalembert.errors import ModelError
+from dalembert.model.description import UnitsValue, file_rules
 from dalembert.model.files import FilePath, read_file, read_text
-from dalembert.model.loads import Spot
-from dalembert.model.mechanism import UnitsValue, file_rules
+from dalembert.model.forces import Spot
 from dalembert.model.names import refuse_empty
 from dalembert.model.part import Part, reading
 from dalembert.model.source import Source

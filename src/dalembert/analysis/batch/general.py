@@ -17,7 +17,7 @@ from dalembert.analysis.batch.answer import CODES, NUMBERED, first_mark
 from dalembert.analysis.batch.course import Course
 from dalembert.analysis.batch.symbols import Number, with_numbers
 from dalembert.analysis.result import Result
-from dalembert.analysis.solve import at_schedule
+from dalembert.analysis.solution import at_schedule
 from dalembert.errors import DalembertError
 from dalembert.model import Mechanism, Schedule
 

@@ -17,7 +17,7 @@ from dalembert.analysis.batch.general import redone
 from dalembert.analysis.batch.symbols import geometric
 from dalembert.analysis.batch.tracing import Trace, traced
 from dalembert.analysis.planar import refuse_space
-from dalembert.analysis.solve import at_schedule
+from dalembert.analysis.solution import at_schedule
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.graph import Node

@@ -12,7 +12,7 @@ from dalembert.analysis.batch.course import Course, Inputs
 from dalembert.analysis.batch.outputs import Catalogue
 from dalembert.analysis.batch.symbols import Number, numbers, symbolic
 from dalembert.analysis.compile import compiled
-from dalembert.analysis.mobility import check_knowns
+from dalembert.analysis.degree_of_freedom import check_knowns
 from dalembert.analysis.openings import open_sentence
 from dalembert.analysis.result import Result
 from dalembert.errors import ModelError

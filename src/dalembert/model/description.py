@@ -14,11 +14,11 @@ from dalembert.model.answers import Answer
 from dalembert.model.assembly import Pose, PoseValue
 from dalembert.model.checks import GROUND, problems
 from dalembert.model.drives import Drive
+from dalembert.model.forces import Damper, ForceLoad, Load, Spring
 from dalembert.model.friction import FrictionDefaults
 from dalembert.model.gravity import STANDARD, Gravity, GravityValue
 from dalembert.model.joints import Joint, refuse_unfinished
 from dalembert.model.link import CENTER, Link
-from dalembert.model.loads import Damper, ForceLoad, Load, Spring
 from dalembert.model.messages import together
 from dalembert.model.names import drive_freedoms, refuse_empty, with_freedoms
 from dalembert.model.part import Part, Reading

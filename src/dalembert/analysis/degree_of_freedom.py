@@ -55,7 +55,7 @@ def mobility(m: Mechanism) -> Mobility:
     >>> mobility(four_bar()).freedoms
     1
     """
-    from dalembert.analysis.solve import kinematics
+    from dalembert.analysis.solution import kinematics
 
     result = kinematics(m)
     if result.mobility is None:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.compile import Compiled, compiled
-from dalembert.analysis.mobility import check_knowns
+from dalembert.analysis.degree_of_freedom import check_knowns
 from dalembert.analysis.openings import drive_text, open_sentence
 from dalembert.analysis.positions import Positions, positions
 from dalembert.analysis.result import Result
