@@ -127,6 +127,41 @@ def test_files_without_answers(run: Run) -> None:
     assert run("check", "four_bar.yaml") == (0, "No answers to compare.\n", "")
 
 
+@pytest.mark.parametrize(
+    ("keys", "says"),
+    [
+        ("by: rocker", "joint 'A' does not join 'rocker'; it joins crank and coupler"),
+        ("on: rocker", "joint 'A' does not join 'rocker'; it joins crank and coupler"),
+        ("on: crank, by: ground", "joint 'A' does not join 'ground'; it joins crank and coupler"),
+        ("on: crank, by: crank", "'crank' exerts no reaction on itself; leave out on, or by"),
+    ],
+)
+@pytest.mark.parametrize("quantity", ["reaction", "moment"])
+def test_a_reaction_between_links_that_the_joint_does_not_join(
+    run: Run, folder: Path, keys: str, says: str, quantity: str
+) -> None:
+    claim = f"answers:\n  - {{quantity: {quantity}, of: A, {keys}, value: 1}}\n"
+    ran = run("check", with_answers(folder, claim))
+    assert ran.status == 1
+    assert says in " ".join(ran.out.split())
+
+
+def test_a_case_that_cannot_be_read_is_no_pass(
+    run: Run, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    right = folder / with_answers(folder, ANSWERS)
+    (folder / "wrong.yaml").write_text("links: {ground: {}", encoding="utf-8")
+    monkeypatch.setattr("dalembert.bundled.cases", lambda: {"right": right, "wrong": folder / "wrong.yaml"})
+    ran = run("validate")
+    assert ran.status == 1
+    assert "wrong.yaml:1: it is not YAML here" in ran.err
+    assert ran.out.splitlines()[-1].startswith("FAILED: 2 problems, 1 of them not read, 10 answers, ")
+    monkeypatch.setattr("dalembert.bundled.cases", lambda: {"right": right})
+    assert run("validate").status == 0
+    monkeypatch.setattr("dalembert.bundled.cases", dict)
+    assert run("validate").out.splitlines()[-1].startswith("FAILED: 0 problems, 0 answers, ")
+
+
 def test_this_installation(run: Run) -> None:
     ran = run("validate")
     assert ran.err == ""

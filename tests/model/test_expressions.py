@@ -12,8 +12,21 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dalembert.errors import ModelError
-from dalembert.model import Expression
-from dalembert.model.expressions import Apply, Name, Number, Tree, evaluated, parsed, written
+from dalembert.model import Expression, loads
+from dalembert.model.expressions import (
+    ARGUMENTS,
+    CONSTANTS,
+    Apply,
+    Name,
+    Number,
+    Tree,
+    evaluated,
+    parsed,
+    written,
+)
+from dalembert.model.part import Reading
+from dalembert.model.varying import varying
+from dalembert.units import Units
 
 VALUES = {
     "500*sin(O2)": 500 * math.sin(0.7),
@@ -39,6 +52,32 @@ VALUES = {
 def test_an_expression_is_worth(text: str) -> None:
     drives = {"O2": 0.7, "θ": 2.0, "slide_2": 3.0}
     assert Expression(text).at(drives) == pytest.approx(VALUES[text], rel=1e-15)
+
+
+@pytest.mark.parametrize("text", ["1e3*O2", "2e-3*sin(O2)", "1.5E+3*O2", ".5e1/O2", "2e3-O2", "3e2^2"])
+def test_a_number_with_an_exponent_begins_an_expression_too(text: str) -> None:
+    found = varying(text, "force", Reading(Units(force="kN")))
+    assert isinstance(found, Expression)
+    assert found.at({"O2": 0.7}) == pytest.approx(
+        1000 * eval(text.replace("^", "**"), {"sin": math.sin, "O2": 0.7})
+    )
+
+
+@pytest.mark.parametrize("text", ["1e3 N", "1e3N", "-2.5e-1 kN", "12 N", "4e2"])
+def test_a_quantity_is_no_expression(text: str) -> None:
+    assert isinstance(varying(text, "force", Reading(Units())), float)
+
+
+@pytest.mark.parametrize("name", [*ARGUMENTS, *CONSTANTS])
+def test_no_drive_has_a_name_that_expressions_know_but_links_joints_and_loads_may(name: str) -> None:
+    links = f"links: {{ground: {{points: {{{name}: [0, 0]}}}}, {name}: {{points: {{{name}: [0, 0]}}}}}}"
+    joints = f"joints: {{{name}: {{type: pin, links: [ground, {name}]}}}}"
+    loads_ = f"loads: {{{name}: {{type: couple, on: {name}, value: 2*O*pi}}}}"
+    drive = f"{{joint: {name}, position: 1 rad}}"
+    named = "{" + ", ".join([links, joints, loads_]) + ", drives: {"
+    assert loads(f"{named}O: {drive}}}}}").loads[name].moment({"O": 1.0}) == pytest.approx(2 * math.pi)  # type: ignore[union-attr]
+    with pytest.raises(ModelError, match=f"drive '{name}' has the name of a"):
+        loads(f"{named}{name}: {drive}}}}}")
 
 
 def test_over_arrays_of_any_shape() -> None:

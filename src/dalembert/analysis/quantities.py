@@ -68,11 +68,12 @@ def _moment(r: Result, a: Answer) -> Series:
 def _on(r: Result, a: Answer, joint: str) -> str | None:
     """The link acted on: named by `on`, or the other one than `by`."""
     i, j = r.mechanism.joints[joint].links
-    if a.by is None or a.on is not None:
-        return a.on
-    if a.by not in (i, j):
-        raise ModelError(f"joint {joint!r} does not join {a.by!r}", f"it joins {i} and {j}", ("by",))
-    return j if a.by == i else i
+    for key, link in (("on", a.on), ("by", a.by)):
+        if link not in (None, i, j):
+            raise ModelError(f"joint {joint!r} does not join {link!r}", f"it joins {i} and {j}", (key,))
+    if a.by is not None and a.by == a.on:
+        raise ModelError(f"{a.by!r} exerts no reaction on itself", "leave out on, or by", ("by",))
+    return a.on if a.by is None else j if a.by == i else i
 
 
 def _end(k: int, loads: bool) -> Read:

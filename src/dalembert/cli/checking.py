@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from dalembert.errors import ModelError
+from dalembert.errors import DalembertError, ModelError
 from dalembert.printing import table, wrapped
 
 if TYPE_CHECKING:
@@ -41,7 +41,8 @@ def validated() -> int:
     print(_installation())
     seconds = time.perf_counter() - started
     good = bool(rows) and not failed and not wrong
-    print(f"{'PASSED' if good else 'FAILED'}: {len(found)} problems, {len(rows)} answers, {seconds:.1f} s")
+    counted = f"{len(found)} problems, {f'{wrong} of them not read, ' if wrong else ''}{len(rows)} answers"
+    print(f"{'PASSED' if good else 'FAILED'}: {counted}, {seconds:.1f} s")
     return 0 if good else 1
 
 
@@ -68,7 +69,7 @@ def _compared(files: Sequence[Path], friction: bool = True) -> tuple[list[Row], 
             step(path.name)
             try:
                 rows += check(loaded(path, friction), path.stem)
-            except ModelError as error:
+            except DalembertError as error:
                 print(error, file=sys.stderr)
                 wrong += 1
     return rows, wrong

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from dalembert.errors import ModelError
+from dalembert.model.expressions import ARGUMENTS, CONSTANTS, Expression
 from dalembert.model.forces import Couple, Damper, ForceLoad, Spring, TorsionDamper, TorsionSpring
 from dalembert.model.joint_part import JointPart
 from dalembert.model.link import CENTER, Link, Offset
@@ -128,6 +129,7 @@ def _drives(m: Mechanism) -> Iterator[ModelError]:
     taken: dict[tuple[str, str | None], str] = {}
     for name, drive in m.drives.items():
         joint, path = drive.joint or name, ("drives", name)
+        yield from _word(name, joint, path)
         if joint not in m.joints:
             at = (*path, "joint") if drive.joint else path
             yield ModelError(
@@ -147,6 +149,17 @@ def _drives(m: Mechanism) -> Iterator[ModelError]:
             )
         if drive.effort is not None:
             yield from _varying(m, drive.effort, f"the effort of drive {name!r}", (*path, "effort"))
+
+
+def _word(name: str, joint: str, path: tuple[str, ...]) -> Iterator[ModelError]:
+    """A drive whose name means something else where expressions are read."""
+    what = "constant" if name in CONSTANTS else "function" if name in ARGUMENTS else ""
+    if what:
+        yield ModelError(
+            f"drive {name!r} has the name of a {what} that expressions know",
+            f"give it another name, with its joint beside it: drive_{name}: {{joint: {joint}, ...}}",
+            path,
+        )
 
 
 def _freedom(name: str, freedom: str | None, joint: str, part: JointPart) -> Iterator[ModelError]:
@@ -187,6 +200,12 @@ def _varying(m: Mechanism, value: Varying, what: str, path: tuple[str | int, ...
     if isinstance(value, (int, float)):
         return
     drives = list(m.drives)
+    for name in sorted(value.numbers & set(drives) if isinstance(value, Expression) else ()):
+        yield ModelError(
+            f"{what} has the number {name} in its expression, and a drive has the name {name!r}",
+            "give the drive a name that is a word",
+            path,
+        )
     for name in sorted(value.names - set(drives)):
         yield ModelError(f"{what} uses {name!r}, which is no drive", _drive_remedy(name, drives), path)
     if isinstance(value, Table) and value.against in m.drives:

@@ -33,6 +33,8 @@ ARGUMENTS = dict.fromkeys(
 }
 """Function -> how many arguments it takes."""
 
+CONSTANTS = {"pi": math.pi}
+
 LONGEST, DEEPEST, MOST, EXPONENT = 1000, 40, 200, 16
 """Characters, brackets, operations, and size of an exponent."""
 OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
@@ -83,6 +85,11 @@ class Expression:
         if rest:
             raise ModelError(f"{shown(self.text)} ends with {shown(rest)}, which has no place there", GRAMMAR)
         object.__setattr__(self, "tree", tree)
+
+    @property
+    def numbers(self) -> frozenset[str]:
+        """The numbers that stand in it, as written."""
+        return frozenset(match["number"] for match in _TOKEN.finditer(self.text) if match["number"])
 
     @property
     def names(self) -> frozenset[str]:
@@ -284,8 +291,8 @@ class _Parser:
             raise ModelError(f"there is no function {shown(name)} in an expression", GRAMMAR)
         if call:
             return self.called(name, depth)
-        if name == "pi":
-            return Number(math.pi)
+        if name in CONSTANTS:
+            return Number(CONSTANTS[name])
         if name in ARGUMENTS:
             raise ModelError(f"the function {name} stands without its brackets", f"write {name}(...)")
         if "__" in name:

@@ -90,8 +90,8 @@ def _is_expression(value: str) -> bool:
     plain = value.strip().replace("\u2212", "-")
     if re.fullmatch(r"[+-]?(nan|inf|infinity)", plain.lower()):
         return False
-    return bool(plain) and not re.fullmatch(
-        rf"{NUMBER}(\s*[^\W\d].*|\s*[°%].*|\s+\d.*|,.*|\s*)", plain, re.DOTALL
+    return bool(plain) and not re.fullmatch(  # the whole number first: the e of 1e3*O begins no unit
+        rf"(?>{NUMBER})(\s*[^\W\d].*|\s*[°%].*|\s+\d.*|,.*|\s*)", plain, re.DOTALL
     )
 
 
