@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,8 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import cases, examples
+from tests.random_mechanisms import random_mechanism, tree
+from tests.tiers import tiers
 
 FILES = {**examples(), **cases()}
 
@@ -63,6 +66,86 @@ def test_a_plane_mechanism_in_space(name: str) -> None:
     assert space.mobility is not None
     assert space.mobility.redundant == 3 * _loops(m)
     assert space.mobility.freedoms == plane.mobility.freedoms  # type: ignore[union-attr]
+
+
+def _random_plane(seed: int) -> da.Mechanism:
+    """A small random mechanism without rolling, the turns of its slots sprung too."""
+    drawings = (random_mechanism(seed + 1000 * k, (1, 5)) for k in range(50))
+    made = next(made for made in map(tree, drawings) if "rolling" not in _types(made))
+    free = np.random.default_rng(seed).uniform(-60, 60, len(made["joints"]))
+    for angle, (name, joint) in zip(free, made["joints"].items(), strict=True):
+        if joint["type"] == "slot":
+            coil = {"type": "torsion_spring", "joint": name, "stiffness": 3.0, "free_angle": float(angle)}
+            made["loads"][f"coil {name}"] = coil
+    return da.mechanism(made)
+
+
+def _types(made: dict[str, Any]) -> set[str]:
+    return {joint["type"] for joint in made["joints"].values()}
+
+
+QUICK, BLOCKS = (10, 11, 12, 14, 15), [range(k, k + 50) for k in range(16, 216, 50)]
+
+
+@pytest.mark.parametrize("seeds", tiers([QUICK], BLOCKS))
+def test_random_mechanisms_in_space_have_the_efforts_of_the_plane(seeds: Sequence[int]) -> None:
+    """Slots driven and sprung, sliders at any angle, gears, springs between links at any heights."""
+    met: set[str] = set()
+    for seed in seeds:
+        m = _random_plane(seed)
+        high = np.random.default_rng(seed).uniform(-0.1, 0.1, len(m.links) + len(m.joints)).tolist()
+        offsets = dict(zip([*m.links, *m.joints], high, strict=True))
+        plane, space = da.dynamics(m), da.dynamics(da.lifted(m, offsets))
+        scale = np.abs(plane.force_array).max()
+        assert plane.ok.all()
+        for drive in plane.drives:
+            assert space.effort(drive) == pytest.approx(plane.effort(drive), abs=1e-9 * scale), seed
+        for link in plane.links:
+            angle = plane.angle(link)
+            turned = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+            assert space.rotation(link)[:, :2, 0] == pytest.approx(turned, abs=1e-9), seed
+        met |= {joint.type for joint in m.joints.values()}
+        met |= {f"driven {m.joints[m.drive_joint(drive)].type}" for drive in m.drives}
+    assert met >= {"pin", "slider", "slot", "driven slot"}
+
+
+def test_the_turn_of_a_slot_is_0_where_the_links_axes_agree() -> None:
+    """A bar held at 20 deg in a slot along 30 deg: 10 N at 1 m, and 5 N m/rad from 5 deg on."""
+    tree = {
+        "dalembert": 1,
+        "links": {
+            "ground": {"points": {"S": [0, 0]}},
+            "bar": {"points": {"B": [0, 0]}, "mass": 1, "center": [1, 0]},
+        },
+        "joints": {"S": {"type": "slot", "links": ["ground", "bar"], "at": ["S", "B"], "direction": 30}},
+        "drives": {
+            "slide": {"joint": "S", "freedom": "slide", "position": 0.2},
+            "turn": {"joint": "S", "freedom": "turn", "position": 20},
+        },
+        "loads": {"k": {"type": "torsion_spring", "joint": "S", "stiffness": 5, "free_angle": 5}},
+        "gravity": [0, -10],
+    }
+    expected = 10 * np.cos(np.radians(20)) + 5 * np.radians(15)
+    for m in (da.mechanism(tree), da.lifted(da.mechanism(tree))):
+        assert da.statics(m).effort("turn")[0] == pytest.approx(expected, rel=1e-12)
+
+
+def test_a_spring_pulls_halfway_between_the_heights_of_its_links() -> None:
+    """A bearing at height 0 holds an arm at 0.4 m: the spring's force f at 0.2 m is a moment -0.2 z x f on the arm."""
+    spring = {"type": "spring", "between": ["ground.Q", "arm.P"], "stiffness": 100, "free_length": 1}
+    m = da.mechanism(
+        {
+            "dalembert": 1,
+            "links": {"ground": {"points": {"O": [0, 0], "Q": [4, 4]}}, "arm": {"points": {"O": [0, 0], "P": [1, 0]}}},
+            "joints": {"O": {"type": "pin", "links": ["ground", "arm"]}},
+            "drives": {"O": {"position": 0}},
+            "loads": {"k": spring},
+        }
+    )  # fmt: skip
+    r = da.statics(da.lifted(m, {"arm": 0.4, "O": 0.0}))
+    pull = 100 * (5 - 1) * np.array([3, 4]) / 5
+    assert r.reaction("O")[0] == pytest.approx([*-pull, 0])
+    assert r.reaction_moment("O")[0] == pytest.approx([0.2 * pull[1], -0.2 * pull[0], 0])
 
 
 def test_a_pin_that_slides_and_one_that_turns_any_way_make_a_loop_determinate() -> None:

@@ -165,7 +165,8 @@ class _Lift:
 
     def _slot(self, name: str, joint: Any) -> dict[str, Any]:
         damping = {k: v for k, v in zip(("slide", "turn"), joint.damping, strict=True) if v}
-        axes = {"i": _axes(joint.direction), "j": _axes(0.0)}
+        # j's x too, so that the turn is 0 where the links' own axes agree, as in the plane
+        axes = {"i": _axes(joint.direction), "j": _axes(joint.direction)}
         return {"type": "slotted_cylinder", "axes": axes, **({"damping": damping} if damping else {})}
 
     def _weld(self, name: str, joint: Any) -> dict[str, Any]:
