@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.analysis.closeness import radians
+from dalembert.analysis.closeness import Target, radians
 from dalembert.analysis.columns import drive_kinds
 from dalembert.analysis.quantities import QUANTITIES, WHOLE, WORDS, Series, component, size
 from dalembert.errors import STATUSES, ModelError
@@ -200,14 +200,6 @@ def _apart(found: Array, wanted: Any, kind: str) -> Array:
 
 
 # numbers and vectors
-
-
-class Target(NamedTuple):
-    """A published value: SI number or vector, the unit and the form it was written in."""
-
-    value: Array
-    unit: str
-    polar: bool
 
 
 def target(value: Any, series: Series, units: Units, key: str) -> Target:

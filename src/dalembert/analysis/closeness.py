@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from dalembert.units import NUMBER, Units
 
 if TYPE_CHECKING:
-    from dalembert.analysis.answers import Target
     from dalembert.model import Answer
 
 Array = NDArray[Any]
@@ -29,6 +28,14 @@ DIRECTION = math.radians(0.5)
 
 EDGE = 1 + 1e-9
 """A figure half a unit of its last digit away is rounded."""
+
+
+class Target(NamedTuple):
+    """A published value: SI number or vector, the unit and the form it was written in."""
+
+    value: Array
+    unit: str
+    polar: bool
 
 
 def half_unit(number: str) -> float:

@@ -1,8 +1,8 @@
 """Joints in space as rows: the table of pairs, each with the forces and moments it carries in its local axes.
 
 To add a pair, add its row to ``PAIRS`` (and its name and freedoms to the model's table). Local axes are x, y, z;
-those of docs/theory.md 2.2. A pair that blocks one turn only does so between a direction of i and one of j, as a pin in a
-slot does: with x blocked, y of i and z of j stay at a right angle.
+those of docs/theory.md 2.2. A pair that blocks one turn only does so between a direction of i and one of j, as a pin
+in a slot does: with x blocked, y of i and z of j stay at a right angle.
 """
 
 from __future__ import annotations

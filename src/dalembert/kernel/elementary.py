@@ -7,8 +7,7 @@ from the processor's estimates of 14 bits: the divider takes 16 cycles for 1/x a
 
 from __future__ import annotations
 
-from typing import Any
-
+from dalembert.kernel.llvm_builder import Text
 from dalembert.kernel.machine import host_lanes
 
 SINE = (
@@ -60,7 +59,7 @@ def elementary(lanes: int, used: set[str]) -> list[str]:
 
 def _divided(lanes: int, name: str) -> list[str]:
     """1/x or 1/sqrt(x) as the processor divides."""
-    t = _text(lanes)
+    t = Text(lanes)
     t.lines.append(f"define internal {t.kind} @{name}({t.kind} %x) alwaysinline {{")
     below = "%x" if name == "reciprocal" else t.intrinsic("sqrt", "%x")
     value = _exact(t, "fdiv", t.splat(1.0), below)
@@ -69,7 +68,7 @@ def _divided(lanes: int, name: str) -> list[str]:
 
 def _estimated(lanes: int, name: str) -> list[str]:
     """1/x or 1/sqrt(x) from an estimate y: with e = 1 - x y, or 1 - x y^2, the series of y/(1 - e), y/sqrt(1 - e)."""
-    t, kind = _text(lanes), "rcp14" if name == "reciprocal" else "rsqrt14"
+    t, kind = Text(lanes), "rcp14" if name == "reciprocal" else "rsqrt14"
     declared = f"declare <8 x double> @{_ESTIMATE}{kind}.pd.512(<8 x double>, <8 x double>, i8)"
     t.lines += [declared, f"define internal {t.kind} @{name}({t.kind} %x) alwaysinline {{"]
     y = _estimate(t, kind, "%x")
@@ -85,7 +84,7 @@ def _estimated(lanes: int, name: str) -> list[str]:
 _ESTIMATE = "llvm.x86.avx512."
 
 
-def _estimate(t: Any, kind: str, x: str) -> str:
+def _estimate(t: Text, kind: str, x: str) -> str:
     """The instruction for eight lanes, twice for sixteen."""
 
     def places(first: int, count: int) -> str:
@@ -93,30 +92,24 @@ def _estimate(t: Any, kind: str, x: str) -> str:
 
     def eight(x: str) -> str:
         zero, wide = "<8 x double> zeroinitializer", "<8 x double>"
-        return str(t.let(f"call {wide} @{_ESTIMATE}{kind}.pd.512({wide} {x}, {zero}, i8 -1)"))
+        return t.let(f"call {wide} @{_ESTIMATE}{kind}.pd.512({wide} {x}, {zero}, i8 -1)")
 
     if t.lanes == 8:
         return eight(x)
     halves = [eight(t.let(f"shufflevector {t.kind} {x}, {t.kind} poison, {places(k, 8)}")) for k in (0, 8)]
-    return str(t.let(f"shufflevector <8 x double> {halves[0]}, <8 x double> {halves[1]}, {places(0, 16)}"))
+    return t.let(f"shufflevector <8 x double> {halves[0]}, <8 x double> {halves[1]}, {places(0, 16)}")
 
 
-def _text(lanes: int) -> Any:
-    from dalembert.kernel.emit_llvm import Text
-
-    return Text(lanes)
+def _exact(t: Text, op: str, a: str, b: str) -> str:
+    return t.let(f"{op} {t.kind} {a}, {b}")
 
 
-def _exact(t: Any, op: str, a: str, b: str) -> str:
-    return str(t.let(f"{op} {t.kind} {a}, {b}"))
+def _fma(t: Text, a: str, b: str, c: str) -> str:
+    return t.intrinsic("fma", a, b, c)
 
 
-def _fma(t: Any, a: str, b: str, c: str) -> str:
-    return str(t.intrinsic("fma", a, b, c))
-
-
-def _horner(t: Any, coefficients: tuple[float, ...], z: str) -> str:
-    total: str = t.splat(coefficients[0])
+def _horner(t: Text, coefficients: tuple[float, ...], z: str) -> str:
+    total = t.splat(coefficients[0])
     for c in coefficients[1:]:
         total = _fma(t, total, z, t.splat(c))
     return total
@@ -124,7 +117,7 @@ def _horner(t: Any, coefficients: tuple[float, ...], z: str) -> str:
 
 def _circular(lanes: int, name: str, shift: int) -> list[str]:
     """sin(x), or cos(x) = sin(x + pi/2): the quadrant is counted one further."""
-    t = _text(lanes)
+    t = Text(lanes)
     t.lines.append(f"define internal {t.kind} @{name}({t.kind} %x) alwaysinline {{")
     n = t.intrinsic("rint", _exact(t, "fmul", "%x", t.splat(0.6366197723675814)))
     minus = t.let(f"fneg {t.kind} {n}")
@@ -149,7 +142,7 @@ def _circular(lanes: int, name: str, shift: int) -> list[str]:
 
 def _angle(lanes: int) -> list[str]:
     """atan2(y, x): the smaller over the larger, reduced once more at tan(pi/8)."""
-    t = _text(lanes)
+    t = Text(lanes)
     t.lines.append(f"define internal {t.kind} @angle({t.kind} %y, {t.kind} %x) alwaysinline {{")
     ax, ay = t.intrinsic("fabs", "%x"), t.intrinsic("fabs", "%y")
     steep = t.compare("ogt", ay, ax)

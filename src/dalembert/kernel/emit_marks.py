@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from dalembert.kernel.graph import Node
+from dalembert.kernel.llvm_builder import Text, operations
 from dalembert.kernel.program import CODES, Program
 
 
@@ -13,7 +12,7 @@ def latch(program: Program) -> str:
     return "%told" if program.marks.seldom else "%loop"
 
 
-def bits(t: Any, program: Program, names: dict[int, str]) -> dict[str, str]:
+def bits(t: Text, program: Program, names: dict[int, str]) -> dict[str, str]:
     """Lanes of each mark that can occur."""
     marks = program.marks
     asked = (("open", marks.open, "olt"), ("doubt", marks.doubt, "ult"), ("rest", marks.rest, "olt"))
@@ -30,19 +29,17 @@ def bits(t: Any, program: Program, names: dict[int, str]) -> dict[str, str]:
     return {name: out[name] for name in marks.names}
 
 
-def _but(t: Any, a: str, b: str) -> str:
+def _but(t: Text, a: str, b: str) -> str:
     """Lanes of a that are not of b."""
     every = "true" if t.lanes == 1 else "<" + ", ".join(["i1 true"] * t.lanes) + ">"
-    return str(t.let(f"and {t.bit} {a}, {t.let(f'xor {t.bit} {b}, {every}')}"))
+    return t.let(f"and {t.bit} {a}, {t.let(f'xor {t.bit} {b}, {every}')}")
 
 
 def _seldom(
-    t: Any, program: Program, names: dict[int, str], slips: str, turned: str, rest: str
+    t: Text, program: Program, names: dict[int, str], slips: str, turned: str, rest: str
 ) -> tuple[str, str, str]:
     """Lanes in doubt, jammed and self-locking. What is seldom asked stands in a block of its own, jumped over where no
     lane asks for it: none that is at rest does; and so does the proof of a jam behind it."""
-    from dalembert.kernel.emit_llvm import operations
-
     marks, none = program.marks, _none(t)
     unsure = _any(t, marks.unsure, names, "ult")
     asking = t.let(f"or {t.bit} {unsure}, {turned if marks.locked else none}")
@@ -66,17 +63,17 @@ def _seldom(
     before = none if marks.locked else turned
 
     def joined(loop: str, ask: str, prove: str) -> str:
-        return str(t.let(f"phi {t.bit} [ {loop}, %loop ], [ {ask}, %ask ], [ {prove}, %prove ]"))
+        return t.let(f"phi {t.bit} [ {loop}, %loop ], [ {ask}, %ask ], [ {prove}, %prove ]")
 
     found, more, jam = joined(before, locked, locked), joined(none, more, more), joined(none, none, jam)
     return t.let(f"or {t.bit} {slips}, {more}"), jam, found
 
 
-def _none(t: Any) -> str:
+def _none(t: Text) -> str:
     return "false" if t.lanes == 1 else "zeroinitializer"
 
 
-def _any(t: Any, nodes: tuple[Node, ...], names: dict[int, str], how: str) -> str:
+def _any(t: Text, nodes: tuple[Node, ...], names: dict[int, str], how: str) -> str:
     found = None
     for node in nodes:
         bad = t.compare(how, names[node.index], t.splat(0.0))
@@ -84,14 +81,14 @@ def _any(t: Any, nodes: tuple[Node, ...], names: dict[int, str], how: str) -> st
     return found or _none(t)
 
 
-def some(t: Any, bit: str) -> str:
+def some(t: Text, bit: str) -> str:
     """Whether some lane has it."""
     if t.lanes == 1:
         return bit
-    return str(t.let(f"call i1 @llvm.vector.reduce.or.v{t.lanes}i1({t.bit} {bit})"))
+    return t.let(f"call i1 @llvm.vector.reduce.or.v{t.lanes}i1({t.bit} {bit})")
 
 
-def store_code(t: Any, program: Program, names: dict[int, str], place: str) -> None:
+def store_code(t: Text, program: Program, names: dict[int, str], place: str) -> None:
     """Store the mark of each lane."""
     kind = "i8" if t.lanes == 1 else f"<{t.lanes} x i8>"
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from dalembert.kernel.emit_marks import bits, latch, some
+from dalembert.kernel.llvm_builder import Text, number
 from dalembert.kernel.program import CODES, Program
 
 PLACED = ("argpeak", "argmin", "argmax")
@@ -27,7 +26,7 @@ def width(slots: Slots) -> int:
 class Reductions:
     """Accumulators of every output, one vector each, and of the marks; combined across the lanes at the end."""
 
-    def __init__(self, t: Any, program: Program, slots: Slots) -> None:
+    def __init__(self, t: Text, program: Program, slots: Slots) -> None:
         self.t, self.program, self.slots = t, program, slots
         self.weighted = any(p in SUMS for _, p in slots)
         self.width = width(slots)
@@ -61,6 +60,7 @@ class Reductions:
         if p in SUMS:
             for _ in range(SUMS[p]):
                 x = t.binary("fmul", x, x)
+            assert weight is not None
             term = t.binary("fmul", x, weight)
             t.put(f"%new{s} = fadd reassoc nsz contract {t.kind} {acc}, {term}")
             return
@@ -75,12 +75,10 @@ class Reductions:
         """Number of the position in each lane."""
         t = self.t
         if t.lanes == 1:
-            return str(t.let("uitofp i64 %at to double"))
-        from dalembert.kernel.emit_llvm import number
-
+            return t.let("uitofp i64 %at to double")
         iota = "<" + ", ".join(f"double {number(float(k))}" for k in range(t.lanes)) + ">"
         base = t.broadcast(t.let("uitofp i64 %at to double"))
-        return str(t.let(f"fadd {t.kind} {base}, {iota}"))
+        return t.let(f"fadd {t.kind} {base}, {iota}")
 
     def store(self) -> None:
         t, slot = self.t, 0
@@ -98,7 +96,7 @@ class Reductions:
         t.put(f"store i8 {one}, ptr {place}, align 1")
 
     def address(self, slot: int) -> str:
-        return str(self.t.let(f"getelementptr inbounds double, ptr %page, i64 {slot}"))
+        return self.t.let(f"getelementptr inbounds double, ptr %page, i64 {slot}")
 
     def across(self, x: str, how: str) -> str:
         """One number from all lanes."""
@@ -106,9 +104,7 @@ class Reductions:
         if t.lanes == 1:
             return x
         start = "double -0.0, " if how == "fadd" else ""
-        return str(
-            t.let(f"call reassoc nsz double @llvm.vector.reduce.{how}.{t.suffix}({start}{t.kind} {x})")
-        )
+        return t.let(f"call reassoc nsz double @llvm.vector.reduce.{how}.{t.suffix}({start}{t.kind} {x})")
 
     def first(self, value: str, place: str, largest: str) -> str:
         """The first position at which the largest value stands."""

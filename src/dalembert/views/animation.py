@@ -32,6 +32,7 @@ from dalembert.views.mechanism import (
 from dalembert.views.moving import refuse_still
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.scene import Item, Scene, Text
+from dalembert.views.space_arrows import Arrows
 from dalembert.views.space_view import NOTHING, triad
 
 if TYPE_CHECKING:
@@ -189,7 +190,7 @@ def _in_space(r: Result, which: Array, some: list[Action], shown: Shown, camera:
     for k in map(int, which):
         canvas = Canvas()
         drawn.draw_machine(canvas, r, k, s)
-        arrows = drawn.Arrows(canvas, r, s, shown, some, which, LONGEST, values=False)
+        arrows = Arrows(canvas, r, s, shown, some, which, LONGEST, values=False)
         for a in some:
             arrows.action(a, k)
         frames.append((k, canvas.scene(heading=False)))

@@ -18,8 +18,9 @@ from dalembert.views.link_solids import nodes
 from dalembert.views.mechanism import ring, unit_size
 from dalembert.views.notation import Notation, Shown, along
 from dalembert.views.scene import Item, Line, Point, Scene, Text
+from dalembert.views.space_arrows import Arrows
 from dalembert.views.space_friction import draw_friction, friction_details, rubs
-from dalembert.views.space_mechanism import Arrows, mark_center, rims
+from dalembert.views.space_mechanism import mark_center, rims
 from dalembert.views.space_view import Sight, sight, standing, triad
 
 if TYPE_CHECKING:

@@ -16,12 +16,12 @@ from dalembert.views.canvas import Canvas
 from dalembert.views.guides import guide_detail, guided
 from dalembert.views.outline import GROUND
 from dalembert.views.scene import Arrow, Line, Scene
+from dalembert.views.space_arrows import Arrows
 from dalembert.views.space_view import Sight
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
     from dalembert.views.notation import Shown
-    from dalembert.views.space_mechanism import Arrows
 
 Array = NDArray[Any]
 

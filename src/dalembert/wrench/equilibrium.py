@@ -10,7 +10,6 @@ import numpy as np
 from dalembert.units import Units
 from dalembert.wrench.forces import Couple, Force
 from dalembert.wrench.reading import Array, fixed
-from dalembert.wrench.system import System
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,23 +28,30 @@ class Balance:
     sentence: str
 
 
-def balance(system: System, tolerance: float, length: float | None) -> Balance:
-    """The check of equilibrium of a system.
+def balance(
+    sums: tuple[Array, Array],
+    at: Array,
+    scales: tuple[float, float],
+    tolerance: float,
+    missing: tuple[Force | Couple, ...],
+    units: Units,
+) -> Balance:
+    """The check of equilibrium of a system with these sums of forces, and of moments about ``at``.
 
-    >>> balance(System(Force([0, 10]), Force([0, -10], at=[2, 0])), 1e-9, None).sentence
+    ``scales``: the largest force and moment; ``missing``: what would bring it to equilibrium.
+
+    >>> from dalembert.wrench import Force, System
+    >>> System(Force([0, 10]), Force([0, -10], at=[2, 0])).equilibrium().sentence
     'Not in equilibrium: the forces balance, the moments do not. A couple of 20 N*m is missing.'
     """
-    at = system.middle
-    force, moment = system.resultant, system._moment(at)
-    largest, moment_scale = system.scales(length)
-    parts = _part(force, largest), _part(moment, moment_scale)
+    force, moment = sums
+    parts = _part(force, scales[0]), _part(moment, scales[1])
     residual = max(parts)
     holds = residual <= tolerance
-    missing = system.equilibrant(tolerance, length)
     if holds:
         sentence = f"In equilibrium: {residual:.1g} of the largest force is left."
     else:
-        sentence = f"Not in equilibrium: {_which(parts, tolerance)}. {_missing(system, missing)}"
+        sentence = f"Not in equilibrium: {_which(parts, tolerance)}. {_missing(missing, units)}"
     return Balance(holds, residual, force, fixed(moment), at, missing, sentence)
 
 
@@ -63,8 +69,8 @@ def _which(parts: tuple[float, float], tolerance: float) -> str:
     return "neither forces nor moments balance"
 
 
-def _missing(system: System, parts: tuple[Force | Couple, ...]) -> str:
-    said = " and ".join(_said(part, system.units) for part in parts)
+def _missing(parts: tuple[Force | Couple, ...], units: Units) -> str:
+    said = " and ".join(_said(part, units) for part in parts)
     return f"{said[0].upper()}{said[1:]} {'is' if len(parts) == 1 else 'are'} missing."
 
 

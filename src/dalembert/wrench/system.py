@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -13,11 +13,9 @@ from dalembert.errors import AnalysisError, ModelError
 from dalembert.units import Units, file_units
 from dalembert.wording import closest
 from dalembert.wrench import reading
+from dalembert.wrench.equilibrium import Balance, balance
 from dalembert.wrench.forces import ALGEBRA, Axis, Couple, Force, moment_about, value_of
 from dalembert.wrench.reading import Array, UnitNames, Vector, fixed
-
-if TYPE_CHECKING:
-    from dalembert.wrench.equilibrium import Balance
 
 EXACT = 1e-9
 """Below this part of the largest force (of force times length) a force (a moment) counts as zero."""
@@ -273,6 +271,6 @@ class System:
         ``tolerance`` is the part of the largest force that may be left, of a moment the part of force times ``length``
         (m, default the system's own); about 1e-3 suits printed figures.
         """
-        from dalembert.wrench.equilibrium import balance
-
-        return balance(self, tolerance, length)
+        at = self.middle
+        sums, scales = (self.resultant, self._moment(at)), self.scales(length)
+        return balance(sums, at, scales, tolerance, self.equilibrant(tolerance, length), self.units)

@@ -1,0 +1,116 @@
+"""LLVM text line by line: values, vectors, operations of a trace.
+
+A ``Text`` spells one module; its lanes are the places of a vector.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+
+from dalembert.kernel.graph import Node
+
+FAST = "reassoc nsz arcp contract"
+"""Fast-math flags: NaN stays NaN, infinity infinity."""
+
+
+def number(x: float) -> str:
+    """A constant in LLVM's hexadecimal form."""
+    return f"0x{struct.unpack('<Q', struct.pack('<d', x))[0]:016X}"
+
+
+class Text:
+    """Lines of one module, with the vector type and constants spelled out."""
+
+    def __init__(self, lanes: int) -> None:
+        self.lanes, self.lines = lanes, []
+        self.kind = "double" if lanes == 1 else f"<{lanes} x double>"
+        self.bit = "i1" if lanes == 1 else f"<{lanes} x i1>"
+        self.whole = "i64" if lanes == 1 else f"<{lanes} x i64>"
+        self.suffix = "f64" if lanes == 1 else f"v{lanes}f64"
+        self.count = 0
+
+    lines: list[str]
+
+    def put(self, line: str) -> None:
+        self.lines.append("  " + line)
+
+    def let(self, expression: str) -> str:
+        """A new value."""
+        self.count += 1
+        name = f"%t{self.count}"
+        self.put(f"{name} = {expression}")
+        return name
+
+    def splat(self, x: float) -> str:
+        if self.lanes == 1:
+            return number(x)
+        return "<" + ", ".join([f"double {number(x)}"] * self.lanes) + ">"
+
+    def broadcast(self, scalar: str) -> str:
+        """A scalar in every lane."""
+        if self.lanes == 1:
+            return scalar
+        one = self.let(f"insertelement {self.kind} poison, double {scalar}, i32 0")
+        zeros = f"<{self.lanes} x i32> zeroinitializer"
+        return self.let(f"shufflevector {self.kind} {one}, {self.kind} poison, {zeros}")
+
+    def load(self, base: str, offset: int | str, vector: bool = True) -> str:
+        place = self.let(f"getelementptr inbounds double, ptr {base}, i64 {offset}")
+        return self.let(f"load {self.kind if vector else 'double'}, ptr {place}, align 8")
+
+    def store(self, value: str, base: str, offset: int | str) -> None:
+        place = self.let(f"getelementptr inbounds double, ptr {base}, i64 {offset}")
+        self.put(f"store {self.kind} {value}, ptr {place}, align 8")
+
+    def operation(self, node: Node, a: str, b: str | None) -> str:
+        return _OPERATIONS[node.op](self, a, b or "")
+
+    def binary(self, op: str, a: str, b: str) -> str:
+        return self.let(f"{op} {FAST} {self.kind} {a}, {b}")
+
+    def call(self, name: str, *arguments: str) -> str:
+        given = ", ".join(f"{self.kind} {a}" for a in arguments)
+        return self.let(f"call {self.kind} @{name}({given})")
+
+    def intrinsic(self, name: str, *arguments: str) -> str:
+        return self.call(f"llvm.{name}.{self.suffix}", *arguments)
+
+    def select(self, test: str, a: str, b: str) -> str:
+        return self.let(f"select {self.bit} {test}, {self.kind} {a}, {self.kind} {b}")
+
+    def compare(self, how: str, a: str, b: str) -> str:
+        return self.let(f"fcmp {how} {self.kind} {a}, {b}")
+
+
+def _sign(t: Text, a: str, _: str) -> str:
+    one = t.intrinsic("copysign", t.splat(1.0), a)
+    return t.select(t.compare("oeq", a, t.splat(0.0)), t.splat(0.0), one)
+
+
+_OPERATIONS: dict[str, Callable[[Text, str, str], str]] = {
+    "add": lambda t, a, b: t.binary("fadd", a, b),
+    "sub": lambda t, a, b: t.binary("fsub", a, b),
+    "mul": lambda t, a, b: t.binary("fmul", a, b),
+    "inv": lambda t, a, b: t.call("reciprocal", a),
+    "rsqrt": lambda t, a, b: t.call("inverse_root", a),
+    "neg": lambda t, a, b: t.let(f"fneg {t.kind} {a}"),
+    "sqrt": lambda t, a, b: t.intrinsic("sqrt", a),
+    "abs": lambda t, a, b: t.intrinsic("fabs", a),
+    "rint": lambda t, a, b: t.intrinsic("rint", a),
+    "sign": _sign,
+    "positive": lambda t, a, b: t.select(t.compare("ogt", a, t.splat(0.0)), t.splat(1.0), t.splat(0.0)),
+    "sin": lambda t, a, b: t.call("sine", a),
+    "cos": lambda t, a, b: t.call("cosine", a),
+    "atan2": lambda t, a, b: t.call("angle", a, b),
+    "max": lambda t, a, b: t.select(t.compare("ogt", a, b), a, b),
+    "detach": lambda t, a, b: a,
+}
+
+
+def operations(t: Text, nodes: list[Node], names: dict[int, str]) -> None:
+    """Emit nodes in order; ``names`` holds the value of each by its index."""
+    for node in nodes:
+        assert node.a is not None
+        b = None if node.b is None else names[node.b.index]
+        names[node.index] = t.operation(node, names[node.a.index], b)
