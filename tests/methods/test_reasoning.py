@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Any
 
 import numpy as np
@@ -10,8 +11,13 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis.actions import actions, on_link
+from dalembert.analysis.circles import two_pins
 from dalembert.bundled import cases, examples
+from dalembert.views.scene import Text
 from tests.random_mechanisms import random_case
+from tests.random_space import random_case as random_space_case
+from tests.space.test_laws import solved as solved_in_space
+from tests.tiers import over
 
 SEEDS = range(100)
 CLOSE = 1e-11
@@ -91,6 +97,101 @@ def test_members_of_the_loaded_rocker() -> None:
     order = da.order_of_solution(r)
     assert [step.links for step in order] == [("rocker",), ("crank",)]
     assert order[0].why == "rocker: 3 equations, 3 unknowns in the line of coupler, O4"
+
+
+def counts(r: Any) -> list[tuple[int, int]]:
+    """Equations and unknowns of every step of the order of solution, as its sentence says them."""
+    said = [re.findall(r"(\d+) (?:equations|unknowns?)", step.why) for step in da.order_of_solution(r)]
+    return [(int(equations), int(unknowns)) for equations, unknowns in said]
+
+
+@over(10, 200)
+def test_every_step_has_as_many_equations_as_unknowns(seed: int) -> None:
+    for r in (solved(seed), solved_in_space(random_space_case(seed), inertia=seed % 3 > 0)):
+        found = counts(r)
+        assert sum(step[0] for step in found) > 0
+        if not r.mobility.redundant:
+            assert all(equations == unknowns for equations, unknowns in found)
+
+
+FOOT = """
+dalembert: 1
+gravity: standard
+links:
+  ground: {points: {O: [0, 0], S: [0, -1]}}
+  arm: {points: {O: [0, 0], A: [1, 0]}, mass: 2, center: [0.5, 0], inertia: 0.1}
+  foot: {points: {A: [0, 0], B: [0.5, 0]}}
+joints:
+  O: {type: pin, links: [ground, arm]}
+  A: {type: pin, links: [arm, foot]}
+  B: {type: slot, links: [ground, foot], at: [S, B], direction: 0}
+drives:
+  O: {position: -40 deg, speed: 1 rad/s}
+loads:
+  nothing: {type: couple, on: foot, value: 0}
+assembly: {foot: -30}
+"""
+TAIL = """
+links:
+  ground: {points: {O: [0, 0], S: [0, -1]}}
+  arm: {points: {O: [0, 0], A: [1, 0]}, mass: 2, center: [0.5, 0], inertia: 0.1}
+  rod: {points: {A: [0, 0], B: [3, 0]}}
+  block: {points: {B: [0, 0], C: [1, 1]}}
+  tip: {points: {C: [0, 0], D: [1, 0]}}
+  end: {points: {D: [0, 0]}}
+joints:
+  O: {type: pin, links: [ground, arm], friction: {radius: 0.05}}
+  A: {type: pin, links: [arm, rod], friction: {radius: 0.05}}
+  B: {type: pin, links: [rod, block], friction: {radius: 0.05}}
+  S: {type: slider, links: [ground, block], at: [S, B], friction: {guide: [0.2, 0.2]}}
+  C: {type: weld, links: [block, tip]}
+  D: {type: weld, links: [tip, end]}
+drives: {O: {position: 40 deg, speed: 1 rad/s}}
+gravity: standard
+friction: {coefficient: 0.2, enabled: FRICTION}
+assembly: {rod: -30}
+"""
+
+
+def test_a_link_without_any_force_is_none_of_two_forces() -> None:
+    r = da.solve(da.loads(FOOT))
+    found = da.members(r)
+    assert found["foot"].kind == "zero-force"
+    assert found["foot"].sentence == "foot: zero-force member (nothing in A, B; no couple)"
+    assert [step.why for step in da.order_of_solution(r)] == [
+        "foot: 3 equations, 3 unknowns in A, B, all zero",
+        "arm: 3 equations, 3 unknowns in O, torque O",
+    ]
+    assert any(note.startswith("Zero-force member.") for note in texts(da.draw.free_body(r, "foot")))
+    report = str(da.report(r))
+    assert "2 arm: general; 3 foot: zero-force." in report
+    assert "Force polygon of link 3" not in report
+
+
+@pytest.mark.parametrize("friction", ["true", "false"])
+def test_a_chain_of_links_without_force(friction: str) -> None:
+    """Of pins, a slider and welds; friction circles where nothing acts are no tangents of anything."""
+    r = da.solve(da.loads(TAIL.replace("FRICTION", friction)))
+    found = da.members(r)
+    kinds = {"arm": "general", **dict.fromkeys(("rod", "block", "tip", "end"), "zero-force")}
+    assert {link: m.kind for link, m in found.items()} == kinds
+    assert found["arm"].circles == (("O",) if friction == "true" else ())
+    assert counts(r) == [(3, 3)] * 4
+    assert "common tangent" not in str(da.report(r))
+    assert two_pins(r, "A") is None
+    assert all("tangent" not in note for note in texts(da.draw.mechanism(r)))
+
+
+def texts(scene: Any) -> list[str]:
+    return [item.text for item in scene.items if isinstance(item, Text)]
+
+
+def test_in_space_a_link_without_any_force() -> None:
+    """A link on a turning joint and a ball between planes has six unknowns, all zero."""
+    tree = random_space_case(146)
+    r = solved_in_space(tree)
+    assert "two-force" not in {m.kind for m in da.members(r).values()}
+    assert da.members(r)["L2"].kind == "zero-force"
 
 
 def test_displaced_inertia_book() -> None:

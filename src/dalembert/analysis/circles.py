@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[Any]
 GROUND = "ground"
+NOTHING = 1e-9
+"""A force below this part of the largest on the mechanism does not count."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +80,8 @@ def friction_circles(result: Result, joint: str) -> FrictionCircle:
     e = bearing_contact(result, joint, "pin")
     force, center = result.reaction(joint), pin_center(result, joint)
     size = np.hypot(force[:, 0], force[:, 1])
-    safe = np.where(size > 0, size, 1.0)
+    least = NOTHING * np.nanmax(np.abs(result.force_array), axis=(1, 2), initial=0.0)
+    safe = np.where(size > least, size, np.inf)  # nothing has no direction
     unit = force / safe[:, None]
     # a couple m with the force F is the force on a line at arm p, p x F = m
     offset = np.stack([unit[:, 1], -unit[:, 0]], axis=-1) * (f.cz[:, e] / safe)[:, None]
@@ -143,7 +146,9 @@ def _two_forces(result: Result, link: str, first: str, second: str) -> bool:
     size = np.maximum(np.abs(a).max(axis=-1), 1e-300)
     off = np.maximum(np.abs(a + b).max(axis=-1), np.abs(moment) / result.compiled.layout.length)
     known = np.isfinite(off)
-    return bool(known.any() and (off / size)[known].max() <= 1e-9)
+    least = NOTHING * float(np.nanmax(np.abs(result.force_array), initial=0.0))
+    loaded = known.any() and np.abs(a[known]).max() > least
+    return bool(loaded and (off / size)[known].max() <= 1e-9)
 
 
 def _tangents(result: Result, joint: str, other: str) -> tuple[Line, ...]:

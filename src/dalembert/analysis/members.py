@@ -1,7 +1,7 @@
 """What a good teacher sees before calculating: class of each link, order of solution, lines that meet, inertia's share.
 
-Classes follow from what acts on a link: two-force, two-force with couple, three-force, four-force, general. The
-order of solution starts at the smallest group of links whose equations suffice for its unknowns.
+Classes follow from what acts on a link: zero-force, two-force, two-force with couple, three-force, four-force,
+general. The order of solution starts at the smallest group of links whose equations suffice for its unknowns.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from dalembert.analysis.actions import (
     slide_direction,
     whole_actions,
 )
+from dalembert.analysis.circles import NOTHING
 from dalembert.analysis.friction import friction_circle_radius
 from dalembert.analysis.planar import refuse_space
 
@@ -31,17 +32,18 @@ if TYPE_CHECKING:
 
 Array = NDArray[Any]
 
-NOTHING = 1e-9
-"""A force below this part of the largest on the mechanism does not count."""
 
 KINDS = {2: "two-force", 3: "three-force", 4: "four-force"}
+ZERO = "zero-force"
+"""The class of a link on which nothing acts at any position."""
 
 
 @dataclass(frozen=True)
 class Member:
     """A link's class: what acts on it, and for a two-force member its tension (P,), negative in compression.
 
-    ``forces`` and ``couples`` name what acts: joints, loads, `weight`, `inertia`. ``circles``: joints whose reaction
+    ``forces`` and ``couples`` name what acts: joints, loads, `weight`, `inertia`; of a zero-force member ``forces``
+    are its joints, which carry nothing. ``circles``: joints whose reaction
     dry friction moves off the pin's centre, onto a tangent of its friction circle.
     """
 
@@ -61,6 +63,8 @@ class Member:
     @property
     def sentence(self) -> str:
         """Why it has this class."""
+        if self.kind == ZERO:
+            return f"{self.link}: {self.kind} member (nothing in {_listed(self.forces) or 'no joint'}; no couple)"
         what = _listed(self.forces) or "no force"
         couples = f"; couples: {_listed(self.couples)}" if self.couples else "; no couple"
         words = f"{self.link}: {self.kind} member (forces: {what}{couples})"
@@ -154,13 +158,24 @@ def _member(r: Result, link: str, some: Sequence[Action], split: Sequence[Action
         and a.kind != "friction"
         and not (a.kind == "joint" and r.mechanism.joints[a.of].type == "slider")
     ]
+    if not couples and _nothing(r, forces, floor):
+        return Member(link, ZERO, tuple(map(_name, forces)), (), None)
     kind = KINDS.get(len(forces), "general")
     if couples:
         kind = "two-force with couple" if kind == "two-force" else "general"
     tension = _tension(forces) if kind == "two-force" else None
-    pins = forces if r.mechanism.dimension == 2 else ()
-    circles = tuple(a.of for a in pins if a.kind == "joint" and friction_circle_radius(r, a.of))
+    pins = [a for a in forces if a.kind == "joint" and np.nanmax(magnitude(a.force), initial=0.0) > floor]
+    plane = r.mechanism.dimension == 2
+    circles = tuple(a.of for a in pins if plane and friction_circle_radius(r, a.of))
     return Member(link, kind, tuple(map(_name, forces)), tuple(map(_name, couples)), tension, circles)
+
+
+def _nothing(r: Result, forces: Sequence[Action], floor: float) -> bool:
+    """Whether all forces on a link are zero at every position that has an answer, and are unique there."""
+    answered = np.isfinite(r.power_balance)
+    sizes = [magnitude(a.force)[answered] for a in forces]
+    unique = [np.isfinite(r.reaction(a.of)[answered]).all() for a in forces if a.kind == "joint"]
+    return bool(answered.any() and all(unique) and all((size <= floor).all() for size in sizes))
 
 
 def _name(a: Action) -> str:
@@ -180,8 +195,9 @@ def _listed(names: Sequence[str]) -> str:
 def order_of_solution(r: Result, found: dict[str, Member] | None = None) -> tuple[Step, ...]:
     """The links in the order in which they can be solved, the fewest at a time.
 
-    A link without loads and couples between two joints is a two-force member: its forces are known in direction, one
-    unknown is left of them. A group of links is solvable when its unknowns are no more than its equations.
+    A link without loads and couples between two pins (in space two ball joints) is a two-force member: its forces are
+    known in direction, one unknown is left of them. A group of links is solvable when its unknowns are no more than
+    its equations.
 
     >>> import dalembert as da
     >>> from dalembert.bundled import examples
@@ -191,8 +207,8 @@ def order_of_solution(r: Result, found: dict[str, Member] | None = None) -> tupl
     crank: 3 equations, 3 unknowns in O2, torque O2
     """
     found = found or members(r)
-    rods = {link for link, m in found.items() if m.kind == "two-force"}
-    unknowns = _Unknowns(r, rods)
+    unknowns = _Unknowns(r, found)
+    rods = unknowns.rods
     left = [link for link in r.links if link not in rods]
     steps: list[Step] = []
     while left:
@@ -205,12 +221,22 @@ def order_of_solution(r: Result, found: dict[str, Member] | None = None) -> tupl
     return tuple(steps)
 
 
+def _sought_on(r: Result) -> set[str]:
+    """Links on which an effort or a load is asked for."""
+    drives = [d for d, asked in zip(r.drives, r.compiled.known.asked, strict=True) if asked]
+    links = {n for d in drives for n in r.mechanism.joints[r.mechanism.drives[d].joint or d].links}
+    loads: list[Any] = [r.mechanism.loads[n] for n in r.unknown_loads]
+    return links | {load.on for load in loads}
+
+
 class _Unknowns:
     """Unknown numbers by name, the links each stands on, and what has been found."""
 
-    def __init__(self, r: Result, rods: set[str]) -> None:
+    def __init__(self, r: Result, found: dict[str, Member]) -> None:
         self.each, self.passive = r.compiled.layout.algebra.n, set(r.compiled.passive)
         rows = r.compiled.layout.constraints.joint
+        self.idle = {link for link, m in found.items() if m.kind == ZERO}
+        self.rods = rods = self._rods(r, found)
         self.count: dict[str, int] = {}
         self.on: dict[str, set[str]] = {}
         self.solved: set[str] = set()
@@ -230,6 +256,23 @@ class _Unknowns:
             described: Any = r.mechanism.loads[load]
             self.count[load], self.on[load] = 1, {described.on}
 
+    def _rods(self, r: Result, found: dict[str, Member]) -> set[str]:
+        """Links whose equations leave one unknown of their two joints, whatever it is; no two of them touch.
+
+        The three equations of a link in the plane leave one unknown of the four of two pins, none of a pin and a slot.
+        """
+        rows, sought = r.compiled.layout.constraints.joint, _sought_on(r)
+        out: set[str] = set()
+        for link, member in found.items():
+            if member.kind not in ("two-force", ZERO) or link in sought:
+                continue
+            joints = [k for k, n in enumerate(r.joints) if link in r.mechanism.joints[n].links]
+            touched = {n for k in joints for n in r.mechanism.joints[r.joints[k]].links}
+            left = int(np.isin(rows, joints).sum()) - self.equations((link,))
+            if len(joints) == 2 and left == 1 and not touched & out:
+                out.add(link)
+        return out
+
     def of(self, group: Sequence[str]) -> list[str]:
         return [n for n, links in self.on.items() if links & set(group) and n not in self.solved]
 
@@ -246,7 +289,8 @@ class _Unknowns:
         unknowns, equations = sum(self.count[n] for n in finds), self.equations(group)
         links = " and ".join(group) + (" together" if len(group) > 1 else "")
         noun = "unknown" if unknowns == 1 else "unknowns"
-        why = f"{links}: {equations} equations, {unknowns} {noun} in {_listed(finds)}"
+        zero = ", all zero" if self.idle >= set(group) else ""
+        why = f"{links}: {equations} equations, {unknowns} {noun} in {_listed(finds)}{zero}"
         return Step(tuple(group), tuple(finds), equations, why)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from dalembert.analysis.actions import actions, magnitude, on_link
 from dalembert.analysis.columns import drive_kinds
-from dalembert.analysis.members import members, order_of_solution
+from dalembert.analysis.members import ZERO, members, order_of_solution
 from dalembert.printing import remainder
 from dalembert.report.chosen import Chosen
 from dalembert.report.sheet import Sheet
@@ -29,7 +29,8 @@ def graphical(sheet: Sheet, c: Chosen) -> None:
         for link, m in found.items()
         if m.kind in ("three-force", "four-force", "two-force with couple")
     ]
-    polygons = [draw.force_polygon(r, link, at, c.notation) for link, m in found.items() if len(m.forces) > 1]
+    loaded = [link for link, m in found.items() if len(m.forces) > 1 and m.kind != ZERO]
+    polygons = [draw.force_polygon(r, link, at, c.notation) for link in loaded]
     sheet.figure(*lines, *polygons, *([draw.force_chain(r, at, c.notation)] if len(r.links) > 1 else []))
 
 

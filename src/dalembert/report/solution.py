@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.actions import actions, joint_place
-from dalembert.analysis.members import Member, Step, members, order_of_solution
+from dalembert.analysis.members import ZERO, Member, Step, members, order_of_solution
 from dalembert.report.chosen import Chosen
 from dalembert.report.matrix import Unknown, matrix_equation, unknowns
 from dalembert.report.sheet import Sheet, Working
@@ -35,7 +35,7 @@ def order_and_solution(sheet: Sheet, c: Chosen) -> None:
         _together(sheet, c, every, r.mobility.redundant)
         return
     found = {link: _taken(c, member) for link, member in members(r).items()}
-    rods = [link for link, member in found.items() if member.kind == "two-force"]
+    rods = [link for link in found if _between_balls(c, link) and found[link].kind in ("two-force", ZERO)]
     for link in rods:
         _rod(sheet, c, link, found[link])
     steps = order_of_solution(r, found)
@@ -48,11 +48,16 @@ def order_and_solution(sheet: Sheet, c: Chosen) -> None:
 
 
 def _taken(c: Chosen, member: Member) -> Member:
-    """A two-force member as such where that is seen before the solution: a link between two ball joints."""
-    joints = [d for d in c.r.mechanism.joints.values() if member.link in d.links]
-    if (len(joints) == 2 and all(d.type == "spherical" for d in joints)) or member.kind != "two-force":
+    """A two-force member as such where that is seen before the solution."""
+    if member.kind != "two-force" or _between_balls(c, member.link):
         return member
     return replace(member, kind="general")
+
+
+def _between_balls(c: Chosen, link: str) -> bool:
+    """Whether a link has two ball joints and no other."""
+    joints = [d for d in c.r.mechanism.joints.values() if link in d.links]
+    return len(joints) == 2 and all(d.type == "spherical" for d in joints)
 
 
 def _ends(c: Chosen, link: str) -> tuple[tuple[str, Array], tuple[str, Array]]:
@@ -67,9 +72,10 @@ def _rod(sheet: Sheet, c: Chosen, link: str, member: Member) -> None:
     """A two-force link: its direction and what it pulls or pushes."""
     (a, e), (b, _) = _ends(c, link)
     n, state = c.shown.link(link), member.state(c.k)
+    state = f", in {state}" if state else " without force" if member.kind == ZERO else ""
     sheet.text(
         f"Link {c.shown.heading(link)} carries the forces of {a} and {b} alone: a two-force member"
-        f"{f', in {state}' if state else ''}. Both forces lie on the line {a}{b}; one unknown is left of them, the "
+        f"{state}. Both forces lie on the line {a}{b}; one unknown is left of them, the "
         f"tension $S_{{{n}}}$ along"
     )
     numbers = ", ".join(c.shown.notation.number(float(x) if abs(x) > 1e-12 else 0.0) for x in e)

@@ -165,7 +165,7 @@ def _reaction(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on: s
     """The reaction on a link: its sense on its line, and its size in words."""
     force = r.reaction(joint, on)[k]
     size = float(np.hypot(*force))
-    if not size > 0:
+    if not friction_circles(r, joint).taken.direction[k].any():
         return
     e = force / size
     middle = np.mean([np.asarray(p) for p in link_points(r, on, k).values()] or [np.zeros(2)], axis=0)
