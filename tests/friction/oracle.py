@@ -26,7 +26,7 @@ class Branch(NamedTuple):
 
 
 class _Joint(NamedTuple):
-    """A joint's reaction and contact as linear maps of the multipliers, and its senses."""
+    """A joint's reaction and contact as linear maps of the multipliers, its senses and the rate of its slide."""
 
     row: Row
     force: Array  # (2, R)
@@ -34,6 +34,7 @@ class _Joint(NamedTuple):
     spot: Array
     slide: float
     turn: float
+    slip: float
     along: Array
 
 
@@ -94,6 +95,7 @@ class _Problem:
                     contact(row, q),
                     np.sign(rate),
                     np.sign(turn),
+                    rate,
                     e,
                 )
             )
@@ -113,7 +115,6 @@ class _Problem:
             return none
         top = self.tree["friction"]
         mu = s * f.get("coefficient", top["coefficient"])
-        full = f.get("coefficient", top["coefficient"])
         lever = mu / np.sqrt(1 + mu * mu) if f.get("circle", top["circle"]) == "sin" else mu
         size = np.hypot(force[..., 0], force[..., 1])
         if t["type"] == "pin":
@@ -127,7 +128,10 @@ class _Problem:
         if "half_height" in f:
             couple = -j.slide * mu * f["half_height"] * normal
         if t["type"] == "slot" and "radius" in f:
-            couple = -j.turn * lever * f["radius"] * np.sqrt(1 + full * full) * np.abs(normal)
+            slide = j.slide * mu * bearing + j.slip * number(t.get("damping", {}).get("slide", 0.0))
+            couple = (
+                -j.turn * lever * f["radius"] * np.hypot(normal, slide)
+            )  # all between the pin and its block
         return -(j.slide * mu * bearing)[..., None] * j.along, couple
 
     def _teeth(self, j: _Joint, force: Array, t: Tree, f: Tree | None, s: float) -> tuple[Array, Array]:

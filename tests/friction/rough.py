@@ -126,7 +126,7 @@ def _sliding(
             bearing = np.maximum(bearing, tilting)
     elif f.radius:
         turn = np.sign(r.freedom(name, "turn")[1])
-        gaps.append((r.friction_moment(name) + turn * lever * f.radius * np.hypot(1, mu) * bearing, length))
+        gaps.append((r.friction_moment(name) + turn * lever * f.radius * np.hypot(*force.T), length))
     gaps.append(((r.friction_force(name) * e).sum(-1) + sense * mu * bearing, 1.0))
     gaps.append(((r.friction_force(name) * across).sum(-1), 1.0))
     return gaps

@@ -20,7 +20,8 @@ Array = NDArray[Any]
 @dataclass(frozen=True)
 class Contact:
     """One contact of a joint; the keys of ``core.friction.Contacts``. ``along``: kind of row and its numbers;
-    ``led``: which contact tells its sense, 0 for itself and -1 for the one before."""
+    ``led``: which contact tells its sense, 0 for itself and -1 for the one before; ``viscous``: damping of the slide
+    before it, whose force it carries, None where it carries none."""
 
     kind: str
     along: tuple[type, dict[str, Any]]
@@ -35,6 +36,7 @@ class Contact:
     fixed: bool = False
     led: int = 0
     reach: Any = 0.0
+    viscous: Any = None
 
 
 TURN: tuple[type, dict[str, Any]] = (Turn, {})
@@ -108,6 +110,10 @@ def _stacked(rows: Rows, found: list[tuple[int, Contact, Any, Any]]) -> Contacts
         fixed=column("fixed", bool),
         led=np.arange(len(found)) + column("led", np.intp),
         reach=column("reach", float),
+        carried=np.array(
+            [e - 1 if c.viscous is not None else -1 for e, (_, c, _, _) in enumerate(found)], np.intp
+        ),
+        viscous=table.numbers([0.0 if c.viscous is None else c.viscous for _, c, _, _ in found]),
     )
 
 
@@ -139,12 +145,12 @@ def _slider(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]
 
 
 def _slot(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:
-    """The pin turns in a block that slides: its circle feels the normal force and the block's friction together."""
+    """The pin turns in a block that slides: its circle feels the normal force and what resists the slide together."""
     f = joint.friction
     yield Contact("guide", (Along, {"axis": table.direction(joint), "pitch": 0.0}), first)
     if f.radius:
-        gain = np.sqrt(1 + mu * mu)
-        yield Contact("pin", TURN, first, gain=gain, lever=f.radius, circle=circle == "sin")
+        slide, _ = joint.damping
+        yield Contact("pin", TURN, first, lever=f.radius, circle=circle == "sin", viscous=slide)
 
 
 def _gear(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:

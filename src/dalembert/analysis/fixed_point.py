@@ -102,7 +102,7 @@ def posed(r: Result, position: int) -> tuple[Contacts, Response, Senses]:
     w = summed(c.layout, *sources.values())
     w = np.broadcast_to(w, (1, *w.shape[1:]))
     stated = statement(c.layout, known, pose, rows, solver, w)
-    _, problem = response(c.layout, contacts, pose, stated.forces, stated.w)
+    _, problem = response(c.layout, contacts, pose, stated.forces, stated.w, moving.twist)
     return contacts, problem, Senses(f.sense[part], f.open[part], f.rate[part])
 
 

@@ -20,7 +20,7 @@ from dalembert.analysis.actions import (
     slide_direction,
 )
 from dalembert.analysis.circles import friction_circles
-from dalembert.analysis.friction import bears_on_faces, friction_circle_radius, guide_contact
+from dalembert.analysis.friction import bears_on_faces, friction_circle_radius, friction_of, guide_contact
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
@@ -119,7 +119,8 @@ def _plain(r: Result, joint: str) -> list[FaceForce]:
 
 def slot_face(r: Result, joint: str) -> FaceForce:
     """What a slot with friction exerts on its pin: normal force and friction at the pin."""
-    normal = r.reaction(joint) - r.friction_force(joint)
+    f, _ = friction_of(r)
+    normal = r.reaction(joint) - r.friction_force(joint) - f.viscous_force[:, r.joints.index(joint)]
     return FaceForce("", joint_place(r, joint), np.zeros(len(normal)), normal, r.friction_force(joint))
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.wrenches import marks
+from dalembert.core.constraints import rates
 from dalembert.core.equilibrium import (
     UNIQUE,
     Known,
@@ -119,7 +120,7 @@ def rubbing(s: Setting, w: Array) -> Forces:
     """Forces with friction under the loads w (P, L, n)."""
     layout, contacts = s.c.layout, s.contacts
     stated = statement(layout, s.known, s.pose, s.rows, s.solver, w)
-    along, r = response(layout, contacts, s.pose, stated.forces, stated.w)
+    along, r = response(layout, contacts, s.pose, stated.forces, stated.w, s.moving.twist)
     blocked = _blocked(contacts, stated)
     r = r._replace(y=np.where(blocked[:, None, None], np.nan, r.y))
     told, spins, slip = _slipped(s, along, r)
@@ -207,7 +208,8 @@ def _locked(s: Setting, stated: Statement, along: System, r: Response, slip: Sli
     w = summed(s.c.layout, *(source for kind, source in s.sources.items() if kind != "inertia"))
     w = np.broadcast_to(w, stated.w.shape)
     still = statement(s.c.layout, s.known, s.pose, s.rows, s.solver, w)
-    r = under(s.c.layout, s.contacts, s.pose, still.forces, still.w, r)
+    rate = rates(along, s.moving.twist)
+    r = under(s.c.layout, s.contacts, s.pose, still.forces, still.w, rate, r)
     return locked & _turned(s, still, r, _slipped(s, along, r)[2])
 
 

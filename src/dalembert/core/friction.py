@@ -63,6 +63,8 @@ class Contacts:
     group (E,)  contacts of one number share a slip: each has its part of the direction of it, by ``reckoned`` (E,),
                 the length that turns its rate into a speed
     around (E,) it is of a group that goes along and around an axis with friction circles of R sin(phi)
+    carried (E,)  contact whose friction it carries too, as its second force: the slide of a block on a pin; -1 none
+    viscous (E,)  damping of that slide, whose force it carries with it
     """
 
     rows: Rows
@@ -85,6 +87,8 @@ class Contacts:
     group: Ints | None = None
     reckoned: Array | None = None
     around: Flags | None = None
+    carried: Ints | None = None
+    viscous: Array | None = None
 
     @property
     def count(self) -> int:
@@ -176,25 +180,46 @@ def strength(
 
 
 def response(
-    layout: Layout, contacts: Contacts, pose: Pose, forces: Factor, w: Array
+    layout: Layout, contacts: Contacts, pose: Pose, forces: Factor, w: Array, twist: Array
 ) -> tuple[System, Response]:
-    """What the contacts act along; x and y without contacts and per unit of each, from the factored A."""
+    """What the contacts act along; x and y without contacts and per unit of each, from the factored A.
+
+    twist (..., L+1, n) tells the viscous forces that some contacts carry.
+    """
     along = system(layout.algebra, contacts.rows, pose)
     change = [_multipliers(forces, _unit(layout, along, e)) for e in range(contacts.count)]
     by_contact = np.stack(np.broadcast_arrays(*change), axis=-2)  # (..., E, X)
     near = _near(layout, contacts, pose)
-    h = np.stack(_arguments(contacts, by_contact, near[..., None, :]), axis=-3)
+    h = np.swapaxes(np.stack(_arguments(contacts, by_contact, near[..., None, :]), axis=-3), -1, -2)
+    for e, slide in _carrying(contacts):
+        h[..., 1, e, slide] += 1.0
     x = _multipliers(forces, w)
-    y = np.stack(_arguments(contacts, x, near), axis=-2)
-    return along, Response(x, np.swapaxes(by_contact, -1, -2), y, np.swapaxes(h, -1, -2))
+    y = _loaded(contacts, x, near, rates(along, twist))
+    return along, Response(x, np.swapaxes(by_contact, -1, -2), y, h)
 
 
 def under(
-    layout: Layout, contacts: Contacts, pose: Pose, forces: Factor, w: Array, like: Response
+    layout: Layout, contacts: Contacts, pose: Pose, forces: Factor, w: Array, rate: Array, like: Response
 ) -> Response:
-    """The response under other wrenches w (..., L, n)."""
+    """The response under other wrenches w (..., L, n), at rates (..., E) of the contacts."""
     x = _multipliers(forces, w)
-    return like._replace(x=x, y=np.stack(_arguments(contacts, x, _near(layout, contacts, pose)), axis=-2))
+    return like._replace(x=x, y=_loaded(contacts, x, _near(layout, contacts, pose), rate))
+
+
+def _loaded(contacts: Contacts, x: Array, near: Array, rate: Array) -> Array:
+    """y of multipliers x, with the viscous forces at rates (..., E) of the contacts."""
+    y = np.stack(_arguments(contacts, x, near), axis=-2)
+    for e, slide in _carrying(contacts):
+        assert contacts.viscous is not None
+        y[..., 1, e] = y[..., 1, e] - contacts.viscous[e] * rate[..., slide]
+    return y
+
+
+def _carrying(contacts: Contacts) -> list[tuple[int, int]]:
+    """Contacts that carry the force of another one, with that one."""
+    if contacts.carried is None:
+        return []
+    return [(e, int(slide)) for e, slide in enumerate(contacts.carried) if slide >= 0]
 
 
 def _multipliers(forces: Factor, wrench: Array) -> Array:

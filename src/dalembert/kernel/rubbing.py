@@ -121,9 +121,10 @@ def rubbed(
     ``slips``: z of each contact where the solution is known; then there are no verdicts, which are known too.
     """
     contacts = _traced(graph, rough.contacts)
-    along, found = response(layout, contacts, pose, s.forces, s.w)
+    twist = traced(graph, moving.twist)  # without motion they are numbers
+    along, found = response(layout, contacts, pose, s.forces, s.w, twist)
     r = Response(*(traced(graph, a) for a in found))
-    told = senses(layout, contacts, along, moving.twist)
+    told = senses(layout, contacts, along, twist)
     sense, c = traced(graph, told.sense), traced(graph, strength(contacts, 1.0))
     slip = slipped(graph, contacts, strong(r, c), sense, slips)
     x = multiplier(r, c * slip.z)
@@ -137,7 +138,7 @@ def rubbed(
     turns = turning(r, x, s.w) if unknown else graph.zero
     doubt, locked = [], turns
     if still is not None and not is_zero(turns):
-        other = under(layout, contacts, pose, s.forces, still, r)
+        other = under(layout, contacts, pose, s.forces, still, told.rate, r)
         other = Response(*(traced(graph, a) for a in other))
         alone = slipped(graph, contacts, strong(other, c), sense)
         locked, doubt = turning(other, multiplier(other, c * alone.z), still), alone.doubt
@@ -163,7 +164,7 @@ def rubbed(
 
 
 def _traced(graph: Graph, contacts: Contacts) -> Contacts:
-    names = ("tilt", "gain", "lever", "coefficient", "resting", "reach")
+    names = ("tilt", "gain", "lever", "coefficient", "resting", "reach", "viscous")
     numbers: dict[str, Any] = {name: traced(graph, getattr(contacts, name)) for name in names}
     return replace(contacts, **numbers)
 
@@ -225,7 +226,9 @@ def slipped(
         single.append(sure)
         stuck.append(jams(graph, part, inner, sense[k]) * known)
         right |= dict.fromkeys(block, known * last.positive() * rough.positive().larger(sure.positive()))
-    return Slipped(z, bears, *(_unfixed(nodes) for nodes in (doubt, unsure, single, stuck)))
+    doubt, unsure, single, stuck = (_unfixed(nodes) for nodes in (doubt, unsure, single, stuck))
+    asked = unsure and single  # in doubt, or jammed, only where both are
+    return Slipped(z, bears, doubt, *((unsure, single, stuck) if asked else ([], [], [])))
 
 
 def _unfixed(nodes: list[Node]) -> list[Node]:

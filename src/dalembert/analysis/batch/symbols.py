@@ -40,28 +40,34 @@ def numbers(m: Mechanism, vary: Iterable[str]) -> tuple[Number, ...]:
 def _refuse_law(m: Mechanism, path: str) -> None:
     keys = path.split(".")
     if keys[0] == "drives" and len(keys) > 1 and m.drives[keys[1]].law is not None and keys[-1] != "effort":
-        raise ModelError(f"{path!r} follows from the drive's law of motion", "leave it out, or the law")
+        raise ModelError(f"{path!r} follows from the drive's law of motion", "leave it out, or the law", keys)
 
 
 def _numbers(path: str, value: Any) -> list[Number]:
     keys = path.split(".")
     if keys[0] == "drives" and len(keys) > 2 and keys[2] in ("position", "law", "range"):
         raise ModelError(
-            f"{path!r} cannot vary from design to design", "give the positions when you call the kernel"
+            f"{path!r} cannot vary from design to design",
+            "give the positions when you call the kernel",
+            keys,
         )
     if keys[0] == "drives" and isinstance(value, tuple):
         raise ModelError(
-            f"{path!r} is a list along the motion", "vary single speeds, or vary their scale in the units"
+            f"{path!r} is a list along the motion",
+            "vary single speeds, or vary their scale in the units",
+            keys,
         )
     if isinstance(value, bool) or value is None or isinstance(value, str):
         raise ModelError(
-            f"{path!r} is {value!r}, which is no number", "give it a number in the description first"
+            f"{path!r} is {value!r}, which is no number", "give it a number in the description first", keys
         )
     if isinstance(value, (int, float)):
         return [Number(path, float(value))]
     if isinstance(value, tuple) and all(isinstance(x, (int, float)) for x in value):
         return [Number(f"{path}.{k}", float(x)) for k, x in enumerate(value)]
-    raise ModelError(f"{path!r} is no number", "name a number, or a vector of numbers, of the description")
+    raise ModelError(
+        f"{path!r} is no number", "name a number, or a vector of numbers, of the description", keys
+    )
 
 
 def geometric(path: str) -> bool:
@@ -80,7 +86,7 @@ def with_numbers(m: Mechanism, where: Iterable[Number], values: Iterable[Any]) -
 
 @dataclass(frozen=True)
 class SymbolicForce:
-    """A known force whose components are symbols."""
+    """A force whose components, of an unknown one per unit of it, are symbols."""
 
     on: str
     at: Any
@@ -117,14 +123,14 @@ def _value(name: str, value: Any, channel: Any) -> Any:
 def _load(name: str, load: Any, channel: Any) -> Any:
     if load.type == "couple" and not load.unknown:
         return load.model_copy(update={"value": _value(f"loads.{name}.value", load.value, channel)})
-    if load.type != "force" or load.unknown:
+    if load.type != "force":
         return load
     if isinstance(load.value, tuple):
         x, y = (_value(f"loads.{name}.value.{k}", v, channel) for k, v in enumerate(load.value))
         return SymbolicForce(load.on, load.at, load.axes, (x, y))
-    size = _value(f"loads.{name}.value", load.value, channel)
+    size = 1.0 if load.unknown else _value(f"loads.{name}.value", load.value, channel)
     x, y = _direction(load.direction)
-    return SymbolicForce(load.on, load.at, load.axes, (size * x, size * y))
+    return SymbolicForce(load.on, load.at, load.axes, (size * x, size * y), unknown=load.unknown)
 
 
 def _direction(angle: Any) -> tuple[Any, Any]:
