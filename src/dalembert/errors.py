@@ -69,6 +69,10 @@ STATUSES: dict[str, Status] = {
         "More constraints than needed: some reactions depend on the elasticity of the links.",
         "Read the unique components; free a constraint, or give the joints a stiffness, to have the others.",
     ),
+    "undefined_load": Status(
+        "A preloaded spring has length zero here: its force has no direction.",
+        "Step over this position, move an end of the spring, or give it no free length.",
+    ),
     "no_balance": Status(
         "No equilibrium with the known efforts and loads.",
         "Leave an effort or a load unknown, or widen the range.",

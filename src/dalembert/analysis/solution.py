@@ -15,6 +15,7 @@ from dalembert.analysis.openings import drive_text, open_sentence
 from dalembert.analysis.positions import Positions, positions
 from dalembert.analysis.result import Result
 from dalembert.analysis.rubbing import Forces, Setting, block_size, joined, rubbing
+from dalembert.analysis.springs import undefined, undefined_sentence
 from dalembert.analysis.verdicts import friction_checks, refuse_friction
 from dalembert.analysis.wrenches import marks
 from dalembert.core.equilibrium import balance, known_sources, motion, reactions
@@ -158,7 +159,7 @@ def _sliced(c: Compiled, part: slice) -> tuple[Any, Any]:
     return replace(f, forces=forces, couples=couples), replace(k, effort=k.effort[part])
 
 
-KEPT = ("ok", "redundant", "self_locking", "jammed", "at_rest")
+KEPT = ("ok", "redundant", "self_locking", "jammed", "at_rest", "undefined_load")
 """Statuses whose motion stands, and what numbers there are of the forces."""
 
 
@@ -166,12 +167,12 @@ def _result(followed: Positions, moved: _Moved, f: Forces, inertia: bool, forces
     c = followed.compiled
     assert followed.path is not None
     status, reasons = _statuses(followed, moved, f, forces)
-    lost = np.array([s not in KEPT for s in status])
+    lost, undirected = np.array([(s not in KEPT, s == "undefined_load") for s in status]).T
     open_ = ~followed.path.reached
     _blank(open_, moved.point, moved.turn, moved.rotation)
     _blank(lost, moved.twist, moved.acceleration)
     for part in (f, *f.ends):
-        none = lost | (part.residual > UNBALANCED)
+        none = lost | undirected | (part.residual > UNBALANCED)
         _blank(none, *part[:6], *(a for a in part.friction or () if a.dtype.kind == "f"))
     made = (c, inertia, followed.mobility, followed.mode, status, reasons, *moved[:5])
     result = Result(*made, *f[:6], *f[7:9], friction=f.friction, unique_in=f.unique_in)
@@ -199,6 +200,8 @@ def _statuses(
         ("singular", ~(moved.rcond >= limit), lambda k: _singular_sentence(c, k)),
     ]
     if forces:
+        pushing = undefined(c, path.pose)
+        checks += [("undefined_load", pushing.any(axis=-1), lambda k: undefined_sentence(c, pushing, k))]
         checks += [("no_balance", unheld.all(axis=0), lambda k: _no_balance_sentence(c))]
         checks += friction_checks(c, f, f.rcond >= limit)
         checks += [

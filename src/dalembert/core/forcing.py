@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.core import gearing
+from dalembert.core.choice import traced
 from dalembert.core.constraints import measure, rates, system
 from dalembert.core.geometry import arm, span
 from dalembert.core.layout import Gearing, Layout, Mesh, Pose, System
@@ -23,6 +24,9 @@ Ints = NDArray[np.intp]
 
 MANY = 100
 """Contributions above which one indexed addition is faster than a loop over them."""
+
+VANISHED = 1e-9
+"""Length of a spring over the characteristic length below which it has no direction: positions are no better known."""
 
 
 @dataclass(frozen=True)
@@ -168,18 +172,56 @@ def couple_wrench(layout: Layout, couples: Couples, pose: Pose) -> Source:
 def spring_wrench(layout: Layout, springs: Springs, pose: Pose, twist: Array) -> Source:
     """Springs and dampers between points: on a towards b, on b the opposite."""
     g = layout.algebra
-    ra, rb = arm(g, pose, springs.a, springs.at_a), arm(g, pose, springs.b, springs.at_b)
-    span = pose.point[..., springs.b, :] + rb - pose.point[..., springs.a, :] - ra
-    length = np.sqrt((span * span).sum(axis=-1))
-    e = span / np.sqrt((span * span).sum(axis=-1) + 1e-300)[..., None]  # no pull on a spring of length zero
+    ra, rb, span, square = _spans(layout, springs, pose)
     va = twist[..., springs.a, : g.d] + g.spin(twist[..., springs.a, g.d :], ra)
     vb = twist[..., springs.b, : g.d] + g.spin(twist[..., springs.b, g.d :], rb)
-    tension = springs.stiffness * (length - springs.free_length) + springs.damping * g.dot(e, vb - va)
+    e = _direction(layout, springs, span, square, vb - va)
+    extended = np.sqrt(square) - springs.free_length
+    tension = springs.stiffness * extended + springs.damping * g.dot(e, vb - va)
     pull = tension[..., None] * e
     return Source(
         np.concatenate([springs.a, springs.b]),
         np.concatenate([_wrench(g, ra, pull), _wrench(g, rb, -pull)], axis=-2),
     )
+
+
+def _spans(layout: Layout, springs: Springs, pose: Pose) -> tuple[Array, Array, Array, Array]:
+    """Arms of both ends (..., k, d), the way from a to b (..., k, d), and its square (..., k)."""
+    g = layout.algebra
+    ra, rb = arm(g, pose, springs.a, springs.at_a), arm(g, pose, springs.b, springs.at_b)
+    span = pose.point[..., springs.b, :] + rb - pose.point[..., springs.a, :] - ra
+    return ra, rb, span, (span * span).sum(axis=-1)
+
+
+def _direction(layout: Layout, springs: Springs, span: Array, square: Array, rate: Array) -> Array:
+    """Unit vectors (..., k, d) from a to b.
+
+    Where b passes a, a damper's is that of their relative motion: its force is the same just before and just after. A
+    preloaded spring turns its force round there: no number. One without force at length zero needs none.
+    """
+    needed = directed(springs)
+    if traced(span):  # no number at length zero, where the general executor decides
+        return np.asarray(span / np.sqrt(square + np.where(needed, 0.0, 1e-300))[..., None])
+    gone = (square == 0) | (needed & (square <= (VANISHED * layout.length) ** 2))
+    speed = np.sqrt((rate * rate).sum(axis=-1))
+    moving = rate / np.where(speed > 0, speed, 1.0)[..., None]
+    there = np.where(preloaded(springs)[..., None], np.nan, moving)
+    return np.where(gone[..., None], there, span / np.sqrt(np.where(gone, 1.0, square))[..., None])
+
+
+def preloaded(springs: Springs) -> NDArray[np.bool_]:
+    """Springs (k,) that push at length zero."""
+    return np.asarray((springs.stiffness != 0) & (springs.free_length != 0), bool)
+
+
+def directed(springs: Springs) -> NDArray[np.bool_]:
+    """Springs and dampers (k,) whose force at length zero depends on how it is reached."""
+    return preloaded(springs) | np.asarray(springs.damping != 0, bool)
+
+
+def away(layout: Layout, springs: Springs, pose: Pose) -> Array:
+    """Square of each length (..., k) less that below which there is no direction: not positive at length zero."""
+    return np.asarray(_spans(layout, springs, pose)[-1] - (VANISHED * layout.length) ** 2)
 
 
 def resistance_wrench(layout: Layout, resistances: Resistances, pose: Pose, twist: Array) -> Source:

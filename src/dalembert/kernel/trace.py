@@ -107,7 +107,7 @@ def trace(p: Problem) -> Traced:
         load=traced(g, found.load),
         residual=_residual(g, layout, summed(layout, pair(s.unknown, x)), rub.total),
         open=placed.open,
-        doubt=[*apart, *placed.doubt, *_singular(p, factors, s.forces)],
+        doubt=[*apart, *placed.doubt, *_singular(p, factors, s.forces), *_short(p, layout, pose)],
         rubbed=rub,
         flips=placed.flips,
     )
@@ -230,6 +230,13 @@ def _singular(p: Problem, *factors: Any) -> list[Node]:
         if usual > 0:
             out.append(pivot * pivot * (1 / usual**2) - NEAR)
     return out
+
+
+def _short(p: Problem, layout: Layout, pose: Pose) -> list[Node]:
+    """Not positive where a spring or damper whose direction matters has length zero."""
+    springs = p.forcing.springs
+    nodes = traced(p.graph, fc.away(layout, springs, pose))[fc.directed(springs)]
+    return [n for n in nodes if n.level != CONSTANT]
 
 
 def _pivots(factors: Any) -> list[Node]:

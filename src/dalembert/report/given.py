@@ -207,7 +207,8 @@ def _load_text(c: Chosen, name: str) -> str:
             if spot is not None
             else ""
         )
-        return _vector_text(c, "force", a.force[c.k]) + where + at
+        known = np.isfinite(a.force[c.k]).all()
+        return (_vector_text(c, "force", a.force[c.k]) if known else "no value") + where + at
     return f"{_vector_text(c, 'moment', a.couple[c.k])} on {c.shown.heading(a.link)}"
 
 

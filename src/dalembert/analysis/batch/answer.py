@@ -24,6 +24,7 @@ CODES = (
     "jammed",
     "redundant",
     "self_locking",
+    "undefined_load",
 )
 """Statuses by the marks of the kernel; `undecided` goes to the general executor and does not come back."""
 
