@@ -8,6 +8,8 @@ import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import gettempdir
+from typing import IO
 
 from dalembert.errors import DalembertError, ModelError
 
@@ -23,8 +25,11 @@ def check_installed(package: str, what: str, extra: str = "results") -> None:
 
 def check_new(path: Path, overwrite: bool) -> None:
     """Raise where a file cannot be new: before the work, not behind it."""
-    if os.path.isdir(path):
-        raise ModelError(f"{path} is a folder", "name a file in it")
+    kind = _kind(path)
+    if kind in STREAMS:
+        return
+    if kind:
+        raise ModelError(f"{path} is {kind}", "name a file" + (" in it" if kind == "a folder" else ""))
     if not os.path.isdir(path.parent):
         raise ModelError(f"cannot write {path}: there is no folder {path.parent}", "make it, or name another")
     if os.path.exists(path) and not overwrite:
@@ -33,28 +38,72 @@ def check_new(path: Path, overwrite: bool) -> None:
         )
 
 
+KINDS = {
+    stat.S_IFDIR: "a folder",
+    stat.S_IFIFO: "a pipe",
+    stat.S_IFCHR: "a device",
+    stat.S_IFBLK: "a block device",
+    stat.S_IFSOCK: "a socket",
+}
+STREAMS = ("a pipe", "a device")
+"""What is written into and stays what it is: a named pipe, `>(...)`, /dev/null."""
+
+
+def _kind(path: Path) -> str:
+    """What stands at a path, if it is no ordinary file."""
+    try:
+        return KINDS.get(stat.S_IFMT(os.stat(path).st_mode), "")
+    except (OSError, ValueError):
+        return ""
+
+
 @contextmanager
 def new_file(path: str | os.PathLike[str], overwrite: bool = False) -> Iterator[Path]:
-    """A temporary file beside `path` that takes its place when all is written; an existing one is kept.
+    """A temporary file that takes the place of `path` when all is written; an existing one is kept.
 
-    What is overwritten keeps its permissions, and a symbolic link goes on pointing where it did.
+    What is overwritten keeps its permissions, a symbolic link goes on pointing where it did, and all names of a file
+    that has several (hard links) name the new content. Pipes and devices are written into.
     """
     asked = Path(path)
     check_new(asked, overwrite)
+    stream = _kind(asked) in STREAMS
     try:
-        target = Path(os.path.realpath(asked))
-        temporary = target.with_name(f".{target.stem[:40]}.{secrets.token_hex(8)}{target.suffix}")
+        target = asked if stream else Path(os.path.realpath(asked))
+        beside = Path(gettempdir()) if stream else target.parent
+        temporary = beside / f".{target.stem[:40]}.{secrets.token_hex(8)}{target.suffix}"
     except (OSError, ValueError) as error:  # a ValueError where the name has the character 0
         raise _unwritable(asked, error) from None
     try:  # the name is known before the file exists: an interruption at any moment leaves nothing behind
         os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600))
         yield temporary
-        temporary.chmod(stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o666 & ~_umask())
-        temporary.replace(target)
+        old = None if stream or not target.exists() else target.stat()
+        temporary.chmod(stat.S_IMODE(old.st_mode) if old else 0o666 & ~_umask())
+        if stream or (old and old.st_nlink > 1):
+            _write_into(target, temporary.read_bytes(), b"" if stream else target.read_bytes())
+        else:
+            temporary.replace(target)
     except OSError as error:
         raise _unwritable(asked, error) from None
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def _write_into(target: Path, content: bytes, before: bytes) -> None:
+    """Write a file that stays the same file; if that fails, it has what it had before."""
+    try:
+        with open(target, "wb", buffering=0) as file:
+            _write_all(file, content)
+    except BaseException:
+        if before:
+            with open(target, "wb", buffering=0) as file:
+                _write_all(file, before)
+        raise
+
+
+def _write_all(file: IO[bytes], content: bytes) -> None:
+    done = 0
+    while done < len(content):
+        done += file.write(content[done:])
 
 
 def _unwritable(path: Path, error: OSError | ValueError) -> ModelError:

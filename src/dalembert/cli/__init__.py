@@ -6,6 +6,8 @@ import os
 import sys
 from collections.abc import Sequence
 
+SCREEN = dict.fromkeys(("--json", "--csv"), "-") | dict.fromkeys(("--output", "-o"), "/dev/stdout")
+"""Option whose value may be -, the screen, and what it is then given."""
 NO_ANSWER, WRONG_INPUT, INTERRUPTED = 1, 2, 130
 
 
@@ -23,8 +25,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return INTERRUPTED
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # nobody reads any more: let the last flush go nowhere
+        _let_go()
         return 0
+    except OSError as error:
+        _let_go()
+        print(f"standard output: {(error.strerror or str(error)).lower()}", file=sys.stderr)
+        return WRONG_INPUT
+
+
+def _let_go() -> None:
+    """Let the last flush of an output that takes no more go nowhere."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
 def _run(arguments: list[str]) -> int:
@@ -34,7 +45,7 @@ def _run(arguments: list[str]) -> int:
     from dalembert.errors import AnalysisError, DalembertError
 
     try:
-        status = app(arguments, exit_on_error=False, print_error=False, result_action="return_value")
+        status = app(_named(arguments), exit_on_error=False, print_error=False, result_action="return_value")
     except CycloptsError as error:
         return _refused(command_line_error(error, arguments))
     except AnalysisError as error:
@@ -45,8 +56,18 @@ def _run(arguments: list[str]) -> int:
     except BrokenPipeError:
         raise
     except OSError as error:
+        if error.filename is None:  # of a stream that is open: standard output
+            raise
         return _refused(f"{error.filename}: {(error.strerror or str(error)).lower()}")
     return int(status or 0)
+
+
+def _named(arguments: list[str]) -> list[str]:
+    """The arguments with a name for standard input and output: the parser would take a lone - for an option."""
+    return [
+        SCREEN.get(previous, "/dev/stdin") if argument == "-" else argument
+        for previous, argument in zip(["", *arguments], arguments, strict=False)
+    ]
 
 
 def _refused(sentence: str) -> int:

@@ -29,7 +29,7 @@ def example_copied(name: str, output: Path | None, force: bool) -> int:
 
 
 def _model_file(text: str, output: Path | None, force: bool) -> int:
-    if output is not None and str(output) != "-" and output.suffix.lower() not in YAML:
+    if output is not None and not _on_screen(output) and output.suffix.lower() not in YAML:
         raise ModelError(
             f"{output} is not named like YAML, which this is",
             "end its name with .yaml; `dalembert convert` writes JSON and TOML",
@@ -37,11 +37,16 @@ def _model_file(text: str, output: Path | None, force: bool) -> int:
     return emitted(text, output, force)
 
 
+def _on_screen(output: Path | None) -> bool:
+    return output is None or str(output) in ("-", "/dev/stdout")
+
+
 def emitted(text: str, output: Path | None, force: bool) -> int:
     """Text to a new file, or printed."""
-    if output is None or str(output) == "-":
+    if _on_screen(output):
         print(text.rstrip("\n"))
         return 0
+    assert output is not None
     with new_file(output, force) as temporary:
         temporary.write_text(text, encoding="utf-8")
     print(f"Written: {output}")

@@ -47,9 +47,10 @@ def drawn(
             "write .svg, .pdf or .png, or ask for --view animation",
         )
     check_new(output, force)
+    m = loaded(file, friction)
     if positions is None and (view == "charts" or _moves(view, output)):
-        positions = _enough(file, 36 if _moves(view, output) else 72)
-    result, at = _solved(loaded(file, friction), at, static, positions)
+        positions = _enough(m, 36 if _moves(view, output) else 72)
+    result, at = _solved(m, at, static, positions)
     notation = draw.Notation(links="name" if names else "number")
     if output.suffix.lower() == ".glb":
         draw.solid_model(result).save(output, force)
@@ -169,10 +170,7 @@ def _moves(view: str, output: Path) -> bool:
     return view == "animation" or output.suffix.lower() in (".gif", ".webp", ".glb")
 
 
-def _enough(file: Path, count: int) -> int | None:
+def _enough(m: Mechanism, count: int) -> int | None:
     """Charts and animations of a file with one position show a whole turn."""
-    from dalembert.model import load
-
-    m = load(file)
     schedule = m.schedule()
     return count if len(schedule.position) == 1 and m.drives and schedule.unknown is None else None

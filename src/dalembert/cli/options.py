@@ -47,7 +47,7 @@ def target(sentence: str) -> Parameter:
     return Parameter(allow_leading_hyphen=True, help=sentence)
 
 
-ModelFile = Annotated[Path, said("Model file: YAML, JSON or TOML.")]
+ModelFile = Annotated[Path, said("Model file: YAML, JSON or TOML; - is standard input.")]
 NewFile = Annotated[Path | None, output("Write it to this file; without it, it is printed.")]
 Positions = Annotated[
     int | None,

@@ -289,7 +289,7 @@ def mechanism(tree: Mapping[str, Any], source: Source | None = None) -> Mechanis
             raise ModelError(
                 "this is a file of forces and couples", "use dalembert wrench, or da.wrench.load"
             )
-        folder = os.path.dirname(source.name) if source else ""
+        folder = source.folder if source else ""
         found = Mechanism.model_validate(tree, context=file_rules(tree, folder))
     except ModelError as error:
         raise error.located(source) from None

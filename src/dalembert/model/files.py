@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import json
 import os
+import re
+import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 from dalembert.errors import ModelError
 from dalembert.model.description import Mechanism, mechanism
-from dalembert.model.source import Lines, Source
+from dalembert.model.source import STANDARD_INPUT, Lines, Source, is_stream
 from dalembert.saving import new_file
 from dalembert.wording import nearest
 
@@ -36,9 +39,10 @@ def loads(text: str, form: str = "yaml", name: str = "text") -> Mechanism:
 
 
 def read_file(path: FilePath) -> tuple[Any, Source]:
-    """The tree of a file as it is written, and where it came from."""
-    name = os.fspath(path)
-    return read_text(_decoded(_content(Path(path), name), name), _format(path), name)
+    """The tree of a file as it is written, and where it came from; `-` is standard input."""
+    name = STANDARD_INPUT[-1] if os.fspath(path) in STANDARD_INPUT[:2] else os.fspath(path)
+    text = _decoded(_content(Path(path), name), name)
+    return read_text(text, _form_of_stream(path, text) if is_stream(path) else _format(path), name)
 
 
 def read_text(text: str, form: str = "yaml", name: str = "text") -> tuple[Any, Source]:
@@ -113,14 +117,8 @@ class _Later:
 
 def _content(path: Path, name: str) -> bytes:
     try:
-        kind = (
-            "a directory"
-            if path.is_dir()
-            else "no ordinary file"
-            if path.exists() and not path.is_file()
-            else ""
-        )
-        content = b"" if kind else _first_bytes(path)
+        directory = path.is_dir()
+        content = b"" if directory else _first_bytes(path)
     except FileNotFoundError:
         raise ModelError(f"there is no file {name}", _neighbour(path), (), name, 1) from None
     except (OSError, ValueError) as error:
@@ -132,8 +130,8 @@ def _content(path: Path, name: str) -> bytes:
             repr(name)[1:-1],
             1,
         ) from None
-    if kind:
-        raise ModelError(f"{name} is {kind}", "name a .yaml, .json or .toml file", (), name, 1)
+    if directory:
+        raise ModelError(f"{name} is a directory", "name a .yaml, .json or .toml file", (), name, 1)
     if len(content) > LARGEST:
         raise ModelError(
             f"the file has more than {LARGEST} bytes", "give large tables fewer points", (), name, 1
@@ -141,7 +139,24 @@ def _content(path: Path, name: str) -> bytes:
     return content
 
 
+def _form_of_stream(path: FilePath, text: str) -> str:
+    """The format by the name's ending, or else by how the text begins."""
+    suffix = Path(path).suffix.lower()
+    if suffix in FORMATS:
+        return FORMATS[suffix]
+    if text.removeprefix("\ufeff").lstrip()[:1] == "{":
+        try:
+            json.loads(text)
+        except (ValueError, RecursionError):
+            return "yaml"
+        return "json"
+    said = re.search(r"^(?!\s*(#|$)).*", text, re.MULTILINE)
+    return "toml" if said and re.match(r"\[|[\w.\"'-]+\s*=", said[0]) else "yaml"
+
+
 def _first_bytes(path: Path) -> bytes:
+    if str(path) in STANDARD_INPUT[:2]:
+        return sys.stdin.buffer.read(LARGEST + 1)
     with path.open("rb") as file:
         return file.read(LARGEST + 1)
 
@@ -214,8 +229,6 @@ def tree_text(tree: Mapping[str, Any], form: str = "yaml") -> str:
 
         return written(tree)
     if form == "json":
-        import json
-
         return json.dumps(tree, indent=2, ensure_ascii=False) + "\n"
     return _toml_text(tree)
 

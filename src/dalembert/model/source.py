@@ -2,11 +2,28 @@
 
 from __future__ import annotations
 
+import os
+import stat
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 Path = tuple[str | int, ...]
 Lines = Mapping[Path, int]
+
+
+STANDARD_INPUT = ("-", "/dev/stdin", "standard input")
+"""What is read from standard input, and what messages call it."""
+
+
+def is_stream(path: str | os.PathLike[str]) -> bool:
+    """Whether it can be read only once, and its name says little: standard input, a pipe, `<(...)`, a device."""
+    if os.fspath(path) in STANDARD_INPUT:
+        return True
+    try:
+        mode = os.stat(path).st_mode
+    except (OSError, ValueError):
+        return False
+    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
 
 
 @dataclass(frozen=True)
@@ -19,6 +36,11 @@ class Source:
 
     name: str
     find: Callable[[], Lines] = field(repr=False, compare=False)
+
+    @property
+    def folder(self) -> str:
+        """The folder that other files are named from; empty is the current one."""
+        return "" if is_stream(self.name) else os.path.dirname(self.name)
 
     def line(self, path: Sequence[str | int]) -> int:
         """The line of a path down the tree, or of the nearest part around it that has one."""
