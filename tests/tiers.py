@@ -25,6 +25,22 @@ def tiers(quick: Iterable[Any], long: Iterable[Any], exhaustive: Iterable[Any] =
     ]
 
 
+_MET: dict[Callable[[int], bool], list[int]] = {}
+
+
+def nth(n: int, holds: Callable[[int], bool]) -> int:
+    """The nth seed, from 0, of which something holds, so that no law passes by what it does not speak of.
+
+    >>> nth(2, lambda seed: seed % 3 == 1)
+    7
+    """
+    met = _MET.setdefault(holds, [])
+    while len(met) <= n:
+        last = met[-1] if met else -1
+        met.append(next(seed for seed in range(last + 1, last + 1000) if holds(seed)))
+    return met[n]
+
+
 def over(quick: int, whole: int = 1000) -> Callable[..., Any]:
     """A law on the first seeds, one test each, and on the rest of the whole a block a test."""
     return over_seeds(range(quick), range(quick, whole))

@@ -140,14 +140,25 @@ def test_a_rod_that_jams_between_its_balls() -> None:
     assert off < TOLERANCE, part
 
 
+@cache
+def drawn(seed: int) -> tuple[Any, Array, Any]:
+    """A random mechanism with friction, its path, and the answer."""
+    tree, _, path = random_drawn.mechanism(seed)
+    roughened(tree, seed)
+    return tree, path, da.dynamics(da.mechanism(tree))
+
+
+@cache
+def moves_with_friction(seed: int) -> bool:
+    r = drawn(seed)[-1]
+    return r.friction is not None and "at_rest" not in r.status
+
+
 @over(2)
 def test_random_mechanisms(seed: int) -> None:
     """Solved where the oracle's branch goes on to all of friction, jammed where that ends, at the same scale."""
-    tree, _, path = random_drawn.mechanism(seed)
-    m = natural.Machine(roughened(tree, seed))
-    r = da.dynamics(da.mechanism(tree))
-    if r.friction is None or "at_rest" in r.status:
-        return
+    tree, path, r = drawn(tiers.nth(seed, moves_with_friction))
+    m = natural.Machine(tree)
     b = rubbing.solve(m, natural.solve(m, path))
     assert ((b.scale == 1) == solved(r)).all()
     jammed = ~solved(r)

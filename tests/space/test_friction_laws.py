@@ -16,7 +16,7 @@ from tests.random_space.drawing import about
 from tests.space.free_bodies import Balance
 from tests.space.rough import SOLVED, across_line, drawing, friction_laws, rough, roughened, solved
 from tests.space.screw_motion import seen
-from tests.tiers import over_seeds
+from tests.tiers import nth, over_seeds
 
 TOLERANCE = 1e-9
 VERDICTS = (*SOLVED, "jammed", "at_rest", "no_balance")
@@ -67,8 +67,11 @@ def test_solved_or_a_verdict_and_no_wrong_number(seed: int) -> None:
     for k in np.flatnonzero(~good):
         assert r.reasons[k]
         assert np.isnan([r.effort(name)[k] for name in r.drives]).all()
-    if not good.any():
-        return
+    if good.any():
+        check_numbers(r, d, good)
+
+
+def check_numbers(r: Any, d: Any, good: Array) -> None:
     b = Balance(r, d, seen(r, d))
     room = (
         TOLERANCE * max(b.scale if good.all() else 0.0, largest(r)) * max(np.nanmax(np.abs(b.s.twist)), 1.0)
@@ -82,12 +85,18 @@ def test_solved_or_a_verdict_and_no_wrong_number(seed: int) -> None:
     assert np.max(da.virtual_work(r).gap[good]) < TOLERANCE
 
 
-@over(6)
+@lru_cache(maxsize=512)
+def rubs(seed: int) -> bool:
+    """It has friction, and numbers at some position."""
+    r = answered(seed)
+    return r.friction is not None and bool(solved(r).any())
+
+
+@over_seeds([seed for seed in QUICK if seed not in (42, 50)], range(150))
 def test_friction_is_mu_times_what_bears_against_the_slip(seed: int) -> None:
+    seed = seed if seed in QUICK else nth(seed, rubs)
     r, d = answered(seed), drawing(seed)
-    good, s = solved(r), seen(r, drawing(seed))
-    if not good.any() or r.friction is None:
-        return
+    good, s = solved(r), seen(r, d)
     b = Balance(r, d, s)
     for name, law in friction_laws(r, d, s).items():
         found = np.concatenate([r.friction_force(name), r.friction_moment(name)], -1)

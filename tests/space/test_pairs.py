@@ -93,15 +93,13 @@ def test_reactions_lie_in_the_joints_axes(kind: str, keys: dict[str, str], seed:
 
 
 @pytest.mark.parametrize("seed", range(3))
-@pytest.mark.parametrize(("kind", "keys"), CASES)
+@pytest.mark.parametrize(("kind", "keys"), [case for case in CASES if case.values[0] != "weld"])
 def test_rows_are_the_derivatives_of_their_measures(kind: str, keys: dict[str, str], seed: int) -> None:
     """Against central differences along motions that the joint allows: rates, and drift as the second derivative."""
     rng = np.random.default_rng(200 + seed)
     c, pose = placed(body_on(kind, rng, **keys), rng)
     g, step = c.layout.algebra, 1e-4
     twists = allowed(c, pose, kind)
-    if not len(twists):
-        return
     twist = rng.normal(size=len(twists)) @ twists
     whole = np.zeros((1, 2, 6))
     whole[0, 0] = twist
