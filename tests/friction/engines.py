@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
+
+import numpy as np
 
 import dalembert as da
+
+GAS = 22089.32334555
+"""N on the piston, from its pressure and bore."""
 
 
 def engine(
@@ -13,7 +18,7 @@ def engine(
     guide: float | None = None,
     position: Any = 50,
     speed: float = 1.0,
-    gas: float = 22089.32334555,
+    gas: float = GAS,
     **more: Any,
 ) -> Any:
     """Crank 0.3 m, rod 1.25 m, journals of 140, 120 and 80 mm; guide coefficient 0.07."""
@@ -50,6 +55,53 @@ def engine(
             **more,
         }
     )
+
+
+class ByHand(NamedTuple):
+    """Of the engine: effort, force in the rod and the angle of its line, normal force, couple and corners of the guide,
+    efforts of the taught iteration, determinant over that without friction."""
+
+    effort: float
+    rod: float
+    angle: float
+    normal: float
+    couple: float
+    lower: float
+    upper: float
+    iteration: list[float]
+    determinant: float
+
+
+def engine_by_hand(
+    sense: int = 1, mu: float = 0.4, circle: str = "tan", half: float = np.inf, position: float = 50.0
+) -> ByHand:
+    """The line of the rod's force touches the circles at A and B on the sides that the turning tells; at O likewise.
+
+    A slow motion of the crank in a sense; the guide has 0.07 and half a length, and bears on two corners
+    where the couple of friction at B is more than one face takes. The iteration is that of a long guide.
+    """
+    r, length, t, guide, gas = 0.3, 1.25, np.radians(position), 0.07 * sense, GAS
+    share = mu if circle == "tan" else np.sin(np.arctan(mu))
+    main, big, small = (sense * share * radius for radius in (0.07, 0.06, 0.04))  # at O, A and B
+    small *= np.sign(np.cos(t))  # where the rod swings back it turns the other way against the piston
+    beta = np.arcsin(r * np.sin(t) / length)  # of the rod, gamma of its force's line
+    gamma = beta - np.arcsin((big + small) / length)
+    corners = abs(small) / half
+    rod = gas / (np.cos(gamma) + guide * max(np.sin(gamma), corners))
+    normal, ends = rod * np.sin(gamma), rod * max(np.sin(gamma), corners)
+    pressed = normal, abs(small) * rod, (ends + normal) / 2, (ends - normal) / 2
+    x, y = length * np.cos(beta), length * np.sin(beta)
+    found = [-r * gas * np.sin(t + beta) / np.cos(beta)]
+    size, normal = gas / np.cos(beta), gas * np.tan(beta)
+    for _ in range(30):  # friction of the last forces, then new forces
+        along = gas - guide * normal
+        normal = (y * along - (big + small) * size) / x
+        found.append(-(r * np.sin(t) * along + r * np.cos(t) * normal - (big + main) * size))
+        size = np.hypot(along, normal)
+    c = big + small
+    determinant = (x + c * np.sin(gamma) + guide * (y - c * np.cos(gamma))) / x
+    effort = -rod * (r * np.sin(t + gamma) - big - main)
+    return ByHand(effort, rod, float(gamma), *pressed, found, determinant)
 
 
 def pushed_slider(mu: float, speed: float = 1.0, angle: float = 45.0, load: float = 100.0) -> Any:

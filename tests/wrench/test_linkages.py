@@ -11,9 +11,7 @@ from tests.random_mechanisms import random_case
 
 BUNDLED = {
     **examples(),
-    **{
-        name: path for name, path in cases().items() if name.startswith(("seed-003", "st-", "fr-02", "fr-04"))
-    },
+    **{name: path for name, path in cases().items() if name.startswith(("seed-003", "st-"))},
 }
 
 
