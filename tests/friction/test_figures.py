@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -163,7 +164,7 @@ def test_two_circles_joined_by_a_link_need_an_internal_tangent() -> None:
 
 
 def loaded(gas: float, weight: float) -> float:
-    """The engine's effort at 50 deg by hand, its rod loaded at 0.6 m: piston and rod in two unknowns, the force at B."""
+    """The engine's effort at 50 deg by hand, its rod loaded at 0.6 m: two equations for the force at B."""
     r, length, t = 0.3, 1.25, np.radians(50)
     beta = np.arcsin(r * np.sin(t) / length)
 
@@ -173,7 +174,7 @@ def loaded(gas: float, weight: float) -> float:
         about_a = length * (np.cos(beta) * p[1] + np.sin(beta) * p[0]) - 0.6 * np.cos(beta) * weight + couples
         return [-gas - p[0] + 0.07 * abs(p[1]), about_a]
 
-    p = fsolve(left, [-gas, gas * np.tan(beta) + weight / 2], xtol=1e-14)
+    p = fsolve(left, [-gas, gas * np.tan(beta) + weight / 2], xtol=1e-12)
     x, y = -p[0], weight - p[1]
     return float(r * (np.cos(t) * y - np.sin(t) * x) + 0.052 * np.hypot(x, y))
 
