@@ -215,3 +215,23 @@ def compared(r: Any, b: Branch, m: Machine) -> float:
             abs(r.effort(d.name)[0] - b.efforts[d.name]) / force / (length if d.freedom == "turn" else 1.0)
         )
     return float(max(off))
+
+
+def resting(tree: Tree, guess: Array, count: int, seed: int) -> dict[str, Array]:
+    """Efforts of states of rest: every contact at a random part of its limit, half of them all at the limit itself.
+
+    The parts are raised together from no friction; states on whose way Newton does not arrive are left out.
+    """
+    p, rng = _Problem(tree, guess[:1]), np.random.default_rng(seed)
+    bare, moving = np.linalg.solve(p.A, -p.w), p.joints
+    found = []
+    for k in range(count):
+        parts = rng.uniform(-1, 1, (len(moving), 2))
+        parts = np.where(rng.random(parts.shape) < (0.8 if k % 2 else 2.0), np.sign(parts), parts)
+        p.joints = [j._replace(slide=f, turn=g) for j, (f, g) in zip(moving, parts, strict=True)]
+        x: Array | None = p.solved(bare, 0.0)
+        for s in np.linspace(0.1, 1, 10):
+            x = None if x is None else p.solved(x, s)
+        if x is not None:
+            found.append(x[len(x) - len(p.drives) :])
+    return dict(zip(p.drives, np.array(found).T, strict=True))

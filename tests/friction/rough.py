@@ -46,6 +46,16 @@ def _friction(kind: str, rng: np.random.Generator, most: float) -> dict[str, Any
     return made
 
 
+def still_tree(seed: int, most: float) -> dict[str, Any]:
+    """A random mechanism without speed, at its first position."""
+    tree = rough_tree(seed, most=most, links=(2, 8))
+    for drive in tree["drives"].values():
+        drive["speed"] = "0 rad/s" if isinstance(drive["speed"], str) else 0.0
+        drive["acceleration"] = "0 rad/s^2" if isinstance(drive["acceleration"], str) else 0.0
+        drive["position"] = drive["position"][:1]
+    return tree
+
+
 @lru_cache(maxsize=64)
 def rough(seed: int) -> Any:
     """The mechanism of a seed."""

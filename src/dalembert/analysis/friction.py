@@ -55,6 +55,21 @@ def interval(result: Result, name: str) -> Array:
     return np.stack([value(end) for end in result.ends[unknowns.index(name)]], axis=-1)
 
 
+def holding(result: Result, name: str) -> Array:
+    """Low and high (P, 2) that friction can hold at rest for some history; the interval where it is a number."""
+    ends = interval(result, name)
+    if result.friction is None:
+        return ends
+    still = np.array([status == "at_rest" for status in result.status])
+    return np.where(still[:, None], result.friction.holding[:, unknown_names(result).index(name)], ends)
+
+
+def holds_beyond(ends: Array, held: Array) -> Array:
+    """Where low and high (..., 2) of what friction can hold lie beyond those at which motion impends."""
+    known = np.where(np.isnan(ends), [-np.inf, np.inf], ends)
+    return np.asarray((held[..., 0] < known[..., 0]) | (held[..., 1] > known[..., 1]))
+
+
 def unknown_names(result: Result) -> list[str]:
     """Efforts and loads that are asked for, in the order of ``result.ends``."""
     asked = result.compiled.known.asked

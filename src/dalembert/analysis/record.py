@@ -102,6 +102,7 @@ def _fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], List
     for name, kind in unknown_kinds(result).items() if result.ends else ():
         group = "efforts" if name in result.drives else "unknown_loads"
         out[group, name] = _ranges(out[group, name], numbers(kind, result.interval(name)), result.status)
+        out["holding", name] = _sought(numbers(kind, result.holding(name)), result.holding(name))
     out |= _reaction_fields(result, to, axes)
     for name, ends in zip(unknown_kinds(result), result.ends, strict=False):
         for which, end in zip(("low", "high"), ends, strict=True):
@@ -176,6 +177,12 @@ def _ranges(single: Lists, ends: Lists, status: tuple[str, ...]) -> Lists:
     return lists
 
 
+def _sought(ends: Lists, values: Array) -> Lists:
+    """`[low, high]`, where nothing bounds it null; None where it is not sought."""
+    unsought = np.asarray(np.isnan(values).all(axis=-1))
+    return lambda part: [None if no else both for both, no in zip(ends(part), unsought[part], strict=True)]
+
+
 def nulled(values: Array) -> list[Any]:
     """A list with None for NaN and infinity."""
     finite = np.isfinite(values)
@@ -205,7 +212,7 @@ def _record(result: Result, position: int, values: dict[tuple[str, ...], Any]) -
     if result.friction is not None:
         record["friction"] = _solution(result, position)
     for path, value in values.items():
-        if path[0] == "ends" and status != "at_rest":
+        if path[0] in ("ends", "holding") and (status != "at_rest" or value is None):
             continue
         place = record
         for key in path[:-1]:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert.analysis import friction
 from dalembert.analysis.wrenches import Axes, axes_of, unique_in, wrench
 from dalembert.errors import STATUSES, ModelError
 
@@ -229,19 +230,19 @@ class Result:
 
     def power_lost(self, joint: str, kind: Literal["dry", "viscous", "all"] = "all") -> Array:
         """Power that friction takes in a joint (P,), W."""
-        from dalembert.analysis import friction
-
         self._joint(joint, None)
         return friction.power_lost(self, joint, kind)
 
     def interval(self, name: str) -> Array:
-        """Low and high end (P, 2) of an effort or unknown load that friction leaves open; equal where it does not.
-
-        ``ends`` holds for each of them the whole result at both ends.
-        """
-        from dalembert.analysis import friction
-
+        """Low and high end (P, 2) where motion impends, or one number twice; ``ends`` has the whole result there."""
         return friction.interval(self, name)
+
+    def holding(self, name: str) -> Array:
+        """Low and high (P, 2) of what friction can hold at rest for some history: ``interval`` or more.
+
+        Infinite where the contacts wedge and hold any value; NaN where it is not sought.
+        """
+        return friction.holding(self, name)
 
     # links
 

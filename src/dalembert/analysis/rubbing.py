@@ -31,6 +31,7 @@ from dalembert.core.friction import (
     strength,
     under,
 )
+from dalembert.core.holding import holding
 from dalembert.core.layout import Pose, System
 from dalembert.core.linear import Factor, PseudoInverse
 from dalembert.core.losses import by_joint, in_joints, turned, viscous
@@ -58,6 +59,7 @@ class Friction(NamedTuple):
     open (P, E): contacts whose sense no rate tells; blocked (P,): their reactions are not unique
     locked (P,): the unknowns' power has the other sign than without friction, with and without inertia
     bare_effort (P, D), bare_load (P, U): without friction
+    holding (P, unknowns, 2): low and high that friction can hold at rest for some history (core.holding)
     """
 
     force: Array
@@ -79,6 +81,7 @@ class Friction(NamedTuple):
     locked: Flags
     bare_effort: Array
     bare_load: Array
+    holding: Array
 
     def known(self, position: int) -> bool:
         """Whether every contact has its numbers at a position."""
@@ -223,12 +226,12 @@ def _with_ends(
 ) -> Forces:
     """Both ends of every unknown at the open positions; where all are one, the number itself."""
     s, contacts = made.s, made.s.contacts
-    count = s.c.layout.constraints.count
+    unknowns = range(s.c.layout.constraints.count, r.x.shape[-1])
     part = Response(*(a[open_] for a in r))
     known = Senses(*(a[open_] for a in told))
     ends = [
         extreme(s.c.layout, contacts, part, known, unknown, end, spins and spins.at(open_))
-        for unknown in range(count, r.x.shape[-1])
+        for unknown in unknowns
         for end in (-1.0, 1.0)
     ]
     if not ends:
@@ -240,7 +243,14 @@ def _with_ends(
         made.forces(r, _put(slip, open_, end.slip, slice(None)), _filled(told.sense, open_, end.sense))
         for end in ends
     ]
-    return made.forces(r, main, told.sense)._replace(ends=tuple(whole))
+    found = made.forces(r, main, told.sense)
+    assert found.friction is not None
+    if spins is None:
+        values = np.stack(
+            [end.slip.x[:, k] for end, k in zip(ends, np.repeat(unknowns, 2), strict=True)], axis=-1
+        )
+        found.friction.holding[open_] = holding(contacts, part, known, values.reshape((len(values), -1, 2)))
+    return found._replace(ends=tuple(whole))
 
 
 def _idle(contacts: Contacts, r: Response, slip: Slip, known: Senses) -> Flags:
@@ -319,6 +329,7 @@ class _Made(NamedTuple):
             self.locked,
             effort,
             load,
+            np.full((len(cz), slip.x.shape[-1] - s.c.layout.constraints.count, 2), np.nan),
         )
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.contacts import friction_on
+from dalembert.analysis.friction import holds_beyond
 from dalembert.analysis.openings import drive_text, quantity_text
 from dalembert.errors import ModelError
 
@@ -112,7 +113,7 @@ def _rest_sentence(c: Compiled, f: Forces, run: Run, names: list[str]) -> str:
     """At rest: what holds the machine, and where friction is at its limit."""
     if len(names) == 1:
         held = f"any value of {names[0]} between the two impending motions holds the machine"
-        return f"At rest{arc(c, run)}: {held}{_limits(c, f.ends[:2], run)}."
+        return f"At rest{arc(c, run)}: {held}{_limits(c, f.ends[:2], run)}.{_histories(c, f, run, names)}"
     limits = "".join(
         f" For {name}{_limits(c, f.ends[2 * n : 2 * n + 2], run).replace(';', ',', 1)}."
         for n, name in enumerate(names)
@@ -120,8 +121,42 @@ def _rest_sentence(c: Compiled, f: Forces, run: Run, names: list[str]) -> str:
     return (
         f"At rest{arc(c, run)}: {_and(names)} each lie in an interval of their own. At its ends the machine is about "
         "to move with the other drives held, and what else was asked for has the value given there; not every "
-        f"combination of values within the intervals holds the machine.{limits}"
+        f"combination of values within the intervals holds the machine.{limits}{_histories(c, f, run, names)}"
     )
+
+
+def _histories(c: Compiled, f: Forces, run: Run, names: list[str]) -> str:
+    """What friction can hold beyond the ends, as an earlier motion left it; nothing where it is no more."""
+    assert f.friction is not None
+    ends = np.stack(
+        [np.concatenate([e.effort[:, c.known.asked], e.load], axis=1)[run] for e in f.ends], axis=-1
+    )
+    ends = np.stack([ends[:, n, 2 * n : 2 * n + 2] for n in range(len(names))], axis=1)
+    held = f.friction.holding[run]
+    beyond = holds_beyond(ends, held)
+    if not beyond.any():
+        return ""
+    if len(run) > 1:
+        count, some = int(beyond.any(axis=-1).sum()), np.flatnonzero(beyond.any(axis=0))
+        where = f"{count} of these {len(run)}" if count < len(run) else "each of these"
+        more = _and([names[n] for n in some])
+        return f" With the right history friction can hold values of {more} beyond them at {where} positions."
+    return "".join(
+        f" Motion impends at {_and([quantity_text(c, kind, v) for v in ends[0, n] if np.isfinite(v)] or ['none'])}; "
+        f"with the right history, friction as an earlier motion left it, {name} can hold "
+        f"{_range_text(c, kind, *held[0, n])}."
+        for n, (name, kind) in enumerate(zip(names, _kinds(c), strict=True))
+        if beyond[0, n]
+    )
+
+
+def _range_text(c: Compiled, kind: str, low: float, high: float) -> str:
+    least, most = (quantity_text(c, kind, v) for v in (low, high))
+    if np.isinf(low) and np.isinf(high):
+        return "any value, its contacts wedged"
+    if np.isinf(low):
+        return f"any value up to {most}, below it with contacts wedged"
+    return f"any value from {least} on, its contacts wedged" if np.isinf(high) else f"from {least} to {most}"
 
 
 def _and(names: list[str]) -> str:

@@ -314,16 +314,21 @@ def correction(r: Response, steep: Array, sense: Array, off: Array, solve: Any) 
     return np.asarray(solve(jacobian(r, steep, sense), -off))
 
 
+def levers(contacts: Contacts, h: Array) -> Array:
+    """Bounds (..., E, E) of the change of S with what H (..., 3, E, E) is after."""
+    lever = np.maximum(np.hypot(h[..., 0, :, :], h[..., 1, :, :]), np.abs(h[..., 2, :, :]))
+    if contacts.ball is not None:
+        lever = np.where(contacts.ball[:, None], np.sqrt((h * h).sum(axis=-3)), lever)
+    return np.where(contacts.signed[:, None], np.abs(h[..., 0, :, :]), lever)
+
+
 def spread(contacts: Contacts, r: Response) -> Array:
     """Bound (...) of the spectral radius of the fixed point, from H after z without its sign.
 
     Below 1 there is one solution, at any smaller scale too.
     """
-    lever = np.maximum(np.hypot(r.h[..., 0, :, :], r.h[..., 1, :, :]), np.abs(r.h[..., 2, :, :]))
-    if contacts.ball is not None:
-        lever = np.where(contacts.ball[:, None], np.sqrt((r.h * r.h).sum(axis=-3)), lever)
-    lever = np.where(contacts.signed[:, None], np.abs(r.h[..., 0, :, :]), lever)
-    power, log, size = lever, np.zeros(lever.shape[:-2]), 1
+    power = levers(contacts, r.h)
+    log, size = np.zeros(power.shape[:-2]), 1
     for _ in range(6):
         largest = np.maximum(power.sum(axis=-1).max(axis=-1, initial=0.0), 1e-300)
         power = power / largest[..., None, None]

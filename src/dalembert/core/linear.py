@@ -66,13 +66,13 @@ class Inverse:
 def inverse(j: Array, row: Array, column: Array) -> Inverse:
     """Factor square systems J (..., m, m). A singular one gets NaN and rcond 0, alone."""
     matrix = j * row[..., None] * column
-    inv = _inverse(matrix)
+    inv = inverses(matrix)
     with np.errstate(all="ignore"):
         rcond = 1 / (np.abs(matrix).sum(axis=-2).max(axis=-1) * np.abs(inv).sum(axis=-2).max(axis=-1))
     return Inverse(matrix, inv, row, column, np.nan_to_num(rcond, nan=0.0))
 
 
-def _inverse(matrix: Array) -> Array:
+def inverses(matrix: Array) -> Array:
     """numpy's batched inverse raises when one matrix is singular; halve the batch until that one is alone."""
     try:
         return np.linalg.inv(matrix)
@@ -80,9 +80,9 @@ def _inverse(matrix: Array) -> Array:
         if matrix.ndim == 2:
             return np.full_like(matrix, np.nan)
         if len(matrix) == 1:
-            return _inverse(matrix[0])[None]
+            return inverses(matrix[0])[None]
         half = len(matrix) // 2
-        return np.concatenate([_inverse(matrix[:half]), _inverse(matrix[half:])])
+        return np.concatenate([inverses(matrix[:half]), inverses(matrix[half:])])
 
 
 def generalized_inverse(matrix: Array, rcond: float = 1e-15) -> Array:

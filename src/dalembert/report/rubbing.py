@@ -18,6 +18,7 @@ from dalembert.analysis.friction import (
     friction_circle_radius,
     friction_coefficient,
     guide_contact,
+    holds_beyond,
     unknown_names,
 )
 from dalembert.report.chosen import Chosen
@@ -222,10 +223,15 @@ def at_rest(sheet: Sheet, c: Chosen, answers: Any) -> None:
 
 
 def intervals(c: Chosen) -> list[Working]:
-    """What friction leaves open: every effort or unknown load between the two impending motions."""
+    """What friction leaves open: every effort or unknown load between the two impending motions, and beyond them."""
     r, shown, out = c.r, c.shown, []
     for name in unknown_names(r):
         kind = unknown_kinds(r)[name]
         low, high = (shown.number(kind, float(v)) for v in r.interval(name)[c.k])
         out.append(Working(f'"{name}: {low} to {high} {shown.unit(kind)}"'))
+        held = r.holding(name)[c.k]
+        if holds_beyond(r.interval(name)[c.k], held):
+            low, high = (shown.number(kind, float(v)) if math.isfinite(v) else "any value" for v in held)
+            words = f"with the right history friction can hold {low} to {high} {shown.unit(kind)}"
+            out.append(Working(f'"{name}: {words}"'))
     return out
