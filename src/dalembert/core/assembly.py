@@ -13,10 +13,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert.core.assur import plan
 from dalembert.core.closure import CLOSED, closed, distance
 from dalembert.core.constraints import dense, measure, stacked
 from dalembert.core.layout import Along, Distance, Gearing, Layout, Meet, Mesh, Pose, Rows, Turn, selected
 from dalembert.core.linear import generalized_inverse
+from dalembert.core.selection import NEAR, SAME, Wanted, distinct, enumerated, ordered, reduced, turned
 
 Array = NDArray[Any]
 
@@ -24,15 +26,8 @@ STARTS = 64
 FEW = 40
 """Links up to which every start is worth its cost; of more, starts are few and laid down link by link only."""
 
-NEAR = 0.35
-"""A mode this close to the given angles, radians, is taken without a look for others; two modes that both are stand
-near a dead centre, where Newton from the given angles goes to the nearer one."""
-
 LOOSE = 1e-6
 """Part of a link's turn that the constraints leave, above which it can be held."""
-
-SAME = 1e-4
-"""Two starts that end this close to each other, radians or characteristic lengths, found the same mode."""
 
 
 @dataclass(frozen=True)
@@ -81,12 +76,13 @@ def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes |
     pose, missing = closed(free, drawn, target[None])
     given = np.isfinite(guess.turn[:-1])
     if missing[0] <= CLOSED * layout.length:
-        off = np.abs(_turned(pose.turn[0, :-1] - guess.turn[:-1])[given]).max(initial=0.0)
+        off = np.abs(turned(pose.turn[0, :-1] - guess.turn[:-1])[given]).max(initial=0.0)
         if given.any() and off < NEAR:
-            return Modes(_reduced(layout, pose), "given")
+            return Modes(reduced(layout, pose), "given")
         if not given.any() and distance(layout, pose, drawn)[0] < SAME:
-            return Modes(_reduced(layout, pose), "drawn")
-    return _searched(layout, free, target, guess)
+            return Modes(reduced(layout, pose), "drawn")
+    start = pose.at(0) if missing[0] <= CLOSED * layout.length else None
+    return _searched(layout, free, target, Wanted(guess.turn, guess.point, start), guess)
 
 
 def drawn(layout: Layout, target: Array, guess: Guess) -> Pose:
@@ -156,77 +152,28 @@ def held_wheels(
     return held
 
 
-def _searched(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes | None:
-    """Every mode that the starts find; first the one nearest to what is given, else by the rule of ``_preferred``."""
-    starts = STARTS if layout.links <= FEW else 8
-    angles, slides = _spread(starts, layout.links + 1, free.constraints.count)
-    laid = _laid(free, target, guess, angles, slides * layout.length)
-    pose, missing = closed(free, laid, np.broadcast_to(target, (starts, len(target))).copy(), iterations=60)
-    good = np.flatnonzero(missing <= CLOSED * layout.length)
-    if not good.size:
+def _searched(layout: Layout, free: Layout, target: Array, wanted: Wanted, guess: Guess) -> Modes | None:
+    """Every mode, in the order of ``core.selection``: group by group in closed form, else as many as starts find."""
+    way, starts = plan(free), STARTS if layout.links <= FEW else 8
+    by = "nearest" if wanted.given else "search"
+    if way is None or not way.closed:
+        angles, slides = _spread(starts, layout.links + 1, free.constraints.count)
+        found = _closing(free, _laid(free, target, guess, angles, slides * layout.length), target)
+        if found is not None:
+            found = distinct(layout, reduced(layout, found))
+            return Modes(found.at(ordered(layout, found, wanted)), by)
+    if way is None:
         return None
-    distinct = _distinct(layout, _reduced(layout, pose.at(good)))
-    given = np.isfinite(guess.turn[:-1])
-    if given.any():
-        off = (_turned(distinct.turn[:, :-1] - guess.turn[:-1])[:, given] ** 2).sum(axis=1).round(9)
-        return Modes(distinct.at(np.argsort(off, kind="stable")), "nearest")
-    return Modes(distinct.at(_preferred(layout, distinct)), "search")
+    found = _closing(free, enumerated(free, way, target, wanted).at(slice(starts)), target)
+    return None if found is None else Modes(distinct(layout, reduced(layout, found)), by)
 
 
-def _turned(angle: Array) -> Array:
-    """Angles reduced to (-pi, pi]."""
-    return np.asarray(angle - 2 * np.pi * np.ceil(angle / (2 * np.pi) - 0.5))
-
-
-def _reduced(layout: Layout, pose: Pose) -> Pose:
-    """Whole turns taken off links whose angle no row of the system counts."""
-    counted = {int(k) for rows in (layout.constraints, layout.freedoms) for k in _counted(layout, rows)}
-    turn = pose.turn.copy()
-    free = [k for k in range(layout.links) if k not in counted]
-    turn[..., free] = _turned(turn[..., free])
-    return Pose(pose.point, turn, pose.rotation)
-
-
-def _counted(layout: Layout, rows: Rows) -> list[int]:
-    driven = set(layout.driven.tolist()) if rows is layout.freedoms else None
-    out: list[int] = []
-    for f in rows.families:
-        if isinstance(f, Turn):
-            keep = [driven is None or int(k) in driven for k in f.row]
-            out += f.i[keep].tolist() + f.j[keep].tolist()
-    return out
-
-
-def _distinct(layout: Layout, pose: Pose) -> Pose:
-    kept: list[int] = []
-    for k in range(len(pose.turn)):
-        one = Pose(pose.point[k], _turned(pose.turn[k]), pose.rotation[k])
-        if all(_apart(layout, one, pose.at(m)) > SAME for m in kept):
-            kept.append(k)
-    return pose.at(np.array(kept))
-
-
-def _apart(layout: Layout, a: Pose, b: Pose) -> float:
-    shift = np.abs(a.point - b.point).max() / layout.length
-    return float(max(shift, np.abs(_turned(a.turn - b.turn)).max()))
-
-
-def _preferred(layout: Layout, pose: Pose) -> NDArray[np.intp]:
-    """Sliders farthest along their directions first, then the highest links."""
-    slides = np.setdiff1d(np.flatnonzero(~layout.freedoms.angular), layout.driven)
-    along = measure(layout.algebra, layout.freedoms, pose)[:, slides].sum(axis=1) / layout.length
-    height = pose.point[:, :-1, 1].sum(axis=1) / layout.length + _tips(layout, pose)
-    return np.lexsort((-np.round(height, 6), -np.round(along, 6)))
-
-
-def _tips(layout: Layout, pose: Pose) -> Array:
-    """Sum of the joints' heights: y of the links' far ends."""
-    total = np.zeros(len(pose.turn))
-    for f in layout.constraints.families:
-        if isinstance(f, Meet):
-            arm = layout.algebra.rotate(pose.rotation[:, f.j], f.uj)
-            total += (pose.point[:, f.j, 1] + arm[..., 1]).sum(axis=1) / layout.length
-    return total
+def _closing(layout: Layout, start: Pose, target: Array) -> Pose | None:
+    """Starts (S, ...) corrected, those that close; None where none does."""
+    wanted = np.broadcast_to(target, (len(start.turn), len(target))).copy()
+    pose, missing = closed(layout, start, wanted, iterations=60)
+    good = np.flatnonzero(missing <= CLOSED * layout.length)
+    return pose.at(good) if good.size else None
 
 
 def _spread(starts: int, links: int, rows: int) -> tuple[Array, Array]:

@@ -13,13 +13,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.assembly import SAME, STARTS, Modes, phase_rows, with_rows
+from dalembert.core.assembly import STARTS, Modes, phase_rows, with_rows
 from dalembert.core.closure import CLOSED, closed, distance
 from dalembert.core.constraints import measure
 from dalembert.core.course import course
 from dalembert.core.follow import path
 from dalembert.core.gearing import meshed
 from dalembert.core.layout import Angle, Helix, Layout, Pose
+from dalembert.core.selection import SAME
 from dalembert.core.turning import along_axis
 
 Array = NDArray[Any]

@@ -41,19 +41,14 @@ def groups(layout: Layout, pose: Pose) -> list[Group]:
     None where J is not square, too large, or singular by its zeros alone, and where a group has too many links for its
     sign to tell all its ways apart.
     """
-    from scipy.sparse import csr_array
-    from scipy.sparse.csgraph import connected_components, maximum_bipartite_matching
-
     if not layout.square or layout.unknowns > LARGEST:
         return []
     size = np.abs(_scaled(layout, pose)).max(axis=0)
     filled = size > NOTHING * size.max()
-    column = maximum_bipartite_matching(csr_array(filled.astype(np.int8)), perm_type="column")
-    if (column < 0).any():
+    blocks = block_triangular([np.flatnonzero(row).tolist() for row in filled], layout.unknowns)
+    if blocks is None:
         return []
-    count, label = connected_components(csr_array(filled[:, column].astype(np.int8)), connection="strong")
-    rows = [np.flatnonzero(label == k) for k in range(count)]
-    found = [Group(row, column[row].astype(np.intp)) for row in rows]
+    found = [Group(np.array(rows, np.intp), np.array(columns, np.intp)) for rows, columns in blocks]
     links = [len(np.unique(group.column // layout.algebra.n)) for group in found]
     return found if max(links) <= TOLD_APART else []
 
@@ -67,3 +62,68 @@ def senses(layout: Layout, found: list[Group], pose: Pose) -> Array:
 def _scaled(layout: Layout, pose: Pose) -> Array:
     """J (P, K + D, n L) without dimensions."""
     return dense(layout, stacked(layout, pose)) * layout.row_scale[:, None] * layout.column_scale
+
+
+def block_triangular(rows: list[list[int]], columns: int) -> list[tuple[list[int], list[int]]] | None:
+    """Rows and columns of the diagonal blocks of a square pattern, in the order in which they can be solved.
+
+    A pattern is the columns that each row has; None where rows and columns cannot be paired. Rows are paired with
+    columns, then those that need each other are found by depth-first search (Tarjan, 1972).
+
+    >>> block_triangular([[0], [0, 1, 2], [1, 2]], 3)
+    [([0], [0]), ([1, 2], [1, 2])]
+    """
+    own = _paired(rows) if len(rows) == columns else None
+    if own is None:
+        return None
+    owner = {column: row for row, column in enumerate(own)}
+    needed = [[owner[column] for column in row] for row in rows]
+    return [(block, sorted(own[row] for row in block)) for block in _together(needed)]
+
+
+def _paired(rows: list[list[int]]) -> list[int] | None:
+    """A column of its own for each row, by augmenting paths; None where there are not enough."""
+    own: list[int] = [-1] * len(rows)
+    owner: dict[int, int] = {}
+    for start in range(len(rows)):
+        came: dict[int, int] = {}
+        queue, free = [start], -1
+        for row in queue:
+            new = [column for column in rows[row] if column not in came]
+            came.update(dict.fromkeys(new, row))
+            free = next((column for column in new if column not in owner), -1)
+            if free >= 0:
+                break
+            queue += [owner[column] for column in new]
+        while free >= 0:
+            row = came[free]
+            own[row], owner[free], free = free, row, own[row]
+        if own[start] < 0:
+            return None
+    return own
+
+
+def _together(needed: list[list[int]]) -> list[list[int]]:
+    """Strongly connected components of a graph, each behind those that it needs."""
+    order: dict[int, int] = {}
+    low: dict[int, int] = {}
+    found, stack, done = [], [], set()
+    for root in range(len(needed)):
+        path = [root] if root not in order else []
+        while path:
+            node = path[-1]
+            if node not in order:
+                order[node] = low[node] = len(order)
+                stack.append(node)
+            new = next((other for other in needed[node] if other not in order), None)
+            if new is not None:
+                path.append(new)
+                continue
+            path.pop()
+            low[node] = min([order[node], *(low[other] for other in needed[node] if other not in done)])
+            if low[node] == order[node]:
+                first = stack.index(node)
+                found.append(stack[first:])
+                done.update(stack[first:])
+                del stack[first:]
+    return found
