@@ -120,7 +120,7 @@ def test_the_detail_of_a_guide() -> None:
     hand = engine_by_hand(half=0.05)
     assert sizes == pytest.approx([hand.upper, hand.lower], rel=1e-9)
     texts = [t.text for t in scene.texts()]
-    assert texts.count("φ = 4.00°") == 2
+    assert texts.count("φ = 4.004°") == 2
     assert any("Two corners bear: lower ahead 5161 N and upper behind" in t for t in texts)
 
 
@@ -178,7 +178,7 @@ def test_the_worked_solution() -> None:
     for words in (
         "r_A = μ_A R_A = 0.4 · 0.06000 = 0.02400 m",
         "β_3 = arcsin (r_A + r_B)/(AB) = arcsin (0.02400 + 0.01600)/(1.250) = 1.834 °",
-        "θ_AB + β_3 = −10.594 + 1.834 = −8.760 °",
+        "θ_AB + β_3 = −10.59 ° + 1.834 ° = −8.760 °",
         "N_lower = (S_guide + N_14)/(2) = 3451 N",
         "With friction: 2 crank: each reaction touches the friction circles at O, A; 3 rod: both forces",
         "8 Virtual work, a check",

@@ -213,7 +213,7 @@ def test_positions_by_number_and_by_value() -> None:
     assert da.draw.mechanism(r, at=2).title.endswith("O2 = 70.00°")
     assert da.draw.mechanism(r, at="72 deg").title.endswith("O2 = 70.00°")
     cycle = result("engine")
-    for at, found in (("430.3 deg", "430.0"), ("-20 deg", "700.0"), ("1150 deg", "430.0")):
+    for at, found in (("430.3 deg", "430.00"), ("-20 deg", "700.00"), ("1150 deg", "430.00")):
         assert da.draw.mechanism(cycle, at=at).title.endswith(f"O2 = {found}°")
     with pytest.raises(da.ModelError, match="no position has O2 = 90 deg; the nearest is 60"):
         da.draw.mechanism(result("four_bar"), at="90 deg")

@@ -127,8 +127,8 @@ def test_a_thread_unrolled_carries_the_force_along_the_axis_and_the_couple_about
         )
     scene = guide_detail(r, "H", 1, Shown(r, Notation()), "spindle")
     check(scene)
-    angle = math.degrees(math.atan2(abs(found.friction[1]), abs(found.normal[1])))
-    assert f"φ = {angle:.2f}°" in [t.text for t in scene.texts()]
+    angle = math.atan2(abs(found.friction[1]), abs(found.normal[1]))
+    assert f"φ = {Notation().degrees(angle)}°" in [t.text for t in scene.texts()]
     slide, rub = (next(a for a in scene.arrows() if a.role == role) for role in ("velocity", "friction"))
     assert np.subtract(slide.head, slide.tail) @ np.subtract(rub.head, rub.tail) < 0
 

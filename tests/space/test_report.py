@@ -73,7 +73,7 @@ def made(name: str) -> tuple[Any, int, Sheet]:
 def without_drawings(r: Any, k: int) -> Sheet:
     """The sections with figures of their own."""
     notation = Notation()
-    sheet, shown = Sheet(""), Shown(r, notation)
+    sheet, shown = Sheet(""), Shown(r, notation, k)
     c = Chosen(r, k, shown, notation=notation)
     for section in (degrees_of_freedom, space_motion, space_inertia):
         section(sheet, c)
@@ -236,7 +236,7 @@ def test_inertia_couples_are_the_sum_of_their_parts(name: str) -> None:
 def test_the_matrices_hold(name: str) -> None:
     r, k, _ = made(name)
     sheet, notation = Sheet(""), Notation(figures=13)
-    order_and_solution(sheet, Chosen(r, k, Shown(r, notation), notation=notation))
+    order_and_solution(sheet, Chosen(r, k, Shown(r, notation, k), notation=notation))
     for matrix in blocks(sheet, Matrix):
         rows = np.array([[value(c) for c in row] for row in matrix.rows])
         x, b = (np.array([value(c) for c in column]) for column in (matrix.values, matrix.right))

@@ -39,7 +39,7 @@ def link_equations(
 ) -> tuple[list[Working], About]:
     """Sums of forces along the axes and of moments, each in letters, with numbers, and its value."""
     about, everything = moment_point(r, link, k, wanted), actions(r)
-    s = setting(r, link, k, shown, about, everything)
+    s = setting(r, link, k, shown, about)
     some = terms(s, on_link(everything, link))
     axes, plane = AXES[: r.mechanism.dimension], r.mechanism.dimension == 2
     lines = []

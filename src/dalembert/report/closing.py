@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -35,10 +34,8 @@ class Side(NamedTuple):
     backwards: bool = False
 
 
-def closing_lines(
-    sheet: Sheet, r: Result, k: int, shown: Shown, moving: bool, least: Callable[[str], float]
-) -> None:
-    """Each loop in letters, and the components of its sides with their sums; below ``least`` of a kind is rounding."""
+def closing_lines(sheet: Sheet, r: Result, k: int, shown: Shown, moving: bool) -> None:
+    """Each loop in letters, and the components of its sides with their sums."""
     for n, ring in enumerate(rings(r, PAIRS)):
         sides = loop_sides(r, k, ring)
         names = " – ".join(shown.heading(after) for _, _, after in ring)
@@ -46,7 +43,7 @@ def closing_lines(
         slid = "; s e is the way of a slide s along its direction e" if ways else ""
         sheet.text(f"Loop {n + 1} through links {names}: the sides sum to zero{slid}.")
         for kind, order in ORDERS[: 3 if moving else 1]:
-            sheet.equations(_lines(sides, kind, order, shown, least(kind)))
+            sheet.equations(_lines(sides, kind, order, shown))
 
 
 def loop_sides(r: Result, k: int, ring: Ring) -> list[Side]:
@@ -93,8 +90,9 @@ def _slides(r: Result, k: int, joint: str, before: str) -> list[Side]:
     return out
 
 
-def _lines(sides: list[Side], kind: str, order: int, shown: Shown, least: float) -> list[Working]:
+def _lines(sides: list[Side], kind: str, order: int, shown: Shown) -> list[Working]:
     """The sum in letters, then its components with their numbers; rounding is 0."""
+    least = shown.least[kind]
     some = [s for s in sides if order == 0 or np.abs(s.vectors[order]).max() > least]
     if not some:
         return []
@@ -102,10 +100,9 @@ def _lines(sides: list[Side], kind: str, order: int, shown: Shown, least: float)
     largest = max(float(np.abs(s.vectors[order]).max()) for s in some)
     for axis, letter in enumerate(AXES):
         values = [float(s.vectors[order][axis]) for s in some]
-        kept = [v if abs(v) > max(1e-10 * largest, least) else 0.0 for v in values]
         total = math.fsum(values)
-        numbers = signed([(v < 0, _number(shown, kind, abs(v))) for v in kept])
-        total_shown = _number(shown, kind, total if abs(total) > 1e-9 * max(largest, least) else 0.0)
+        numbers = signed([(v < -least, shown.number(kind, abs(v))) for v in values])
+        total_shown = shown.number(kind, total, 1e-9 * largest)
         lines.append(Working(f'{letter}: quad {numbers} = {total_shown} "{shown.unit(kind)}"'))
     return lines
 
@@ -128,7 +125,3 @@ def _letters(s: Side, order: int, shown: Shown) -> Signed:
         return s.backwards, along
     coriolis = f" + 2 omega_{{{n}}} times v_{{{s.slide}}} {e}" if order == 2 else ""
     return s.backwards, f"({along}{coriolis} + {turned})" if s.backwards else f"{along}{coriolis} + {turned}"
-
-
-def _number(shown: Shown, kind: str, value: float) -> str:
-    return shown.notation.number(shown.value(kind, value))

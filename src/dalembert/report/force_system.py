@@ -63,6 +63,9 @@ class _Work:
     def force(self, value: float) -> str:
         return self.shown.number("force", float(value), 1e-12 * self.largest)
 
+    def cosine(self, value: float) -> str:
+        return self.shown.number("number", float(value), 1e-12)
+
     def length(self, value: float) -> str:
         floor = 1e-12 * max(self.s.length, float(np.abs(self.at).max()))
         return self.shown.number("length", float(value), floor)
@@ -112,8 +115,8 @@ class _Work:
         if f.size == 0:
             return ["–"] * (1 if self.d == 2 else 3)
         if self.d == 2:
-            return [f"{math.degrees(f.angle):.2f}".replace("-", "−")]
-        return [f"{c:.4f}".replace("-", "−") for c in f.cosines]
+            return [self.shown.notation.direction(*f.vector)]
+        return [self.cosine(c) for c in f.cosines]
 
     def resultant(self) -> None:
         self.sheet.heading("Resultant")
@@ -131,10 +134,10 @@ class _Work:
 
     def _direction(self, r: Force) -> list[Working]:
         if self.d == 2:
-            degrees = f"{math.degrees(r.angle):.2f}".replace("-", "−")
+            degrees = self.shown.notation.direction(*r.vector)
             return [Working(f"theta quad (tan theta = R_{{y}} / R_{{x}}) = {degrees} deg")]
         return [
-            Working(f"cos theta_{{{a}}}", f"R_{{{a}}} / R", f"{c:.4f}".replace("-", "−"))
+            Working(f"cos theta_{{{a}}}", f"R_{{{a}}} / R", self.cosine(c))
             for a, c in zip(self.axes, r.cosines, strict=True)
         ]
 

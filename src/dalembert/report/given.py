@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from dalembert.analysis.carried import local_words
 from dalembert.analysis.columns import drive_kinds
 from dalembert.analysis.contacts import coefficient, resting_coefficient
 from dalembert.analysis.pairs import AXES
+from dalembert.analysis.rounding import PART
 from dalembert.analysis.turning import inertia_matrix
 from dalembert.report.chosen import Chosen, as_formula
 from dalembert.report.pictures import given_picture
@@ -20,6 +22,8 @@ from dalembert.views.notation import Shown, own_name
 
 
 def knowns(sheet: Sheet, c: Chosen) -> None:
+    """Tables of what the file says; of its numbers none is rounding, however small."""
+    c = replace(c, shown=Shown(c.r, c.notation))
     r, shown, m = c.r, c.shown, c.r.mechanism
     sheet.heading("Given")
     _links(sheet, c)
@@ -79,7 +83,7 @@ def _inertias(sheet: Sheet, c: Chosen) -> None:
     heads = ["Link", *(f"$J_{{{AXES[a]}{AXES[b]}}}$" for a, b in places)]
     rows = []
     for link, j in found.items():
-        least = 1e-12 * float(np.abs(j).max())
+        least = PART * float(np.abs(j).max())
         rows.append([shown.heading(link), *(shown.number("inertia", float(j[p]), least) for p in places)])
     about = f"Inertia ({shown.unit('inertia')}) about the mass centre, in the link's own axes"
     sheet.table(
@@ -96,7 +100,7 @@ def joint_axes(sheet: Sheet, c: Chosen) -> None:
         rows.append(
             [
                 joint,
-                *(f"({', '.join(_cosine(float(x)) for x in e)})" for e in axes),
+                *(f"({', '.join(_cosine(float(x), c.notation.figures) for x in e)})" for e in axes),
                 _primed(local_words(described)),
             ]
         )
@@ -109,8 +113,8 @@ def _primed(words: str) -> str:
     return re.sub(r"\b([xyz])\b", r"\1'", words)
 
 
-def _cosine(x: float) -> str:
-    return "0" if abs(x) < 1e-12 else f"{x:.4f}".rstrip("0").rstrip(".").replace("-", "−")
+def _cosine(x: float, figures: int) -> str:
+    return "0" if abs(x) < PART else f"{x:.{figures}f}".rstrip("0").rstrip(".").replace("-", "−")
 
 
 def _measures(shown: Shown, joint: Any) -> str:
@@ -146,7 +150,7 @@ def _rubbing(c: Chosen, joint: Any) -> str:
     if f is None or c.r.friction is None:
         return ""
     mu, still = coefficient(c.r.mechanism, joint), resting_coefficient(c.r.mechanism, joint)
-    parts = [f"μ = {mu:.6g}", f"at rest {still:.6g}" if still != mu else ""]
+    parts = [f"μ = {c.notation.given(mu)}", f"at rest {c.notation.given(still)}" if still != mu else ""]
     for key, sign in (("radius", "R"), ("half_height", "half height"), ("arm", "arm")):
         value = getattr(f, key, None)
         parts.append(f"{sign} = {shown.text('length', value)}" if value else "")
@@ -172,7 +176,7 @@ def _convention(c: Chosen) -> str:
 
 
 def _pair(shown: Shown, p: Any) -> str:
-    least = 1e-12 * shown.r.compiled.layout.length
+    least = PART * shown.r.compiled.layout.length
     return ", ".join(shown.number("length", float(x), least) for x in p)
 
 
@@ -218,5 +222,5 @@ def _vector_text(c: Chosen, kind: str, v: Any) -> str:
         return c.shown.text(kind, float(v))
     if len(v) == 2:
         return c.shown.polar((float(v[0]), float(v[1])))
-    least = 1e-12 * float(np.abs(v).max())
+    least = PART * float(np.abs(v).max())
     return f"({', '.join(c.shown.number(kind, float(x), least) for x in v)}) {c.shown.unit(kind)}"

@@ -10,6 +10,7 @@ import numpy as np
 
 from dalembert.analysis.actions import link_angle, link_place, link_speed, slide_direction
 from dalembert.report.sheet import Working
+from dalembert.report.terms import Signed, signed
 from dalembert.views.notation import Shown
 
 if TYPE_CHECKING:
@@ -126,70 +127,62 @@ def position_lines(loop: Loop, shown: Shown) -> list[Working]:
     """Sum of r cos theta and of r sin theta."""
     out = []
     for function, turn in (("cos", math.cos), ("sin", math.sin)):
-        letters = " + ".join(f"r_{{{s.name}}} {function} theta_{{{s.name}}}" for s in loop.sides)
-        numbers = " + ".join(
-            f"{number_text(shown, 'length', s.length)} {function} {_degrees(s.angle)}" for s in loop.sides
-        )
+        letters = signed([(False, f"r_{{{s.name}}} {function} theta_{{{s.name}}}") for s in loop.sides])
+        numbers = signed([_side_numbers(s, function, shown) for s in loop.sides])
         total = math.fsum(s.length * turn(s.angle) for s in loop.sides)
-        out.append(closed(letters, numbers, total, max(s.length for s in loop.sides), shown, "length"))
+        out.append(closed(letters, numbers, total, max(abs(s.length) for s in loop.sides), shown, "length"))
     return out
+
+
+def _side_numbers(s: Vector, function: str, shown: Shown) -> Signed:
+    """A side of a loop with its numbers; a slide may be negative."""
+    size = shown.number("length", abs(s.length))
+    return s.length < 0 and size != "0", f"{size} {function} {_degrees(s.angle, shown)}"
 
 
 def velocity_lines(loop: Loop, shown: Shown) -> list[Working]:
     """Time derivative of the position's sums."""
-    out: list[tuple[list[str], list[float]]] = []
+    out: list[list[tuple[Signed, float]]] = []
     for axis in (0, 1):
-        letters: list[str] = []
-        total: list[float] = []
+        found: list[tuple[Signed, float]] = []
         for s in _moving(loop):
             c, n = math.cos(s.angle), math.sin(s.angle)
             turning = (-n if axis == 0 else c) * s.speed * s.length
-            function = ("−", "sin") if axis == 0 else ("+", "cos")
+            f, g = ("sin", "cos") if axis == 0 else ("cos", "sin")
             if s.speed:
-                letters.append(
-                    f"{function[0]} r_{{{s.name}}} omega_{{{s.name}}} {function[1]} theta_{{{s.name}}}"
-                )
-                total.append(turning)
+                text = f"r_{{{s.name}}} omega_{{{s.name}}} {f} theta_{{{s.name}}}"
+                found.append(((axis == 0, text), turning))
             if s.slide is not None:
                 along = (c if axis == 0 else n) * s.slide[0]
-                letters.append(f"+ v_{{{s.name}}} {'cos' if axis == 0 else 'sin'} theta_{{{s.name}}}")
-                total.append(along)
-        out.append((letters, total))
+                found.append(((False, f"v_{{{s.name}}} {g} theta_{{{s.name}}}"), along))
+        out.append(found)
     return _summed(out, shown, "speed")
 
 
 def acceleration_lines(loop: Loop, shown: Shown) -> list[Working]:
     """Second derivative of the position's sums."""
-    out: list[tuple[list[str], list[float]]] = []
-    for axis in (0, 1):
-        letters: list[str] = []
-        total: list[float] = []
-        for s in _moving(loop):
-            for text, value in _accelerations(s, axis):
-                letters.append(text)
-                total.append(value)
-        out.append((letters, total))
+    out = [[term for s in _moving(loop) for term in _accelerations(s, axis)] for axis in (0, 1)]
     return _summed(out, shown, "acceleration")
 
 
-def _accelerations(s: Vector, axis: int) -> list[tuple[str, float]]:
+def _accelerations(s: Vector, axis: int) -> list[tuple[Signed, float]]:
     """Tangential, normal, sliding and Coriolis parts along one axis."""
     c, n = math.cos(s.angle), math.sin(s.angle)
     across, along = (-n, c) if axis == 0 else (c, n)
     f, g = ("sin", "cos") if axis == 0 else ("cos", "sin")
-    sign = "−" if axis == 0 else "+"
-    out = []
+    minus = axis == 0
+    out: list[tuple[Signed, float]] = []
     if s.acceleration:
-        text = f"{sign} r_{{{s.name}}} alpha_{{{s.name}}} {f} theta_{{{s.name}}}"
-        out.append((text, s.length * s.acceleration * across))
+        text = f"r_{{{s.name}}} alpha_{{{s.name}}} {f} theta_{{{s.name}}}"
+        out.append(((minus, text), s.length * s.acceleration * across))
     if s.speed:
-        text = f"− r_{{{s.name}}} omega_{{{s.name}}}^{{2}} {g} theta_{{{s.name}}}"
-        out.append((text, -s.length * s.speed**2 * along))
+        text = f"r_{{{s.name}}} omega_{{{s.name}}}^{{2}} {g} theta_{{{s.name}}}"
+        out.append(((True, text), -s.length * s.speed**2 * along))
     if s.slide is not None:
-        out.append((f"+ a_{{{s.name}}} {g} theta_{{{s.name}}}", s.slide[1] * along))
+        out.append(((False, f"a_{{{s.name}}} {g} theta_{{{s.name}}}"), s.slide[1] * along))
         if s.speed:
-            text = f"{sign} 2 omega_{{{s.name}}} v_{{{s.name}}} {f} theta_{{{s.name}}}"
-            out.append((text, 2 * s.speed * s.slide[0] * across))
+            text = f"2 omega_{{{s.name}}} v_{{{s.name}}} {f} theta_{{{s.name}}}"
+            out.append(((minus, text), 2 * s.speed * s.slide[0] * across))
     return out
 
 
@@ -197,32 +190,26 @@ def _moving(loop: Loop) -> list[Vector]:
     return [s for s in loop.sides if s.speed or s.acceleration or s.slide is not None]
 
 
-def _summed(axes: list[tuple[list[str], list[float]]], shown: Shown, kind: str) -> list[Working]:
+def _summed(axes: list[list[tuple[Signed, float]]], shown: Shown, kind: str) -> list[Working]:
     """Terms in letters and their values along both axes, and the sums; rounding noise is 0."""
-    largest = max((abs(v) for _, values in axes for v in values), default=0.0)
+    largest = max((abs(v) for terms in axes for _, v in terms), default=0.0)
     out = []
-    for letters, values in axes:
-        kept = [v if abs(v) > 1e-9 * largest else 0.0 for v in values]
-        numbers = [f"{'−' if v < 0 else '+'} {number_text(shown, kind, abs(v))}" for v in kept]
-        out.append(closed(_first(letters), _first(numbers), math.fsum(values), largest, shown, kind))
+    for terms in axes:
+        texts = [shown.number(kind, value) for _, value in terms]
+        numbers = signed([(text.startswith("−"), text.removeprefix("−")) for text in texts])
+        total = math.fsum(v for _, v in terms)
+        out.append(closed(signed([letters for letters, _ in terms]), numbers, total, largest, shown, kind))
     return out
 
 
-def _first(parts: list[str]) -> str:
-    """Terms that carry their signs, the first plus left out."""
-    text = " ".join(parts)
-    return text.removeprefix("+ ") or "0"
+def _degrees(angle: float, shown: Shown) -> str:
+    text = shown.notation.degrees(math.remainder(angle, 2 * math.pi)) + " deg"
+    return f"({text})" if text.startswith("−") else text
 
 
-def number_text(shown: Shown, kind: str, value: float) -> str:
-    return shown.notation.number(shown.value(kind, value))
-
-
-def _degrees(angle: float) -> str:
-    value = math.degrees(math.remainder(angle, 2 * math.pi))
-    return f"{value:.2f}".replace("-", "−") + " deg" if value >= 0 else f"(−{-value:.2f} deg)"
-
-
-def closed(letters: str, numbers: str, total: float, largest: float, shown: Shown, kind: str) -> Working:
+def closed(
+    letters: str, numbers: str, total: float, largest: float, shown: Shown, kind: str, per: str = ""
+) -> Working:
+    """A sum that is zero; what rounding leaves of it is 0. ``per`` goes on behind the unit."""
     value = 0.0 if abs(total) < 1e-9 * largest else total
-    return Working(f"{letters} = 0", f'{numbers} = {number_text(shown, kind, value)} "{shown.unit(kind)}"')
+    return Working(f"{letters} = 0", f'{numbers} = {shown.number(kind, value)} "{shown.unit(kind)}{per}"')

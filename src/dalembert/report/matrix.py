@@ -68,9 +68,9 @@ def matrix_equation(
     n = 3 if r.mechanism.dimension == 2 else 6
     if len(found) > MOST or len(found) != n * len(links) - len(following):
         return None
-    per = {kind: abs(shown.value(kind, 1.0)) for kind in ("force", "moment")}
+    per = {kind: shown.value(kind, 1.0) for kind in ("force", "moment")}
     number, everything = shown.notation.number, actions(r)
-    least = dict(zip(("force", "moment"), floors(r, k, everything), strict=False))
+    least = dict(zip(("force", "moment"), floors(r, k), strict=False))
     rows, right = [], []
     for link in links:
         about = moment_point(r, link, k, wanted)

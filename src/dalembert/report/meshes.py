@@ -10,7 +10,7 @@ import numpy as np
 from dalembert.analysis.actions import link_place, link_speed
 from dalembert.analysis.joints import signed_radii
 from dalembert.report.formula import bracketed
-from dalembert.report.kinematics import GROUND, closed, number_text
+from dalembert.report.kinematics import GROUND, closed
 from dalembert.report.sheet import Working
 from dalembert.views.notation import Shown
 
@@ -24,31 +24,28 @@ def mesh(r: Result, k: int, joint: str, shown: Shown) -> tuple[str, list[Working
     wheels = [*zip(described.links, signed_radii(described), strict=True)]
     line = _Line(r, k, joint)
     out = []
-    rates = (("omega", line.speed, link_speed), ("alpha", line.acceleration, _link_acceleration))
-    for letter, turning, of in rates:
+    rates = (
+        ("omega", "angular_speed", line.speed, link_speed),
+        ("alpha", "angular_acceleration", line.acceleration, _link_acceleration),
+    )
+    for letter, kind, turning, of in rates:
         letters, numbers, values = [], [], []
         for link, radius in wheels:
             rate, sign = float(of(r, link)[k]), f"{letter}_{{{shown.link(link)}}}"
-            figure, size = shown.notation.number(rate), bracketed(number_text(shown, "length", radius))
+            figure, size = shown.number(kind, rate), bracketed(shown.number("length", radius))
             if turning:
                 sign = f"({sign} − {letter}_{{c}})"
-                figure = f"({figure} − {bracketed(shown.notation.number(turning))})"
+                figure = f"({figure} − {bracketed(shown.number(kind, turning))})"
             letters.append(f"r_{{{shown.link(link)}}} {sign}")
             numbers.append(f"{size} cdot {figure if turning else bracketed(figure)}")
             values.append(radius * (rate - turning))
-        kind = "speed" if letter == "omega" else "acceleration"
         largest = max(map(abs, values))
         if largest:
-            out.append(
-                closed(" + ".join(letters), " + ".join(numbers), math.fsum(values), largest, shown, kind)
-            )
+            sums = " + ".join(letters), " + ".join(numbers), math.fsum(values), largest
+            out.append(closed(*sums, shown, "length", "/s" if letter == "omega" else "/s²"))
     words = f"Mesh {joint}: the pitch circles roll on each other"
     if line.speed or line.acceleration:
-        parts = [
-            f"${letter}_{{c}}$ = {shown.notation.number(rate)} {unit}"
-            for letter, rate, unit in (("omega", line.speed, "rad/s"), ("alpha", line.acceleration, "rad/s²"))
-            if rate
-        ]
+        parts = [f"${letter}_{{c}}$ = {shown.text(kind, rate)}" for letter, kind, rate, _ in rates if rate]
         words += f", seen from the line of centres, of which {' and '.join(parts)}"
     inner = "; of an internal pair the inner radius is negative" if described.internal else ""
     return f"{words}{inner}.", out

@@ -49,7 +49,7 @@ def cycle(sheet: Sheet, c: Chosen) -> None:
     for d in r.drives:
         value, where = r.worst("effort", d)
         kind = drive_kinds(r, d)["effort"]
-        least = floors(r, where, actions(r))[kind == "moment"] if r.mechanism.dimension == 3 else 0.0
+        least = floors(r, where)[kind == "moment"] if r.mechanism.dimension == 3 else 0.0
         rows.append([f"effort {d}", c.shown.text(kind, value, least), str(where + 1)])
     for j in known:
         value, where = r.worst("reaction", j)

@@ -7,12 +7,14 @@ import math
 import numpy as np
 
 from dalembert.analysis.members import displaced_inertia, inertia_shares
+from dalembert.analysis.rounding import PART
 from dalembert.report import kinematics
 from dalembert.report.chosen import Chosen
 from dalembert.report.formula import bracketed
 from dalembert.report.meshes import mesh
 from dalembert.report.sheet import Sheet, Working
 from dalembert.views import draw
+from dalembert.views.notation import Notation
 
 
 def motion(sheet: Sheet, c: Chosen) -> None:
@@ -43,17 +45,17 @@ def motion(sheet: Sheet, c: Chosen) -> None:
 
 def _motion_table(c: Chosen, moving: bool) -> tuple[list[str], list[list[str]]]:
     r, shown, k = c.r, c.shown, c.k
-    number = shown.notation.number
     heads = ["Link", "$theta$ (°)"]
     if moving:
         heads += ["$omega$ (rad/s)", "$alpha$ (rad/s²)"]
         heads += [f"$a_{{G{axis}}}$ ({shown.unit('acceleration')})" for axis in "xy"]
     rows = []
     for link in r.links:
-        row = [shown.heading(link), f"{math.degrees(float(r.angle(link)[k])):.3f}".replace("-", "−")]
+        row = [shown.heading(link), shown.notation.degrees(float(r.angle(link)[k]))]
         if moving:
             a = r.center_acceleration(link)[k]
-            row += [number(float(r.speed(link)[k])), number(float(r.acceleration(link)[k]))]
+            row += [shown.number("angular_speed", float(r.speed(link)[k]))]
+            row += [shown.number("angular_acceleration", float(r.acceleration(link)[k]))]
             row += [shown.number("acceleration", float(x)) for x in a]
         rows.append(row)
     return heads, rows
@@ -65,11 +67,26 @@ def inertia(sheet: Sheet, c: Chosen) -> None:
     if not r.inertia or not heavy:
         return
     sheet.heading("Inertia forces")
+    units_of_inertia(sheet, c)
     lines = [line for link in heavy for line in _inertia_lines(c, link)]
     sheet.equations(lines)
-    displaced = [k for k in heavy if r.mechanism.inertia(k) and float(r.acceleration(k)[c.k])]
+    turned = {k for k in heavy if abs(float(r.acceleration(k)[c.k])) > c.shown.least["angular_acceleration"]}
+    displaced = [k for k in heavy if r.mechanism.inertia(k) and k in turned]
     sheet.figure(*(draw.displaced_inertia(r, k, c.k + 1, c.notation) for k in displaced[:3]))
     shares(sheet, c)
+
+
+def units_of_inertia(sheet: Sheet, c: Chosen) -> None:
+    """Where a mass times an acceleration is no force in the reader's units: the factor between them."""
+    shown = c.shown
+    factor = shown.factor("force", "mass", "acceleration")
+    product, force = f"{shown.unit('mass')}·{shown.unit('acceleration')}", shown.unit("force")
+    if factor < 1:
+        size = shown.conversion(1 / factor)
+        sheet.text(f"As 1 {force} is {size} {product}, masses times accelerations are divided by {size}.")
+    elif factor > 1:
+        size = shown.conversion(factor)
+        sheet.text(f"As 1 {product} is {size} {force}, masses times accelerations are multiplied by {size}.")
 
 
 def shares(sheet: Sheet, c: Chosen) -> None:
@@ -77,47 +94,52 @@ def shares(sheet: Sheet, c: Chosen) -> None:
     found = inertia_shares(c.r)
     if found:
         least = max(s.share for s in found)
-        worst = found[0]
+        worst, share = found[0], Notation(figures=2).percent(least if least > PART else 0.0)
         said = "could be left out" if least < 0.05 else "must not be left out"
         sheet.text(
-            f"Inertia {said}: it makes up to {100 * least:.0f} % of the largest {worst.quantity} of {worst.of}"
+            f"Inertia {said}: it makes up to {share} of the largest {worst.quantity} of {worst.of}"
             f"{' over the cycle' if len(c.r.status) > 1 else ''}."
         )
 
 
 def _inertia_lines(c: Chosen, link: str) -> list[Working]:
+    """F_I = -m a_G with its size and direction, T_I = -I alpha, and the offset of the force that makes both."""
     r, shown, k = c.r, c.shown, c.k
     n, m, inertia = shown.link(link), r.mechanism.mass(link), r.mechanism.inertia(link)
     a, found = r.center_acceleration(link)[k], displaced_inertia(r, link)
     fx, fy = (float(f) for f in found.force[k])
-    size, angle = math.hypot(fx, fy), math.degrees(math.atan2(fy, fx))
+    size, alpha = math.hypot(fx, fy), float(r.acceleration(link)[k])
     number = shown.number
+    product = (
+        f"−{number('mass', m)} ({number('acceleration', float(a[0]))}, {number('acceleration', float(a[1]))})"
+    )
+    direction = f" angle {c.notation.direction(fx, fy)} deg" if size > shown.least["force"] else ""
     out = [
         Working(
             f"F_{{I{n}}} = −m_{{{n}}} a_{{G{n}}}",
-            f"−{number('mass', m)} ({number('acceleration', float(a[0]))}, {number('acceleration', float(a[1]))})",
+            shown.converted(product, "force", "mass", "acceleration"),
             f'({number("force", fx)}, {number("force", fy)}) = {number("force", size)} "{shown.unit("force")}"'
-            + (f" angle {angle:.2f} deg".replace("-", "−") if size > 0 else ""),
+            + direction,
         )
     ]
-    if inertia and float(r.acceleration(link)[k]):
-        couple = number("moment", float(found.couple[k]))
-        moment = shown.unit("moment")
-        alpha = shown.notation.number(float(r.acceleration(link)[k]))
+    if not inertia or abs(alpha) <= shown.least["angular_acceleration"]:
+        return out
+    minus = "−" if c.notation.torque > 0 else ""
+    product = f"{minus}{number('inertia', inertia)} cdot {bracketed(number('angular_acceleration', alpha))}"
+    couple = number("moment", float(found.couple[k]))
+    out.append(
+        Working(
+            f"T_{{I{n}}} = {minus}I_{{{n}}} alpha_{{{n}}}",
+            shown.converted(product, "moment", "inertia", "angular_acceleration"),
+            f'{couple} "{shown.unit("moment")}"',
+        )
+    )
+    if size > shown.least["force"]:
         out.append(
             Working(
-                f"T_{{I{n}}} = −I_{{{n}}} alpha_{{{n}}}",
-                f"−{number('inertia', inertia)} cdot {bracketed(alpha)}",
-                f'{couple} "{moment}"',
+                f"h_{{{n}}} = frac(|T_{{I{n}}}|; F_{{I{n}}})",
+                shown.divided(couple.lstrip("−"), number("force", size), "length", "moment", "force"),
+                f'{number("length", float(found.offset[k]))} "{shown.unit("length")}"',
             )
         )
-        if size > 0:
-            offset = number("length", float(found.offset[k]))
-            out.append(
-                Working(
-                    f"h_{{{n}}} = frac(I_{{{n}}} alpha_{{{n}}}; F_{{I{n}}})",
-                    f"frac({couple.lstrip('−')}; {number('force', size)})",
-                    f'{offset} "{shown.unit("length")}"',
-                )
-            )
     return out

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.analysis.actions import actions
 from dalembert.analysis.carried import table_row
 from dalembert.analysis.pairs import AXES
 from dalembert.report.chosen import Chosen, as_formula
@@ -21,7 +20,7 @@ Array = NDArray[Any]
 def reaction_tables(sheet: Sheet, c: Chosen) -> None:
     """Forces and moments of all joints by components and sizes; what is not unique in brackets."""
     r, on = c.r, {joint: _acted(c, joint) for joint in c.r.joints}
-    least = floors(r, c.k, actions(r))
+    least = floors(r, c.k)
     for axes, words, prime in (("ground", "ground axes", ""), ("joint", "each joint's own axes", "'")):
         heads = ["Joint", "Force", *(f"{a}{prime}" for a in AXES), "size"]
         heads += ["Moment", *(f"{a}{prime}" for a in AXES), "size"]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from dataclasses import replace
 from typing import Any
 
@@ -58,22 +57,24 @@ def pin_lines(c: Chosen, joint: str) -> list[Working]:
     large = shown.number("length", float(described.friction.radius))
     radius = shown.number("length", float(friction_circles(r, joint).radii[k]))
     if circle_kind(r.mechanism, described) == "sin":
-        angle = f"{math.degrees(math.atan(mu)):.2f} deg"
+        angle = f"{c.notation.degrees(math.atan(mu))} deg"
         letters, numbers = f"R_{{{joint}}} sin (arctan mu_{{{joint}}})", f"{large} sin {angle}"
     else:
-        letters, numbers = f"mu_{{{joint}}} R_{{{joint}}}", f"{mu:.6g} cdot {large}"
+        letters, numbers = f"mu_{{{joint}}} R_{{{joint}}}", f"{c.notation.given(mu)} cdot {large}"
     i, j = described.links
     on = i if j == GROUND else j
     force = float(np.hypot(*r.reaction(joint)[k]))
     couple = float(r.friction_moment(joint, on)[k])
-    sign = "−" if couple < 0 else ""
+    sign = "−" if couple * c.notation.torque < 0 else ""
     sense = "clockwise" if couple < 0 else "counter-clockwise"
     other = i if on == j else j
     return [
         Working(f"r_{{{joint}}} = {letters}", numbers, f'{radius} "{unit}"'),
         Working(
             f"M_{{f{shown.pair(other, on)}}} = {sign}r_{{{joint}}} {shown.reaction(joint, on)}",
-            f"{sign}{radius} cdot {shown.number('force', force)}",
+            shown.converted(
+                f"{sign}{radius} cdot {shown.number('force', force)}", "moment", "length", "force"
+            ),
             f'{shown.number("moment", couple)} "{shown.unit("moment")}, {sense} about {joint}"',
         ),
     ]
@@ -84,7 +85,7 @@ def _two_force_links(c: Chosen) -> list[TwoPins]:
     found: dict[str, TwoPins] = {}
     for joint in (n for n in c.r.joints if friction_circle_radius(c.r, n)):
         two = two_pins(c.r, joint) if c.r.mechanism.joints[joint].type == "pin" else None
-        if two is not None:
+        if two is not None and abs(two.tension[c.k]) > c.shown.least["force"]:
             found[two.link] = two
     return list(found.values())
 
@@ -110,24 +111,20 @@ def tangent_lines(c: Chosen, two: TwoPins) -> tuple[str, list[Working]]:
         + ("an inner one, as friction turns the link the same way at both pins" if inner else "an outer one")
         + "; its inclination to the line of the pins:"
     )
-    number = shown.number("length", length)
+    number, degrees = shown.number("length", length), c.notation.degrees
     moved = "+" if turn >= 0 else "−"
     return words, [
         Working(
             f"beta_{{{n}}} = arcsin frac(r_{{{large[0]}}} {sign} r_{{{large[1]}}}; {a}{b})",
             f"arcsin frac({sizes[0]} {sign} {sizes[1]}; {number})",
-            f"{_degrees(abs(turn))} deg",
+            f"{degrees(abs(turn))} deg",
         ),
         Working(
             f"theta_{{{a}{b}}} {moved} beta_{{{n}}}",
-            f"{_degrees(along)} {moved} {_degrees(abs(turn))}",
-            f"{_degrees(along + turn)} deg",
+            f"{degrees(along)} deg {moved} {degrees(abs(turn))} deg",
+            f"{degrees(along + turn)} deg",
         ),
     ]
-
-
-def _degrees(angle: float) -> str:
-    return f"{math.degrees(angle):.3f}".replace("-", "−")
 
 
 def guide_lines(c: Chosen, joint: str) -> list[Working]:
@@ -160,7 +157,7 @@ def guide_lines(c: Chosen, joint: str) -> list[Working]:
             Working(
                 f"N_{{{face}}} = frac(S_{{{joint}}} {sign} {name}; 2)",
                 "",
-                f'{number("force", load, 1e-12 * total)} "{unit}"',
+                f'{number("force", load)} "{unit}"',
             )
             for face, sign, load in loads
         ]
@@ -169,7 +166,7 @@ def guide_lines(c: Chosen, joint: str) -> list[Working]:
     out.append(
         Working(
             f"F_{{f{shown.pair(i, j)}}} = mu_{{{joint}}} S_{{{joint}}}",
-            f"{mu:.6g} cdot {number('force', total)}",
+            f"{c.notation.given(mu)} cdot {number('force', total)}",
             f'{number("force", rub)} "{unit}"',
         )
     )
@@ -186,11 +183,15 @@ def cost(sheet: Sheet, c: Chosen) -> None:
     drives = sum(float((r.effort(d) * r.drive_speed(d))[k]) for d in r.drives)
     put_in = max(drives, total - drives)
     rows = [
-        [n, shown.number("power", p), f"{100 * p / put_in:.2f} %" if not r.unknown_loads else "–"]
+        [n, shown.number("power", p), c.notation.percent(p / put_in) if not r.unknown_loads else "–"]
         for n, p in lost.items()
     ]
     rows.append(
-        ["sum", shown.number("power", total), f"{100 * total / put_in:.2f} %" if not r.unknown_loads else "–"]
+        [
+            "sum",
+            shown.number("power", total),
+            c.notation.percent(total / put_in) if not r.unknown_loads else "–",
+        ]
     )
     heads = ["Joint", f"Power lost ({shown.unit('power')})", "of the power put in"]
     sheet.table(heads, rows, "What friction takes at this position", total=True)
@@ -198,14 +199,14 @@ def cost(sheet: Sheet, c: Chosen) -> None:
     forward, reverse = float(found.forward[k]), float(found.reverse[k])
     parts = []
     if math.isfinite(forward):
-        parts.append(f"{100 * forward:.2f} % where the drive moves the load")
+        parts.append(f"{c.notation.percent(forward)} where the drive moves the load")
     if math.isfinite(reverse):
         held = " (0 or less: self-locking)" if reverse <= 0 else ""
-        parts.append(f"{100 * reverse:.2f} % where the load moves the drive{held}")
+        parts.append(f"{c.notation.percent(reverse)} where the load moves the drive{held}")
     if len(r.status) > 1 and math.isfinite(found.cycle):
-        parts.append(f"{100 * found.cycle:.2f} % over all positions, inertia and all")
+        parts.append(f"{c.notation.percent(found.cycle)} over all positions, inertia and all")
     if parts:
-        sheet.text(re.sub(r"-(?=\d)", "−", f"Efficiency, without inertia: {'; '.join(parts)}."))
+        sheet.text(f"Efficiency, without inertia: {'; '.join(parts)}.")
 
 
 def at_rest(sheet: Sheet, c: Chosen, answers: Any) -> None:

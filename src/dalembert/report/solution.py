@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.analysis.actions import actions, joint_place
+from dalembert.analysis.actions import joint_place
 from dalembert.analysis.members import ZERO, Member, Step, members, order_of_solution
 from dalembert.report.chosen import Chosen
 from dalembert.report.matrix import Unknown, matrix_equation, unknowns
@@ -78,7 +78,7 @@ def _rod(sheet: Sheet, c: Chosen, link: str, member: Member) -> None:
         f"{state}. Both forces lie on the line {a}{b}; one unknown is left of them, the "
         f"tension $S_{{{n}}}$ along"
     )
-    numbers = ", ".join(c.shown.notation.number(float(x) if abs(x) > 1e-12 else 0.0) for x in e)
+    numbers = ", ".join(c.shown.number("number", float(x)) for x in e)
     sheet.equations([Working(f"e_{{{n}}}", "", f"({numbers})")])
 
 
@@ -119,7 +119,7 @@ def _step(sheet: Sheet, c: Chosen, step: Step, some: list[Unknown]) -> None:
     )
     words = (
         f"The {len(some)} equations of {links} as one; what is known stands on the right (forces in "
-        f"{c.shown.unit('force')}, lengths in {c.shown.unit('length')}, moments in {c.shown.unit('moment')}), the "
+        f"{c.shown.unit('force')}, lengths in {c.shown.arm_unit}, moments in {c.shown.unit('moment')}), the "
         f"solution behind.{spins}"
     )
     sheet.blocks.append(replace(matrix, caption=words))
@@ -156,4 +156,4 @@ def _listed(sheet: Sheet, c: Chosen, links: str, equations: int, some: list[Unkn
 
 def _least(c: Chosen) -> dict[str, float]:
     """Below these an unknown is rounding."""
-    return dict(zip(("force", "moment"), floors(c.r, c.k, actions(c.r)), strict=False))
+    return dict(zip(("force", "moment"), floors(c.r, c.k), strict=False))

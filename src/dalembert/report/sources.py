@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.actions import GROUND, Action, actions
 from dalembert.analysis.columns import drive_kinds, load_kind
+from dalembert.analysis.rounding import PART
 from dalembert.errors import ModelError
+from dalembert.printing import remainder
 from dalembert.report.chosen import Chosen, as_formula
 from dalembert.report.sheet import Sheet, Working
 from dalembert.report.terms import floors
@@ -49,13 +51,11 @@ def superposition(sheet: Sheet, c: Chosen) -> None:
         for axis in range(r.mechanism.dimension):
             forces.append((along(sign, "xyz"[axis]), parts.force[:, k, n, axis], "force"))
     units = f"Forces in {shown.unit('force')}, couples in {shown.unit('moment')}"
-    tables = _tables(efforts, forces, r.mechanism.dimension)
+    tables, gap = _tables(efforts, forces, r.mechanism.dimension), remainder(float(parts.gap[k]))
     for n, columns in enumerate(tables):
-        last = (
-            f"{units}; the parts sum to the whole within {parts.gap[k]:.0e}" if n == len(tables) - 1 else ""
-        )
+        last = f"{units}; the parts sum to the whole within {gap}" if n == len(tables) - 1 else ""
         heads = ["Source", *(f"{as_formula(name)}" for name, _, _ in columns)]
-        sheet.table(heads, _rows(c, parts.sources, columns, [*efforts, *forces]), last, total=True)
+        sheet.table(heads, _rows(c, parts.sources, columns), last, total=True)
     external = [s for s in parts.sources if s in r.mechanism.loads]
     if 2 <= len(external) <= 4 and "graphical" in c.methods and r.mechanism.dimension == 2:
         sheet.figure(*(draw.force_chain(r, k + 1, c.notation, case=s) for s in external))
@@ -70,25 +70,15 @@ def _tables(efforts: list[Column], forces: list[Column], dimension: int) -> list
     return [*out, *(forces[n : min(n + 9, 18)] for n in range(first, min(len(forces), 18), 9))]
 
 
-def _rows(
-    c: Chosen, sources: tuple[str, ...], columns: list[Column], everything: list[Column]
-) -> list[list[str]]:
-    """A row a source and the sum; rounding beside the largest of a kind is 0."""
-    space = c.r.mechanism.dimension == 3
-    beside = everything if space else columns
-    floor = {
-        kind: 1e-10 * max((np.abs(v).max() for _, v, q in beside if q == kind), default=0.0)
-        for _, _, kind in columns
-    }
-    if space:
-        least = floors(c.r, c.k, actions(c.r))
-        floor = {kind: max(x, least[kind == "moment"]) for kind, x in floor.items()}
+def _rows(c: Chosen, sources: tuple[str, ...], columns: list[Column]) -> list[list[str]]:
+    """A row a source and the sum; rounding is 0."""
     rows = [
-        [source_sign(c, s), *(c.shown.number(kind, float(v[n]), floor[kind]) for _, v, kind in columns)]
+        [source_sign(c, s), *(c.shown.number(kind, float(v[n])) for _, v, kind in columns)]
         for n, s in enumerate(sources)
-        if not space or any(abs(float(v[n])) > floor[kind] for _, v, kind in columns)
+        if c.r.mechanism.dimension == 2
+        or any(abs(float(v[n])) > c.shown.least[kind] for _, v, kind in columns)
     ]
-    return [*rows, ["sum", *(c.shown.number(kind, float(v.sum()), floor[kind]) for _, v, kind in columns)]]
+    return [*rows, ["sum", *(c.shown.number(kind, float(v.sum())) for _, v, kind in columns)]]
 
 
 def shown_name(c: Chosen, kind: str, of: str) -> str:
@@ -126,30 +116,34 @@ def virtual_work(sheet: Sheet, c: Chosen) -> None:
             "The work of friction contains the joint forces found above: with friction virtual work checks that "
             "solution, it is no independent one."
         )
-    least = floors(r, k, actions(r)) if r.mechanism.dimension == 3 else (0.0, 0.0, 0.0)
+    least = floors(r, k)
     idle = "no reaction does work" if found.independent else "of the reactions friction alone does work"
     for n, drive in enumerate(r.drives):
         kind = drive_kinds(r, drive)["effort"]
         angular = kind == "moment"
-        unit = "rad" if angular else shown.unit("length")
-        sheet.text(f"Displacements for one {unit} of drive {drive}; {idle}.")
-        length = shown.value("length", 1.0)
-        move, turn = (length, 1.0) if angular else (1.0, 1.0 / length)
+        unit = "rad" if angular else shown.arm_unit
+        way = " clockwise" if angular and c.notation.torque < 0 else ""
+        sheet.text(f"Displacements for one {unit} of drive {drive}{way}; {idle}.")
+        sense = c.notation.torque if angular else 1  # the drive turns the way that counts as positive
+        move, turn = (sense / shown.arm, sense) if angular else (1.0, shown.arm)
+        reach = (
+            1.0 if angular else 1.0 / r.compiled.layout.length
+        )  # a turn that moves as far as the drive does
         rows = []
         floor = max(least[angular], 1e-12 * float(np.abs(found.power[:, k, n]).max(initial=0.0)))
         for a, v, w, p in zip(found.actions, found.velocity, found.spin, found.power, strict=True):
             if _nothing(a, k, least):
                 continue
             force = bool(np.nan_to_num(a.force).any())
-            acts = [_vector_of(shown, "force", a.force[k], least[0])] if force else []
-            moves = [_moved(shown, v[k, n], move)] if force else []
+            acts = [_vector_of(shown, "force", a.force[k])] if force else []
+            moves = [_moved(shown, v[k, n], move, reach * r.compiled.layout.length)] if force else []
             if np.abs(a.couple[k]).max() > least[1] or not force:
-                acts.append(_vector_of(shown, "moment", a.couple[k], least[1]))
-                moves.append(_moved(shown, w[k, n], turn * c.notation.torque))
-            work = shown.number(kind, float(p[k, n]) * c.notation.torque**angular, floor)
+                acts.append(_vector_of(shown, "moment", a.couple[k]))
+                moves.append(_moved(shown, w[k, n], turn * c.notation.torque, reach))
+            work = shown.number(kind, float(p[k, n]), floor)
             rows.append([source_sign(c, a.source), " and ".join(acts), " and ".join(moves), work])
         total = float(found.power[:, k, n].sum())
-        rows.append(["sum", "", "", shown.number(kind, total * c.notation.torque**angular, floor)])
+        rows.append(["sum", "", "", shown.number(kind, total, floor)])
         heads = ["Load", "Force or couple", "Displacement or turn", f"Work ({shown.unit(kind)})"]
         sheet.table(heads, rows, total=True)
         sign = shown_name(c, "effort", drive)
@@ -157,7 +151,7 @@ def virtual_work(sheet: Sheet, c: Chosen) -> None:
         sheet.equations(
             [Working(f"{sign} = −sum (F cdot delta r + T delta theta)", "", f'{effort} "{shown.unit(kind)}"')]
         )
-    sheet.text(f"The matrix answer agrees within {float(found.gap[k]):.0e} of the largest work.")
+    sheet.text(f"The matrix answer agrees within {remainder(float(found.gap[k]))} of the largest work.")
     if r.mechanism.dimension == 3:
         _powers(sheet, c, found)
 
@@ -177,11 +171,9 @@ def _powers(sheet: Sheet, c: Chosen, found: VirtualWork) -> None:
     for name in r.unknown_loads:
         a = next(a for a in actions(r) if a.kind == "load" and a.of == name)
         parts["loads"] = parts.get("loads", 0.0) + _power(r, a, k)
-    fastest = max(float(np.abs(v).max()) for v in (speed, *(r.speed(link)[k] for link in r.links)))
-    least = max(1e-10 * max(map(abs, parts.values())), floors(r, k, actions(r))[1] * fastest)
-    rows = [[name, c.shown.number("power", value, least)] for name, value in parts.items()]
+    rows = [[name, c.shown.number("power", value)] for name, value in parts.items()]
     total = sum(parts.values())
-    rows.append(["sum", c.shown.number("power", total, least)])
+    rows.append(["sum", c.shown.number("power", total)])
     heads = ["Power put in by", f"Power ({c.shown.unit('power')})"]
     idle = "no reaction has power" if found.independent else "of the reactions friction alone has power"
     sheet.table(heads, rows, f"At the speeds of this position; {idle}", total=True)
@@ -201,17 +193,16 @@ def _nothing(a: Action, k: int, least: tuple[float, ...]) -> bool:
     return bool(np.abs(a.force[k]).max() <= least[0] and np.abs(a.couple[k]).max() <= least[1] and least[2])
 
 
-def _vector_of(shown: Shown, kind: str, v: Any, least: float) -> str:
-    """A number, or a vector by its components; rounding in one is 0."""
-    least = max(least, 1e-12 * float(np.abs(v).max())) if np.size(v) == 3 else 0.0
-    numbers = [shown.number(kind, float(x), least) for x in np.atleast_1d(v)]
+def _vector_of(shown: Shown, kind: str, v: Any) -> str:
+    """A number, or a vector by its components."""
+    numbers = [shown.number(kind, float(x)) for x in np.atleast_1d(v)]
     return f"({', '.join(numbers)})" if np.ndim(v) else numbers[0]
 
 
-def _moved(shown: Shown, v: Any, factor: float) -> str:
-    """A displacement or turn for a unit of the drive, in the reader's units."""
-    least = 1e-12 if np.ndim(v) else 0.0
+def _moved(shown: Shown, v: Any, factor: float, size: float) -> str:
+    """A displacement or turn for a unit of the drive, in the reader's units; beside a size rounding is 0."""
     numbers = [
-        shown.notation.number(float(x) * factor if abs(float(x)) > least else 0.0) for x in np.atleast_1d(v)
+        shown.notation.number(float(x) * factor if abs(float(x)) > PART * size else 0.0)
+        for x in np.atleast_1d(v)
     ]
     return f"({', '.join(numbers)})" if np.ndim(v) else numbers[0]

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.contacts import circle as circle_kind
 from dalembert.analysis.friction import Rub, rubs_of
+from dalembert.analysis.rounding import PART
 from dalembert.report.chosen import Chosen
 from dalembert.report.rubbing import cost
 from dalembert.report.sheet import Sheet, Working
@@ -85,12 +86,12 @@ class _Joint:
 
     def _radius(self, rub: Rub, radius: float) -> Working:
         """Radius of a friction circle: R sin(arctan mu), or mu R."""
-        large, mu = self._number("length", radius), rub.coefficient
+        large, mu, given = self._number("length", radius), rub.coefficient, self.c.notation.given
         if circle_kind(self.c.r.mechanism, self.described) == "sin":
             letters = f"R_{{{self.joint}}} sin (arctan mu_{{{self.joint}}})"
-            numbers = f"{large} sin {math.degrees(math.atan(mu)):.4g} deg"
+            numbers = f"{large} sin {self.c.notation.degrees(math.atan(mu))} deg"
         else:
-            letters, numbers = f"mu_{{{self.joint}}} R_{{{self.joint}}}", f"{mu:.6g} cdot {large}"
+            letters, numbers = f"mu_{{{self.joint}}} R_{{{self.joint}}}", f"{given(mu)} cdot {large}"
         return Working(f"r_{{{self.joint}}} = {letters}", numbers, self._text("length", rub.strength))
 
     def _sum(self, sign: str, kind: str, parts: list[tuple[str, str]], amounts: list[float]) -> Working:
@@ -99,8 +100,14 @@ class _Joint:
         letters, numbers = (" + ".join(p[n] for p in parts) for n in (0, 1))
         if len(parts) > 1:
             letters, numbers = f"({letters})", f"({numbers})"
-        total = self._text(kind, sum(amounts))
-        return Working(f"{sign} = {minus}{letters}", f"{minus}{numbers}", total)
+        total, numbers = self._text(kind, sum(amounts)), f"{minus}{numbers}"
+        return Working(
+            f"{sign} = {minus}{letters}", self._couple(numbers) if kind == "moment" else numbers, total
+        )
+
+    def _couple(self, numbers: str) -> str:
+        """A product of a length and a force as a moment."""
+        return self.c.shown.converted(numbers, "moment", "length", "force")
 
     def _product(self, factor: str, factor_number: str, rub: Rub, n: int, of: int) -> tuple[str, str]:
         name = f"S_{{{self.joint}{f',{n + 1}' if of > 1 else ''}}}"
@@ -120,7 +127,7 @@ class _Joint:
             for n, rub in enumerate(pins)
         ]
         for rub in collars:
-            mu, arm = f"{rub.coefficient:.6g}", self._number("length", self.described.friction.thrust_radius)
+            mu, arm = self._given(rub), self._number("length", self.described.friction.thrust_radius)
             size = f"|{along(self.sign, 'z' + chr(39))}|"
             letters = f"mu_{{{self.joint}}} R_{{t}} {size}"
             parts.append((letters, f"{mu} cdot {arm} cdot {self._number('force', rub.bearing)}"))
@@ -130,7 +137,7 @@ class _Joint:
     def _prismatic(self) -> list[Working]:
         of, mu = len(self.rubs), f"mu_{{{self.joint}}}"
         out = [self._bearing(rub, n, of, "yz") for n, rub in enumerate(self.rubs)]
-        parts = [self._product(mu, f"{rub.coefficient:.6g}", rub, n, of) for n, rub in enumerate(self.rubs)]
+        parts = [self._product(mu, self._given(rub), rub, n, of) for n, rub in enumerate(self.rubs)]
         return [
             *out,
             self._sum(along(self.force_sign, "x'"), "force", parts, [rub.amount for rub in self.rubs]),
@@ -143,12 +150,12 @@ class _Joint:
         out = [self._bearing(rub, n, of, "yz") for n, rub in enumerate(guides)]
         parts = [("p_{x'}", rub.part), *([("p_{t}", pins[0].part)] if pins else [])]
         out.append(Working(", quad ".join(f"{sign} = {self._figure(part)}" for sign, part in parts)))
-        factor, figure = f"mu_{{{name}}}", f"{rub.coefficient:.6g}"
+        factor, figure = f"mu_{{{name}}}", self._given(rub)
         if pins and circle_kind(self.c.r.mechanism, self.described) == "sin":
             below = f"(1 + ({figure} cdot {self._figure(abs(pins[0].part))})^{{2}})^{{1/2}}"
             letters = f"k_{{{name}}} = frac(mu_{{{name}}}; (1 + (mu_{{{name}}} p_{{t}})^{{2}})^{{1/2}})"
             factor, figure = f"k_{{{name}}}", self._figure(rub.strength)
-            out.append(Working(letters, f"frac({rub.coefficient:.6g}; {below})", figure))
+            out.append(Working(letters, f"frac({self._given(rub)}; {below})", figure))
         out.append(
             self._shared(
                 "force", f"{factor} |p_{{x'}}|", f"{figure} cdot {self._figure(abs(rub.part))}", guides
@@ -173,12 +180,15 @@ class _Joint:
         return self._sum(sign, kind, parts, [rub.amount for rub in rubs])
 
     def _figure(self, x: float) -> str:
-        return self.c.notation.number(x if abs(x) > 1e-12 else 0.0)
+        return self.c.shown.number("number", x)
+
+    def _given(self, rub: Rub) -> str:
+        return self.c.notation.given(rub.coefficient)
 
     def _spherical(self) -> list[Working]:
         rub = self.rubs[0]
         couple = self.c.r.friction_moment(self.joint)[self.c.k]
-        least = 1e-10 * float(np.abs(couple).max())
+        least = PART * float(np.abs(couple).max())
         size = self._text("moment", float(np.linalg.norm(couple)))
         numbers = ", ".join(self.c.shown.number("moment", float(x), least) for x in couple)
         return [
@@ -186,7 +196,9 @@ class _Joint:
             self._bearing(rub, 0, 1, "xyz"),
             Working(
                 f"|{self.couple_sign}| = r_{{{self.joint}}} S_{{{self.joint}}}",
-                f"{self._number('length', rub.strength)} cdot {self._number('force', rub.bearing)}",
+                self._couple(
+                    f"{self._number('length', rub.strength)} cdot {self._number('force', rub.bearing)}"
+                ),
                 size,
             ),
             Working(self.couple_sign, "", f'({numbers}) "{self.c.shown.unit("moment")}, ground axes"'),
@@ -196,10 +208,10 @@ class _Joint:
         thread, pin = self.rubs
         f, joint = self.described.friction, self.joint
         climb = math.atan(abs(self.described.lead) / (2 * math.pi * f.radius))
-        flank = math.degrees(f.thread_angle or 0.0)
-        axial = thread.bearing * math.cos(climb) * math.cos(math.radians(flank))
+        flank = f.thread_angle or 0.0
+        axial = thread.bearing * math.cos(climb) * math.cos(flank)
         rub = (thread.amount + pin.amount) / math.sin(climb)
-        mu, degrees = f"{thread.coefficient:.6g}", f"{math.degrees(climb):.4g}"
+        mu, degrees = self._given(thread), self.c.notation.degrees(climb)
         both = f"({self._number('force', thread.bearing)} + {self._number('force', pin.bearing)})"
         lead = self._number("length", abs(self.described.lead))
         radius = self._number("length", f.radius)
@@ -209,7 +221,7 @@ class _Joint:
             ),
             Working(
                 f"S_{{{joint},t}} = frac(|{along(self.sign, 'x' + chr(39))}|; cos beta cos gamma)",
-                f"frac({self._number('force', axial)}; cos {degrees} deg cos {flank:.4g} deg)",
+                f"frac({self._number('force', axial)}; cos {degrees} deg cos {self.c.notation.degrees(flank)} deg)",
                 self._text("force", thread.bearing),
             ),
             self._bearing(pin, 0, 1, "yz"),
@@ -231,7 +243,7 @@ class _Joint:
             ),
             Working(
                 f"{along(self.couple_sign, 'x' + chr(39))} = {turned}|{self.force_sign}| R cos beta",
-                f"{turned}{size} cdot {radius} cos {degrees} deg",
+                self._couple(f"{turned}{size} cdot {radius} cos {degrees} deg"),
                 self._text("moment", couple),
             ),
         ]

@@ -11,16 +11,16 @@ from numpy.typing import NDArray
 from dalembert.algebra import space
 from dalembert.analysis.actions import joint_place
 from dalembert.analysis.closing import closure_gap
+from dalembert.analysis.rounding import PART
 from dalembert.analysis.turning import turning
+from dalembert.printing import remainder
 from dalembert.report.chosen import Chosen
 from dalembert.report.closing import closing_lines
-from dalembert.report.moving import shares
+from dalembert.report.moving import shares, units_of_inertia
 from dalembert.report.sheet import Sheet, Working
 
 Array = NDArray[Any]
 AXES = "xyz"
-ROUNDING = 1e-10
-"""A component below this part of the largest of its kind is rounding."""
 
 
 def space_motion(sheet: Sheet, c: Chosen) -> None:
@@ -36,15 +36,15 @@ def space_motion(sheet: Sheet, c: Chosen) -> None:
     sheet.text(
         f"The {6 * len(r.links)} coordinates of the {many} satisfy {count} closure equations of the "
         f"joints{given}; they are solved together by Newton's method. The largest gap left in any of them is "
-        f"{gap / length:.0e} of the characteristic length {c.shown.text('length', length)}."
+        f"{remainder(gap / length)} of the characteristic length {c.shown.text('length', length)}."
     )
     meshes = [n for n in r.joints if r.mechanism.joints[n].type == "gear"]
     if meshes:
         sheet.text(f"The pitch circles of {' and '.join(meshes)} tie the turns of their wheels.")
-    closing_lines(sheet, r, k, c.shown, _moves(c), lambda kind: _least(c, kind))
+    closing_lines(sheet, r, k, c.shown, _moves(c))
     joint_values(sheet, c)
     unit = c.shown.unit("length")
-    places = [[j, *_vector(c, "length", joint_place(r, j)[k], length)] for j in r.joints]
+    places = [[j, *_vector(c, "length", joint_place(r, j)[k])] for j in r.joints]
     sheet.table(["Joint", *(f"{a} ({unit})" for a in AXES)], places, "Places of the joints, ground axes")
     _turned(sheet, c)
     if _moves(c):
@@ -66,29 +66,15 @@ def joint_values(sheet: Sheet, c: Chosen) -> None:
             else ("length", "speed", "acceleration")
         )
         values = [float(v[c.k]) for v in c.r.freedom(joint, freedom)]
-        cells = [c.shown.text(kind, v, _least(c, kind)) for kind, v in zip(kinds, values, strict=True)]
+        cells = [c.shown.text(kind, v) for kind, v in zip(kinds, values, strict=True)]
         rows.append([joint, freedom, *(cells if _moves(c) else cells[:1])])
     heads = ["Joint", "Freedom", "Value", *(["Rate", "Second rate"] if _moves(c) else [])]
     sheet.table(heads, rows, "Zero where the joint's axes, or its points, agree")
 
 
-def _least(c: Chosen, kind: str) -> float:
-    """Below this a number of a kind is rounding, SI."""
-    r, length = c.r, c.r.compiled.layout.length
-    fastest = max((float(np.abs(np.nan_to_num(r.speed(n)[c.k])).max()) for n in r.links), default=0.0)
-    fastest = max(fastest, float(np.abs(r.schedule.speed[c.k]).max(initial=0.0)) / length)
-    whole = {"angle": 1.0, "angular_speed": fastest, "angular_acceleration": fastest**2}
-    lengthwise = {"length": "angle", "speed": "angular_speed", "acceleration": "angular_acceleration"}
-    return ROUNDING * (whole[lengthwise[kind]] * length if kind in lengthwise else whole[kind])
-
-
-def _vector(c: Chosen, kind: str, v: Array, beside: float = 0.0) -> list[str]:
-    """Components with rounding beside the largest, or another size, as 0."""
-    least = max(ROUNDING * max(float(np.abs(v).max()), beside), _least(c, kind) if kind in MOTIONS else 0.0)
-    return [c.shown.number(kind, float(x), least) for x in v]
-
-
-MOTIONS = ("length", "speed", "acceleration", "angular_speed", "angular_acceleration")
+def _vector(c: Chosen, kind: str, v: Array) -> list[str]:
+    """Components; rounding is 0."""
+    return [c.shown.number(kind, float(x)) for x in v]
 
 
 def _turned(sheet: Sheet, c: Chosen) -> None:
@@ -96,11 +82,11 @@ def _turned(sheet: Sheet, c: Chosen) -> None:
     r, rows = c.r, []
     for link in r.links:
         angle, axis = space.angle_and_axis(r.rotation(link)[c.k])
-        figures = [c.shown.notation.number(float(x) if abs(x) > ROUNDING else 0.0) for x in axis]
-        turn = [c.shown.text("angle", float(angle)), *figures] if angle else ["none", "–", "–", "–"]
+        figures = _vector(c, "number", axis)
+        turn = [c.shown.text("angle", float(angle)), *figures] if angle > PART else ["none", "–", "–", "–"]
         center = ["–"] * 3
         if r.mechanism.mass(link):
-            center = _vector(c, "length", r.center(link)[c.k], r.compiled.layout.length)
+            center = _vector(c, "length", r.center(link)[c.k])
         rows.append([c.shown.heading(link), *turn, *center])
     unit = c.shown.unit("length")
     heads = ["Link", "Turned by", *(f"about {a}" if a == "x" else a for a in AXES)]
@@ -140,6 +126,7 @@ def space_inertia(sheet: Sheet, c: Chosen) -> None:
         "The couple is worked out in the link's own axes, in which its inertia stays the same, and then turned to "
         "ground axes; $omega times J omega$ is its gyroscopic part."
     )
+    units_of_inertia(sheet, c)
     for link in heavy:
         lines = [*_force(c, link), *_couple(c, link)]
         still = "" if lines else " neither its mass centre nor its turning is accelerated."
@@ -151,44 +138,52 @@ def space_inertia(sheet: Sheet, c: Chosen) -> None:
 def _force(c: Chosen, link: str) -> list[Working]:
     r, n, mass = c.r, c.shown.link(link), c.r.mechanism.mass(link)
     a = r.center_acceleration(link)[c.k]
-    if not mass or not (np.abs(a) > _least(c, "acceleration")).any():
+    if not mass or not (np.abs(a) > c.shown.least["acceleration"]).any():
         return []
-    numbers = f"−{c.shown.number('mass', mass)} ({', '.join(_vector(c, 'acceleration', a))})"
-    least = mass * _least(c, "acceleration")
-    force = [c.shown.number("force", float(-mass * x), least) for x in a]
-    size = c.shown.text("force", mass * math.hypot(*a), least)
-    unit = c.shown.unit("force")
-    result = f'({", ".join(force)}) "{unit}, size {size}"'
-    return [Working(f"F_{{I{n}}} = −m_{{{n}}} a_{{G{n}}}", numbers, result)]
+    product = f"−{c.shown.number('mass', mass)} ({', '.join(_vector(c, 'acceleration', a))})"
+    numbers = c.shown.converted(product, "force", "mass", "acceleration")
+    force = ", ".join(_vector(c, "force", -mass * a))
+    size = c.shown.text("force", mass * math.hypot(*a))
+    return [
+        Working(
+            f"F_{{I{n}}} = −m_{{{n}}} a_{{G{n}}}",
+            numbers,
+            f'({force}) "{c.shown.unit("force")}, size {size}"',
+        )
+    ]
 
 
 def _couple(c: Chosen, link: str) -> list[Working]:
     """J alpha and omega x J omega in link axes, their sum reversed, and the same in ground axes."""
-    t, n, k = turning(c.r, link), c.shown.link(link), c.k
-    largest = float(np.abs(t.inertia).max()) * _least(c, "angular_acceleration") / ROUNDING
+    t, n, k, unit = turning(c.r, link), c.shown.link(link), c.k, c.shown.unit("moment")
     couple = -(t.rate + t.gyroscopic)[k]
-    if not (np.abs([t.rate[k], t.gyroscopic[k]]) > ROUNDING * largest).any():
+    if not (np.abs([t.rate[k], t.gyroscopic[k]]) > c.shown.least["moment"]).any():
         return []
-    unit = c.shown.unit("moment")
 
-    def moment(v: Array) -> str:
-        return f"({', '.join(_vector(c, 'moment', v, largest))})"
+    def vector(kind: str, v: Array) -> str:
+        return f"({', '.join(_vector(c, kind, v))})"
 
-    def rate(kind: str, v: Array) -> str:
-        return f'({", ".join(_vector(c, kind, v))}) "{c.shown.unit(kind)}"'
-
-    ground = c.r.rotation(link)[k] @ couple
+    omega, alpha = vector("angular_speed", t.speed[k]), vector("angular_acceleration", t.acceleration[k])
+    rate, gyroscopic, whole = (vector("moment", v) for v in (t.rate[k], t.gyroscopic[k], couple))
+    numbers = [
+        c.shown.converted(text, "moment", "inertia", *of)
+        for text, of in (
+            (f"J_{{{n}}} {alpha}", ["angular_acceleration"]),
+            (f"{omega} times J_{{{n}}} {omega}", ["angular_speed"] * 2),
+        )
+    ]
+    ground = vector("moment", c.r.rotation(link)[k] @ couple)
     return [
         Working(
-            f"omega_{{{n}}} = {rate('angular_speed', t.speed[k])}, quad "
-            f"alpha_{{{n}}} = {rate('angular_acceleration', t.acceleration[k])}"
+            f'omega_{{{n}}} = {omega} "{c.shown.unit("angular_speed")}", quad '
+            f'alpha_{{{n}}} = {alpha} "{c.shown.unit("angular_acceleration")}"'
         ),
-        Working(f"J_{{{n}}} alpha_{{{n}}}", "", f'{moment(t.rate[k])} "{unit}"'),
-        Working(f"omega_{{{n}}} times J_{{{n}}} omega_{{{n}}}", "", f'{moment(t.gyroscopic[k])} "{unit}"'),
+        Working(f"J_{{{n}}} alpha_{{{n}}}", numbers[0], f'{rate} "{unit}"'),
+        Working(f"omega_{{{n}}} times J_{{{n}}} omega_{{{n}}}", numbers[1], f'{gyroscopic} "{unit}"'),
         Working(
             f"T_{{I{n}}} = −(J_{{{n}}} alpha_{{{n}}} + omega_{{{n}}} times J_{{{n}}} omega_{{{n}}})",
-            "",
-            f'{moment(couple)} "{unit}, link axes"',
+            f"−({rate} + {gyroscopic})",
+            f'{whole} "{unit}, link axes"',
         ),
-        Working(f"T_{{I{n}}}", "", f'{moment(ground)} "{unit}, ground axes"'),
+        Working(f"T_{{I{n}}}", "", f'{ground} "{unit}, ground axes"'),
     ]

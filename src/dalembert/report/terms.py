@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from dalembert.analysis.actions import Action, drive_wrench, unit_load
 from dalembert.analysis.carried import Component, components, left_over
 from dalembert.analysis.columns import drive_kinds
+from dalembert.analysis.rounding import least
 from dalembert.views.notation import Shown, along, own_name
 
 if TYPE_CHECKING:
@@ -54,14 +55,13 @@ class Setting(NamedTuple):
     about: About
     floors: tuple[float, float, float]
 
-    def vector(self, kind: str, v: Array, floor: int) -> list[float]:
-        """Components of a vector along the axes, in the reader's unit; rounding is 0."""
-        scale = abs(self.shown.value(kind, 1.0))
-        return [float(x) * scale if abs(x) > self.floors[floor] else 0.0 for x in self.axes @ v]
+    def vector(self, size: float, v: Array, floor: int) -> list[float]:
+        """Components of a vector along the axes, in units of a size; rounding is 0."""
+        return [float(x) / size if abs(x) > self.floors[floor] else 0.0 for x in self.axes @ v]
 
     def arm(self, at: Array) -> list[float]:
-        """From the point of the moments to a place, in the reader's unit."""
-        return self.vector("length", at - np.asarray(self.about.place), 2)
+        """From the point of the moments to a place, in the unit that makes moments of forces."""
+        return self.vector(self.shown.arm, at - np.asarray(self.about.place), 2)
 
     def number(self, value: float) -> str:
         """As the reader writes it."""
@@ -84,33 +84,16 @@ def signed(parts: list[Signed]) -> str:
     return out or "0"
 
 
-def setting(
-    r: Result, link: str, k: int, shown: Shown, about: About, everything: tuple[Action, ...]
-) -> Setting:
+def setting(r: Result, link: str, k: int, shown: Shown, about: About) -> Setting:
     """In ground axes or in those of the link, as the reader has them."""
     axes = np.eye(r.mechanism.dimension) if shown.notation.axes == "ground" else r.rotation(link)[k].T
-    return Setting(r, k, shown, axes, about, floors(r, k, everything))
+    return Setting(r, k, shown, axes, about, floors(r, k))
 
 
-def floors(r: Result, k: int, everything: tuple[Action, ...]) -> tuple[float, float, float]:
-    """Sizes below which a force (N), a moment (N m) and a length (m) are rounding beside the largest of all."""
-    length = r.compiled.layout.length
-    if r.mechanism.dimension == 2:
-        force = float(np.nanmax(np.abs(r.force_array[k]), initial=0.0))
-        return 1e-10 * force, 1e-12 * force, 1e-9 * length
-    force = max((float(np.abs(np.nan_to_num(a.force[k])).max()) for a in everything), default=0.0)
-    moment = max((float(np.abs(np.nan_to_num(a.couple[k])).max()) for a in everything), default=0.0)
-    force, moment = max(force, moment / length), max(moment, force * length)
-    whole = _inertia_scale(r, k) if r.inertia else (0.0, 0.0)
-    return max(1e-10 * force, 1e-13 * whole[0]), max(1e-10 * moment, 1e-13 * whole[1]), 1e-9 * length
-
-
-def _inertia_scale(r: Result, k: int) -> tuple[float, float]:
-    """In space: the force and the couple that the largest mass and inertia would take at the fastest turning."""
-    fastest = max((float(np.abs(np.nan_to_num(r.speed(n)[k])).max()) for n in r.links), default=0.0) ** 2
-    numbers, length = r.compiled.forcing.inertia, r.compiled.layout.length
-    mass, inertia = (float(np.max(v, initial=0.0)) for v in (numbers.mass, numbers.inertia))
-    return fastest * mass * length, fastest * max(inertia, mass * length**2)
+def floors(r: Result, k: int) -> tuple[float, float, float]:
+    """Sizes below which a force (N), a moment (N m) and a length (m) are rounding."""
+    found = least(r, k)
+    return found["force"], found["moment"], found["length"]
 
 
 def terms(s: Setting, some: tuple[Action, ...]) -> list[Term]:
@@ -172,19 +155,19 @@ class Vector:
         self.s, self.action, self.unknown = s, a, unknown
         self.plane = s.r.mechanism.dimension == 2
         self.sign = s.shown.symbol(a)
-        self.values = s.vector("force", force, 0)
+        self.values = s.vector(s.shown.size("force"), force, 0)
         self.arm = s.arm(a.at[s.k])
         if self.plane:
             self.couple = [s.shown.value("moment", float(couple[0]))]
             self.forced = bool(a.force.any()) or a.kind == "joint"
         else:
-            self.couple = s.vector("moment", couple, 1)
+            self.couple = s.vector(s.shown.size("moment"), couple, 1)
             self.forced = bool(force.any()) or unknown == "force"
 
     @property
     def turned(self) -> bool:
         """In the plane: whether it has a couple to speak of."""
-        return abs(self.couple[0]) > self.s.floors[1] * abs(self.s.shown.value("force", 1.0))
+        return abs(self.couple[0]) > self.s.floors[1] * abs(self.s.shown.value("moment", 1.0))
 
     @property
     def counts(self) -> bool:
@@ -235,8 +218,8 @@ class Line:
         self.cosines = _cleaned(s.axes @ force)
         self.arm = s.arm(a.at[s.k])
         turning = _cleaned(s.axes @ couple)
-        length = abs(s.shown.value("length", 1.0)) if kind == "force" else 1.0
-        self.turning = [t * length for t in turning]
+        arm = s.shown.arm if kind == "force" else 1.0
+        self.turning = [t / arm for t in turning]
 
     def force(self, axis: int) -> list[Piece]:
         """Its part along an axis."""

@@ -25,7 +25,6 @@ from dalembert.report.solution import order_and_solution
 from dalembert.report.sources import superposition, virtual_work
 from dalembert.report.space_friction import space_friction
 from dalembert.report.space_motion import space_inertia, space_motion
-from dalembert.report.terms import floors
 from dalembert.views import draw, rest
 from dalembert.views.notation import Notation, Shown, own_name
 
@@ -51,7 +50,7 @@ def working(
             "moments cannot be counted clockwise in space",
             "leave it out: they are positive by the right hand",
         )
-    c = Chosen(r, position_at(r, at), Shown(r, notation), methods, about, notation)
+    c = Chosen(r, position_at(r, at), Shown(r, notation, position_at(r, at)), methods, about, notation)
     m = r.mechanism
     sheet = Sheet(m.title or "Force analysis", m.source_text, _where(c))
     knowns(sheet, c)
@@ -110,7 +109,8 @@ def _bodies(sheet: Sheet, c: Chosen) -> None:
     for link in r.links:
         lines, about = balance.link_equations(r, link, c.k, shown, c.about)
         place = "the mass centre G" if about.name == "G" else f"joint {about.name}"
-        sheet.text(f"Link {shown.heading(link)}, moments about {place}; R from there to each force:")
+        own = f" (in {shown.arm_unit})" if shown.arm_unit != shown.unit("length") else ""
+        sheet.text(f"Link {shown.heading(link)}, moments about {place}; R{own} from there to each force:")
         sheet.equations(lines)
     if r.mechanism.dimension == 3:
         order_and_solution(sheet, c)
@@ -118,7 +118,9 @@ def _bodies(sheet: Sheet, c: Chosen) -> None:
     found = matrix.matrix_equation(r, c.k, shown, c.about)
     if found is not None:
         sheet.heading(f"The {len(found.unknowns)} equations as one", 2)
-        units = f"forces in {shown.unit('force')}, lengths in {shown.unit('length')}, moments in {shown.unit('moment')}"
+        units = (
+            f"forces in {shown.unit('force')}, lengths in {shown.arm_unit}, moments in {shown.unit('moment')}"
+        )
         words = f"The knowns stand on the right ({units}); the solution behind it."
         sheet.blocks.append(replace(found, caption=words))
 
@@ -153,27 +155,23 @@ def _force_row(c: Chosen, joint: str) -> list[Any]:
     part = next(a for a in actions(r) if a.kind == "joint" and a.of == joint and a.link == on)
     a = replace(part, force=r.reaction(joint, on))
     along = components_along(r, a, k) if np.isfinite(f).all() else (math.nan, math.nan)
-    nothing = float(np.nanmax(np.abs(r.force_array[k]), initial=0.0)) * 1e-10
-    angle = f"{math.degrees(math.atan2(f[1], f[0])):.2f}".replace("-", "−")
     return [
         joint,
         as_formula(shown.reaction(joint, on)),
-        *(shown.number("force", float(x), nothing) for x in f),
+        *(shown.number("force", float(x)) for x in f),
         shown.number("force", float(np.hypot(*f))),
-        angle if np.hypot(*f) > nothing else "–",
-        *(shown.number("force", x, nothing) for x in along),
-        shown.number("moment", moment) if abs(moment) > 0 else "–",
+        c.notation.direction(*map(float, f)) if np.hypot(*f) > shown.least["force"] else "–",
+        *(shown.number("force", x) for x in along),
+        shown.number("moment", moment) if abs(moment) > shown.least["moment"] else "–",
     ]
 
 
 def _efforts(c: Chosen) -> list[Working]:
     """Efforts and unknown loads with their values."""
     r, k = c.r, c.k
-    least = dict(zip(("force", "moment"), floors(r, k, actions(r)), strict=False))
 
     def line(name: str, kind: str, value: float) -> Working:
-        floor = least[kind] if r.mechanism.dimension == 3 else 0.0
-        return Working(f'{name} = {c.shown.number(kind, value, floor)} "{c.shown.unit(kind)}"')
+        return Working(f'{name} = {c.shown.number(kind, value)} "{c.shown.unit(kind)}"')
 
     lines = []
     for d in r.drives:

@@ -141,9 +141,8 @@ def _words(r: Result, joint: str, k: int, shown: Shown, on: str) -> list[str]:
     law = (
         f"r = {kind}" if r.mechanism.joints[joint].type == "revolute" else "r: friction around over the force"
     )
-    sizes = (
-        f"R = {shown.text('length', float(f.radius))}, μ = {mu:.6g}, φ = {math.degrees(math.atan(mu)):.2f}°"
-    )
+    write = shown.notation
+    sizes = f"R = {shown.text('length', float(f.radius))}, μ = {write.given(mu)}, φ = {write.degrees(math.atan(mu))}°"
     out = [f"{law}; {sizes}."]
     i, j = r.mechanism.joints[joint].links
     sense = friction_sense(r, joint, "pin", k) * (1.0 if on == j else -1.0)

@@ -127,9 +127,10 @@ def _law(r: Result, joint: str, k: int, shown: Shown) -> str:
     kind = "R sin φ" if circle_kind(r.mechanism, r.mechanism.joints[joint]) == "sin" else "μ R"
     radius = shown.text("length", float(friction_circles(r, joint).radii[k]))
     mu = friction_coefficient(r, joint, k)
-    angle = math.degrees(math.atan(mu))
-    large = shown.text("length", _journal(r, joint))
-    return f"r = {kind} = {radius}; pin R = {large}, μ = {mu:.6g}, φ = {angle:.2f}°."
+    large, write = shown.text("length", _journal(r, joint)), shown.notation
+    return (
+        f"r = {kind} = {radius}; pin R = {large}, μ = {write.given(mu)}, φ = {write.degrees(math.atan(mu))}°."
+    )
 
 
 def _journal(r: Result, joint: str) -> float:

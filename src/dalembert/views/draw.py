@@ -303,11 +303,11 @@ def _whole(
     r: Result, k: int, notation: Notation | None, drawn: Callable[[Result], Scene], title: str = ""
 ) -> Scene:
     """A drawing of the result, or of both ends where friction leaves it open."""
-    return at_both_ends(r, k, Shown(r, notation or Notation()), drawn, title or r.mechanism.title)
+    return at_both_ends(r, k, Shown(r, notation or Notation(), k), drawn, title or r.mechanism.title)
 
 
 def _title(r: Result, k: int, what: str, notation: Notation | None) -> str:
-    return place_title(r, k, what, Shown(r, notation or Notation()))
+    return place_title(r, k, what, Shown(r, notation or Notation(), k))
 
 
 __all__ = [

@@ -317,7 +317,7 @@ class Drawing:
             f"R = {self.vector(self.central.force, 'force')}, {text('force', Force(self.central.force).size)}"
         )
         if s.dimension == 2:
-            degrees = f"{math.degrees(Force(self.central.force).angle):.2f}".replace("-", "−")
+            degrees = self.shown.notation.direction(*self.central.force)
             return f"The system is a single force: {words} ∠ {degrees}°."
         through = f"on the line through {self.coordinates(self.central.axis.point)}"
         if self.kind == "single force":

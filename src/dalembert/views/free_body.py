@@ -34,7 +34,7 @@ def free_body_scene(
     r: Result, link: str, k: int, notation: Notation | None = None, some: tuple[Action, ...] | None = None
 ) -> Scene:
     """One link with all joint forces, loads, weights, inertia forces and couples at a position."""
-    shown = Shown(r, notation or Notation())
+    shown = Shown(r, notation or Notation(), k)
     everything = acting_lines(r, k) if some is None else some
     frame = _frame(r, link, k, shown, everything)
     canvas = Canvas()
@@ -145,7 +145,7 @@ def _distances(r: Result, link: str, k: int, shown: Shown) -> str:
 
 def components_scene(r: Result, link: str, k: int, notation: Notation | None = None) -> Scene:
     """Joint forces of a link resolved along and across it."""
-    shown = Shown(r, notation or Notation())
+    shown = Shown(r, notation or Notation(), k)
     everything = whole_actions(r)
     frame = _frame(r, link, k, shown, everything)
     canvas = Canvas()

@@ -76,7 +76,7 @@ def guide_detail(r: Result, joint: str, k: int, shown: Shown, on: str, words: bo
 def guide_words(r: Result, joint: str, k: int, shown: Shown, on: str) -> list[str]:
     """Which faces bear with how much, the angle of friction, and why friction points as it does."""
     mu = friction_coefficient(r, joint, k)
-    angle = f"μ = {mu:.6g}, φ = {math.degrees(math.atan(mu)):.2f}°"
+    angle = f"μ = {shown.notation.given(mu)}, φ = {shown.notation.degrees(math.atan(mu))}°"
     sense = friction_sense(r, joint, sliding_contact(r, joint), k)
     i, j = r.mechanism.joints[joint].links
     out = []
@@ -247,7 +247,7 @@ class _Sketch:
             return
         arc = Arc(head, radius, start, start + turn, "construction")
         self.canvas.add(arc)
-        words = f"φ = {abs(math.degrees(turn)):.2f}°"
+        words = f"φ = {self.shown.notation.degrees(abs(turn))}°"
         self.canvas.label(words, arc.at(start + turn / 2), size=2.6, role="note")
 
     def motion(self, on: str) -> None:

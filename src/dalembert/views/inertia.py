@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 def displaced_inertia_scene(r: Result, link: str, k: int, notation: Notation | None = None) -> Scene:
     """A link with the acceleration of its mass centre, its inertia force displaced by h = I alpha / F."""
-    shown = Shown(r, notation or Notation())
+    shown = Shown(r, notation or Notation(), k)
     found = displaced_inertia(r, link)
     g, at = found.center[k], found.at[k]
     places = [*link_points(r, link, k).values(), tuple(g), tuple(at)]

@@ -60,7 +60,7 @@ def mechanism_scene(
     Lengths and forces are to scale, both stated below. With ``friction`` (where there is some) the friction circles
     with the lines of the reactions, and with ``details`` pins and guides at a larger scale.
     """
-    shown = Shown(r, notation or Notation())
+    shown = Shown(r, notation or Notation(), k)
     frame = whole_frame(r, k, width, height)
     canvas = Canvas()
     draw_traces(canvas, r, frame)
@@ -215,7 +215,7 @@ def draw_actions(
         if size > 1e-9 * largest and size / per_mm > 0.05:
             draw_force(canvas, r, a, k, frame, shown, per_mm, values)
             drawn = True
-        if abs(float(a.couple[k])) > 1e-9 * max(couples, default=0.0):
+        if abs(float(a.couple[k])) > max(1e-9 * max(couples, default=0.0), shown.least["moment"]):
             draw_couple(canvas, r, a, k, frame, shown, values)
     return per_mm if drawn else None
 

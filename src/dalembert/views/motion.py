@@ -28,7 +28,7 @@ Order = Literal["velocity", "acceleration"]
 
 def motion_polygon_scene(r: Result, k: int, order: Order, notation: Notation | None = None) -> Scene:
     """Velocities (or accelerations) of all joints and mass centres from one pole; each link has its image."""
-    shown = Shown(r, notation or Notation())
+    shown = Shown(r, notation or Notation(), k)
     found = _vectors(r, k, order)
     if not np.isfinite(list(found.values())).all():
         what = "velocities" if order == "velocity" else "accelerations"
@@ -134,7 +134,7 @@ def _center(ta: Array, pa: Array, tb: Array, pb: Array) -> tuple[float, float] |
 
 def instant_centers_scene(r: Result, k: int, notation: Notation | None = None) -> Scene:
     """The mechanism with the instant centres of its links and the lines on which three of them lie."""
-    shown = Shown(r, notation or Notation())
+    shown = Shown(r, notation or Notation(), k)
     frame = whole_frame(r, k, 90.0, 70.0)
     canvas = Canvas()
     draw_links(canvas, r, k, frame)

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 import re
+from collections import defaultdict
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from dalembert import symbols
 from dalembert.analysis.columns import Scale, drive_kinds
+from dalembert.analysis.rounding import least
 
 if TYPE_CHECKING:
     from dalembert.analysis.actions import Action
@@ -51,17 +55,67 @@ class Notation:
             return f"{value + 0.0:.{self.decimals}f}".replace("-", "−")
         if value == 0:
             return "0"
-        power = math.floor(math.log10(abs(float(f"{value:.{self.figures}g}"))))
+        power = self._power(value)
         if power < -4 or power > 6:
             return f"{value:.{self.figures - 1}e}".replace("-", "−")
         return f"{value:.{max(self.figures - 1 - power, 0)}f}".replace("-", "−")
 
+    def _power(self, value: float) -> int:
+        """The power of ten of a number's first figure, as it is rounded."""
+        return math.floor(math.log10(abs(float(f"{value:.{self.figures}g}"))))
+
+    def degrees(self, angle: float) -> str:
+        """An angle (rad) in degrees: as many decimals as make it as good as a length of the same figures, and never
+        fewer figures than were asked for; rounding beside a radian is 0.
+
+        >>> [Notation().degrees(x) for x in (2.4011, 0.0015, -1e-16)], Notation(figures=7).degrees(2.4011)
+        (['137.57', '0.08594', '0'], '137.57290')
+        """
+        if not math.isfinite(angle):
+            return "-"
+        degrees = math.degrees(angle)
+        if self.decimals is not None:
+            return self.number(degrees)
+        if abs(angle) < 1e-12:
+            return "0"
+        power = self._power(degrees)
+        if power < -4:
+            return self.number(degrees)
+        return f"{degrees:.{max(self.figures - 2, self.figures - 1 - power)}f}".replace("-", "−")
+
+    def direction(self, x: float, y: float) -> str:
+        """The direction of a vector in degrees; a component that is rounding beside the other counts as none.
+
+        >>> Notation().direction(-3.0, -1e-16), Notation().direction(0.0, -2.0)
+        ('180.00', '−90.00')
+        """
+        size = 1e-12 * math.hypot(x, y)
+        x, y = (0.0 if abs(c) <= size else c for c in (x, y))
+        return self.degrees(math.atan2(y, x))
+
+    def given(self, value: float) -> str:
+        """A plain number of the file, with all its figures up to six, or up to those asked for.
+
+        >>> Notation().given(0.15), Notation().given(1.0015)
+        ('0.15', '1.0015')
+        """
+        return f"{value:.{max(6, self.figures)}g}".replace("-", "−")
+
+    def percent(self, share: float) -> str:
+        """A share in percent.
+
+        >>> Notation().percent(0.0003), Notation().percent(0.9997)
+        ('0.03000 %', '99.97 %')
+        """
+        return f"{self.number(100 * share)} %"
+
 
 class Figures:
-    """Numbers and units in a notation; ``units`` are the reader's own."""
+    """Numbers and units in a notation; ``units`` are the reader's own. ``least``: by kind, what is rounding (SI)."""
 
     def __init__(self, units: object, notation: Notation) -> None:
         self.notation = notation
+        self.least: Mapping[str, float] = defaultdict(float)
         self.scale = Scale(None if notation.units == "SI" else units)
 
     def unit(self, kind: str) -> str:
@@ -78,8 +132,54 @@ class Figures:
         return 1.0 / abs(self.value(kind, 1.0))
 
     def number(self, kind: str, value: float, floor: float = 0.0) -> str:
-        """The number in the reader's unit; rounding noise below ``floor`` (SI) is 0."""
-        return self.notation.number(self.value(kind, 0.0 if abs(value) < floor else value))
+        """The number in the reader's unit; rounding noise, or what is below ``floor`` (SI), is 0."""
+        value = 0.0 if abs(value) < max(floor, self.least.get(kind, 0.0)) else value
+        if kind == "angle" and self.unit(kind) == "°":
+            return self.notation.degrees(value)
+        return self.notation.number(self.value(kind, value))
+
+    @property
+    def arm(self) -> float:
+        """Size in SI of the length that times a force is a moment, all in the reader's units."""
+        return self.size("moment") / self.size("force")
+
+    @property
+    def arm_unit(self) -> str:
+        """Its unit: that of lengths, unless moments have a unit of their own."""
+        if math.isclose(self.arm, self.size("length"), rel_tol=1e-9):
+            return self.unit("length")
+        names = ("m", "mm", "cm", "in", "ft")
+        known = (n for n in names if math.isclose(symbols.unit(n).si(1.0), self.arm, rel_tol=1e-9))
+        return next(known, f"{self.unit('moment')}/{self.unit('force')}")
+
+    def factor(self, kind: str, *of: str) -> float:
+        """What a product of numbers in the reader's units is multiplied with to be one of a kind; 1 where they agree.
+
+        With mm, kg and N it is 0.001 from a mass times an acceleration to a force, as 1 N = 1000 kg mm/s2.
+        """
+        found = math.prod(map(self.size, of)) / self.size(kind)
+        return 1.0 if math.isclose(found, 1.0, rel_tol=1e-9) else found
+
+    def converted(self, numbers: str, kind: str, *of: str) -> str:
+        """A product in the reader's units, with that factor behind it where there is one: '−2 (−10, 4) / 1000'."""
+        return self._with_factor(numbers, self.factor(kind, *of))
+
+    def _with_factor(self, numbers: str, factor: float) -> str:
+        if math.isclose(factor, 1.0, rel_tol=1e-9):
+            return numbers
+        if factor < 1:
+            return f"{numbers} / {self.conversion(1 / factor)}"
+        return f"{numbers} cdot {self.conversion(factor)}"
+
+    def conversion(self, factor: float) -> str:
+        """A factor between units: 1000, 32.17."""
+        whole = round(factor)
+        return str(whole) if math.isclose(factor, whole, rel_tol=1e-9) else self.notation.number(factor)
+
+    def divided(self, above: str, below: str, kind: str, over: str, under: str) -> str:
+        """A quotient in the reader's units, with the factor that makes it a number of a kind."""
+        factor = self.size(over) / self.size(under) / self.size(kind)
+        return self._with_factor(f"frac({above}; {below})", factor)
 
     def text(self, kind: str, value: float, floor: float = 0.0) -> str:
         """The number with its unit."""
@@ -93,8 +193,7 @@ class Figures:
 
     def polar(self, force: tuple[float, float]) -> str:
         """A vector as magnitude and direction."""
-        size, angle = math.hypot(*force), math.degrees(math.atan2(force[1], force[0]))
-        return f"{self.text('force', size)} ∠ {angle:.2f}°".replace("-", "−")
+        return f"{self.text('force', math.hypot(*force))} ∠ {self.notation.direction(*force)}°"
 
     def symbol(self, a: Action) -> str:
         """Sign of an action: its own name."""
@@ -102,11 +201,12 @@ class Figures:
 
 
 class Shown(Figures):
-    """Numbers, units and symbols of one result in a notation."""
+    """Numbers, units and symbols of one result in a notation; at position k rounding is told from numbers."""
 
-    def __init__(self, r: Result, notation: Notation) -> None:
+    def __init__(self, r: Result, notation: Notation, k: int | None = None) -> None:
         super().__init__(r.mechanism.units, notation)
         self.r = r
+        self.least = least(r, k) if k is not None else self.least
         self.order = (GROUND, *r.links)
 
     def link(self, link: str) -> str:

@@ -62,7 +62,7 @@ def force_polygon_scene(
     r: Result, link: str, k: int, notation: Notation | None = None, case: str | None = None
 ) -> Scene:
     """The forces on a link head to tail; the gap between end and start is the residual."""
-    shown = Shown(r, notation or Notation())
+    shown = Shown(r, notation or Notation(), k)
     found = known(r, link, k)
     mine = forces_of(case_actions(r, case), link, k) if found else []
     per_mm = force_scale(
@@ -147,7 +147,7 @@ def _edge_label(
 
 def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case: str | None = None) -> Scene:
     """The polygons of all links in the order of solution, each on the side it shares with one before."""
-    shown = Shown(r, notation or Notation())
+    shown = Shown(r, notation or Notation(), k)
     some = case_actions(r, case)
     sizes = [float(np.hypot(*a.force[k])) for a in some if a.link != "ground"]
     per_mm = force_scale(sizes, 60.0, unit_size(r, "force", shown.notation))
@@ -199,7 +199,7 @@ def lines_of_action_scene(
 
     Of four forces the lines meet in pairs; the line through the two meeting points carries both resultants.
     """
-    shown = Shown(r, notation or Notation())
+    shown = Shown(r, notation or Notation(), k)
     some = acting_lines(r, k) if case is None else case_actions(r, case)
     mine = forces_of(some, link, k)
     frame = whole_frame(r, k, 90.0, 70.0)

@@ -40,7 +40,7 @@ def space_free_body_scene(
 
     Forces are arrows, moments arrows with two heads, of one scale for all links.
     """
-    shown = Shown(r, notation or Notation())
+    shown = Shown(r, notation or Notation(), k)
     s = _sight(r, link, k, camera)
     canvas = Canvas()
     canvas.add(*s.painted(standing(r, k, s.frame.per_mm, [link])))

@@ -75,20 +75,20 @@ def ends_words(r: Result, joint: str, k: int, shown: Shown) -> list[str]:
         return [f"The guide bears with {figures[0]}.", ahead]
     words = f"The guide bears with {figures[0]} behind and {figures[1]} ahead"
     if min(size) > 1e-9 * max(size):
-        angle = math.degrees(math.acos(np.clip(ends[0] @ ends[1] / (size[0] * size[1]), -1.0, 1.0)))
-        words += f", in truth {angle:.1f}° apart"
+        angle = math.acos(np.clip(ends[0] @ ends[1] / (size[0] * size[1]), -1.0, 1.0))
+        words += f", in truth {shown.notation.degrees(angle)}° apart"
     return [f"{words}.", ahead]
 
 
 def _thread_words(r: Result, joint: str, k: int, shown: Shown) -> list[str]:
     f: Any = r.mechanism.joints[joint].friction  # type: ignore[union-attr]
     found = thread(r, joint)
-    climb = abs(math.degrees(found.climb))
-    slope = math.degrees(math.atan2(abs(found.friction[k]), abs(found.normal[k])))
-    more = [f"flanks at {math.degrees(f.thread_angle):.6g}°"] if f.thread_angle else []
+    climb, write = abs(found.climb), shown.notation
+    slope = math.atan2(abs(found.friction[k]), abs(found.normal[k]))
+    more = [f"flanks at {write.degrees(f.thread_angle)}°"] if f.thread_angle else []
     more += ["the force across the axis"] if found.across[k] > 1e-9 * abs(found.normal[k]) else []
-    words = f"Mean radius {shown.text('length', float(f.radius))}, lead angle λ = {climb:.2f}°"
-    words += f"; with {' and '.join(more)} the angle of friction is {slope:.2f}°" if more else ""
+    words = f"Mean radius {shown.text('length', float(f.radius))}, lead angle λ = {write.degrees(climb)}°"
+    words += f"; with {' and '.join(more)} the angle of friction is {write.degrees(slope)}°" if more else ""
     locks = "more than λ, so the axial force alone cannot turn the thread"
     turns = "less than λ, so the axial force can turn the thread"
     return [f"{words}, {locks if slope >= climb else turns}.", "Ahead is along x' of the joint."]

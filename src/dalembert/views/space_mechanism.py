@@ -45,7 +45,7 @@ def space_mechanism_scene(
     Lengths and forces are to scale, both stated below; vectors are seen shorter by their slope to the paper. With
     ``friction`` (where there is some) the friction circles, and journals and guides at a larger scale.
     """
-    shown = Shown(r, notation or Notation())
+    shown = Shown(r, notation or Notation(), k)
     s = whole_sight(r, k, camera, WIDTH, HEIGHT)
     canvas = Canvas()
     draw_traces(canvas, r, s)
