@@ -73,6 +73,10 @@ STATUSES: dict[str, Status] = {
         "A preloaded spring has length zero here: its force has no direction.",
         "Step over this position, move an end of the spring, or give it no free length.",
     ),
+    "overflow": Status(
+        "A number is too large for the arithmetic: beyond 1.8e308 in SI.",
+        "Correct the speed, mass, length or load, or its unit, that is wrong by many powers of ten.",
+    ),
     "no_balance": Status(
         "No equilibrium with the known efforts and loads.",
         "Leave an effort or a load unknown, or widen the range.",

@@ -119,8 +119,8 @@ def test_refusals() -> None:
 
 
 CALLS: list[tuple[str, dict[str, Any]]] = [
-    ("values are not all numbers", {"values": [["heavy"]]}),
-    ("positions are not all numbers", {"positions": ["half a turn"]}),
+    ("values are text", {"values": [["heavy"]]}),
+    ("positions are text", {"positions": ["half a turn"]}),
     ("positions are not all finite", {"positions": [0.0, np.nan]}),
     ("positions of shape (0, 1) do not fit 1 drive(s)", {"positions": []}),
     ("threads=0 is no number of threads; give 1 or more", {"threads": 0}),

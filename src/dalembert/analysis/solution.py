@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from dalembert.analysis.compile import Compiled, compiled
 from dalembert.analysis.degree_of_freedom import check_knowns
 from dalembert.analysis.openings import drive_text, open_sentence
+from dalembert.analysis.overflow import fast, overflow_sentence, strong, unchecked
 from dalembert.analysis.positions import Positions, positions
 from dalembert.analysis.result import Result
 from dalembert.analysis.rubbing import Forces, Setting, block_size, joined, rubbing
@@ -199,12 +200,17 @@ def _statuses(
         ("not_assembled", ~path.reached, lambda k: open_sentence(c, path, k)),
         ("singular", ~(moved.rcond >= limit), lambda k: _singular_sentence(c, k)),
     ]
+    racing = fast(moved.twist, moved.acceleration)
+    rates = "rates or accelerations"
+    checks += [("overflow", racing.any(axis=1), lambda k: overflow_sentence(c, rates, c.links, racing, k))]
     if forces:
+        loaded, held = strong(f), f.rcond >= limit
         pushing = undefined(c, path.pose)
         checks += [("undefined_load", pushing.any(axis=-1), lambda k: undefined_sentence(c, pushing, k))]
         checks += [("no_balance", unheld.all(axis=0), lambda k: _no_balance_sentence(c))]
-        checks += friction_checks(c, f, f.rcond >= limit)
+        checks += friction_checks(c, f, held)
         checks += [
+            ("overflow", unchecked(f) & held, lambda k: overflow_sentence(c, "forces", c.joints, loaded, k)),
             ("no_balance", unbalanced, lambda k: _no_balance_sentence(c)),
             ("redundant", np.full(len(f.rcond), partial), lambda k: _redundant_sentence(followed)),
         ]

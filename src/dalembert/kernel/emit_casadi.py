@@ -41,6 +41,7 @@ def _mark(ca: Any, program: Program, done: dict[int, Any]) -> Any:
     doubt = ca.logic_or(unsure(m.doubt), ca.logic_and(ca.logic_not(ca.logic_or(rest, jam)), slips))
     mark: Any = ca.SX(0)
     found = {"open": below(m.open), "doubt": doubt, "rest": rest, "jam": jam, "locked": locked}
+    found["slope"] = unsure(m.slope)
     for name, test in reversed(found.items()):
         mark = ca.if_else(test, CODES[name], mark)
     return mark

@@ -15,7 +15,12 @@ def latch(program: Program) -> str:
 def bits(t: Text, program: Program, names: dict[int, str]) -> dict[str, str]:
     """Lanes of each mark that can occur."""
     marks = program.marks
-    asked = (("open", marks.open, "olt"), ("doubt", marks.doubt, "ult"), ("rest", marks.rest, "olt"))
+    asked = (
+        ("open", marks.open, "olt"),
+        ("doubt", marks.doubt, "ult"),
+        ("rest", marks.rest, "olt"),
+        ("slope", marks.slope, "ult"),
+    )
     out = {name: _any(t, nodes, names, how) for name, nodes, how in asked}
     out["locked"] = _any(t, marks.turned, names, "olt")
     slips = _any(t, marks.slips, names, "ult")

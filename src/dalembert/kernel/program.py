@@ -11,7 +11,7 @@ from dalembert.kernel.graph import CONSTANT, INPUTS, POSITION, Graph, Node
 SLOW = {"inv": 6, "rsqrt": 7, "sqrt": 8, "sin": 15, "cos": 15, "atan2": 30, "neg": 0, "detach": 0}
 """How long operations take that are no addition or product, in additions."""
 
-CODES = {"open": 1, "doubt": 2, "rest": 3, "jam": 7, "locked": 9}
+CODES = {"open": 1, "doubt": 2, "rest": 3, "jam": 7, "locked": 9, "slope": 12}
 """The mark of a position, the first of these that applies, else 0; of many positions the first too."""
 
 
@@ -23,6 +23,7 @@ class Marks:
     has no rate to tell its sense. Elsewhere ``slips``, as doubt, and so where both ``unsure`` and ``sure`` are, but for
     ``jam``, which is asked there: it surely jams. turned: friction turns the power of the unknowns round; there
     ``still``, as doubt, and ``locked``: it does so without inertia too. Without ``locked`` being turned is enough.
+    slope (below zero, or no number): the outputs are right, but some derivative has no value.
     """
 
     open: tuple[Node, ...] = ()
@@ -35,11 +36,12 @@ class Marks:
     turned: tuple[Node, ...] = ()
     still: tuple[Node, ...] = ()
     locked: tuple[Node, ...] = ()
+    slope: tuple[Node, ...] = ()
 
     @property
     def always(self) -> list[Node]:
         """Those asked at every position."""
-        return [*self.open, *self.doubt, *self.rest, *self.slips, *self.unsure, *self.turned]
+        return [*self.open, *self.doubt, *self.rest, *self.slips, *self.unsure, *self.turned, *self.slope]
 
     @property
     def seldom(self) -> list[Node]:
@@ -55,6 +57,7 @@ class Marks:
             "rest": self.rest,
             "jam": self.jam,
             "locked": self.turned,
+            "slope": self.slope,
         }
         return [name for name, nodes in there.items() if nodes]
 

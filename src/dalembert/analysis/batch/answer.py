@@ -25,17 +25,36 @@ CODES = (
     "redundant",
     "self_locking",
     "undefined_load",
+    "overflow",
+    "no_derivative",
 )
 """Statuses by the marks of the kernel; `undecided` goes to the general executor and does not come back."""
 
-NUMBERED = (CODES.index("ok"), CODES.index("self_locking"))
+NUMBERED = tuple(CODES.index(status) for status in ("ok", "self_locking", "no_derivative"))
 """Marks of positions that have numbers."""
 
 
 def first_mark(marks: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Of several positions (..., position) the mark of the first status in the list above; 0 where all are ok."""
-    first = np.where(marks == 0, 255, marks).min(axis=-1)
-    return np.asarray(first % 255, np.uint8)
+    """Of several positions (..., position) the mark of the first status in the list above, of those without numbers if
+    there is one; 0 where all are ok."""
+    later = 100 * np.isin(marks, NUMBERED) + 100 * (marks == 0)
+    return np.asarray((marks + later).min(axis=-1) % 100, np.uint8)
+
+
+def not_finite(code: NDArray[np.uint8], arrays: dict[str, Array]) -> NDArray[np.bool_]:
+    """Where, in the axes of the codes, some value of some output is infinite or no number."""
+    out = np.zeros(code.shape, bool)
+    for array in arrays.values():
+        out |= ~np.isfinite(array).all(axis=tuple(range(code.ndim, array.ndim)))
+    return out
+
+
+def mark_overflow(code: NDArray[np.uint8], arrays: dict[str, Array], rates: dict[str, Array]) -> None:
+    """Give a status to what should have numbers and has none, and to numbers without a derivative."""
+    code[not_finite(code, arrays) & np.isin(code, NUMBERED)] = CODES.index("overflow")
+    code[not_finite(code, rates) & (code == 0)] = CODES.index("no_derivative")
+    for rate in rates.values():
+        rate[np.isinf(rate)] = np.nan
 
 
 @dataclass(frozen=True)
@@ -61,7 +80,7 @@ class BatchResult:
 
     @property
     def ok(self) -> NDArray[np.bool_]:
-        """Which of them are solved; those that are self-locking have numbers too."""
+        """Which of them are solved; those that are self-locking, and those without a derivative, have numbers too."""
         return np.asarray(self.code == 0)
 
     def problems(self) -> list[tuple[int, str, str]]:
@@ -176,6 +195,8 @@ class BatchResult:
 def _sentence(code: str) -> str:
     if code in STATUSES:
         return STATUSES[code].sentence
+    if code == "no_derivative":
+        return "The numbers are right, but some derivative has no value here, or too large a one."
     if code == "undecided":
         return "The kernel is not sure of this one and was told not to ask the general executor."
     return "The analysis of this design stopped with an error."

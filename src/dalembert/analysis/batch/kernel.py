@@ -11,22 +11,25 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dalembert.analysis.batch import reduction
-from dalembert.analysis.batch.answer import CODES, NUMBERED, BatchResult
+from dalembert.analysis.batch.answer import CODES, NUMBERED, BatchResult, mark_overflow, not_finite
 from dalembert.analysis.batch.course import Course
 from dalembert.analysis.batch.general import redone
+from dalembert.analysis.batch.reading import numbers
 from dalembert.analysis.batch.symbols import geometric
 from dalembert.analysis.batch.tracing import Trace, traced
 from dalembert.analysis.planar import refuse_space
 from dalembert.analysis.solution import at_schedule
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
-from dalembert.kernel.graph import Node
+from dalembert.kernel.graph import CONSTANT, Node
 from dalembert.kernel.program import Marks, Program
 from dalembert.model import Mechanism
 
 Array = NDArray[Any]
 
 
+LARGEST = float(np.finfo(float).max)
+"""Largest number there is."""
 SMALL = 2000
 """Operations below which the results of two registers side by side still find room in the first cache."""
 ABREAST = 10
@@ -83,17 +86,10 @@ def _several(names: Sequence[str]) -> tuple[str, ...]:
 
 
 def _check_count(name: str, count: Any) -> None:
-    if count is not None and not (isinstance(count, int | np.integer) and count > 0):
+    if count is not None and (
+        isinstance(count, bool) or not isinstance(count, int | np.integer) or count <= 0
+    ):
         raise ModelError(f"{name}={count!r} is no number of {name}", "give 1 or more, or leave it out")
-
-
-def _numbers(name: str, given: ArrayLike) -> Array:
-    try:
-        return np.asarray(given, float)
-    except (TypeError, ValueError):
-        raise ModelError(
-            f"{name} are not all numbers", "give an array of numbers, in SI and radians"
-        ) from None
 
 
 def _waits(program: Program) -> bool:
@@ -156,7 +152,19 @@ class Kernel:
         rub = found.rubbed
         rubbing = (rub.rest, rub.doubt, rub.unsure, rub.sure, rub.jam, rub.turned, rub.still, rub.locked)
         marks = (tuple(m) for m in (found.open, found.doubt, *rubbing))
-        return Program(self.trace.catalogue.graph, tuple(nodes), Marks(*marks))
+        told = Marks(*marks)
+        values = sum(len(of) for of in self.nodes.values())
+        slope = [] if self.reduce else nodes[values:]
+        known = self.trace.course.result is not None
+        finite = () if known else self._finite([n * n for n in nodes[:values]])  # shorter than abs(n)
+        told = replace(told, slips=(*told.slips, *finite), slope=self._finite([abs(n) for n in slope]))
+        return Program(self.trace.catalogue.graph, tuple(nodes), told)
+
+    def _finite(self, nodes: Sequence[Node]) -> tuple[Node, ...]:
+        """Below zero, or no number, where some node, none of them negative, is not finite."""
+        graph = self.trace.catalogue.graph
+        total = sum((n for n in nodes if n.level != CONSTANT), graph.zero)
+        return () if total is graph.zero else (LARGEST - total,)
 
     @cached_property
     def flat(self) -> list[Node]:
@@ -190,9 +198,10 @@ class Kernel:
         known = self.trace.course
         if positions is None:
             return known
-        given = _numbers("positions", positions)
+        given = numbers("positions", positions)
         drives = len(known.schedule.names)
-        given = given.reshape(-1, drives) if given.ndim < 2 else given
+        if given.ndim < 2 and given.size % max(drives, 1) == 0:
+            given = given.reshape(-1, drives)
         if not np.isfinite(given).all():
             raise ModelError("positions are not all finite", "give numbers that are")
         if given.ndim != 2 or given.shape[1] != drives or not len(given):
@@ -231,6 +240,8 @@ class Kernel:
         try:
             code, arrays, rates = self.runner(given, course, threads, progress, device)
         except RuntimeError as error:
+            if device == "cpu":  # of whoever watches the progress
+                raise
             raise ModelError(f"device {device!r} cannot be used: {error}", 'use device="cpu"') from None
         code[self._flipped(given)] = CODES.index("undecided")
         code[~np.isfinite(given).all(axis=1)] = CODES.index("failed")
@@ -258,7 +269,7 @@ class Kernel:
 
     def _values(self, values: ArrayLike | None) -> Array:
         count = len(self.trace.numbers)
-        given = self.nominal if values is None else _numbers("values", values)
+        given = self.nominal if values is None else numbers("values", values)
         if given.ndim < 2:  # one design, or many of one number
             given = given.reshape(-1, 1) if count == 1 else given.reshape(1, -1)
         if given.ndim != 2 or given.shape[1] != count:
@@ -277,10 +288,16 @@ class Kernel:
         rates: dict[str, Array],
         redo: bool,
     ) -> BatchResult:
+        if self.reduce is not None:  # a power or a sum may overflow where no value does
+            code[not_finite(code, arrays) & np.isin(code, NUMBERED)] = CODES.index("undecided")
         undecided = code == CODES.index("undecided")
         again = np.flatnonzero(undecided.any(axis=tuple(range(1, code.ndim)))) if redo else np.zeros(0, int)
         for d in again:
             redone(self, int(d), values[d], course, undecided[d], code, arrays, rates)
+            if self.reduce is None:
+                mark_overflow(code[d], *({n: a[d] for n, a in of.items()} for of in (arrays, rates)))
+        if self.reduce is not None:
+            mark_overflow(code, arrays, rates)
         lost = ~np.isin(code, NUMBERED)
         for found in (arrays, rates):
             for array in found.values():

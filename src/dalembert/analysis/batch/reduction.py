@@ -57,10 +57,11 @@ def reduced(reduce: str, values: Array) -> Array:
     if reduce == "envelope":
         return np.stack([values.min(axis=0), values.max(axis=0)], axis=-1)
     if reduce == "mean":
-        return np.asarray(values.mean(axis=0))
+        return np.asarray((values / len(values)).sum(axis=0))
     power = 2 if reduce == "rms" else 8
-    mean: Array = (values**power).mean(axis=0)
-    return np.asarray(mean ** (1 / power))
+    largest = np.where((peak := size.max(axis=0)) > 0, peak, 1.0)  # so that no power overflows
+    mean: Array = ((values / largest) ** power).mean(axis=0)
+    return np.asarray(largest * mean ** (1 / power))
 
 
 def slope(reduce: str, values: Array, rates: Array) -> Array:
@@ -73,9 +74,7 @@ def slope(reduce: str, values: Array, rates: Array) -> Array:
         size = reduced(reduce, values)
         size[~rates.any(axis=(0, 2))] = 1.0  # always zero
         with np.errstate(all="ignore"):
-            return np.asarray(
-                (values[..., None] ** (power - 1) * rates).mean(axis=0) / size[:, None] ** (power - 1)
-            )
+            return np.asarray(((values / size)[..., None] ** (power - 1) * rates).mean(axis=0))
     each = np.arange(values.shape[1])
     if reduce == "envelope":
         return np.stack(
