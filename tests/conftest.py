@@ -1,10 +1,13 @@
-"""One thread for small matrices; random tests draw anew, but not where a verdict has to repeat.
+"""One thread for small matrices; random tests draw anew, but not where a verdict has to repeat; tests in another order.
 
 The suite runs as many processes as there are cores; threads of linear algebra in each would wait for each other.
 """
 
 import os
+import random
+from pathlib import Path
 
+import pytest
 from hypothesis import HealthCheck, settings
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is imported
@@ -12,3 +15,27 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is imported
 settings.register_profile("patient", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("ci", settings.get_profile("patient"), derandomize=True, database=None)
 settings.load_profile("ci" if os.environ.get("CI") else "patient")
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--shuffle", type=int, metavar="SEED", help="import test files and run tests in a random order"
+    )
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    seed = config.getoption("--shuffle")
+    if seed is not None and config.args == config.getini("testpaths"):
+        here = Path(__file__).parent
+        config.args = [
+            *sorted(map(str, here.rglob("test_*.py"))),
+            str(here / "tiers.py"),
+            str(here.parent / "src"),
+        ]
+        random.Random(seed).shuffle(config.args)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    if config.getoption("--shuffle") is not None:
+        random.Random(config.getoption("--shuffle")).shuffle(items)
