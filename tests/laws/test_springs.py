@@ -86,7 +86,7 @@ def test_a_damper_is_the_same_on_both_sides_of_length_zero(free: float) -> None:
 def test_kernels_with_springs_of_length_zero_for_some_designs_only() -> None:
     k = da.compile(block([-0.001, 0, 0.001]), ["loads.k.free_length", "loads.c.damping"], derivatives=True)
     r = k([[0, 0], [1, 0]])
-    assert r.status.tolist() == [["ok", "ok", "ok"], ["ok", "undefined_load", "ok"]]
+    assert r.status.tolist() == [["ok", "no_derivative", "ok"], ["ok", "undefined_load", "ok"]]
     assert r.effort("s")[0] == pytest.approx([-0.1, 0, 0.1])
     slope = [100, np.nan, -100]
     for design in r.gradient("effort.s")[..., 0]:

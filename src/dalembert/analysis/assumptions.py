@@ -6,6 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 from dalembert.analysis import friction
+from dalembert.analysis.freedoms import whole_pose
+from dalembert.analysis.winding import count_notes
 from dalembert.model.gravity import STANDARD
 from dalembert.model.space_checks import impossible, principal_inertias
 
@@ -15,7 +17,8 @@ if TYPE_CHECKING:
 
 
 def assumptions(result: Result) -> dict[str, str]:
-    """Gravity, inertia, friction, how reactions beyond statics were found, inertias that no real body has.
+    """Gravity, inertia, friction, how reactions beyond statics were found, which whole turn torsion
+    springs count, inertias that no real body has.
 
     >>> import dalembert as da
     >>> da.statics(da.four_bar()).assumptions["inertia"]
@@ -32,6 +35,7 @@ def assumptions(result: Result) -> dict[str, str]:
     }
     if result.compiled.layout.compliance is not None and result.unique_array is not None:
         found["redundant reactions"] = "by the joints' stiffness, links rigid, free of stress without load"
+    found |= count_notes(result.compiled, whole_pose(result))
     return found | (_doubts(result.mechanism) if result.inertia else {})
 
 

@@ -14,6 +14,7 @@ from dalembert.analysis import joints as table
 from dalembert.analysis.jointing import Jointing, PlaneJoints, SpaceJoints
 from dalembert.analysis.loads import Setting, forcing, joint_resistances, known
 from dalembert.analysis.pairs import Geometry
+from dalembert.analysis.winding import Count
 from dalembert.core.assembly import Guess
 from dalembert.core.drawing import Drawing
 from dalembert.core.equilibrium import Known
@@ -52,6 +53,7 @@ class Compiled:
     contact_kinds: tuple[str, ...]
     geometries: tuple[Geometry, ...] = ()  # of the joints, in space
     passive: tuple[str, ...] = ()  # links whose spin moves nothing else, set to none
+    counts: tuple[Count, ...] = ()  # of the whole turns of torsion springs, once the motion is known
 
     @cached_property
     def targets(self) -> Array:

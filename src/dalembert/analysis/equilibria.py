@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.result import Result
-from dalembert.analysis.solution import at_schedule
+from dalembert.analysis.solution import at_schedule, sliced
 from dalembert.model import Mechanism, Schedule
 
 Array = NDArray[Any]
@@ -101,10 +101,8 @@ def picked(result: Result, where: NDArray[np.intp]) -> Result:
     schedule = replace(
         s, position=s.position[where], speed=s.speed[where], acceleration=s.acceleration[where]
     )
-    forces = replace(c.forcing.forces, value=c.forcing.forces.value[where])
-    couples = replace(c.forcing.couples, value=c.forcing.couples.value[where])
-    forcing = replace(c.forcing, forces=forces, couples=couples)
-    known = replace(c.known, effort=c.known.effort[where])
+    forcing, known = sliced(c, where)
+    counts = tuple(replace(n, margin=n.margin[where]) for n in c.counts)
     arrays: dict[str, Any] = {
         name: value[where]
         for name, value in vars(result).items()
@@ -112,7 +110,7 @@ def picked(result: Result, where: NDArray[np.intp]) -> Result:
     }
     return replace(
         result,
-        compiled=replace(c, schedule=schedule, forcing=forcing, known=known),
+        compiled=replace(c, schedule=schedule, forcing=forcing, known=known, counts=counts),
         status=tuple(result.status[k] for k in where),
         reasons=tuple(result.reasons[k] for k in where),
         **arrays,

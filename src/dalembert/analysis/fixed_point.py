@@ -91,12 +91,12 @@ def stated(r: Result, position: int) -> tuple[Contacts, Response, Array]:
 def posed(r: Result, position: int) -> tuple[Contacts, Response, Senses]:
     """The same, at rest too."""
     from dalembert.analysis.freedoms import whole_pose
-    from dalembert.analysis.solution import _sliced
+    from dalembert.analysis.solution import sliced
 
     f, contacts = friction_of(r)
     c, part = r.compiled, slice(position, position + 1)
     pose = whole_pose(r, part)
-    forcing, known = _sliced(c, part)
+    forcing, known = sliced(c, part)
     moving, rows, solver = motion(c.layout, pose, r.schedule.speed[part], r.schedule.acceleration[part])
     sources = known_sources(c.layout, forcing, pose, moving, r.inertia)
     w = summed(c.layout, *sources.values())

@@ -26,7 +26,10 @@ def whole_pose(result: Result, part: Any = slice(None)) -> Pose:
 
 
 def freedom_motion(result: Result, joint: str, kind: str) -> tuple[Array, Array, Array]:
-    """Value, rate and second rate of a joint's freedom, each (P,); a free turn starts within half a turn of 0."""
+    """Value, rate and second rate of a joint's freedom, each (P,).
+
+    A free turn is counted as a torsion spring in it counts; without one it starts within half a turn of 0.
+    """
     c = result.compiled
     if (joint, kind) not in c.freedoms:
         has = ", ".join(f"{k} of {j}" for j, k in c.freedoms if j == joint) or "no such joint, or none free"
@@ -38,7 +41,11 @@ def freedom_motion(result: Result, joint: str, kind: str) -> tuple[Array, Array,
     rows = system(g, freedoms, pose)
     second = rates(rows, with_ground(result.acceleration_array)) + drift(g, freedoms, pose, twist)
     value, rate = measure(g, freedoms, pose)[..., row], rates(rows, twist)[..., row]
-    if freedoms.angular[row] and row not in c.layout.driven:
+    own = c.forcing.resistances
+    count = next((n for n in c.counts if own.row[n.place] == row), None)
+    if count is not None:
+        value = value + own.turns[:, count.place]
+    elif freedoms.angular[row] and row not in c.layout.driven:
         value = value - 2 * np.pi * np.round(_first(value) / (2 * np.pi))
     return value, rate, second[..., row]
 

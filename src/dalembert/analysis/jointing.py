@@ -206,6 +206,7 @@ class SpaceJoints(_Joints):
         """Poses of the links that the file gives, and how the joints let the others be laid."""
         count = len(self.index)
         rotation, point = np.full((count, 9), np.nan), np.full((count, 3), np.nan)
+        axis, angle = np.zeros((count, 3)), np.append(np.full(count - 1, np.nan), 0.0)
         for link, given in self.m.assembly.items():
             if not isinstance(given, SpacePose):
                 raise ModelError(
@@ -215,6 +216,7 @@ class SpaceJoints(_Joints):
                 )
             k = self.index[link]
             rotation[k] = space.rotation(np.array(given.angle), given.axis)
+            axis[k], angle[k] = np.array(given.axis) / np.linalg.norm(given.axis), given.angle
             point[k] = (
                 np.array(given.position) + space.rotate(rotation[k], self.reference[k]) - self.reference[-1]
             )
@@ -228,4 +230,4 @@ class SpaceJoints(_Joints):
                 if self.m.drive_joint(d) == name
             }
             hinges.append(pairs.hinge(joint, self.ends[k], self.geometries[k], drives))
-        return Drawing(rotation, point, tuple(hinges))
+        return Drawing(rotation, point, tuple(hinges), axis, angle)

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, Literal
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
 from dalembert.wording import closest
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result import Result
 
 UP = [0.0, 0.0, 1.0]
 Freed = Literal["cylindrical", "spherical"]
@@ -214,25 +218,38 @@ class _Lift:
             height = sum(self.link[link] for link, _ in load.between) / 2
             ends = ((link, self._point(link, point, name, height)) for link, point in load.between)
             tree["between"] = [".".join(end) for end in ends]
+        elif load.type == "torsion_spring":
+            tree["free_angle"] = load.free_angle - self._recounted(name)
         return tree
 
     def _assembly(self) -> dict[str, Any]:
         """Poses of the links where the plane mechanism first closes."""
-        from dalembert.analysis.solution import kinematics
-
-        result = kinematics(self.m)
-        found = np.flatnonzero(np.isfinite(result.point_array).all(axis=(1, 2)))
-        if not found.size:
-            return {}
-        k = int(found[0])
+        result, k = self._closing
         return {
             link: {
                 "position": self._at(result.position(link)[k], 0.0),
                 "axis": UP,
                 "angle": float(result.angle(link)[k]),
             }
-            for link in result.links
+            for link in (result.links if k >= 0 else ())
         }
+
+    @cached_property
+    def _closing(self) -> tuple[Result, int]:
+        """The plane mechanism's motion, and the first position where it closes, -1 for none."""
+        from dalembert.analysis.solution import kinematics
+
+        result = kinematics(self.m)
+        found = np.flatnonzero(np.isfinite(result.point_array).all(axis=(1, 2)))
+        return result, int(found[0]) if found.size else -1
+
+    def _recounted(self, load: str) -> float:
+        """What the plane mechanism's count of whole turns adds to the angle of a torsion spring between the links: in
+        space they are counted where `assembly` has the links, as their angles are written there."""
+        result, k = self._closing
+        c = result.compiled
+        turns = (c.forcing.resistances.turns[k, n.place] for n in c.counts if n.spring == load)
+        return float(next(turns, 0.0))
 
 
 def _axes(angle: float) -> dict[str, list[float]]:

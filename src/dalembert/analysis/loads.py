@@ -163,7 +163,8 @@ def _damped(m: Mechanism, freedoms: list[tuple[str, str]]) -> list[tuple[int, fl
 
 def _in_freedoms(rows: list[tuple[int, float, float, float]]) -> Resistances:
     columns = list(zip(*rows, strict=True)) if rows else [()] * 4
-    return Resistances(np.array(columns[0], np.intp), *(numbers(c) for c in columns[1:]))
+    stiffness, free, damping = (numbers(c) for c in columns[1:])
+    return Resistances(np.array(columns[0], np.intp), stiffness, free, damping, turns=np.zeros(len(rows)))
 
 
 def joint_damping(joint: Any) -> dict[str, float]:

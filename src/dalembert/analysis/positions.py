@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from dalembert.analysis.compile import Compiled
 from dalembert.analysis.degree_of_freedom import Mobility, check_drives, mobility_at
 from dalembert.analysis.openings import drive_text
+from dalembert.analysis.winding import wound
 from dalembert.core.assembly import Guess, Modes, phase_rows
 from dalembert.core.closure import CLOSED, closed
 from dalembert.core.constraints import measure
@@ -52,7 +53,8 @@ def positions(c: Compiled) -> Positions:
         _refuse_overdriven(c)
         return Positions(c, None, None, None)
     place, first = found
-    c = _wound(_with_phase(c, first.pose.at(0)), first.pose.at(0))
+    stood = first.pose.at(0)
+    c = _with_phase(c, first.pose.at(0))
     along = course(c.layout, c.targets)
     _refuse_endless(c, along)
     start = along.at(place)
@@ -65,7 +67,8 @@ def positions(c: Compiled) -> Positions:
     mobility = mobility_at(c, general, special=general is here)
     if mobility.redundant:
         c = replace(c, layout=replace(c.layout, redundant=True))
-    return Positions(c, path(c.layout, first.pose.at(0), along, start, c.period), mobility, _mode(c, first))
+    motion = path(c.layout, first.pose.at(0), along, start, c.period)
+    return Positions(wound(c, (place, stood), motion), motion, mobility, _mode(c, first))
 
 
 def _first(c: Compiled) -> tuple[int, Modes] | None:
@@ -115,18 +118,6 @@ def _with_phase(c: Compiled, first: Pose) -> Compiled:
     target = c.target.copy()
     target[rows] = measure(c.layout.algebra, c.layout.constraints, first)[rows]
     return replace(c, target=target)
-
-
-def _wound(c: Compiled, first: Pose) -> Compiled:
-    """Springs in turning freedoms are deflected by less than half a turn at the first pose, unless a drive says."""
-    springs, freedoms = c.forcing.resistances, c.layout.freedoms
-    if not springs.row.size:
-        return c
-    value = measure(c.layout.algebra, freedoms, first)[springs.row]
-    whole = freedoms.angular[springs.row] & ~np.isin(springs.row, c.layout.driven)
-    turns = 2 * np.pi * np.round((value - springs.free) / (2 * np.pi))
-    wound = replace(springs, free=springs.free + np.where(whole, turns, 0.0))
-    return replace(c, forcing=replace(c.forcing, resistances=wound))
 
 
 def _check_meshes(c: Compiled, first: Pose) -> None:

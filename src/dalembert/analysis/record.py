@@ -26,7 +26,9 @@ from dalembert.analysis.columns import (
     scale,
     unknown_kinds,
 )
+from dalembert.analysis.freedoms import whole_pose
 from dalembert.analysis.friction import bears_on_faces, guide_contact, joints_at_limit
+from dalembert.analysis.winding import counted_turns, two_ways
 from dalembert.analysis.wrenches import Axes
 from dalembert.saving import new_file
 from dalembert.units import KINDS
@@ -66,7 +68,24 @@ def head(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> dic
             **({} if in_plane(result) else {"passive": list(mobility.passive)}),
         },
         "assembly_mode": result.mode,
+        **_counts(result, to),
     }
+
+
+def _counts(result: Result, to: Scale) -> dict[str, Any]:
+    """How the turns of torsion springs were counted, where there are any that whole turns make different."""
+    c, turns = result.compiled, counted_turns(result.compiled, whole_pose(result))
+    found = {
+        n.spring: {
+            "joint": c.freedoms[c.forcing.resistances.row[n.place]][0],
+            "freedom": c.freedoms[c.forcing.resistances.row[n.place]][1],
+            "within_half_a_turn_of": float(to("angle", n.near)),
+            "stated": n.stated,
+            "two_readings": two_ways(c, n, turns[n.spring]),
+        }
+        for n in c.counts
+    }
+    return {"counted_turns": found} if found else {}
 
 
 def position_records(
@@ -112,6 +131,8 @@ def _fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], List
     for link in result.links:
         for name, (kind, read) in {**LINK_VECTORS, **link_turning(result)}.items():
             out["links", link, name] = numbers(kind, read(result, link))
+    for spring, turn in counted_turns(result.compiled, whole_pose(result)).items():
+        out["spring_turns", spring] = numbers("angle", turn)
     out["residual",] = numbers("number", result.residual)
     out["power_balance",] = numbers("number", result.power_balance)
     return out

@@ -138,7 +138,7 @@ def _forces(
     c: Compiled, pose: Pose, part: slice, moving: Any, rows: Any, solver: Any, inertia: bool
 ) -> Forces:
     layout = c.layout
-    forcing, known = _sliced(c, part)
+    forcing, known = sliced(c, part)
     sources = known_sources(layout, forcing, pose, moving, inertia)
     w = summed(layout, *sources.values())
     w = np.broadcast_to(w, (len(pose.point), *w.shape[1:]))
@@ -152,12 +152,15 @@ def _forces(
     return Forces(force, moment, found.effort, found.load, *checks, *known_by[:2], unique_in=known_by.inside)
 
 
-def _sliced(c: Compiled, part: slice) -> tuple[Any, Any]:
+def sliced(c: Compiled, part: Any) -> tuple[Any, Any]:
     """Loads and given efforts of some positions."""
     f, k = c.forcing, c.known
     forces = replace(f.forces, value=f.forces.value[part])
     couples = replace(f.couples, value=f.couples.value[part])
-    return replace(f, forces=forces, couples=couples), replace(k, effort=k.effort[part])
+    turns = f.resistances.turns
+    resistances = replace(f.resistances, turns=turns[part] if turns.ndim > 1 else turns)
+    loads = replace(f, forces=forces, couples=couples, resistances=resistances)
+    return loads, replace(k, effort=k.effort[part])
 
 
 KEPT = ("ok", "redundant", "self_locking", "jammed", "at_rest", "undefined_load")

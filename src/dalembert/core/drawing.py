@@ -54,11 +54,16 @@ class Hinge(NamedTuple):
 
 @dataclass(frozen=True)
 class Drawing:
-    """What is given of the first pose: rotations (L+1, 9) and reference points (L+1, 3), NaN where nothing is."""
+    """What is given of the first pose: rotations (L+1, 9) and reference points (L+1, 3), NaN where nothing is.
+
+    The rotations are by ``angle`` (L+1,), whole turns and all, about unit vectors ``axis`` (L+1, 3); 0 of the ground.
+    """
 
     rotation: Array
     point: Array
     hinges: tuple[Hinge, ...]
+    axis: Array
+    angle: Array
 
     @property
     def given(self) -> NDArray[np.bool_]:

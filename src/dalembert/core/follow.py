@@ -38,10 +38,14 @@ MOST_GAPS = 8
 
 
 class Path(NamedTuple):
-    """All positions of a list: poses (P, L+1, ...), and which were reached (P,)."""
+    """All positions of a list: poses (P, L+1, ...), which were reached (P,), and by which stretch (P,) of the motion.
+
+    From position to position of a stretch the motion is continuous; between two of them lies a gap.
+    """
 
     pose: Pose
     reached: NDArray[np.bool_]
+    stretch: NDArray[np.intp]
 
 
 def path(layout: Layout, first: Pose, along: Course, start: float, period: Array | None = None) -> Path:
@@ -93,7 +97,7 @@ def _around(layout: Layout, along: Course, period: Array, known: Path) -> Path:
         if known.reached[place] and not known.reached.all():
             cycle = course(layout, np.concatenate([listed + sign * period, listed[place : place + 1]]))
             found = _both_ways(layout, known.pose.at(place), cycle, cycle.at(count), count)
-            known = _joined(known, _same(layout, found, listed, -sign * period))
+            known = _joined(known, _apart(_same(layout, found, listed, -sign * period), known))
     return known
 
 
@@ -108,7 +112,7 @@ def _same(layout: Layout, found: Path, targets: Array, more: Array) -> Path:
     reached[there] = same
     for whole, part in zip(found.pose, pose, strict=True):
         whole[there] = part
-    return Path(found.pose, reached)
+    return found._replace(reached=reached)
 
 
 def _counted(layout: Layout, pose: Pose, more: Array) -> Pose:
@@ -146,7 +150,7 @@ def _filled(layout: Layout, along: Course, piece: March, count: int) -> Path:
     """The first ``count`` positions of the list, where they lie within a march, by interpolation and correction."""
     inside = (along.s >= piece.s[0] - 1e-12) & (along.s <= piece.s[-1] + 1e-12) & (along.order < count)
     nowhere = Pose(*(np.full((count, *part.shape[1:]), np.nan) for part in piece.pose))
-    found = Path(nowhere, np.zeros(count, bool))
+    found = Path(nowhere, np.zeros(count, bool), np.zeros(count, np.intp))
     for low, high in zip(along.breaks[:-1], along.breaks[1:], strict=True) if along.end > 0 else [(0.0, 0.0)]:
         which = np.flatnonzero((piece.s >= low - 1e-12) & (piece.s <= high + 1e-12))
         places = np.flatnonzero(inside & (along.s >= low - 1e-12) & (along.s <= high + 1e-12))
@@ -191,7 +195,12 @@ def _joined(a: Path, b: Path) -> Path:
         return a
     take = a.reached
     pose = Pose(*(np.where(_over(take, x), x, y) for x, y in zip(a.pose, b.pose, strict=True)))
-    return Path(pose, take | b.reached)
+    return Path(pose, take | b.reached, np.where(take, a.stretch, b.stretch))
+
+
+def _apart(new: Path, known: Path) -> Path:
+    """The path as a stretch of its own."""
+    return new._replace(stretch=np.full_like(new.stretch, known.stretch.max() + 1))
 
 
 def _over(mask: NDArray[np.bool_], array: Array) -> NDArray[np.bool_]:
@@ -217,7 +226,8 @@ def _reentered(layout: Layout, first: Pose, along: Course, known: Path) -> Path:
         if entry is None:
             return known
         before = known.reached.sum()
-        known = _joined(known, _both_ways(layout, entry, along, along.at(where), len(known.reached)))
+        behind = _both_ways(layout, entry, along, along.at(where), len(known.reached))
+        known = _joined(known, _apart(behind, known))
         if known.reached.all() or known.reached.sum() == before:
             break
     return known

@@ -73,12 +73,16 @@ class Springs:
 
 @dataclass(frozen=True)
 class Resistances:
-    """Springs and dampers in freedoms: -k (q - q0) - c dq/dt along freedom ``row``, on j; the opposite on i."""
+    """Springs and dampers in freedoms: -k (q + turns - q0) - c dq/dt along freedom ``row``, on j; the opposite on i.
+
+    ``turns`` (R,), or (P, R): what the count of whole turns adds to the angle (``analysis.winding``).
+    """
 
     row: Ints
     stiffness: Array
     free: Array
     damping: Array
+    turns: Array
 
 
 @dataclass(frozen=True)
@@ -211,12 +215,12 @@ def _direction(layout: Layout, springs: Springs, span: Array, square: Array, rat
 
 def preloaded(springs: Springs) -> NDArray[np.bool_]:
     """Springs (k,) that push at length zero."""
-    return np.asarray((springs.stiffness != 0) & (springs.free_length != 0), bool)
+    return np.array((springs.stiffness != 0) & (springs.free_length != 0), bool)
 
 
 def directed(springs: Springs) -> NDArray[np.bool_]:
     """Springs and dampers (k,) whose force at length zero depends on how it is reached."""
-    return preloaded(springs) | np.asarray(springs.damping != 0, bool)
+    return np.array(preloaded(springs) | (springs.damping != 0), bool)
 
 
 def away(layout: Layout, springs: Springs, pose: Pose) -> Array:
@@ -227,7 +231,7 @@ def away(layout: Layout, springs: Springs, pose: Pose) -> Array:
 def resistance_wrench(layout: Layout, resistances: Resistances, pose: Pose, twist: Array) -> Source:
     """Springs and dampers in freedoms."""
     rows = system(layout.algebra, layout.freedoms, pose).rows(resistances.row)
-    value = measure(layout.algebra, layout.freedoms, pose)[..., resistances.row]
+    value = measure(layout.algebra, layout.freedoms, pose)[..., resistances.row] + resistances.turns
     effort = -resistances.stiffness * (value - resistances.free) - resistances.damping * rates(rows, twist)
     return pair(rows, effort)
 

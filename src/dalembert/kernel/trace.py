@@ -43,7 +43,8 @@ class Drives:
 class Problem:
     """A compiled mechanism whose numbers are nodes; ``like`` is the same with the file's numbers, ``like_target`` its
     stacked targets at the first position. Where there are ``slips`` the known motion is the solution, and they are the
-    friction of each contact in it: then one step of Newton is left, which carries the derivatives."""
+    friction of each contact in it: then one step of Newton is left, which carries the derivatives. ``margins`` are, by
+    freedom, how far the turns of springs may be from the known motion's for the same count of whole turns."""
 
     graph: Graph
     layout: Layout
@@ -61,6 +62,7 @@ class Problem:
     signs: Any
     rough: Rough | None
     slips: Array | None
+    margins: dict[int, Node]
 
 
 @dataclass(frozen=True)
@@ -107,7 +109,13 @@ def trace(p: Problem) -> Traced:
         load=traced(g, found.load),
         residual=_residual(g, layout, summed(layout, pair(s.unknown, x)), rub.total),
         open=placed.open,
-        doubt=[*apart, *placed.doubt, *_singular(p, factors, s.forces), *_short(p, layout, pose)],
+        doubt=[
+            *apart,
+            *placed.doubt,
+            *_singular(p, factors, s.forces),
+            *_short(p, layout, pose),
+            *_recounted(p, layout, pose),
+        ],
         rubbed=rub,
         flips=placed.flips,
     )
@@ -230,6 +238,16 @@ def _singular(p: Problem, *factors: Any) -> list[Node]:
         if usual > 0:
             out.append(pivot * pivot * (1 / usual**2) - NEAR)
     return out
+
+
+def _recounted(p: Problem, layout: Layout, pose: Pose) -> list[Node]:
+    """Below zero where a design turns a spring so far from the known motion that its whole turns may be others."""
+    if p.slips is not None:
+        return []
+    i, j = layout.freedoms.ends
+    known = {row: p.path("turn", int(j[row])) - p.path("turn", int(i[row])) for row in p.margins}
+    value = measure(layout.algebra, layout.freedoms, pose)
+    return [margin - 2 * abs(value[row] - known[row]) for row, margin in p.margins.items()]
 
 
 def _short(p: Problem, layout: Layout, pose: Pose) -> list[Node]:

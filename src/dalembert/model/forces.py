@@ -304,7 +304,11 @@ class TorsionSpring(Part):
         description="moment per angle; a bare number is one per radian"
     )
     free_angle: Annotated[float, Scalar("angle")] = Field(
-        0.0, description="the joint's angle without moment; default 0"
+        0.0,
+        description="the joint's angle without moment; default 0. A driven turn counts whole turns "
+        "with its drive. Another is, where the drives stand as assembly has them (else at 0), within half a turn of "
+        "what assembly states, the angle of j less that of i as written (460 deg is a turn more than 100 deg), else "
+        "of 0; from there it is followed",
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -76,6 +76,11 @@ class Course:
         assert c.contacts is not None
         z = np.nan_to_num(-f.sense * bearing(c.contacts, f.argument))
         return dict(zip(contact_keys(c), z.T, strict=True))
+
+    @property
+    def counted(self) -> Compiled:
+        """The mechanism with the whole turns of its torsion springs counted along its motion."""
+        return self.followed.compiled if self.result is None else self.result.compiled
 
     def at(self, positions: Array) -> Course:
         """Another list of positions, at the same speeds and accelerations."""
@@ -152,6 +157,19 @@ class Inputs:
 
         return np.array([slip(key) for key in contact_keys(c)], object)
 
+    def turns(self, c: Compiled) -> tuple[Compiled, dict[int, Node]]:
+        """The mechanism with whole turns of its torsion springs as inputs, and of each such turn, by freedom, how far
+        it may differ from the known motion without another count."""
+        own, margins = c.forcing.resistances, {}
+        turns = np.array([self.graph.zero] * len(own.row), object)
+        for n in self.course.counted.counts:
+            k = n.place
+            turns[k] = self.make("channel", f"counted turns of {n.spring}", partial(_turns, place=k))
+            margin = self.make("channel", f"counted margin of {n.spring}", partial(_margin, place=k))
+            margins[int(own.row[k])] = margin
+        forcing = replace(c.forcing, resistances=replace(own, turns=turns))
+        return replace(c, forcing=forcing), margins
+
     def signs(self, plus: Any, minus: Any, a: int, b: int) -> Any:
         """Which of two rotations of link b against link a the known motion has: 1 or -1, or an input if it changes."""
         kind = "channel" if any(n.level & POSITION for n in plus if isinstance(n, Node)) else "common"
@@ -173,6 +191,19 @@ class Inputs:
         off = [np.hypot(x - cos, y - sin) for x, y in ((pc, ps), (mc, ms))]
         gain = np.nan_to_num(np.broadcast_to(off[1] - off[0], cos.shape))
         return np.where(np.abs(gain) > 1e-5, np.sign(gain), 0.0)
+
+
+def _turns(course: Course, place: int) -> Array:
+    """What the count of whole turns adds to the turn of a torsion spring (P,)."""
+    c = course.counted
+    turns = c.forcing.resistances.turns
+    return turns[:, place] if turns.ndim > 1 else np.zeros(len(c.schedule.position))
+
+
+def _margin(course: Course, place: int) -> Array:
+    """How far that turn may differ where it is counted (P,); 0 where it was not."""
+    c = course.counted
+    return next((n.margin for n in c.counts if n.place == place), np.zeros(len(c.schedule.position)))
 
 
 def contact_keys(c: Compiled) -> list[tuple[str, str]]:

@@ -6,6 +6,8 @@ import re
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from dalembert.errors import ModelError
 from dalembert.kernel import emit_c
 from dalembert.kernel.graph import Graph, Node
@@ -29,8 +31,8 @@ def plain(k: Kernel) -> Program:
         elif name in inputs.varying and isinstance(inputs.varying[name], Expression):
             value = inputs.varying[name].at(raw, functions(graph))
             places[node.index] = value if isinstance(value, Node) else graph.constant(value)
-        elif kind == "common":
-            places[node.index] = graph.constant(inputs.found[node](k.trace.course))
+        elif kind == "common" or (what == "counted" and np.ptp(inputs.found[node](k.trace.course)) == 0):
+            places[node.index] = graph.constant(np.ravel(inputs.found[node](k.trace.course))[0])
     program = k.program(k.flat)
     groups = [program.outputs, *(getattr(program.marks, f.name) for f in fields(Marks))]
     found = iter(graph.substituted([n for group in groups for n in group], places))

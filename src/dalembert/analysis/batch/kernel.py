@@ -260,11 +260,11 @@ class Kernel:
         return casadi_function(self, name)
 
     def _flipped(self, values: Array) -> NDArray[np.bool_]:
-        """Designs of other geometry than the file's, where the file's own motion passes change points: a parallelogram
-        passes them, its neighbours do not, so each is left to the general executor."""
-        if not self.trace.catalogue.traced.flips:
-            return np.zeros(len(values), bool)
-        moves = [geometric(path) for path in self.numbers]
+        """Designs whose motion may be another than the file's, each left to the general executor: those of another
+        `assembly`, and of other geometry where the file's motion passes change points (a parallelogram passes them, its
+        neighbours do not)."""
+        flips = self.trace.catalogue.traced.flips
+        moves = [path.startswith("assembly.") or (flips and geometric(path)) for path in self.numbers]
         return np.asarray((values != self.nominal)[:, moves].any(axis=1))
 
     def _values(self, values: ArrayLike | None) -> Array:

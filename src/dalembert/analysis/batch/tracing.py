@@ -10,7 +10,7 @@ import numpy as np
 
 from dalembert.analysis.batch.course import Course, Inputs
 from dalembert.analysis.batch.outputs import Catalogue
-from dalembert.analysis.batch.symbols import Number, numbers, symbolic
+from dalembert.analysis.batch.symbols import Number, geometric, numbers, symbolic
 from dalembert.analysis.compile import compiled
 from dalembert.analysis.degree_of_freedom import check_knowns
 from dalembert.analysis.openings import open_sentence
@@ -50,7 +50,7 @@ def traced(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Result | No
     description = symbolic(m, where, graph, inputs.load)
     drives = inputs.drives(description)
     like = course.followed.compiled
-    c = compiled(description, _symbolic(schedule, drives.position), like=like)
+    c, margins = inputs.turns(compiled(description, _symbolic(schedule, drives.position), like=like))
     problem = Problem(
         graph=graph,
         layout=c.layout,
@@ -67,6 +67,7 @@ def traced(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Result | No
         first_path=inputs.path("common"),
         signs=inputs.signs,
         slips=None if solved is None else inputs.slips(c),
+        margins=margins if any(geometric(n.path) for n in where) else {},
         rough=None if c.contacts is None else Rough(c.contacts, c.damping, c.second, c.joint_at),
     )
     return Trace(course, inputs, where, Catalogue(graph, c, _run(problem)), inertia)
