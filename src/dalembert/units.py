@@ -90,9 +90,19 @@ class Units:
         down = [_power(getattr(self, name), -power) for name, power in powers.items() if power < 0]
         return "/".join(["*".join(up), *down]) if up else ""
 
+    def refuses_bare(self, kind: str) -> bool:
+        """Whether a bare number of this kind would not say what it is."""
+        return kind in REFUSED_BARE
+
     def tree(self) -> dict[str, str]:
         """As a file says it."""
         return {field.name: getattr(self, field.name) for field in fields(self)}
+
+
+class TextUnits(Units):
+    """Units of the bare numbers in texts only; numbers by themselves are SI and radians, as in Python."""
+
+    __slots__ = ()
 
 
 @lru_cache(maxsize=1024)
@@ -193,7 +203,7 @@ def _split_text(text: str, kind: str) -> tuple[float, str]:
 
 
 def _bare(number: float, kind: str, units: Units | None, value: object) -> float:
-    if units is None:
+    if units is None or (isinstance(units, TextUnits) and not isinstance(value, str)):
         return number
     if kind in REFUSED_BARE:
         raise ModelError(

@@ -61,7 +61,8 @@ def test_every_command_reads_standard_input_and_pipes(
     made = list(folder.glob("out.*"))
     written = [path.read_bytes() for path in made]
     for source in ("-", "piped"):
-        [path.unlink() for path in made]
+        for path in made:
+            path.unlink()
         monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(content)))
         arguments = [word.replace("FILE", source) for word in COMMANDS[command]]
         if source == "piped":

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, convert, load, loads, read_text, tree_text
+from dalembert.model import mechanism as from_tree
 from tests.model.parts import FOUR_BAR, mechanisms, texts
 from tests.tiers import tiers
 
@@ -126,7 +127,7 @@ def test_convert_refuses_what_is_wrong(tmp_path: Path) -> None:
 
 
 def test_what_cannot_be_written_is_said_and_leaves_no_file(tmp_path: Path) -> None:
-    mechanism = loads('{"title": "\\ud800", "links": {"a": {}}}', "json")
+    mechanism = from_tree({"title": "\ud800", "links": {"a": {}}})
     for name, says in {
         "a.json": r"cannot write .*a\.json: a text in it has '\\ud800', half a character; write that text anew",
         "none/a.yaml": r"cannot write .*a\.yaml: there is no folder .*none; make it, or name another",

@@ -22,12 +22,12 @@ from dalembert.model.link import CENTER, Link
 from dalembert.model.messages import together
 from dalembert.model.names import drive_freedoms, refuse_empty, with_freedoms
 from dalembert.model.part import Part, Reading
-from dalembert.model.paths import fields, replaced
+from dalembert.model.paths import as_in_file, fields, latest, replaced
 from dalembert.model.schedule import Schedule, schedule
 from dalembert.model.shapes import MassProperties
 from dalembert.model.source import Source
 from dalembert.model.values import JsonSchema, Name, Scalar, Value, Vector, at_item
-from dalembert.units import Units, file_units
+from dalembert.units import TextUnits, Units, file_units
 from dalembert.wording import shown
 
 
@@ -94,6 +94,7 @@ class Mechanism(Part):
     )
     answers: tuple[Answer, ...] = Field((), description="published answers, compared by `check`")
     _source: Source | None = PrivateAttr(None)
+    _changes: Mapping[str, Any] = PrivateAttr({})
 
     @classmethod
     def _rules(cls, keys: Mapping[str, Any]) -> Reading:
@@ -143,9 +144,9 @@ class Mechanism(Part):
 
     def __str__(self) -> str:
         """The text of its model file, as `save` writes it."""
-        from dalembert.model.files import tree_text
+        from dalembert.model.rewriting import text_of
 
-        return tree_text(self.to_tree())
+        return text_of(self, "yaml")
 
     def __repr__(self) -> str:
         links = len({*self.links} - {GROUND})
@@ -245,26 +246,43 @@ class Mechanism(Part):
         return any(drive.moves for drive in self.drives.values())
 
     def with_values(self, values: Mapping[str, Any]) -> Mechanism:
-        """Another mechanism with some values replaced, each named by its path; bare numbers are SI and radians.
+        """Another mechanism with some values replaced, each named by its path.
 
-        Raises ModelError for a path that does not exist.
+        Numbers are SI and radians; texts are read as the file reads them: `"3 @ 30"`, `"[1 in, 20]"`, `"60"` in its
+        units. Raises ModelError for a path that does not exist.
         """
-        found = self
-        for path, value in values.items():
-            found = replaced(found, path.split("."), value)
-        changed = Mechanism(**fields(found))
-        changed._source = self._source
+        found, rules = self, self._later_rules()
+        given = {path: as_in_file(value, path) for path, value in values.items()}
+        for path, value in given.items():
+            found = replaced(found, path.split("."), value, rules)
+        changed = Mechanism.model_validate(fields(found), context=rules)
+        changed._source, changed._changes = self._source, latest(self._changes, given)
         return changed
+
+    @property
+    def changes(self) -> Mapping[str, Any]:
+        """Path -> value of what `with_values` has replaced since the mechanism was read."""
+        return self._changes
+
+    def _later_rules(self) -> Reading:
+        """The rules by which values are read that come later."""
+        freedoms = drive_freedoms({"drives": self.drives, "joints": self.joints})
+        folder = self._source.folder if self._source else ""
+        return Reading(TextUnits(**self.units.tree()), freedoms, self.dimension, folder)
 
     def to_tree(self) -> dict[str, Any]:
         """The description as a file's tree, every quantity as text with its SI unit; reads back equal."""
         return self.model_dump(mode="json", by_alias=True)
 
     def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
-        """Write it to a .yaml, .json or .toml file; raises ModelError if there is one and not `overwrite`."""
-        from dalembert.model.files import save_tree
+        """Write it to a .yaml, .json or .toml file; raises ModelError if there is one and not `overwrite`.
 
-        save_tree(self.to_tree(), path, overwrite)
+        What came from a file is written as its author wrote it: only the characters of changed values change.
+        """
+        from dalembert.model.files import format_of, save_text
+        from dalembert.model.rewriting import text_of
+
+        save_text(text_of(self, format_of(path)), path, overwrite)
 
 
 def file_rules(tree: Mapping[str, Any], folder: str = "") -> Reading:

@@ -42,7 +42,7 @@ def read_file(path: FilePath) -> tuple[Any, Source]:
     """The tree of a file as it is written, and where it came from; `-` is standard input."""
     name = STANDARD_INPUT[-1] if os.fspath(path) in STANDARD_INPUT[:2] else os.fspath(path)
     text = _decoded(_content(Path(path), name), name)
-    return read_text(text, _form_of_stream(path, text) if is_stream(path) else _format(path), name)
+    return read_text(text, _form_of_stream(path, text) if is_stream(path) else format_of(path), name)
 
 
 def read_text(text: str, form: str = "yaml", name: str = "text") -> tuple[Any, Source]:
@@ -61,7 +61,7 @@ def read_text(text: str, form: str = "yaml", name: str = "text") -> tuple[Any, S
         raise ModelError(
             "the file is empty", "begin with links: and joints:, or with `dalembert new`", (), name, 1
         )
-    return tree, Source(name, lines)
+    return tree, Source(name, lines, text, form)
 
 
 def _yaml(text: str) -> tuple[Any, Callable[[], Lines]]:
@@ -144,7 +144,8 @@ def _form_of_stream(path: FilePath, text: str) -> str:
     suffix = Path(path).suffix.lower()
     if suffix in FORMATS:
         return FORMATS[suffix]
-    if text.removeprefix("\ufeff").lstrip()[:1] == "{":
+    text = text.removeprefix("\ufeff")
+    if text.lstrip()[:1] == "{":
         try:
             json.loads(text)
         except (ValueError, RecursionError):
@@ -170,7 +171,7 @@ def _neighbour(path: Path) -> str:
 
 def _decoded(content: bytes, name: str) -> str:
     try:
-        return content.decode("utf-8-sig")
+        return content.decode("utf-8")
     except UnicodeDecodeError as error:
         line = content[: error.start].count(b"\n") + 1
         raise ModelError(
@@ -182,7 +183,8 @@ def _decoded(content: bytes, name: str) -> str:
         ) from None
 
 
-def _format(path: FilePath) -> str:
+def format_of(path: FilePath) -> str:
+    """The format that the ending of a name says."""
     suffix = Path(path).suffix.lower()
     if suffix not in FORMATS:
         raise ModelError(
@@ -203,7 +205,11 @@ def convert(path: FilePath, target: FilePath, overwrite: bool = False) -> None:
 
 def save_tree(tree: Mapping[str, Any], path: FilePath, overwrite: bool = False) -> None:
     """Write a tree to a .yaml, .json or .toml file; raises ModelError if there is one and not `overwrite`."""
-    text = tree_text(tree, _format(path))
+    save_text(tree_text(tree, format_of(path)), path, overwrite)
+
+
+def save_text(text: str, path: FilePath, overwrite: bool = False) -> None:
+    """Write the text of a model file; raises ModelError if there is one and not `overwrite`."""
     try:
         content = text.encode("utf-8")
     except UnicodeEncodeError as error:

@@ -25,6 +25,7 @@ from dalembert.model.values import (
     vector,
     vector_schema,
     written,
+    written_vector,
 )
 from dalembert.model.varying import Varying, value_at, varying, varying_schema, varying_tree
 from dalembert.wording import shown
@@ -103,7 +104,7 @@ class Spot(Value):
         return name(value)
 
     def write(self, value: str | Vector) -> Any:
-        return value if isinstance(value, str) else [written(x, "length") for x in value]
+        return value if isinstance(value, str) else written_vector(value, "length")
 
     def json_schema(self) -> JsonSchema:
         return {"anyOf": [{"type": ["string", "integer"]}, vector_schema()]}
@@ -134,7 +135,16 @@ def _end(value: object) -> tuple[str, str]:
     return name(link), name(point)
 
 
-class ForceLoad(Part):
+class Directed(Part):
+    """A load along a direction, or a vector, which needs none."""
+
+    def replaced_by(self, name: str, value: object) -> tuple[str, ...]:
+        """A vector later takes the place of a single value and its direction."""
+        vector = isinstance(value, (list, tuple)) or (isinstance(value, str) and "@" in value)
+        return ("direction",) if name == "value" and vector else ()
+
+
+class ForceLoad(Directed):
     """A force on a link: a vector, or a value along a direction; or unknown along a direction.
 
     >>> ForceLoad(on="rod", at="P", value="100 N @ 90 deg").force({})
@@ -215,7 +225,7 @@ class ForceLoad(Part):
         return tuple(size * x for x in unit_vector(self.direction))
 
 
-class Couple(Part):
+class Couple(Directed):
     """A couple on a link, counter-clockwise positive."""
 
     type: Literal["couple"] = "couple"

@@ -8,7 +8,7 @@ from pydantic import ValidationInfo
 
 from dalembert.errors import ModelError
 from dalembert.model.part import reading
-from dalembert.model.values import JsonSchema, Value, Vector, vector, vector_schema, written
+from dalembert.model.values import JsonSchema, Value, Vector, vector, vector_schema, written_vector
 from dalembert.wording import closest, shown
 
 STANDARD = 9.80665
@@ -34,7 +34,7 @@ class GravityValue(Value):
 
     def write(self, value: Gravity) -> Any:
         if isinstance(value, tuple):
-            return [written(x, "acceleration") for x in value]
+            return written_vector(value, "acceleration")
         return value or "none"
 
     def json_schema(self) -> JsonSchema:

@@ -33,6 +33,7 @@ from dalembert.model.values import (
     vector,
     vector_schema,
     written,
+    written_vector,
 )
 from dalembert.units import quantity
 from dalembert.wording import closest, shown
@@ -69,8 +70,8 @@ class Place(Value):
 
     def write(self, value: Vector | Offset) -> Any:
         if isinstance(value, Offset):
-            return {"from": value.start, "at": [written(x, "length") for x in value.at]}
-        return [written(x, "length") for x in value]
+            return {"from": value.start, "at": written_vector(value.at, "length")}
+        return written_vector(value, "length")
 
     def json_schema(self) -> JsonSchema:
         relative = {

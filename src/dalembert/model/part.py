@@ -56,6 +56,10 @@ class Part(BaseModel):
     INSTEAD: ClassVar[Mapping[str, str]] = {}
     """Key -> the key that it takes the place of, when it is given a value later."""
 
+    def replaced_by(self, name: str, value: object) -> tuple[str, ...]:
+        """The fields that have no place beside one that is given this value later."""
+        return (self.INSTEAD[name],) if name in self.INSTEAD and value is not None else ()
+
     if not TYPE_CHECKING:
 
         def __init__(self, **keys: Any) -> None:

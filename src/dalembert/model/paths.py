@@ -6,29 +6,56 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from dalembert.errors import ModelError
-from dalembert.model.part import Part
+from dalembert.model.part import Part, Reading
 from dalembert.wording import closest
 
 
-def replaced(part: Any, keys: Sequence[str], value: Any, walked: tuple[str, ...] = ()) -> Any:
+def replaced(part: Any, keys: Sequence[str], value: Any, rules: Reading, walked: tuple[str, ...] = ()) -> Any:
     """The part with the value at the path in place of its own; raises ModelError where there is no such path."""
     key, rest = keys[0], keys[1:]
     here = (*walked, key)
     if isinstance(part, Part):
         name = _field(part, key, here)
-        inner = replaced(getattr(part, name), rest, value, here) if rest else value
-        return _rebuilt(part, name, inner, here)
+        inner = replaced(getattr(part, name), rest, value, rules, here) if rest else value
+        return _rebuilt(part, name, inner, rules, here)
     if isinstance(part, Mapping):
         _known(key, list(part), here)
-        return {**part, key: replaced(part[key], rest, value, here) if rest else value}
+        return {**part, key: replaced(part[key], rest, value, rules, here) if rest else value}
     if isinstance(part, tuple):
         _known(key, [str(i) for i in range(len(part))], here)
         items = list(part)
-        items[int(key)] = replaced(items[int(key)], rest, value, here) if rest else value
+        items[int(key)] = replaced(items[int(key)], rest, value, rules, here) if rest else value
         return _mirrored(tuple(items), keys) if walked[-1:] == ("inertia",) else tuple(items)
     raise ModelError(
         f"the path {'.'.join([*here, *rest])!r} goes into a single value", "leave out its end", walked
     )
+
+
+WORDS = ("title", "source", "why")
+"""Keys of texts that are no values."""
+
+
+def as_in_file(value: Any, key: str = "") -> Any:
+    """A value with each text that is a list as a file would have it: its numbers are texts too."""
+    if isinstance(value, Mapping):
+        return {key: as_in_file(item, key) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [as_in_file(item) for item in value]
+    if not isinstance(value, str) or key in WORDS or not value.lstrip().startswith("["):
+        return value
+    from dalembert.model.yaml_text import read
+
+    try:
+        return _texts(read(value)[0])
+    except ModelError as error:
+        raise ModelError(error.what, error.remedy) from None
+
+
+def _texts(value: Any) -> Any:
+    if isinstance(value, list):
+        return [_texts(item) for item in value]
+    number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return repr(value) if number else value
 
 
 def _mirrored(rows: tuple[Any, ...], keys: Sequence[str]) -> tuple[Any, ...]:
@@ -38,6 +65,16 @@ def _mirrored(rows: tuple[Any, ...], keys: Sequence[str]) -> tuple[Any, ...]:
     i, j = int(keys[0]), int(keys[1])
     other = (*rows[j][:i], rows[i][j], *rows[j][i + 1 :])
     return (*rows[:j], other, *rows[j + 1 :])
+
+
+def latest(earlier: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
+    """Changes by path, each with what replaced it last; what lies within a value given later is gone."""
+    kept = {
+        path: value
+        for path, value in earlier.items()
+        if not any(path == new or path.startswith(f"{new}.") for new in given)
+    }
+    return {**kept, **given}
 
 
 def fields(part: Part) -> dict[str, Any]:
@@ -61,13 +98,13 @@ def _known(key: str, choices: list[str], here: tuple[str, ...]) -> None:
         )
 
 
-def _rebuilt(part: Part, name: str, inner: Any, here: tuple[str, ...]) -> Any:
+def _rebuilt(part: Part, name: str, inner: Any, rules: Reading, here: tuple[str, ...]) -> Any:
     """The part with one field replaced; the whole mechanism is rebuilt by its own method, once."""
     if len(here) == 1:
         return part.model_copy(update={name: inner})
-    other = {part.INSTEAD[name]: None} if name in part.INSTEAD else {}
+    keys = {**fields(part), **dict.fromkeys(part.replaced_by(name, inner)), name: inner}
     try:
-        return type(part)(**{**fields(part), **other, name: inner})
+        return type(part).model_validate(keys, context=rules)
     except ModelError as error:
         raise ModelError(
             f"{'.'.join(here[:-1])}: {error.what}", error.remedy, (*here[:-1], *error.path)

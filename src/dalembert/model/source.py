@@ -28,7 +28,7 @@ def is_stream(path: str | os.PathLike[str]) -> bool:
 
 @dataclass(frozen=True)
 class Source:
-    """A file's name, and its lines by path, found when first asked for.
+    """A file's name, its text and format, and its lines by path, found when first asked for.
 
     >>> Source("four.yaml", lambda: {("joints",): 3, ("joints", "A"): 5}).line(("joints", "A", "links", 0))
     5
@@ -36,6 +36,8 @@ class Source:
 
     name: str
     find: Callable[[], Lines] = field(repr=False, compare=False)
+    text: str = field(default="", repr=False)
+    form: str = "yaml"
 
     @property
     def folder(self) -> str:

@@ -12,6 +12,7 @@ from pydantic_core import CoreSchema, core_schema
 
 from dalembert.errors import ModelError
 from dalembert.model.expressions import parsed
+from dalembert.model.figures import FILE_UNITS, plain, plain_vector, whole
 from dalembert.model.part import Reading, reading
 from dalembert.symbols import unit
 from dalembert.units import KINDS, NUMBER, quantity, text
@@ -73,8 +74,17 @@ def signed(number: float, value: object, sign: str) -> float:
 
 
 def written(number: float, kind: str) -> Any:
-    """The number with its SI unit as text; a plain number as it is."""
-    return text(number, kind) if KINDS[kind].si else number
+    """The number with its SI unit as text, or as a file in the units of the moment has it; a plain number as it is."""
+    units = FILE_UNITS.get()
+    if units is None:
+        return text(number, kind) if KINDS[kind].si else number
+    return plain(number, kind, units) if KINDS[kind].si else whole(number)
+
+
+def written_vector(vector: Vector, kind: str) -> Any:
+    """The components, or polar text, as `written` has them."""
+    units = FILE_UNITS.get()
+    return [written(x, kind) for x in vector] if units is None else plain_vector(vector, kind, units)
 
 
 class Components(Value):
@@ -87,7 +97,7 @@ class Components(Value):
         return vector(value, self.kind, reading(info))
 
     def write(self, value: Vector) -> Any:
-        return [written(number, self.kind) for number in value]
+        return written_vector(value, self.kind)
 
     def json_schema(self) -> JsonSchema:
         return vector_schema()

@@ -11,6 +11,7 @@ from pydantic import ValidationInfo
 
 from dalembert.errors import ModelError
 from dalembert.model.expressions import Expression, parsed
+from dalembert.model.figures import FILE_UNITS
 from dalembert.model.part import Reading, mapping, reading
 from dalembert.model.tables import SLACK, Table
 from dalembert.model.values import NUMBER_OR_TEXT, JsonSchema, Value, at_item, name, numbers, written
@@ -168,6 +169,9 @@ def _period(value: object, along: str, x: tuple[float, ...], rules: Reading) -> 
 def varying_tree(value: Varying, kind: str) -> Any:
     """The value as it stands in a file, in SI, units said."""
     if isinstance(value, Expression):
+        units = FILE_UNITS.get()
+        if units is not None and _is_expression(value.text):
+            return value.text if value.unit == units.text(kind) else f"{value.text} {value.unit}"
         return {"expression": value.text, "unit": value.unit} if value.unit else {"expression": value.text}
     if isinstance(value, Table):
         tree: dict[str, Any] = {

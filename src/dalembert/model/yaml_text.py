@@ -16,6 +16,9 @@ from dalembert.wording import shown
 DEEPEST, MOST = 30, 50_000
 """Levels of nesting and values of one file."""
 
+MERGE = "<<"
+"""The key that takes in another mapping."""
+
 _WORDS: dict[str, Any] = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
 _WORDS |= {
     word: value for value in (True, False) for word in (str(value), str(value).lower(), str(value).upper())
@@ -127,6 +130,7 @@ class _Builder:
         if event.tag is not None:
             raise at_line(f"a tag {shown(str(event.tag))} has no place in a model file", "leave it out", line)
         if self.stack and self.stack[-1].wants_key:
+            self.stack[-1].merges |= event.value == MERGE and event.implicit[0]
             self.key(event.value, line)
             return
         value = scalar(event.value) if event.implicit[0] else event.value
@@ -157,7 +161,27 @@ class _Builder:
 
     def closed(self) -> None:
         top = self.stack.pop()
+        if top.merges:
+            self.merge(top)
         self.anchored(top.anchor, top.value, self.size - top.start)
+
+    def merge(self, top: _Open) -> None:
+        """Take in what `<<: *name` names; keys that stand in the mapping itself, and earlier ones, go first."""
+        given = top.value.pop(MERGE)
+        line = self.lines.pop((*top.path, MERGE))
+        merged: dict[str, Any] = {}
+        for other in reversed(given if isinstance(given, list) else [given]):
+            if not isinstance(other, dict):
+                raise at_line(
+                    f"{shown(other)} stands where {MERGE} takes in a mapping",
+                    f"write {MERGE}: *name, after &name {{...}}",
+                    line,
+                )
+            merged |= other
+        own = dict(top.value)
+        top.value.clear()
+        top.value.update(merged | own)
+        self.lines |= {(*top.path, key): line for key in merged if key not in own}
 
     def anchored(self, anchor: str | None, value: Any, size: int) -> None:
         if anchor:
@@ -194,7 +218,7 @@ class _Open:
 
     def __init__(self, value: Any, path: Path, anchor: str | None, start: int) -> None:
         self.value, self.path, self.anchor, self.start = value, path, anchor, start
-        self.key, self.wants_key = "", isinstance(value, dict)
+        self.key, self.wants_key, self.merges = "", isinstance(value, dict), False
 
 
 def scalar(text: str) -> Any:

@@ -15,22 +15,22 @@ _PLAIN = re.compile(r"[^\W\d_][\w./*^() +@-]*|[-+]?\.?[0-9][\w./*^() +@-]*")
 
 def written(tree: Mapping[str, Any]) -> str:
     """The tree as YAML text that reads back equal."""
-    return "".join(line + "\n" for key, value in tree.items() for line in _entry(_word(key), value, 0))
+    return "".join(line + "\n" for key, value in tree.items() for line in _entry(word(key), value, 0))
 
 
 def _entry(head: str, value: Any, indent: int) -> list[str]:
     """The lines of `head: value`; a mapping at the top level is always opened up."""
     space = " " * indent
-    flow = _flow(value)
-    short = len(space) + len(head) + 2 + len(flow) <= WIDTH
+    on_one_line = flow(value)
+    short = len(space) + len(head) + 2 + len(on_one_line) <= WIDTH
     if not isinstance(value, (Mapping, list, tuple)) or not value or (short and not _opened(value, indent)):
-        return [f"{space}{head}: {flow}"]
+        return [f"{space}{head}: {on_one_line}"]
     lines = [f"{space}{head}:"]
     if isinstance(value, Mapping):
-        return lines + [line for key, item in value.items() for line in _entry(_word(key), item, indent + 2)]
+        return lines + [line for key, item in value.items() for line in _entry(word(key), item, indent + 2)]
     if any(isinstance(item, (Mapping, list, tuple)) for item in value):
-        return lines + [f"{space}  - {_flow(item)}" for item in value]
-    return [f"{space}{head}: {flow}"]
+        return lines + [f"{space}  - {flow(item)}" for item in value]
+    return [f"{space}{head}: {on_one_line}"]
 
 
 def _opened(value: Any, indent: int) -> bool:
@@ -38,19 +38,20 @@ def _opened(value: Any, indent: int) -> bool:
     return indent == 0 and any(isinstance(item, (Mapping, list, tuple)) for item in inner)
 
 
-def _flow(value: Any) -> str:
+def flow(value: Any) -> str:
+    """A value on one line."""
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{_word(key)}: {_flow(item)}" for key, item in value.items()) + "}"
+        return "{" + ", ".join(f"{word(key)}: {flow(item)}" for key, item in value.items()) + "}"
     if isinstance(value, Sequence) and not isinstance(value, str):
-        return "[" + ", ".join(_flow(item) for item in value) + "]"
+        return "[" + ", ".join(flow(item) for item in value) + "]"
     if value is None:
         return "null"
     if isinstance(value, bool):
         return "true" if value else "false"
-    return _word(value) if isinstance(value, str) else repr(value)
+    return word(value) if isinstance(value, str) else repr(value)
 
 
-def _word(text: str) -> str:
+def word(text: str) -> str:
     """A text, in quotes where YAML would read something else."""
     plain = _PLAIN.fullmatch(text) and scalar(text) == text and not text.endswith(" ")
     return text if plain else _quoted(text)
