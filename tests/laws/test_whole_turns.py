@@ -10,6 +10,7 @@ import pytest
 
 import dalembert as da
 from tests.random_space.drawing import Array
+from tests.tiers import tiers
 
 ENDS = {
     "O2": ("ground", "crank"),
@@ -237,3 +238,142 @@ def test_springs_behind_a_gap_whatever_positions_are_asked(stated: Any, lists: l
     for efforts in known.values():
         assert efforts == pytest.approx([efforts[0]] * len(efforts), rel=1e-9)
     assert {q for (q, _), efforts in known.items() if len(efforts) > 1} >= {40, 320}
+
+
+def _space(*angles: tuple[str, float], **joint: Any) -> Any:
+    """The same crank-rocker in space, its springs' joints revolute, with poses of some links as they are written."""
+    points = {
+        "ground": {"O2": [0, 0, 0], "O4": [4, 0, 0]},
+        "crank": {"O2": [0, 0, 0], "A": [1, 0, 0]},
+        "coupler": {"A": [0, 0, 0], "B": [4, 0, 0]},
+        "rocker": {"O4": [0, 0, 0], "B": [3, 0, 0]},
+    }
+    kinds = {"O2": "revolute", "A": "spherical", "B": "cylindrical", "O4": "revolute"}
+    place = {"crank": [0, 0, 0], "coupler": [0, 1, 0], "rocker": [4, 0, 0]}
+    return {
+        "dalembert": 1,
+        "space": "space",
+        "links": {link: {"points": found} for link, found in points.items()},
+        "joints": {
+            name: {"type": kinds[name], "links": list(ends)}
+            | ({"axis": [0, 0, 1]} if kinds[name] != "spherical" else {})
+            for name, ends in ENDS.items()
+        },
+        "drives": {"O2": {"position": 90}},
+        "loads": {"s": {"type": "torsion_spring", "joint": "O4", "stiffness": 10, "free_angle": -120}},
+        "assembly": {
+            link: {"position": place[link], "axis": [0, 0, 1 if angle > 0 else -1], "angle": abs(angle)}
+            for link, angle in angles
+        },
+    }
+
+
+@pytest.mark.parametrize(("written", "turns"), [(100, 0), (460, 1), (-260, -1)])
+def test_poses_in_space_count_as_written(written: float, turns: int) -> None:
+    """11.83 N m at 219.8 deg from the free angle, and as much more as the turns written more."""
+    tree = _space(("crank", 90), ("coupler", 20), ("rocker", written))
+    deflection = np.degrees(1.7419501646378182) + 120
+    expected = 11.830929286337817 * (deflection + TURN * turns) / deflection
+    for positions in ([90], [300, 90, -200], [90, 450]):
+        tree["drives"]["O2"]["position"] = positions
+        r = da.statics(da.mechanism(tree))
+        assert r.effort("O2")[positions.index(90)] == pytest.approx(expected, rel=1e-8)
+
+
+def test_a_screw_counts_the_turns_of_its_slide() -> None:
+    tree: dict[str, Any] = {
+        "dalembert": 1,
+        "space": "space",
+        "links": {"ground": {"points": {"O": [0, 0, 0]}}, "nut": {"points": {"O": [0, 0, 0]}}},
+        "joints": {"O": {"type": "screw", "links": ["ground", "nut"], "axis": [0, 0, 1], "lead": 0.01}},
+        "loads": {"s": {"type": "torsion_spring", "joint": "O", "stiffness": 3, "free_angle": 100}},
+    }
+    rate = 2 * np.pi / 0.01
+    for slides in ([0.05], [-0.02, 0.05]):
+        tree["drives"] = {"O": {"freedom": "slide", "position": slides}}
+        r = da.statics(da.mechanism(tree))
+        expected = 3 * (rate * np.array(slides) - np.radians(100)) * rate
+        assert r.effort("O") == pytest.approx(expected, rel=1e-9)
+
+
+def test_wheels_count_where_their_phase_is() -> None:
+    """A wheel that stands at 460 deg where its pinion starts, at 90 deg; twice its size, so half as fast back."""
+    tree = {
+        "dalembert": 1,
+        "links": {
+            "ground": {"points": {"O": [0, 0], "C": [3, 0]}},
+            "p": {"points": {"O": [0, 0]}},
+            "w": {"points": {"C": [0, 0]}},
+        },
+        "joints": {
+            "O": {"type": "pin", "links": ["ground", "p"]},
+            "C": {"type": "pin", "links": ["ground", "w"]},
+            "g": {"type": "gear", "links": ["p", "w"], "at": ["O", "C"], "radii": [1, 2]},
+        },
+        "drives": {"O": {"position": [90, 180, 900]}},
+        "loads": {"k": {"type": "torsion_spring", "joint": "C", "stiffness": 2}},
+        "assembly": {"w": 460},
+    }
+    m = da.mechanism(tree)
+    expected = -np.radians([460, 415, 55])
+    for effort in (
+        da.statics(m).effort("O"),
+        da.compile(m)().effort("O")[0],
+        da.statics(da.lifted(m)).effort("O"),
+    ):
+        assert effort == pytest.approx(expected, rel=1e-9)
+    assert (
+        "at the first position, where its wheels have their phase"
+        in da.statics(m).assumptions["turn of C for k"]
+    )
+
+
+def test_a_turn_that_drives_settle_is_counted_by_them() -> None:
+    """Two arms, each driven by more than two turns: the pin between them has the second drive's, and is not told."""
+    tree = {
+        "dalembert": 1,
+        "links": {
+            "ground": {"points": {"O": [0, 0]}},
+            "a": {"points": {"O": [0, 0], "P": [1, 0]}},
+            "b": {"points": {"P": [0, 0]}},
+        },
+        "joints": {
+            "O": {"type": "pin", "links": ["ground", "a"]},
+            "P": {"type": "pin", "links": ["a", "b"]},
+        },
+        "drives": {"O": {"position": [970, 10]}, "P": {"position": [800, 0]}},
+        "loads": {"s": {"type": "torsion_spring", "joint": "P", "stiffness": 2, "free_angle": 10}},
+    }
+    r = da.statics(da.mechanism(tree))
+    assert r.effort("P") == pytest.approx(2 * np.radians([790, -10]))
+    assert "counted_turns" not in r.to_dict()
+
+
+@pytest.mark.parametrize("stated", tiers([{"crank": -60}], [{"crank": 60}, {"crank": 300}, {}]))
+def test_turns_are_counted_at_the_end_where_the_way_is_barred(stated: dict[str, float]) -> None:
+    """A slider-crank driven by its slide, which never gets to 0: the dead centre at half a turn is within it."""
+    tree: dict[str, Any] = {
+        "dalembert": 1,
+        "links": {
+            "ground": {"points": {"O": [0, 0]}},
+            "crank": {"points": {"O": [0, 0], "A": [1, 0]}},
+            "rod": {"points": {"A": [0, 0], "B": [3, 0]}},
+            "block": {"points": {"B": [0, 0]}},
+        },
+        "joints": {
+            "O": {"type": "pin", "links": ["ground", "crank"]},
+            "A": {"type": "pin", "links": ["crank", "rod"]},
+            "B": {"type": "pin", "links": ["rod", "block"]},
+            "s": {"type": "slider", "links": ["ground", "block"], "at": ["O", "B"]},
+        },
+        "loads": {"k": {"type": "torsion_spring", "joint": "O", "stiffness": 2, "free_angle": 90}},
+        "assembly": stated,
+    }
+    for slides in ([3.0], [2.0, 3.0, 2.2, 4.0]):
+        tree["drives"] = {"s": {"position": slides}}
+        r = da.statics(da.mechanism(tree))
+        turn = np.degrees(r.freedom("O", "turn")[0])
+        side = np.sign(np.sin(np.radians(stated.get("crank", 60))))
+        closed = side * np.degrees(np.arccos((1 + np.square(slides) - 9) / (2 * np.array(slides))))
+        moving = np.abs(np.abs(np.array(slides) - 3) - 1) > 1e-9
+        assert turn[moving] == pytest.approx((closed + TURN * (stated.get("crank", 0) == 300))[moving])

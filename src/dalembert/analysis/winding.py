@@ -206,7 +206,7 @@ def _drives(c: Compiled, at: Array) -> str:
     angular = c.layout.freedoms.angular[c.layout.driven]
     kinds = ["angle" if turns else "length" for turns in angular]
     parts = zip(c.schedule.names, kinds, at, strict=True)
-    return " and ".join(f"{n} = {quantity_text(c, kind, float(q) + 0.0)}" for n, kind, q in parts)
+    return " and ".join(f"{n} = {quantity_text(c, kind, round(float(q), 12) + 0.0)}" for n, kind, q in parts)
 
 
 def counted_turns(c: Compiled, pose: Pose) -> dict[str, Array]:
