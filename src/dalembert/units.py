@@ -58,9 +58,13 @@ KINDS: dict[str, Kind] = {
     "density": _kind("a density", "kg/m^3", (-3, 1, 0, 0), "mass length^-3", "7850 kg/m^3"),
     "area": _kind("an area", "m^2", (2, 0, 0, 0), "length^2", "2 cm^2"),
     "power": _kind("a power", "W", (2, 1, -3, 0), "force length time^-1", "2 kW"),
+    "energy": _kind("an energy", "J", MOMENT, "force length", "20 J"),
+    "pressure": _kind("a pressure", "N/m^2", (-1, 1, -2, 0), "force length^-2", "6 N/mm^2"),
 }
 """Every kind of number in a file or an answer. A bare torsional stiffness or damping is one per radian."""
 
+ALSO_CALLED = {"torque": "moment", "work": "energy"}
+"""Other names of kinds in a file's `units`."""
 PER_RADIAN = ("torsion_stiffness", "torsion_damping")
 REFUSED_BARE = {"angular_speed": "rad/s, deg/s or rpm", "angular_acceleration": "rad/s^2 or deg/s^2"}
 
@@ -78,6 +82,19 @@ class Units:
     mass: str = "kg"
     time: str = "s"
     angle: str = "deg"
+    derived: tuple[tuple[str, str], ...] = ()
+    """Kinds that have a unit of their own, and which; the others have the product of the five."""
+
+    def own(self, kind: str) -> str:
+        """The unit that the file gives this kind itself; a torsional stiffness or damping goes by the moment's."""
+        given = dict(self.derived)
+        if kind in given or kind not in PER_RADIAN or "moment" not in given:
+            return given.get(kind, "")
+        return given["moment"] + (f"*{_power(self.time, 1)}" if kind == "torsion_damping" else "")
+
+    def of_texts(self) -> TextUnits:
+        """The same for the numbers in texts only."""
+        return TextUnits(**{field.name: getattr(self, field.name) for field in fields(self)})
 
     def unit(self, kind: str) -> Unit:
         """The unit of a bare number of this kind: the product of the file's units."""
@@ -85,6 +102,8 @@ class Units:
 
     def text(self, kind: str) -> str:
         """The same unit as text, as it may stand behind a number."""
+        if self.own(kind):
+            return self.own(kind)
         powers = KINDS[kind].file
         up = [_power(getattr(self, name), power) for name, power in powers.items() if power > 0]
         down = [_power(getattr(self, name), -power) for name, power in powers.items() if power < 0]
@@ -92,11 +111,16 @@ class Units:
 
     def refuses_bare(self, kind: str) -> bool:
         """Whether a bare number of this kind would not say what it is."""
-        return kind in REFUSED_BARE
+        return kind in REFUSED_BARE and not self.own(kind)
 
     def tree(self) -> dict[str, str]:
         """As a file says it."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}
+        five = {name: getattr(self, name) for name in BASES}
+        return five | dict(self.derived)
+
+
+BASES = ("length", "force", "mass", "time", "angle")
+"""The units of which the others are products."""
 
 
 class TextUnits(Units):
@@ -107,6 +131,8 @@ class TextUnits(Units):
 
 @lru_cache(maxsize=1024)
 def _file_unit(units: Units, kind: str) -> Unit:
+    if units.own(kind):
+        return unit(units.own(kind))
     product = ONE
     for name, power in KINDS[kind].file.items():
         product = product.times(unit(getattr(units, name)), power)
@@ -119,30 +145,37 @@ def _power(text: str, power: int) -> str:
 
 
 def file_units(tree: object) -> Units:
-    """The `units` of a file: a mapping of length, force, mass, time and angle to names of units.
+    """The `units` of a file: a mapping of length, force, mass, time and angle to names of units, and of any other kind.
 
-    >>> file_units({"length": "mm"}).text("moment")
-    'N*mm'
+    >>> file_units({"length": "mm"}).text("moment"), file_units({"length": "mm", "torque": "N*m"}).text("moment")
+    ('N*mm', 'N*m')
     """
     if isinstance(tree, Units):
         return tree
-    names = [field.name for field in fields(Units)]
+    names = [*BASES, *(kind for kind in KINDS if kind not in (*BASES, "number")), *ALSO_CALLED]
     if not isinstance(tree, Mapping):
         raise ModelError(f"units are {shown(tree)}, not a mapping", "write units: {length: mm, force: N}")
+    derived: dict[str, str] = {}
     for name, text in tree.items():
-        _check_file_unit(name, text, names)
-    return Units(**tree)
+        kind = ALSO_CALLED.get(str(name), str(name))
+        _check_file_unit(name, kind, text, names)
+        if kind not in BASES and derived.setdefault(kind, text) != text:
+            raise ModelError(
+                f"units gives {kind} twice: {derived[kind]} and, as {name}, {text}",
+                "leave one of them out",
+                (str(name),),
+            )
+    five = {name: text for name, text in tree.items() if name in BASES}
+    return Units(**five, derived=tuple(derived.items()))
 
 
-def _check_file_unit(name: object, text: object, names: list[str]) -> None:
+def _check_file_unit(name: object, kind: str, text: object, names: list[str]) -> None:
     if name not in names:
         raise ModelError(f"units has no key {shown(name)}", closest(str(name), names), (str(name),))
     if not isinstance(text, str):
-        raise ModelError(
-            f"{shown(text)} is no unit", f"write {KINDS[str(name)].si}, for example", (str(name),)
-        )
+        raise ModelError(f"{shown(text)} is no unit", f"write {KINDS[kind].si}, for example", (str(name),))
     try:
-        check_unit(text, str(name))
+        check_unit(text, kind)
     except ModelError as error:
         raise ModelError(error.what, error.remedy, (str(name),)) from None
 
@@ -205,7 +238,7 @@ def _split_text(text: str, kind: str) -> tuple[float, str]:
 def _bare(number: float, kind: str, units: Units | None, value: object) -> float:
     if units is None or (isinstance(units, TextUnits) and not isinstance(value, str)):
         return number
-    if kind in REFUSED_BARE:
+    if units.refuses_bare(kind):
         raise ModelError(
             f"{shown(value)} is {KINDS[kind].phrase} without a unit", f"write which: {REFUSED_BARE[kind]}"
         )

@@ -138,10 +138,11 @@ SAID: dict[str, tuple[dict[str, Any], str, str]] = {
     "unknown": ({"loads.T_4.value": "unknown"}, "value: 120", "value: unknown"),
     "a range": (
         {"drives.O2": {"position": {"from": 0, "to": "360 deg", "count": 7}}},
-        "{position: 60 deg, speed: 25 rad/s, acceleration: -40 rad/s^2}", "{position: {from: 0, to: 360 deg, count: 7}}",
+        "{position: 60 deg, speed: 25 rad/s, acceleration: -40 rad/s^2}",
+        "{position: {from: 0, to: 360 deg, count: 7}}",
     ),
     "a title": ({"title": "Another: one"}, "title: Four-bar linkage, dynamic", 'title: "Another: one"'),
-    "what was not there": ({"joints.A.damping": 0.5}, "A:  {type: pin, links: [crank, coupler]", "A:  {type: pin, links: [crank, coupler], damping: 0.5 N*m*s/rad"),
+    "what was not there": ({"joints.A.damping": 0.5}, "[crank, coupler]", "[crank, coupler], damping: 0.5 N*m*s/rad"),
     "a word": ({"gravity": "standard"}, "gravity: none ", "gravity: standard "),
     "nothing": ({"links.crank.weight": None}, "  weight: 1.5,", ""),
 }  # fmt: skip

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert.symbols import unit
 from dalembert.units import NUMBER, Units
 
 if TYPE_CHECKING:
@@ -134,4 +135,4 @@ def radians(angle: float, text: str, units: Units) -> float:
     True
     """
     named = re.search(r"\b(deg|rad)\b", text)
-    return math.radians(angle) if (named[1] if named else units.angle) == "deg" else angle
+    return unit(named[1] if named else units.angle).si(angle)

@@ -56,6 +56,10 @@ class Scale:
     def __init__(self, units: object) -> None:
         self._units = None if units is None else file_units(units)
 
+    def bare(self, kind: str) -> bool:
+        """Whether these units have one for bare numbers of this kind."""
+        return self._units is None or not self._units.refuses_bare(kind)
+
     def text(self, kind: str) -> str:
         """The unit of a kind of number, as text."""
         return KINDS[kind].si if self._units is None else self._units.text(kind)

@@ -27,7 +27,7 @@ from dalembert.model.schedule import Schedule, schedule
 from dalembert.model.shapes import MassProperties
 from dalembert.model.source import Source
 from dalembert.model.values import JsonSchema, Name, Scalar, Value, Vector, at_item
-from dalembert.units import TextUnits, Units, file_units
+from dalembert.units import ALSO_CALLED, BASES, KINDS, Units, file_units
 from dalembert.wording import shown
 
 
@@ -47,6 +47,14 @@ class UnitsValue(Value):
             "properties": {
                 key: {"type": "string", "description": f"unit of bare numbers; default {unit}"}
                 for key, unit in said.items()
+            }
+            | {
+                key: {
+                    "type": "string",
+                    "description": f"unit of bare numbers; default a product of these ({KINDS[kind].si})",
+                }
+                for key, kind in ({kind: kind for kind in KINDS} | ALSO_CALLED).items()
+                if kind not in (*BASES, "number")
             },
             "additionalProperties": False,
         }
@@ -268,7 +276,7 @@ class Mechanism(Part):
         """The rules by which values are read that come later."""
         freedoms = drive_freedoms({"drives": self.drives, "joints": self.joints})
         folder = self._source.folder if self._source else ""
-        return Reading(TextUnits(**self.units.tree()), freedoms, self.dimension, folder)
+        return Reading(self.units.of_texts(), freedoms, self.dimension, folder)
 
     def to_tree(self) -> dict[str, Any]:
         """The description as a file's tree, every quantity as text with its SI unit; reads back equal."""

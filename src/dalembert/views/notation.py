@@ -120,12 +120,12 @@ class Figures:
 
     def unit(self, kind: str) -> str:
         """Unit of a kind as the reader writes it: N·m."""
-        return pretty(RADIANS.get(kind) or self.scale.text(kind))
+        return pretty(self.scale.text(kind) if self.scale.bare(kind) else RADIANS[kind])
 
     def value(self, kind: str, value: float) -> float:
         """An SI number in the reader's unit."""
         sign = self.notation.torque if kind == "moment" else 1
-        return sign * float(value if kind in RADIANS else self.scale(kind, value))
+        return sign * float(self.scale(kind, value) if self.scale.bare(kind) else value)
 
     def size(self, kind: str) -> float:
         """Size in SI of the reader's unit of a kind."""

@@ -16,10 +16,10 @@ class Printed(Scale):
     """The units of the file, but angular rates in rad/s: a bare angular rate has no unit in a file."""
 
     def text(self, kind: str) -> str:
-        return RADIANS.get(kind) or super().text(kind)
+        return super().text(kind) if self.bare(kind) else RADIANS[kind]
 
     def __call__(self, kind: str, values: Any) -> Any:
-        return values if kind in RADIANS else super().__call__(kind, values)
+        return super().__call__(kind, values) if self.bare(kind) else values
 
 
 RADIANS = {"angular_speed": "rad/s", "angular_acceleration": "rad/s^2"}
