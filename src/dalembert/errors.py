@@ -89,9 +89,19 @@ STATUSES: dict[str, Status] = {
         "Friction reverses the sense of the drive's effort.",
         "Reduce friction if the load is to drive the machine.",
     ),
+    "reversal": Status(
+        "Friction changes its sense here: the numbers jump from those just before to those just after.",
+        "",
+    ),
     "at_rest": Status(
         "With friction and no motion the efforts are an interval, not a number.",
         "Give a speed to choose the sense.",
     ),
 }
 """Code of a status -> its sentence and remedy; the codes are those of the JSON answer."""
+
+SOLVED = ("ok", "reversal")
+"""Statuses of a position that is solved; at a reversal twice, just before and just after."""
+
+NUMBERED = (*SOLVED, "self_locking")
+"""Statuses of a position whose every number is known."""

@@ -206,12 +206,19 @@ def test_the_dead_band_around_the_dead_centres() -> None:
         assert da.statics(engine(position=edge - inwards)).status == ("ok",), edge
 
 
-def test_a_guide_without_relative_motion_leaves_an_interval() -> None:
-    r = da.statics(engine(position=0))
-    assert r.status == ("at_rest",)
-    low, high = r.interval("O")[0]
-    assert 0 < low < high
+def test_a_guide_that_reverses_has_two_numbers() -> None:
+    """Just before a dead centre and just after it, each the limit of the positions there."""
+    r = da.statics(engine(position=0), strict=True)
+    assert r.status == ("reversal",)
+    assert r.ok.all()
+    assert r.problems() == []
+    aside = da.statics(engine(position=[-2e-5, -1e-5, 1e-5, 2e-5])).effort("O")
+    before, after = 2 * aside[1] - aside[0], 2 * aside[2] - aside[3]
+    assert r.effort("O")[0] == pytest.approx(before, rel=1e-10)
+    assert r.after is not None
+    assert r.after.effort("O")[0] == pytest.approx(after, rel=1e-10)
+    assert r.interval("O")[0].tolist() == sorted([r.effort("O")[0], r.after.effort("O")[0]])
     assert r.reasons[0] == (
-        "No relative motion in guide at O = 0 deg: the friction there may have any value within its limits, "
-        "and O lies in an interval."
+        "guide reverses at O = 0 deg, and friction there changes its sense: "
+        f"O is {before:.6g} N*m just before and {after:.6g} N*m just after."
     )

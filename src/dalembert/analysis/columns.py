@@ -147,26 +147,53 @@ EFFORT: dict[str, Callable[[Any, str], Array]] = {"effort": lambda r, drive: r.e
 
 
 def columns(result: Result, axes: Axes = "ground") -> Iterator[Column]:
-    """Every number of a result: drives, efforts, unknown loads, reactions, links, residual, power balance."""
+    """Every number of a result: drives, efforts, unknown loads, reactions, links, residual, power balance; where some
+    contact reverses also the low and the high of each that depends on friction."""
     for drive in result.drives:
         kinds = drive_kinds(result, drive)
         for name, values in DRIVE_NUMBERS.items():
             yield Column(f"drive {drive} {name}", kinds[name], values(result, drive))
-    for drive in result.drives:
-        yield Column(f"effort {drive}", drive_kinds(result, drive)["effort"], result.effort(drive))
-    for load in result.unknown_loads:
-        yield Column(f"unknown load {load}", load_kind(result, load), result.unknown_load(load))
+    yield from _unknown_columns(result)
     for name, kind in unknown_kinds(result).items() if result.ends else ():
         for k, end in enumerate(("low", "high")):
             yield Column(f"{name} {end} end", kind, result.interval(name)[:, k])
-    for reaction in reactions(result, axes):
-        yield from _reaction_columns(reaction)
-    for joint in rubbing_joints(result):
-        yield from _friction_columns(result, joint, axes)
+    yield from _joint_columns(result, axes)
     for link in result.links:
         yield from _link_columns(result, link)
     yield Column("residual", "number", result.residual)
     yield Column("power balance", "number", result.power_balance)
+    if result.after is not None:
+        yield from _span_columns(result, axes)
+
+
+def _unknown_columns(result: Result) -> Iterator[Column]:
+    """What balances the machine."""
+    for drive in result.drives:
+        yield Column(f"effort {drive}", drive_kinds(result, drive)["effort"], result.effort(drive))
+    for load in result.unknown_loads:
+        yield Column(f"unknown load {load}", load_kind(result, load), result.unknown_load(load))
+
+
+def _joint_columns(result: Result, axes: Axes) -> Iterator[Column]:
+    """Reactions, and friction's part of them."""
+    for reaction in reactions(result, axes):
+        yield from _reaction_columns(reaction)
+    for joint in rubbing_joints(result):
+        yield from _friction_columns(result, joint, axes)
+
+
+def _span_columns(result: Result, axes: Axes) -> Iterator[Column]:
+    """Low and high of everything that depends on friction: of the numbers just before and just after reversals, at
+    rest the ends of what friction leaves open, elsewhere twice the number itself."""
+    sides = [[*_unknown_columns(side), *_joint_columns(side, axes)] for side in result.sides]
+    open_ = {("effort " if n in result.drives else "unknown load ") + n: n for n in unknown_kinds(result)}
+    for before, after in zip(*sides, strict=True):
+        if before.name in open_:
+            low, high = result.interval(open_[before.name]).T
+        else:
+            low, high = np.minimum(before.values, after.values), np.maximum(before.values, after.values)
+        yield before._replace(name=f"{before.name} low", values=low)
+        yield before._replace(name=f"{before.name} high", values=high)
 
 
 def unknown_kinds(result: Result) -> dict[str, str]:

@@ -154,15 +154,10 @@ def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -
 
     to = scale(result, units)
     data: dict[str, Any] = {"status": ("position", np.array(result.status, dtype=str))}
-    data |= _drive_arrays(result, to) | _joint_arrays(result, to, axes) | _link_arrays(result, to)
-    data |= _friction_arrays(result, to, axes)
-    for load in result.unknown_loads:
-        kind = load_kind(result, load)
-        data[f"unknown_load_{load}"] = (
-            "position",
-            to(kind, result.unknown_load(load)),
-            {"units": to.text(kind)},
-        )
+    data |= _drive_arrays(result, to) | _link_arrays(result, to) | _force_arrays(result, to, axes)
+    data |= _joined(result, axes) | _ends(result, to)
+    if result.after is not None:
+        data |= _spans(result, to, axes)
     data["residual"] = ("position", result.residual, {"units": "1"})
     data["power_balance"] = ("position", result.power_balance, {"units": "1"})
     coordinates: dict[str, Any] = {
@@ -178,24 +173,49 @@ def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -
 
 
 def _drive_arrays(result: Result, to: Scale) -> dict[str, Any]:
-    """Position, speed, acceleration and effort; drives that turn and that slide differ in their units."""
+    """Position, speed and acceleration."""
+    return {f"drive_{name}": array for name, array in _by_drive(result, to, DRIVE_NUMBERS).items()}
+
+
+def _by_drive(result: Result, to: Scale, numbers: dict[str, Any]) -> dict[str, Any]:
+    """Numbers of all drives; drives that turn and that slide differ in their units."""
     if not result.drives:
         return {}
     out: dict[str, Any] = {}
-    for name, read in {**DRIVE_NUMBERS, **EFFORT}.items():
+    for name, read in numbers.items():
         kinds = [drive_kinds(result, drive)[name] for drive in result.drives]
         stacked = np.stack(
             [to(k, read(result, d)) for k, d in zip(kinds, result.drives, strict=True)], axis=1
         )
         texts = [to.text(kind) for kind in kinds]
         unit = texts[0] if len(set(texts)) == 1 else "of each drive: " + ", ".join(texts)
-        variable = name if name == "effort" else f"drive_{name}"
-        out[variable] = (("position", "drive"), stacked, {"units": unit})
+        out[name] = (("position", "drive"), stacked, {"units": unit})
+    return out
+
+
+def _force_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
+    """Efforts, unknown loads, reactions, and what friction does in the joints."""
+    out = _by_drive(result, to, EFFORT)
+    out |= _joint_arrays(result, to, axes) | _friction_arrays(result, to, axes)
+    for load in result.unknown_loads:
+        kind = load_kind(result, load)
+        values = to(kind, result.unknown_load(load))
+        out[f"unknown_load_{load}"] = ("position", values, {"units": to.text(kind)})
+    return out
+
+
+def _spans(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
+    """Low and high of the numbers just before and just after reversals; elsewhere twice the number itself."""
+    sides = [_force_arrays(side, to, axes) for side in result.sides]
+    out: dict[str, Any] = {}
+    for name, (over, before, units) in sides[0].items():
+        for word, of in (("low", np.minimum), ("high", np.maximum)):
+            out[f"{name}_{word}"] = (over, of(before, sides[1][name][1]), units)
     return out
 
 
 def _joint_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
-    """Reactions on each joint's j, which link that is, and which components statics determines."""
+    """Reactions on each joint's j."""
     found = list(reactions(result, axes))
     if not found:
         return {}
@@ -204,24 +224,38 @@ def _joint_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
     return {
         "reaction": (("position", "joint", "component"), force, {"units": to.text("force")}),
         "reaction_moment": (_over("joint", moment), moment, {"units": to.text("moment")}),
+    }
+
+
+def _joined(result: Result, axes: Axes) -> dict[str, Any]:
+    """The link that each joint's reaction is on, and the one it is by."""
+    found = list(reactions(result, axes))
+    if not found:
+        return {}
+    return {
         "reaction_on": ("joint", [r.on for r in found]),
         "reaction_by": ("joint", [r.by for r in found]),
     }
 
 
 def _friction_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
-    """What dry friction does in each joint, on j, the power that all friction takes, and ends that it leaves open."""
+    """What dry friction does in each joint, on j, and the power that all friction takes."""
     if result.friction is None:
         return {}
     parts = [friction_in(result, joint, axes) for joint in result.joints]
     force = to("force", np.stack([part for part, _ in parts], axis=1))
     moment = to("moment", np.stack([part for _, part in parts], axis=1))
     lost = to("power", np.stack([result.power_lost(j) for j in result.joints], axis=1))
-    out: dict[str, Any] = {
+    return {
         "friction_force": (("position", "joint", "component"), force, {"units": to.text("force")}),
         "friction_moment": (_over("joint", moment), moment, {"units": to.text("moment")}),
         "power_lost": (("position", "joint"), lost, {"units": to.text("power")}),
     }
+
+
+def _ends(result: Result, to: Scale) -> dict[str, Any]:
+    """Ends of the efforts and loads that friction leaves open at rest."""
+    out: dict[str, Any] = {}
     for name, kind in unknown_kinds(result).items() if result.ends else ():
         for k, end in enumerate(("low", "high")):
             values = to(kind, result.interval(name)[:, k])

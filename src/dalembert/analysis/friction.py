@@ -14,8 +14,8 @@ from dalembert.core.friction import Contacts, bearing, strength
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
+    from dalembert.analysis.forces import Friction
     from dalembert.analysis.result import Result
-    from dalembert.analysis.rubbing import Friction
 
 Array = NDArray[Any]
 Loss = Literal["dry", "viscous", "all"]
@@ -50,9 +50,11 @@ def interval(result: Result, name: str) -> Array:
     def value(r: Result) -> Array:
         return r.effort(name) if name in r.drives else r.unknown_load(name)
 
+    both = np.stack(result.span(value), axis=-1)
     if not result.ends:
-        return np.stack([value(result)] * 2, axis=-1)
-    return np.stack([value(end) for end in result.ends[unknowns.index(name)]], axis=-1)
+        return both
+    ends = np.stack([value(end) for end in result.ends[unknowns.index(name)]], axis=-1)
+    return np.where(result.reverses[:, None], both, ends)
 
 
 def holding(result: Result, name: str) -> Array:
@@ -81,6 +83,12 @@ def joints_at_limit(result: Result, position: int = 0) -> tuple[str, ...]:
     f, contacts = friction_of(result)
     at_limit = (f.sense[position] != 0) & ~contacts.fixed
     return tuple(dict.fromkeys(result.joints[k] for k in contacts.joint[at_limit]))
+
+
+def reversing_joints(result: Result, position: int) -> tuple[str, ...]:
+    """Joints whose contacts reverse at a position."""
+    f, contacts = friction_of(result)
+    return tuple(dict.fromkeys(result.joints[k] for k in contacts.joint[f.reversing[position]]))
 
 
 def friction_of(result: Result) -> tuple[Friction, Contacts]:

@@ -11,7 +11,7 @@ from dalembert.analysis.verdicts import arc
 
 if TYPE_CHECKING:
     from dalembert.analysis.compile import Compiled
-    from dalembert.analysis.rubbing import Forces
+    from dalembert.analysis.forces import Forces
 
 Array = NDArray[Any]
 Flags = NDArray[np.bool_]

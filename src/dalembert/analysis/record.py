@@ -114,10 +114,9 @@ def _fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], List
         kinds = drive_kinds(result, drive)
         for name, of in DRIVE_NUMBERS.items():
             out["drives", drive, name] = numbers(kinds[name], of(result, drive))
-    for drive in result.drives:
-        out["efforts", drive] = numbers(drive_kinds(result, drive)["effort"], result.effort(drive))
-    for load in result.unknown_loads:
-        out["unknown_loads", load] = numbers(load_kind(result, load), result.unknown_load(load))
+    out |= {path: numbers(kind, values) for path, (kind, values) in _unknowns(result).items()}
+    if result.after is not None:
+        out |= _side_fields(result, to, axes)
     for name, kind in unknown_kinds(result).items() if result.ends else ():
         group = "efforts" if name in result.drives else "unknown_loads"
         out[group, name] = _ranges(out[group, name], numbers(kind, result.interval(name)), result.status)
@@ -138,14 +137,58 @@ def _fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], List
     return out
 
 
+Numbers = dict[tuple[str, ...], tuple[str, Array]]
+
+
+def _unknowns(result: Result) -> Numbers:
+    """Kind and values of the efforts and unknown loads."""
+    out: Numbers = {}
+    for drive in result.drives:
+        out["efforts", drive] = drive_kinds(result, drive)["effort"], result.effort(drive)
+    for load in result.unknown_loads:
+        out["unknown_loads", load] = load_kind(result, load), result.unknown_load(load)
+    return out
+
+
+def _side_fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], Lists]:
+    """Everything just after reversals, and the low and the high of both sides."""
+    numbers = _numbers(to)
+    before, after = (_unknowns(side) | _joint_numbers(side, axes) for side in result.sides)
+    out: dict[tuple[str, ...], Lists] = {}
+    for path, (kind, values) in _unknowns(result.sides[1]).items():
+        out["after", *path] = numbers(kind, values)
+    for path, lists in _reaction_fields(result.sides[1], to, axes).items():
+        out["after", *path] = lists
+    for path, (kind, values) in before.items():
+        out["low", *path] = numbers(kind, np.minimum(values, after[path][1]))
+        out["high", *path] = numbers(kind, np.maximum(values, after[path][1]))
+    for name in ("residual", "power_balance"):
+        out["after", name] = numbers("number", getattr(result.sides[1], name))
+    return out
+
+
+def _joint_numbers(result: Result, axes: Axes) -> Numbers:
+    """Kind and values of the reactions, and of friction's part of them."""
+    out: Numbers = {}
+    for r in reactions(result, axes):
+        out["reactions", r.joint, "force"] = "force", r.force
+        out["reactions", r.joint, "moment"] = "moment", r.moment
+    for joint in rubbing_joints(result):
+        at = "reactions", joint, "friction"
+        force, moment = friction_in(result, joint, axes)
+        out[*at, "force"], out[*at, "moment"] = ("force", force), ("moment", moment)
+        out[*at, "power_lost"] = "power", result.power_lost(joint)
+    return out
+
+
 def _reaction_fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], Lists]:
     """Reactions, and what friction does in them."""
 
     numbers = _numbers(to)
-    out: dict[tuple[str, ...], Lists] = {}
+    out: dict[tuple[str, ...], Lists] = {
+        path: numbers(kind, values) for path, (kind, values) in _joint_numbers(result, axes).items()
+    }
     for r in reactions(result, axes):
-        out["reactions", r.joint, "force"] = numbers("force", r.force)
-        out["reactions", r.joint, "moment"] = numbers("moment", r.moment)
         if r.least_norm is not None:
             force, moment = force_and_moment(r.least_norm)
             out["reactions", r.joint, "least_norm", "force"] = numbers("force", force)
@@ -156,11 +199,6 @@ def _reaction_fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, .
             if not np.array_equal(own, of_moment, equal_nan=True):
                 out["reactions", r.joint, "moment_axes"] = numbers("number", of_moment)
     for joint in rubbing_joints(result):
-        at = "reactions", joint, "friction"
-        rubbing_force, rubbing_moment = friction_in(result, joint, axes)
-        out[*at, "force"] = numbers("force", rubbing_force)
-        out[*at, "moment"] = numbers("moment", rubbing_moment)
-        out[*at, "power_lost"] = numbers("power", result.power_lost(joint))
         if bears_on_faces(result, joint):
             contact = guide_contact(result, joint)
             out["reactions", joint, "contact", "mode"] = _words(contact.mode)
@@ -230,16 +268,25 @@ def _record(result: Result, position: int, values: dict[tuple[str, ...], Any]) -
     for joint in result.joints:
         by, on = result.mechanism.joints[joint].links
         record["reactions"][joint] = {"on": on, "by": by}
+    reverses = bool(result.reverses[position])
     if result.friction is not None:
         record["friction"] = _solution(result, position)
+    if reverses and result.after is not None:
+        record["after"] = {"friction": _solution(result.after, position)}
     for path, value in values.items():
         if path[0] in ("ends", "holding") and (status != "at_rest" or value is None):
+            continue
+        if path[0] in SIDES and not reverses:
             continue
         place = record
         for key in path[:-1]:
             place = place.setdefault(key, {})
         place[path[-1]] = value
     return record
+
+
+SIDES = ("after", "low", "high")
+"""Keys of a position where contacts reverse: what holds just after, and the low and the high of both sides."""
 
 
 def _solution(result: Result, position: int) -> dict[str, Any]:

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.analysis import friction
+from dalembert.analysis import friction, outcome
 from dalembert.analysis.wrenches import Axes, axes_of, unique_in, wrench
-from dalembert.errors import STATUSES, ModelError
+from dalembert.errors import SOLVED, ModelError
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from dalembert.analysis.compile import Compiled
     from dalembert.analysis.degree_of_freedom import Mobility
-    from dalembert.analysis.rubbing import Friction
+    from dalembert.analysis.forces import Friction
     from dalembert.model import Mechanism, Schedule
 
 Array = NDArray[Any]
@@ -34,6 +34,7 @@ class Result:
 
     Everything in SI and radians, vectors in ground axes. A reaction is what a joint's other link exerts on the link
     asked for, at that link's point of the joint. NaN where there is no value; ``status`` and ``reasons`` say why.
+    Where contacts reverse the numbers are those just before, and ``after`` is the whole result with those just after.
     """
 
     compiled: Compiled
@@ -59,6 +60,7 @@ class Result:
     stability: tuple[str | None, ...] | None = None
     friction: Friction | None = None
     ends: tuple[tuple[Result, Result], ...] = ()
+    after: Result | None = None
 
     def __str__(self) -> str:
         """What `dalembert solve` prints."""
@@ -111,22 +113,33 @@ class Result:
 
     @property
     def ok(self) -> NDArray[np.bool_]:
-        """Which positions are solved."""
-        return np.array([s == "ok" for s in self.status])
+        """Which positions are solved, at a reversal for both sides of it."""
+        return np.array([s in SOLVED for s in self.status])
+
+    @property
+    def reverses(self) -> NDArray[np.bool_]:
+        """Positions where contacts reverse, so that friction has other numbers just before and just after."""
+        if self.after is None or self.friction is None:
+            return np.zeros(len(self.status), bool)
+        return np.asarray(self.friction.reversing.any(axis=-1))
+
+    @property
+    def sides(self) -> tuple[Result, ...]:
+        """Two results, with the numbers just before reversals and just after; the result alone where there are none."""
+        return (self,) if self.after is None else (replace(self, after=None), self.after)
+
+    @property
+    def before(self) -> Result:
+        """The result with only the numbers just before reversals, as ``after`` has those just after."""
+        return self.sides[0]
+
+    def span(self, read: Callable[[Result], Array]) -> tuple[Array, Array]:
+        """Low and high of what ``read`` takes from a result: just before and just after reversals, else one number."""
+        return outcome.span(self, read)
 
     def problems(self) -> list[tuple[str, str, str]]:
         """Runs of positions that are not ok: which ("3" or "3-7", counted from 1), status, sentence."""
-        out: list[tuple[str, str, str]] = []
-        start = 0
-        for k in range(1, len(self.status) + 1):
-            status, reason = self.status[start], self.reasons[start]
-            if k < len(self.status) and (self.status[k], self.reasons[k]) == (status, reason):
-                continue
-            if status != "ok":
-                which = str(start + 1) if k == start + 1 else f"{start + 1}-{k}"
-                out.append((which, status, reason or STATUSES[status].sentence))
-            start = k
-        return out
+        return outcome.problems(self)
 
     # drives and unknown loads
 
@@ -339,16 +352,8 @@ class Result:
     # summaries and files
 
     def worst(self, quantity: Literal["effort", "reaction", "moment"], of: str) -> tuple[float, int]:
-        """Largest magnitude over the solved positions, and the position (from 0) where it occurs."""
-        found: Mapping[str, Any] = {
-            "effort": lambda: np.abs(self.effort(of)),
-            "reaction": lambda: np.linalg.norm(self.reaction(of), axis=-1),
-            "moment": lambda: _size(self.reaction_moment(of), self._d),
-        }
-        values = found[quantity]()
-        if np.isnan(values).all():
-            return float("nan"), -1
-        return float(np.nanmax(values)), int(np.nanargmax(values))
+        """Largest magnitude over the positions, both sides of reversals counted, and the position (from 0) of it."""
+        return outcome.worst(self, quantity, of)
 
     def to_dict(self, units: Literal["SI", "file"] = "SI", axes: Axes = "ground") -> dict[str, Any]:
         """The JSON answer of the model file's contract."""
@@ -387,11 +392,6 @@ class Result:
         from dalembert.analysis import export
 
         export.to_netcdf(self, path, overwrite=overwrite, units=units)
-
-
-def _size(moment: Array, d: int) -> Array:
-    """Magnitudes (P,) of moments (P,) or (P, 3)."""
-    return np.asarray(np.abs(moment) if d == 2 else np.linalg.norm(moment, axis=-1))
 
 
 def _index(names: tuple[str, ...], name: str, kind: str) -> int:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert.analysis.forces import Forces, Friction
 from dalembert.analysis.wrenches import marks
 from dalembert.core.constraints import rates
 from dalembert.core.equilibrium import (
@@ -36,6 +37,7 @@ from dalembert.core.layout import Pose, System
 from dalembert.core.linear import Factor, PseudoInverse
 from dalembert.core.losses import by_joint, in_joints, turned, viscous
 from dalembert.core.rest import extreme
+from dalembert.core.reversal import Driven, Sides, sides
 from dalembert.core.slip import Slip, slipping, without_friction
 from dalembert.core.spinning import Spins, raised, rods, settled, spun
 
@@ -49,64 +51,8 @@ SAME = 1e-11
 """A contact that carries less than this part of the largest force carries nothing."""
 
 
-class Friction(NamedTuple):
-    """What friction does at each position.
-
-    force (P, joints, 2), moment (P, joints): dry friction on j, moment about j's point; viscous beside it
-    dry_loss, viscous_loss (P, joints): power
-    cz, sense, rate (P, E), argument (P, 3, E) of each contact
-    determinant, critical, iterations, single (P,): of the solution (core.slip)
-    open (P, E): contacts whose sense no rate tells; blocked (P,): their reactions are not unique
-    locked (P,): the unknowns' power has the other sign than without friction, with and without inertia
-    bare_effort (P, D), bare_load (P, U): without friction
-    holding (P, unknowns, 2): low and high that friction can hold at rest for some history (core.holding)
-    """
-
-    force: Array
-    moment: Array
-    viscous_force: Array
-    viscous_moment: Array
-    dry_loss: Array
-    viscous_loss: Array
-    cz: Array
-    sense: Array
-    rate: Array
-    argument: Array
-    determinant: Array
-    critical: Array
-    iterations: NDArray[np.intp]
-    single: Flags
-    open: Flags
-    blocked: Flags
-    locked: Flags
-    bare_effort: Array
-    bare_load: Array
-    holding: Array
-
-    def known(self, position: int) -> bool:
-        """Whether every contact has its numbers at a position."""
-        return bool(np.isfinite(self.cz[position]).all())
-
-
-class Forces(NamedTuple):
-    """Forces of some positions; ``ends``: the low and high end of each unknown where friction leaves it open."""
-
-    force: Array
-    moment: Array
-    effort: Array
-    load: Array
-    residual: Array
-    power_balance: Array
-    rcond: Array
-    unique: Array | None
-    unique_unknowns: Array | None
-    friction: Friction | None = None
-    ends: tuple[Forces, ...] = ()
-    unique_in: Array | None = None
-
-
 class Setting(NamedTuple):
-    """A block of positions before its friction is known, and what loads it by kind."""
+    """A block of positions before its friction is known, what loads it by kind, what drives it, and where it moves."""
 
     c: Compiled
     contacts: Contacts
@@ -117,6 +63,8 @@ class Setting(NamedTuple):
     rows: System
     solver: Factor
     sources: dict[str, Source]
+    driven: Driven
+    moves: Flags
 
 
 def rubbing(s: Setting, w: Array) -> Forces:
@@ -126,21 +74,21 @@ def rubbing(s: Setting, w: Array) -> Forces:
     along, r = response(layout, contacts, s.pose, stated.forces, stated.w, s.moving.twist)
     blocked = _blocked(contacts, stated)
     r = r._replace(y=np.where(blocked[:, None, None], np.nan, r.y))
+    r = Response(*(a if len(a) == len(w) else np.repeat(a, len(w), axis=0) for a in r))
     told, spins, slip = _slipped(s, along, r)
-    open_ = np.flatnonzero(told.open.any(axis=-1))
-    if open_.size:
-        slip.x[open_], slip.z[open_], slip.critical[open_] = np.nan, np.nan, np.nan
-    locked = _locked(s, stated, along, r, slip)
-    made = _Made(s, stated, along, told, blocked, locked, without_friction(contacts, r))
-    if not open_.size:
-        return made.forces(r, slip, told.sense)
-    return _with_ends(made, r, slip, told, open_, spins)
+    made = _Made(s, stated, along, r, blocked, without_friction(contacts, r))
+    open_ = told.open.any(axis=-1)
+    slip.x[open_], slip.z[open_], slip.critical[open_] = np.nan, np.nan, np.nan
+    found = Solved(slip, told, made.locked(slip))
+    return made.forces(found) if not open_.any() else _open(made, found, np.flatnonzero(open_), spins)
 
 
-def _slipped(s: Setting, along: System, r: Response) -> tuple[Senses, Spins | None, Slip]:
+def _slipped(
+    s: Setting, along: System, r: Response, side: Side | None = None
+) -> tuple[Senses, Spins | None, Slip]:
     """Senses and friction; with rods that spin the branch is followed with them where it ends or leaves a moment."""
     contacts = s.contacts
-    told, spins = _told(s, along, r)
+    told, spins = _told(s, along, r, side)
     slip = slipping(contacts, r, told.sense, told.open)
     if spins is None:
         return told, None, slip
@@ -172,16 +120,33 @@ def _with(whole: Array, on: NDArray[np.intp], part: Any) -> Array:
     return out
 
 
-def _told(s: Setting, along: System, r: Response) -> tuple[Senses, Spins | None]:
+class Side(NamedTuple):
+    """One side of the positions: the senses (P, E) there of contacts whose rates do not tell, and which those are."""
+
+    sense: Array
+    known: Flags
+
+    def of(self, told: Senses) -> Senses:
+        """The senses that rates tell, and these where they do not."""
+        sense = np.where(self.known, self.sense, told.sense)
+        return Senses(sense, told.open & ~self.known, told.rate)
+
+
+def _told(s: Setting, along: System, r: Response, side: Side | None) -> tuple[Senses, Spins | None]:
     """Senses of the contacts; rods between balls spin as the balls' friction lets them."""
     layout, contacts = s.c.layout, s.contacts
-    told = senses(layout, contacts, along, s.moving.twist)
+
+    def sensed(twist: Array) -> Senses:
+        told = senses(layout, contacts, along, twist)
+        return told if side is None else side.of(told)
+
+    told = sensed(s.moving.twist)
     found = rods(layout, contacts, s.pose, along, told.rate) if s.c.passive else None
     if found is None:
         return told, None
 
     def told_at(phi: Array) -> Senses:
-        return senses(layout, contacts, along, spun(s.moving.twist, found, phi))
+        return sensed(spun(s.moving.twist, found, phi))
 
     def moment(phi: Array) -> Array:
         now = told_at(phi)
@@ -203,60 +168,90 @@ def _blocked(contacts: Contacts, stated: Statement) -> Flags:
     return np.asarray(np.abs(stated.forces.null[..., read, :]).max(axis=(-2, -1), initial=0.0) > UNIQUE)
 
 
-def _locked(s: Setting, stated: Statement, along: System, r: Response, slip: Slip) -> Flags:
-    """Where friction turns the power of the unknowns round, also without inertia."""
-    locked = _turned(s, stated, r, slip)
-    if "inertia" not in s.sources or not locked.any():
-        return locked
-    w = summed(s.c.layout, *(source for kind, source in s.sources.items() if kind != "inertia"))
-    w = np.broadcast_to(w, stated.w.shape)
-    still = statement(s.c.layout, s.known, s.pose, s.rows, s.solver, w)
-    rate = rates(along, s.moving.twist)
-    r = under(s.c.layout, s.contacts, s.pose, still.forces, still.w, rate, r)
-    return locked & _turned(s, still, r, _slipped(s, along, r)[2])
+def _open(made: _Made, found: Solved, open_: NDArray[np.intp], spins: Spins | None) -> Forces:
+    """Both sides of the positions where the machine moves and contacts only reverse; both ends of every unknown where
+    contacts stay at rest."""
+    told = found.told
+    at_side = _sides(made, told, open_, spins)
+    turns = ~(told.open[open_] & ~at_side.known).any(axis=-1)
+    turn, stay = open_[turns], open_[~turns]
+    after, reversing = None, None
+    if turn.size:
+        known = _filled(np.zeros_like(told.open), turn, at_side.known[turns])
+        before, behind = (
+            made.on_side(found.slip, told, turn, Side(_filled(told.sense, turn, sense[turns]), known))
+            for sense in (at_side.before, at_side.after)
+        )
+        found = before
+        same = _idle(made.s.contacts, made.r, before.slip, known)[:, None]
+        reversing = known & (before.told.sense != behind.told.sense) & ~same
+        after = made.forces(behind, reversing) if reversing.any() else None
+    whole = _with_ends(made, found, stay, spins, reversing) if stay.size else made.forces(found, reversing)
+    return whole._replace(after=after)
 
 
-def _turned(s: Setting, stated: Statement, r: Response, slip: Slip) -> Flags:
-    bare = without_friction(s.contacts, r)
-    return np.asarray(turned(s.c.layout, stated.unknown, s.moving.twist, stated.w, slip.x, bare))
+def _sides(made: _Made, told: Senses, open_: NDArray[np.intp], spins: Spins | None) -> Sides:
+    """Senses of the open contacts before and after; none is known where the machine does not move."""
+    s = made.s
+    moving = Motion(*(a[open_] for a in s.moving))
+    driven = Driven(*(a[open_] for a in s.driven))
+    known = Senses(*(a[open_] for a in told))
+    spun_: Flags = np.zeros(s.contacts.count, bool)
+    if spins is not None:
+        spun_ = np.asarray(spins.rods.touched.any(axis=0))
+    here = _at(made.along, open_), s.pose.at(open_), moving, driven
+    found = sides(s.c.layout, s.contacts, *here, known, spun_)
+    return found._replace(known=found.known & s.moves[open_][:, None])
+
+
+def _at(along: System, where: NDArray[np.intp]) -> System:
+    """The rows at some positions."""
+    return along._replace(on_i=along.on_i[where], on_j=along.on_j[where])
 
 
 def _with_ends(
-    made: _Made, r: Response, slip: Slip, told: Senses, open_: NDArray[np.intp], spins: Spins | None
+    made: _Made, found: Solved, open_: NDArray[np.intp], spins: Spins | None, reversing: Flags | None
 ) -> Forces:
     """Both ends of every unknown at the open positions; where all are one, the number itself."""
     s, contacts = made.s, made.s.contacts
-    unknowns = range(s.c.layout.constraints.count, r.x.shape[-1])
-    part = Response(*(a[open_] for a in r))
-    known = Senses(*(a[open_] for a in told))
+    unknowns = range(s.c.layout.constraints.count, made.r.x.shape[-1])
+    part = Response(*(a[open_] for a in made.r))
+    known = Senses(*(a[open_] for a in found.told))
     ends = [
         extreme(s.c.layout, contacts, part, known, unknown, end, spins and spins.at(open_))
         for unknown in unknowns
         for end in (-1.0, 1.0)
     ]
     if not ends:
-        return made.forces(r, slip, told.sense)
-    one = _idle(contacts, part, ends[0].slip, known)
-    made.told.open[open_[one]] = False
-    main = _put(slip, open_[one], ends[0].slip, one)
+        return made.forces(found, reversing)
+    one = _idle(contacts, part, ends[0].slip, known.open)
+    told = found.told._replace(open=_filled(found.told.open, open_[one], np.zeros_like(known.open[one])))
+    main = Solved(_put(found.slip, open_[one], ends[0].slip, one), told, found.locked)
     whole = [
-        made.forces(r, _put(slip, open_, end.slip, slice(None)), _filled(told.sense, open_, end.sense))
+        made.forces(
+            Solved(
+                _put(found.slip, open_, end.slip, slice(None)),
+                told._replace(sense=_filled(told.sense, open_, end.sense)),
+                found.locked,
+            ),
+            reversing,
+        )
         for end in ends
     ]
-    found = made.forces(r, main, told.sense)
-    assert found.friction is not None
+    solved = made.forces(main, reversing)
+    assert solved.friction is not None
     if spins is None:
         values = np.stack(
             [end.slip.x[:, k] for end, k in zip(ends, np.repeat(unknowns, 2), strict=True)], axis=-1
         )
-        found.friction.holding[open_] = holding(contacts, part, known, values.reshape((len(values), -1, 2)))
-    return found._replace(ends=tuple(whole))
+        solved.friction.holding[open_] = holding(contacts, part, known, values.reshape((len(values), -1, 2)))
+    return solved._replace(ends=tuple(whole))
 
 
-def _idle(contacts: Contacts, r: Response, slip: Slip, known: Senses) -> Flags:
-    """Where the contacts of unknown sense carry nothing, so that it does not matter."""
+def _idle(contacts: Contacts, r: Response, slip: Slip, open_: Flags) -> Flags:
+    """Where contacts of unknown sense carry nothing, so that it does not matter."""
     y = argument(r, slip.c * np.nan_to_num(slip.z))
-    carried = np.where(known.open, np.abs(bearing(contacts, y)), 0.0).max(axis=-1, initial=0.0)
+    carried = np.where(open_ & (slip.c != 0), np.abs(bearing(contacts, y)), 0.0).max(axis=-1, initial=0.0)
     return np.asarray(carried <= SAME * np.abs(y).max(axis=(-2, -1), initial=0.0))
 
 
@@ -270,45 +265,79 @@ def _filled(whole: Array, where: NDArray[np.intp], part: Array) -> Array:
     return out
 
 
+class Solved(NamedTuple):
+    """Friction under some senses of the contacts; ``locked`` (P,) as in ``Friction``."""
+
+    slip: Slip
+    told: Senses
+    locked: Flags
+
+
 class _Made(NamedTuple):
     """What does not depend on the senses taken."""
 
     s: Setting
     stated: Statement
     along: System
-    told: Senses
+    r: Response
     blocked: Flags
-    locked: Flags
     bare: Array
 
-    def forces(self, r: Response, slip: Slip, sense: Array) -> Forces:
+    def on_side(self, slip: Slip, told: Senses, turn: NDArray[np.intp], side: Side) -> Solved:
+        """Friction with the senses of a side at the positions ``turn``, as it is elsewhere."""
+        s = self.s
+        here = s._replace(pose=s.pose.at(turn), moving=Motion(*(a[turn] for a in s.moving)))
+        r, own = Response(*(a[turn] for a in self.r)), Side(*(a[turn] for a in side))
+        found, _, part = _slipped(here, _at(self.along, turn), r, own)
+        slip = _put(slip, turn, part, slice(None))
+        told = Senses(*(_filled(a, turn, b) for a, b in zip(told, found, strict=True)))
+        return Solved(slip, told, self.locked(slip, side))
+
+    def locked(self, slip: Slip, side: Side | None = None) -> Flags:
+        """Where friction turns the power of the unknowns round, also without inertia."""
+        s = self.s
+        locked = self._turned(self.stated, self.r, slip)
+        if "inertia" not in s.sources or not locked.any():
+            return locked
+        w = summed(s.c.layout, *(source for kind, source in s.sources.items() if kind != "inertia"))
+        w = np.broadcast_to(w, self.stated.w.shape)
+        still = statement(s.c.layout, s.known, s.pose, s.rows, s.solver, w)
+        rate = rates(self.along, s.moving.twist)
+        r = under(s.c.layout, s.contacts, s.pose, still.forces, still.w, rate, self.r)
+        return locked & self._turned(still, r, _slipped(s, self.along, r, side)[2])
+
+    def _turned(self, stated: Statement, r: Response, slip: Slip) -> Flags:
+        s, bare = self.s, without_friction(self.s.contacts, r)
+        return np.asarray(turned(s.c.layout, stated.unknown, s.moving.twist, stated.w, slip.x, bare))
+
+    def forces(self, found: Solved, reversing: Flags | None = None) -> Forces:
         """Reactions, efforts and what friction does, of one solution."""
-        s, layout = self.s, self.s.c.layout
+        s, layout, slip = self.s, self.s.c.layout, found.slip
         cz = slip.c * slip.z
         total = self.stated.w + summed(layout, pair(self.along, cz))
-        found = checked(layout, s.forcing, s.known, s.pose, s.moving, self.stated, slip.x, total)
-        bare = checked(layout, s.forcing, s.known, s.pose, s.moving, self.stated, self.bare, self.stated.w)
-        force, couple = reactions(layout, s.pose, s.rows, found)
-        friction = self._friction(r, slip, sense, cz, bare.effort, bare.load)
-        known_by = marks(s.c, s.pose, s.rows, found.free)
+        whole = checked(layout, s.forcing, s.known, s.pose, s.moving, self.stated, slip.x, total)
+        force, couple = reactions(layout, s.pose, s.rows, whole)
+        friction = self._friction(found, cz, reversing)
+        known_by = marks(s.c, s.pose, s.rows, whole.free)
         force = force + friction.force + friction.viscous_force
         moment = couple.reshape(friction.moment.shape) + friction.moment + friction.viscous_moment
-        checks = (found.residual, found.power_balance, found.rcond)
+        checks = (whole.residual, whole.power_balance, whole.rcond)
         return Forces(
             force,
             moment,
-            found.effort,
-            found.load,
+            whole.effort,
+            whole.load,
             *checks,
             *known_by[:2],
             friction,
             unique_in=known_by.inside,
         )
 
-    def _friction(
-        self, r: Response, slip: Slip, sense: Array, cz: Array, effort: Array, load: Array
-    ) -> Friction:
-        s, contacts, told = self.s, self.s.contacts, self.told
+    def _friction(self, found: Solved, cz: Array, reversing: Flags | None) -> Friction:
+        s, contacts, slip, told = self.s, self.s.contacts, found.slip, found.told
+        bare = checked(
+            s.c.layout, s.forcing, s.known, s.pose, s.moving, self.stated, self.bare, self.stated.w
+        )
         dry = np.where(contacts.fixed, 0.0, cz)
         joints, link = s.c.layout.joints, s.c.second
         force, moment = in_joints(s.c.layout, s.pose, self.along, contacts.joint, link, s.c.joint_at, dry)
@@ -320,31 +349,18 @@ class _Made(NamedTuple):
             by_joint(contacts.joint, joints, -dry * told.rate),
             own[2],
             dry,
-            sense,
+            told.sense,
             told.rate,
-            argument(r, cz),
+            argument(self.r, cz),
             *(slip.determinant, slip.critical, slip.iterations, slip.single),
             told.open,
+            np.zeros_like(told.open) if reversing is None else reversing,
             self.blocked,
-            self.locked,
-            effort,
-            load,
+            found.locked,
+            bare.effort,
+            bare.load,
             np.full((len(cz), slip.x.shape[-1] - s.c.layout.constraints.count, 2), np.nan),
         )
-
-
-def joined(parts: list[Forces]) -> Forces:
-    """Blocks of positions one after the other."""
-    if len(parts) == 1:
-        return parts[0]
-    count = max(len(p.ends) for p in parts)
-    ends = tuple(joined([p.ends[k] if p.ends else p for p in parts]) for k in range(count))
-    friction = [p.friction for p in parts if p.friction is not None]
-    whole = Friction(*(np.concatenate(a) for a in zip(*friction, strict=True))) if friction else None
-    arrays = (None if a[0] is None else np.concatenate(a) for a in zip(*(p[:9] for p in parts), strict=True))
-    inside = [p.unique_in for p in parts if p.unique_in is not None]
-    made: Any = Forces._make([*arrays, whole, ends, np.concatenate(inside) if inside else None])
-    return made  # type: ignore[no-any-return]
 
 
 def block_size(c: Compiled, most: int) -> int:
@@ -352,6 +368,3 @@ def block_size(c: Compiled, most: int) -> int:
     if c.contacts is None:
         return most
     return max(1, min(most, 10**7 // (c.contacts.count**2 * 3 + 1)))
-
-
-__all__ = ["Forces", "Friction", "Setting", "block_size", "joined", "rubbing"]

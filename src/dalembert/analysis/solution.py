@@ -11,20 +11,22 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.compile import Compiled, compiled
 from dalembert.analysis.degree_of_freedom import check_knowns
+from dalembert.analysis.forces import Forces, joined
 from dalembert.analysis.openings import drive_text, open_sentence
 from dalembert.analysis.overflow import fast, overflow_sentence, strong, unchecked
 from dalembert.analysis.positions import Positions, positions
 from dalembert.analysis.result import Result
-from dalembert.analysis.rubbing import Forces, Setting, block_size, joined, rubbing
+from dalembert.analysis.rubbing import Setting, block_size, rubbing
 from dalembert.analysis.springs import undefined, undefined_sentence
-from dalembert.analysis.verdicts import friction_checks, refuse_friction
+from dalembert.analysis.verdicts import alone, friction_checks, refuse_friction, reversal_checks
 from dalembert.analysis.wrenches import marks
 from dalembert.core.equilibrium import balance, known_sources, motion, reactions
 from dalembert.core.follow import BLOCK
 from dalembert.core.forcing import summed
 from dalembert.core.layout import Pose
 from dalembert.core.rank import singular_below
-from dalembert.errors import AnalysisError, ModelError
+from dalembert.core.reversal import Driven
+from dalembert.errors import NUMBERED, AnalysisError, ModelError
 from dalembert.model import Mechanism, Schedule
 
 Array = NDArray[Any]
@@ -143,7 +145,10 @@ def _forces(
     w = summed(layout, *sources.values())
     w = np.broadcast_to(w, (len(pose.point), *w.shape[1:]))
     if c.contacts is not None:
-        return rubbing(Setting(c, c.contacts, forcing, known, pose, moving, rows, solver, sources), w)
+        driven = Driven(c.targets[part], c.schedule.speed[part], c.schedule.acceleration[part])
+        moves = c.schedule.moves[part]
+        setting = (c, c.contacts, forcing, known, pose, moving, rows, solver, sources, driven, moves)
+        return rubbing(Setting(*setting), w)
     found = balance(layout, forcing, known, pose, moving, rows, solver, w)
     force, couple = reactions(layout, pose, rows, found)
     known_by = marks(c, pose, rows, found.free)
@@ -163,7 +168,7 @@ def sliced(c: Compiled, part: Any) -> tuple[Any, Any]:
     return loads, replace(k, effort=k.effort[part])
 
 
-KEPT = ("ok", "redundant", "self_locking", "jammed", "at_rest", "undefined_load")
+KEPT = (*NUMBERED, "redundant", "jammed", "at_rest", "undefined_load")
 """Statuses whose motion stands, and what numbers there are of the forces."""
 
 
@@ -175,13 +180,20 @@ def _result(followed: Positions, moved: _Moved, f: Forces, inertia: bool, forces
     open_ = ~followed.path.reached
     _blank(open_, moved.point, moved.turn, moved.rotation)
     _blank(lost, moved.twist, moved.acceleration)
-    for part in (f, *f.ends):
+    others = (*f.ends, *((f.after,) if f.after else ()))
+    for part in (f, *others):
         none = lost | undirected | (part.residual > UNBALANCED)
         _blank(none, *part[:6], *(a for a in part.friction or () if a.dtype.kind == "f"))
+        if part.friction is not None:
+            part.friction.reversing[lost | undirected] = False
     made = (c, inertia, followed.mobility, followed.mode, status, reasons, *moved[:5])
-    result = Result(*made, *f[:6], *f[7:9], friction=f.friction, unique_in=f.unique_in)
-    ends = [Result(*made, *e[:6], *e[7:9], friction=e.friction, unique_in=e.unique_in) for e in f.ends]
-    return replace(result, ends=tuple(zip(ends[::2], ends[1::2], strict=True)))
+
+    def result_of(e: Forces) -> Result:
+        return Result(*made, *e[:6], *e[7:9], friction=e.friction, unique_in=e.unique_in)
+
+    result, ends = result_of(f), [result_of(e) for e in f.ends]
+    after = result_of(f.after) if f.after else None
+    return replace(result, ends=tuple(zip(ends[::2], ends[1::2], strict=True)), after=after)
 
 
 def _blank(where: NDArray[np.bool_], *arrays: Array) -> None:
@@ -216,13 +228,16 @@ def _statuses(
             ("overflow", unchecked(f) & held, lambda k: overflow_sentence(c, "forces", c.joints, loaded, k)),
             ("no_balance", unbalanced, lambda k: _no_balance_sentence(c)),
             ("redundant", np.full(len(f.rcond), partial), lambda k: _redundant_sentence(followed)),
+            *reversal_checks(c, f),
         ]
     status = np.full(len(moved.rcond), "ok", dtype=object)
     reasons = np.full(len(moved.rcond), None, dtype=object)
+    single = alone(f)
     for code, mask, sentence in checks:
         where = np.flatnonzero(mask & (status == "ok"))
         status[where] = code
-        for run in np.split(where, np.flatnonzero(np.diff(where) > 1) + 1):
+        apart = (np.diff(where) > 1) | single[where[1:]] | single[where[:-1]]
+        for run in np.split(where, np.flatnonzero(apart) + 1):
             if run.size:
                 reasons[run] = sentence(run)
     return tuple(status), tuple(reasons)

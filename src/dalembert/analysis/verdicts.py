@@ -15,7 +15,7 @@ from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
     from dalembert.analysis.compile import Compiled
-    from dalembert.analysis.rubbing import Forces
+    from dalembert.analysis.forces import Forces
     from dalembert.model import Mechanism
 
 Array = NDArray[Any]
@@ -36,13 +36,53 @@ def friction_checks(c: Compiled, f: Forces, solvable: Array) -> list[tuple[str, 
     """Status, positions and sentence of each thing that friction can do; none without friction."""
     if f.friction is None:
         return []
-    jammed = ~np.isnan(f.friction.critical)
+    jammed, locked = (np.any([ask(side) for side in _sides(f)], axis=0) for ask in (_jams, _locks))
     return [
         ("redundant", f.friction.blocked & solvable, lambda k: _blocked_sentence(c)),
         ("at_rest", f.friction.open.any(axis=-1) & solvable, lambda k: _open_sentence(c, f, k)),
         ("jammed", jammed & solvable, lambda k: _jam_sentence(c, f, k)),
-        ("self_locking", f.friction.locked & solvable, lambda k: _locked_sentence(c, f, k)),
+        ("self_locking", locked & solvable, lambda k: _locked_sentence(c, f, k)),
     ]
+
+
+def _sides(f: Forces) -> tuple[Forces, ...]:
+    """Forces just before reversals, and just after."""
+    return (f,) if f.after is None else (f, f.after)
+
+
+def _jams(f: Forces) -> Array:
+    assert f.friction is not None
+    return ~np.isnan(f.friction.critical)
+
+
+def _locks(f: Forces) -> Array:
+    assert f.friction is not None
+    return f.friction.locked
+
+
+def alone(f: Forces) -> NDArray[np.bool_]:
+    """Positions (P,) with a sentence of their own: contacts reverse, and it is not the same before and after."""
+    if f.friction is None or f.after is None:
+        return np.zeros(len(f.rcond), bool)
+    solved = [~_jams(side) & ~_locks(side) for side in _sides(f)]
+    differs = np.any([ask(f) != ask(f.after) for ask in (_jams, _locks)], axis=0) | (solved[0] & solved[1])
+    return np.asarray(f.friction.reversing.any(axis=-1) & differs)
+
+
+def _side(f: Forces, ask: Callable[[Forces], Array], k: int) -> tuple[Forces, str]:
+    """The side of a position where what is asked is so, and in words where it is one of two."""
+    flags = [bool(ask(side)[k]) for side in _sides(f)]
+    if len(flags) == 1 or flags[0] == flags[1]:
+        return f, ""
+    side, word = (f, "before") if flags[0] else (_sides(f)[1], "after")
+    return side, f", just {word} contacts reverse there"
+
+
+def reversal_checks(c: Compiled, f: Forces) -> list[tuple[str, Any, Callable[[Any], str]]]:
+    """Where contacts reverse, and in words what that does."""
+    if f.friction is None or f.after is None:
+        return []
+    return [("reversal", f.friction.reversing.any(axis=-1), lambda k: _reversal_sentence(c, f, k))]
 
 
 def arc(c: Compiled, run: Run) -> str:
@@ -67,15 +107,17 @@ def _kinds(c: Compiled) -> list[str]:
 
 
 def _jam_sentence(c: Compiled, f: Forces, run: Run) -> str:
+    f, side = _side(f, _jams, int(run[0]))
     assert f.friction is not None
     scale = float(np.nanmin(f.friction.critical[run]))
     return (
-        f"Friction jams the mechanism{arc(c, run)}: no effort moves it in this sense, whatever its size. "
+        f"Friction jams the mechanism{arc(c, run)}{side}: no effort moves it in this sense, whatever its size. "
         f"It would move with less than {scale:.6g} times the coefficients of friction."
     )
 
 
 def _locked_sentence(c: Compiled, f: Forces, run: Run) -> str:
+    f, side = _side(f, _locks, int(run[0]))
     assert f.friction is not None
     names = _unknowns(c)
     with_ = np.concatenate([f.effort[:, c.known.asked], f.load], axis=1)[run]
@@ -86,7 +128,24 @@ def _locked_sentence(c: Compiled, f: Forces, run: Run) -> str:
         for name, kind, a, b in zip(names, _kinds(c), with_[worst], bare[worst], strict=True)
     )
     where = "" if len(run) == 1 else arc(c, run[[worst]])
-    return f"Self-locking{arc(c, run)}: the load cannot drive the machine against its friction;{where} {figures}."
+    return f"Self-locking{arc(c, run)}{side}: the load cannot drive the machine against its friction;{where} {figures}."
+
+
+def _reversal_sentence(c: Compiled, f: Forces, run: Run) -> str:
+    assert f.friction is not None
+    assert f.after is not None
+    assert c.contacts is not None
+    k = int(run[0])
+    joints = list(dict.fromkeys(c.joints[j] for j in c.contacts.joint[f.friction.reversing[k]]))
+    verb = "reverses" if len(joints) == 1 else "reverse"
+    before, after = (np.concatenate([side.effort[k, c.known.asked], side.load[k]]) for side in (f, f.after))
+    values = _and(
+        [
+            f"{name} is {quantity_text(c, kind, a)} just before and {quantity_text(c, kind, b)} just after"
+            for name, kind, a, b in zip(_unknowns(c), _kinds(c), before, after, strict=True)
+        ]
+    )
+    return f"{_and(joints)} {verb}{arc(c, run)}, and friction there changes its sense: {values}."
 
 
 def _open_sentence(c: Compiled, f: Forces, run: Run) -> str:

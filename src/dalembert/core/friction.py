@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from dalembert.core import choice
 from dalembert.core.choice import above, hypot, larger, root, top, unit, where
-from dalembert.core.constraints import measure, rates, system
+from dalembert.core.constraints import drift, measure, rates, system
 from dalembert.core.forcing import Source, summed
 from dalembert.core.layout import Layout, Pose, Rows, System
 from dalembert.core.linear import Factor
@@ -116,9 +116,41 @@ class Response(NamedTuple):
 def senses(layout: Layout, contacts: Contacts, along: System, twist: Array) -> Senses:
     """Senses of the contacts from the twists of all links (..., L+1, n)."""
     rate = rates(along, twist)
+    return _senses(contacts, rate, _below(layout, contacts, rate, STILL * fastest(layout, twist)))
+
+
+def next_senses(
+    layout: Layout, contacts: Contacts, along: System, pose: Pose, twist: Array, acceleration: Array
+) -> Senses:
+    """Senses of the second rates: those just behind a place where the first are zero, and the opposite just before."""
+    second = rates(along, acceleration) + drift(layout.algebra, contacts.rows, pose, twist)
+    speed = fastest(layout, twist)
+    size = larger(fastest(layout, acceleration), speed * speed * (1 / layout.length))
+    return _senses(contacts, second, _below(layout, contacts, second, STILL * size))
+
+
+def passing(layout: Layout, contacts: Contacts, twist: Array, rate: Array, second: Array) -> Flags:
+    """Contacts (..., E) whose rate passes through zero here: within ``STILL`` of the time in which the fastest link
+    moves by the characteristic length."""
+    speed, size = fastest(layout, twist) / (STILL * layout.length), np.abs(second)
+    if contacts.group is None:
+        return np.asarray((~above(speed * np.abs(rate), size) & ~contacts.fixed)[..., contacts.led])
+    return ~above(speed * _slip(contacts, rate), _slip(contacts, second))
+
+
+def fastest(layout: Layout, twist: Array) -> Array:
+    """The largest component (..., 1) of twists, turns times the characteristic length."""
+    return top(np.abs(twist / layout.wrench_scale), 2)[..., None]
+
+
+def _below(layout: Layout, contacts: Contacts, rate: Array, least: Array) -> Flags:
+    """Contacts (..., E) whose rate, or that of the one they are led by, is below a speed (..., 1)."""
     scaled = np.abs(rate) * np.where(contacts.rows.angular, layout.length, 1.0)
-    fastest = top(np.abs(twist / layout.wrench_scale), 2)[..., None]
-    still = (above(STILL * fastest + TINY, scaled) & ~contacts.fixed)[..., contacts.led]
+    return np.asarray((above(least + TINY, scaled) & ~contacts.fixed)[..., contacts.led])
+
+
+def _senses(contacts: Contacts, rate: Array, still: Flags) -> Senses:
+    """Senses of rates (..., E) of the contacts, some of which are ``still``."""
     holds = above(strength(contacts, 1.0, True), 0.0)
     if contacts.group is not None:
         part, still = _directed(contacts, rate, still)
@@ -132,6 +164,12 @@ def _directed(contacts: Contacts, rate: Array, still: Flags) -> tuple[Array, Fla
     assert contacts.reckoned is not None
     part = sign(contacts, rate * contacts.reckoned, still)
     return part, ~moving_together(contacts, ~still)
+
+
+def _slip(contacts: Contacts, rate: Array) -> Array:
+    """Speed (..., E) of the slip that each contact has a part of."""
+    value = rate * contacts.reckoned
+    return np.asarray(np.sqrt((value * value) @ _together(contacts)))
 
 
 def sign(contacts: Contacts, value: Array, none: Flags) -> Array:

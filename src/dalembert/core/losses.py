@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.core.choice import above
+from dalembert.core.choice import above, top
 from dalembert.core.constraints import rates, system
 from dalembert.core.forcing import Resistances
 from dalembert.core.layout import Layout, Pose, System
@@ -16,7 +16,8 @@ Array = NDArray[Any]
 Ints = NDArray[np.intp]
 
 POWERLESS = 1e-9
-"""A power below this part of the powers of all loads has no sign."""
+"""A power below this part of the largest load times the fastest motion has no sign: at a dead centre all powers are
+rounding."""
 
 
 def in_joints(
@@ -66,5 +67,6 @@ def turned(layout: Layout, unknown: System, twist: Array, w: Array, x: Array, ba
     count = layout.constraints.count
     rate = rates(unknown.rows(slice(count, None)), twist)
     with_, without = (x[..., count:] * rate).sum(axis=-1), (bare[..., count:] * rate).sum(axis=-1)
-    size = np.abs(w * twist[..., :-1, :]).sum(axis=(-2, -1))
+    scale = layout.wrench_scale
+    size = top(np.abs(w * scale), 2) * top(np.abs(twist / scale), 2)
     return above(-(with_ * without), 0.0) & above(np.abs(without), POWERLESS * size)

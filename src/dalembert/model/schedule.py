@@ -34,6 +34,17 @@ class Schedule:
         """The number of positions."""
         return len(self.position)
 
+    @property
+    def moves(self) -> Any:
+        """Whether the machine moves at each position (positions,): some drive has a speed, or all stand only to turn
+        back, between two positions where they move."""
+        import numpy as np
+
+        moving = (self.speed != 0).any(axis=1)
+        turning = np.zeros_like(moving)
+        turning[1:-1] = moving[:-2] & moving[2:] & (self.acceleration != 0).any(axis=1)[1:-1]
+        return moving | turning
+
 
 def schedule(drives: Mapping[str, Drive], positions: int | None = None) -> Schedule:
     """The drives' positions; `positions` replaces the counts of ranges and laws, or steps a lone turn round.

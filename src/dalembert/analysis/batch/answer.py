@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert import errors
 from dalembert.algebra import plane
 from dalembert.errors import STATUSES, ModelError
 
@@ -27,11 +28,15 @@ CODES = (
     "undefined_load",
     "overflow",
     "no_derivative",
+    "reversal",
 )
 """Statuses by the marks of the kernel; `undecided` goes to the general executor and does not come back."""
 
-NUMBERED = tuple(CODES.index(status) for status in ("ok", "self_locking", "no_derivative"))
+NUMBERED = tuple(CODES.index(status) for status in (*errors.NUMBERED, "no_derivative"))
 """Marks of positions that have numbers."""
+
+SOLVED = tuple(CODES.index(status) for status in errors.SOLVED)
+"""Marks of positions that are solved."""
 
 
 def first_mark(marks: NDArray[np.uint8]) -> NDArray[np.uint8]:
@@ -52,7 +57,7 @@ def not_finite(code: NDArray[np.uint8], arrays: dict[str, Array]) -> NDArray[np.
 def mark_overflow(code: NDArray[np.uint8], arrays: dict[str, Array], rates: dict[str, Array]) -> None:
     """Give a status to what should have numbers and has none, and to numbers without a derivative."""
     code[not_finite(code, arrays) & np.isin(code, NUMBERED)] = CODES.index("overflow")
-    code[not_finite(code, rates) & (code == 0)] = CODES.index("no_derivative")
+    code[not_finite(code, rates) & np.isin(code, SOLVED)] = CODES.index("no_derivative")
     for rate in rates.values():
         rate[np.isinf(rate)] = np.nan
 
@@ -62,7 +67,8 @@ class BatchResult:
     """Answer for many designs: arrays (design, position), or (design,) where reduced over the positions.
 
     SI and radians, vectors in ground axes with their components last. NaN where there is no answer; ``status`` says
-    why.
+    why. Where contacts reverse the numbers are those just before, and ``after`` is the whole answer with those just
+    after; None where nothing reverses, and where reduced: reductions are over both.
     """
 
     kernel: Any = field(repr=False)
@@ -72,6 +78,7 @@ class BatchResult:
     arrays: dict[str, Array] = field(repr=False)
     gradients: dict[str, Array] = field(repr=False)
     redone: int = 0
+    after: BatchResult | None = field(default=None, repr=False)
 
     @property
     def status(self) -> NDArray[Any]:
@@ -80,13 +87,14 @@ class BatchResult:
 
     @property
     def ok(self) -> NDArray[np.bool_]:
-        """Which of them are solved; those that are self-locking, and those without a derivative, have numbers too."""
-        return np.asarray(self.code == 0)
+        """Which of them are solved, at a reversal on both sides; those that are self-locking, and those without a
+        derivative, have numbers too."""
+        return np.isin(self.code, SOLVED)
 
     def problems(self) -> list[tuple[int, str, str]]:
         """Designs with something that is not ok: number from 0, status and its sentence."""
         worst = self.code if self.code.ndim < 2 else first_mark(self.code)
-        bad = np.flatnonzero(worst)
+        bad = np.flatnonzero(~np.isin(worst, SOLVED))
         return [(int(d), CODES[worst[d]], _sentence(CODES[worst[d]])) for d in bad]
 
     def value(self, output: str) -> Array:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from dalembert.analysis.batch import reduction
 from dalembert.analysis.batch.answer import CODES, NUMBERED, first_mark
 from dalembert.analysis.batch.course import Course
+from dalembert.analysis.batch.sides import Sides
 from dalembert.analysis.batch.symbols import Number, with_numbers
 from dalembert.analysis.result import Result
 from dalembert.analysis.solution import at_schedule
@@ -40,31 +41,52 @@ def redone(
     values: Array,
     course: Course,
     undecided: Any,
-    code: Any,
-    arrays: dict[str, Array],
-    rates: dict[str, Array],
+    found: Sides,
 ) -> None:
     """Put the general executor's answer for design ``d`` in its place: where it is undecided, or all of it reduced."""
+    code = found.code
     marks, result = answered(k.mechanism, k.trace.numbers, values, course.schedule, k.trace.inertia)
     here = np.ones(len(marks), bool) if k.reduce else undecided
-    for rate in rates.values():
-        rate[d][... if k.reduce else here] = np.nan
+    for rates in (found.rates, found.after_rates):
+        for rate in rates.values():
+            rate[d][... if k.reduce else here] = np.nan
     code[d] = first_mark(marks) if k.reduce else np.where(here, marks, code[d])
     if result is None or (k.reduce and code[d] not in NUMBERED):
         return
-    found = {name: quantity(result, name) for name in k.outputs}
-    for name, value in found.items():
-        if k.reduce:
-            arrays[name][d] = reduction.reduced(k.reduce, value).reshape(arrays[name][d].shape)
-        else:
-            arrays[name][d, here] = value[here].reshape(arrays[name][d, here].shape)
-    if not rates or not np.isin(marks[here], NUMBERED).any():
+    sides = [{name: quantity(side, name) for name in k.outputs} for side in result.sides]
+    numbered = bool(np.isin(marks[here], NUMBERED).any())
+    slopes_ = [
+        slopes(k, values, replace(course, result=side), one, here) if found.rates and numbered else {}
+        for side, one in zip(result.sides, sides, strict=True)
+    ]
+    if k.reduce:
+        _reduced(k, d, sides, slopes_, found)
         return
-    for name, rate in slopes(k, values, replace(course, result=result), found, here).items():
-        if k.reduce:
-            rates[name][d] = reduction.slope(k.reduce, found[name], rate).reshape(rates[name][d].shape)
-        else:
+    if len(sides) > 1:
+        found.open_after()
+    places = ((found.arrays, found.rates), (found.after, found.after_rates))
+    for n, (arrays, rates) in enumerate(places[: 1 + bool(found.after)]):
+        for name, value in sides[min(n, len(sides) - 1)].items():
+            arrays[name][d, here] = value[here].reshape(arrays[name][d, here].shape)
+        for name, rate in slopes_[min(n, len(sides) - 1)].items():
             rates[name][d, here] = rate.reshape(rates[name][d, here].shape)
+
+
+def _reduced(
+    k: Kernel, d: int, sides: list[dict[str, Array]], rates: list[dict[str, Array]], found: Sides
+) -> None:
+    """Reductions over the positions, those with two numbers taken twice."""
+    assert k.reduce is not None
+    for name, array in found.arrays.items():
+        value = np.concatenate([side[name] for side in sides])
+        reduced = reduction.reduced(k.reduce, value)
+        if k.reduce == "argpeak":
+            reduced = reduced % len(sides[0][name])
+        array[d] = reduced.reshape(array[d].shape)
+        if rates[0]:
+            rate = np.concatenate([side[name] for side in rates])
+            slope = reduction.slope(k.reduce, value, rate)
+            found.rates[name][d] = slope.reshape(found.rates[name][d].shape)
 
 
 def slopes(

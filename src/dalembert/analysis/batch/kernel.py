@@ -15,6 +15,7 @@ from dalembert.analysis.batch.answer import CODES, NUMBERED, BatchResult, mark_o
 from dalembert.analysis.batch.course import Course
 from dalembert.analysis.batch.general import redone
 from dalembert.analysis.batch.reading import numbers
+from dalembert.analysis.batch.sides import Sides
 from dalembert.analysis.batch.symbols import geometric
 from dalembert.analysis.batch.tracing import Trace, traced
 from dalembert.analysis.planar import refuse_space
@@ -90,6 +91,12 @@ def _check_count(name: str, count: Any) -> None:
         isinstance(count, bool) or not isinstance(count, int | np.integer) or count <= 0
     ):
         raise ModelError(f"{name}={count!r} is no number of {name}", "give 1 or more, or leave it out")
+
+
+def _moves(course: Course, dimensions: int) -> Any:
+    """Where a contact without a rate may only reverse."""
+    moves = course.schedule.moves
+    return moves if dimensions > 1 else moves.any()
 
 
 def _waits(program: Program) -> bool:
@@ -244,6 +251,8 @@ class Kernel:
                 raise
             raise ModelError(f"device {device!r} cannot be used: {error}", 'use device="cpu"') from None
         code[self._flipped(given)] = CODES.index("undecided")
+        if redo:
+            code[(code == CODES.index("at_rest")) & _moves(course, code.ndim)] = CODES.index("undecided")
         code[~np.isfinite(given).all(axis=1)] = CODES.index("failed")
         return self._finished(given, course, code, arrays, rates, redo)
 
@@ -292,15 +301,15 @@ class Kernel:
             code[not_finite(code, arrays) & np.isin(code, NUMBERED)] = CODES.index("undecided")
         undecided = code == CODES.index("undecided")
         again = np.flatnonzero(undecided.any(axis=tuple(range(1, code.ndim)))) if redo else np.zeros(0, int)
+        found = Sides(code, arrays, rates)
         for d in again:
-            redone(self, int(d), values[d], course, undecided[d], code, arrays, rates)
+            redone(self, int(d), values[d], course, undecided[d], found)
             if self.reduce is None:
-                mark_overflow(code[d], *({n: a[d] for n, a in of.items()} for of in (arrays, rates)))
+                for side in ((arrays, rates), (found.after, found.after_rates)):
+                    mark_overflow(code[d], *({n: a[d] for n, a in of.items()} for of in side))
         if self.reduce is not None:
             mark_overflow(code, arrays, rates)
-        lost = ~np.isin(code, NUMBERED)
-        for found in (arrays, rates):
-            for array in found.values():
-                if array.dtype.kind == "f":
-                    array[lost] = np.nan
-        return BatchResult(self, values, course.schedule.position, code, arrays, rates, len(again))
+        found.blank(~np.isin(code, NUMBERED))
+        whole = (self, values, course.schedule.position, code)
+        after = BatchResult(*whole, found.after, found.after_rates) if found.after else None
+        return BatchResult(*whole, arrays, rates, len(again), after)

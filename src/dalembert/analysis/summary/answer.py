@@ -15,6 +15,7 @@ from dalembert.analysis.columns import (
     reactions,
     unknown_kinds,
 )
+from dalembert.analysis.friction import reversing_joints
 from dalembert.analysis.summary.in_space import NOT_UNIQUE, space_link_tables, space_reaction_tables
 from dalembert.analysis.summary.printed import (
     Printed,
@@ -23,7 +24,7 @@ from dalembert.analysis.summary.printed import (
     significant,
     without_reactions,
 )
-from dalembert.analysis.summary.rubbing import branch_note, efficiency_note, ends_text, friction_table
+from dalembert.analysis.summary.rubbing import branch_note, efficiency_note, friction_table, open_text
 from dalembert.analysis.summary.series import position_tables, where
 from dalembert.analysis.wrenches import Axes
 from dalembert.printing import number, remainder, rounded, table, tables, with_unit, wrapped
@@ -42,7 +43,8 @@ def answer_text(
         parts += _one(result, to, axes)
     else:
         parts += position_tables(result, to, axes, every)
-    parts += [problems_text(result, to), wrapped(branch_note(result)), checks_text(result)]
+    parts += [reversals_text(result, to), problems_text(result, to)]
+    parts += [wrapped(branch_note(result)), checks_text(result)]
     return "\n\n".join(part for part in parts if part)
 
 
@@ -77,9 +79,11 @@ def _one(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
     if status == "at_rest" and result.ends:
         yield from _ends(result, to, axes)
     elif result.joints and not without_reactions(result):
-        yield _reactions(result, to, axes)
-        if rubbed:
-            yield friction_table(result, to)
+        for side, words in zip(result.sides, ("Just before:", "Just after:"), strict=False):
+            yield from [words] if result.reverses[0] else []
+            yield _reactions(side, to, axes)
+            if rubbed:
+                yield friction_table(side, to)
     if status != "at_rest" and rubbed:
         yield wrapped(efficiency_note(result))
     if result.links:
@@ -99,8 +103,8 @@ def _drive_table(result: Result, to: Printed) -> str:
         if motion_only(result):
             del values["effort"]
         cells = [with_unit(float(to(kinds[n], v[0])), to.text(kinds[n]), 7) for n, v in values.items()]
-        if result.status[0] == "at_rest" and drive in unknown_kinds(result):
-            cells[-1] = ends_text(result, drive, to)
+        if drive in unknown_kinds(result):
+            cells[-1] = open_text(result, drive, to) or cells[-1]
         rows.append([drive, *cells, *([result.stability[0] or "-"] if result.stability else [])])
     heads = [
         "drive",
@@ -115,8 +119,8 @@ def _drive_table(result: Result, to: Printed) -> str:
 
 def _load_table(result: Result, to: Printed) -> str:
     def value(name: str) -> str:
-        if result.status[0] == "at_rest":
-            return ends_text(result, name, to)
+        if there := open_text(result, name, to):
+            return there
         kind = load_kind(result, name)
         return with_unit(float(to(kind, result.unknown_load(name)[0])), to.text(kind))
 
@@ -253,3 +257,28 @@ def checks_text(result: Result) -> str:
     count = _count(result)
     between = "; " if ";" in count else ", "
     return wrapped(_sentence(between.join(filter(None, (count, shown)))) + ".") if count or shown else ""
+
+
+MOST_NAMED = 8
+"""Reversals that are named one by one."""
+
+
+def reversals_text(result: Result, to: Printed) -> str:
+    """Which contacts reverse where, and how that is shown; the sentence itself of a single position."""
+    places = np.flatnonzero(result.reverses)
+    if not places.size or len(result.status) == 1:
+        return wrapped(result.reasons[0] or "", "  ") if places.size and result.ok[0] else ""
+    by_joints: dict[str, list[str]] = {}
+    for k in places:
+        by_joints.setdefault(", ".join(reversing_joints(result, int(k))), []).append(
+            where(result, to, int(k))
+        )
+    parts = [
+        f"{joints} at {', '.join(at[:MOST_NAMED])}"
+        + (f" and {len(at) - MOST_NAMED} more" if at[MOST_NAMED:] else "")
+        for joints, at in by_joints.items()
+    ]
+    words = (
+        "friction there changes its sense; given are the numbers just before, and under them those just after"
+    )
+    return wrapped(f"Reversal of {'; '.join(parts)}: {words}.", "  ")

@@ -22,6 +22,19 @@ def ends_text(result: Result, name: str, to: Any, position: int = 0) -> str:
     return f"{low} to {high} {to.text(kind)}"
 
 
+def open_text(result: Result, name: str, to: Any) -> str:
+    """At the first position of two numbers: the interval at rest, both sides of a reversal; '' where there is one."""
+    if result.status[0] == "at_rest":
+        return ends_text(result, name, to)
+    if not result.reverses[0]:
+        return ""
+    kind = unknown_kinds(result)[name]
+    values = (
+        side.effort(name) if name in result.drives else side.unknown_load(name) for side in result.sides
+    )
+    return " / ".join(number(float(to(kind, v[0]))) for v in values) + f" {to.text(kind)}"
+
+
 def with_ends(result: Result, to: Any, position: int, cells: list[str]) -> list[str]:
     """A row of the table of positions with intervals where friction leaves efforts and unknown loads open."""
     names = [*result.drives, *result.unknown_loads]

@@ -28,20 +28,25 @@ def position_tables(result: Result, to: Printed, axes: Axes, every: bool) -> Ite
         if every or count <= MANY
         else sorted(set(np.linspace(0, count - 1, MANY).round().astype(int).tolist()))
     )
-    heads, values = _series(result, to, axes)
+    heads, values = _series(result.before, to, axes)
+    after = values if result.after is None else _series(result.after, to, axes)[1]
+    marked = not all(s == "ok" for s in result.status)
     rows = []
     for k in shown:
-        mark = [] if result.ok.all() else [result.status[k]]
+        mark = [result.status[k]] if marked else []
         stability = [result.stability[k] or "-"] if result.stability else []
         cells = [number(float(v[k]), 5) for v in values]
         if result.status[k] == "at_rest":
             cells = with_ends(result, to, k, cells)
         rows.append([str(k + 1), *mark, *stability, *cells])
-    first = ["no.", *([] if result.ok.all() else ["status"]), *(["stability"] if result.stability else [])]
+        if result.reverses[k]:
+            behind = [number(float(v[k]), 5) for v in after[len(result.drives) :]]
+            rows.append(["", "after", *stability, *[""] * len(result.drives), *behind])
+    first = ["no.", *(["status"] if marked else []), *(["stability"] if result.stability else [])]
     drives = len(result.drives)
     yield tables([*first, *heads], rows, len(first) + drives)
-    if len(rows) < count:
-        yield f"{len(rows)} of {count} positions are shown; --all prints every one, --csv FILE writes them."
+    if len(shown) < count:
+        yield f"{len(shown)} of {count} positions are shown; --all prints every one, --csv FILE writes them."
     if any(r.least_norm is not None and np.isfinite(r.least_norm).any() for r in reactions(result, axes)):
         yield "Least-norm values of what is not unique: --csv, --json, or a single position."
     if count > 2:
@@ -99,15 +104,25 @@ def _sizes(name: str, vectors: Any) -> list[tuple[str, Any]]:
 def _peak_table(result: Result, to: Printed, axes: Axes) -> str:
     """Largest and smallest value of each effort, unknown load and reaction, and where."""
     drives = len(result.drives)
-    heads, values = _series(result, to, axes)
+    heads, *sides = _series(result.before, to, axes)
+    sides += [] if result.after is None else [_series(result.after, to, axes)[1]]
     rows = []
-    for head, series in zip(heads[drives:], values[drives:], strict=True):
-        if np.isfinite(series).any():
+    for head, *series in zip(heads[drives:], *(values[drives:] for values in sides), strict=True):
+        low, high = np.fmin.reduce(series), np.fmax.reduce(series)
+        if np.isfinite(low).any():
             name, unit = head.split("\n")
-            least, most = int(np.nanargmin(series)), int(np.nanargmax(series))
-            cells = [number(float(series[most])), where(result, to, most), number(float(series[least]))]
-            rows.append([name, unit, *cells, where(result, to, least)])
-    return tables(["over the positions", "unit", "largest", "at", "smallest", "at"], rows, 2) if rows else ""
+            least, most = int(np.nanargmin(low)), int(np.nanargmax(high))
+            cells = [number(float(high[most])), _marked(result, to, most), number(float(low[least]))]
+            rows.append([name, unit, *cells, _marked(result, to, least)])
+    shown = tables(["over the positions", "unit", "largest", "at", "smallest", "at"], rows, 2) if rows else ""
+    return shown + (
+        "\n* one side of a reversal" if any("*" in cell for row in rows for cell in row[3::2]) else ""
+    )
+
+
+def _marked(result: Result, to: Printed, position: int) -> str:
+    """Where, and whether it is one side of a reversal."""
+    return where(result, to, position) + (" *" if result.reverses[position] else "")
 
 
 def where(result: Result, to: Printed, position: int) -> str:

@@ -1,0 +1,35 @@
+"""What is found for many designs, and the numbers just after reversals where there are any."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
+
+
+@dataclass
+class Sides:
+    """Marks, outputs and their derivatives by name; ``after``: the same numbers but those just after reversals."""
+
+    code: Any
+    arrays: dict[str, Array]
+    rates: dict[str, Array]
+    after: dict[str, Array] = field(default_factory=dict)
+    after_rates: dict[str, Array] = field(default_factory=dict)
+
+    def open_after(self) -> None:
+        """Begin with the numbers just before."""
+        if not self.after:
+            self.after = {name: array.copy() for name, array in self.arrays.items()}
+            self.after_rates = {name: rate.copy() for name, rate in self.rates.items()}
+
+    def blank(self, lost: NDArray[np.bool_]) -> None:
+        """No number where there is no answer."""
+        for found in (self.arrays, self.rates, self.after, self.after_rates):
+            for array in found.values():
+                if array.dtype.kind == "f":
+                    array[lost] = np.nan
