@@ -70,13 +70,14 @@ class Slip(NamedTuple):
 
 
 class Try(NamedTuple):
-    """Newton's answer; ``landing``, where its first step led."""
+    """Newton's answer; ``landing``, where its first step led; ``ahead``, the determinant of that step."""
 
     z: Array
     arrived: Flags
     determinant: Array
     iterations: NDArray[np.intp]
     landing: Array
+    ahead: Array
 
 
 def without_friction(contacts: Contacts, r: Response) -> Array:
@@ -136,10 +137,12 @@ def newton(
     count = np.zeros(len(sense), np.intp)
     arrived = np.zeros(len(sense), bool)
     r = strong(r, c)
-    y, landing = argument(r, z), z
+    y, landing, ahead = argument(r, z), z, np.ones(len(sense))
     for k in range(most):
         at = y if k or before is None else before
         steep, _ = slope(contacts, at, _largest(at))
+        if k == 0 and before is not None:
+            ahead = np.linalg.det(np.nan_to_num(jacobian(r, steep, sense)))
         step = correction(r, steep, sense, z + sense * (steep * y).sum(axis=-2), solved)
         z = np.where(arrived[:, None], z, z + step)
         landing = z if k == 0 else landing
@@ -155,7 +158,7 @@ def newton(
             break
     steep, _ = slope(contacts, y, _largest(y))
     determinant = np.linalg.det(np.nan_to_num(jacobian(r, steep, sense)))
-    return Try(np.where(arrived[:, None], z, np.nan), arrived, determinant, count, landing)
+    return Try(np.where(arrived[:, None], z, np.nan), arrived, determinant, count, landing, ahead)
 
 
 def _largest(y: Array) -> Array:
@@ -183,12 +186,15 @@ def _continued(contacts: Contacts, r: Response, sense: Array, resting: Array) ->
         z[kept], determinant[kept] = new.z[good], new.determinant[good]
         scale[kept], c[kept] = aim[good], raised[good]
         step[on] = np.where(good, np.minimum(2 * step[on], LONGEST), step[on] / 2)
-    return Try(z, scale >= 1, determinant, iterations, z), scale
+    return Try(z, scale >= 1, determinant, iterations, z, determinant), scale
 
 
 def _same_branch(start: Array, new: Try) -> Flags:
-    """Whether Newton went almost where its first step led, or went hardly anywhere."""
+    """Whether Newton went almost where its first step led, or went hardly anywhere.
+
+    A first step whose determinant is not positive leads past where forces go beyond all bounds.
+    """
     first, more, size = (
         np.abs(a).max(axis=-1, initial=0.0) for a in (new.landing - start, new.z - new.landing, new.z)
     )
-    return np.asarray((more <= BENT * first) | (first + more <= SHORT * size))
+    return np.asarray((new.ahead > 0) & ((more <= BENT * first) | (first + more <= SHORT * size)))
