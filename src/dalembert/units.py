@@ -224,7 +224,12 @@ def _split_text(text: str, kind: str) -> tuple[float, str]:
         raise ModelError(f"{shown(text)} is not {KINDS[kind].phrase}", _write(kind))
     number, rest = match.groups()
     if re.match(r",\s*\d", rest):
-        raise ModelError(f"{shown(text)} has a decimal comma", f"write {text.replace(',', '.', 1)!r}")
+        write = f"write {text.replace(',', '.', 1)!r}"
+        if re.match(r",\d{3}(?!\d)", rest):
+            raise ModelError(
+                f"{shown(text)} has a comma", f"{write}, or {text.replace(',', '')!r} for thousands"
+            )
+        raise ModelError(f"{shown(text)} has a decimal comma", write)
     if polar := re.fullmatch(rf"(.*?)\s*(?:\bat\b|∠)\s*({NUMBER}.*)", rest):
         raise ModelError(
             f"{shown(text)} is not one number",

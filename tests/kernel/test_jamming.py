@@ -24,7 +24,7 @@ def some_contacts(count: int, signed: int) -> Any:
     m = cycle("four_bar", 1)
     known = compiled(m, m.schedule()).contacts
     assert known is not None
-    return replace(known, signed=np.arange(count) < signed)
+    return replace(known, signed=np.arange(count) < signed, joint=np.zeros(count, np.intp))
 
 
 def proofs(contacts: Any, y: np.ndarray, h: np.ndarray, sense: np.ndarray) -> np.ndarray:

@@ -377,3 +377,40 @@ def test_turns_are_counted_at_the_end_where_the_way_is_barred(stated: dict[str, 
         closed = side * np.degrees(np.arccos((1 + np.square(slides) - 9) / (2 * np.array(slides))))
         moving = np.abs(np.abs(np.array(slides) - 3) - 1) > 1e-9
         assert turn[moving] == pytest.approx((closed + TURN * (stated.get("crank", 0) == 300))[moving])
+
+
+def test_two_drives_count_straight_from_where_they_stand_at_0() -> None:
+    """A five-bar whose cranks' ends can meet: around that place lists would count otherwise than straight on."""
+    spots = {
+        "ground": {"O": [0, 0], "Q": [1, 0]},
+        "a": {"O": [0, 0], "A": [1, 0]},
+        "b": {"A": [0, 0], "C": [2, 0]},
+        "c": {"B": [0, 0], "C": [2, 0]},
+        "d": {"Q": [0, 0], "B": [1, 0]},
+    }
+    ends = {"O": "ground a", "A": "a b", "C": "b c", "B": "d c", "Q": "ground d"}
+    coil = {"type": "torsion_spring", "joint": "B", "stiffness": 2, "free_angle": 300}
+
+    def statics(first: list[float], second: list[float]) -> Any:
+        return da.statics(
+            da.mechanism(
+                {
+                    "dalembert": 1,
+                    "links": {link: {"points": found} for link, found in spots.items()},
+                    "joints": {name: {"type": "pin", "links": text.split()} for name, text in ends.items()},
+                    "drives": {"O": {"position": first}, "Q": {"position": second}},
+                    "loads": {"s": coil},
+                }
+            )
+        )
+
+    first, second = [40, -20, 40, 400, 400], [-20, -20, 200, -300, 40]
+    together = statics(first, second)
+    side = np.sign(np.sin(together.angle("c") - together.angle("b")))
+    compared = 0
+    for k, (a, b) in enumerate(zip(first, second, strict=True)):
+        alone = statics([a], [b])
+        if np.sign(np.sin(alone.angle("c") - alone.angle("b")))[0] == side[k] and together.ok[k]:
+            assert alone.effort_array[0] == pytest.approx(together.effort_array[k], rel=1e-9)
+            compared += 1
+    assert compared > 2

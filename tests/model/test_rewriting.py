@@ -336,9 +336,42 @@ def test_a_mechanism_built_in_python_is_written_short_and_reads_back_equal(
     m = TEMPLATES[name].function().model_copy(update={"units": file_units(units)})
     for form in FORMS:
         assert loads(text_of(m, form), form) == m
-    assert "freedom" not in file_tree(m)["drives"][next(iter(m.drives))]
+    for drive, keys in file_tree(m)["drives"].items():
+        assert ("freedom" in keys) == (len(m.joints[m.drive_joint(drive)].freedoms) > 1)
 
 
 def test_a_copy_that_was_changed_otherwise_is_saved_as_it_is() -> None:
     other = M.model_copy(update={"title": "Copy"})
     assert str(other) == FOUR_BAR.replace("title: Four-bar linkage, dynamic", "title: Copy")
+
+
+TEXTS = [
+    "3", "3 mm", "-0.0", "\u22123 mm", "1e3", "3 @ 30", "3 mm @ 30 deg", "3 @ 30 mm", "-3 @ 1 rad", "[1, 2]",
+    "[1 in, 20 mm]", "[1 in]", "1,5", "1,000 N", "1 000", "3 N", "2 kg", "60 deg", "25 rad/s", "10 rpm", "1e3*O2", "2*sin(O2) kN",
+    "unknown", "none", "", " ", "[", "[1, [2]]", "[*a]", "@", "3 @", "\ufeff3", "3\t mm", "3\nmm", "{a: 1}", "'3'", "\"3\"",
+    "# 3", "a: b", "null", "~", "true", "x" * 3000,
+]  # fmt: skip
+
+
+def paths(value: Any, path: tuple[str, ...] = ()) -> Iterator[str]:
+    """Every path down a tree."""
+    if path:
+        yield ".".join(path)
+    inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
+    for key, item in inner:
+        yield from paths(item, (*path, str(key)))
+
+
+@pytest.mark.parametrize("k", tiers([0], range(1, 12)))
+def test_any_text_at_any_path_is_refused_or_saved_as_it_is_meant(k: int) -> None:
+    taken = 0
+    everywhere = [(path, text) for path in paths(read_text(FOUR_BAR)[0]) for text in TEXTS]
+    for path, text in random.Random(k).sample(everywhere, 150):
+        try:
+            other = M.with_values({path: text})
+        except ModelError:
+            continue
+        taken += 1
+        assert loads(str(other)) == other, (path, text)
+        assert "# version of this format" in str(other), (path, text)
+    assert taken > 5

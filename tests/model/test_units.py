@@ -92,6 +92,7 @@ def test_a_text_is_worth(value: str, kind: str) -> None:
         ("1 1/2 in", "length", "'1 1/2 in' is not one number; write a decimal: 1.5 in for 1 1/2 in"),
         ("1/2 in", "length", "'1/2 in' is not one number; write a decimal: 1.5 in for 1 1/2 in"),
         ("1,5 mm", "length", "'1,5 mm' has a decimal comma; write '1.5 mm'"),
+        ("1,500 mm", "length", "'1,500 mm' has a comma; write '1.500 mm', or '1500 mm' for thousands"),
         (
             "1.5 lb",
             "force",

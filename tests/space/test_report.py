@@ -219,7 +219,7 @@ def test_inertia_couples_are_the_sum_of_their_parts(name: str) -> None:
     known = signs(r, k)
     for link in r.links:
         n = shown.link(link)
-        lead = f"J_{{{n}}} alpha_{{{n}}}"
+        lead = f"J_{{{n}}} alpha_{{{n}'}}"
         at = next((m for m, line in enumerate(found) if line.letters == lead), None)
         if at is None:
             assert all(abs(known.get(f"T_{{I{n}{a}}}", 0.0)) < 1e-6 for a in "xyz")

@@ -40,7 +40,7 @@ def test_everything_stands_in_the_report_of_the_spatial_four_bar() -> None:
         "  ω_2 × r_OA + ω_3 × r_AB + ω_4 × r_BC = 0",
         "4 Inertia forces and couples",
         "  F_I3 = −m_3 a_G3 = −0.1106 (−17095, −10880, −12647) / 1000 = (1.891, 1.204, 1.399) N, size 2.643 N",
-        "  T_I3 = −(J_3 α_3 + ω_3 × J_3 ω_3) = −((−49.97, 19.17, −54.16) + (0, 0, 0)) = (49.97, −19.17, 54.16) N·mm",
+        "  T_I3' = −(J_3 α_3' + ω_3' × J_3 ω_3') = −((−49.97, 19.17, −54.16) + (0, 0, 0)) = (49.97, −19.17, 54.16) N·mm",
         "5 Free bodies and their equations",
         "Link 4 rocker, moments about joint C; R from there to each force:",
         "  Σ M_Cy: R_Bz F_34x + M_14x' = 0",
@@ -59,8 +59,8 @@ def test_everything_stands_in_the_report_of_the_spatial_four_bar() -> None:
 
 def test_the_gyroscopic_couple_stands_by_itself() -> None:
     found = text(case("sp-04-spinning-disk-on-a-turning-arm"), at=2)
-    assert "J_3 α_3 = J_3 (850.8, 0, 0) = (29.72, 0, 0) lbf·in" in found
-    assert "ω_3 × J_3 ω_3 = (0, 14.18, 60.00) × J_3 (0, 14.18, 60.00) = (29.72, 0, 0) lbf·in" in found
+    assert "J_3 α_3' = J_3 (850.8, 0, 0) = (29.72, 0, 0) lbf·in" in found
+    assert "ω_3' × J_3 ω_3' = (0, 14.18, 60.00) × J_3 (0, 14.18, 60.00) = (29.72, 0, 0) lbf·in" in found
     assert "−((29.72, 0, 0) + (29.72, 0, 0)) = (−59.45, 0, 0) lbf·in" in found
 
 

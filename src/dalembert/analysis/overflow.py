@@ -38,7 +38,9 @@ def overflow_sentence(
     c: Compiled, what: str, names: tuple[str, ...], found: Flags, run: NDArray[np.intp]
 ) -> str:
     """Of which links or joints numbers overflow; of none, what checks them."""
-    of = ", ".join(name for name, bad in zip(names, found[run].any(axis=0), strict=True) if bad)
+    of = ", ".join(
+        name for name, bad in zip(names, np.atleast_1d(found[run].any(axis=0)), strict=True) if bad
+    )
     whose = f"The {what} of {of} exceed" if of else f"The {what} or the powers they are checked by exceed"
     return (
         f"{whose} 1.8e308{arc(c, run)}, the largest number there is (SI). A speed, mass, length or load, or its unit, "

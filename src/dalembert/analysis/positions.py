@@ -67,8 +67,9 @@ def positions(c: Compiled) -> Positions:
     mobility = mobility_at(c, general, special=general is here)
     if mobility.redundant:
         c = replace(c, layout=replace(c.layout, redundant=True))
-    motion = path(c.layout, first.pose.at(0), along, start, c.period)
-    return Positions(wound(c, (place, stood), motion), motion, mobility, _mode(c, first))
+    motion = path(c.layout, first.pose.at(0), along, start, c.period, c.guess)
+    said = [part for part in (_mode(c, first), _ranges(c, motion)) if part]
+    return Positions(wound(c, (place, stood), motion), motion, mobility, "; ".join(said) or None)
 
 
 def _first(c: Compiled) -> tuple[int, Modes] | None:
@@ -195,6 +196,21 @@ def _mode(c: Compiled, found: Modes) -> str | None:
     )
     more = f" and {len(names) - 5} more" if len(names) > 5 else ""
     return f"assembly mode {names[0]} ({why}){others}{more}"
+
+
+def _ranges(c: Compiled, found: Path) -> str | None:
+    """Ranges that no motion from the first pose reaches, by the positions at which they were entered."""
+    if not found.entered:
+        return None
+    at = [
+        " and ".join(f"{n} = {drive_text(c, k, d)}" for d, n in enumerate(c.schedule.names))
+        for k in found.entered
+    ]
+    many = "a range is" if len(at) == 1 else f"{len(at)} ranges are"
+    return (
+        f"{many} behind a gap, where the linkage does not close, and not reached by the motion from the first pose: "
+        f"there (at {', '.join(at)}) every group of links is on the same side as before"
+    )
 
 
 def _named(c: Compiled, pose: Pose) -> list[str]:

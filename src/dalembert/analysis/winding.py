@@ -29,10 +29,12 @@ if TYPE_CHECKING:
     from dalembert.analysis.compile import Compiled
 
 Array = NDArray[Any]
-Flags = NDArray[np.bool_]
 
 FARTHEST = 1e4
 """Longest way to where turns are counted, in radians or characteristic lengths."""
+
+MANY = 200
+"""Positions up to which, with several drives, each has its own way to where turns are counted."""
 
 DOUBTFUL = np.radians(20)
 """An angle this near to half a turn from what it is counted by could as well be meant a turn further."""
@@ -97,15 +99,23 @@ class _Counting:
         self.wanted = np.where(np.isfinite(stated), stated, 0.0)
         self.phased = phased(c.layout, self.first)
         self.ways: dict[int, Way] = {}
+        self.pieces = self._pieces()
+
+    def _pieces(self) -> list[Any]:
+        """Positions that are counted together: those of a stretch. Several drives may go around a singular place, on
+        either side of which turns count otherwise: then every position has its own way, if there are not too many."""
+        found = self.found
+        if len(self.wanted) > 1 and found.reached.sum() <= MANY:
+            return [np.array([k]) for k in np.flatnonzero(found.reached)]
+        numbers = np.unique(found.stretch[found.reached])
+        return [np.flatnonzero(found.reached & (found.stretch == n)) for n in numbers]
 
     def counted(self, spring: str, k: int, row: int) -> tuple[Array, Count]:
         """What the count adds to the turn at each position (P,), and how it was made."""
         found, with_phase = self.found, bool(self.phased[row])
         turns, margin = np.zeros((2, len(found.reached)))
-        numbers = np.unique(found.stretch[found.reached])
-        for number in numbers[::-1]:  # the first stretch is told of
-            mask = found.reached & (found.stretch == number)
-            end = self._at_first() if with_phase else self._end(spring, int(number), mask)
+        for number, mask in reversed(list(enumerate(self.pieces))):  # the first is told of
+            end = self._at_first() if with_phase else self._end(spring, number, mask)
             near, stated = self._near(row, end.pose)
             whole = whole_turns(end.phi[row], np.array(near))
             turns[mask] = -2 * np.pi * whole
@@ -117,16 +127,18 @@ class _Counting:
         phi = measure(self.c.layout.algebra, self.freedoms, self.first)
         return Way(self.first, phi, True)
 
-    def _end(self, spring: str, number: int, mask: Flags) -> Way:
-        """Where the motion of a stretch comes nearest to the drives' positions that turns are counted at."""
+    def _end(self, spring: str, number: int, where: NDArray[np.intp]) -> Way:
+        """Where the motion of a piece comes nearest to the drives' positions that turns are counted at."""
         if number not in self.ways:
-            c, where = self.c, np.flatnonzero(mask)
+            c = self.c
             scale = np.where(c.layout.freedoms.angular[c.layout.driven], 1.0, c.layout.length)
             apart = np.abs((c.schedule.position[where] - self.wanted) / scale).max(axis=1, initial=0.0)
             self._refuse_endless(spring, float(apart.min()))
             there = np.concatenate([c.target, self.wanted])
             order = where[np.argsort(apart, kind="stable")]
-            for k in (order[0], order[-1]):  # from the farthest too: the nearest may stand at the end itself
+            for k in dict.fromkeys(
+                (order[0], order[-1])
+            ):  # from the farthest too: the nearest may stand at the end itself
                 self.ways[number] = way(c.layout, self.found.pose.at(k), c.targets[k], there)
                 if self.ways[number].met:
                     break

@@ -41,6 +41,15 @@ class Guess:
         """The ways the linkage closes at a target (K + D,); None if no start closes."""
         return modes(layout, target, self)
 
+    def every(self, layout: Layout, target: Array) -> Modes | None:
+        """All the ways found, of a layout without phases."""
+        return _searched(layout, layout, target, Wanted(self.turn, self.point, None), self)
+
+    @property
+    def stated(self) -> Array:
+        """The given angles (L+1,)."""
+        return self.turn
+
     def start(self, layout: Layout, target: Array) -> Pose:
         """The links laid down joint by joint (L+1, ...): before any correction."""
         return drawn(layout, target, self)

@@ -26,6 +26,9 @@ from dalembert.core.turning import along_axis
 Array = NDArray[Any]
 
 
+FEW = 16
+"""Starts behind a gap, where the group that is asked closes in two ways."""
+
 ALONG = 1e-9
 """How far the cosine between two shared axes may be from 1 to count as parallel."""
 
@@ -76,6 +79,15 @@ class Drawing:
             return self._near(layout, target) or self._searched(layout, target)
         return self._as_drawn(layout, target) or self._near(layout, target) or self._searched(layout, target)
 
+    def every(self, layout: Layout, target: Array) -> Modes | None:
+        """The ways found from a few random starts."""
+        return self._searched(layout, target, FEW)
+
+    @property
+    def stated(self) -> None:
+        """No angles in space."""
+        return None
+
     def start(self, layout: Layout, target: Array) -> Pose:
         """The links laid down as drawn, given or driven (L+1, ...): before any correction."""
         return self._laid(layout, target, np.zeros((1, self._values)), driven=bool(self.given.any())).at(0)
@@ -121,10 +133,10 @@ class Drawing:
         good = (missing <= CLOSED * layout.length) & self._upright(layout, pose)
         return pose.at(np.flatnonzero(good)) if good.any() else None
 
-    def _searched(self, layout: Layout, target: Array) -> Modes | None:
+    def _searched(self, layout: Layout, target: Array, starts: int = STARTS) -> Modes | None:
         """Every mode that random starts find, the one that is turned least from the drawn or given poses first."""
         steps = np.modf(np.sqrt(np.arange(2, 2 + self._values) + 0.5) * 1.6180339887)[0]
-        values = np.modf(0.5 + np.arange(STARTS)[:, None] * steps)[0] * 2 * np.pi - np.pi
+        values = np.modf(0.5 + np.arange(starts)[:, None] * steps)[0] * 2 * np.pi - np.pi
         free = replace(
             self, point=np.full_like(self.point, np.nan), rotation=np.full_like(self.rotation, np.nan)
         )

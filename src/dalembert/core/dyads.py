@@ -295,6 +295,6 @@ def sides(p: Plan, turn: Array, point: Array, target: Array) -> Array:
         given = part.point[:, group.link, group.axis]
         _put(group, part, np.where(np.isnan(given), _places(group, part), given))
         point[:, group.links] = part.point
-        if group.closed and group.turning:
+        if group.closed:
             found[:, k] = np.nan_to_num(np.sign(np.linalg.det(jacobian(group, part))))
     return found

@@ -8,12 +8,15 @@ s  parameter of the course
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dalembert.core.assembly import phase_rows
+from dalembert.core.assur import Plan, plan
 from dalembert.core.closure import CLOSED, closed, distance
 from dalembert.core.constraints import stacked
 from dalembert.core.course import Course, course
@@ -21,6 +24,7 @@ from dalembert.core.factor import displacement
 from dalembert.core.groups import Group, groups, senses
 from dalembert.core.layout import Angle, Layout, Mesh, Pose, Turn
 from dalembert.core.march import POOR, March, Nodes, interpolated, march, twists
+from dalembert.core.selection import on_sides
 
 Array = NDArray[Any]
 
@@ -33,6 +37,9 @@ TRUSTED = 1e-6
 SAME = 1e-6
 """Distance over characteristic length, or change of a rotation, below which two poses are the same."""
 
+BETWEEN = 8
+"""Parts of the way between two positions at which a gap between them is looked for."""
+
 MOST_GAPS = 8
 """Times a motion is taken up again behind a gap."""
 
@@ -40,15 +47,35 @@ MOST_GAPS = 8
 class Path(NamedTuple):
     """All positions of a list: poses (P, L+1, ...), which were reached (P,), and by which stretch (P,) of the motion.
 
-    From position to position of a stretch the motion is continuous; between two of them lies a gap.
+    From position to position of a stretch the motion is continuous; between two of them lies a gap. ``entered`` are the
+    positions at which stretches begin that the motion from the first pose does not reach.
     """
 
     pose: Pose
     reached: NDArray[np.bool_]
     stretch: NDArray[np.intp]
+    entered: tuple[int, ...] = ()
 
 
-def path(layout: Layout, first: Pose, along: Course, start: float, period: Array | None = None) -> Path:
+class Ways(Protocol):
+    """What knows the ways that a linkage closes (``Guess``, ``Drawing``)."""
+
+    @property
+    def stated(self) -> Array | None:
+        """Given angles of the links (L+1,), NaN where there is none; None in space."""
+
+    def every(self, layout: Layout, target: Array) -> Any:
+        """All ways found at a target (K + D,), poses (M, L+1, ...) in ``pose``; None where there is none."""
+
+
+def path(
+    layout: Layout,
+    first: Pose,
+    along: Course,
+    start: float,
+    period: Array | None = None,
+    ways: Ways | None = None,
+) -> Path:
     """Poses at every position of the list, followed both ways from the pose (L+1, ...) at parameter ``start``.
 
     ``period`` (K + D) is what a whole cycle adds to the targets, if the list is one: then what lies behind a dead
@@ -61,7 +88,7 @@ def path(layout: Layout, first: Pose, along: Course, start: float, period: Array
     if period is not None and result.reached.any():
         result = _around(layout, along, period, result)
     known = result.reached
-    return result if known.all() or not known.any() else _reentered(layout, first, along, result)
+    return result if known.all() or not known.any() else _reentered(layout, first, along, result, ways)
 
 
 def _both_ways(layout: Layout, first: Pose, along: Course, start: float, count: int) -> Path:
@@ -207,30 +234,74 @@ def _over(mask: NDArray[np.bool_], array: Array) -> NDArray[np.bool_]:
     return mask.reshape(mask.shape + (1,) * (array.ndim - 1))
 
 
-def _reentered(layout: Layout, first: Pose, along: Course, known: Path) -> Path:
-    """Positions behind a gap: entered at some sample position from poses already known, then followed both ways.
+def _reentered(layout: Layout, first: Pose, along: Course, known: Path, ways: Ways | None) -> Path:
+    """Positions behind a gap: entered at some of them, on the first one's side of every group, then followed both ways.
 
-    Where no signs tell the branches apart there, what lies behind a gap counts as not reached.
+    Where no sides tell the branches apart there, what lies behind a gap counts as not reached.
     """
-    kinds = groups(layout, _some(known))
-    if not kinds:
-        return known
-    sense = senses(layout, kinds, first.at(None))
-    for _ in range(MOST_GAPS):
-        missing = np.flatnonzero(~known.reached)
-        sample = missing[np.unique(np.linspace(0, len(missing) - 1, min(len(missing), 12)).astype(int))]
-        entries = (
-            (int(k), _entry(layout, along.target(along.at(int(k)))[0], known, kinds, sense)) for k in sample
-        )
-        where, entry = next(((k, e) for k, e in entries if e is not None), (0, None))
-        if entry is None:
-            return known
-        before = known.reached.sum()
-        behind = _both_ways(layout, entry, along, along.at(where), len(known.reached))
-        known = _joined(known, _apart(behind, known))
-        if known.reached.all() or known.reached.sum() == before:
+    way, entered = plan(layout), []
+    if way is not None and way.closed:
+        entries = _laid_down(layout, way, first, along, known, ways)
+    else:
+        entries = _sought(layout, first, along, lambda: known, ways)
+    for place, entry in entries:
+        if known.reached[place]:
+            continue
+        more = _both_ways(layout, entry, along, along.at(place), len(known.reached))
+        if (more.reached & ~known.reached).any():
+            entered.append(place)
+        known = _joined(known, _apart(more, known))
+        if known.reached.all() or len(entered) == MOST_GAPS:
             break
-    return known
+    return known._replace(entered=tuple(entered))
+
+
+def _laid_down(
+    layout: Layout, way: Plan, first: Pose, along: Course, known: Path, ways: Ways | None
+) -> Iterator[tuple[int, Pose]]:
+    """Where groups in closed form close on the first pose's sides: the middle of each range that nothing has reached.
+
+    A gap that is seen lies between: where none does, the march has stopped at a place that it could not follow.
+    """
+    turn = np.full(layout.links + 1, np.nan) if ways is None or ways.stated is None else ways.stated
+    reached = known.reached[along.order]
+    part = np.arange(BETWEEN) / BETWEEN
+    s = np.append((along.s[:-1, None] + np.diff(along.s)[:, None] * part).ravel(), along.s[-1])
+    listed = np.arange(len(s)) % BETWEEN == 0
+    there = np.zeros(len(s), bool)
+    there[listed] = reached
+    asked = np.flatnonzero(~there)
+    which, found = on_sides(layout, way, np.concatenate([along.target(x) for x in s[asked]]), first, turn)
+    closes = there.copy()
+    closes[asked[which]] = True
+    pose = dict(zip(asked[which].tolist(), range(len(which)), strict=True))
+    for run in np.split(np.arange(len(s)), np.flatnonzero(np.diff(closes)) + 1):
+        places = run[listed[run]]
+        if closes[run[0]] and places.size and not there[run].any():
+            middle = int(places[len(places) // 2])
+            yield int(along.order[middle // BETWEEN]), found.at(pose[middle])
+
+
+def _sought(
+    layout: Layout, first: Pose, along: Course, now: Callable[[], Path], ways: Ways | None
+) -> Iterator[tuple[int, Pose]]:
+    """Entries found by Newton from the poses known so far, or by a search, on the first pose's sides."""
+    kinds = groups(layout, _some(now()))
+    if not kinds:
+        return
+    sense, tried = senses(layout, kinds, first.at(None)), np.zeros(0, np.intp)
+    while True:
+        missing = np.setdiff1d(np.flatnonzero(~now().reached), tried)
+        if not missing.size:
+            return
+        sample = missing[np.unique(np.linspace(0, len(missing) - 1, min(len(missing), 12)).astype(int))]
+        targets = ((int(k), along.target(along.at(int(k)))[0]) for k in sample)
+        found = ((k, _entry(layout, target, now(), kinds, sense, ways)) for k, target in targets)
+        place, entry = next(((k, e) for k, e in found if e is not None), (0, None))
+        if entry is None:
+            return
+        tried = np.append(tried, place)
+        yield place, entry
 
 
 def _some(known: Path) -> Pose:
@@ -239,12 +310,19 @@ def _some(known: Path) -> Pose:
     return known.pose.at(good[np.linspace(0, len(good) - 1, min(len(good), 24)).astype(int)])
 
 
-def _entry(layout: Layout, target: Array, known: Path, kinds: list[Group], sense: Array) -> Pose | None:
-    """A pose at one target, from the nearest of the known poses that leads there with the groups' given senses (G,)."""
+def _entry(
+    layout: Layout, target: Array, known: Path, kinds: list[Group], sense: Array, ways: Ways | None
+) -> Pose | None:
+    """A pose at one target with the groups' given senses (G,): from the nearest of the known poses that leads there,
+    else the only one of the ways that a search finds."""
     guess = _some(known)
     pose, missing = closed(layout, guess, np.broadcast_to(target, (len(guess.point), len(target))).copy())
     same = (senses(layout, kinds, pose) * sense >= 0).all(axis=1)
     fits = (missing <= CLOSED * layout.length) & same
-    if not fits.any():
+    if fits.any():
+        return pose.at(np.flatnonzero(fits)[np.argmin(distance(layout, pose, guess)[fits])])
+    if ways is None or phase_rows(layout.constraints).size:
         return None
-    return pose.at(np.flatnonzero(fits)[np.argmin(distance(layout, pose, guess)[fits])])
+    found = ways.every(layout, target)
+    same = np.zeros(0, bool) if found is None else (senses(layout, kinds, found.pose) * sense > 0).all(axis=1)
+    return found.pose.at(np.flatnonzero(same)[0]) if same.sum() == 1 else None

@@ -65,6 +65,28 @@ def _enumerated(layout: Layout, plan: Plan, target: Array, wanted: Wanted) -> Po
     return posed(layout, laid.at(order))
 
 
+def on_sides(
+    layout: Layout, plan: Plan, targets: Array, like: Pose, turn: Array
+) -> tuple[NDArray[np.intp], Pose]:
+    """Which of the targets (P, K + D) a linkage reaches with every group on its side of a pose (L+1, ...), and how.
+
+    ``turn`` (L+1,) are given angles, NaN where there is none. Where a group has several ways on that side,
+    none is taken.
+    """
+    with np.errstate(all="ignore"):
+        here = np.full((1, targets.shape[1]), np.nan)
+        side = sides(plan, like.turn[None], like.point[None], here)[0]
+        off, laid, places = offsets(plan, targets), begun(plan, targets), np.arange(len(targets))
+        for k, group in enumerate(plan.groups):
+            which, laid = extended(group, laid, targets[places], off[places])
+            same = laid.side[:, k] * side[k] >= 0
+            once = same & (np.bincount(which[same], minlength=len(places))[which] == 1)
+            laid, places = laid.at(once), places[which[once]]
+            for links in group.turning:
+                _wind(laid.turn, group.links[links], turn)
+        return places, posed(layout, laid)
+
+
 def posed(layout: Layout, laid: Laid) -> Pose:
     """Links laid down as a pose."""
     return Pose(laid.point, laid.turn, layout.algebra.rotation(laid.turn))

@@ -169,6 +169,11 @@ class Parts:
         self.graph.known(1.0 / root, inverse)
         return root
 
+    def doubted(self, margin: Any) -> None:
+        """Below zero the general executor must look."""
+        if isinstance(margin, Node) and margin.level != CONSTANT:
+            self.out.doubt.append(margin)
+
     def crossed(self, a: Pair, b: Pair, product: Any) -> None:
         """What the products a x b and b x a are: determinants of the group, which need not be computed again."""
         self.graph.known(v.cross(a, b), product)
@@ -180,8 +185,7 @@ class Parts:
         return not moving and bool(a > b)
 
     def regular(self, det: Any) -> None:
-        if isinstance(det, Node) and det.level != CONSTANT:
-            self.out.doubt.append(det * det - DEAD)
+        self.doubted(det * det - DEAD)
 
     def chosen(self, rotation: Callable[[Any], Pair], x: int, y: int) -> Pair:
         """The rotation of y in x of the two, that the known motion has; ``sign`` is kept for the other parts."""

@@ -13,7 +13,7 @@ from typing import Any
 from dalembert.kernel import vectors as v
 from dalembert.kernel.eliminate import components, matched
 from dalembert.kernel.newton import newton
-from dalembert.kernel.parts import Motion, Parts, Place, Placed
+from dalembert.kernel.parts import DEAD, Motion, Parts, Place, Placed
 from dalembert.kernel.relations import Relation
 from dalembert.kernel.vectors import Pair
 
@@ -130,6 +130,9 @@ class Groups(Parts):
             return
         foot = 0.5 * d2 + 0.5 * (p2 - q2)
         area = self.root(p2 * d2 - foot * foot, p2 * d2)  # twice that of the triangle of d, p and q
+        self.doubted(
+            area * area - DEAD * p2 * q2
+        )  # of a short d neither angle at its ends is that between p and q
         over = 1.0 / d2
         along, aside = over * foot, over * area
 

@@ -29,3 +29,8 @@ class Chosen:
 def as_formula(sign: str) -> str:
     """A sign of a drawing as a formula: only its index is marked there."""
     return f"${sign}$" if "_{" in sign or len(sign) == 1 else sign
+
+
+def in_ground(c: Chosen) -> str:
+    """What a table in ground axes says of them where the equations are in the links' own."""
+    return ", in ground axes" if c.notation.axes == "link" else ""

@@ -78,15 +78,22 @@ def inertia(sheet: Sheet, c: Chosen) -> None:
 
 def units_of_inertia(sheet: Sheet, c: Chosen) -> None:
     """Where a mass times an acceleration is no force in the reader's units: the factor between them."""
-    shown = c.shown
-    factor = shown.factor("force", "mass", "acceleration")
-    product, force = f"{shown.unit('mass')}·{shown.unit('acceleration')}", shown.unit("force")
-    if factor < 1:
-        size = shown.conversion(1 / factor)
-        sheet.text(f"As 1 {force} is {size} {product}, masses times accelerations are divided by {size}.")
-    elif factor > 1:
-        size = shown.conversion(factor)
-        sheet.text(f"As 1 {product} is {size} {force}, masses times accelerations are multiplied by {size}.")
+    shown, said = c.shown, []
+    for words, kind, of in (
+        ("masses times accelerations", "force", ("mass", "acceleration")),
+        ("moments of inertia times angular accelerations", "moment", ("inertia", "angular_acceleration")),
+    ):
+        factor, product = shown.factor(kind, *of), "·".join(shown.unit(k).removeprefix("rad") for k in of)
+        product = product.replace("·/", "/")
+        if factor < 1:
+            size = shown.conversion(1 / factor)
+            said.append(f"As 1 {shown.unit(kind)} is {size} {product}, {words} are divided by {size}.")
+        elif factor > 1:
+            size = shown.conversion(factor)
+            said.append(f"As 1 {product} is {size} {shown.unit(kind)}, {words} are multiplied by {size}.")
+    turning = shown.factor("moment", "inertia", "angular_acceleration")
+    same = math.isclose(shown.factor("force", "mass", "acceleration"), turning)
+    sheet.text(" ".join(said[:1] if same else said))
 
 
 def shares(sheet: Sheet, c: Chosen) -> None:

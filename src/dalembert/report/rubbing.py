@@ -115,8 +115,8 @@ def tangent_lines(c: Chosen, two: TwoPins) -> tuple[str, list[Working]]:
     moved = "+" if turn >= 0 else "−"
     return words, [
         Working(
-            f"beta_{{{n}}} = arcsin frac(r_{{{large[0]}}} {sign} r_{{{large[1]}}}; {a}{b})",
-            f"arcsin frac({sizes[0]} {sign} {sizes[1]}; {number})",
+            f"beta_{{{n}}} = arcsin (frac(r_{{{large[0]}}} {sign} r_{{{large[1]}}}; {a}{b}))",
+            f"arcsin (frac({sizes[0]} {sign} {sizes[1]}; {number}))",
             f"{degrees(abs(turn))} deg",
         ),
         Working(

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.actions import joint_place
 from dalembert.analysis.members import ZERO, Member, Step, members, order_of_solution
-from dalembert.report.chosen import Chosen
+from dalembert.report.chosen import Chosen, in_ground
 from dalembert.report.matrix import Unknown, matrix_equation, unknowns
 from dalembert.report.sheet import Sheet, Working
 from dalembert.report.terms import floors
@@ -120,7 +120,7 @@ def _step(sheet: Sheet, c: Chosen, step: Step, some: list[Unknown]) -> None:
     words = (
         f"The {len(some)} equations of {links} as one; what is known stands on the right (forces in "
         f"{c.shown.unit('force')}, lengths in {c.shown.arm_unit}, moments in {c.shown.unit('moment')}), the "
-        f"solution behind.{spins}"
+        f"solution behind{in_ground(c)}.{spins}"
     )
     sheet.blocks.append(replace(matrix, caption=words))
 

@@ -12,7 +12,7 @@ from dalembert.analysis.columns import drive_kinds, load_kind
 from dalembert.analysis.rounding import PART
 from dalembert.errors import ModelError
 from dalembert.printing import remainder
-from dalembert.report.chosen import Chosen, as_formula
+from dalembert.report.chosen import Chosen, as_formula, in_ground
 from dalembert.report.sheet import Sheet, Working
 from dalembert.report.terms import floors
 from dalembert.views import draw
@@ -50,7 +50,7 @@ def superposition(sheet: Sheet, c: Chosen) -> None:
         sign = shown.reaction(joint, r.mechanism.joints[joint].links[1])
         for axis in range(r.mechanism.dimension):
             forces.append((along(sign, "xyz"[axis]), parts.force[:, k, n, axis], "force"))
-    units = f"Forces in {shown.unit('force')}, couples in {shown.unit('moment')}"
+    units = f"Forces in {shown.unit('force')}{in_ground(c)}, couples in {shown.unit('moment')}"
     tables, gap = _tables(efforts, forces, r.mechanism.dimension), remainder(float(parts.gap[k]))
     for n, columns in enumerate(tables):
         last = f"{units}; the parts sum to the whole within {gap}" if n == len(tables) - 1 else ""

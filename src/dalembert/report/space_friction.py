@@ -217,7 +217,9 @@ class _Joint:
         radius = self._number("length", f.radius)
         out = [
             Working(
-                "beta = arctan frac(l; 2 pi R)", f"arctan frac({lead}; 2 pi cdot {radius})", f"{degrees} deg"
+                "beta = arctan (frac(l; 2 pi R))",
+                f"arctan (frac({lead}; 2 pi cdot {radius}))",
+                f"{degrees} deg",
             ),
             Working(
                 f"S_{{{joint},t}} = frac(|{along(self.sign, 'x' + chr(39))}|; cos beta cos gamma)",

@@ -123,8 +123,8 @@ def space_inertia(sheet: Sheet, c: Chosen) -> None:
         return
     sheet.heading("Inertia forces and couples")
     sheet.text(
-        "The couple is worked out in the link's own axes, in which its inertia stays the same, and then turned to "
-        "ground axes; $omega times J omega$ is its gyroscopic part."
+        "The couple is worked out in the link's own axes, marked by a prime, in which its inertia stays the same, and "
+        "then turned to ground axes; $omega' times J omega'$ is its gyroscopic part."
     )
     units_of_inertia(sheet, c)
     for link in heavy:
@@ -173,15 +173,16 @@ def _couple(c: Chosen, link: str) -> list[Working]:
         )
     ]
     ground = vector("moment", c.r.rotation(link)[k] @ couple)
+    speed, second, inertia = f"omega_{{{n}'}}", f"alpha_{{{n}'}}", f"J_{{{n}}}"
     return [
         Working(
-            f'omega_{{{n}}} = {omega} "{c.shown.unit("angular_speed")}", quad '
-            f'alpha_{{{n}}} = {alpha} "{c.shown.unit("angular_acceleration")}"'
+            f'{speed} = {omega} "{c.shown.unit("angular_speed")}", quad '
+            f'{second} = {alpha} "{c.shown.unit("angular_acceleration")}"'
         ),
-        Working(f"J_{{{n}}} alpha_{{{n}}}", numbers[0], f'{rate} "{unit}"'),
-        Working(f"omega_{{{n}}} times J_{{{n}}} omega_{{{n}}}", numbers[1], f'{gyroscopic} "{unit}"'),
+        Working(f"{inertia} {second}", numbers[0], f'{rate} "{unit}"'),
+        Working(f"{speed} times {inertia} {speed}", numbers[1], f'{gyroscopic} "{unit}"'),
         Working(
-            f"T_{{I{n}}} = −(J_{{{n}}} alpha_{{{n}}} + omega_{{{n}}} times J_{{{n}}} omega_{{{n}}})",
+            f"T_{{I{n}'}} = −({inertia} {second} + {speed} times {inertia} {speed})",
             f"−({rate} + {gyroscopic})",
             f'{whole} "{unit}, link axes"',
         ),

@@ -14,7 +14,7 @@ from dalembert.analysis.members import components_along
 from dalembert.analysis.which import position_at
 from dalembert.errors import ModelError
 from dalembert.report import balance, matrix, rubbing
-from dalembert.report.chosen import METHODS, Chosen, Method, as_formula
+from dalembert.report.chosen import METHODS, Chosen, Method, as_formula, in_ground
 from dalembert.report.freedom import degrees_of_freedom
 from dalembert.report.given import knowns
 from dalembert.report.methods import checks, cycle, graphical
@@ -121,7 +121,7 @@ def _bodies(sheet: Sheet, c: Chosen) -> None:
         units = (
             f"forces in {shown.unit('force')}, lengths in {shown.arm_unit}, moments in {shown.unit('moment')}"
         )
-        words = f"The knowns stand on the right ({units}); the solution behind it."
+        words = f"The knowns stand on the right ({units}){in_ground(c)}; the solution behind it."
         sheet.blocks.append(replace(found, caption=words))
 
 
@@ -140,7 +140,7 @@ def _joint_forces(sheet: Sheet, c: Chosen) -> None:
     sheet.table(
         [*heads, f"couple ({c.shown.unit('moment')})"],
         [_force_row(c, joint) for joint in c.r.joints],
-        f"Forces in {c.shown.unit('force')}, on the link that the sign names; along and across that link",
+        f"Forces in {c.shown.unit('force')}{in_ground(c)}, on the link that the sign names; along and across that link",
     )
     sheet.equations(_efforts(c))
 

@@ -233,10 +233,14 @@ class Shown(Figures):
         return f"{self.notation.letter}_{{{self.between(joint, on)}}}"
 
     def between(self, joint: str, on: str) -> str:
-        """Index of what a joint does to a link, with its name where another joint is between the same links."""
+        """Index of what a joint does to a link, with its name where that alone would be another joint's or a load's."""
         i, j = self.r.mechanism.joints[joint].links
         twin = [n for n, d in self.r.mechanism.joints.items() if set(d.links) == {i, j}]
-        return self.pair(i if on == j else j, on) + (f",{joint}" if len(twin) > 1 else "")
+        pair = self.pair(i if on == j else j, on)
+        pairs = (self.pair(i, j), self.pair(j, i))
+        signs = {f"{letter}_{{{p}}}" for letter in (self.notation.letter, "M") for p in pairs}
+        loads = signs & {own_name(n) for n in self.r.mechanism.loads}
+        return pair + (f",{joint}" if len(twin) > 1 or loads else "")
 
     def symbol(self, a: Action) -> str:
         """Sign of an action: F_{12}, T_{12}, W_{3}, F_{I3}, T_{I3}, D_{A} of damping, or the load's own name."""

@@ -1,0 +1,180 @@
+"""Linkages that close in two separate ranges of the drive: both are solved, on the stated side, in whatever order.
+
+Closed forms say where they close and where they then are.
+"""
+
+from __future__ import annotations
+
+from math import acos, asin, degrees, pi
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+import dalembert as da
+from tests.laws.test_branches import four_bar_tree, meeting
+from tests.tiers import over
+
+Array = NDArray[Any]
+
+WIDE = 8
+"""Positions of a range in space that is found: one in twelve of the missing ones is asked there."""
+
+ORDERS = ("as listed", "descending", "random", "one position")
+
+
+def listed(rng: np.random.Generator, angles: Array, order: str, other: float) -> Array:
+    """Angles of the drive, degrees, in an order; or one of them alone, in the range that is not stated."""
+    if order == "one position":
+        return np.array([other])
+    return {"as listed": angles, "descending": angles[::-1], "random": rng.permutation(angles)}[order]
+
+
+def driven(tree: dict[str, Any], drive: str, angles: Array) -> Any:
+    """The tree's kinematics at some angles of a drive, degrees."""
+    values = [f"{float(angle)!r} deg" for angle in angles]
+    tree["drives"] = {drive: {"position": values if len(values) > 1 else values[0]}}
+    return da.kinematics(da.mechanism(tree))
+
+
+@over(6, 150)
+def test_a_four_bar_closes_in_both_its_ranges(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    while True:
+        crank, coupler, rocker, ground = (float(x) for x in rng.uniform(0.5, 2, 4))
+        if abs(coupler - rocker) > abs(ground - crank) + 0.05 and coupler + rocker < ground + crank - 0.05:
+            break
+    low, high = (
+        degrees(acos((crank**2 + ground**2 - reach**2) / (2 * crank * ground)))
+        for reach in (abs(coupler - rocker), coupler + rocker)
+    )
+    start, side = low + rng.uniform(0.2, 0.8) * (high - low), float(rng.choice([-1.0, 1.0]))
+    for order in ORDERS:
+        tree = four_bar_tree((crank, coupler, rocker, ground), start, 360.0, 2, side)
+        del tree["assembly"]["crank"]
+        angles = listed(rng, start + 5.0 * np.arange(72), order, -start + rng.uniform(-3, 3))
+        r = driven(tree, "O2", angles)
+        a = crank * np.exp(1j * np.radians(angles))
+        closes = (abs(a - ground) < coupler + rocker) & (abs(a - ground) > abs(coupler - rocker))
+        np.testing.assert_array_equal(r.ok, closes, err_msg=order)
+        b = r.point("rocker", "B") @ [1, 1j]
+        assert np.abs(b - meeting(a, coupler, ground, rocker, side))[closes].max() < 1e-6, order
+        entered = r.mode is not None and "behind a gap" in r.mode
+        assert entered == (order != "one position")
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+@pytest.mark.parametrize("order", ORDERS)
+def test_a_slider_crank_whose_rod_is_short_closes_in_both_its_ranges(order: str, side: float) -> None:
+    rng, radius, rod, offset = np.random.default_rng(1), 1.0, 0.6, 0.1
+    lean = degrees(asin(offset / rod))
+    tree: dict[str, Any] = {
+        "links": {
+            "ground": {"points": {"O": [0.0, 0.0], "G": [0.0, offset]}},
+            "crank": {"points": {"O": [0.0, 0.0], "A": [radius, 0.0]}},
+            "rod": {"points": {"A": [0.0, 0.0], "B": [rod, 0.0]}},
+            "block": {"points": {"B": [0.0, 0.0]}},
+        },
+        "joints": {
+            "O": {"type": "pin", "links": ["ground", "crank"]},
+            "A": {"type": "pin", "links": ["crank", "rod"]},
+            "B": {"type": "pin", "links": ["rod", "block"]},
+            "G": {"type": "slider", "links": ["ground", "block"], "at": ["G", "B"], "direction": 0.0},
+        },
+        "assembly": {"rod": lean if side > 0 else 180 - lean},
+    }
+    angles = listed(rng, 5.0 * np.arange(72), order, 187.0)
+    r = driven(tree, "O", angles)
+    a = radius * np.exp(1j * np.radians(angles))
+    closes = np.abs(a.imag - offset) < rod
+    np.testing.assert_array_equal(r.ok, closes)
+    reach = np.sqrt(rod**2 - (a.imag - offset)[closes] ** 2)
+    np.testing.assert_allclose(r.point("block", "B")[closes, 0], a.real[closes] + side * reach, atol=1e-6)
+
+
+@over(4, 100)
+def test_the_second_group_of_a_six_bar_closes_in_two_ranges(seed: int) -> None:
+    """The rocker swings; arm and lever close only where its end is neither too near to their pivot nor too far."""
+    rng, sizes, turn = np.random.default_rng(seed), (0.5, 1.5, 1.2, 1.4), 5.0 * np.arange(72)
+    crank, coupler, rocker, ground = sizes
+    first, second = (float(side) for side in rng.choice([-1.0, 1.0], 2))
+    b = meeting(crank * np.exp(1j * np.radians(turn)), coupler, ground, rocker, first)
+    pivot = complex(ground + rng.uniform(-1, 1), rng.uniform(-1, 1))
+    reach = np.quantile(np.abs(b - pivot), rng.uniform(0.6, 0.9))
+    p = float(reach * rng.uniform(0.3, 0.7))
+    q = float(reach - p)
+    closes = (np.abs(b - pivot) < p + q) & (np.abs(b - pivot) > abs(p - q))
+    start = int(rng.choice(np.flatnonzero(closes)))
+    c = meeting(b, p, pivot, q, second)
+    tree = four_bar_tree(sizes, float(turn[start]), 360.0, 2, first)
+    tree["links"]["ground"]["points"]["G"] = [pivot.real, pivot.imag]
+    tree["links"] |= {
+        "arm": {"points": {"B": [0.0, 0.0], "C": [p, 0.0]}},
+        "lever": {"points": {"G": [0.0, 0.0], "C": [q, 0.0]}},
+    }
+    tree["joints"] |= {
+        "B2": {"type": "pin", "links": ["rocker", "arm"], "at": "B"},
+        "C": {"type": "pin", "links": ["arm", "lever"]},
+        "G": {"type": "pin", "links": ["ground", "lever"]},
+    }
+    way = degrees(float(np.angle(c[start] - b[start]))), degrees(float(np.angle(c[start] - pivot)))
+    tree["assembly"] |= dict(zip(("arm", "lever"), way, strict=True))
+    r = driven(tree, "O2", np.roll(turn, -start))
+    np.testing.assert_array_equal(r.ok, np.roll(closes, -start))
+    off = r.point("lever", "C") @ [1, 1j] - np.roll(c, -start)
+    assert np.abs(off)[r.ok].max() < 1e-6
+
+
+@over(3, 60)
+def test_an_rssr_closes_in_both_its_ranges(seed: int) -> None:
+    """The end of the rocker is where its circle cuts the sphere about the crank's end."""
+    rng, turn = np.random.default_rng(seed), 2 * pi * np.arange(72) / 72
+    while True:
+        crank, rod, rocker = (float(x) for x in rng.uniform(0.5, 2, 3))
+        pivot, axis = rng.uniform(-1.5, 1.5, 3), rng.normal(size=3)
+        axis /= np.linalg.norm(axis)
+        u = np.cross(axis, [0.0, 0.0, 1.0])
+        u /= np.linalg.norm(u)
+        v = np.cross(axis, u)
+        w = np.stack([crank * np.cos(turn), crank * np.sin(turn), 0 * turn], axis=-1) - pivot
+        cosine = (rocker**2 + (w * w).sum(axis=-1) - rod**2) / (2 * rocker * np.hypot(w @ u, w @ v))
+        closes = np.abs(cosine) < 1
+        ends = np.flatnonzero(np.roll(closes, -1) != closes)
+        if len(ends) == 4 and np.diff(ends).min() >= WIDE and np.abs(np.abs(cosine) - 1).min() > 1e-3:
+            break
+    r = da.kinematics(da.mechanism(rssr_tree(crank, rod, rocker, pivot, axis, u)))
+    np.testing.assert_array_equal(r.ok, closes)
+    arm = r.point("rocker", "B")[closes] - pivot
+    found = np.angle(np.exp(1j * (np.arctan2(arm @ v, arm @ u) - np.arctan2(w @ v, w @ u)[closes])))
+    side = np.sign(found)
+    np.testing.assert_allclose(np.abs(found), np.arccos(cosine[closes]), atol=1e-6)
+    assert (side == side[0]).all()
+
+
+def rssr_tree(
+    crank: float, rod: float, rocker: float, pivot: Array, axis: Array, arm: Array
+) -> dict[str, Any]:
+    ends = {
+        "O": ["ground", "crank"],
+        "A": ["crank", "rod"],
+        "B": ["rod", "rocker"],
+        "G": ["ground", "rocker"],
+    }
+    kinds = {
+        "O": {"type": "revolute", "axis": [0.0, 0.0, 1.0]},
+        "G": {"type": "revolute", "axis": axis.tolist()},
+    }
+    return {
+        "space": "space",
+        "links": {
+            "ground": {"points": {"O": [0.0, 0.0, 0.0], "G": pivot.tolist()}},
+            "crank": {"points": {"O": [0.0, 0.0, 0.0], "A": [crank, 0.0, 0.0]}},
+            "rod": {"points": {"A": [0.0, 0.0, 0.0], "B": [rod, 0.0, 0.0]}},
+            "rocker": {"points": {"G": [0.0, 0.0, 0.0], "B": (rocker * arm).tolist()}},
+        },
+        "joints": {
+            name: {"links": links} | kinds.get(name, {"type": "spherical"}) for name, links in ends.items()
+        },
+        "drives": {"O": {"position": {"from": 0.0, "to": 360.0, "count": 72}}},
+    }

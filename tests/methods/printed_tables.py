@@ -1,0 +1,246 @@
+"""The tables of a worked solution, worked out again from what is printed: sums, sizes, directions, products."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+import numpy as np
+
+from dalembert.report.formula import mixed, plain
+from dalembert.report.plain_writer import _equation
+from dalembert.report.sheet import Equations, Heading, Matrix, Paragraph, Sheet, Table
+from tests.methods.printed_equations import Read, Reader, size, times
+
+Cells = list[list[str]]
+EVERYWHERE = re.compile(r"[FGMTWNmIJ]_|a_G|\||work|[ωα]_(?!c)")
+"""Signs that mean one number in the whole solution; arms, radii, springs and dampers are those of the link at hand."""
+
+
+def read_sheet(sheet: Sheet, figures: int = 4) -> Reader:
+    """Every equation, table and matrix of a worked solution."""
+    reader = Reader(figures)
+    for b in sheet.blocks:
+        if isinstance(b, Heading) and " end of " in b.text:
+            reader.known.clear()  # another solution begins
+        if isinstance(b, Paragraph):
+            _said(reader, "".join(mixed(b.text, plain, str)))
+        if isinstance(b, Equations):
+            for w in b.lines:
+                reader.line(re.sub(r" = 0 = ", " = ", " = ".join(t.strip() for t in _equation(w)), count=1))
+        if isinstance(b, Table):
+            rows = [["".join(mixed(cell, plain, str)) for cell in row] for row in (b.heads, *b.rows)]
+            reader.learning = "in ground axes" not in b.caption
+            _table(reader, rows[0], rows[1:])
+        if isinstance(b, Matrix):
+            reader.learning = "in ground axes" not in b.caption
+            _matrix(reader, b)
+        reader.learning = True
+    return reader
+
+
+def _said(reader: Reader, words: str) -> None:
+    """Arms and radii are those of the link or mesh that follows; what words say of a rate is read."""
+    if re.match(r"Link |Mesh |Loop |Joint ", words):
+        for sign in [s for s in reader.known if not EVERYWHERE.match(s)]:
+            del reader.known[sign]
+    for sign, rate in re.findall(r"([ωα]_c) = (−?[\d.]+)", words):
+        reader.known[sign] = reader.number(rate)
+    conversion = r"As 1 \S+ is ([\d.]+) \S+, (masses|moments) [^.]* are (divided|multiplied) by"
+    for figure, of, how in re.findall(conversion, words):
+        factor = float(figure) ** (-1 if how == "divided" else 1)
+        reader.factors |= dict.fromkeys("mIJ" if of == "masses" else "IJ", factor)
+
+
+def number(reader: Reader, cell: str) -> Read | None:
+    """A cell that begins with a number, in brackets or not."""
+    found = re.match(r"\(?(−?\d[\d.]*(?:e[−+-]?\d+)?)", cell)
+    return reader.number(found[1]) if found else None
+
+
+def vector(reader: Reader, cells: list[str]) -> Read | None:
+    found = [number(reader, c) for c in cells]
+    known = [f for f in found if f is not None]
+    if len(known) < len(found):
+        return None
+    return Read(np.array([f.value for f in known]), np.array([f.error for f in known]))
+
+
+def _table(reader: Reader, heads: list[str], rows: Cells) -> None:
+    starts = "|".join(heads)
+    for start, read in TABLES.items():
+        if starts.startswith(start):
+            read(reader, heads, rows)
+            return
+
+
+def _links(reader: Reader, heads: list[str], rows: Cells) -> None:
+    for row in rows:
+        n = row[0].partition(" ")[0]
+        for sign, head in (("m", "Mass"), ("I", "Inertia")):
+            if head in heads and (found := number(reader, row[heads.index(head)])):
+                reader.known[f"{sign}_{n}"] = found
+
+
+def _inertias(reader: Reader, heads: list[str], rows: Cells) -> None:
+    for row in rows:
+        cells = [number(reader, c) or Read(0.0, 0.0) for c in [*row[1:], *["0"] * 3][:6]]
+        order = [(0, 3, 4), (3, 1, 5), (4, 5, 2)]
+        parts = [np.array([[cells[n][p] for n in line] for line in order]) for p in (0, 1)]
+        reader.known[f"J_{row[0].partition(' ')[0]}"] = Read(*parts)
+
+
+def _motion(reader: Reader, heads: list[str], rows: Cells) -> None:
+    """Rates of the links: in the plane a number and two of the acceleration, in space vectors of three."""
+    signs = [h.partition(" ")[0] for h in heads]
+    for row in rows:
+        n = row[0].partition(" ")[0]
+        for letter in ("ω", "α", "a_G"):
+            of = [k for k, s in enumerate(signs) if s == letter or re.fullmatch(f"{letter}_?[xyz]", s)]
+            found = vector(reader, [row[k] for k in of]) if of else None
+            if found is not None and len(of) == 1:
+                found = Read(found.value[0], found.error[0])
+            if found is not None:
+                reader.known[f"{letter}{n}" if letter == "a_G" else f"{letter}_{n}"] = found
+
+
+def _forces(reader: Reader, heads: list[str], rows: Cells) -> None:
+    """Components with their size and direction, and the same along and across the link."""
+    for row in rows:
+        xy, whole = vector(reader, row[2:4]), number(reader, row[4])
+        if xy is None or whole is None:
+            continue
+        reader.angle = float(row[5].replace("−", "-")) if row[5] != "–" else None
+        reader.agree(xy, whole, str(row))
+        reader.angle = None
+        if (across := vector(reader, row[6:8])) is not None:
+            reader.agree(size(across), whole, str(row))
+        for axis, k in (("x", 2), ("y", 3)):
+            sign = row[1] + ("," if "," in row[1] else "") + axis
+            found = number(reader, row[k])
+            assert found is not None
+            if f"N{sign[1:]}" not in reader.known:
+                reader.learn(sign, found, str(row))
+
+
+def _reactions(reader: Reader, heads: list[str], rows: Cells) -> None:
+    """In space: forces and moments with their sizes."""
+    for row in rows:
+        for start in (2, 7):
+            cells = ["0" if c == "–" else c for c in row[start : start + 3]]
+            whole = number(reader, row[start + 3])
+            if whole is not None and (found := vector(reader, cells)) is not None:
+                reader.agree(size(found), whole, str(row))
+
+
+def _sums(reader: Reader, heads: list[str], rows: Cells, columns: slice = slice(1, None)) -> None:
+    """The last row is the sum of those above."""
+    assert rows[-1][0] == "sum"
+    for k in range(len(heads))[columns]:
+        found = [f for row in rows[:-1] if (f := number(reader, row[k]))]
+        total = number(reader, rows[-1][k])
+        if total is None or not found:
+            continue
+        whole = Read(math.fsum(f.value for f in found), math.fsum(f.error for f in found))
+        reader.agree(whole, total, f"{heads[k]}: {[row[k] for row in rows]}")
+
+
+def _superposition(reader: Reader, heads: list[str], rows: Cells) -> None:
+    _sums(reader, heads, rows)
+    for sign, cell in zip(heads[1:], rows[-1][1:], strict=True):
+        found = number(reader, cell)
+        assert found is not None
+        if sign in reader.known:
+            reader.learn(sign, found, f"sum of the superposition: {sign} = {cell}")
+
+
+def _work(reader: Reader, heads: list[str], rows: Cells) -> None:
+    """Force times displacement and couple times turn are the work."""
+    for row in rows[:-1]:
+        total = Read(0.0, 0.0)
+        for acts, moves in zip(row[1].split(" and "), row[2].split(" and "), strict=True):
+            product = times(reader.expression(acts), reader.expression(moves))
+            total = Read(total.value + np.sum(product.value), total.error + np.sum(product.error))
+        work = number(reader, row[3])
+        assert work is not None
+        reader.agree(total, work, str(row))
+    _sums(reader, heads, rows, slice(3, 4))
+    total = number(reader, rows[-1][3])
+    assert total is not None
+    reader.known["work"] = total
+
+
+def _matrix(reader: Reader, b: Matrix) -> None:
+    """Each row times the unknowns is the right side; each unknown is what it is elsewhere."""
+    x = [reader.number(plain(v)) for v in b.values]
+    for row, right in zip(b.rows, b.right, strict=True):
+        parts = [times(reader.number(plain(c)), v) for c, v in zip(row, x, strict=True)]
+        left = Read(math.fsum(p.value for p in parts), math.fsum(p.error for p in parts))
+        reader.agree(left, reader.number(plain(right)), f"{row} = {right}")
+    for sign, value in zip(b.unknowns, x, strict=True):
+        if plain(sign) in reader.known:
+            reader.learn(plain(sign), value, f"matrix: {sign}")
+
+
+def _system_forces(reader: Reader, heads: list[str], rows: Cells) -> None:
+    """Given forces of a force system: components, size, direction."""
+    d = 2 if "angle °" in heads else 3
+    for row in rows:
+        found, whole = vector(reader, row[1 : 1 + d]), number(reader, row[1 + d])
+        assert found is not None
+        assert whole is not None
+        if d == 2 and row[4] != "–":
+            reader.angle = float(row[4].replace("−", "-"))
+        reader.agree(found, whole, str(row))
+        reader.angle = None
+        for k in range(3 if d == 3 and row[5] != "–" else 0):
+            cosine = number(reader, row[5 + k])
+            assert cosine is not None
+            product = times(cosine, whole)
+            reader.agree(Read(found.value[k], found.error[k]), product, str(row))
+
+
+def _system_moments(reader: Reader, heads: list[str], rows: Cells) -> None:
+    """Moments of the forces of a system by their arms, and the sums."""
+    d = 2 if len(heads) == 6 else 3
+    for row in rows[:-1]:
+        if row[1] == "–":
+            continue
+        arm, force = (vector(reader, row[s : s + d]) for s in (1, 1 + d))
+        assert arm is not None
+        assert force is not None
+        for k in range(1 if d == 2 else 3):
+            i, j = (0, 1) if d == 2 else ((1, 2), (2, 0), (0, 1))[k]
+            one, other = (
+                times(Read(arm.value[p], arm.error[p]), Read(force.value[q], force.error[q]))
+                for p, q in ((i, j), (j, i))
+            )
+            found = number(reader, row[1 + 2 * d + k])
+            assert found is not None
+            reader.agree(Read(one.value - other.value, one.error + other.error), found, str(row))
+    _sums(reader, heads, rows, slice(1 + 2 * d, None))
+
+
+def _counts(reader: Reader, heads: list[str], rows: Cells) -> None:
+    assert sum(int(row[-1]) for row in rows[:-1]) == int(rows[-1][-1])
+
+
+TABLES: dict[str, Any] = {
+    "Link|Points": _links,
+    "Link|J_xx": _inertias,
+    "Link|θ (°)": _motion,
+    "Link|ω_x": _motion,
+    "Link|v_Gx": _motion,
+    "Joint|Type|Links|Reactions": _counts,
+    "Joint|Power lost": _sums,
+    "Joint|Force|x|y|size|angle °": _forces,
+    "Joint|Force|x|y|z": _reactions,
+    "Joint|Force|x'": _reactions,
+    "Load|Force or couple": _work,
+    "Source": _superposition,
+    "Power put in by": _sums,
+    "Part|x|y": _system_moments,
+    "Force|F_x|F_y": _system_forces,
+}
+"""By the heads of a table, separated by strokes, how it is read."""

@@ -1,0 +1,176 @@
+"""Every equation, table and matrix of a worked solution, read as it is printed, gives what is printed behind it."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import pytest
+
+import dalembert as da
+from dalembert.bundled import cases, examples
+from dalembert.report import given, rubbing
+from dalembert.report.force_system import force_system_sheet
+from dalembert.report.sheet import Equations, Matrix, Sheet, Table
+from dalembert.report.working import working
+from dalembert.units import Units
+from dalembert.views import draw
+from dalembert.views.notation import Notation
+from tests.methods.printed_equations import Reader
+from tests.methods.printed_tables import read_sheet
+from tests.random_mechanisms import random_case
+from tests.random_space import random_case as random_space_case
+from tests.space.test_laws import solved as solved_in_space
+from tests.tiers import over, tiers
+from tests.wrench.random_systems import DIMENSIONS, random_system
+
+SYSTEMS = {
+    "SI": Units(),
+    "mm N kg": Units(length="mm"),
+    "in lbf blob": Units(length="in", force="lbf", mass="blob"),
+    "ft kip slug": Units(length="ft", force="kip", mass="slug"),
+    "mm N t": Units(length="mm", mass="t"),
+    "cm kgf kg": Units(length="cm", force="kgf"),
+    "in ozf lbm": Units(length="in", force="ozf", mass="lbm", time="min", angle="rad"),
+}
+QUICK = (
+    "four_bar",
+    "rssr",
+    "seed-002-7a-engine-friction-circles",
+    "gear_train",
+    "quick_return",
+    "seed-001-da-guide-lower-face",
+    "sp-04-spinning-disk-on-a-turning-arm",
+)
+DRAWN = [
+    "free_body",
+    "velocity_polygon",
+    "acceleration_polygon",
+    "displaced_inertia",
+    "force_chain",
+    "force_system",
+]
+BUNDLED = sorted(cases() | examples())
+
+
+@cache
+def mechanism(name: str) -> Any:
+    return da.load((cases() | examples())[name])
+
+
+@pytest.fixture(autouse=True)
+def no_drawings(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Drawings have no equations, and take most of the time."""
+    for name in DRAWN:
+        monkeypatch.setattr(draw, name, lambda *_, **__: None)
+    for module, name in ((given, "given_picture"), (rubbing, "rubbing_pictures")):
+        monkeypatch.setattr(module, name, lambda *_: ())
+
+
+def in_units(m: Any, system: str) -> Any:
+    """The same mechanism, its numbers in other units."""
+    return m.model_copy(update={"units": SYSTEMS[system]})
+
+
+def read(sheet: Sheet, figures: int = 4) -> Reader:
+    """Read all of it; none of its equations is left out, and most are compared with something."""
+    reader = read_sheet(sheet, figures)
+    lines = [w for b in sheet.blocks if isinstance(b, Equations) for w in b.lines]
+    assert reader.lines == sum("=" in f"{w.letters}{w.numbers}" or bool(w.result) for w in lines)
+    assert reader.lines == 0 or reader.compared + reader.same > 0
+    return reader
+
+
+def worked(m: Any, **notation: Any) -> Sheet:
+    """Without drawings of the graphical method, which have no equations."""
+    r = da.solve(m, positions=2) if any("count" in str(d) for d in m.drives.values()) else da.solve(m)
+    return working(
+        r, 2 if len(r.status) > 1 else 1, ("matrix", "superposition", "virtual-work"), Notation(**notation)
+    )
+
+
+NOW = [(n, s) for n in QUICK for s in SYSTEMS if n in QUICK[:3] or s == "mm N kg"]
+
+
+@pytest.mark.parametrize(
+    "which", tiers(NOW, [(n, s) for n in BUNDLED for s in SYSTEMS if (n, s) not in NOW]), ids=str
+)
+def test_everything_adds_up_as_printed(which: tuple[str, str]) -> None:
+    name, system = which
+    read(worked(in_units(mechanism(name), system)))
+
+
+def test_how_much_is_read() -> None:
+    """Equations, comparisons, and signs that mean the same number in two places."""
+    found = {name: read(worked(mechanism(name))) for name in ("four_bar", "rssr")}
+    assert {n: r.lines for n, r in found.items()} == {"four_bar": 26, "rssr": 47}
+    assert found["four_bar"].compared >= 70
+    assert found["four_bar"].same >= 40
+    assert found["rssr"].compared >= 100
+    assert found["rssr"].same >= 60
+
+
+@pytest.mark.parametrize(
+    "notation",
+    [{"figures": 9}, {"torque": -1}, {"axes": "link"}, {"order": "on-by", "letter": "G", "links": "name"}],
+    ids=str,
+)
+@pytest.mark.parametrize("name", tiers(QUICK[2:4], [n for n in BUNDLED if n not in QUICK[2:4]]))
+def test_in_every_notation(name: str, notation: dict[str, Any]) -> None:
+    m = mechanism(name)
+    if m.dimension == 3 and notation.get("torque"):
+        return
+    read(worked(m, **notation), notation.get("figures", 4))
+
+
+@over(0, 50)
+def test_of_random_mechanisms(seed: int) -> None:
+    system = list(SYSTEMS)[seed % len(SYSTEMS)]
+    read(worked(in_units(da.mechanism(random_case(seed).tree), system)))
+    r = solved_in_space(random_space_case(seed), inertia=seed % 3 > 0)
+    read(working(da.solve(in_units(r.mechanism, system)), 1, ("matrix", "virtual-work")))
+
+
+@pytest.mark.parametrize("dimension", DIMENSIONS)
+@pytest.mark.parametrize("seed", tiers(range(2), range(2, 60)))
+def test_of_force_systems(seed: int, dimension: int) -> None:
+    for system in SYSTEMS.values():
+        s = random_system(seed, dimension)
+        sheet = force_system_sheet(da.wrench.System(*s.parts, units=system))
+        reader = read(sheet)
+        assert reader.compared >= 3
+        assert any(isinstance(b, Table) for b in sheet.blocks)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "F_I2 = −m_2 a_G2 = −2.000 (−10000, 4000) = (20.00, −8.000) = 21.54 N ∠ −21.80 °",
+        "r_O = R_O sin (arctan μ_O) = 20.00 sin 0.09 ° = 0.03000 mm",
+        "F_I2 = −m_2 a_G2 = −2.000 (−10.00, 4.000) = (20.00, −8.000) = 21.54 N ∠ −111.80 °",
+        "Σ F_x: F_12x + F_32x = −117.6 + 118.0 = 0 lbf",
+        "h_2 = (|T_I2|)/(F_I2) = (200.0)/(21.54) = 9.385 mm",
+        "T_I3' = −((1.000, 2.000, 3.000) + (0, 0, 1.000)) = (−1.000, −2.000, 4.000) N·m, link axes",
+    ],
+)
+def test_the_reader_finds_what_is_wrong(line: str) -> None:
+    reader = Reader()
+    with pytest.raises(AssertionError):
+        reader.line(line)
+
+
+def test_a_sign_is_one_number() -> None:
+    reader = Reader()
+    reader.line("T_12 = 243.2 N·m")
+    with pytest.raises(AssertionError, match="T_12 is two things"):
+        reader.line("Σ M_O: R_Ax F_32y + T_12 = (2.000)(121.6) − 243.2 = 0 N·m")
+
+
+def test_matrices_are_read() -> None:
+    sheet = worked(mechanism("four_bar"))
+    (k,) = (k for k, b in enumerate(sheet.blocks) if isinstance(b, Matrix))
+    matrix = sheet.blocks[k]
+    assert isinstance(matrix, Matrix)
+    sheet.blocks[k] = Matrix(matrix.rows, matrix.unknowns, ("1.000", *matrix.right[1:]), matrix.values)
+    with pytest.raises(AssertionError):
+        read_sheet(sheet)
