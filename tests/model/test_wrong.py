@@ -120,8 +120,8 @@ FILES = {
     "open.toml": (b"[links.a]\nmass = [1, \n", "open.toml:3: it is not TOML here: "),
     "anchor.yaml": (b"links: &a {b: *a}", "anchor.yaml:1: there is no anchor 'a'"),
     "merge.yaml": (
-        b"links:\n  a: &a {mass: 1}\n  b:\n    <<: *a\n",
-        "merge.yaml:4: there is no key '<<' in link 'b'",
+        b"links:\n  a: &a {mass: 1}\n  b:\n    <<: [*a, 2]\n",
+        "merge.yaml:4: 2 stands where << takes in a mapping; write <<: *name",
     ),
     "fields.yaml": (
         b"source_text: a\nlinks: {a: {}}",
