@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import csv
+import io
+import json
 from typing import Any
 
 import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.export import write_csv
 from dalembert.cli import main
+from dalembert.report.working import working
+from dalembert.views.charts import effort_chart, reaction_chart, stepped
 from tests.friction import four_stroke
 from tests.friction.four_stroke import FILE
 from tests.friction.rough import rough_tree
@@ -136,3 +142,115 @@ def test_both_sides_are_the_limits_of_the_positions_around(seed: int) -> None:
             assert np.array_equal(np.isnan(values[1]), np.isnan(limit))
             assert np.nan_to_num(np.abs(values[1] - limit)).max(initial=0.0) < 1e-7 * largest
         assert not max(side.residual[1], side.power_balance[1]) > 1e-9
+
+
+# what is written and drawn
+
+
+def test_json_has_both_sides_and_their_low_and_high() -> None:
+    r = da.dynamics(four_stroke.engine())
+    positions = json.loads(json.dumps(r.to_dict(), allow_nan=False))["positions"]
+    before, after = by_hand(np.pi / 2)
+    (first, second) = positions[:2]
+    assert "after" not in second
+    assert first["status"] == "reversal"
+    assert "guide reverses at O = 90 deg" in first["reason"]
+    for key, found in ((first, before), (first["after"], after)):
+        assert key["efforts"]["O"] == pytest.approx(found.torque, rel=1e-9)
+        assert key["reactions"]["guide"]["force"] == pytest.approx(found.force["guide"], rel=1e-7)
+        assert key["residual"] < 1e-12
+        assert key["friction"]["determinant_ratio"] > 0
+    ends = sorted([before.torque, after.torque])
+    assert [first[key]["efforts"]["O"] for key in ("low", "high")] == pytest.approx(ends, rel=1e-9)
+    for axis in range(2):
+        ends = sorted([before.force["guide"][axis], after.force["guide"][axis]])
+        found = [first[key]["reactions"]["guide"]["force"][axis] for key in ("low", "high")]
+        assert found == pytest.approx(ends, rel=1e-7)
+    lost = [first[key]["reactions"]["B"]["friction"]["power_lost"] for key in ("low", "high")]
+    assert lost == sorted(float(side.power_lost("B")[0]) for side in r.sides)
+
+
+def test_tables_have_low_and_high_of_every_quantity_that_friction_changes() -> None:
+    r = da.dynamics(four_stroke.engine())
+    text = io.StringIO()
+    write_csv(r, text)
+    heads, *rows = list(csv.reader(io.StringIO(text.getvalue())))
+    assert len(rows) == 144
+    assert all(rows[0])
+    named = [h for h in heads if h.split(" [")[0].endswith((" low", " high"))]
+    assert len(named) == 2 * (1 + 4 * 3 + 4 * 4)
+    before, after = by_hand(np.pi / 2)
+
+    def cell(name: str, k: int) -> float:
+        return float(rows[k][heads.index(name)])
+
+    name = "reaction B on piston y"
+    values = [cell(f"{name}{word} [N]", 0) for word in ("", " low", " high")]
+    y = [found.force["B"][1] for found in (before, after)]
+    assert values == pytest.approx([y[0], min(y), max(y)], rel=1e-9)
+    assert min(y) < max(y)
+    assert {cell(f"{name}{word} [N]", 1) for word in (" low", " high")} == {cell(f"{name} [N]", 1)}
+    assert "effort O low [N*m]" in heads
+
+
+def test_arrays_have_low_and_high() -> None:
+    pytest.importorskip("xarray")
+    r = da.dynamics(four_stroke.engine())
+    data = r.to_xarray()
+    low, high = data["effort_low"].values[:, 0], data["effort_high"].values[:, 0]
+    assert (low < high).tolist() == r.reverses.tolist()
+    assert np.array_equal(np.minimum(*(side.effort("O") for side in r.sides)), low)
+    assert np.array_equal(np.maximum(*(side.effort("O") for side in r.sides)), high)
+    assert data["reaction_high"].dims == data["reaction"].dims
+    assert data["reaction_high"].attrs == data["reaction"].attrs
+
+
+def test_charts_draw_the_jump() -> None:
+    """One line without a gap, through both numbers of a reversal in the order in which they are passed."""
+    r = da.dynamics(four_stroke.engine())
+    torque = stepped(r, lambda side: side.effort("O"))
+    assert len(torque) == 152
+    assert torque[:3].tolist() == [*(side.effort("O")[0] for side in r.sides), r.effort("O")[1]]
+    (scene,) = effort_chart(r)
+    (curve,) = [
+        line for line in scene.items if getattr(line, "role", "") == "curve-1" and len(line.points) > 2
+    ]
+    assert len(curve.points) == 152
+    assert curve.points[0][0] == curve.points[1][0]
+    assert curve.points[0][1] > curve.points[1][1]
+    sizes = [np.hypot(*side.reaction("B")[0]) for side in r.sides]
+    assert reaction_chart(r).numbers["B"][:2] == pytest.approx(sizes, rel=1e-12)
+    (scene,) = effort_chart(
+        da.dynamics(four_stroke.engine().with_values({"drives.O.speed": -four_stroke.SPEED}))
+    )
+    (curve,) = [
+        line for line in scene.items if getattr(line, "role", "") == "curve-1" and len(line.points) > 2
+    ]
+    assert len(curve.points) == 152
+
+
+def test_drawings_and_the_worked_solution_show_both_sides() -> None:
+    r = da.dynamics(four_stroke.engine())
+    said = [text.text for text in da.draw.mechanism(r, at=1).texts()]
+    words = [text for text in said if text.startswith("Just ")]
+    assert [w.split(" the reversal of ")[0] for w in words] == ["Just before", "Just after"]
+    assert "guide" in words[0]
+    assert len(da.draw.free_body(r, "piston", at=1).arrows()) > len(
+        da.draw.free_body(r, "piston", at=2).arrows()
+    )
+    sheet = working(r, at=1)
+    assert "Just after the reversal" in str(sheet)
+
+
+def test_the_methods_take_both_sides() -> None:
+    r = da.dynamics(four_stroke.engine())
+    work = da.virtual_work(r)
+    assert np.max(work.gap) < 1e-10
+    assert work.answer.after is not None
+    assert np.max(np.abs(work.answer.after.effort("O") - r.after.effort("O"))) < 1e-9 * np.max(
+        np.abs(r.effort("O"))
+    )
+    sides = [da.efficiency(side).lost for side in r.sides]
+    assert da.efficiency(r).lost == pytest.approx(np.mean(sides), rel=1e-12)
+    assert sides[0] != sides[1]
+    assert r.interval("O")[0].tolist() == sorted(side.effort("O")[0] for side in r.sides)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from dalembert.analysis.fixed_point import stated
 from dalembert.core.friction import Response
 from dalembert.core.slip import roots
-from dalembert.errors import ModelError
+from dalembert.errors import NUMBERED, ModelError
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
@@ -63,7 +63,7 @@ def other_solutions(r: Result, position: int = 0) -> list[Solution]:
     return found
 
 
-SOUGHT = ("ok", "self_locking", "jammed")
+SOUGHT = (*NUMBERED, "jammed")
 """Statuses whose senses of friction are known."""
 
 

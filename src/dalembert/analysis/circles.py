@@ -112,7 +112,8 @@ def circle_reason(result: Result, joint: str, position: int, on: str | None = No
     if not np.isfinite(sense) or sense == 0:
         return f"{this} does not turn against {other}: any line that meets the circle may be taken"
     turns, against = ("counter-clockwise", "clockwise") if sense > 0 else ("clockwise", "counter-clockwise")
-    verb = "turns" if rate and not f.open[position, e] else "is about to turn"
+    told = bool(rate or f.reversing[position, e]) and not f.open[position, e]
+    verb = "turns" if told else "is about to turn"
     words = (
         f"{this} {verb} {turns} against {other}, so the reaction passes the pin on the side that turns {this} "
         f"{against}"

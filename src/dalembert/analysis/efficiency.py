@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
+from operator import methodcaller
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,6 +23,7 @@ Array = NDArray[Any]
 class Efficiency:
     """Efficiency of a machine with friction.
 
+    At a reversal forward and reverse are those just before it.
     forward (P,): of the drive against the load, static: effort without friction over effort with it; 0 where it jams
     reverse (P,): of the load against the drive, static; 0 or less where the machine locks itself
     cycle: work that arrives over work put in, all positions together; put_in and lost are those works, J
@@ -106,9 +110,9 @@ def load_rate(r: Result, name: str) -> Array:
 def _cycle(r: Result) -> tuple[float, float, float, dict[str, float]]:
     """Efficiency, work put in, work lost and shares over the positions."""
     weight = durations(r)
-    lost = {joint: _work(r.power_lost(joint), weight) for joint in r.joints}
-    drives = _work((r.effort_array * r.schedule.speed).sum(axis=-1), weight)
-    loads = (_work(r.load_array[:, k] * load_rate(r, n), weight) for k, n in enumerate(r.unknown_loads))
+    lost = {joint: _work(r, methodcaller("power_lost", joint), weight) for joint in r.joints}
+    drives = _work(r, lambda side: (side.effort_array * side.schedule.speed).sum(axis=-1), weight)
+    loads = [_work(r, partial(_load_power, k), weight) for k in range(len(r.unknown_loads))]
     total, own = sum(lost.values()), drives + sum(loads)
     put_in = max(own, total - own)
     if not put_in > 0:
@@ -148,9 +152,19 @@ def _steps(r: Result) -> Array:
     return np.asarray(np.abs(2 * np.diff(position) / np.where(twice != 0, twice, np.nan)))
 
 
-def _work(power: Array, weight: Array) -> float:
-    """Power over the times; single positions without a value take that of their neighbours."""
-    known = np.flatnonzero(np.isfinite(power))
-    if not known.size or np.diff(known).max(initial=1) > 2:
-        return float("nan")
-    return float((np.interp(np.arange(len(power)), known, power[known]) * weight).sum())
+def _load_power(k: int, r: Result) -> Array:
+    """Power (P,) of unknown load number k."""
+    return np.asarray(r.load_array[:, k] * load_rate(r, r.unknown_loads[k]))
+
+
+def _work(r: Result, power: Callable[[Result], Array], weight: Array) -> float:
+    """Power over the times, half of a position's time before a reversal there and half after it; single positions
+    without a value take that of their neighbours."""
+    work = []
+    for side in r.sides:
+        values = power(side)
+        known = np.flatnonzero(np.isfinite(values))
+        if not known.size or np.diff(known).max(initial=1) > 2:
+            return float("nan")
+        work.append((np.interp(np.arange(len(values)), known, values[known]) * weight).sum())
+    return float(np.mean(work))

@@ -72,8 +72,10 @@ class VirtualWork:
     @property
     def answer(self) -> Result:
         """The result with these efforts and no reactions: what the method can find."""
+        behind = self.result.after
         return replace(
             self.result,
+            after=None if behind is None else virtual_work(behind).answer,
             force_array=np.full_like(self.result.force_array, np.nan),
             moment_array=np.full_like(self.result.moment_array, np.nan),
             effort_array=self.effort,

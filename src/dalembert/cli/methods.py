@@ -103,6 +103,9 @@ def virtual_work_answer(result: Result, units: UnitChoice) -> tuple[Result, str]
                 known = bool(np.isfinite(at_end.effort[k]).all())
                 blocks.append(f"At the {which} end of {name}:" + ("" if known else " no value"))
                 blocks += _all_powers(at_end, k, to) if known else []
+    if result.reverses[k]:
+        behind = _all_powers(virtual_work(result.sides[1]), k, to)
+        blocks = ["Just before the reversal:", *blocks, "Just after it:", *behind]
     where = f" at position {k + 1} of {len(result.status)}" if len(result.status) > 1 else ""
     return found.answer, "\n\n".join([f"Virtual work{where}", *blocks, *_agreement(found)])
 

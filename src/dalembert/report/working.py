@@ -12,7 +12,7 @@ from dalembert.analysis.actions import actions
 from dalembert.analysis.columns import drive_kinds, load_kind
 from dalembert.analysis.members import components_along
 from dalembert.analysis.which import position_at
-from dalembert.errors import ModelError
+from dalembert.errors import NUMBERED, ModelError
 from dalembert.report import balance, matrix, rubbing
 from dalembert.report.chosen import METHODS, Chosen, Method, as_formula, in_ground
 from dalembert.report.freedom import degrees_of_freedom
@@ -31,7 +31,7 @@ from dalembert.views.notation import Notation, Shown, own_name
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
 
-ANSWERED = ("ok", "redundant", "self_locking")
+ANSWERED = (*NUMBERED, "redundant")
 """Statuses whose forces are worked out."""
 
 
@@ -65,6 +65,7 @@ def working(
         return sheet
     if r.reasons[c.k]:
         sheet.text(f"{r.status[c.k]}: {r.reasons[c.k]}")
+    whole, c = c, replace(c, r=r.before) if r.reverses[c.k] else c
     (motion if plane else space_motion)(sheet, c)
     (inertia if plane else space_inertia)(sheet, c)
     (rubbing.friction if plane else space_friction)(sheet, c)
@@ -76,9 +77,20 @@ def working(
         superposition(sheet, c)
     if "virtual-work" in methods:
         virtual_work(sheet, c)
-    cycle(sheet, c)
+    if whole is not c:
+        _just_after(sheet, replace(c, r=r.sides[1]))
+    cycle(sheet, whole)
     checks(sheet, c)
     return sheet
+
+
+def _just_after(sheet: Sheet, c: Chosen) -> None:
+    """What is another number just after contacts have reversed; all before it in the sheet is just before."""
+    sheet.heading("Just after the reversal")
+    sheet.text("The motion and the loads are the same, the friction of what reversed has its other sense.")
+    (rubbing.friction if c.r.mechanism.dimension == 2 else space_friction)(sheet, c)
+    _bodies(sheet, c)
+    _answers(sheet, c)
 
 
 def _where(c: Chosen) -> str:

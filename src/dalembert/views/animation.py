@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.actions import Action, whole_actions
 from dalembert.analysis.columns import drive_kinds
-from dalembert.errors import ModelError
+from dalembert.errors import SOLVED, ModelError
 from dalembert.saving import check_installed, new_file
 from dalembert.views import space_mechanism as drawn
 from dalembert.views.camera import Camera
@@ -213,7 +213,9 @@ def _lettered(r: Result, k: int, scene: Scene, bounds: Box, shown: Shown) -> Sce
     """The position and the efforts of a frame, in words above it."""
     found = all(np.isfinite(r.least_norm(joint)[k]).all() for joint in r.joints)
     said = "not unique: those of least norm" if found else "not known: left out"
-    parts = [] if r.ok[k] else [f"{r.status[k]}, forces {said}"]
+    answered = r.status[k] in SOLVED or (r.reverses[k] and found)
+    parts = [] if answered else [f"{r.status[k]}, forces {said}"]
+    parts += ["just before contacts reverse"] if r.reverses[k] else []
     largest = float(np.nanmax(np.abs(r.effort_array), initial=0.0))
     for d in reversed(r.drives):
         kinds, effort = drive_kinds(r, d), float(r.effort(d)[k])

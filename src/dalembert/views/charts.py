@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from operator import methodcaller
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.actions import magnitude
 from dalembert.analysis.columns import drive_kinds
+from dalembert.analysis.wrenches import Axes
 from dalembert.views.canvas import Canvas
 from dalembert.views.frame import round_up
 from dalembert.views.notation import Notation, Shown, pretty
@@ -105,12 +107,35 @@ def _runs(x: Array, y: Array) -> list[list[tuple[float, float]]]:
     return [run for run in out if len(run) > 1]
 
 
+def stepped(r: Result, read: Callable[[Result], Array]) -> Array:
+    """What is read of a result, position by position, twice where contacts reverse: just before and just after, in the
+    order in which the list passes them."""
+    values = read(r.before)
+    if r.after is None:
+        return values
+    behind, back = read(r.after), _backwards(r)
+    rows = []
+    for k, twice in enumerate(r.reverses):
+        both = [values[k], behind[k]] if twice else [values[k]]
+        rows += reversed(both) if back[k] else both
+    return np.array(rows)
+
+
+def _backwards(r: Result) -> NDArray[np.bool_]:
+    """Where the list of positions goes against the motion of the first drive."""
+    if not r.drives or len(r.status) < 2 or r.schedule.time is not None:
+        return np.zeros(len(r.status), bool)
+    step = np.diff(r.drive_position(r.drives[0]))
+    return np.asarray(np.append(step, step[-1]) * r.drive_speed(r.drives[0]) < 0)
+
+
 def along(r: Result, shown: Shown) -> tuple[Array, str, bool]:
     """What charts are drawn against: the first drive, or the number of the position."""
     if not r.drives:
-        return np.arange(1, len(r.status) + 1, dtype=float), "position", False
+        return stepped(r, lambda side: np.arange(1, len(side.status) + 1, dtype=float)), "position", False
     kind = drive_kinds(r, r.drives[0])["position"]
-    values = np.array([shown.value(kind, v) for v in r.drive_position(r.drives[0])])
+    places = stepped(r, lambda side: side.drive_position(side.drives[0]))
+    values = np.array([shown.value(kind, v) for v in places])
     unit = shown.unit(kind)
     return values, f"{r.drives[0]} in {unit}", unit == "°"
 
@@ -122,7 +147,8 @@ def effort_chart(r: Result, notation: Notation | None = None) -> list[Scene]:
     out = []
     for kind in ("moment", "force"):
         names = [d for d in r.drives if drive_kinds(r, d)["effort"] == kind]
-        series = {d: np.array([shown.value(kind, v) for v in r.effort(d)]) for d in names}
+        efforts = {d: stepped(r, methodcaller("effort", d)) for d in names}
+        series = {d: np.array([shown.value(kind, v) for v in values]) for d, values in efforts.items()}
         if series:
             word = "Torque" if kind == "moment" else "Force"
             out.append(curves_scene(x, series, label, f"{word} in {shown.unit(kind)}", "Drive effort", angle))
@@ -134,7 +160,8 @@ def reaction_chart(r: Result, notation: Notation | None = None) -> Scene:
     shown = Shown(r, notation or Notation())
     x, label, angle = along(r, shown)
     unit = shown.unit("force")
-    series = {n: magnitude(r.reaction(n)) / (1 / shown.value("force", 1.0)) for n in r.joints}
+    size = 1 / shown.value("force", 1.0)
+    series = {n: magnitude(stepped(r, methodcaller("reaction", n))) / size for n in r.joints}
     return curves_scene(x, series, label, f"Joint force in {unit}", "Joint forces", angle)
 
 
@@ -143,7 +170,7 @@ def moment_chart(r: Result, joints: Sequence[str], notation: Notation | None = N
     shown = Shown(r, notation or Notation())
     x, label, angle = along(r, shown)
     size = shown.size("moment")
-    series = {n: magnitude(r.reaction_moment(n)) / size for n in joints}
+    series = {n: magnitude(stepped(r, methodcaller("reaction_moment", n))) / size for n in joints}
     return curves_scene(x, series, label, f"Joint moment in {shown.unit('moment')}", "Joint moments", angle)
 
 
@@ -151,7 +178,8 @@ def components_chart(r: Result, joint: str, notation: Notation | None = None) ->
     """Components and magnitude of one joint's force over the cycle; in space in the joint's own axes."""
     shown = Shown(r, notation or Notation())
     space = r.mechanism.dimension == 3
-    force = r.reaction(joint, axes="joint" if space else "ground") * shown.value("force", 1.0)
+    axes: Axes = "joint" if space else "ground"
+    force = stepped(r, lambda side: side.reaction(joint, axes=axes)) * shown.value("force", 1.0)
     on = shown.heading(r.mechanism.joints[joint].links[1])
     title = f"Joint {joint}: force on link {on}" + (", joint's axes" if space else "")
     return vector_chart(r, force, "force", title, shown)
@@ -160,13 +188,13 @@ def components_chart(r: Result, joint: str, notation: Notation | None = None) ->
 def moment_components_chart(r: Result, joint: str, notation: Notation | None = None) -> Scene:
     """In space: components and magnitude of one joint's moment over the cycle, in the joint's own axes."""
     shown = Shown(r, notation or Notation())
-    moment = r.reaction_moment(joint, axes="joint") / shown.size("moment")
+    moment = stepped(r, lambda side: side.reaction_moment(joint, axes="joint")) / shown.size("moment")
     on = shown.heading(r.mechanism.joints[joint].links[1])
     return vector_chart(r, moment, "moment", f"Joint {joint}: moment on link {on}, joint's axes", shown)
 
 
 def vector_chart(r: Result, vectors: Array, kind: str, title: str, shown: Shown) -> Scene:
-    """Components and magnitude of vectors (P, d), already in the reader's unit, over the cycle."""
+    """Components and magnitude of vectors, already in the reader's unit, over the cycle: ``stepped`` as they are."""
     x, label, angle = along(r, shown)
     series = dict(zip("xyz", vectors.T, strict=False)) | {"magnitude": magnitude(vectors)}
     return curves_scene(x, series, label, f"{kind.capitalize()} in {shown.unit(kind)}", title, angle)
@@ -204,10 +232,11 @@ def polar_chart(
     shown = Shown(r, notation or Notation())
     unit = shown.value("force", 1.0)
     paths = {}
+    seen: Axes = "link" if axes == "link" else "ground"
     for joint in joints:
         i, j = r.mechanism.joints[joint].links
         on = j if axes == "ground" or j != "ground" else i
-        paths[joint] = r.reaction(joint, on=on, axes="link" if axes == "link" else "ground") * unit
+        paths[joint] = stepped(r, methodcaller("reaction", joint, on=on, axes=seen)) * unit
     where = "ground axes" if axes == "ground" else "axes of the link"
     return polar_scene(paths, shown.unit("force"), f"Joint forces in {where}")
 
@@ -215,7 +244,7 @@ def polar_chart(
 def shaking_chart(r: Result, notation: Notation | None = None) -> Scene:
     """Hodograph of the shaking force, all that the joints exert on the ground; in space its components."""
     shown = Shown(r, notation or Notation())
-    total, title = shaking_force(r) * shown.value("force", 1.0), "Shaking force on the ground"
+    total, title = stepped(r, shaking_force) * shown.value("force", 1.0), "Shaking force on the ground"
     if r.mechanism.dimension == 3:
         return vector_chart(r, total, "force", title, shown)
     return polar_scene({"shaking force": total}, shown.unit("force"), title)

@@ -1,4 +1,5 @@
-"""Drawings at rest: friction leaves the forces open, so that both impending motions are drawn, one under the other."""
+"""Drawings where friction has two answers, one under the other: both impending motions at rest, and what holds just
+before and just after contacts reverse."""
 
 from __future__ import annotations
 
@@ -6,8 +7,10 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from dalembert.analysis.columns import unknown_kinds
-from dalembert.analysis.friction import joints_at_limit, unknown_names
+from dalembert.analysis.friction import joints_at_limit, reversing_joints, unknown_names
 from dalembert.views.notation import Shown
 from dalembert.views.scene import Scene, Text, stacked
 
@@ -35,17 +38,31 @@ def ends(r: Result, k: int, shown: Shown) -> list[tuple[str, Result, bool]]:
     return out
 
 
+def sides(r: Result, k: int, shown: Shown) -> list[tuple[str, Result, bool]]:
+    """Both sides of a reversal: in words, the result there, and whether it has numbers."""
+    joints, out = " and ".join(reversing_joints(r, k)), []
+    for word, side in zip(("before", "after"), r.sides, strict=True):
+        parts = []
+        for name in unknown_names(r):
+            value = float((side.effort(name) if name in r.drives else side.unknown_load(name))[k])
+            figure = shown.text(unknown_kinds(r)[name], value) if math.isfinite(value) else "not known"
+            parts.append(f"{name} {figure}")
+        known = bool(np.isfinite(side.least_norm(r.joints[0])[k]).all())
+        out.append((", ".join([f"Just {word} the reversal of {joints}", *parts]), side, known))
+    return out
+
+
 def open_at(r: Result, k: int) -> bool:
     """Whether friction leaves the forces open at a position, with ends to show."""
     return r.status[k] == "at_rest" and bool(r.ends)
 
 
 def at_both_ends(r: Result, k: int, shown: Shown, drawn: Callable[[Result], Scene], title: str) -> Scene:
-    """What ``drawn`` makes of the result, or of its ends where friction leaves it open."""
-    if not open_at(r, k):
+    """What ``drawn`` makes of the result, of its ends where friction leaves it open, or of both sides of a reversal."""
+    if not open_at(r, k) and not r.reverses[k]:
         return drawn(r)
     scenes = []
-    for words, end, known in ends(r, k, shown):
+    for words, end, known in ends(r, k, shown) if open_at(r, k) else sides(r, k, shown):
         scenes.append(Scene((Text((0.0, 0.0), words, 3.6, "title", "start"),), words))
         scenes += [drawn(end)] if known else []
     return stacked(scenes, title=title, width=0.0)

@@ -8,7 +8,7 @@ import numpy as np
 
 from dalembert.analysis.actions import Action, actions
 from dalembert.analysis.which import position_at
-from dalembert.errors import STATUSES, AnalysisError, ModelError
+from dalembert.errors import NUMBERED, STATUSES, AnalysisError, ModelError
 from dalembert.wording import closest
 from dalembert.wrench.forces import Couple, Force
 from dalembert.wrench.system import System
@@ -23,7 +23,8 @@ def on(r: Result, *links: str, at: Any = None) -> System:
     Reactions (F_A and M_A in joint A), loads, weights, efforts and, in dynamics, D'Alembert's inertia forces: a system
     in equilibrium, its joints as points. Joints between the links named are inside and left out. ``at`` is a position
     by its number from 1, or a value of the first drive; by default the first solved one. Where reactions are not
-    unique the least-norm ones stand, and the title says so. Raises AnalysisError where the position has no answer.
+    unique the least-norm ones stand, and where contacts reverse those just before (just after: give ``r.after``); the
+    title says so. Raises AnalysisError where the position has no answer.
 
     >>> import dalembert as da
     >>> from dalembert.bundled import examples
@@ -37,11 +38,12 @@ def on(r: Result, *links: str, at: Any = None) -> System:
     if not links:
         raise ModelError("no link is named", f"name some of {', '.join(r.links)}")
     k = position_at(r, at)
-    if r.status[k] not in ("ok", "redundant", "self_locking"):
+    if r.status[k] not in (*NUMBERED, "redundant"):
         raise AnalysisError(f"position {k + 1}: {r.reasons[k] or STATUSES[r.status[k]].sentence}")
     outside = [a for a in actions(r) if a.link in links and a.by not in links]
     title = " and ".join(links) + (f", position {k + 1}" if len(r.status) > 1 else "")
     title += ", least-norm reactions" if r.status[k] == "redundant" else ""
+    title += ", just before contacts reverse" if r.reverses[k] else ""
     parts = [part for a in outside for part in _parts(a, k)]
     points = {a.of: a.at[k] for a in outside if a.kind == "joint"}
     return System(*parts, title=title, units=r.mechanism.units, points=points)
