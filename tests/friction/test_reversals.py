@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.answers import check
 from dalembert.analysis.export import write_csv
 from dalembert.cli import main
 from dalembert.report.working import working
@@ -254,3 +255,21 @@ def test_the_methods_take_both_sides() -> None:
     assert da.efficiency(r).lost == pytest.approx(np.mean(sides), rel=1e-12)
     assert sides[0] != sides[1]
     assert r.interval("O")[0].tolist() == sorted(side.effort("O")[0] for side in r.sides)
+
+
+def test_an_answer_may_be_of_either_side() -> None:
+    """In a file and of a student; of an extreme the side that has it."""
+    m = four_stroke.engine()
+    r = da.dynamics(m)
+    sides = [float(side.effort("O")[0]) for side in r.sides]
+    right = [da.Answer(quantity="effort", of="O", at=1, value=f"{v!r} N*m") for v in sides]
+    right += [da.Answer(quantity="effort_low", of="O", at=1, value=f"{min(sides)!r} N*m")]
+    peak = [float(np.linalg.norm(side.reaction("B")[0])) for side in r.sides]
+    right += [
+        da.Answer(quantity="reaction", of="B", component="magnitude", extreme="max", value=f"{max(peak)!r} N")
+    ]
+    wrong = da.Answer(quantity="effort", of="O", at=1, value=f"{sum(sides) / 2!r} N*m", tolerance="0.001 %")
+    rows = check(m.model_copy(update={"answers": (*right, wrong)}))
+    assert [row.ok for row in rows] == [True, True, True, True, False]
+    assert "guide reverses" in rows[-1].problem
+    assert [v.right for v in da.check_answers(m, right)] == [True] * 4

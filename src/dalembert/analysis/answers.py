@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -96,8 +97,26 @@ def _compared(result: Result, answer: Answer, case: str) -> Row:
         raise ModelError(
             f"there is no quantity {answer.quantity!r}", closest(answer.quantity, known, 40), ("quantity",)
         )
-    series = component(QUANTITIES[answer.quantity](result, answer), answer.component)
-    return _measured(result, answer, series, case)
+    rows = [_measured(side, answer, read(side, answer), case) for side in sides_of(result, answer)]
+    return next((row for row in rows if row.ok), rows[0])
+
+
+def read(result: Result, answer: Answer) -> Series:
+    """The quantity of an answer over the positions."""
+    return component(QUANTITIES[answer.quantity](result, answer), answer.component)
+
+
+def sides_of(result: Result, answer: Answer) -> tuple[Result, ...]:
+    """The results that an answer may be of: just before reversals or just after; of an extreme the one that has it."""
+    if result.after is None or answer.quantity.endswith(("_low", "_high")):
+        return (result,)
+    if answer.extreme is None:
+        return result.sides
+    found = []
+    for side in result.sides:
+        values = BY[answer.extreme](size(read(side, answer)))
+        found.append(float(np.nanmax(values)) if np.isfinite(values).any() else -math.inf)
+    return (result.sides[int(np.argmax(found))],)
 
 
 def named(answer: Answer) -> str:
@@ -166,11 +185,12 @@ def position_of(result: Result, answer: Answer, series: Series | None = None) ->
     return _named_position(result, answer.at)
 
 
+BY: dict[str, Callable[[Array], Array]] = {"max": lambda v: v, "min": lambda v: -v, "maxabs": np.abs}
+"""What is largest at an extreme."""
+
+
 def _extreme(which: str, values: Array) -> int:
-    if np.isnan(values).all():
-        return 0
-    by = {"max": values, "min": -values, "maxabs": np.abs(values)}
-    return int(np.nanargmax(by[which]))
+    return 0 if np.isnan(values).all() else int(np.nanargmax(BY[which](values)))
 
 
 def _named_position(result: Result, at: Any) -> int:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.analysis.answers import computed_text, named, position_of, target, value_text
+from dalembert.analysis.answers import computed_text, named, position_of, sides_of, target, value_text
 from dalembert.analysis.closeness import Closeness, closeness
 from dalembert.analysis.quantities import QUANTITIES, Series, component
 from dalembert.analysis.slips import Hypothesis, of_units, of_value
@@ -102,6 +102,12 @@ def _short(tree: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
 
 
 def _verdict(result: Result, answer: Answer, variants: Variants) -> Verdict:
+    """Of either side of a reversal the one that the figure is of."""
+    found = [_of_side(side, answer, variants) for side in sides_of(result, answer)]
+    return next((v for v in found if v.right), found[0])
+
+
+def _of_side(result: Result, answer: Answer, variants: Variants) -> Verdict:
     series = _series(result, answer)
     k = position_of(result, answer, series)
     units = file_units(result.mechanism.units)

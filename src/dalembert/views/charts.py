@@ -114,7 +114,7 @@ def stepped(r: Result, read: Callable[[Result], Array]) -> Array:
     if r.after is None:
         return values
     behind, back = read(r.after), _backwards(r)
-    rows = []
+    rows: list[Array] = []
     for k, twice in enumerate(r.reverses):
         both = [values[k], behind[k]] if twice else [values[k]]
         rows += reversed(both) if back[k] else both
