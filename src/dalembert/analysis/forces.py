@@ -81,6 +81,6 @@ def joined(parts: list[Forces]) -> Forces:
     whole = Friction(*(np.concatenate(a) for a in zip(*friction, strict=True))) if friction else None
     arrays = (None if a[0] is None else np.concatenate(a) for a in zip(*(p[:9] for p in parts), strict=True))
     inside = [p.unique_in for p in parts if p.unique_in is not None]
-    made: Any = Forces._make([*arrays, whole, ends, np.concatenate(inside) if inside else None])
+    made: Any = Forces._make([*arrays, whole, ends, np.concatenate(inside) if inside else None, None])
     some = any(p.after is not None for p in parts)
     return made._replace(after=joined([p.after or p for p in parts]) if some else None)  # type: ignore[no-any-return]

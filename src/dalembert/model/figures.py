@@ -39,7 +39,7 @@ def in_units(units: Units) -> Iterator[None]:
 def shortest(number: float, of: Unit) -> float | int | None:
     """The number of this unit with the fewest figures that is read as exactly this SI value, if there is one.
 
-    >>> shortest(0.30479999999999996, unit("in")), shortest(0.5235987755982988, unit("deg"))
+    >>> shortest(0.3048, unit("in")), shortest(0.5235987755982988, unit("deg"))
     (12, 30)
     """
     value = of.of_si(number)
