@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, FieldSerializationInfo, ValidationInfo, field_serializer, model_validator
 
 from dalembert.errors import ModelError
+from dalembert.model.figures import in_units
 from dalembert.model.laws import Law, Rise, TimeTable, count, law, law_schema
 from dalembert.model.part import Part, Reading, mapping, reading
 from dalembert.model.values import (
@@ -308,7 +309,8 @@ class Drive(Part):
     @field_serializer("position", "speed", "acceleration", "law", "effort", "range", when_used="json")
     def _written(self, value: Any, info: FieldSerializationInfo) -> Any:
         what = info.field_name if info.field_name in TURN else ""
-        return _tree(value, kind_of(self.freedom, str(what)))
+        with in_units(info.context):
+            return _tree(value, kind_of(self.freedom, str(what)))
 
 
 def _nonzero(rate: Rates) -> bool:

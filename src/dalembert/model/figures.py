@@ -27,8 +27,8 @@ OTHER_UNITS = {
 
 
 @contextmanager
-def in_units(units: Units) -> Iterator[None]:
-    """Descriptions written inside are as a file in these units has them."""
+def in_units(units: Units | None) -> Iterator[None]:
+    """Values written inside are as a file in these units has them."""
     token = FILE_UNITS.set(units)
     try:
         yield

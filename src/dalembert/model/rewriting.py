@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 from dalembert.model.figures import (
     SHORT,
     in_own_unit,
-    in_units,
     own_polar,
     plain,
     polar_text,
@@ -45,8 +44,7 @@ def text_of(m: Mechanism, form: str) -> str:
 
 def file_tree(m: Mechanism) -> dict[str, Any]:
     """The description in its own units, without what goes without saying."""
-    with in_units(m.units):
-        tree = m.to_tree()
+    tree = m.model_dump(mode="json", by_alias=True, context=m.units)
     for name, drive in tree.get("drives", {}).items():
         if len(m.joints[m.drive_joint(name)].freedoms) == 1:
             drive.pop("freedom", None)

@@ -7,12 +7,12 @@ import re
 from collections.abc import Callable, Sequence
 from typing import Annotated, Any
 
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, ValidationInfo
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, SerializationInfo, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
 from dalembert.errors import ModelError
 from dalembert.model.expressions import parsed
-from dalembert.model.figures import FILE_UNITS, plain, plain_vector, whole
+from dalembert.model.figures import FILE_UNITS, in_units, plain, plain_vector, whole
 from dalembert.model.part import Reading, reading
 from dalembert.symbols import unit
 from dalembert.units import KINDS, NUMBER, quantity, text
@@ -36,10 +36,16 @@ class Value:
     def json_schema(self) -> JsonSchema:
         raise NotImplementedError
 
+    def _serialized(self, value: Any, info: SerializationInfo) -> Any:
+        with in_units(info.context):
+            return self.write(value)
+
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.with_info_plain_validator_function(
             self.read,
-            serialization=core_schema.plain_serializer_function_ser_schema(self.write, when_used="json"),
+            serialization=core_schema.plain_serializer_function_ser_schema(
+                self._serialized, info_arg=True, when_used="json"
+            ),
         )
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchema:
