@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 
 from dalembert.core.assembly import phase_rows
 from dalembert.core.assur import Plan, plan
-from dalembert.core.closure import CLOSED, closed, distance
+from dalembert.core.closure import CLOSED, closed, distance, gap
 from dalembert.core.constraints import stacked
 from dalembert.core.course import Course, course
 from dalembert.core.factor import displacement
-from dalembert.core.groups import Group, groups, senses
+from dalembert.core.groups import Group, groups, on_independent_rows, senses
 from dalembert.core.layout import Angle, Layout, Mesh, Pose, Turn
 from dalembert.core.march import POOR, March, Nodes, interpolated, march, twists
 from dalembert.core.selection import on_sides
@@ -282,6 +282,14 @@ def _laid_down(
             yield int(along.order[middle // BETWEEN]), found.at(pose[middle])
 
 
+class Fast(NamedTuple):
+    """What entries are sought with: the layout with a solver that is fast, groups and their senses (G,)."""
+
+    layout: Layout
+    kinds: list[Group]
+    sense: Array
+
+
 def _sought(
     layout: Layout, first: Pose, along: Course, now: Callable[[], Path], ways: Ways | None
 ) -> Iterator[tuple[int, Pose]]:
@@ -290,13 +298,14 @@ def _sought(
     if not kinds:
         return
     sense, tried = senses(layout, kinds, first.at(None)), np.zeros(0, np.intp)
+    fast = Fast(on_independent_rows(layout, first), kinds, sense)
     while True:
         missing = np.setdiff1d(np.flatnonzero(~now().reached), tried)
         if not missing.size:
             return
         sample = missing[np.unique(np.linspace(0, len(missing) - 1, min(len(missing), 12)).astype(int))]
         targets = ((int(k), along.target(along.at(int(k)))[0]) for k in sample)
-        found = ((k, _entry(layout, target, now(), kinds, sense, ways)) for k, target in targets)
+        found = ((k, _entry(layout, fast, target, now(), ways)) for k, target in targets)
         place, entry = next(((k, e) for k, e in found if e is not None), (0, None))
         if entry is None:
             return
@@ -310,19 +319,23 @@ def _some(known: Path) -> Pose:
     return known.pose.at(good[np.linspace(0, len(good) - 1, min(len(good), 24)).astype(int)])
 
 
-def _entry(
-    layout: Layout, target: Array, known: Path, kinds: list[Group], sense: Array, ways: Ways | None
-) -> Pose | None:
-    """A pose at one target with the groups' given senses (G,): from the nearest of the known poses that leads there,
-    else the only one of the ways that a search finds."""
+def _entry(layout: Layout, fast: Fast, target: Array, known: Path, ways: Ways | None) -> Pose | None:
+    """A pose at one target with the groups' given senses: from the nearest of the known poses that leads there, else
+    the only one of the ways that a search finds."""
     guess = _some(known)
-    pose, missing = closed(layout, guess, np.broadcast_to(target, (len(guess.point), len(target))).copy())
-    same = (senses(layout, kinds, pose) * sense >= 0).all(axis=1)
-    fits = (missing <= CLOSED * layout.length) & same
+    pose, _ = closed(fast.layout, guess, np.broadcast_to(target, (len(guess.point), len(target))).copy())
+    fits = _fitting(layout, fast, pose, target, 0.0)
     if fits.any():
         return pose.at(np.flatnonzero(fits)[np.argmin(distance(layout, pose, guess)[fits])])
     if ways is None or phase_rows(layout.constraints).size:
         return None
-    found = ways.every(layout, target)
-    same = np.zeros(0, bool) if found is None else (senses(layout, kinds, found.pose) * sense > 0).all(axis=1)
-    return found.pose.at(np.flatnonzero(same)[0]) if same.sum() == 1 else None
+    found = ways.every(fast.layout, target)
+    fits = np.zeros(0, bool) if found is None else _fitting(layout, fast, found.pose, target, 0.5)
+    return found.pose.at(np.flatnonzero(fits)[0]) if fits.sum() == 1 else None
+
+
+def _fitting(layout: Layout, fast: Fast, pose: Pose, target: Array, least: float) -> NDArray[np.bool_]:
+    """Poses (P, L+1, ...) that meet a target with all rows, their groups' senses as given."""
+    missing = np.abs(gap(layout, pose, np.broadcast_to(target, (len(pose.point), len(target))))).max(axis=1)
+    same = senses(layout, fast.kinds, pose) * fast.sense >= least
+    return np.asarray((missing <= CLOSED * layout.length) & same.all(axis=1))
