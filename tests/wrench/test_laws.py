@@ -289,3 +289,32 @@ def test_every_way_to_write_a_force_is_the_same_force(seed: int) -> None:
     flat = random_system(seed, 2).forces[0]
     assert close(Force.directed(flat.size, flat.angle).vector, flat.vector, flat.size)
     assert close(Force(f"{flat.size!r} @ {math.degrees(flat.angle)!r}").vector, flat.vector, flat.size)
+
+
+@each
+def test_a_line_meets_a_plane_in_it(seed: int) -> None:
+    """The coordinate asked for is that one to the last bit, the others lie on the line."""
+    rng = np.random.default_rng(seed)
+    axis = Axis(rng.normal(size=3), rng.normal(size=3))
+    for k, name in enumerate("xyz"):
+        wanted = float(rng.normal())
+        place = axis.crossing(**{name: wanted})
+        assert place[k] == wanted
+        assert axis.distance(place) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_what_zero_is_judged_against() -> None:
+    """The largest force, or the largest couple over the length, whichever is more, and that over the length."""
+    box = [Force([3, 0], at=[0, 0]), Force([0, 4], at=[3, 4])]
+    assert System(*box).length == 5.0
+    assert System(*box).scales() == (4.0, 20.0)
+    assert System(*box, Couple(50), Couple(-60)).scales() == (12.0, 60.0)
+    assert System(*box, Couple(50), Couple(-60)).scales(length=100) == (4.0, 400.0)
+    assert System(Force([3, 0], at=[1, 1]), Couple(5), Couple(-7)).scales() == (3.0, 7.0)
+
+
+def test_answers_cannot_be_changed_by_accident() -> None:
+    s = System(Force([3, 0], at=[0, 1]))
+    for answer in (s.resultant, s.point([1, 2]), s.forces[0].vector):
+        with pytest.raises(ValueError, match="read-only"):
+            answer[0] = 1.0
