@@ -1,0 +1,60 @@
+"""Rotations, distances and lines against their definitions."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from dalembert.algebra import plane, space
+from dalembert.algebra.lines import meeting_point
+
+ANGLES = [1e-12, 1e-7, 5e-5, 2e-4, 0.3, 2.0, np.pi - 1e-3, np.pi - 5e-5, np.pi - 1e-9]
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+def test_rotations_about_any_axis(angle: float) -> None:
+    """Rodrigues' formula, its series near no turn, quaternions, and the way back near half a turn."""
+    rng = np.random.default_rng(1)
+    for axis in [*np.eye(3), *-np.eye(3), *rng.normal(size=(8, 3))]:
+        w = angle * axis / np.linalg.norm(axis)
+        expected = Rotation.from_rotvec(w)
+        r = space.exp(w)
+        assert r.reshape(3, 3) == pytest.approx(expected.as_matrix(), abs=2e-15)
+        q = expected.as_quat()
+        assert space.quaternion(r) == pytest.approx(q if q[3] >= 0 else -q, abs=2e-15)
+        found, about = space.angle_and_axis(r.reshape(3, 3))
+        assert found * about == pytest.approx(w, abs=1e-8)
+        assert found == pytest.approx(angle, abs=1e-9)
+
+
+def test_no_rotation_and_none_that_is_known() -> None:
+    angle, axis = space.angle_and_axis(np.eye(3))
+    assert (angle, *axis) == (0, 0, 0, 0)
+    angle, axis = space.angle_and_axis(np.full((3, 3), np.nan))
+    assert np.isnan([angle, *axis]).all()
+
+
+def test_poses_are_apart_whichever_comes_first() -> None:
+    """In the plane whole turns count; in space the angle between two rotations."""
+    one, two = np.array([0.1, 3.0]), np.array([0.4, 3.0 - 4 * np.pi])
+    for a, b in ((one, two), (two, one)):
+        assert plane.apart(plane.rotation(a), plane.rotation(b), a, b) == pytest.approx([0.3, 4 * np.pi])
+
+
+def test_lines_meet_where_they_are_nearest() -> None:
+    rng = np.random.default_rng(2)
+    for d in (2, 3):
+        place, along = rng.normal(size=d), rng.normal(size=(4, d))
+        at = place + rng.normal(size=(4, 1)) * along
+        found = meeting_point(at, along)
+        assert found is not None
+        assert found[0] == pytest.approx(place, abs=1e-12)
+        assert found[1] < 1e-12
+        assert meeting_point(at[:1], along[:1]) is None
+        assert meeting_point(at[:2], np.array([along[0], 0 * along[0]])) is None
+        assert meeting_point(at, np.repeat(along[:1], 4, axis=0)) is None
+    skew = meeting_point(np.array([[0.0, 0, 0], [0, 0, 2]]), np.array([[1.0, 0, 0], [0, 1, 0]]))
+    assert skew is not None
+    assert skew[0] == pytest.approx([0, 0, 1])
+    assert skew[1] == pytest.approx(1.0)
