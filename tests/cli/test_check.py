@@ -52,6 +52,20 @@ def test_an_answer_that_disagrees(run: Run, folder: Path) -> None:
     assert ran.out.splitlines()[-1] == "1 answer, 0 with an exact value; 1 not met."
 
 
+@pytest.mark.parametrize(
+    "claim",
+    [
+        "quantity: status, at: 60 deg, value: jammed",
+        "quantity: mobility, value: 2",
+        "quantity: count, value: 7",
+    ],
+)
+def test_a_word_or_a_count_that_disagrees(run: Run, folder: Path, claim: str) -> None:
+    ran = run("check", with_answers(folder, f"answers:\n  - {{{claim}, why: a slip}}\n"))
+    assert ran.status == 1
+    assert ran.out.splitlines()[-1] == "1 answer, 0 with an exact value; 1 not met."
+
+
 def test_an_exact_value_that_is_missed(run: Run, folder: Path) -> None:
     claim = "answers:\n  - {quantity: effort, of: O2, value: 243.2, exact: 243.2, tolerance: 1 %}\n"
     ran = run("check", with_answers(folder, claim))
