@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-FILES = sorted(p for p in Path(__file__).parent.rglob("test_*.py") if p.parent.name != "friction")
+FILES = sorted(Path(__file__).parent.rglob("test_*.py"))
 
 
 def blocks(function: ast.FunctionDef) -> Iterator[list[ast.stmt]]:
