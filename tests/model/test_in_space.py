@@ -105,7 +105,8 @@ def test_an_inertia_that_no_body_has_is_analysed_and_said() -> None:
     assert said["inertia of crank and rocker"] == (
         "of no real body: one principal value exceeds the sum of the others"
     )
-    assert len(da.statics(m).assumptions) == len(da.dynamics(load(FILE)).assumptions) == 3
+    for r in (da.statics(m), da.dynamics(load(FILE))):
+        assert "inertia of crank and rocker" not in r.assumptions
 
 
 @pytest.mark.parametrize(("times", "doubted"), [(1.0, False), (0.0, False), (1e-6, True), (1e6, True)])
