@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from contextlib import suppress
 from functools import cache
 from typing import Any
 
@@ -9,6 +11,7 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import cases, examples
+from dalembert.cli.methods import superposition_text, virtual_work_answer
 from dalembert.report import given, rubbing
 from dalembert.report.force_system import force_system_sheet
 from dalembert.report.sheet import Equations, Matrix, Sheet, Table
@@ -16,6 +19,7 @@ from dalembert.report.working import working
 from dalembert.units import Units
 from dalembert.views import draw
 from dalembert.views.notation import Notation
+from dalembert.views.scene import Scene
 from tests.methods.printed_equations import Reader
 from tests.methods.printed_tables import read_sheet
 from tests.random_mechanisms import random_case
@@ -62,9 +66,9 @@ def mechanism(name: str) -> Any:
 def no_drawings(monkeypatch: pytest.MonkeyPatch) -> None:
     """Drawings have no equations, and take most of the time."""
     for name in DRAWN:
-        monkeypatch.setattr(draw, name, lambda *_, **__: None)
-    for module, name in ((given, "given_picture"), (rubbing, "rubbing_pictures")):
-        monkeypatch.setattr(module, name, lambda *_: ())
+        monkeypatch.setattr(draw, name, lambda *_, **__: Scene(()))
+    monkeypatch.setattr(given, "given_picture", lambda *_: Scene(()))
+    monkeypatch.setattr(rubbing, "rubbing_pictures", lambda *_: ())
 
 
 def in_units(m: Any, system: str) -> Any:
@@ -142,6 +146,23 @@ def test_of_force_systems(seed: int, dimension: int) -> None:
         reader = read(sheet)
         assert reader.compared >= 3
         assert any(isinstance(b, Table) for b in sheet.blocks)
+
+
+NOISY = ("balance_position", "ba-01-rotor-with-four-masses", "sp-05-hooke-joint-greatest-acceleration")
+
+
+@pytest.mark.parametrize("name", tiers(NOISY, [n for n in BUNDLED if n not in NOISY]))
+def test_rounding_is_printed_as_0(name: str) -> None:
+    """In the answer, both methods and the worked solution; only what is left of a sum that should be 0 is said."""
+    r = da.solve(mechanism(name))
+    texts = [str(r), str(da.report(r))]
+    for method in (superposition_text, virtual_work_answer):
+        with suppress(da.ModelError):
+            found = method(r, "file")
+            texts.append(found if isinstance(found, str) else found[1])
+    said = r"(?si)\n[^\n]*(?:Residual|Out-of-balance|gap|parts sum|agree|polygons over|forces over)[^\n]*(?:\n[^\n]+)*"
+    for text in texts:
+        assert not re.search(r"\d[eE][-−](?:0[89]|[1-9]\d)", re.sub(said, "", text))
 
 
 @pytest.mark.parametrize(

@@ -6,6 +6,7 @@ one position of one answer: the mechanism's length, its fastest turning, its lar
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,6 +16,8 @@ from dalembert.analysis.actions import actions
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
+
+Array = NDArray[Any]
 
 PART = 1e-12
 """Of the size of its kind: what is smaller is rounding. Digits are good to 2e-16, and some are lost on the way."""
@@ -29,23 +32,33 @@ def least(r: Result, k: int) -> dict[str, float]:
     >>> f"{found['force']:.0e} N beside 2764 N of inertia, {found['length']:.0e} m"
     '7e-10 N beside 2764 N of inertia, 5e-13 m'
     """
-    return {kind: PART * size for kind, size in sizes(r, k).items()}
+    return {kind: PART * float(size[k]) for kind, size in sizes(r).items()}
 
 
-def sizes(r: Result, k: int) -> dict[str, float]:
-    """By kind of number: the largest there is at a position, in SI; of forces and moments one size over the length."""
-    length, origin = r.compiled.layout.length, np.asarray(r.compiled.origin)
-    turning, rising = _rates(r, k)
-    everything = actions(r)
-    pull = _largest([a.force[k] for a in everything])
-    twist = _largest([a.couple[k] for a in everything])
-    given = r.compiled.forcing.inertia
-    mass = max(_largest([given.mass]), _largest([given.inertia]) / length**2) if r.inertia else 0.0
-    force = max(pull, twist / length, mass * length * turning**2)
+def sizes(r: Result) -> dict[str, Array]:
+    """By kind of number: the largest there is at each position (P,), in SI; of forces and moments one size over the
+    length. Kept with the result, as every number that is printed asks for it."""
+    return kept(r, _sizes)
+
+
+def kept(r: Result, of: Callable[[Result], dict[str, Array]]) -> dict[str, Array]:
+    """What a function makes of a result, made once."""
+    if of.__qualname__ not in vars(r):
+        vars(r)[of.__qualname__] = of(r)
+    return vars(r)[of.__qualname__]  # type: ignore[no-any-return]
+
+
+def _sizes(r: Result) -> dict[str, Array]:
+    length, many = r.compiled.layout.length, len(r.status)
+    turning, rising = _rates(r)
+    everything, given = actions(r), r.compiled.forcing.inertia
+    mass = max(float(np.max(given.mass, initial=0.0)), float(np.max(given.inertia, initial=0.0)) / length**2)
+    heavy = mass * length * turning**2 if r.inertia else np.zeros(many)
+    force = largest(many, heavy, *(a.force for a in everything), *(a.couple / length for a in everything))
     return {
-        "angle": 1.0,
-        "number": 1.0,
-        "length": max(length, _largest([r.point_array[k] + origin])),
+        "angle": np.ones(many),
+        "number": np.ones(many),
+        "length": largest(many, np.full(many, length), r.point_array + np.asarray(r.compiled.origin)),
         "angular_speed": turning,
         "speed": turning * length,
         "angular_acceleration": rising,
@@ -56,20 +69,22 @@ def sizes(r: Result, k: int) -> dict[str, float]:
     }
 
 
-def _rates(r: Result, k: int) -> tuple[float, float]:
+def _rates(r: Result) -> tuple[Array, Array]:
     """The fastest turning, and the largest second rate, a turning's own included; slides over the length."""
-    d, length = r.compiled.layout.algebra.d, r.compiled.layout.length
-    speeds = [r.twist_array[k, :, d:], r.twist_array[k, :, :d] / length, _drives(r, r.schedule.speed[k])]
-    rates = [r.acceleration_array[k, :, d:], r.acceleration_array[k, :, :d] / length]
-    turning = _largest(speeds)
-    return turning, max(_largest([*rates, _drives(r, r.schedule.acceleration[k])]), turning**2)
-
-
-def _drives(r: Result, rates: NDArray[Any]) -> NDArray[Any]:
-    """Rates of the drives, those of slides over the length."""
+    d, length, many = r.compiled.layout.algebra.d, r.compiled.layout.length, len(r.status)
     angular = r.compiled.layout.freedoms.angular[r.compiled.layout.driven]
-    return np.where(angular, rates, rates / r.compiled.layout.length)
+
+    def fastest(rates: Array, drives: Array) -> Array:
+        return largest(
+            many, rates[..., d:], rates[..., :d] / length, np.where(angular, drives, drives / length)
+        )
+
+    turning = fastest(r.twist_array, r.schedule.speed)
+    return turning, np.maximum(fastest(r.acceleration_array, r.schedule.acceleration), turning**2)
 
 
-def _largest(arrays: list[NDArray[Any]]) -> float:
-    return max((float(np.nan_to_num(np.abs(a)).max(initial=0.0)) for a in arrays), default=0.0)
+def largest(many: int, *arrays: Array) -> Array:
+    """The largest number of some arrays (P, ...) at each of many positions."""
+    flat = [np.nan_to_num(np.abs(a)).reshape(many, -1) for a in arrays]
+    found: Array = np.max([a.max(axis=1, initial=0.0) for a in flat], axis=0, initial=0.0)
+    return found

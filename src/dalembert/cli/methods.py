@@ -8,7 +8,7 @@ import numpy as np
 
 from dalembert.analysis.columns import UnitChoice, drive_kinds, load_kind, unknown_kinds
 from dalembert.analysis.friction import unknown_names
-from dalembert.analysis.summary.printed import Printed, printed
+from dalembert.analysis.summary.printed import Printed, printed, significant
 from dalembert.errors import ModelError
 from dalembert.printing import number, remainder, rounded, table, tables, with_unit, wrapped
 from dalembert.units import KINDS
@@ -144,7 +144,7 @@ def _powers(found: Any, drive: int, k: int, to: Printed) -> str:
     name = r.drives[drive]
     angular = drive_kinds(r, name)["effort"] == "moment"
     kind = "moment" if angular else "force"
-    found_effort = with_unit(float(found.effort[k, drive]) * to(kind, 1.0), to.text(kind))
+    found_effort = with_unit(float(to(kind, significant(r, kind, found.effort[:, drive])[k])), to.text(kind))
     effort = f"Effort that balances the work: {name} = {found_effort}"
     if not found.actions:
         return f"{NOTHING_ACTS}.\n\n{effort}"
@@ -162,7 +162,7 @@ def _powers(found: Any, drive: int, k: int, to: Printed) -> str:
         (couple, to("moment", 1.0), load * length),
         (found.velocity[:, k, drive], per, reach * length),
         (found.spin[:, k, drive], 1.0 if angular else 1 / to("length", 1.0), reach),
-        (found.power[:, k, drive], to(kind, 1.0), 0.0),
+        (found.power[:, k, drive], to(kind, 1.0), load * reach * length),
     )
     numbers = [
         _cells(values * factor, len(found.actions), least * factor) for values, factor, least in columns
@@ -170,7 +170,9 @@ def _powers(found: Any, drive: int, k: int, to: Printed) -> str:
     rows = [[a.source, *(x for part in numbers for x in part[n])] for n, a in enumerate(found.actions)]
     total = float(found.power[:, k, drive].sum()) * to(kind, 1.0)
     heads = HEADS if r.mechanism.dimension == 2 else SPACE_HEADS
-    rows.append(["sum", *[""] * (len(heads) - 2), number(total, 6)])
+    rows.append(
+        ["sum", *[""] * (len(heads) - 2), number(rounded([total], load * reach * length * to(kind, 1.0))[0])]
+    )
     units = f"forces in {to.text('force')}, couples in {to.text('moment')}, moves in {to.text('length')}"
     return (
         f"1 {unit} of {name}: {units}, turns in rad\n\n"

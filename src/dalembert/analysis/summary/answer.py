@@ -122,7 +122,9 @@ def _load_table(result: Result, to: Printed) -> str:
         if there := open_text(result, name, to):
             return there
         kind = load_kind(result, name)
-        return with_unit(float(to(kind, result.unknown_load(name)[0])), to.text(kind))
+        return with_unit(
+            float(to(kind, significant(result, kind, result.unknown_load(name)[0]))), to.text(kind)
+        )
 
     rows = [[name, value(name)] for name in result.unknown_loads]
     return table(["unknown load", "value"], rows)

@@ -68,6 +68,7 @@ def space_link_tables(result: Result, to: Any) -> str:
     fast = (
         max((float(np.nan_to_num(np.abs(result.speed(n)[0])).max()) for n in result.links), default=0.0) ** 2
     )
+    largest[0] = max(largest[0], float(to("length", result.compiled.layout.length)))
     largest[2] = max(largest[2], fast)
     largest[3] = max(largest[3], float(to("acceleration", fast * result.compiled.layout.length)))
     for n, link in enumerate(result.links):

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.columns import Scale, UnitChoice
+from dalembert.analysis.columns import Scale, UnitChoice, drive_kinds
+from dalembert.analysis.rounding import PART, kept, largest, sizes
 
 if TYPE_CHECKING:
     from dalembert.analysis.result import Result
@@ -41,25 +42,31 @@ def motion_only(result: Result) -> bool:
 
 
 def significant(result: Result, kind: str, values: Any) -> Any:
-    """Numbers of a kind, those that are nothing but rounding beside the largest of the whole result as 0.
+    """Numbers of a kind, (P,) or (P, ...), or of the first position; those that are nothing but rounding as 0.
 
     >>> from dalembert.analysis import statics
     >>> from dalembert.model.library import four_bar
     >>> significant(statics(four_bar()), "force", np.array([1e-30, 5.0]))
     array([0., 5.])
     """
-    d = result.compiled.layout.algebra.d
-    beside = {
-        "force": (result.force_array, result.moment_array, result.effort_array),
-        "moment": (result.force_array, result.moment_array, result.effort_array),
-        "angular_speed": (result.twist_array[..., d:],),
-        "angular_acceleration": (result.acceleration_array[..., d:],),
-    }.get(kind, ())
-    largest = max(
-        (float(np.nanmax(np.abs(a), initial=0.0)) for a in beside if np.isfinite(a).any()), default=0.0
-    )
-    return np.where(np.abs(values) < ROUNDING * largest, 0.0, values)
+    small: Any = PART * kept(result, _largest).get(kind, np.zeros(len(result.status)))
+    shape = np.shape(values)
+    small = small.reshape(-1, *[1] * (len(shape) - 1)) if shape[:1] == small.shape else small[0]
+    return np.where(np.abs(values) < small, 0.0, values)
 
 
-ROUNDING = 1e-14
-"""Of the largest of its kind: what is smaller is 0."""
+def _largest(result: Result) -> dict[str, Any]:
+    """By kind the largest number at each position (P,): quicker than all that acts there."""
+    d, length, many = result.compiled.layout.algebra.d, result.compiled.layout.length, len(result.status)
+    angular = [drive_kinds(result, drive)["effort"] == "moment" for drive in result.drives]
+    efforts = np.where(angular, result.effort_array / length, result.effort_array)
+    force = largest(many, result.force_array, result.moment_array / length, efforts)
+    if many == 1 or (force < 1e-9 * force.max()).any():  # what is left where loads balance each other
+        return sizes(result)
+    turning = largest(many, result.twist_array[..., d:])
+    return {
+        "force": force,
+        "moment": force * length,
+        "angular_speed": turning,
+        "angular_acceleration": np.maximum(largest(many, result.acceleration_array[..., d:]), turning**2),
+    }
