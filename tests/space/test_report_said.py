@@ -40,7 +40,8 @@ def test_everything_stands_in_the_report_of_the_spatial_four_bar() -> None:
         "  ω_2 × r_OA + ω_3 × r_AB + ω_4 × r_BC = 0",
         "4 Inertia forces and couples",
         "  F_I3 = −m_3 a_G3 = −0.1106 (−17095, −10880, −12647) / 1000 = (1.891, 1.204, 1.399) N, size 2.643 N",
-        "  T_I3' = −(J_3 α_3' + ω_3' × J_3 ω_3') = −((−49.97, 19.17, −54.16) + (0, 0, 0)) = (49.97, −19.17, 54.16) N·mm",
+        "  T_I3' = −(J_3 α_3' + ω_3' × J_3 ω_3') = −((−49.97, 19.17, −54.16) + (0, 0, 0)) "
+        "= (49.97, −19.17, 54.16) N·mm",
         "5 Free bodies and their equations",
         "Link 4 rocker, moments about joint C; R from there to each force:",
         "  Σ M_Cy: R_Bz F_34x + M_14x' = 0",
