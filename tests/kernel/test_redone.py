@@ -12,7 +12,7 @@ from dalembert.analysis.batch.answer import NUMBERED
 from dalembert.analysis.batch.general import quantity
 from dalembert.analysis.batch.kernel import Kernel
 from dalembert.analysis.batch.reduction import PARTS
-from tests.friction.engines import pushed_slider
+from tests.friction.engines import engine, pushed_slider
 from tests.friction.rough import cycle, rough_tree
 from tests.kernel.comparing import every_number, frictional, general
 from tests.kernel.machines import KINDS, ROUGH, four_bar
@@ -148,6 +148,28 @@ def test_contacts_that_the_file_s_numbers_do_not_have(monkeypatch: pytest.Monkey
     other = k(values)
     assert (own.redone, other.redone) == (0, 2)
     assert np.allclose(own.gradient("effort.O2"), other.gradient("effort.O2"), rtol=1e-9, atol=1e-9)
+
+
+def test_slopes_of_both_sides_of_a_reversal() -> None:
+    """At dead centres, and of a peak that stands at one."""
+    m = engine(position=[0, 180])
+    k = da.compile(m, vary=["friction.coefficient"], outputs=["effort.O"], static=True, derivatives=True)
+    step = 1e-4
+    r = k([[0.4 - step], [0.4], [0.4 + step]])
+    assert (r.status == "reversal").all()
+    for side in (r, r.after):
+        values = side.effort("O")
+        differences = (values[2] - values[0]) / (2 * step)
+        assert side.gradient("effort.O")[1, :, 0] == pytest.approx(differences, rel=1e-6)
+    slopes = np.array([side.gradient("effort.O")[1, :, 0] for side in (r, r.after)])
+    values = np.array([side.effort("O")[1] for side in (r, r.after)])
+    assert abs(slopes[0, 0] - slopes[1, 0]) > 1.0
+    peak = da.compile(
+        m, vary=["friction.coefficient"], outputs=["effort.O"], reduce="peak", static=True, derivatives=True
+    )()
+    where = np.unravel_index(np.abs(values).argmax(), values.shape)
+    assert peak.effort("O")[0] == pytest.approx(np.abs(values).max(), rel=1e-12)
+    assert peak.gradient("effort.O")[0, 0] == pytest.approx(np.sign(values[where]) * slopes[where], rel=1e-9)
 
 
 def test_what_has_no_answer_has_no_slope() -> None:

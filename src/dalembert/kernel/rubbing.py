@@ -115,16 +115,21 @@ def rubbed(
     s: Statement,
     still: Array | None,
     slips: Array | None = None,
+    reversals: Array | None = None,
 ) -> Rubbed:
     """Multipliers with friction; ``still``: what loads the links beside inertia, None where there is none.
 
-    ``slips``: z of each contact where the solution is known; then there are no verdicts, which are known too.
+    ``slips``: z of each contact where the solution is known; then there are no verdicts, which are known too, and
+    ``reversals`` has the sense of contacts that reverse there, else 0.
     """
     contacts = _traced(graph, rough.contacts)
     twist = traced(graph, moving.twist)  # without motion they are numbers
     along, found = response(layout, contacts, pose, s.forces, s.w, twist)
     r = Response(*(traced(graph, a) for a in found))
     told = senses(layout, contacts, along, twist)
+    if reversals is not None:
+        moves = 1.0 - np.abs(reversals)
+        told = told._replace(sense=reversals + moves * told.sense, open=moves * traced(graph, told.open))
     sense, c = traced(graph, told.sense), traced(graph, strength(contacts, 1.0))
     slip = slipped(graph, contacts, strong(r, c), sense, slips)
     x = multiplier(r, c * slip.z)

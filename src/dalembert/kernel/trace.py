@@ -43,7 +43,8 @@ class Drives:
 class Problem:
     """A compiled mechanism whose numbers are nodes; ``like`` is the same with the file's numbers, ``like_target`` its
     stacked targets at the first position. Where there are ``slips`` the known motion is the solution, and they are the
-    friction of each contact in it: then one step of Newton is left, which carries the derivatives. ``margins`` are, by
+    friction of each contact in it (``reversals`` its sense where that reverses): then one step of Newton is left, which
+    carries the derivatives. ``margins`` are, by
     freedom, how far the turns of springs may be from the known motion's for the same count of whole turns."""
 
     graph: Graph
@@ -62,6 +63,7 @@ class Problem:
     signs: Any
     rough: Rough | None
     slips: Array | None
+    reversals: Array | None
     margins: dict[int, Node]
 
 
@@ -137,7 +139,7 @@ def _balanced(
         x, total = _multipliers(p, layout, pose, s)
         return s, Rubbed(x, total, np.zeros((layout.joints, 2)), np.zeros(layout.joints))
     still = stated(*(kind for kind in sources if kind != "inertia")).w if p.inertia else None
-    return s, rubbed(p.graph, layout, p.rough, pose, moving, s, still, p.slips)
+    return s, rubbed(p.graph, layout, p.rough, pose, moving, s, still, p.slips, p.reversals)
 
 
 def _placed(p: Problem, layout: Layout, target: Array, drives: Drives, path: Any) -> Placed:

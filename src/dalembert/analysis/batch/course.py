@@ -77,6 +77,15 @@ class Course:
         z = np.nan_to_num(-f.sense * bearing(c.contacts, f.argument))
         return dict(zip(contact_keys(c), z.T, strict=True))
 
+    @cached_property
+    def reversals(self) -> dict[tuple[str, str], Array]:
+        """Sense (P,) of each contact where it reverses in the result, 0 where its rate tells it."""
+        f = None if self.result is None else self.result.friction
+        if self.result is None or f is None:
+            return {}
+        sense = np.where(f.reversing, f.sense, 0.0)
+        return dict(zip(contact_keys(self.result.compiled), sense.T, strict=True))
+
     @property
     def counted(self) -> Compiled:
         """The mechanism with the whole turns of its torsion springs counted along its motion."""
@@ -150,12 +159,20 @@ class Inputs:
 
     def slips(self, c: Compiled) -> Array:
         """Friction of each contact in a known solution; none where a radius or height of that design is zero."""
+        return self._by_contact(c, "slip", lambda known: known.slips)
 
-        def slip(key: tuple[str, str]) -> Node:
-            name = " ".join(("known slip", *key))
-            return self.make("channel", name, lambda c: c.slips.get(key, np.zeros(len(c.schedule.position))))
+    def reversals(self, c: Compiled) -> Array:
+        """Sense of each contact where it reverses in a known solution, else 0."""
+        return self._by_contact(c, "reversal", lambda known: known.reversals)
 
-        return np.array([slip(key) for key in contact_keys(c)], object)
+    def _by_contact(
+        self, c: Compiled, what: str, of: Callable[[Course], dict[tuple[str, str], Array]]
+    ) -> Array:
+        def one(key: tuple[str, str]) -> Node:
+            name = " ".join((f"known {what}", *key))
+            return self.make("channel", name, lambda c: of(c).get(key, np.zeros(len(c.schedule.position))))
+
+        return np.array([one(key) for key in contact_keys(c)], object)
 
     def turns(self, c: Compiled) -> tuple[Compiled, dict[int, Node]]:
         """The mechanism with whole turns of its torsion springs as inputs, and of each such turn, by freedom, how far

@@ -67,6 +67,7 @@ def traced(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Result | No
         first_path=inputs.path("common"),
         signs=inputs.signs,
         slips=None if solved is None else inputs.slips(c),
+        reversals=None if solved is None else inputs.reversals(c),
         margins=margins if any(geometric(n.path) for n in where) else {},
         rough=None if c.contacts is None else Rough(c.contacts, c.damping, c.second, c.joint_at),
     )
