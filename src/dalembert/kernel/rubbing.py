@@ -129,7 +129,8 @@ def rubbed(
     told = senses(layout, contacts, along, twist)
     if reversals is not None:
         moves = 1.0 - np.abs(reversals)
-        told = told._replace(sense=reversals + moves * told.sense, open=moves * traced(graph, told.open))
+        open_: Any = moves * traced(graph, told.open)
+        told = told._replace(sense=reversals + moves * told.sense, open=open_)
     sense, c = traced(graph, told.sense), traced(graph, strength(contacts, 1.0))
     slip = slipped(graph, contacts, strong(r, c), sense, slips)
     x = multiplier(r, c * slip.z)
