@@ -173,21 +173,39 @@ def _open(made: _Made, found: Solved, open_: NDArray[np.intp], spins: Spins | No
     contacts stay at rest."""
     told = found.told
     at_side = _sides(made, told, open_, spins)
-    turns = ~(told.open[open_] & ~at_side.known).any(axis=-1)
+    rest = told.open[open_] & ~at_side.known
+    turns: Flags = np.asarray(at_side.known.any(axis=-1))
+    both = _both_sides(made, found, open_[turns], at_side.at(turns), rest[turns])
+    if rest[turns].any():
+        loaded = np.zeros_like(told.open)
+        loaded[open_[turns]] = rest[turns]
+        idle = [_idle(made.s.contacts, made.r, side.slip, loaded)[open_[turns]] for side in both]
+        turns[turns] = np.all(idle, axis=0)
+        both = _both_sides(made, found, open_[turns], at_side.at(turns), rest[turns])
     turn, stay = open_[turns], open_[~turns]
     after, reversing = None, None
     if turn.size:
-        known = _filled(np.zeros_like(told.open), turn, at_side.known[turns])
-        before, behind = (
-            made.on_side(found.slip, told, turn, Side(_filled(told.sense, turn, sense[turns]), known))
-            for sense in (at_side.before, at_side.after)
-        )
+        before, behind = both
         found = before
+        known = _filled(np.zeros_like(told.open), turn, at_side.known[turns])
         same = _idle(made.s.contacts, made.r, before.slip, known)[:, None]
         reversing = known & (before.told.sense != behind.told.sense) & ~same
         after = made.forces(behind, reversing) if reversing.any() else None
     whole = _with_ends(made, found, stay, spins, reversing) if stay.size else made.forces(found, reversing)
     return whole._replace(after=after)
+
+
+def _both_sides(
+    made: _Made, found: Solved, turn: NDArray[np.intp], at_side: Sides, rest: Flags
+) -> list[Solved]:
+    """Friction just before and just after some positions; contacts that stay at ``rest`` there carry nothing."""
+    if not turn.size:
+        return []
+    told, known = found.told, np.zeros_like(found.told.open)
+    known[turn] = at_side.known | rest
+    senses_ = (np.where(rest, 0.0, sense) for sense in (at_side.before, at_side.after))
+    sides_ = (Side(_filled(told.sense, turn, sense), known) for sense in senses_)
+    return [made.on_side(found.slip, told, turn, side) for side in sides_]
 
 
 def _sides(made: _Made, told: Senses, open_: NDArray[np.intp], spins: Spins | None) -> Sides:

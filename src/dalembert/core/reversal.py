@@ -40,6 +40,10 @@ class Sides(NamedTuple):
     after: Array
     known: Flags
 
+    def at(self, some: Any) -> Sides:
+        """Of some positions."""
+        return Sides(*(a[some] for a in self))
+
 
 def sides(
     layout: Layout,
