@@ -222,3 +222,18 @@ def test_a_guide_that_reverses_has_two_numbers() -> None:
         "guide reverses at O = 0 deg, and friction there changes its sense: "
         f"O is {before:.6g} N*m just before and {after:.6g} N*m just after."
     )
+
+
+@pytest.mark.parametrize("speed", [1.0, -1.0])
+@pytest.mark.parametrize(("left", "status"), [(0.0, "ok"), (1e-4, "self_locking")])
+def test_only_a_power_that_is_not_rounding_can_be_turned_round(
+    left: float, status: str, speed: float
+) -> None:
+    """Loads along the slide that cancel but for what is left: rounding (0.1 + 0.2 - 0.3) drives nothing."""
+    m = guided(10.0, 0.0, 0.05, 0.05).to_tree()
+    m["drives"]["guide"]["speed"] = speed
+    for k, pull in enumerate((0.1, 0.2, -0.3, left)):
+        m["loads"][f"F{k}"] = {"type": "force", "on": "block", "at": "B", "value": [speed * pull, 0]}
+    r = da.statics(da.mechanism(m))
+    assert r.effort("guide")[0] * speed == pytest.approx(0.3 * 10 - left, rel=1e-12)
+    assert r.status == (status,)

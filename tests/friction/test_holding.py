@@ -158,3 +158,21 @@ def test_linear_programmes(n: int) -> None:
         assert unbounded[k] == (found.status == 3)
         if not unbounded[k]:
             assert q[k] @ d[k] == pytest.approx(-found.fun, abs=1e-9)
+
+
+@pytest.mark.parametrize("turned", [0.0, 41.0])
+def test_a_contact_that_would_not_move_takes_the_sense_that_carries_furthest(turned: float) -> None:
+    """B is pressed on the wall by Q and stands on A's level top: floor (20 + 50 + wall Q) both ways, also aslant."""
+    tree = wedge(0.6, 0.5, 0.0).to_tree()
+    for joint, way in (("floor", 0.0), ("wall", 90.0)):  # A turns with its slide, and its top with it
+        tree["joints"][joint]["direction"] = f"{way + turned} deg"
+    c, s = np.cos(np.radians(turned)), np.sin(np.radians(turned))
+    pull = {"W_A": ("A", 0.0, -20.0), "W_B": ("B", 0.0, -50.0), "Q": ("B", 30.0, 0.0)}
+    tree["loads"] = {
+        name: {"type": "force", "on": link, "at": "P", "value": [c * x - s * y, s * x + c * y]}
+        for name, (link, x, y) in pull.items()
+    }
+    r = da.statics(da.mechanism(tree))
+    most = 0.6 * (20 + 50 + 0.5 * 30)
+    assert r.interval("floor")[0] == pytest.approx((-most, most), rel=1e-12)
+    assert r.holding("floor")[0] == pytest.approx((-most, most), rel=1e-12)
