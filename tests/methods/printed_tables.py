@@ -31,10 +31,10 @@ def read_sheet(sheet: Sheet, figures: int = 4) -> Reader:
                 reader.line(re.sub(r" = 0 = ", " = ", " = ".join(t.strip() for t in _equation(w)), count=1))
         if isinstance(b, Table):
             rows = [["".join(mixed(cell, plain, str)) for cell in row] for row in (b.heads, *b.rows)]
-            reader.learning = "in ground axes" not in b.caption
+            reader.learning = "ground axes" not in b.caption
             _table(reader, rows[0], rows[1:])
         if isinstance(b, Matrix):
-            reader.learning = "in ground axes" not in b.caption
+            reader.learning = "ground axes" not in b.caption
             _matrix(reader, b)
         reader.learning = True
     return reader

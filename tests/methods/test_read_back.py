@@ -36,6 +36,7 @@ SYSTEMS = {
     "mm N t": Units(length="mm", mass="t"),
     "cm kgf kg": Units(length="cm", force="kgf"),
     "in ozf lbm": Units(length="in", force="ozf", mass="lbm", time="min", angle="rad"),
+    "mm N, N m": Units(length="mm", derived=(("moment", "N*m"), ("acceleration", "m/s^2"))),
 }
 QUICK = (
     "four_bar",

@@ -145,8 +145,8 @@ def _inertia_lines(c: Chosen, link: str) -> list[Working]:
         out.append(
             Working(
                 f"h_{{{n}}} = frac(|T_{{I{n}}}|; F_{{I{n}}})",
-                shown.divided(couple.lstrip("−"), number("force", size), "length", "moment", "force"),
-                f'{number("length", float(found.offset[k]))} "{shown.unit("length")}"',
+                f"frac({couple.lstrip('−')}; {number('force', size)})",
+                f'{c.notation.number(float(found.offset[k]) / shown.arm)} "{shown.arm_unit}"',
             )
         )
     return out

@@ -53,9 +53,11 @@ def superposition(sheet: Sheet, c: Chosen) -> None:
     units = f"Forces in {shown.unit('force')}{in_ground(c)}, couples in {shown.unit('moment')}"
     tables, gap = _tables(efforts, forces, r.mechanism.dimension), remainder(float(parts.gap[k]))
     for n, columns in enumerate(tables):
-        last = f"{units}; the parts sum to the whole within {gap}" if n == len(tables) - 1 else ""
+        caption = (
+            f"{units}; the parts sum to the whole within {gap}" if n == len(tables) - 1 else in_ground(c)[2:]
+        )
         heads = ["Source", *(f"{as_formula(name)}" for name, _, _ in columns)]
-        sheet.table(heads, _rows(c, parts.sources, columns), last, total=True)
+        sheet.table(heads, _rows(c, parts.sources, columns), caption, total=True)
     external = [s for s in parts.sources if s in r.mechanism.loads]
     if 2 <= len(external) <= 4 and "graphical" in c.methods and r.mechanism.dimension == 2:
         sheet.figure(*(draw.force_chain(r, k + 1, c.notation, case=s) for s in external))

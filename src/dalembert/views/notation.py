@@ -176,11 +176,6 @@ class Figures:
         whole = round(factor)
         return str(whole) if math.isclose(factor, whole, rel_tol=1e-9) else self.notation.number(factor)
 
-    def divided(self, above: str, below: str, kind: str, over: str, under: str) -> str:
-        """A quotient in the reader's units, with the factor that makes it a number of a kind."""
-        factor = self.size(over) / self.size(under) / self.size(kind)
-        return self._with_factor(f"frac({above}; {below})", factor)
-
     def text(self, kind: str, value: float, floor: float = 0.0) -> str:
         """The number with its unit."""
         unit = self.unit(kind)
