@@ -67,8 +67,9 @@ class _Work:
         return self.shown.number("number", float(value), 1e-12)
 
     def length(self, value: float) -> str:
+        """In the unit in which arms times forces are moments."""
         floor = 1e-12 * max(self.s.length, float(np.abs(self.at).max()))
-        return self.shown.number("length", float(value), floor)
+        return self.shown.notation.number(0.0 if abs(value) < floor else float(value) / self.shown.arm)
 
     def moment(self, value: float) -> str:
         return self.shown.number("moment", float(value), 1e-12 * self._moment_size())
@@ -81,13 +82,17 @@ class _Work:
         return f'"{self.shown.unit(kind)}"'
 
     def point(self, p: Array) -> str:
-        return f"({', '.join(self.length(x) for x in p)}) {self.shown.unit('length')}"
+        return f"({', '.join(self.length(x) for x in p)}) {self.shown.arm_unit}"
+
+    @property
+    def length_unit(self) -> str:
+        return f'"{self.shown.arm_unit}"'
 
     # sections
 
     def given(self) -> None:
         self.sheet.heading("Given")
-        force, length, moment = (self.shown.unit(kind) for kind in ("force", "length", "moment"))
+        force, length, moment = self.shown.unit("force"), self.shown.arm_unit, self.shown.unit("moment")
         directions = ["angle °"] if self.d == 2 else [f"cos {a}" for a in self.axes]
         rows = []
         for name, f in self.named:
@@ -212,7 +217,7 @@ class _Work:
         self.sheet.text(
             "The force is not zero: the system is a single force R on a line that makes the same moment."
         )
-        distance = f"{self.length(m / size)} {self.unit('length')}"
+        distance = f"{self.length(m / size)} {self.length_unit}"
         lines = [
             Working(f"d = {self.about} / R", f"{self.moment(m)} / {self.force(size)}", distance),
             Working(f"x R_{{y}} − y R_{{x}} = {self.about}: quad {self._equation(r, m)}"),
@@ -235,14 +240,14 @@ class _Work:
         place = axis.crossing(**{name: float(self.at[k])}) - self.at
         if self.d == 2:
             other = "x" if name == "y" else "y"
-            return f"cuts {name} = 0 at {other} = {self.length(place[1 - k])} {self.shown.unit('length')}"
+            return f"cuts {name} = 0 at {other} = {self.length(place[1 - k])} {self.shown.arm_unit}"
         return f"cuts the plane {name} = 0 at {self.point(place)}"
 
     def _screw(self, kind: str) -> None:
         """The central axis of a system in space."""
         r, m = self.s.resultant, self.reduced.vector
         size, found = math.hypot(*r), self.s.central_axis()
-        moment, force, length = self.unit("moment"), self.unit("force"), self.unit("length")
+        moment, force, length = self.unit("moment"), self.unit("force"), self.length_unit
         product = _joined(
             [f"{self.force(a)} cdot {bracketed(self.moment(b))}" for a, b in zip(r, m, strict=True)]
         )
