@@ -177,7 +177,7 @@ def test_the_worked_solution() -> None:
     text = " ".join(da.report(da.statics(engine(guide=0.1))).to_bytes("txt").decode().split())
     for words in (
         "r_A = μ_A R_A = 0.4 · 0.06000 = 0.02400 m",
-        "β_3 = arcsin (r_A + r_B)/(AB) = arcsin (0.02400 + 0.01600)/(1.250) = 1.834 °",
+        "β_3 = arcsin ((r_A + r_B)/(AB)) = arcsin ((0.02400 + 0.01600)/(1.250)) = 1.834 °",
         "θ_AB + β_3 = −10.59 ° + 1.834 ° = −8.760 °",
         "N_lower = (S_guide + N_14)/(2) = 3451 N",
         "With friction: 2 crank: each reaction touches the friction circles at O, A; 3 rod: both forces",
