@@ -114,3 +114,14 @@ def test_the_shaking_force_where_reactions_are_not_unique() -> None:
     for f in total:
         near = min(math.dist(p, f / scale) for p in drawn.points)
         assert near < 0.05, (f, near)
+
+
+def test_no_arrow_is_drawn_of_rounding() -> None:
+    """At the piston's greatest speed it has no acceleration; a free motion has no effort."""
+    r = da.dynamics(da.load(cases()["sc-01-greatest-piston-speed"]))
+    still = da.draw.displaced_inertia(r, "piston")
+    assert [a for a in still.arrows() if a.kind in ("force", "acceleration")] == []
+    assert "a_{G4} = 0" in [t.text for t in still.texts()]
+    free = da.draw.mechanism(da.solve(da.load(cases()["sp-01-swinging-body-on-an-inclined-revolute"])))
+    assert [a for a in free.arrows() if a.role == "effort"] == []
+    assert not any("two heads" in t.text for t in free.texts())

@@ -24,7 +24,11 @@ def displaced_inertia_scene(r: Result, link: str, k: int, notation: Notation | N
     shown = Shown(r, notation or Notation(), k)
     found = displaced_inertia(r, link)
     g, at = found.center[k], found.at[k]
-    places = [*link_points(r, link, k).values(), tuple(g), tuple(at)]
+    places = [
+        *link_points(r, link, k).values(),
+        tuple(g),
+        *([tuple(at)] if _accelerated(r, link, k, shown) else []),
+    ]
     frame = fitted(places, 46.0, 40.0, unit_size(r, "length", shown.notation))
     canvas = Canvas()
     canvas.add(*link_shape(r, link, k, frame))
@@ -46,6 +50,9 @@ def _arrows(canvas: Canvas, r: Result, link: str, k: int, frame: Frame, shown: S
     g, at = frame(found.center[k]), frame(found.at[k])
     a, f = r.center_acceleration(link)[k], found.force[k]
     size, pull = math.hypot(*map(float, a)), math.hypot(*map(float, f))
+    if not _accelerated(r, link, k, shown):
+        canvas.label(f"a_{{G{n}}} = 0", g, size=2.8, role="acceleration")
+        return {kind: unit_size(r, kind, shown.notation) for kind in ("force", "acceleration")}
     slow = force_scale([size], 20.0, unit_size(r, "acceleration", shown.notation))
     per_mm = force_scale([pull], 20.0, unit_size(r, "force", shown.notation))
     head = _moved(g, a, slow)
@@ -58,6 +65,11 @@ def _arrows(canvas: Canvas, r: Result, link: str, k: int, frame: Frame, shown: S
     if math.dist(g, at) > 1.0:
         dimension(canvas, g, at, f"h = {shown.text('length', float(found.offset[k]))}")
     return {"force": per_mm, "acceleration": slow}
+
+
+def _accelerated(r: Result, link: str, k: int, shown: Shown) -> bool:
+    """Whether the mass centre has an acceleration that is more than rounding."""
+    return math.hypot(*map(float, r.center_acceleration(link)[k])) > shown.least["acceleration"]
 
 
 def _moved(p: Point, v: object, per_mm: float) -> Point:

@@ -48,8 +48,12 @@ class Arrows:
         self.sizes = [_largest([a.force[at] for a in some]), _largest([a.couple[at] for a in some])]
         force, moment = self.sizes
         length = r.compiled.layout.length
-        self.floor = (NOTHING * max(force, moment / length), NOTHING * max(moment, force * length))
-        kinds = ("force", "moment")
+        kinds, sizes = ("force", "moment"), (max(force, moment / length), max(moment, force * length))
+        force_floor, moment_floor = (
+            max(NOTHING * size, shown.least[kind]) for size, kind in zip(sizes, kinds, strict=True)
+        )
+        self.floor = (force_floor, moment_floor)
+        self.sizes = [x if x > least else 0.0 for x, least in zip(self.sizes, self.floor, strict=True)]
         scales = [
             force_scale([size], longest, unit_size(r, kind, shown.notation))
             for size, kind in zip(self.sizes, kinds, strict=True)
