@@ -171,7 +171,7 @@ def test_the_answer_says_how_turns_were_counted() -> None:
     said = (
         "99.8064 deg at O2 = 90 deg, counted to within half a turn of 100 deg of the assembly at O2 = 0 deg"
     )
-    other = " (not -260.194 deg or 459.806 deg, which the angles in `assembly` choose)"
+    other = "; -260.194 deg or 459.806 deg could be meant too: the angles written in `assembly` choose"
     assert r.assumptions["turn of O4 for spring O4"] == said + other
     told = r.to_dict()
     assert told["counted_turns"]["spring O4"] == {

@@ -257,7 +257,7 @@ def _note(c: Compiled, n: Count, turn: Array) -> str:
     if not two_ways(c, n, turn):
         return text
     others = " or ".join(_angle(c, turn[k] + step) for step in (-2 * np.pi, 2 * np.pi))
-    return f"{text} (not {others}, which the angles in `assembly` choose)"
+    return f"{text}; {others} could be meant too: the angles written in `assembly` choose"
 
 
 def _angle(c: Compiled, value: float) -> str:
