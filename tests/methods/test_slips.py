@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from dalembert.analysis.closeness import Closeness
+from dalembert.analysis.answers import computed_text
+from dalembert.analysis.closeness import Closeness, Target
 from dalembert.analysis.quantities import Series
 from dalembert.analysis.slips import of_units, of_value
+from dalembert.units import Units
 
 
 def told(slips: Any) -> list[tuple[str, Any]]:
@@ -96,3 +98,9 @@ def test_angles_differ_whichever_is_larger_and_by_no_whole_turn(a: float, b: flo
     assert near.off(np.asarray(b)) == pytest.approx(0.1)
     assert not near.holds(np.asarray(b))
     assert Closeness(np.asarray(a), "angle", 0.11, (), False).holds(np.asarray(b))
+
+
+def test_a_vector_of_which_a_part_is_not_known_has_no_text() -> None:
+    published = Target(np.array([1.0, 2.0]), "N", False)
+    assert computed_text(np.array([3.0, 4.0]), published, "force", Units()) == "[3, 4]"
+    assert computed_text(np.array([3.0, np.nan]), published, "force", Units()) == "-"

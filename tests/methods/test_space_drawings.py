@@ -21,8 +21,8 @@ from dalembert.views.charts import shaking_force
 from dalembert.views.link_solids import link_solids, mount, pose
 from dalembert.views.painter import painted
 from dalembert.views.pair_symbols import SYMBOLS, symbol
-from dalembert.views.scene import Polygon
-from dalembert.views.solids import Ball, Cylinder, extent
+from dalembert.views.scene import Line, Polygon
+from dalembert.views.solids import Ball, Cylinder, Wire, extent
 from dalembert.views.space_mechanism import every_place, whole_sight
 from tests.methods.space_machines import MACHINES, solved
 from tests.oracles.space import random_drawn
@@ -164,6 +164,19 @@ def test_near_things_cover_far_ones() -> None:
     balls = [Ball(k * np.array([1.0, 1.0, 1.0]), 1.0, role) for k, role in ((2, "a"), (0, "b"), (1, "c"))]
     order = [i.role for i in painted(balls, CAMERAS["isometric"]) if "spot" not in i.role]  # type: ignore[union-attr]
     assert order == ["b", "c", "a"]
+
+
+def test_wires_are_cut_so_that_each_piece_has_its_own_depth() -> None:
+    """A wire towards the eye goes partly behind a ball on it, and partly before."""
+    wire, ball = (
+        Wire(np.array([[0.0, -20.0, 0.0], [0.0, 20.0, 0.0]]), "outline"),
+        Ball(np.zeros(3), 3.0, "link"),
+    )
+    items = painted([wire, ball], CAMERAS["front"])
+    lines = [k for k, item in enumerate(items) if isinstance(item, Line) and item.role == "outline"]
+    assert len(lines) == 16  # of 40 mm
+    covered = next(k for k, item in enumerate(items) if not isinstance(item, Line))
+    assert sum(k < covered for k in lines) == 8
 
 
 def test_every_pair_has_a_symbol() -> None:

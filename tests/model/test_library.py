@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import dalembert as da
 from dalembert.analysis import solve
 from dalembert.core import follow
 from dalembert.errors import ModelError
@@ -388,3 +389,8 @@ def test_unknown_template() -> None:
         template("fourbar")
     with pytest.raises(ModelError, match="there is no template 'zzz'; they are four_bar, slider_crank"):
         template_text("zzz")
+
+
+def test_bennett_is_determinate_unless_it_is_asked_to_be_overconstrained() -> None:
+    assert set(da.dynamics(bennett(positions=4)).status) == {"ok"}
+    assert set(da.dynamics(bennett(positions=4, determinate=False)).status) == {"redundant"}

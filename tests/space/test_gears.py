@@ -65,6 +65,21 @@ def test_spur_and_helical_wheels(helix: float) -> None:
     assert r.effort("A") == pytest.approx(np.full(13, 0.05 * tangential))
 
 
+def test_wheels_are_where_their_joints_are_on_their_links() -> None:
+    """Links described from other points than the wheels' centres change nothing."""
+    a, b = wheel([0, 0, 0], Z, 0.05), wheel([0.14, 0, 0.03], Z, 0.09)
+    m = pair(a, b, [0, 0, -TORQUE], helix_angle=15)
+    tree = m.to_tree()
+    tree["links"]["a"]["points"]["A"] = [0.02, -0.01, 0.03]
+    tree["links"]["b"]["points"]["B"] = [-0.03, 0.04, 0.01]
+    here, there = da.dynamics(m), da.dynamics(mechanism(tree))
+    assert set(there.status) == {"ok"}
+    for joint in m.joints:
+        assert there.reaction(joint) == pytest.approx(here.reaction(joint), abs=1e-9)
+        assert there.reaction_moment(joint) == pytest.approx(here.reaction_moment(joint), abs=1e-9)
+    assert there.speed("b") == pytest.approx(here.speed("b"))
+
+
 def test_ring_wheel() -> None:
     """The pinion inside turns the same way and is pushed towards the centre."""
     m = pair(wheel([0, 0, 0], Z, 0.15), wheel([0.1, 0, 0], Z, 0.05), [0, 0, -TORQUE], internal=True)
@@ -74,16 +89,21 @@ def test_ring_wheel() -> None:
     assert r.reaction("G", on="b")[0] == pytest.approx([-tangential * tan(ALPHA), tangential, 0.0])
 
 
+@pytest.mark.parametrize("sense", [1.0, -1.0], ids=["away from the apex", "towards it"])
 @pytest.mark.parametrize("shaft", [60.0, 90.0, 110.0])
-def test_bevel_wheels(shaft: float) -> None:
-    """Of a straight bevel wheel with cone angle d: axial F_t tan(alpha) sin(d), radial F_t tan(alpha) cos(d)."""
+def test_bevel_wheels(shaft: float, sense: float) -> None:
+    """Whichever way the first axis points.
+
+    Of a straight bevel wheel with cone angle d: axial F_t tan(alpha) sin(d), radial F_t tan(alpha) cos(d).
+    """
     ra, rb, sigma = 0.04, 0.07, radians(shaft)
     da_ = atan2(sin(sigma), rb / ra + cos(sigma))
     apex = ra / tan(da_)
     contact = np.array([ra, 0.0, -apex])
     axis = np.array([sin(sigma), 0.0, -cos(sigma)])
     center = (contact @ axis) * axis
-    m = pair(wheel([0, 0, -apex], Z, ra), wheel(center.tolist(), axis.tolist(), rb), (TORQUE * axis).tolist())
+    first = wheel([0, 0, -apex], [0, 0, sense], ra)
+    m = pair(first, wheel(center.tolist(), axis.tolist(), rb), (TORQUE * axis).tolist())
     r = da.statics(m)
     force = r.reaction("G", on="a")[0]
     tangential = TORQUE / rb
