@@ -249,3 +249,10 @@ def test_casadi_function() -> None:
     assert abs(float(effort) - r.effort("O2")[0, 5]) < 1e-10
     assert np.abs(np.array(reaction).ravel() - r.reaction("A")[0, 5]).max() < 1e-9
     assert float(mark) == 0
+
+
+def test_positions_that_do_not_fit_the_drives() -> None:
+    k = da.compile(da.four_bar(), vary=["links.coupler.mass"])
+    with pytest.raises(da.ModelError) as error:
+        k([[1.0]], positions=[[1.0, 2.0, 3.0]])
+    assert str(error.value) == "positions of shape (1, 3) do not fit 1 drive(s); give (position, drive)"

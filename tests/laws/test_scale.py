@@ -55,3 +55,21 @@ def test_size_changes_no_freedom_and_no_force(size: float) -> None:
     assert double.unique("B").all()
     assert not double.unique("guide")[0, 1]
     assert np.isfinite(double.least_norm("guide")).all()
+
+
+def test_a_motion_that_nobody_waits_for_is_refused() -> None:
+    tree = crank(1.0, True).to_tree()
+    tree["drives"]["O"]["position"] = [0, 1e13]
+    with pytest.raises(
+        da.ModelError, match=r"drive 'O' goes from 0 deg to 1e\+13 deg between two positions; check the"
+    ):
+        da.statics(da.mechanism(tree))
+
+
+def test_two_freedoms_without_drives_are_named_together() -> None:
+    tree = crank(1.0, False).to_tree()
+    del tree["joints"]["guide"]
+    with pytest.raises(
+        da.ModelError, match=r"has 3 freedoms and no drive; add 3 drives at some of O \(turn\), A"
+    ):
+        da.statics(da.mechanism(tree))

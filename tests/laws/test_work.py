@@ -86,3 +86,25 @@ def test_a_law_of_motion_has_its_own_times() -> None:
     rise = {"law": {"type": "cycloidal", "from": 0, "to": 90, "duration": "0.5 s", "count": 201}}
     e = shaft(None, force=100.0, couple=0.0, drive=rise)
     assert e.lost == pytest.approx(np.pi / 2 * 100 * ARM, rel=1e-5)
+
+
+@pytest.mark.parametrize("places", [[0, 0.05, 0.2, 0.3], [0.3, 0.1, 0], [0, 0.1, 0.2, 0.3]])
+def test_work_along_a_slide(places: list[float]) -> None:
+    """A stroke is no turn that would close: mu N times its length."""
+    tree = {
+        "gravity": "none",
+        "links": {"ground": {"points": {"O": [0, 0]}}, "block": {"points": {"B": [0, 0]}}},
+        "joints": {
+            "S": {
+                "type": "slider",
+                "links": ["ground", "block"],
+                "at": ["O", "B"],
+                "friction": {"coefficient": 0.2},
+            }
+        },
+        "drives": {"S": {"position": places, "speed": "2 m/s"}},
+        "loads": {"N": {"type": "force", "on": "block", "at": "B", "value": [0, -50]}},
+    }
+    e = da.efficiency(da.statics(da.mechanism(tree)))
+    assert e.lost == pytest.approx(0.2 * 50 * 0.3, rel=1e-12)
+    assert e.put_in == pytest.approx(0.2 * 50 * 0.3, rel=1e-12)

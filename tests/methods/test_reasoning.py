@@ -12,6 +12,7 @@ import pytest
 import dalembert as da
 from dalembert.analysis.actions import actions, on_link
 from dalembert.analysis.circles import two_pins
+from dalembert.analysis.members import Share
 from dalembert.bundled import cases, examples
 from dalembert.views.scene import Text
 from tests.random_mechanisms import random_case
@@ -247,3 +248,8 @@ def test_friction_is_refused_by_superposition_checked_by_virtual_work_and_shown_
         assert np.abs(sum(a.force for a in some)).max() < 1e-9
         assert np.abs(sum(a.moment(r.center(link)) for a in some)).max() < 1e-9
     assert da.members(r)["rod"].kind == "two-force"
+
+
+def test_the_share_of_inertia_is_that_of_the_whole() -> None:
+    assert Share("A", "reaction", whole=4.0, inertia=1.0).share == 0.25
+    assert Share("A", "reaction", whole=0.0, inertia=0.0).share == 0.0

@@ -176,3 +176,24 @@ def test_a_crank_pin_beside_its_bearing_bends_it() -> None:
 def test_what_cannot_be_lifted(offsets: dict[str, float], become: dict[str, Any], says: str) -> None:
     with pytest.raises(da.ModelError, match=says):
         da.lifted(da.four_bar(), offsets, become)
+
+
+def test_wheels_that_roll_are_not_lifted() -> None:
+    tree = {
+        "links": {"ground": {"points": {"O": [0, 0]}}, "wheel": {"points": {"C": [0, 0]}}},
+        "joints": {"R": {"type": "rolling", "links": ["ground", "wheel"], "at": ["O", "C"], "radius": 0.1}},
+        "drives": {"R": {"position": 0}},
+    }
+    with pytest.raises(
+        da.ModelError, match="joint 'R': a rolling joint has no counterpart that could be lifted"
+    ):
+        da.lifted(da.mechanism(tree))
+
+
+def test_a_force_at_a_place_of_its_link_stays_there() -> None:
+    m = da.four_bar(positions=4)
+    tree = m.to_tree()
+    tree["loads"] = {"F": {"type": "force", "on": "rocker", "at": [0.05, 0.02], "value": [30, -40]}}
+    m = da.mechanism(tree)
+    plane, space = da.statics(m), da.statics(da.lifted(m))
+    assert space.effort("O2") == pytest.approx(plane.effort("O2"), rel=1e-10)
