@@ -14,6 +14,7 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.views.canvas import text_over_lines, text_overlaps
+from dalembert.views.charts import chart_scenes
 from dalembert.views.polygons import forces_of
 from dalembert.views.scene import Line, Text
 
@@ -307,3 +308,20 @@ def test_a_slot_is_named_where_its_pin_is() -> None:
     (label,) = (item for item in scene.items if isinstance(item, Text) and item.text == slot)
     (force,) = (a for a in scene.arrows() if a.of == slot and a.kind == "force")
     assert min(math.dist(label.at, end) for end in (force.tail, force.head)) < 6.0
+
+
+@pytest.mark.parametrize("name", ["four_bar", "rssr"])
+def test_charts_are_of_joints_that_carry_something_and_have_one_axis(name: str) -> None:
+    """Components of each loaded joint, none of one without a force; only the line of zero is an axis."""
+    r = da.solve(da.load(examples()[name]), positions=12)
+    out = chart_scenes(r)
+    titles = [scene.title or "" for scene in out]
+    for joint in r.joints:
+        assert any(title.startswith(f"Joint {joint}: force") for title in titles), titles
+    if name == "rssr":
+        turned = {title[6] for title in titles if ": moment" in title}
+        assert turned == {j for j in r.joints if r.mechanism.joints[j].type != "spherical"}
+    for scene in out:
+        lines = [i for i in scene.items if isinstance(i, Line) and len(i.points) == 2]
+        flat = [i for i in lines if i.points[0][1] == i.points[1][1] and i.role in ("axis", "grid")]
+        assert sum(line.role == "axis" for line in flat) <= 1

@@ -22,7 +22,7 @@ from dalembert.views.link_solids import link_solids, mount, pose
 from dalembert.views.painter import painted
 from dalembert.views.pair_symbols import SYMBOLS, symbol
 from dalembert.views.scene import Line, Polygon
-from dalembert.views.solids import Ball, Cylinder, Wire, extent
+from dalembert.views.solids import Ball, Cylinder, Wire, extent, helix
 from dalembert.views.space_mechanism import every_place, whole_sight
 from tests.methods.space_machines import MACHINES, solved
 from tests.oracles.space import random_drawn
@@ -301,3 +301,17 @@ def test_the_shaking_force_is_unique_where_reactions_are_not() -> None:
     largest = float(np.abs(flat).max())
     assert lift[:, :2] == pytest.approx(flat, abs=1e-10 * largest)
     assert lift[:, 2] == pytest.approx(0, abs=1e-10 * largest)
+
+
+@pytest.mark.parametrize("thread", [2.0, -3.0])
+def test_a_thread_lies_on_its_cylinder(thread: float) -> None:
+    """Right-handed where positive: it turns about its axis as it goes along, by one turn a lead."""
+    start, along = np.array([1.0, 2.0, 3.0]), np.array([2.0, -1.0, 2.0]) / 3
+    points = helix(Cylinder(start, start + 10 * along, 1.5, "link", thread=thread)) - start
+    height = points @ along
+    radial = points - height[:, None] * along
+    assert (height[0], height[-1]) == pytest.approx((0, 10))
+    assert np.linalg.norm(radial, axis=1) == pytest.approx(1.5)
+    turned = np.cross(radial[:-1], radial[1:]) @ along
+    assert np.sign(turned) == pytest.approx(np.sign(thread))
+    assert np.abs(np.arcsin(turned / 1.5**2)).sum() == pytest.approx(2 * np.pi * 10 / abs(thread), rel=1e-9)

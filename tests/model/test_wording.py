@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import pytest
+
+import dalembert as da
+from dalembert.model.library import scissor, toggle_press
 from dalembert.printing import rounded
 from dalembert.wording import nearest, shown
 
@@ -26,3 +32,31 @@ def test_what_is_nothing_beside_the_largest_is_zero() -> None:
     assert rounded([1e-13], beside=1.0) == [0.0]
     assert rounded([float("inf"), 1e-13])[1] == 1e-13
     assert str(rounded([-1e-13, 1.0])[0]) == "0.0"
+
+
+def four_bar(change: dict[str, Any]) -> da.Mechanism:
+    return da.mechanism(da.four_bar().to_tree() | change)
+
+
+@pytest.mark.parametrize(
+    ("made", "said"),
+    [
+        (lambda: toggle_press(rod=-0.1), "toggle_press: rod is -0.1"),
+        (lambda: scissor(drive="lift"), 'scissor: drive is \'lift\'; it is "slide" (the roller) or "turn"'),
+        (
+            lambda: four_bar({"loads": {"F": {"type": "force", "on": "rocker", "at": "B", "value": 3.0}}}),
+            "a single value needs a direction; write direction: 30 deg, or value: [x, y]",
+        ),
+        *(
+            (
+                lambda r=r: four_bar({"drives": {"O2": {"position": "unknown", "range": r, "effort": 0}}}),
+                "a range is two increasing positions; write range: [0 deg, 180 deg]",
+            )
+            for r in ([10, 5], [1, 2, 3], [7, 7])
+        ),
+    ],
+)
+def test_what_is_wrong_is_said_before_what_would_be_right(made: Any, said: str) -> None:
+    with pytest.raises(da.ModelError) as error:
+        made()
+    assert said in str(error.value)

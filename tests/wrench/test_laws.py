@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from dalembert.errors import AnalysisError
+from dalembert.errors import AnalysisError, ModelError
 from dalembert.wrench import (
     Axis,
     Couple,
@@ -318,3 +318,18 @@ def test_answers_cannot_be_changed_by_accident() -> None:
     for answer in (s.resultant, s.point([1, 2]), s.forces[0].vector):
         with pytest.raises(ValueError, match="read-only"):
             answer[0] = 1.0
+
+
+def test_in_the_plane_a_line_meets_no_z() -> None:
+    with pytest.raises(ModelError, match="a line is cut at one of x, y; write for example"):
+        Axis([0, 1], [1, 1]).crossing(z=1)
+
+
+def test_a_force_out_of_the_plane_of_its_axes() -> None:
+    """However small or large the force: what is left counts beside it."""
+    axes = ([1, 0, 0], [1, 1, 0])
+    for size in (1e-6, 1.0, 1e6):
+        assert components([size, 2 * size, 0], *axes) == pytest.approx([-size, 2 * size * math.sqrt(2)])
+        assert len(components([size, 2 * size, 1e-12 * size], *axes)) == 2
+        with pytest.raises(ModelError, match="the force does not lie in the axes' plane"):
+            components([size, 2 * size, 1e-3 * size], *axes)
