@@ -27,9 +27,9 @@ from benchmarks.linkages import FOUR_BAR, chain, four_bar
 from tests.kernel.machines import block_in_a_yoke, block_on_a_crank, eight_bar
 
 import dalembert as da
-from dalembert.kernel.batch import path_array, row_length
-from dalembert.kernel.emit_reduce import width
-from dalembert.kernel.machine import aligned, blocked, host_lanes
+from dalembert.kernel.emit.machine_code import aligned, blocked, host_lanes
+from dalembert.kernel.emit.reductions import width
+from dalembert.kernel.parallel_runs import path_array, row_length
 
 CACHE = 5e5
 """Bytes of results of one timed call: what the second cache holds, and long against the call itself."""

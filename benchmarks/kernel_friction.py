@@ -23,14 +23,14 @@ from benchmarks.kernel import runs, timed
 from tests.kernel.comparing import every_number
 
 import dalembert as da
-from dalembert.analysis.batch.symbols import geometric
-from dalembert.kernel import rubbing
+from dalembert.analysis.batch.symbolic_model import geometric
+from dalembert.kernel import friction_trace
 
 
 def steps(m: Any) -> int:
     """Newton's steps that the compiler unrolls."""
     counted: list[int] = []
-    block, correction = rubbing._newton, rubbing.correction
+    block, correction = friction_trace._newton, friction_trace.correction
 
     def newton(*given: Any) -> Any:
         counted.append(0)
@@ -40,11 +40,11 @@ def steps(m: Any) -> int:
         counted[-1] += 1
         return correction(*given)
 
-    rubbing._newton, rubbing.correction = newton, counting  # type: ignore[attr-defined]
+    friction_trace._newton, friction_trace.correction = newton, counting  # type: ignore[attr-defined]
     try:
         da.compile(m)
     finally:
-        rubbing._newton, rubbing.correction = block, correction  # type: ignore[attr-defined]
+        friction_trace._newton, friction_trace.correction = block, correction  # type: ignore[attr-defined]
     return max(counted)
 
 

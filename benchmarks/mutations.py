@@ -13,12 +13,9 @@ from math import sqrt
 from pathlib import Path
 
 SOURCE = Path(__file__).parents[1] / "src" / "dalembert"
-_ANALYSIS = (
-    "analysis/{0}answers.py analysis/{0}closeness.py analysis/{0}mistakes.py analysis/{0}wrong_problems.py"
-)
 PACKAGES = {
-    "grading": f"{_ANALYSIS.format('')} analysis/slips.py analysis/quantities.py cli/grading.py cli/checking.py",
-    "units": "units.py printing.py symbols.py wording.py",
+    "grading": "grading/ cli/check_answers_command.py cli/check_command.py",
+    "units": "units.py printing.py unit_names.py wording.py",
     **{
         p: f"{p}/"
         for p in ("algebra", "core", "analysis", "kernel", "model", "wrench", "views", "report", "cli")

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from dalembert.analysis import solve
-from dalembert.analysis.answers import check_file
 from dalembert.bundled import examples
+from dalembert.grading.file_answers import check_file
 from dalembert.model import load
 from tests.examples_by_hand import EXAMPLES
 

@@ -1,10 +1,11 @@
-"""Imports point one way (DESIGN: algebra <- core <- kernel, analysis <- views <- report), read from the sources."""
+"""Rooms, and which way imports point between them (algebra <- core <- kernel, analysis <- views <- report)."""
 
 from __future__ import annotations
 
 import ast
 import subprocess
 import sys
+from collections import Counter
 from importlib import import_module
 from pathlib import Path
 
@@ -14,36 +15,54 @@ import dalembert
 
 PACKAGE = Path(dalembert.__file__).parent
 MODULES = sorted(PACKAGE.rglob("*.py"))
+ROOMS = sorted({path.parent for path in MODULES})
+MOST = 15
+"""Entries of a room: about a dozen."""
 
-BASE = {"errors", "wording", "printing", "symbols", "units", "saving", "bundled"}
+BASE = {"arrays", "errors", "wording", "printing", "unit_names", "units", "saving", "bundled"}
 ANALYSIS = BASE | {"algebra", "core", "kernel", "model", "analysis"}
+SHOWN = ANALYSIS - {"core", "kernel"} | {"wrench"}
 MAY_IMPORT = {
-    "errors": set(),
-    "wording": set(),
-    "printing": set(),
-    "bundled": set(),
-    "saving": BASE,
-    "symbols": BASE,
-    "units": BASE,
-    "algebra": {"algebra"},
-    "core": {"algebra", "core"},
-    "kernel": {"algebra", "core", "kernel"},
+    **{name: set[str]() for name in ("arrays", "errors", "wording", "printing", "bundled")},
+    **dict.fromkeys(("saving", "unit_names", "units"), BASE),
+    "algebra": {"arrays", "algebra"},
+    "core": {"arrays", "algebra", "core"},
+    "core.position": {"arrays", "algebra", "core"},
+    "core.friction": {"arrays", "algebra", "core"} - {"core.position"},
+    "kernel": {"arrays", "algebra", "core", "kernel"},
+    "kernel.emit": {"arrays", "kernel"},
     "model": BASE | {"model"},
     "analysis": ANALYSIS,
+    "analysis.output": BASE | {"algebra", "model", "analysis"},
+    "grading": BASE | {"core", "model", "analysis", "grading"},
     "wrench": BASE | {"algebra", "model", "analysis", "wrench"},
-    "views": ANALYSIS - {"core", "kernel"} | {"wrench", "views"},
-    "report": ANALYSIS - {"core", "kernel"} | {"wrench", "views", "report"},
-    "study": ANALYSIS | {"study"},
-    "web": ANALYSIS | {"views", "report", "study", "web"},
-    "cli": ANALYSIS - {"core", "kernel"} | {"", "wrench", "views", "report", "study", "web", "cli"},
-    "__init__": ANALYSIS | {"wrench", "views", "report", "study"},
+    "views": SHOWN | {"views"},
+    "views.symbols": SHOWN | {"views.paper", "views.space", "views.symbols"},
+    "report": SHOWN | {"views", "report"},
+    "cli": SHOWN | {"", "grading", "views", "report", "cli"},
+    "__init__": SHOWN | {"grading", "views", "report"},
     "__main__": {"cli"},
 }
-"""Part of the package -> the parts it may import; '' is the package itself, for its version."""
+"""Room (or file beside them) -> rooms that its files may import, with the rooms inside these; a room that is not named
+here has the rule of the room it is in. '' is the package itself, for its version."""
+
+FACADES = {
+    "analysis.result.result",
+    "model.description",
+    "views.paper.scene",
+    "analysis.batch.compiled_kernel",
+}
+"""Result, Mechanism, Scene and Kernel: their methods call what is built on them, by imports inside the methods."""
 
 
-def layer(path: Path) -> str:
-    return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
+def room(path: Path) -> str:
+    """The room of a file, dots between rooms: the file itself beside all rooms."""
+    parts = path.relative_to(PACKAGE).parts
+    return ".".join(parts[:-1]) or path.stem
+
+
+def within(name: str, rooms: set[str]) -> bool:
+    return any(name == each or (each and name.startswith(f"{each}.")) for each in rooms)
 
 
 def imported(path: Path) -> list[tuple[str, tuple[str, ...]]]:
@@ -58,34 +77,93 @@ def imported(path: Path) -> list[tuple[str, tuple[str, ...]]]:
     return [(name, names) for name, names in found if name.split(".")[0] == "dalembert"]
 
 
-def parts(module: str, names: tuple[str, ...]) -> set[str]:
-    """Parts of the package behind one import: `from dalembert import analysis` is one of analysis."""
-    inside = module.split(".")[1:2]
-    if inside:
-        return set(inside)
-    return {name if (PACKAGE / name).is_dir() or (PACKAGE / f"{name}.py").is_file() else "" for name in names}
+def inside(module: str, names: tuple[str, ...]) -> set[str]:
+    """Modules of the package behind one import, without its name: `from dalembert.core import rank` is core.rank."""
+    found = {f"{module}.{name}" for name in names}
+    taken = {name if _file(name) else module for name in found} if found else {module}
+    return {name.removeprefix("dalembert").removeprefix(".") for name in taken}
+
+
+def _file(module: str) -> Path | None:
+    place = PACKAGE.joinpath(*module.split(".")[1:])
+    return next((p for p in (place.with_suffix(".py"), place / "__init__.py") if p.is_file()), None)
+
+
+def rule(name: str) -> set[str]:
+    """What a room may import: its own rule, or that of the room it is in."""
+    while name not in MAY_IMPORT:
+        name = name.rpartition(".")[0]
+        assert name
+    return MAY_IMPORT[name]
 
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
 def test_imports_point_one_way(path: Path) -> None:
-    allowed = MAY_IMPORT[layer(path)]
+    allowed = rule(room(path))
     for module, names in imported(path):
-        assert parts(module, names) <= allowed, f"{layer(path)} imports {module}"
-
-
-COMPILING = ("compile.py", "jointing.py", "loads.py", "pairs.py")
-"""The files that know both a description and the core."""
+        for name in inside(module, names):
+            assert within(name, allowed), f"{room(path)} imports {name}"
 
 
 def test_only_compile_reads_the_description_for_the_core() -> None:
     """Elsewhere in analysis a file that imports the core takes no more than the types of the description."""
-    for path in (PACKAGE / "analysis").glob("*.py"):
+    for path in (PACKAGE / "analysis").rglob("*.py"):
         modules = dict(imported(path))
-        if path.name in COMPILING or not any(name.startswith("dalembert.core") for name in modules):
+        if room(path) == "analysis.compile" or not any(name.startswith("dalembert.core") for name in modules):
             continue
-        inside = [name for name in modules if name.startswith("dalembert.model.")]
-        assert not inside, f"{path.name} imports the core and {inside}"
+        described = [name for name in modules if name.startswith("dalembert.model.")]
+        assert not described, f"{path.name} imports the core and {described}"
         assert set(modules.get("dalembert.model", ())) <= {"Mechanism", "Schedule"}, path.name
+
+
+def at_load(path: Path) -> list[tuple[str, tuple[str, ...]]]:
+    """Imports at the head of a file: without those for hints and those inside functions."""
+    found = [n for n in ast.parse(path.read_text(encoding="utf-8")).body if isinstance(n, ast.ImportFrom)]
+    return [
+        (n.module or "", tuple(a.name for a in n.names))
+        for n in found
+        if n.module and n.module.startswith("dalembert")
+    ]
+
+
+def test_no_module_needs_itself() -> None:
+    """No circle among the modules, imports for hints and inside functions counted, but for those of the facades."""
+    graph = {}
+    for path in MODULES:
+        name = (
+            ".".join(path.relative_to(PACKAGE).with_suffix("").parts)
+            .removesuffix("__init__")
+            .removesuffix(".")
+        )
+        taken = (at_load if name in FACADES else imported)(path)
+        graph[name] = {one for module, names in taken for one in inside(module, names)} - {name}
+    while True:
+        leaves = {name for name, needs in graph.items() if not needs & graph.keys()}
+        if not leaves:
+            break
+        graph = {name: needs for name, needs in graph.items() if name not in leaves}
+    while True:  # what only leads to a circle is none
+        needed = set().union(*graph.values()) if graph else set()
+        kept = {name: needs for name, needs in graph.items() if name in needed}
+        if len(kept) == len(graph):
+            break
+        graph = kept
+    assert not graph
+
+
+@pytest.mark.parametrize("place", ROOMS, ids=lambda path: path.relative_to(PACKAGE.parent).as_posix())
+def test_a_room_says_what_it_is_and_can_be_overlooked(place: Path) -> None:
+    entries = [
+        p for p in place.iterdir() if p.suffix == ".py" or (p.is_dir() and (p / "__init__.py").exists())
+    ]
+    assert place == PACKAGE or len(entries) - 1 <= MOST
+    said = ast.get_docstring(ast.parse((place / "__init__.py").read_text(encoding="utf-8"))) or ""
+    assert place == PACKAGE or ("In:" in said and "Out:" in said), "say what comes in, what goes out"
+
+
+def test_no_two_files_have_one_name() -> None:
+    counted = Counter(path.stem for path in MODULES if path.stem not in ("__init__", "__main__"))
+    assert not [name for name, count in counted.items() if count > 1]
 
 
 HEAVY = (

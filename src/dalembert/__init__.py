@@ -25,19 +25,24 @@ if TYPE_CHECKING:
         solve,
         statics,
     )
-    from dalembert.analysis.actions import forces_on
-    from dalembert.analysis.answers import check_file
     from dalembert.analysis.batch import BatchResult, Kernel, compile  # noqa: A004
-    from dalembert.analysis.branches import other_solutions
-    from dalembert.analysis.circles import friction_circles
-    from dalembert.analysis.efficiency import efficiency
-    from dalembert.analysis.fixed_point import fixed_point
-    from dalembert.analysis.friction import guide_contact
+    from dalembert.analysis.friction.efficiency import efficiency
+    from dalembert.analysis.friction.fixed_point import fixed_point
+    from dalembert.analysis.friction.friction_circles import friction_circles
+    from dalembert.analysis.friction.joint_friction import guide_contact
+    from dalembert.analysis.friction.other_solutions import other_solutions
     from dalembert.analysis.lift import lifted
-    from dalembert.analysis.members import displaced_inertia, inertia_shares, members, order_of_solution
-    from dalembert.analysis.mistakes import check_answers
-    from dalembert.analysis.superposition import superposition
-    from dalembert.analysis.virtual_work import virtual_work
+    from dalembert.analysis.methods.applied_forces import forces_on
+    from dalembert.analysis.methods.members import (
+        displaced_inertia,
+        inertia_shares,
+        members,
+        order_of_solution,
+    )
+    from dalembert.analysis.methods.superposition import superposition
+    from dalembert.analysis.methods.virtual_work import virtual_work
+    from dalembert.grading.file_answers import check_file
+    from dalembert.grading.mistakes import check_answers
     from dalembert.model import (
         Answer,
         Box,
@@ -108,7 +113,7 @@ if TYPE_CHECKING:
     from dalembert.report import report
     from dalembert.views import draw
     from dalembert.views.notation import Notation
-    from dalembert.views.scene import Scene
+    from dalembert.views.paper.scene import Scene
 
 __version__ = "0.1.0"
 
@@ -138,7 +143,7 @@ _HOME = {
     "Result": "analysis",
     "Rise": "model",
     "Rolling": "model",
-    "Scene": "views.scene",
+    "Scene": "views.paper.scene",
     "SlenderBar": "model",
     "Slider": "model",
     "Slot": "model",
@@ -156,24 +161,24 @@ _HOME = {
     "bennett": "model.library",
     "bevel_differential": "model.library",
     "bucket": "model.library",
-    "check_answers": "analysis.mistakes",
-    "check_file": "analysis.answers",
+    "check_answers": "grading.mistakes",
+    "check_file": "grading.file_answers",
     "compile": "analysis.batch",
     "convert": "model",
     "crank_shaper": "model.library",
-    "displaced_inertia": "analysis.members",
+    "displaced_inertia": "analysis.methods.members",
     "double_cardan": "model.library",
     "draw": "views",
     "dynamics": "analysis",
-    "efficiency": "analysis.efficiency",
+    "efficiency": "analysis.friction.efficiency",
     "five_bar": "model.library",
-    "fixed_point": "analysis.fixed_point",
-    "forces_on": "analysis.actions",
+    "fixed_point": "analysis.friction.fixed_point",
+    "forces_on": "analysis.methods.applied_forces",
     "four_bar": "model.library",
-    "friction_circles": "analysis.circles",
-    "guide_contact": "analysis.friction",
+    "friction_circles": "analysis.friction.friction_circles",
+    "guide_contact": "analysis.friction.joint_friction",
     "hooke_joint": "model.library",
-    "inertia_shares": "analysis.members",
+    "inertia_shares": "analysis.methods.members",
     "inverted_slider_crank": "model.library",
     "json_schema": "model",
     "kinematics": "analysis",
@@ -181,10 +186,10 @@ _HOME = {
     "load": "model",
     "loads": "model",
     "mechanism": "model",
-    "members": "analysis.members",
+    "members": "analysis.methods.members",
     "mobility": "analysis",
-    "order_of_solution": "analysis.members",
-    "other_solutions": "analysis.branches",
+    "order_of_solution": "analysis.methods.members",
+    "other_solutions": "analysis.friction.other_solutions",
     "rccc": "model.library",
     "report": "report",
     "rotating_shaft": "model.library",
@@ -199,9 +204,9 @@ _HOME = {
     "stephenson_1": "model.library",
     "stephenson_2": "model.library",
     "stephenson_3": "model.library",
-    "superposition": "analysis.superposition",
+    "superposition": "analysis.methods.superposition",
     "toggle_press": "model.library",
-    "virtual_work": "analysis.virtual_work",
+    "virtual_work": "analysis.methods.virtual_work",
     "watt_1": "model.library",
     "watt_2": "model.library",
     "whitworth": "model.library",

@@ -12,7 +12,7 @@ from dataclasses import dataclass, fields
 from functools import lru_cache
 
 from dalembert.errors import ModelError
-from dalembert.symbols import ANGLE, FORCE, LENGTH, MASS, MOMENT, NONE, ONE, TIME, Dimension, Unit, unit
+from dalembert.unit_names import ANGLE, FORCE, LENGTH, MASS, MOMENT, NONE, ONE, TIME, Dimension, Unit, unit
 from dalembert.wording import closest, shown
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from dalembert.analysis.answers import Row, check_file
 from dalembert.analysis.solution import solve
+from dalembert.grading.file_answers import Row, check_file
 from dalembert.model import load
 
 FILES = sorted((Path(__file__).parents[2] / "cases").glob("*.yaml"))

@@ -17,7 +17,7 @@ from typing import Any
 import pytest
 
 import dalembert as da
-from dalembert.analysis import export
+from dalembert.analysis.output import export
 from dalembert.bundled import cases, examples
 from dalembert.model import load, tree_text
 from tests.cli.conftest import Run

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from dalembert.core.friction import Response
-from dalembert.core.slip import slipping
+from dalembert.core.friction.contact_equations import Response
+from dalembert.core.friction.friction_solver import slipping
 
 Array = Any
 

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.actions import magnitude, on_link
-from dalembert.analysis.lines import acting_lines
+from dalembert.analysis.friction.lines_of_action import acting_lines
+from dalembert.analysis.methods.applied_forces import magnitude, on_link
 from dalembert.bundled import cases
-from dalembert.views.canvas import text_over_lines, text_overlaps
-from dalembert.views.scene import Circle, Line, Scene
+from dalembert.views.paper.canvas import text_over_lines, text_overlaps
+from dalembert.views.paper.scene import Circle, Line, Scene
 from tests.friction.engines import collar, engine, engine_by_hand, guided
 from tests.friction.rough import rough
 from tests.friction.test_laws import solved

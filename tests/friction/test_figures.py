@@ -10,8 +10,8 @@ import pytest
 from scipy.optimize import brentq, fsolve
 
 import dalembert as da
-from dalembert.analysis.circles import friction_circles
-from dalembert.analysis.friction import guide_contact, joints_at_limit
+from dalembert.analysis.friction.friction_circles import friction_circles
+from dalembert.analysis.friction.joint_friction import guide_contact, joints_at_limit
 from tests.friction.engines import GAS, collar, engine, engine_by_hand, guided, pushed_slider
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.core.simplex import furthest
+from dalembert.core.friction.linear_programmes import furthest
 from tests.friction.engines import engine, pushed_slider
 from tests.friction.oracle import resting
 from tests.friction.rough import still_tree

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.fixed_point import posed
-from dalembert.core.friction import Response
-from dalembert.core.slip import slipping
+from dalembert.analysis.friction.fixed_point import posed
+from dalembert.core.friction.contact_equations import Response
+from dalembert.core.friction.friction_solver import slipping
 from tests.friction.oracle import branch, compared
 from tests.friction.rough import CYCLES, cycle, rough, rough_tree, still_tree, unlawful
 from tests.laws.measures import joint_wrenches, known_wrenches

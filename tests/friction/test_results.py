@@ -218,7 +218,7 @@ def test_gears_with_friction() -> None:
 
 
 def test_the_arm_of_full_depth_teeth() -> None:
-    from dalembert.analysis.contacts import contact_arm
+    from dalembert.analysis.compile.contacts import contact_arm
 
     gear = da.Gear(links=("a", "b"), teeth=(20, 40), module=0.005, friction={"coefficient": 0.1})
     ra, rb, m, alpha = 0.05, 0.1, 0.005, np.radians(20)

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.answers import check
-from dalembert.analysis.export import write_csv
+from dalembert.analysis.output.export import write_csv
 from dalembert.cli import main
+from dalembert.grading.file_answers import check
 from dalembert.report.working import working
 from dalembert.views.charts import effort_chart, polar_chart, reaction_chart, stepped
 from tests.friction import four_stroke

@@ -10,7 +10,7 @@ import pytest
 from scipy.optimize import brentq
 
 import dalembert as da
-from dalembert.analysis.lines import slot_face
+from dalembert.analysis.friction.lines_of_action import slot_face
 from tests.friction.oracle import branch, compared
 from tests.friction.rough import rough_tree, unlawful
 from tests.kernel.comparing import difference

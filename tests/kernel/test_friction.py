@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.batch.answer import CODES, first_mark
-from dalembert.analysis.batch.export import plain
+from dalembert.analysis.batch.batch_result import CODES, first_mark
+from dalembert.analysis.batch.kernel_export import plain
 from tests.friction.engines import engine, engine_by_hand, guided, pushed_slider
 from tests.friction.rough import cycle, rough_tree
 from tests.kernel.comparing import changed, difference, every_number, frictional, general

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.compile import compiled
-from dalembert.core.friction import Response, argument, bearing
+from dalembert.analysis.compile.compiled_mechanism import compiled
+from dalembert.core.friction.contact_equations import Response, argument, bearing
 from dalembert.kernel.graph import Graph
-from dalembert.kernel.jamming import jams
+from dalembert.kernel.jam_proof import jams
 from tests.friction.rough import cycle, rough_tree
 from tests.kernel.comparing import general
 

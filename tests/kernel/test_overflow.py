@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.batch.answer import CODES, first_mark
+from dalembert.analysis.batch.batch_result import CODES, first_mark
 from tests.tiers import tiers
 
 SPEEDS = [1.0, 1e20, 1e100, 1e153, 1e160, 1e300]

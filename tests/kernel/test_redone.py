@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.batch.answer import NUMBERED
-from dalembert.analysis.batch.general import quantity
-from dalembert.analysis.batch.kernel import Kernel
-from dalembert.analysis.batch.reduction import PARTS
+from dalembert.analysis.batch.batch_result import NUMBERED
+from dalembert.analysis.batch.careful_path import quantity
+from dalembert.analysis.batch.compiled_kernel import Kernel
+from dalembert.analysis.batch.over_positions import PARTS
 from tests.friction.engines import engine, pushed_slider
 from tests.friction.rough import cycle, rough_tree
 from tests.kernel.comparing import every_number, frictional, general

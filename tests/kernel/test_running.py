@@ -14,11 +14,12 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.batch.export import plain
-from dalembert.analysis.batch.reduction import PARTS, reduced
-from dalembert.kernel import batch, cuda, emit_c, emit_llvm
+from dalembert.analysis.batch.kernel_export import plain
+from dalembert.analysis.batch.over_positions import PARTS, reduced
+from dalembert.kernel import parallel_runs
+from dalembert.kernel.emit import c_text, cuda, llvm_text
+from dalembert.kernel.emit.machine_code import aligned, compiled, host_lanes
 from dalembert.kernel.graph import Graph
-from dalembert.kernel.machine import aligned, compiled, host_lanes
 from dalembert.kernel.program import Program
 from tests.kernel.comparing import changed, every_number
 from tests.kernel.machines import KINDS, ROUGH, four_bar
@@ -49,7 +50,7 @@ def test_the_processor_s_own_lanes(monkeypatch: pytest.MonkeyPatch) -> None:
     assert (
         da.compile(da.four_bar(), derivatives=True, vary=every).lanes == host_lanes()
     )  # wide enough by itself
-    monkeypatch.setattr(sys.modules["dalembert.analysis.batch.kernel"], "SMALL", 10)
+    monkeypatch.setattr(sys.modules["dalembert.analysis.batch.compiled_kernel"], "SMALL", 10)
     assert da.compile(da.four_bar()).lanes == host_lanes()
 
 
@@ -62,10 +63,10 @@ def test_inverses_are_good_to_two_units_in_the_last_place(lanes: int) -> None:
     rng = np.random.default_rng(5)
     given = np.exp(rng.uniform(-300, 300, 4000)) * np.where(np.arange(4000) % 4 == 3, -1, 1)
     given[[10, 20]] = [0.0, np.nan]
-    path, blocks = batch.path_array(given[:, None], np.zeros(0), lanes, weighted=False)
-    out = np.empty((2, batch.row_length(blocks, lanes)))
+    path, blocks = parallel_runs.path_array(given[:, None], np.zeros(0), lanes, weighted=False)
+    out = np.empty((2, parallel_runs.row_length(blocks, lanes)))
     code = np.empty(out.shape[1], np.uint8)
-    compiled(emit_llvm.grid(program, lanes), lanes)(np.zeros(1), path, out, code, (0, 1, 1, blocks))
+    compiled(llvm_text.grid(program, lanes), lanes)(np.zeros(1), path, out, code, (0, 1, 1, blocks))
     found = out[:, :4000]
     with np.errstate(all="ignore"):
         expected = np.stack([1 / given, 1 / np.sqrt(given)])
@@ -79,7 +80,7 @@ def test_results_begin_at_a_line_of_the_cache(positions: int) -> None:
     k = da.compile(four_bar(40), vary=VARY, outputs=OUTPUTS)
     program, machine, _ = k.runner.machine("grid")
     columns, common = k.runner.inputs(program, k.trace.course)
-    path, _ = batch.path_array(columns[:positions], common, machine.lanes, weighted=False)
+    path, _ = parallel_runs.path_array(columns[:positions], common, machine.lanes, weighted=False)
     for a in (path, aligned((3, 5)), aligned((7,)), k(designs(k, 2)).effort("O2")):
         assert a.__array_interface__["data"][0] % 64 == 0
 
@@ -124,7 +125,7 @@ def test_threads_parts_and_progress(threads: int, monkeypatch: pytest.MonkeyPatc
     k = da.compile(four_bar(24), vary=VARY, outputs=OUTPUTS, reduce="peak")
     values = designs(k, 100)
     expected = k(values, threads=1)
-    monkeypatch.setattr(batch, "WORK", 24 * 7)
+    monkeypatch.setattr(parallel_runs, "WORK", 24 * 7)
     seen: list[tuple[int, int]] = []
     r = k(values, threads=threads, progress=lambda *done: seen.append(done))
     assert (r.effort("O2") == expected.effort("O2")).all()
@@ -136,7 +137,7 @@ def test_threads_parts_and_progress(threads: int, monkeypatch: pytest.MonkeyPatc
 @pytest.mark.parametrize("threads", [1, 2])
 def test_interruption(threads: int, monkeypatch: pytest.MonkeyPatch) -> None:
     k = da.compile(four_bar(24), vary=VARY, outputs=OUTPUTS, reduce="peak")
-    monkeypatch.setattr(batch, "WORK", 24)
+    monkeypatch.setattr(parallel_runs, "WORK", 24)
     values, done = np.repeat(k.nominal[None], 5000, axis=0), []
 
     def stop(count: int, of: int) -> None:
@@ -195,7 +196,7 @@ def test_the_card_s_text_compiled_as_c(kind: str, reduce: str | None, tmp_path: 
     columns, common = k.runner.inputs(program, k.trace.course)
     library = shared(tmp_path, cuda.source(program, slots), "card")
     values = np.ascontiguousarray(k.nominal[None] + np.array([[0.0, 0.0], [1e-3, -2e-3]]))
-    width = emit_c.width(slots) if slots else len(program.outputs) * len(columns)
+    width = c_text.width(slots) if slots else len(program.outputs) * len(columns)
     out, code = np.zeros((2, width)), np.zeros(2 * len(columns), np.uint8)
     counts = [ctypes.c_longlong(n) for n in (2, columns.shape[1], 2, len(columns))]
     entry = library.reduced if slots else library.grid

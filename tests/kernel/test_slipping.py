@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.core.friction import Response
+from dalembert.core.friction.contact_equations import Response
+from dalembert.kernel.friction_trace import slipped
 from dalembert.kernel.graph import Graph, Node
-from dalembert.kernel.jamming import lever
-from dalembert.kernel.rubbing import slipped
+from dalembert.kernel.jam_proof import lever
 from tests.kernel.test_jamming import some_contacts
 from tests.tiers import tiers
 

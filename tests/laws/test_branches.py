@@ -10,13 +10,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 import dalembert as da
+from dalembert.arrays import Array
 from dalembert.model.library import bennett
 from tests.tiers import over
-
-Array = NDArray[Any]
 
 SEEDS = 40
 STEADY = 1e-5

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.actions import state
+from dalembert.analysis.methods.applied_forces import state
 from dalembert.bundled import examples
 from dalembert.core.equilibrium import checked, known_sources, statement
 from dalembert.core.forcing import summed

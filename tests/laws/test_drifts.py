@@ -9,14 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from dalembert.algebra import plane, space
+from dalembert.arrays import Array
 from dalembert.core import layout as rows
 from dalembert.core.constraints import drift, measure, rates, system
 from dalembert.core.layout import Pose, Rows
-
-Array = NDArray[Any]
 
 STEP, COUNT = 1e-4, 5
 

@@ -7,8 +7,8 @@ import pytest
 from benchmarks.linkages import chain
 
 import dalembert as da
-from dalembert.analysis.compile import Compiled, compiled
-from dalembert.core.assur import plan
+from dalembert.analysis.compile.compiled_mechanism import Compiled, compiled
+from dalembert.core.position.assur_plan import plan
 from tests.random_mechanisms import Drawing, pose_array, tree
 from tests.random_mechanisms.groups import driven, dyad, single, welded
 from tests.tiers import over

@@ -10,13 +10,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 import dalembert as da
+from dalembert.arrays import Array
 from tests.laws.test_branches import four_bar_tree, meeting
 from tests.tiers import over
-
-Array = NDArray[Any]
 
 WIDE = 8
 """Positions of a range in space that is found: one in twelve of the missing ones is asked there."""

@@ -13,10 +13,10 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import cases, examples
-from dalembert.views.canvas import text_over_lines, text_overlaps
 from dalembert.views.charts import chart_scenes
-from dalembert.views.polygons import forces_of
-from dalembert.views.scene import Line, Text
+from dalembert.views.paper.canvas import text_over_lines, text_overlaps
+from dalembert.views.paper.scene import Line, Text
+from dalembert.views.plane.force_polygons import forces_of
 
 SHOWN = [
     "seed-000-a-four-bar-loaded-rocker",
@@ -114,7 +114,7 @@ def test_the_four_bar_polygon_of_the_book() -> None:
 
 
 def test_instant_centers_of_the_four_bar() -> None:
-    from dalembert.views.motion import instant_centers
+    from dalembert.views.plane.velocity_polygons import instant_centers
 
     r = result("four_bar")
     found = instant_centers(r, 0)
@@ -154,7 +154,7 @@ def test_other_formats(kind: str, tmp_path: Path) -> None:
 
 def test_loads_come_before_joints_in_a_polygon() -> None:
     r = result("four_bar")
-    from dalembert.analysis.actions import actions
+    from dalembert.analysis.methods.applied_forces import actions
 
     assert [a.kind for a in forces_of(actions(r), "coupler", 0)] == ["load", "inertia", "joint", "joint"]
 

@@ -12,9 +12,9 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases
 from dalembert.views.charts import shaking_chart, shaking_force
-from dalembert.views.circles import pin_detail
 from dalembert.views.notation import Notation, Shown
-from dalembert.views.scene import Arc, Arrow
+from dalembert.views.paper.scene import Arc, Arrow
+from dalembert.views.plane.circle_details import pin_detail
 from tests.friction.engines import engine
 
 

@@ -9,9 +9,9 @@ from typing import Any
 import pytest
 
 import dalembert as da
-from dalembert.analysis.pairs import PAIRS
+from dalembert.analysis.compile.pair_table import PAIRS
 from dalembert.cli import main
-from dalembert.views.canvas import text_over_lines, text_overlaps
+from dalembert.views.paper.canvas import text_over_lines, text_overlaps
 from tests.space.test_pairs import TABLE
 
 ROOT = Path(__file__).resolve().parents[2]

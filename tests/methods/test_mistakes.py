@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.mistakes import figures
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
-from dalembert.model.files import read_file
+from dalembert.grading.mistakes import figures
+from dalembert.model.files.model_files import read_file
 from tests.tiers import tiers
 
 LBF, INCH = 4.4482216152605, 0.0254

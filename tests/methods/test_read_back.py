@@ -11,15 +11,15 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import cases, examples
-from dalembert.cli.methods import superposition_text, virtual_work_answer
-from dalembert.report import given, rubbing
-from dalembert.report.force_system import force_system_sheet
+from dalembert.cli.method_text import superposition_text, virtual_work_answer
+from dalembert.report.sections import friction, given
+from dalembert.report.sections.force_system_solution import force_system_sheet
 from dalembert.report.sheet import Equations, Matrix, Sheet, Table
 from dalembert.report.working import working
 from dalembert.units import Units
 from dalembert.views import draw
 from dalembert.views.notation import Notation
-from dalembert.views.scene import Scene
+from dalembert.views.paper.scene import Scene
 from tests.methods.printed_equations import Reader
 from tests.methods.printed_tables import read_sheet
 from tests.random_mechanisms import random_case
@@ -69,7 +69,7 @@ def no_drawings(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in DRAWN:
         monkeypatch.setattr(draw, name, lambda *_, **__: Scene(()))
     monkeypatch.setattr(given, "given_picture", lambda *_: Scene(()))
-    monkeypatch.setattr(rubbing, "rubbing_pictures", lambda *_: ())
+    monkeypatch.setattr(friction, "rubbing_pictures", lambda *_: ())
 
 
 def in_units(m: Any, system: str) -> Any:

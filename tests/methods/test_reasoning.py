@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.actions import actions, on_link
-from dalembert.analysis.circles import two_pins
-from dalembert.analysis.members import Share
+from dalembert.analysis.friction.friction_circles import two_pins
+from dalembert.analysis.methods.applied_forces import actions, on_link
+from dalembert.analysis.methods.members import Share
 from dalembert.bundled import cases, examples
-from dalembert.views.scene import Text
+from dalembert.views.paper.scene import Text
 from tests.random_mechanisms import random_case
 from tests.random_space import random_case as random_space_case
 from tests.space.test_laws import solved as solved_in_space

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from dalembert.analysis.answers import computed_text
-from dalembert.analysis.closeness import Closeness, Target
-from dalembert.analysis.quantities import Series
-from dalembert.analysis.slips import of_units, of_value
+from dalembert.grading.file_answers import computed_text
+from dalembert.grading.quantities import Series
+from dalembert.grading.tolerance import Closeness, Target
+from dalembert.grading.value_errors import of_units, of_value
 from dalembert.units import Units
 
 

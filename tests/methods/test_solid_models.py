@@ -14,9 +14,9 @@ import pytest
 import dalembert as da
 from dalembert.algebra import space
 from dalembert.bundled import examples
-from dalembert.views.link_solids import pose
-from dalembert.views.meshes import mesh
-from dalembert.views.pair_symbols import SYMBOLS, symbol
+from dalembert.views.space.link_solids import pose
+from dalembert.views.space.triangles import mesh
+from dalembert.views.symbols.pair_symbols import SYMBOLS, symbol
 from tests.methods.space_machines import MACHINES, solved
 
 PLANE = ["four_bar", "engine", "quick_return", "gear_train", "truss"]

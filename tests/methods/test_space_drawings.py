@@ -14,16 +14,16 @@ import pytest
 
 import dalembert as da
 from dalembert.algebra import space
-from dalembert.analysis.pairs import PAIRS
-from dalembert.views.camera import CAMERAS, Camera
-from dalembert.views.canvas import text_over_lines, text_overlaps
+from dalembert.analysis.compile.pair_table import PAIRS
 from dalembert.views.charts import shaking_force
-from dalembert.views.link_solids import link_solids, mount, pose
-from dalembert.views.painter import painted
-from dalembert.views.pair_symbols import SYMBOLS, symbol
-from dalembert.views.scene import Line, Polygon
-from dalembert.views.solids import Ball, Cylinder, Wire, extent, helix
-from dalembert.views.space_mechanism import every_place, whole_sight
+from dalembert.views.paper.canvas import text_over_lines, text_overlaps
+from dalembert.views.paper.scene import Line, Polygon
+from dalembert.views.space.camera import CAMERAS, Camera
+from dalembert.views.space.link_solids import link_solids, mount, pose
+from dalembert.views.space.painter import painted
+from dalembert.views.space.solids import Ball, Cylinder, Wire, extent, helix
+from dalembert.views.space.space_mechanism import every_place, whole_sight
+from dalembert.views.symbols.pair_symbols import SYMBOLS, symbol
 from tests.methods.space_machines import MACHINES, solved
 from tests.oracles.space import random_drawn
 from tests.tiers import tiers

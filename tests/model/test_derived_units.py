@@ -9,7 +9,7 @@ import pytest
 import dalembert as da
 from dalembert.errors import ModelError
 from dalembert.model import json_schema, loads
-from dalembert.symbols import unit
+from dalembert.unit_names import unit
 from dalembert.units import ALSO_CALLED, BASES, KINDS, Units, file_units, quantity
 from tests.model.test_units import NOT_IN_PINT, REGISTRY
 

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 
 from dalembert.errors import ModelError
 from dalembert.model import Expression, loads
-from dalembert.model.expressions import (
+from dalembert.model.part import Reading
+from dalembert.model.quantities.expressions import (
     ARGUMENTS,
     CONSTANTS,
     Apply,
@@ -24,8 +25,7 @@ from dalembert.model.expressions import (
     parsed,
     written,
 )
-from dalembert.model.part import Reading
-from dalembert.model.varying import varying
+from dalembert.model.quantities.varying import varying
 from dalembert.units import Units
 
 VALUES = {

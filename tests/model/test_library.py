@@ -12,7 +12,7 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis import solve
-from dalembert.core import follow
+from dalembert.core.position import motion_path
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, loads
 from dalembert.model.library import (
@@ -181,13 +181,13 @@ def test_scissor_is_lifted_by_its_formula(stages: int, drive: str) -> None:
 
 
 def test_a_long_chain_takes_no_more_stations_than_a_short_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    march, stations = follow.march, []
+    march, stations = motion_path.march, []
 
-    def counted(*given: Any) -> follow.March:
+    def counted(*given: Any) -> motion_path.March:
         stations.append(march(*given))
         return stations[-1]
 
-    monkeypatch.setattr(follow, "march", counted)
+    monkeypatch.setattr(motion_path, "march", counted)
     for stages in (5, 60):
         assert set(solve(scissor(stages, positions=7)).status) == {"ok"}
     short, long = (len(m.s) for m in stations)

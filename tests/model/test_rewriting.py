@@ -17,8 +17,8 @@ import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, load, loads, read_text, tree_text
+from dalembert.model.files.rewriting import _own_text, file_tree, text_of
 from dalembert.model.library import TEMPLATES
-from dalembert.model.rewriting import _own_text, file_tree, text_of
 from dalembert.units import file_units
 from tests.model.parts import FOUR_BAR
 from tests.tiers import over, tiers

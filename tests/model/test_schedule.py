@@ -9,7 +9,7 @@ import pytest
 
 from dalembert.errors import ModelError
 from dalembert.model import Drive, Mechanism, loads
-from dalembert.model.schedule import schedule
+from dalembert.model.drives.schedule import schedule
 from tests.model.parts import FOUR_BAR
 
 TWO = """

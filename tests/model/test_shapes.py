@@ -14,8 +14,8 @@ import dalembert as da
 from dalembert.algebra import space
 from dalembert.errors import DalembertError, ModelError
 from dalembert.model import Box, Cylinder, Link, SlenderBar, Sphere, StlMesh, Tube, load
-from dalembert.model.meshes import MeshFile
-from dalembert.model.shapes import ShapePart
+from dalembert.model.links.shapes import ShapePart
+from dalembert.model.links.stl_solids import MeshFile
 
 STEEL = 7850.0
 POINTS = {"A": (0.1, -0.2, 0.3), "B": (0.4, 0.2, 0.3)}

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dalembert.errors import ModelError
-from dalembert.symbols import SYMBOLS, unit
+from dalembert.unit_names import SYMBOLS, unit
 from dalembert.units import KINDS, Units, file_units, quantity, text
 
 REGISTRY: Any = pint.UnitRegistry()

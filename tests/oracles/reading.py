@@ -10,10 +10,10 @@ from math import cos, pi, radians, sin
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+
+from dalembert.arrays import Array
 
 Tree = dict[str, Any]
-Array = NDArray[Any]
 
 UNITS = {
     "rad": 1.0, "deg": pi / 180, "rad/s": 1.0, "rad/s^2": 1.0, "m": 1.0, "m/s": 1.0, "m/s^2": 1.0,

@@ -5,15 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dalembert.algebra import space
-from dalembert.analysis.compile import Compiled, compiled
+from dalembert.analysis.compile.compiled_mechanism import Compiled, compiled
+from dalembert.arrays import Array
 from dalembert.core.layout import Pose
 from dalembert.model import Mechanism
 from dalembert.model.description import mechanism
-
-Array = NDArray[Any]
 
 
 def frame(rng: np.random.Generator) -> dict[str, list[float]]:

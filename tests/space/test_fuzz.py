@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.summary.answer import answer_text
+from dalembert.analysis.output.summary.printed_answer import answer_text
 from dalembert.bundled import examples
 from dalembert.model import loads, tree_text
 from tests.laws.mutations import mutated as changed

@@ -6,8 +6,8 @@ import doctest
 import re
 from pathlib import Path
 
-from dalembert.analysis.pairs import PAIRS
-from dalembert.model.space_joints import SPACE_FREEDOMS
+from dalembert.analysis.compile.pair_table import PAIRS
+from dalembert.model.joints.space_joints import SPACE_FREEDOMS
 
 PAGE = Path(__file__).parents[2] / "docs" / "space.md"
 

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.actions import actions
-from dalembert.analysis.answers import check
+from dalembert.analysis.methods.applied_forces import actions
 from dalembert.bundled import examples
 from dalembert.cli import main
+from dalembert.grading.file_answers import check
 from tests.oracles.space.machines import EXAMPLES
 from tests.space.machines import oracle, rssr
 

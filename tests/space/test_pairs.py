@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from dalembert.analysis.pairs import AXES, PAIRS, local_axes, pair_of
+from dalembert.analysis.compile.pair_table import AXES, PAIRS, local_axes, pair_of
+from dalembert.arrays import Array
 from dalembert.core.constraints import drift, measure, system
 from tests.space.bodies import allowed, body_on, moved, placed
 
-Array = NDArray[Any]
 KINDS = [(kind, {}) for kind in PAIRS] + [
     (kind, {"blocked": axis}) for kind in ("slotted_sphere", "slotted_sphere_in_cylinder") for axis in "yz"
 ]

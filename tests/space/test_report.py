@@ -9,20 +9,20 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.actions import actions
+from dalembert.analysis.methods.applied_forces import actions
 from dalembert.bundled import cases
 from dalembert.model import library
-from dalembert.report.balance import link_equations
-from dalembert.report.chosen import Chosen
-from dalembert.report.freedom import degrees_of_freedom
-from dalembert.report.reactions import reaction_tables
+from dalembert.report.report_context import Chosen
+from dalembert.report.sections.equilibrium_equations import link_equations
+from dalembert.report.sections.sources import virtual_work
 from dalembert.report.sheet import Figure, Heading, Matrix, Sheet, Table
-from dalembert.report.solution import order_and_solution
-from dalembert.report.sources import virtual_work
-from dalembert.report.space_motion import space_inertia, space_motion
+from dalembert.report.space_sections.space_mobility import degrees_of_freedom
+from dalembert.report.space_sections.space_motion import space_inertia, space_motion
+from dalembert.report.space_sections.space_order import order_and_solution
+from dalembert.report.space_sections.space_reactions import reaction_tables
 from dalembert.report.working import working
-from dalembert.views.canvas import text_over_lines, text_overlaps
 from dalembert.views.notation import Notation, Shown
+from dalembert.views.paper.canvas import text_over_lines, text_overlaps
 from tests.methods.space_machines import solved
 from tests.random_space import random_case
 from tests.space.machines import oracle

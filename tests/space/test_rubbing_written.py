@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.actions import actions
+from dalembert.analysis.methods.applied_forces import actions
 from dalembert.cli import main
 
 FILE = Path(__file__).parents[1] / "model" / "rssr.yaml"

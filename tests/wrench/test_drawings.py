@@ -11,14 +11,14 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import examples
-from dalembert.views.camera import CAMERAS, Camera
-from dalembert.views.canvas import text_over_lines, text_overlaps
 from dalembert.views.force_system import (
     clipped,
     force_system_polygon_scene,
     force_system_scene,
     reduced_scene,
 )
+from dalembert.views.paper.canvas import text_over_lines, text_overlaps
+from dalembert.views.space.camera import CAMERAS, Camera
 from dalembert.wrench import Couple, Force, System
 from tests.wrench.random_systems import DIMENSIONS, SEEDS, random_system
 

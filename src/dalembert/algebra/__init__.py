@@ -1,1 +1,5 @@
-"""Rigid-body algebra of the plane (n = 3) and of space (n = 6) under the same names; numpy only."""
+"""Rigid-body algebra of the plane (n = 3) and of space (n = 6) under the same names.
+
+In: points, rotations, twists and wrenches as arrays, components last. Out: the same kinds of arrays.
+Imports numpy only.
+"""

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[Any]
+from dalembert.arrays import Array
 
 PARALLEL = 1e-6
 """Lines whose least spread of directions is below this part of the largest are parallel."""

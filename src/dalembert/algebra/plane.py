@@ -6,12 +6,9 @@ used, so the entries may be floats or traced symbols.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[Any]
+from dalembert.arrays import Array
 
 name = "plane"
 d = 2

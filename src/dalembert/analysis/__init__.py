@@ -1,7 +1,11 @@
-"""One question a file, Mechanism -> Result."""
+"""One question a file, Mechanism -> Result.
 
-from dalembert.analysis.degree_of_freedom import Mobility, mobility
-from dalembert.analysis.result import Result
-from dalembert.analysis.solution import dynamics, kinematics, solve, statics
+In: a ``Mechanism``, positions asked for. Out: a ``Result``, or a smaller answer. ``one_pass`` is the path
+from the one to the other. Imports ``core``, ``kernel``, ``model``.
+"""
+
+from dalembert.analysis.degree_of_freedom import Mobility
+from dalembert.analysis.result.result import Result
+from dalembert.analysis.solution import dynamics, kinematics, mobility, solve, statics
 
 __all__ = ["Mobility", "Result", "dynamics", "kinematics", "mobility", "solve", "statics"]

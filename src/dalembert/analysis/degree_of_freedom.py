@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from dalembert.analysis.compile import Compiled
+from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.core.layout import Pose
 from dalembert.core.rank import Rank, rank, well_driven
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
-    from dalembert.model import Mechanism
+    pass
 
 
 @dataclass(frozen=True)
@@ -44,23 +44,6 @@ class Mobility:
 
     def __str__(self) -> str:
         return self.sentence
-
-
-def mobility(m: Mechanism) -> Mobility:
-    """Freedoms, drives and redundant constraints of a mechanism, by the rank of its constraints where it first closes.
-
-    Raises ModelError where it closes nowhere, and where drives and freedoms do not match.
-
-    >>> from dalembert.model.library import four_bar
-    >>> mobility(four_bar()).freedoms
-    1
-    """
-    from dalembert.analysis.solution import kinematics
-
-    result = kinematics(m)
-    if result.mobility is None:
-        raise ModelError(str(result.reasons[0]), "", ("assembly",)).located(m.source)
-    return result.mobility
 
 
 def mobility_at(c: Compiled, pose: Pose, special: bool = False) -> Mobility:

@@ -9,13 +9,11 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dalembert.analysis.result import Result
-from dalembert.analysis.solution import at_schedule, sliced
+from dalembert.analysis.one_pass import at_schedule, sliced
+from dalembert.analysis.result.result import Result
+from dalembert.arrays import Array, Ints
 from dalembert.model import Mechanism, Schedule
-
-Array = NDArray[Any]
 
 SCAN = 720
 """Positions scanned for changes of sign; equilibria closer together than two of them may be missed in pairs."""
@@ -59,7 +57,7 @@ class _Scan:
         self.drive = schedule.names.index(schedule.unknown)
         self.whole_turn = abs(abs(self.range[1] - self.range[0]) - 2 * np.pi) < 1e-9
 
-    def result(self, q: Array) -> tuple[Result, NDArray[np.intp]]:
+    def result(self, q: Array) -> tuple[Result, Ints]:
         """Analysis over a coarse grid and the positions q, and the places of q in it."""
         grid = np.union1d(np.linspace(*self.range, COARSE + 1), q)
         return at_schedule(self.m, self._schedule(grid), self.inertia), np.searchsorted(grid, q)
@@ -95,7 +93,7 @@ class _Scan:
         return picked(result, where)
 
 
-def picked(result: Result, where: NDArray[np.intp]) -> Result:
+def picked(result: Result, where: Ints) -> Result:
     """A result at some of its positions."""
     c, s = result.compiled, result.schedule
     schedule = replace(

@@ -14,7 +14,7 @@ from dalembert.model import Mechanism
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
-    from dalembert.analysis.result import Result
+    from dalembert.analysis.result.result import Result
 
 UP = [0.0, 0.0, 1.0]
 Freed = Literal["cylindrical", "spherical"]

@@ -4,27 +4,24 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dalembert.analysis.compile import Compiled
+from dalembert.analysis.closure_failure import drive_text
+from dalembert.analysis.compile.compiled_mechanism import Compiled
+from dalembert.analysis.compile.torsion_turns import wound
 from dalembert.analysis.degree_of_freedom import Mobility, check_drives, mobility_at
-from dalembert.analysis.openings import drive_text
-from dalembert.analysis.winding import wound
-from dalembert.core.assembly import Guess, Modes, phase_rows
-from dalembert.core.closure import CLOSED, closed
+from dalembert.arrays import Array
 from dalembert.core.constraints import measure
-from dalembert.core.course import Course, course
-from dalembert.core.drawing import Drawing
-from dalembert.core.follow import Path, path
-from dalembert.core.gearing import Misfit, meshed
+from dalembert.core.gear_rows import Misfit, meshed
 from dalembert.core.layout import Mesh, Pose
+from dalembert.core.position.first_pose_plane import Guess, Modes, phase_rows
+from dalembert.core.position.first_pose_space import Drawing
+from dalembert.core.position.motion_path import Path, path
+from dalembert.core.position.newton import CLOSED, closed
+from dalembert.core.position.path_parameter import Course, course
 from dalembert.core.rank import held, rank
 from dalembert.errors import ModelError
-
-Array = NDArray[Any]
 
 SAMPLES = 12
 """Positions at which a first pose is sought when the first of the list does not close."""

@@ -1,4 +1,7 @@
-"""The command `dalembert`: arguments in, text and an exit status out; the packages below do the work."""
+"""The command `dalembert`: arguments in, text and an exit status out; the packages below do the work.
+
+In: a command line. Out: text, files, an exit status. Imports everything but ``core`` and ``kernel``.
+"""
 
 from __future__ import annotations
 

@@ -16,8 +16,8 @@ from cyclopts import (
 )
 
 from dalembert import __version__
-from dalembert.cli import systems
-from dalembert.cli.help import Hanging
+from dalembert.cli import wrench_command
+from dalembert.cli.help_layout import Hanging
 from dalembert.cli.options import (
     AS_USUAL,
     At,
@@ -104,7 +104,7 @@ def solve(
     force: Force = False,
 ) -> int:
     """Solve FILE and print drives, efforts, reactions and motion, in the units of the file."""
-    from dalembert.cli.solving import Wanted, solved
+    from dalembert.cli.solve_command import Wanted, solved
 
     wanted = Wanted(json, csv, xlsx, netcdf, units, axes, every, force, other_solutions)
     return solved(file, wanted, static=static, positions=positions, method=method, friction=not no_friction)
@@ -153,7 +153,7 @@ def draw(
     force: Force = False,
 ) -> int:
     """Draw FILE to scale: the mechanism, free bodies, force polygons, charts."""
-    from dalembert.cli.drawing import drawn
+    from dalembert.cli.draw_command import drawn
 
     return drawn(file, output, view, at, positions, static, theme, names, force, not no_friction, camera)
 
@@ -185,7 +185,7 @@ def report(
     force: Force = False,
 ) -> int:
     """Write the worked solution of FILE, step by step, with its drawings."""
-    from dalembert.cli.drawing import reported
+    from dalembert.cli.draw_command import reported
 
     return reported(
         file, output, at, positions, static, method, style.notation(), about, force, not no_friction
@@ -206,7 +206,7 @@ def check(
     no_friction: NoFriction = False,
 ) -> int:
     """Compare the answers that stand in model files with what is computed."""
-    from dalembert.cli.checking import checked
+    from dalembert.cli.check_command import checked
 
     return checked(files, every=every, friction=not no_friction)
 
@@ -231,7 +231,7 @@ def check_answers(
     no_friction: NoFriction = False,
 ) -> int:
     """Compare your own figures with what is computed, and name the mistake that explains a difference."""
-    from dalembert.cli.grading import graded
+    from dalembert.cli.check_answers_command import graded
 
     return graded(file, answers, interactive, static, not no_friction)
 
@@ -239,7 +239,7 @@ def check_answers(
 @app.command(help_epilogue="Examples:\n  dalembert validate\n  dalembert validate > qualification.txt")
 def validate() -> int:
     """Qualify this installation: solve every bundled published problem and compare all answers."""
-    from dalembert.cli.checking import validated
+    from dalembert.cli.check_command import validated
 
     return validated()
 
@@ -247,7 +247,7 @@ def validate() -> int:
 @app.command(help_epilogue="Examples:\n  dalembert schema > dalembert.schema.json")
 def schema(*, output: NewFile = None, force: Force = False) -> int:
     """Print the JSON schema of the model file, for editors that complete and check."""
-    from dalembert.cli.describing import emitted, schema_text
+    from dalembert.cli.describe_commands import emitted, schema_text
 
     return emitted(schema_text(), output, force)
 
@@ -265,7 +265,7 @@ def new(
     force: Force = False,
 ) -> int:
     """Begin a model file from a template; without a name, list the templates."""
-    from dalembert.cli.describing import begun
+    from dalembert.cli.describe_commands import begun
 
     return begun(template, output, force)
 
@@ -279,7 +279,7 @@ def convert(
     force: Force = False,
 ) -> int:
     """Write a model file in another format: .yaml, .json or .toml."""
-    from dalembert.cli.describing import converted
+    from dalembert.cli.describe_commands import converted
 
     return converted(file, output, force)
 
@@ -297,7 +297,7 @@ def examples(
     force: Force = False,
 ) -> int:
     """Bundled problems: list them, print one, or copy one to a file."""
-    from dalembert.cli.describing import example_copied
+    from dalembert.cli.describe_commands import example_copied
 
     return example_copied(name, output, force)
 
@@ -321,12 +321,12 @@ def joints(
     force: Force = False,
 ) -> int:
     """Print the joints in space: what each leaves free, its own axes, and the reactions it carries along them."""
-    from dalembert.cli.describing import joints_shown
+    from dalembert.cli.describe_commands import joints_shown
 
     return joints_shown(output, camera, theme, force)
 
 
-app.command(systems.wrench, help_epilogue=systems.EXAMPLES)
+app.command(wrench_command.wrench, help_epilogue=wrench_command.EXAMPLES)
 
 
 def command_line_error(error: CycloptsError, arguments: list[str]) -> str:

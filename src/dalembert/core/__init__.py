@@ -1,1 +1,7 @@
-"""Numbers only: constraints, poses, motion, equilibrium, over arrays with leading axes (design, position)."""
+"""Numbers only: the one matrix A, motion and equilibrium at known poses.
+
+Arrays have leading axes (design, position).
+
+In: a ``Layout`` (who touches whom, and the numbers) and poses. Out: velocities, multipliers, residuals as arrays.
+Knows no names, files or units. Imports ``algebra``. docs/theory.md has the mechanics.
+"""

@@ -9,9 +9,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dalembert.core import gearing, turning
+from dalembert.arrays import Array
+from dalembert.core import gear_rows, rotation_rows
 from dalembert.core.geometry import arm, point_motion, span, span_motion
 from dalembert.core.layout import (
     Along,
@@ -30,8 +30,6 @@ from dalembert.core.layout import (
     System,
     Turn,
 )
-
-Array = NDArray[Any]
 
 
 def measure(g: Any, rows: Rows, pose: Pose) -> Array:
@@ -113,11 +111,11 @@ _MEASURES: dict[type[Family], Any] = {
     Turn: lambda g, f, pose: _relative_turn(f, pose),
     Mesh: _mesh_measure,
     Distance: lambda g, f, pose: _unit(span(g, f, pose))[1],
-    Perpendicular: turning.perpendicular,
-    Angle: turning.angle,
-    Helix: turning.helix,
-    Idle: turning.idle,
-    Gearing: gearing.measure,
+    Perpendicular: rotation_rows.perpendicular,
+    Angle: rotation_rows.angle,
+    Helix: rotation_rows.helix,
+    Idle: rotation_rows.idle,
+    Gearing: gear_rows.measure,
 }
 
 
@@ -163,11 +161,11 @@ _WRENCHES: dict[type[Family], Any] = {
     Turn: _turn_wrench,
     Mesh: _mesh_wrench,
     Distance: _distance_wrench,
-    Perpendicular: turning.perpendicular_wrench,
-    Angle: turning.angle_wrench,
-    Helix: turning.helix_wrench,
-    Idle: turning.idle_wrench,
-    Gearing: gearing.wrench,
+    Perpendicular: rotation_rows.perpendicular_wrench,
+    Angle: rotation_rows.angle_wrench,
+    Helix: rotation_rows.helix_wrench,
+    Idle: rotation_rows.idle_wrench,
+    Gearing: gear_rows.wrench,
 }
 
 
@@ -201,9 +199,9 @@ _DRIFTS: dict[type[Family], Any] = {
     Along: _along_drift,
     Mesh: _mesh_drift,
     Distance: _distance_drift,
-    Perpendicular: turning.perpendicular_drift,
-    Angle: turning.angle_drift,
-    Helix: turning.helix_drift,
-    Idle: turning.idle_drift,
-    Gearing: gearing.drift,
+    Perpendicular: rotation_rows.perpendicular_drift,
+    Angle: rotation_rows.angle_drift,
+    Helix: rotation_rows.helix_drift,
+    Idle: rotation_rows.idle_drift,
+    Gearing: gear_rows.drift,
 }

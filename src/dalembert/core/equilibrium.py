@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from dalembert.arrays import Array, Flags, Ints
 from dalembert.core import forcing as fc
 from dalembert.core.constraints import drift, rates, stacked
 from dalembert.core.factor import factor
@@ -21,9 +21,6 @@ from dalembert.core.forcing import Forcing, Source, pair, summed
 from dalembert.core.geometry import arm
 from dalembert.core.layout import Gearing, Helix, Layout, Mesh, Pose, Rows, System
 from dalembert.core.linear import Factor, PseudoInverse, compliant
-
-Array = NDArray[Any]
-Ints = NDArray[np.intp]
 
 
 @dataclass(frozen=True)
@@ -34,14 +31,14 @@ class Known:
     ``link``, in link axes where ``follows``, or a unit couple ``about`` (U, n - d) where ``couple``.
     """
 
-    asked: NDArray[np.bool_]
+    asked: Flags
     effort: Array
     link: Ints
     at: Array
     direction: Array
     about: Array
-    follows: NDArray[np.bool_]
-    couple: NDArray[np.bool_]
+    follows: Flags
+    couple: Flags
 
 
 class Motion(NamedTuple):

@@ -7,19 +7,17 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from dalembert.arrays import Array, Flags
 from dalembert.core.constraints import dense
 from dalembert.core.layout import Layout, System
 from dalembert.core.linear import Factor, inverse, pseudo_inverse, solved
-
-Array = NDArray[Any]
 
 SPARSE = 120
 """Unknowns above which sparse elimination beats a batched dense inverse."""
 
 
-def row_scale(layout: Layout, angular: NDArray[np.bool_]) -> Array:
+def row_scale(layout: Layout, angular: Flags) -> Array:
     """Scale of some rows' measures: angles times the characteristic length."""
     return np.where(angular, layout.length, 1.0)
 

@@ -10,17 +10,13 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dalembert.core import gearing
-from dalembert.core.choice import traced
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.core import gear_rows
+from dalembert.core.branchless import traced
 from dalembert.core.constraints import measure, rates, system
 from dalembert.core.geometry import arm, span
 from dalembert.core.layout import Gearing, Layout, Mesh, Pose, System
-
-Array = NDArray[Any]
-Ints = NDArray[np.intp]
-
 
 MANY = 100
 """Contributions above which one indexed addition is faster than a loop over them."""
@@ -45,7 +41,7 @@ class Forces:
 
     link: Ints
     at: Array
-    follows: NDArray[np.bool_]
+    follows: Flags
     value: Array
 
 
@@ -55,7 +51,7 @@ class Couples:
 
     link: Ints
     value: Array
-    follows: NDArray[np.bool_]
+    follows: Flags
 
 
 @dataclass(frozen=True)
@@ -75,7 +71,7 @@ class Springs:
 class Resistances:
     """Springs and dampers in freedoms: -k (q + turns - q0) - c dq/dt along freedom ``row``, on j; the opposite on i.
 
-    ``turns`` (R,), or (P, R): what the count of whole turns adds to the angle (``analysis.winding``).
+    ``turns`` (R,), or (P, R): what the count of whole turns adds to the angle (``analysis.compile.torsion_turns``).
     """
 
     row: Ints
@@ -213,12 +209,12 @@ def _direction(layout: Layout, springs: Springs, span: Array, square: Array, rat
     return np.where(gone[..., None], there, span / np.sqrt(np.where(gone, 1.0, square))[..., None])
 
 
-def preloaded(springs: Springs) -> NDArray[np.bool_]:
+def preloaded(springs: Springs) -> Flags:
     """Springs (k,) that push at length zero."""
     return np.array((springs.stiffness != 0) & (springs.free_length != 0), bool)
 
 
-def directed(springs: Springs) -> NDArray[np.bool_]:
+def directed(springs: Springs) -> Flags:
     """Springs and dampers (k,) whose force at length zero depends on how it is reached."""
     return np.array(preloaded(springs) | (springs.damping != 0), bool)
 
@@ -272,7 +268,7 @@ def separation(
         tan = tangent[start : start + len(f.i)]
         start += len(f.i)
         if isinstance(f, Gearing):
-            away, at = gearing.separation(g, f, pose)
+            away, at = gear_rows.separation(g, f, pose)
             out.append((f, (np.abs(multiplier[..., f.row]) * tan)[..., None] * away, at))
             continue
         line = span(g, f, pose)

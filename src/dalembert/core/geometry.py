@@ -5,14 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from dalembert.arrays import Array, Ints
 from dalembert.core.layout import Pose
 
-Array = NDArray[Any]
 
-
-def arm(g: Any, pose: Pose, link: NDArray[np.intp], u: Array) -> Array:
+def arm(g: Any, pose: Pose, link: Ints, u: Array) -> Array:
     """Ground components of link vectors u (..., k, d)."""
     rotated: Array = g.rotate(pose.rotation[..., link, :], u)
     return rotated
@@ -24,7 +22,7 @@ def span(g: Any, f: Any, pose: Pose) -> Array:
     return np.asarray((pj + arm(g, pose, f.j, f.uj)) - (pi + arm(g, pose, f.i, f.ui)))
 
 
-def point_motion(g: Any, pose: Pose, twist: Array, link: NDArray[np.intp], r: Array) -> tuple[Array, Array]:
+def point_motion(g: Any, pose: Pose, twist: Array, link: Ints, r: Array) -> tuple[Array, Array]:
     """Velocity, and acceleration at zero link accelerations, of the points with arms r."""
     v, w = twist[..., link, : g.d], twist[..., link, g.d :]
     return v + g.spin(w, r), g.centripetal(w, r)

@@ -18,10 +18,8 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[Any]
-Ints = NDArray[np.intp]
+from dalembert.arrays import Array, Flags, Ints
 
 
 class Pose(NamedTuple):
@@ -176,7 +174,7 @@ class Gearing:
     of e in the wheel from its direction b, whole turns counted at ``count``, and k = r (a x e) . n.
 
     ``outward`` is 1 where separation pushes j away from the axis of i, -1 in a ring wheel i; way, cone, outward, ki
-    and kj are those of the first pose (``core.gearing.meshed``).
+    and kj are those of the first pose (``core.gear_rows.meshed``).
     """
 
     row: Ints
@@ -210,7 +208,7 @@ class Rows:
     links: int
     families: tuple[Family, ...]
     joint: Ints  # (K,) joint of each row, -1 where it belongs to none
-    angular: NDArray[np.bool_]  # (K,) the measure is an angle, the wrench a couple
+    angular: Flags  # (K,) the measure is an angle, the wrench a couple
 
     @cached_property
     def idle(self) -> Ints:
@@ -233,7 +231,7 @@ class System(NamedTuple):
 
     i: Ints
     j: Ints
-    angular: NDArray[np.bool_]
+    angular: Flags
     on_i: Array
     on_j: Array
 

@@ -7,12 +7,11 @@ r, c scales of rows and columns that make J free of units: angles times the char
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[Any]
+from dalembert.arrays import Array
 
 SINGULAR = 1e-6
 """A position is singular below this reciprocal condition number (1-norm, scaled): there a rounding error of the pose,

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from dalembert.arrays import Array, Flags
 from dalembert.core.constraints import dense, stacked, system
 from dalembert.core.factor import factor, row_scale
 from dalembert.core.layout import Layout, Pose
 from dalembert.core.linear import SINGULAR, pseudo_inverse
-
-Array = NDArray[Any]
 
 
 class Rank(NamedTuple):
@@ -25,9 +23,9 @@ class Rank(NamedTuple):
 
     freedoms: int
     redundant: int
-    repeated: NDArray[np.bool_]
-    loose: NDArray[np.bool_]
-    free: NDArray[np.bool_]
+    repeated: Flags
+    loose: Flags
+    free: Flags
 
 
 def singular_below(layout: Layout) -> float:
@@ -70,7 +68,7 @@ def rank(layout: Layout, pose: Pose) -> Rank:
     )
 
 
-def _free(layout: Layout, pose: Pose, idle: Array, column: Array) -> NDArray[np.bool_]:
+def _free(layout: Layout, pose: Pose, idle: Array, column: Array) -> Flags:
     """Joint freedoms that move in the motions the drives leave."""
     rows = system(layout.algebra, layout.freedoms, pose)
     j = dense(layout, rows)[0] * row_scale(layout, rows.angular)[:, None] * column

@@ -12,11 +12,9 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from dalembert.arrays import Array
 from dalembert.kernel.operations import EVALUATE, not_negative
-
-Array = NDArray[Any]
 
 INPUTS = ("number", "common", "channel")
 CONSTANT, DESIGN, POSITION = 0, 1, 2

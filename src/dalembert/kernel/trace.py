@@ -6,23 +6,21 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from dalembert.arrays import Array
 from dalembert.core import forcing as fc
-from dalembert.core.assembly import held_wheels, phase_rows, with_rows
 from dalembert.core.constraints import measure
 from dalembert.core.equilibrium import Balance, Known, Statement, known_sources, motion, reactions, statement
 from dalembert.core.forcing import Forcing, pair, summed
 from dalembert.core.geometry import span
 from dalembert.core.layout import Layout, Pose
-from dalembert.kernel.eliminate import Structural
+from dalembert.core.position.first_pose_plane import held_wheels, phase_rows, with_rows
+from dalembert.kernel.elimination import Structural
+from dalembert.kernel.friction_trace import Rough, Rubbed, rubbed
 from dalembert.kernel.graph import CONSTANT, Graph, Node, traced
-from dalembert.kernel.newton import solver
-from dalembert.kernel.parts import Motion, Placed
-from dalembert.kernel.positions import positions, settled
-from dalembert.kernel.rubbing import Rough, Rubbed, rubbed
-
-Array = NDArray[Any]
+from dalembert.kernel.position.closed_forms import positions, settled
+from dalembert.kernel.position.rigid_parts import Motion, Placed
+from dalembert.kernel.position.unrolled_newton import solver
 
 PASSES = 40
 """Most repetitions for tooth forces that push centres which may move."""

@@ -1,27 +1,35 @@
-"""What the user, the file and the web page write: a frozen description, in SI and radians inside.
+"""What the user and the file write: a frozen description, in SI and radians inside.
+
+In: a file, or Python's own values. Out: a ``Mechanism``. Imports ``units`` and messages only, never ``core``.
 
 >>> from dalembert.model import loads
 >>> loads("{links: {ground: {}, bar: {mass: 2 lbm}}}").mass("bar")
 0.90718474
 """
 
-from dalembert.model.answers import Answer
 from dalembert.model.description import Mechanism, mechanism
-from dalembert.model.drives import Drive, Range
-from dalembert.model.expressions import Expression
-from dalembert.model.files import convert, load, loads, read_file, read_text, save_tree, tree_text
-from dalembert.model.forces import Couple, Damper, ForceLoad, Load, Spring, TorsionDamper, TorsionSpring
-from dalembert.model.friction import FrictionDefaults, GearFriction, GuideFriction, PinFriction, SlotFriction
-from dalembert.model.joints import Gear, Joint, Pin, Rolling, Slider, Slot, Weld
-from dalembert.model.laws import Rise, TimeTable
-from dalembert.model.link import Link, Offset
-from dalembert.model.messages import ModelErrors
-from dalembert.model.schedule import Schedule
-from dalembert.model.schema import json_schema
-from dalembert.model.shapes import Box, Cylinder, SlenderBar, Sphere, StlMesh, Tube
-from dalembert.model.space_joints import SpaceJoint
-from dalembert.model.tables import Table
-from dalembert.model.varying import Varying, value_at
+from dalembert.model.drives.drives import Drive, Range
+from dalembert.model.drives.laws import Rise, TimeTable
+from dalembert.model.drives.schedule import Schedule
+from dalembert.model.files.json_schema import json_schema
+from dalembert.model.files.messages import ModelErrors
+from dalembert.model.files.model_files import convert, load, loads, read_file, read_text, save_tree, tree_text
+from dalembert.model.joints.friction_keys import (
+    FrictionDefaults,
+    GearFriction,
+    GuideFriction,
+    PinFriction,
+    SlotFriction,
+)
+from dalembert.model.joints.plane_joints import Gear, Joint, Pin, Rolling, Slider, Slot, Weld
+from dalembert.model.joints.space_joints import SpaceJoint
+from dalembert.model.links.link import Link, Offset
+from dalembert.model.links.shapes import Box, Cylinder, SlenderBar, Sphere, StlMesh, Tube
+from dalembert.model.load_types import Couple, Damper, ForceLoad, Load, Spring, TorsionDamper, TorsionSpring
+from dalembert.model.quantities.expressions import Expression
+from dalembert.model.quantities.tables import Table
+from dalembert.model.quantities.varying import Varying, value_at
+from dalembert.model.stated_answers import Answer
 
 __all__ = [
     "Answer",

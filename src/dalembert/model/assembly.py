@@ -10,7 +10,7 @@ from pydantic import ValidationInfo
 
 from dalembert.errors import ModelError
 from dalembert.model.part import mapping, reading
-from dalembert.model.values import (
+from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
     JsonSchema,
     Value,

@@ -10,23 +10,22 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
 
 from dalembert.errors import ModelError
-from dalembert.model.answers import Answer
 from dalembert.model.assembly import Pose, PoseValue
-from dalembert.model.checks import GROUND, problems
-from dalembert.model.drives import Drive
-from dalembert.model.forces import Damper, ForceLoad, Load, Spring
-from dalembert.model.friction import FrictionDefaults
+from dalembert.model.drives.driven_freedoms import drive_freedoms, refuse_empty, with_freedoms
+from dalembert.model.drives.drives import Drive
+from dalembert.model.drives.schedule import Schedule, schedule
+from dalembert.model.files.messages import together
+from dalembert.model.files.source import Source
 from dalembert.model.gravity import STANDARD, Gravity, GravityValue
-from dalembert.model.joints import Joint, refuse_unfinished
-from dalembert.model.link import CENTER, Link
-from dalembert.model.messages import together
-from dalembert.model.names import drive_freedoms, refuse_empty, with_freedoms
+from dalembert.model.joints.friction_keys import FrictionDefaults
+from dalembert.model.joints.plane_joints import Joint, refuse_unfinished
+from dalembert.model.links.link import CENTER, GROUND, Link
+from dalembert.model.links.shapes import MassProperties
+from dalembert.model.load_types import Damper, ForceLoad, Load, Spring
 from dalembert.model.part import Part, Reading
 from dalembert.model.paths import as_in_file, fields, latest, replaced
-from dalembert.model.schedule import Schedule, schedule
-from dalembert.model.shapes import MassProperties
-from dalembert.model.source import Source
-from dalembert.model.values import JsonSchema, Name, Scalar, Value, Vector, at_item
+from dalembert.model.quantities.values import JsonSchema, Name, Scalar, Value, Vector, at_item
+from dalembert.model.stated_answers import Answer
 from dalembert.units import ALSO_CALLED, BASES, KINDS, Units, file_units
 from dalembert.wording import shown
 
@@ -137,6 +136,8 @@ class Mechanism(Part):
 
     @model_validator(mode="after")
     def _names(self) -> Self:
+        from dalembert.model.plane_checks import problems
+
         found = problems(self)
         if found:
             raise together(found)
@@ -152,7 +153,7 @@ class Mechanism(Part):
 
     def __str__(self) -> str:
         """The text of its model file, as `save` writes it."""
-        from dalembert.model.rewriting import text_of
+        from dalembert.model.files.rewriting import text_of
 
         return text_of(self, "yaml")
 
@@ -287,8 +288,8 @@ class Mechanism(Part):
 
         What came from a file is written as its author wrote it: only the characters of changed values change.
         """
-        from dalembert.model.files import format_of, save_text
-        from dalembert.model.rewriting import text_of
+        from dalembert.model.files.model_files import format_of, save_text
+        from dalembert.model.files.rewriting import text_of
 
         save_text(text_of(self, format_of(path)), path, overwrite)
 

@@ -8,7 +8,7 @@ from pydantic import ValidationInfo
 
 from dalembert.errors import ModelError
 from dalembert.model.part import reading
-from dalembert.model.values import JsonSchema, Value, Vector, vector, vector_schema, written_vector
+from dalembert.model.quantities.values import JsonSchema, Value, Vector, vector, vector_schema, written_vector
 from dalembert.wording import closest, shown
 
 STANDARD = 9.80665

@@ -18,7 +18,7 @@ from pydantic import (
 )
 
 from dalembert.errors import ModelError
-from dalembert.model.messages import UnknownKey, translated
+from dalembert.model.files.messages import UnknownKey, translated
 from dalembert.units import Units
 from dalembert.wording import closest, shown
 

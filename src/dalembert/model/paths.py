@@ -43,7 +43,7 @@ def as_in_file(value: Any, key: str = "") -> Any:
         return [as_in_file(item) for item in value]
     if not isinstance(value, str) or key in WORDS or not value.lstrip().startswith("["):
         return value
-    from dalembert.model.yaml_text import read
+    from dalembert.model.files.yaml_text import read
 
     try:
         return _texts(read(value)[0])

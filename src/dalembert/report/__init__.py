@@ -1,6 +1,7 @@
 """The worked solution of a result: a sheet of text, formulas, tables and drawings, and its writers.
 
-The package itself can be called: ``da.report(r).save("engine.pdf")``.
+In: a ``Result``, or a force system. Out: a ``Report``: ``da.report(r).save("engine.pdf")``. Imports
+``analysis``, ``views``, ``wrench``.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from dalembert.analysis.result import Result
+    from dalembert.analysis.result.result import Result
     from dalembert.views.notation import Notation
     from dalembert.wrench import System
 
@@ -27,16 +28,16 @@ class Report:
     def to_bytes(self, kind: str) -> bytes:
         """The report as `pdf`, `html`, `tex` or `txt`."""
         if kind in ("pdf", "html"):
-            from dalembert.report.typst_writer import typst_bytes
+            from dalembert.report.writers.typst_writer import typst_bytes
             from dalembert.saving import check_installed
 
             check_installed("typst", f"writing {kind.upper()}", "report")
             return typst_bytes(self.sheet, kind)
         if kind == "tex":
-            from dalembert.report.latex_writer import latex_text
+            from dalembert.report.writers.latex_writer import latex_text
 
             return latex_text(self.sheet).encode()
-        from dalembert.report.plain_writer import plain_text
+        from dalembert.report.writers.plain_writer import plain_text
 
         return plain_text(self.sheet).encode()
 
@@ -77,11 +78,11 @@ def report(
     from dalembert.wrench import System
 
     if isinstance(r, System):
-        from dalembert.report.force_system import force_system_sheet
+        from dalembert.report.sections.force_system_solution import force_system_sheet
 
         return Report(force_system_sheet(r, at, notation))
     from dalembert.errors import ModelError
-    from dalembert.report.chosen import METHODS
+    from dalembert.report.report_context import METHODS
     from dalembert.report.working import working
     from dalembert.wording import closest
 

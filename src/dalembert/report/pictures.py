@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dalembert.report.chosen import Chosen
+from dalembert.report.report_context import Chosen
 from dalembert.views import draw
-from dalembert.views.camera import ISOMETRIC
-from dalembert.views.details import detail_scenes
-from dalembert.views.mechanism import mechanism_scene
-from dalembert.views.scene import Scene
-from dalembert.views.space_mechanism import space_mechanism_scene
+from dalembert.views.paper.details import detail_scenes
+from dalembert.views.paper.scene import Scene
+from dalembert.views.plane.mechanism_view import mechanism_scene
+from dalembert.views.space.camera import ISOMETRIC
+from dalembert.views.space.space_mechanism import space_mechanism_scene
 
 
 def given_picture(c: Chosen) -> Scene:

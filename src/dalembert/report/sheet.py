@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from dalembert.views.scene import Scene
+from dalembert.views.paper.scene import Scene
 
 
 @dataclass(frozen=True)

@@ -8,28 +8,28 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.actions import actions
-from dalembert.analysis.columns import drive_kinds, load_kind
-from dalembert.analysis.members import components_along
-from dalembert.analysis.which import position_at
+from dalembert.analysis.methods.applied_forces import actions
+from dalembert.analysis.methods.members import components_along
+from dalembert.analysis.output.columns import drive_kinds, load_kind
+from dalembert.analysis.result.position_lookup import position_at
 from dalembert.errors import NUMBERED, ModelError
-from dalembert.report import balance, matrix, rubbing
-from dalembert.report.chosen import METHODS, Chosen, Method, as_formula, in_ground
-from dalembert.report.freedom import degrees_of_freedom
-from dalembert.report.given import knowns
-from dalembert.report.methods import checks, cycle, graphical
-from dalembert.report.moving import inertia, motion
-from dalembert.report.reactions import reaction_tables
+from dalembert.report.report_context import METHODS, Chosen, Method, as_formula, in_ground
+from dalembert.report.sections import equilibrium_equations, friction, matrix
+from dalembert.report.sections.given import knowns
+from dalembert.report.sections.methods import checks, cycle, graphical
+from dalembert.report.sections.motion import inertia, motion
+from dalembert.report.sections.sources import superposition, virtual_work
 from dalembert.report.sheet import Sheet, Working
-from dalembert.report.solution import order_and_solution
-from dalembert.report.sources import superposition, virtual_work
-from dalembert.report.space_friction import space_friction
-from dalembert.report.space_motion import space_inertia, space_motion
-from dalembert.views import draw, rest
+from dalembert.report.space_sections.space_friction_laws import space_friction
+from dalembert.report.space_sections.space_mobility import degrees_of_freedom
+from dalembert.report.space_sections.space_motion import space_inertia, space_motion
+from dalembert.report.space_sections.space_order import order_and_solution
+from dalembert.report.space_sections.space_reactions import reaction_tables
+from dalembert.views import both_ends, draw
 from dalembert.views.notation import Notation, Shown, own_name
 
 if TYPE_CHECKING:
-    from dalembert.analysis.result import Result
+    from dalembert.analysis.result.result import Result
 
 ANSWERED = (*NUMBERED, "redundant")
 """Statuses whose forces are worked out."""
@@ -56,8 +56,8 @@ def working(
     knowns(sheet, c)
     if not plane:
         degrees_of_freedom(sheet, c)
-    if rest.open_at(r, c.k):
-        rubbing.at_rest(sheet, c, _joint_forces)
+    if both_ends.open_at(r, c.k):
+        friction.at_rest(sheet, c, _joint_forces)
         return sheet
     if r.status[c.k] not in ANSWERED:
         sheet.heading("No answer")
@@ -68,7 +68,7 @@ def working(
     whole, c = c, replace(c, r=r.before) if r.reverses[c.k] else c
     (motion if plane else space_motion)(sheet, c)
     (inertia if plane else space_inertia)(sheet, c)
-    (rubbing.friction if plane else space_friction)(sheet, c)
+    (friction.friction if plane else space_friction)(sheet, c)
     _bodies(sheet, c)
     _answers(sheet, c)
     if "graphical" in methods and plane:
@@ -88,7 +88,7 @@ def _just_after(sheet: Sheet, c: Chosen) -> None:
     """What is another number just after contacts have reversed; all before it in the sheet is just before."""
     sheet.heading("Just after the reversal")
     sheet.text("The motion and the loads are the same, the friction of what reversed has its other sense.")
-    (rubbing.friction if c.r.mechanism.dimension == 2 else space_friction)(sheet, c)
+    (friction.friction if c.r.mechanism.dimension == 2 else space_friction)(sheet, c)
     _bodies(sheet, c)
     _answers(sheet, c)
 
@@ -119,7 +119,7 @@ def _bodies(sheet: Sheet, c: Chosen) -> None:
             "line, in the moments its arms."
         )
     for link in r.links:
-        lines, about = balance.link_equations(r, link, c.k, shown, c.about)
+        lines, about = equilibrium_equations.link_equations(r, link, c.k, shown, c.about)
         place = "the mass centre G" if about.name == "G" else f"joint {about.name}"
         own = f" (in {shown.arm_unit})" if shown.arm_unit != shown.unit("length") else ""
         sheet.text(f"Link {shown.heading(link)}, moments about {place}; R{own} from there to each force:")

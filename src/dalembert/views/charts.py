@@ -8,21 +8,20 @@ from operator import methodcaller
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dalembert.analysis.actions import magnitude
-from dalembert.analysis.columns import drive_kinds
-from dalembert.analysis.wrenches import Axes
-from dalembert.views.canvas import Canvas
-from dalembert.views.frame import round_up
+from dalembert.analysis.methods.applied_forces import magnitude
+from dalembert.analysis.output.columns import drive_kinds
+from dalembert.analysis.result.reaction_axes import Axes
+from dalembert.arrays import Array, Flags
 from dalembert.views.notation import Notation, Shown, pretty
-from dalembert.views.scene import Circle, Line, Point, Scene, Text
-from dalembert.views.space_view import NOTHING
+from dalembert.views.paper.canvas import Canvas
+from dalembert.views.paper.frame import round_up
+from dalembert.views.paper.scene import Circle, Line, Point, Scene, Text
+from dalembert.views.space.space_view import NOTHING
 
 if TYPE_CHECKING:
-    from dalembert.analysis.result import Result
+    from dalembert.analysis.result.result import Result
 
-Array = NDArray[Any]
 SIZE = (84.0, 52.0)
 
 
@@ -121,7 +120,7 @@ def stepped(r: Result, read: Callable[[Result], Array]) -> Array:
     return np.array(rows)
 
 
-def _backwards(r: Result) -> NDArray[np.bool_]:
+def _backwards(r: Result) -> Flags:
     """Where the list of positions goes against the motion of the first drive."""
     if not r.drives or len(r.status) < 2 or r.schedule.time is not None:
         return np.zeros(len(r.status), bool)

@@ -16,30 +16,30 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
-from dalembert.analysis.planar import refuse_space
-from dalembert.analysis.which import position_at
+from dalembert.analysis.plane_only import refuse_space
+from dalembert.analysis.result.position_lookup import position_at
 from dalembert.views import charts as _charts
-from dalembert.views import glb
-from dalembert.views.animation import Animation, animation_scene
-from dalembert.views.camera import CAMERAS, Camera
-from dalembert.views.free_body import components_scene, free_body_scene
-from dalembert.views.glb import SolidModel
-from dalembert.views.inertia import displaced_inertia_scene
-from dalembert.views.mechanism import mechanism_scene, place_title
-from dalembert.views.motion import instant_centers_scene, motion_polygon_scene
-from dalembert.views.moving import refuse_still
+from dalembert.views.both_ends import at_both_ends
+from dalembert.views.formats import glb
+from dalembert.views.formats.animation import Animation, animation_scene
+from dalembert.views.formats.glb import SolidModel
 from dalembert.views.notation import Notation, Shown
-from dalembert.views.pair_pictures import pair_scene, pairs_scene
-from dalembert.views.polygons import force_chain_scene, force_polygon_scene, lines_of_action_scene
-from dalembert.views.rest import at_both_ends
-from dalembert.views.scene import Scene, stacked
-from dalembert.views.space_free_body import space_free_body_scene
-from dalembert.views.space_mechanism import space_mechanism_scene
-from dalembert.views.space_view import View as Sighted
-from dalembert.views.space_view import camera_of
+from dalembert.views.only_in_motion import refuse_still
+from dalembert.views.paper.scene import Scene, stacked
+from dalembert.views.plane.displaced_inertia import displaced_inertia_scene
+from dalembert.views.plane.force_polygons import force_chain_scene, force_polygon_scene, lines_of_action_scene
+from dalembert.views.plane.free_body import components_scene, free_body_scene
+from dalembert.views.plane.mechanism_view import mechanism_scene, place_title
+from dalembert.views.plane.velocity_polygons import instant_centers_scene, motion_polygon_scene
+from dalembert.views.space.camera import CAMERAS, Camera
+from dalembert.views.space.space_free_body import space_free_body_scene
+from dalembert.views.space.space_mechanism import space_mechanism_scene
+from dalembert.views.space.space_view import View as Sighted
+from dalembert.views.space.space_view import camera_of
+from dalembert.views.symbols.pair_pictures import pair_scene, pairs_scene
 
 if TYPE_CHECKING:
-    from dalembert.analysis.result import Result
+    from dalembert.analysis.result.result import Result
     from dalembert.wrench import System
 
 FREE_BODIES = "draw its free bodies"
@@ -181,7 +181,7 @@ def displaced_inertia(r: Result, link: str, at: Any = None, notation: Notation |
 def superposition(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
     """Force polygons of the chain for one source at a time, then for all together."""
     refuse_space(r.mechanism, "a force polygon", FREE_BODIES)
-    from dalembert.analysis.superposition import superposition as split
+    from dalembert.analysis.methods.superposition import superposition as split
 
     k = position_at(r, at)
     scenes = [force_chain_scene(r, k, notation, source) for source in split(r).sources]

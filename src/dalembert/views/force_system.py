@@ -7,21 +7,19 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dalembert.analysis.actions import Action
-from dalembert.views import symbols
-from dalembert.views.camera import ISOMETRIC, Camera
-from dalembert.views.canvas import Canvas
-from dalembert.views.frame import fitted, force_scale
-from dalembert.views.lettering import text_width
-from dalembert.views.mechanism import role_of, stated
+from dalembert.analysis.methods.applied_forces import Action
+from dalembert.arrays import Array
 from dalembert.views.notation import Figures, Notation, own_name, pretty
-from dalembert.views.polygons import LONGEST, dimension, draw_polygon
-from dalembert.views.scene import Arrow, Circle, Line, Point, Scene
+from dalembert.views.paper.canvas import Canvas
+from dalembert.views.paper.frame import fitted, force_scale
+from dalembert.views.paper.lettering import text_width
+from dalembert.views.paper.scene import Arrow, Circle, Line, Point, Scene
+from dalembert.views.plane.force_polygons import LONGEST, dimension, draw_polygon
+from dalembert.views.plane.mechanism_view import role_of, stated
+from dalembert.views.space.camera import ISOMETRIC, Camera
+from dalembert.views.symbols import plane_symbols
 from dalembert.wrench import Couple, Force, ForceCouple, System
-
-Array = NDArray[Any]
 
 WIDTH, HEIGHT = 84.0, 62.0
 """Space in mm for the points of a system."""
@@ -238,7 +236,7 @@ class Drawing:
         if c.size <= 1e-9 * self.s.scales()[1]:
             return
         if self.camera is None:
-            self.canvas.add(*symbols.couple(at, c.moment, 4.2, role, name, c.moment))
+            self.canvas.add(*plane_symbols.couple(at, c.moment, 4.2, role, name, c.moment))
             spots = [
                 (at[0] + 4.2 * math.cos(t), at[1] + 4.2 * math.sin(t)) for t in np.arange(8) * math.pi / 4
             ]
@@ -256,7 +254,7 @@ class Drawing:
             self.canvas.add(Circle(tail, 0.8, role))
             return
         seen = length * self.moment_per_mm
-        self.canvas.add(*symbols.two_heads(tail, head, role, name, "moment-seen", seen))
+        self.canvas.add(*plane_symbols.two_heads(tail, head, role, name, "moment-seen", seen))
 
     def resultant(self) -> list[str]:
         """The resultant on its line of action, in space with the couple along it; what to say where it is far."""

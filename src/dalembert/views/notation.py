@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from dalembert import symbols
-from dalembert.analysis.columns import Scale, drive_kinds
-from dalembert.analysis.rounding import least
+from dalembert import unit_names
+from dalembert.analysis.output.columns import Scale, drive_kinds
+from dalembert.analysis.output.rounding import least
 
 if TYPE_CHECKING:
-    from dalembert.analysis.actions import Action
-    from dalembert.analysis.result import Result
+    from dalembert.analysis.methods.applied_forces import Action
+    from dalembert.analysis.result.result import Result
 
 GROUND = "ground"
 RADIANS = {"angular_speed": "rad/s", "angular_acceleration": "rad/s^2"}
@@ -149,7 +149,7 @@ class Figures:
         if math.isclose(self.arm, self.size("length"), rel_tol=1e-9):
             return self.unit("length")
         names = ("m", "mm", "cm", "in", "ft")
-        known = (n for n in names if math.isclose(symbols.unit(n).si(1.0), self.arm, rel_tol=1e-9))
+        known = (n for n in names if math.isclose(unit_names.unit(n).si(1.0), self.arm, rel_tol=1e-9))
         return next(known, f"{self.unit('moment')}/{self.unit('force')}")
 
     def factor(self, kind: str, *of: str) -> float:

@@ -4,6 +4,8 @@ Forces at points and couples make a `System`; ask it for its resultant, its mome
 and couple at any point, its central axis, and whether it is in equilibrium. Numbers are SI and radians, texts carry
 their units.
 
+In: forces and couples at points. Out: sums, axes, verdicts. Imports ``algebra``, ``model``, ``analysis``.
+
 >>> import dalembert as da
 >>> w = da.wrench
 >>> s = w.System(w.Force("600 @ 60 N", at=["200 mm", 0]), w.Force([0, -400], at=[0.5, 0]), w.Couple("-20 N*m"))
@@ -14,11 +16,11 @@ array([-0.9704,  0.    ])
 """
 
 from dalembert.wrench.arrangements import arrangement, concurrency, parallel_center
-from dalembert.wrench.equilibrium import Balance
-from dalembert.wrench.files import load, loads
+from dalembert.wrench.balance_check import Balance
 from dalembert.wrench.forces import Axis, Couple, Force, components
-from dalembert.wrench.result import on
+from dalembert.wrench.free_body_system import on
 from dalembert.wrench.system import CentralAxis, ForceCouple, System
+from dalembert.wrench.system_files import load, loads
 
 __all__ = [
     "Axis",

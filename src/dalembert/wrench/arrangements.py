@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from dalembert.algebra.lines import meeting_point
+from dalembert.arrays import Array
 from dalembert.errors import AnalysisError
 from dalembert.wrench.forces import Axis
-from dalembert.wrench.reading import Array, fixed
+from dalembert.wrench.reading import fixed
 from dalembert.wrench.system import EXACT, System
 
 

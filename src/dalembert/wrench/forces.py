@@ -9,9 +9,10 @@ from typing import Any, Self
 import numpy as np
 
 from dalembert.algebra import plane, space
+from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.wrench import reading
-from dalembert.wrench.reading import Array, Number, UnitNames, Vector, fixed, number
+from dalembert.wrench.reading import Number, UnitNames, Vector, fixed, number
 
 ALGEBRA: dict[int, Any] = {2: plane, 3: space}
 """Components of a force -> the algebra of its vectors."""

@@ -7,16 +7,15 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model.part import Reading
-from dalembert.model.values import unit_vector
-from dalembert.model.values import vector as components_of
+from dalembert.model.quantities.figures import unit_vector
+from dalembert.model.quantities.values import vector as components_of
 from dalembert.units import Units, file_units, quantity
 from dalembert.wording import shown
 
-Array = NDArray[np.float64]
 Number = float | int | str
 Vector = Sequence[Number] | Array | str
 UnitNames = Units | dict[str, str] | None

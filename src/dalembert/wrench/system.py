@@ -9,13 +9,14 @@ from typing import Any
 
 import numpy as np
 
+from dalembert.arrays import Array
 from dalembert.errors import AnalysisError, ModelError
 from dalembert.units import Units, file_units
 from dalembert.wording import closest
 from dalembert.wrench import reading
-from dalembert.wrench.equilibrium import Balance, balance
+from dalembert.wrench.balance_check import Balance, balance
 from dalembert.wrench.forces import ALGEBRA, Axis, Couple, Force, moment_about, value_of
-from dalembert.wrench.reading import Array, UnitNames, Vector, fixed
+from dalembert.wrench.reading import UnitNames, Vector, fixed
 
 EXACT = 1e-9
 """Below this part of the largest force (of force times length) a force (a moment) counts as zero."""

@@ -1,6 +1,10 @@
-"""Many designs of one mechanism: ``compile`` and what it answers."""
+"""Many designs of one mechanism: ``compile`` and what it answers.
 
-from dalembert.analysis.batch.answer import BatchResult
-from dalembert.analysis.batch.kernel import Kernel, compile  # noqa: A004
+In: a ``Mechanism``, what varies, what is asked for. Out: a ``Kernel``, whose calls answer a ``BatchResult``.
+Imports ``kernel``, ``core``, ``analysis``.
+"""
+
+from dalembert.analysis.batch.batch_result import BatchResult
+from dalembert.analysis.batch.compiled_kernel import Kernel, compile  # noqa: A004
 
 __all__ = ["BatchResult", "Kernel", "compile"]

@@ -7,16 +7,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dalembert.algebra import plane
-from dalembert.analysis.compile import Compiled
-from dalembert.analysis.loads import point_of
+from dalembert.analysis.compile.compiled_mechanism import Compiled
+from dalembert.analysis.compile.load_arrays import point_of
+from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, traced
 from dalembert.kernel.trace import Traced
-
-Array = NDArray[Any]
 
 
 @dataclass(frozen=True)

@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dalembert.analysis.batch import reduction
-from dalembert.analysis.batch.course import Course
-from dalembert.kernel import emit_llvm
-from dalembert.kernel.batch import path_array, row_length, run_grid, run_pairs
-from dalembert.kernel.emit_reduce import PLACED, SUMS, Slots, width
-from dalembert.kernel.graph import Node
-from dalembert.kernel.machine import Machine, aligned, compiled
+from dalembert.analysis.batch import over_positions
+from dalembert.analysis.batch.kernel_inputs import Course
+from dalembert.arrays import Array
+from dalembert.kernel.emit import llvm_text
+from dalembert.kernel.emit.machine_code import Machine, aligned, compiled
+from dalembert.kernel.emit.reductions import PLACED, SUMS, Slots, width
+from dalembert.kernel.graph import CONSTANT, Node
+from dalembert.kernel.parallel_runs import path_array, row_length, run_grid, run_pairs
 from dalembert.kernel.program import Program
 
-Array = NDArray[Any]
 Found = tuple[NDArray[np.uint8], dict[str, Array], dict[str, Array]]
 FEW = 16
 """Positions below which the lanes are filled with pairs of a design and a position."""
@@ -42,18 +42,18 @@ class Runner:
             return self._pairs(k.program(k.flat))
         if kind == "grid":
             program = k.program(k.flat)
-            return program, compiled(emit_llvm.grid(program, k.lanes), k.lanes), ()
+            return program, compiled(llvm_text.grid(program, k.lanes), k.lanes), ()
         nodes, slots = self._reduced()
         program = k.program(nodes)
-        return program, compiled(emit_llvm.grid(program, k.lanes, slots), k.lanes), slots
+        return program, compiled(llvm_text.grid(program, k.lanes, slots), k.lanes), slots
 
     def _pairs(self, program: Program) -> tuple[Program, Machine, Slots]:
-        return program, compiled(emit_llvm.pairs(program, self.k.lanes), self.k.lanes), ()
+        return program, compiled(llvm_text.pairs(program, self.k.lanes), self.k.lanes), ()
 
     def _reduced(self) -> tuple[list[Node], Slots]:
         """Values to be reduced, outputs first, then what the gradients of means are made of."""
         k = self.k
-        parts = reduction.located(k.reduce) if k.derivatives else reduction.PARTS[k.reduce]
+        parts = over_positions.located(k.reduce) if k.derivatives else over_positions.PARTS[k.reduce]
         nodes = [n for found in k.nodes.values() for n in found]
         slots = [(m, p) for m in range(len(nodes)) for p in parts]
         if k.derivatives and k.reduce in ("mean", "rms", "norm8"):
@@ -101,7 +101,7 @@ class Runner:
         program, machine, slots = self.machine(way)
         columns, common = self.inputs(program, course)
         if device == "cuda":
-            from dalembert.kernel import cuda
+            from dalembert.kernel.emit import cuda
 
             out, code = cuda.run(program, slots, values, columns, common, progress)
         elif way == "pairs":
@@ -215,17 +215,76 @@ class Runner:
                 places[key] = out[:, slot + 1]
             slot += 2 if key[1] in PLACED else 1
         found, arrays, node = {}, {}, 0
-        wanted = reduction.located(k.reduce) if k.derivatives else reduction.PARTS[k.reduce]
+        wanted = over_positions.located(k.reduce) if k.derivatives else over_positions.PARTS[k.reduce]
         for name, nodes in k.nodes.items():
             each = []
             for m in range(node, node + len(nodes)):
                 source = places if k.reduce == "argpeak" else parts
-                each.append(reduction.finished(k.reduce, [source[m, p] for p in wanted], count))
+                each.append(over_positions.finished(k.reduce, [source[m, p] for p in wanted], count))
             found[name] = range(node, node + len(nodes))
             arrays[name] = each[0].copy() if len(nodes) == 1 else np.stack(each, axis=1)
             node += len(nodes)
         if not k.derivatives:
             return code, arrays, {}
-        from dalembert.analysis.batch.slopes import slopes
-
         return code, arrays, slopes(self, values, course, found, parts, places, count, threads)
+
+
+def slopes(
+    runner: Runner,
+    values: Array,
+    course: Course,
+    found: dict[str, range],
+    parts: dict[tuple[int, str], Array],
+    places: dict[tuple[int, str], Array],
+    count: int,
+    threads: int | None,
+) -> dict[str, Array]:
+    """Gradients (design[, component][, side of the envelope], number) of every reduced output."""
+    k, out = runner.k, {}
+    nodes_of = [n for nodes in k.nodes.values() for n in nodes]
+    flat = len(nodes_of)
+    for name, nodes in found.items():
+        each = []
+        for m in nodes:
+            if k.reduce in ("peak", "envelope"):
+                each.append(_active(runner, values, course, m, places, threads))
+            elif nodes_of[m].level == CONSTANT:
+                each.append(np.zeros((len(values), len(k.trace.numbers))))
+            else:
+                first = flat + m * len(k.trace.numbers)
+                total = np.stack([parts[first + n, "sum"] for n in range(len(k.trace.numbers))], axis=-1)
+                each.append(_mean(k.reduce, parts, m, total / count, count))
+        out[name] = each[0] if len(each) == 1 else np.stack(each, axis=1)
+    return out
+
+
+def _mean(reduce: str, parts: dict[tuple[int, str], Array], m: int, total: Array, count: int) -> Array:
+    if reduce == "mean":
+        return total
+    part = over_positions.PARTS[reduce][0]
+    size = over_positions.finished(reduce, [parts[m, part]], count)[:, None]
+    with np.errstate(all="ignore"):
+        return np.asarray(total / size if reduce == "rms" else total / size**7)
+
+
+def _active(
+    runner: Runner,
+    values: Array,
+    course: Course,
+    m: int,
+    places: dict[tuple[int, str], Array],
+    threads: int | None,
+) -> Array:
+    """Gradient of one component at the positions where its reduction stands."""
+    k = runner.k
+    program, machine, _ = runner.machine("gradient")
+    columns, common = runner.inputs(program, course)
+    flat, n = sum(len(nodes) for nodes in k.nodes.values()), len(k.trace.numbers)
+    sides = []
+    for part in over_positions.located(k.reduce):
+        place = places[m, part]
+        place = np.where(np.isfinite(place) & (place < len(columns)), place, 0).astype(int)
+        out, _ = runner.at_pairs(program, machine, values, columns[place], common, threads)
+        rate = out[:, flat + m * n : flat + (m + 1) * n]
+        sides.append(np.sign(out[:, m])[:, None] * rate if part == "argpeak" else rate)
+    return sides[0] if k.reduce == "peak" else np.stack(sides, axis=1)

@@ -6,9 +6,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[Any]
+from dalembert.arrays import Array, Flags
 
 
 @dataclass
@@ -27,7 +26,7 @@ class Sides:
             self.after = {name: array.copy() for name, array in self.arrays.items()}
             self.after_rates = {name: rate.copy() for name, rate in self.rates.items()}
 
-    def blank(self, lost: NDArray[np.bool_]) -> None:
+    def blank(self, lost: Flags) -> None:
         """No number where there is no answer."""
         for found in (self.arrays, self.rates, self.after, self.after_rates):
             for array in found.values():

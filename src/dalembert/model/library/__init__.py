@@ -1,5 +1,7 @@
 """Ready mechanisms: as functions of their dimensions, and as commented files to start from.
 
+In: dimensions. Out: a ``Mechanism``, or its file's text. Imports ``model``.
+
 >>> from dalembert.model.library import TEMPLATES, template
 >>> template("scotch_yoke").title
 'Scotch yoke'

@@ -7,8 +7,8 @@ from math import asin, degrees, pi
 from typing import TYPE_CHECKING
 
 from dalembert.errors import ModelError
-from dalembert.model.library.closure import FULL_TURN, Points, angle, closed, meet, reach, turned
-from dalembert.model.library.parts import (
+from dalembert.model.library.compass import FULL_TURN, Points, angle, closed, meet, reach, turned
+from dalembert.model.library.tree_parts import (
     block,
     built,
     couple,

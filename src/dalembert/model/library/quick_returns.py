@@ -6,8 +6,18 @@ from math import asin, degrees, pi
 from typing import TYPE_CHECKING
 
 from dalembert.errors import ModelError
-from dalembert.model.library.closure import FULL_TURN, Points, angle, closed, reach, turned
-from dalembert.model.library.parts import Tree, block, built, force, pin, positive, slender, slider, turning
+from dalembert.model.library.compass import FULL_TURN, Points, angle, closed, reach, turned
+from dalembert.model.library.tree_parts import (
+    Tree,
+    block,
+    built,
+    force,
+    pin,
+    positive,
+    slender,
+    slider,
+    turning,
+)
 
 if TYPE_CHECKING:
     from dalembert.model import Mechanism

@@ -10,8 +10,8 @@ from math import cos, pi, radians, sin
 from typing import TYPE_CHECKING
 
 from dalembert.errors import ModelError
-from dalembert.model.library.closure import FULL_TURN
-from dalembert.model.library.parts import Tree, built, positive, turning
+from dalembert.model.library.compass import FULL_TURN
+from dalembert.model.library.tree_parts import Tree, built, positive, turning
 from dalembert.model.library.vectors import Vector
 
 if TYPE_CHECKING:

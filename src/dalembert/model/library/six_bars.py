@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dalembert.model.library.closure import Points, angle, meet, turned
-from dalembert.model.library.parts import Point, Tree, pin, positive
+from dalembert.model.library.compass import Points, angle, meet, turned
+from dalembert.model.library.tree_parts import Point, Tree, pin, positive
 
 
 def check_six_bar(template: str, mass_per_length: float, mass_per_area: float, **lengths: float) -> None:

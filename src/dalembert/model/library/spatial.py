@@ -10,8 +10,8 @@ from math import atan2, cos, hypot, isfinite, pi, radians, sin, sqrt
 from typing import TYPE_CHECKING, Any
 
 from dalembert.errors import ModelError
-from dalembert.model.library.closure import FULL_TURN
-from dalembert.model.library.parts import Tree, built, force, positive, turning
+from dalembert.model.library.compass import FULL_TURN
+from dalembert.model.library.tree_parts import Tree, built, force, positive, turning
 from dalembert.model.library.vectors import Vector, cross, dot, less, plus, times
 
 if TYPE_CHECKING:

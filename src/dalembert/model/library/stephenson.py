@@ -6,8 +6,17 @@ from collections.abc import Callable
 from math import pi
 from typing import TYPE_CHECKING
 
-from dalembert.model.library.closure import FULL_TURN, GapError, Points, closed, meet, turned
-from dalembert.model.library.parts import (
+from dalembert.model.library.compass import FULL_TURN, GapError, Points, closed, meet, turned
+from dalembert.model.library.six_bars import (
+    angles,
+    check_six_bar,
+    four_bar_points,
+    four_pins,
+    ground_link,
+    on_link,
+    output_pins,
+)
+from dalembert.model.library.tree_parts import (
     Point,
     built,
     couple,
@@ -18,15 +27,6 @@ from dalembert.model.library.parts import (
     positive,
     slender,
     turning,
-)
-from dalembert.model.library.six_bars import (
-    angles,
-    check_six_bar,
-    four_bar_points,
-    four_pins,
-    ground_link,
-    on_link,
-    output_pins,
 )
 
 if TYPE_CHECKING:

@@ -5,8 +5,17 @@ from __future__ import annotations
 from math import pi
 from typing import TYPE_CHECKING
 
-from dalembert.model.library.closure import FULL_TURN, Points, closed, meet
-from dalembert.model.library.parts import (
+from dalembert.model.library.compass import FULL_TURN, Points, closed, meet
+from dalembert.model.library.six_bars import (
+    angles,
+    check_six_bar,
+    four_bar_points,
+    four_pins,
+    ground_link,
+    on_link,
+    output_pins,
+)
+from dalembert.model.library.tree_parts import (
     Point,
     built,
     couple,
@@ -17,15 +26,6 @@ from dalembert.model.library.parts import (
     positive,
     slender,
     turning,
-)
-from dalembert.model.library.six_bars import (
-    angles,
-    check_six_bar,
-    four_bar_points,
-    four_pins,
-    ground_link,
-    on_link,
-    output_pins,
 )
 
 if TYPE_CHECKING:

@@ -1,0 +1,209 @@
+"""What a kernel answers: the same quantities as a ``Result``, with a leading axis design."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert import errors
+from dalembert.algebra import plane
+from dalembert.arrays import Array, Flags
+from dalembert.errors import STATUSES, ModelError
+
+CODES = (
+    "ok",
+    "not_assembled",
+    "undecided",
+    "at_rest",
+    "singular",
+    "no_balance",
+    "failed",
+    "jammed",
+    "redundant",
+    "self_locking",
+    "undefined_load",
+    "overflow",
+    "no_derivative",
+    "reversal",
+)
+"""Statuses by the marks of the kernel; `undecided` goes to the general executor and does not come back."""
+
+NUMBERED = tuple(CODES.index(status) for status in (*errors.NUMBERED, "no_derivative"))
+"""Marks of positions that have numbers."""
+
+SOLVED = tuple(CODES.index(status) for status in errors.SOLVED)
+"""Marks of positions that are solved."""
+
+
+def first_mark(marks: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """Of several positions (..., position) the mark of the first status in the list above, of those without numbers if
+    there is one; 0 where all are ok."""
+    later = 100 * np.isin(marks, NUMBERED) + 100 * (marks == 0)
+    return np.asarray((marks + later).min(axis=-1) % 100, np.uint8)
+
+
+def not_finite(code: NDArray[np.uint8], arrays: dict[str, Array]) -> Flags:
+    """Where, in the axes of the codes, some value of some output is infinite or no number."""
+    out = np.zeros(code.shape, bool)
+    for array in arrays.values():
+        out |= ~np.isfinite(array).all(axis=tuple(range(code.ndim, array.ndim)))
+    return out
+
+
+def mark_overflow(code: NDArray[np.uint8], arrays: dict[str, Array], rates: dict[str, Array]) -> None:
+    """Give a status to what should have numbers and has none, and to numbers without a derivative."""
+    code[not_finite(code, arrays) & np.isin(code, NUMBERED)] = CODES.index("overflow")
+    code[not_finite(code, rates) & np.isin(code, SOLVED)] = CODES.index("no_derivative")
+    for rate in rates.values():
+        rate[np.isinf(rate)] = np.nan
+
+
+@dataclass(frozen=True)
+class BatchResult:
+    """Answer for many designs: arrays (design, position), or (design,) where reduced over the positions.
+
+    SI and radians, vectors in ground axes with their components last. NaN where there is no answer; ``status`` says
+    why. Where contacts reverse the numbers are those just before, and ``after`` is the whole answer with those just
+    after; None where nothing reverses, and where reduced: reductions are over both.
+    """
+
+    kernel: Any = field(repr=False)
+    values: Array = field(repr=False)  # (design, number)
+    positions: Array = field(repr=False)  # (position, drive)
+    code: NDArray[np.uint8] = field(repr=False)
+    arrays: dict[str, Array] = field(repr=False)
+    gradients: dict[str, Array] = field(repr=False)
+    redone: int = 0
+    after: BatchResult | None = field(default=None, repr=False)
+
+    @property
+    def status(self) -> Array:
+        """Code of each design and position; of each design where reduced."""
+        return np.array(CODES, object)[self.code]
+
+    @property
+    def ok(self) -> Flags:
+        """Which of them are solved, at a reversal on both sides; those that are self-locking, and those without a
+        derivative, have numbers too."""
+        return np.isin(self.code, SOLVED)
+
+    def problems(self) -> list[tuple[int, str, str]]:
+        """Designs with something that is not ok: number from 0, status and its sentence."""
+        worst = self.code if self.code.ndim < 2 else first_mark(self.code)
+        bad = np.flatnonzero(~np.isin(worst, SOLVED))
+        return [(int(d), CODES[worst[d]], _sentence(CODES[worst[d]])) for d in bad]
+
+    def value(self, output: str) -> Array:
+        """An output by the name it was compiled with."""
+        if output not in self.arrays:
+            raise ModelError(
+                f"{output!r} was not compiled", "compile with outputs=[..., " + repr(output) + "]"
+            )
+        return self.arrays[output]
+
+    def gradient(self, output: str) -> Array:
+        """Derivatives of an output with respect to the numbers, which are a last axis in the order of k.numbers."""
+        self.value(output)
+        if output not in self.gradients:
+            raise ModelError("no derivatives were compiled", "compile with derivatives=True")
+        return self.gradients[output]
+
+    def effort(self, drive: str) -> Array:
+        """Effort of a drive, N m or N."""
+        return self.value(f"effort.{drive}")
+
+    def unknown_load(self, name: str) -> Array:
+        """Value of a load that was asked for."""
+        return self.value(f"load.{name}")
+
+    def reaction(self, joint: str, on: str | None = None, axes: str = "ground") -> Array:
+        """Force of a joint on one of its links, default its j; reduced component by component."""
+        if axes not in ("ground", "link"):
+            raise ModelError(f"there are no axes {axes!r}", "there are: ground, link")
+        force = self._sign(joint, on) * self.value(f"reaction.{joint}")
+        if axes != "link":
+            return force
+        link = on or self.kernel.mechanism.joints[joint].links[1]
+        if self.kernel.reduce is not None:
+            raise ModelError("a reduced reaction has ground axes only", 'leave axes="link" out')
+        return force if link == "ground" else plane.unrotate(plane.rotation(self.angle(link)), force)
+
+    def magnitude(self, joint: str) -> Array:
+        """Size of a joint's force."""
+        return self.value(f"magnitude.{joint}")
+
+    def reaction_moment(self, joint: str, on: str | None = None) -> Array:
+        """Moment of a joint about j's point."""
+        return self._sign(joint, on) * self.value(f"moment.{joint}")
+
+    def _sign(self, joint: str, on: str | None) -> float:
+        joints = self.kernel.mechanism.joints
+        if joint not in joints:
+            raise ModelError(f"there is no joint {joint!r}", f"there are: {', '.join(joints)}")
+        i, j = joints[joint].links
+        if on not in (None, i, j):
+            raise ModelError(
+                f"joint {joint!r} does not act on {on!r}", f"it joins {i} and {j}", ("joints", joint)
+            )
+        if on == i and self.kernel.reduce not in (None, "mean"):
+            if self.kernel.reduce == "envelope":
+                raise ModelError(f"the envelope is that of the force on {j!r}", f"ask on={j!r}")
+            return 1.0
+        return -1.0 if on == i else 1.0
+
+    def angle(self, link: str) -> Array:
+        """Angle of a link, whole turns counted."""
+        return self.value(f"angle.{link}")
+
+    def speed(self, link: str) -> Array:
+        """Angular velocity of a link."""
+        return self.value(f"speed.{link}")
+
+    def acceleration(self, link: str) -> Array:
+        """Angular acceleration of a link."""
+        return self.value(f"acceleration.{link}")
+
+    def position(self, link: str) -> Array:
+        """Origin of a link's axes."""
+        return self.value(f"position.{link}")
+
+    def velocity(self, link: str) -> Array:
+        """Velocity of the origin of a link's axes."""
+        return self.value(f"velocity.{link}")
+
+    def center(self, link: str) -> Array:
+        """Mass centre of a link."""
+        return self.value(f"center.{link}")
+
+    def center_velocity(self, link: str) -> Array:
+        """Velocity of a link's mass centre."""
+        return self.value(f"center_velocity.{link}")
+
+    def center_acceleration(self, link: str) -> Array:
+        """Acceleration of a link's mass centre."""
+        return self.value(f"center_acceleration.{link}")
+
+    def point(self, link: str, name: str) -> Array:
+        """A named point of a link."""
+        return self.value(f"point.{link}.{name}")
+
+    def point_velocity(self, link: str, name: str) -> Array:
+        """Velocity of a named point of a link."""
+        return self.value(f"point_velocity.{link}.{name}")
+
+    def point_acceleration(self, link: str, name: str) -> Array:
+        """Acceleration of a named point of a link."""
+        return self.value(f"point_acceleration.{link}.{name}")
+
+
+def _sentence(code: str) -> str:
+    if code in STATUSES:
+        return STATUSES[code].sentence
+    if code == "no_derivative":
+        return "The numbers are right, but some derivative has no value here, or too large a one."
+    if code == "undecided":
+        return "The kernel is not sure of this one and was told not to ask the general executor."
+    return "The analysis of this design stopped with an error."

@@ -1,0 +1,163 @@
+"""The general executor for the designs that a kernel is not sure of, answering by the same names.
+
+It gives no derivatives: those are one step of the compiled equations from its solution.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dalembert.analysis.batch import over_positions
+from dalembert.analysis.batch.batch_result import CODES, NUMBERED, first_mark
+from dalembert.analysis.batch.kernel_inputs import Course
+from dalembert.analysis.batch.sides import Sides
+from dalembert.analysis.batch.symbolic_model import Number, with_numbers
+from dalembert.analysis.one_pass import at_schedule
+from dalembert.analysis.result.result import Result
+from dalembert.arrays import Array, Flags
+from dalembert.errors import DalembertError
+from dalembert.model import Mechanism, Schedule
+
+if TYPE_CHECKING:
+    from dalembert.analysis.batch.compiled_kernel import Kernel
+
+
+AGREES = 1e-8
+"""Difference of the compiled equations from the general executor's value, over the largest value of an output along the
+motion, above which they are not taken for its derivative."""
+
+NOTHING = 1e-4
+"""An output below this part of the largest one is compared with that."""
+
+
+def redone(
+    k: Kernel,
+    d: int,
+    values: Array,
+    course: Course,
+    undecided: Any,
+    found: Sides,
+) -> None:
+    """Put the general executor's answer for design ``d`` in its place: where it is undecided, or all of it reduced."""
+    code = found.code
+    marks, result = answered(k.mechanism, k.trace.numbers, values, course.schedule, k.trace.inertia)
+    here = np.ones(len(marks), bool) if k.reduce else undecided
+    for rates in (found.rates, found.after_rates):
+        for rate in rates.values():
+            rate[d][... if k.reduce else here] = np.nan
+    code[d] = first_mark(marks) if k.reduce else np.where(here, marks, code[d])
+    if result is None or (k.reduce and code[d] not in NUMBERED):
+        return
+    sides = [{name: quantity(side, name) for name in k.outputs} for side in result.sides]
+    numbered = bool(np.isin(marks[here], NUMBERED).any())
+    slopes_ = [
+        slopes(k, values, replace(course, result=side), one, here) if found.rates and numbered else {}
+        for side, one in zip(result.sides, sides, strict=True)
+    ]
+    if k.reduce:
+        _reduced(k, d, sides, slopes_, found)
+        return
+    if len(sides) > 1:
+        found.open_after()
+    places = ((found.arrays, found.rates), (found.after, found.after_rates))
+    for n, (arrays, rates) in enumerate(places[: 1 + bool(found.after)]):
+        for name, value in sides[min(n, len(sides) - 1)].items():
+            arrays[name][d, here] = value[here].reshape(arrays[name][d, here].shape)
+        for name, rate in slopes_[min(n, len(sides) - 1)].items():
+            rates[name][d, here] = rate.reshape(rates[name][d, here].shape)
+
+
+def _reduced(
+    k: Kernel, d: int, sides: list[dict[str, Array]], rates: list[dict[str, Array]], found: Sides
+) -> None:
+    """Reductions over the positions, those with two numbers taken twice."""
+    assert k.reduce is not None
+    for name, array in found.arrays.items():
+        value = np.concatenate([side[name] for side in sides])
+        reduced = over_positions.reduced(k.reduce, value)
+        if k.reduce == "argpeak":
+            reduced = reduced % len(sides[0][name])
+        array[d] = reduced.reshape(array[d].shape)
+        if rates[0]:
+            rate = np.concatenate([side[name] for side in rates])
+            slope = over_positions.slope(k.reduce, value, rate)
+            found.rates[name][d] = slope.reshape(found.rates[name][d].shape)
+
+
+def slopes(
+    k: Kernel, values: Array, course: Course, found: dict[str, Array], here: Flags
+) -> dict[str, Array]:
+    """Derivatives (position, component, number) at some positions of a course that has been solved; NaN in doubt."""
+    runner = k.settled.runner
+    program, machine, _ = runner.machine("pairs")
+    columns, common = runner.inputs(program, course)
+    many = np.repeat(values[None], here.sum(), axis=0)
+    out, doubt = runner.at_pairs(program, machine, many, columns[here], common, 1)
+    _, again, rates = runner.named(out.T[None], doubt[None])
+    largest = max(np.nanmax(np.abs(value), initial=0.0) for value in found.values())
+    for name, value in found.items():
+        own = max(np.nanmax(np.abs(value), initial=0.0), NOTHING * largest)
+        off = np.abs(again[name].reshape(value[here].shape) - value[here]).max(axis=1)
+        rates[name] = rates[name].reshape((*value[here].shape, -1))
+        rates[name][(doubt != 0) | ~(off <= AGREES * own)] = np.nan
+    return dict(rates)
+
+
+def answered(
+    m: Mechanism, numbers: Sequence[Number], values: Array, schedule: Schedule, inertia: bool
+) -> tuple[NDArray[np.uint8], Result | None]:
+    """Codes (position,) of one design, and its result; all failed, and none, where the design is refused."""
+    count = len(schedule.position)
+    if not np.isfinite(values).all():
+        return np.full(count, CODES.index("failed"), np.uint8), None
+    try:
+        design = with_numbers(m, numbers, values.tolist())
+        result = at_schedule(design, _schedule(design, schedule), inertia)
+    except DalembertError:
+        return np.full(count, CODES.index("failed"), np.uint8), None
+    marks = [CODES.index(s) if s in CODES else CODES.index("failed") for s in result.status]
+    return np.array(marks, np.uint8), result
+
+
+def _schedule(design: Mechanism, schedule: Schedule) -> Schedule:
+    """The positions asked for, at the design's own speeds."""
+    own, count = design.schedule(), len(schedule.position)
+    rates = [a if len(a) == count else np.repeat(a[:1], count, axis=0) for a in (own.speed, own.acceleration)]
+    return replace(schedule, speed=rates[0], acceleration=rates[1])
+
+
+def quantity(result: Result, output: str) -> Array:
+    """One output of a result (position, component)."""
+    kind, _, of = output.partition(".")
+    found = np.asarray(_KINDS[kind](result, of))
+    return found.reshape(len(found), -1)
+
+
+def _magnitude(r: Result, joint: str) -> Array:
+    return np.asarray(np.hypot(*np.moveaxis(r.reaction(joint), -1, 0)))
+
+
+_KINDS: dict[str, Callable[[Result, str], Any]] = {
+    "effort": lambda r, of: r.effort(of),
+    "load": lambda r, of: r.unknown_load(of),
+    "reaction": lambda r, of: r.reaction(of),
+    "magnitude": _magnitude,
+    "moment": lambda r, of: r.reaction_moment(of),
+    "angle": lambda r, of: r.angle(of),
+    "speed": lambda r, of: r.speed(of),
+    "acceleration": lambda r, of: r.acceleration(of),
+    "position": lambda r, of: r.position(of),
+    "velocity": lambda r, of: r.velocity(of),
+    "center": lambda r, of: r.center(of),
+    "center_velocity": lambda r, of: r.center_velocity(of),
+    "center_acceleration": lambda r, of: r.center_acceleration(of),
+    "point": lambda r, of: r.point(*of.split(".", 1)),
+    "point_velocity": lambda r, of: r.point_velocity(*of.split(".", 1)),
+    "point_acceleration": lambda r, of: r.point_acceleration(*of.split(".", 1)),
+    "residual": lambda r, of: r.residual,
+}

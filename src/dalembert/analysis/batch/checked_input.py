@@ -1,0 +1,52 @@
+"""Numbers that a kernel is called with: real ones and nothing else, as no other would be taken for what it is."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from numbers import Real
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+
+KINDS = {
+    "c": "complex",
+    "b": "true and false",
+    "U": "text",
+    "S": "text",
+    "m": "times",
+    "M": "dates",
+    "V": "records",
+}
+"""What arrays hold that are not of real numbers, by numpy's letter for it."""
+
+
+def numbers(name: str, given: ArrayLike) -> Array:
+    """An array of floats; refused is what would lose a part: imaginary parts, units, masks, text, truths."""
+    if hasattr(given, "units") and hasattr(given, "magnitude"):
+        raise ModelError(f"{name} carry units", "give plain numbers, in SI and radians")
+    if np.ma.is_masked(given):
+        raise ModelError(
+            f"{name} are masked in places", "give numbers everywhere, or leave those designs out"
+        )
+    try:
+        array = np.asarray(given)
+        what = KINDS.get(array.dtype.kind) or _strange(array)
+        found = np.zeros(0) if what else np.asarray(array, float)
+    except OverflowError:
+        raise ModelError(f"{name} are too large for the arithmetic", "give numbers below 1.8e308") from None
+    except (TypeError, ValueError):
+        what = "not all numbers"
+    if what:
+        raise ModelError(f"{name} are {what}", "give an array of real numbers, in SI and radians")
+    return found
+
+
+def _strange(array: Array) -> str:
+    """What a list of all sorts of things holds beside real numbers; empty where nothing."""
+    if array.dtype != object:
+        return ""
+    kinds = [x for x in array.ravel() if isinstance(x, bool | np.bool_) or not isinstance(x, Real | Decimal)]
+    return "" if not kinds else "complex" if isinstance(kinds[0], complex) else "not all numbers"

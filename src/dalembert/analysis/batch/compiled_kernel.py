@@ -1,0 +1,314 @@
+"""``da.compile``: an analysis of one structure as machine code, for any numbers in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dalembert.analysis.batch import over_positions
+from dalembert.analysis.batch.batch_result import CODES, NUMBERED, BatchResult, mark_overflow, not_finite
+from dalembert.analysis.batch.checked_input import numbers
+from dalembert.analysis.batch.kernel_inputs import Course
+from dalembert.analysis.batch.sides import Sides
+from dalembert.analysis.batch.symbolic_model import geometric
+from dalembert.analysis.batch.traced_analysis import Trace, traced
+from dalembert.analysis.one_pass import at_schedule
+from dalembert.analysis.plane_only import refuse_space
+from dalembert.arrays import Array, Flags
+from dalembert.errors import ModelError
+from dalembert.kernel.derivatives import gradients
+from dalembert.kernel.graph import CONSTANT, Node
+from dalembert.kernel.program import Marks, Program
+from dalembert.model import Mechanism
+
+LARGEST = float(np.finfo(float).max)
+"""Largest number there is."""
+SMALL = 2000
+"""Operations below which the results of two registers side by side still find room in the first cache."""
+ABREAST = 10
+"""Operations that could be under way at once, below which two registers side by side are faster than one: the waiting
+of one fills the other. Two units with four cycles each ask for eight."""
+
+
+def compile(  # noqa: A001
+    mechanism: Mechanism,
+    vary: Sequence[str] = (),
+    outputs: Sequence[str] | None = None,
+    reduce: str | None = None,
+    derivatives: bool = False,
+    static: bool = False,
+    lanes: int | None = None,
+) -> Kernel:
+    """An analysis as machine code: for one structure, whatever the numbers at the paths in ``vary``.
+
+    outputs: names such as ``effort.O2``, ``reaction.A``, ``angle.coupler``; default all efforts and reactions.
+    reduce: over the positions, ``peak``, ``mean``, ``rms``, ``envelope``, ``argpeak``, ``norm8``; default none.
+    derivatives: exact ones of every output with respect to every number. static: leave inertia out.
+    lanes: values side by side (8 AVX-512, 4 AVX2, 2 NEON, 1 none); default as the processor has them.
+    Raises ModelError for what only the analyses can do (redundancy, unknown positions).
+
+    >>> import dalembert as da
+    >>> k = da.compile(da.four_bar(), vary=["links.coupler.mass"], outputs=["effort.O2"])
+    >>> k.numbers
+    ('links.coupler.mass',)
+    >>> k([[1.0], [2.0]]).effort("O2").shape
+    (2, 72)
+    """
+    over_positions.check(reduce)
+    _check_count("lanes", lanes)
+    try:
+        refuse_space(mechanism, "da.compile", "use da.dynamics or da.statics")
+        trace = traced(mechanism, _several(vary), mechanism.has_speeds and not static)
+    except ModelError as error:
+        raise error.located(mechanism.source) from None
+    names = _several(outputs) if outputs is not None else tuple(trace.catalogue.defaults())
+    if derivatives and reduce == "argpeak":
+        raise ModelError(
+            "the place of a peak has no derivative", 'leave derivatives out, or reduce by "peak"'
+        )
+    kernel = Kernel(mechanism, trace, names, reduce, derivatives, lanes or _host_lanes())
+    if lanes is None and _waits(kernel.program(kernel.flat)):
+        kernel = replace(kernel, lanes=2 * kernel.lanes)
+    kernel.warm()
+    return kernel
+
+
+def _several(names: Sequence[str]) -> tuple[str, ...]:
+    """Names; a single one may stand by itself."""
+    return (names,) if isinstance(names, str) else tuple(names)
+
+
+def _check_count(name: str, count: Any) -> None:
+    if count is not None and (
+        isinstance(count, bool) or not isinstance(count, int | np.integer) or count <= 0
+    ):
+        raise ModelError(f"{name}={count!r} is no number of {name}", "give 1 or more, or leave it out")
+
+
+def _moves(course: Course, dimensions: int) -> Any:
+    """Where a contact without a rate may only reverse."""
+    moves = course.schedule.moves
+    return moves if dimensions > 1 else moves.any()
+
+
+def _waits(program: Program) -> bool:
+    """Whether a program in one register would wait for its own results."""
+    return program.size < SMALL and program.size < ABREAST * program.depth
+
+
+def _host_lanes() -> int:
+    try:
+        from dalembert.kernel.emit.machine_code import host_lanes
+
+        return host_lanes()
+    except ImportError:
+        raise ModelError("compiling needs llvmlite", "pip install 'dalembert[fast]'") from None
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """A compiled analysis; call it with values (design, number) in SI, in the order of ``numbers``."""
+
+    mechanism: Mechanism = field(repr=False)
+    trace: Trace = field(repr=False)
+    outputs: tuple[str, ...]
+    reduce: str | None
+    derivatives: bool
+    lanes: int
+
+    @property
+    def numbers(self) -> tuple[str, ...]:
+        """Paths of the numbers, one a column of the values."""
+        return tuple(n.path for n in self.trace.numbers)
+
+    @property
+    def nominal(self) -> Array:
+        """The numbers as the description has them."""
+        return np.array([n.value for n in self.trace.numbers])
+
+    @cached_property
+    def nodes(self) -> dict[str, list[Node]]:
+        """Components of each output."""
+        return {name: self.trace.catalogue.nodes(name) for name in self.outputs}
+
+    @cached_property
+    def rates(self) -> dict[str, list[list[Node]]]:
+        """Derivatives of each component of each output."""
+        graph = self.trace.catalogue.graph
+        inputs = self.number_nodes
+        flat = [n for nodes in self.nodes.values() for n in nodes]
+        found = iter(gradients(graph, flat, inputs))
+        return {name: [next(found) for _ in nodes] for name, nodes in self.nodes.items()}
+
+    @cached_property
+    def number_nodes(self) -> list[Node]:
+        graph = self.trace.catalogue.graph
+        inputs = {n.value: n for n in graph.nodes if n.op == "number"}
+        return [inputs[k] for k in range(len(self.trace.numbers))]
+
+    def program(self, nodes: Sequence[Node]) -> Program:
+        found = self.trace.catalogue.traced
+        rub = found.rubbed
+        rubbing = (rub.rest, rub.doubt, rub.unsure, rub.sure, rub.jam, rub.turned, rub.still, rub.locked)
+        marks = (tuple(m) for m in (found.open, found.doubt, *rubbing))
+        told = Marks(*marks)
+        values = sum(len(of) for of in self.nodes.values())
+        slope = [] if self.reduce else nodes[values:]
+        known = self.trace.course.result is not None
+        finite = () if known else self._finite([n * n for n in nodes[:values]])  # shorter than abs(n)
+        told = replace(told, slips=(*told.slips, *finite), slope=self._finite([abs(n) for n in slope]))
+        return Program(self.trace.catalogue.graph, tuple(nodes), told)
+
+    def _finite(self, nodes: Sequence[Node]) -> tuple[Node, ...]:
+        """Below zero, or no number, where some node, none of them negative, is not finite."""
+        graph = self.trace.catalogue.graph
+        total = sum((n for n in nodes if n.level != CONSTANT), graph.zero)
+        return () if total is graph.zero else (LARGEST - total,)
+
+    @cached_property
+    def flat(self) -> list[Node]:
+        """Every value asked for at a position, derivatives behind the outputs."""
+        out = [n for nodes in self.nodes.values() for n in nodes]
+        if self.derivatives and self.reduce is None:
+            out += [n for rates in self.rates.values() for row in rates for n in row]
+        return out
+
+    @cached_property
+    def runner(self) -> Any:
+        """Grid, pairs and reductions, each compiled when first used."""
+        from dalembert.analysis.batch.runner import Runner
+
+        return Runner(self)
+
+    @cached_property
+    def settled(self) -> Kernel:
+        """The same outputs and their derivatives from solutions of the general executor; compiled when first used."""
+        course = self.trace.course
+        solved = at_schedule(self.mechanism, course.schedule, self.trace.inertia)
+        trace = traced(self.mechanism, self.numbers, self.trace.inertia, solved)
+        return replace(self, trace=trace, reduce=None, derivatives=True)
+
+    def warm(self) -> None:
+        """Compile now what the file's own positions need."""
+        self.runner.prepare(len(self.trace.course.schedule.position))
+
+    def course(self, positions: ArrayLike | None) -> Course:
+        """The mechanism at other positions than the file's."""
+        known = self.trace.course
+        if positions is None:
+            return known
+        given = numbers("positions", positions)
+        drives = len(known.schedule.names)
+        if given.ndim < 2 and given.size % max(drives, 1) == 0:
+            given = given.reshape(-1, drives)
+        if not np.isfinite(given).all():
+            raise ModelError("positions are not all finite", "give numbers that are")
+        if given.ndim != 2 or given.shape[1] != drives or not len(given):
+            raise ModelError(
+                f"positions of shape {given.shape} do not fit {drives} drive(s)",
+                "give (position, drive)",
+            )
+        for rate in (known.schedule.speed, known.schedule.acceleration):
+            if np.ptp(rate, axis=0).any():
+                raise ModelError(
+                    "the drives' speeds change along the file's positions", "leave positions out", ("drives",)
+                )
+        return known.at(given)
+
+    def __call__(
+        self,
+        values: ArrayLike | None = None,
+        positions: ArrayLike | None = None,
+        threads: int | None = None,
+        progress: Callable[[int, int], object] | None = None,
+        redo: bool = True,
+        device: str = "cpu",
+    ) -> BatchResult:
+        """Answers for many designs.
+
+        values: (design, number) in SI in the order of ``numbers``, default the description's own. positions: the
+        drives' values (position, drive), default the file's. threads: at most so many, default one a core.
+        progress: called with (designs done, designs). redo: ask the general executor where the kernel is not sure.
+        device: ``cpu``, or ``cuda`` for an NVIDIA card through cupy.
+        """
+        _check_count("threads", threads)
+        given = self._values(values)
+        course = self.course(positions)
+        if device not in ("cpu", "cuda"):
+            raise ModelError(f"there is no device {device!r}", "there are: cpu, cuda")
+        try:
+            code, arrays, rates = self.runner(given, course, threads, progress, device)
+        except RuntimeError as error:
+            if device == "cpu":  # of whoever watches the progress
+                raise
+            raise ModelError(f"device {device!r} cannot be used: {error}", 'use device="cpu"') from None
+        code[self._flipped(given)] = CODES.index("undecided")
+        if redo:
+            code[(code == CODES.index("at_rest")) & _moves(course, code.ndim)] = CODES.index("undecided")
+        code[~np.isfinite(given).all(axis=1)] = CODES.index("failed")
+        return self._finished(given, course, code, arrays, rates, redo)
+
+    def to_c(self, name: str = "mechanism") -> str:
+        """C source, needing nothing but math.h, of a function of one position: numbers, drives' quantities, outputs."""
+        from dalembert.analysis.batch.kernel_export import c_source
+
+        return c_source(self, name)
+
+    def to_casadi(self, name: str = "mechanism") -> Any:
+        """casadi Function of (values, inputs) with the outputs by name; raises ModelError without casadi."""
+        from dalembert.analysis.batch.kernel_export import casadi_function
+
+        return casadi_function(self, name)
+
+    def _flipped(self, values: Array) -> Flags:
+        """Designs whose motion may be another than the file's, each left to the general executor: those of another
+        `assembly`, and of other geometry where the file's motion passes change points (a parallelogram passes them, its
+        neighbours do not)."""
+        flips = self.trace.catalogue.traced.flips
+        moves = [path.startswith("assembly.") or (flips and geometric(path)) for path in self.numbers]
+        return np.asarray((values != self.nominal)[:, moves].any(axis=1))
+
+    def _values(self, values: ArrayLike | None) -> Array:
+        count = len(self.trace.numbers)
+        given = self.nominal if values is None else numbers("values", values)
+        if given.ndim < 2:  # one design, or many of one number
+            given = given.reshape(-1, 1) if count == 1 else given.reshape(1, -1)
+        if given.ndim != 2 or given.shape[1] != count:
+            raise ModelError(
+                f"values of shape {np.shape(np.asarray(values))} do not fit {count} numbers",
+                "give (design, number) in the order of .numbers",
+            )
+        return given
+
+    def _finished(
+        self,
+        values: Array,
+        course: Course,
+        code: Any,
+        arrays: dict[str, Array],
+        rates: dict[str, Array],
+        redo: bool,
+    ) -> BatchResult:
+        if self.reduce is not None:  # a power or a sum may overflow where no value does
+            code[not_finite(code, arrays) & np.isin(code, NUMBERED)] = CODES.index("undecided")
+        undecided = code == CODES.index("undecided")
+        again = np.flatnonzero(undecided.any(axis=tuple(range(1, code.ndim)))) if redo else np.zeros(0, int)
+        found = Sides(code, arrays, rates)
+        from dalembert.analysis.batch.careful_path import redone
+
+        for d in again:
+            redone(self, int(d), values[d], course, undecided[d], found)
+            if self.reduce is None:
+                for side in ((arrays, rates), (found.after, found.after_rates)):
+                    mark_overflow(code[d], *({n: a[d] for n, a in of.items()} for of in side))
+        if self.reduce is not None:
+            mark_overflow(code, arrays, rates)
+        found.blank(~np.isin(code, NUMBERED))
+        whole = (self, values, course.schedule.position, code)
+        after = BatchResult(*whole, found.after, found.after_rates) if found.after else None
+        return BatchResult(*whole, arrays, rates, len(again), after)

@@ -1,0 +1,123 @@
+"""A compiled analysis outside Python: a C function of one position, CUDA text, a casadi Function."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.errors import ModelError
+from dalembert.kernel.emit import c_text
+from dalembert.kernel.graph import Graph, Node
+from dalembert.kernel.program import Marks, Program
+from dalembert.model.quantities.expressions import Expression
+
+if TYPE_CHECKING:
+    from dalembert.analysis.batch.compiled_kernel import Kernel
+
+
+def plain(k: Kernel) -> Program:
+    """The program with the drives' own quantities as inputs: cosines and expressions are computed inside."""
+    graph, inputs = k.trace.catalogue.graph, k.trace.inputs
+    places: dict[int, Node] = {}
+    names = k.trace.course.schedule.names
+    raw = {n: inputs.named["channel", f"position {n}"] for n in names}
+    for (kind, name), node in inputs.named.items():
+        what, _, of = name.partition(" ")
+        if kind == "channel" and what in ("cos", "sin") and of in raw:
+            places[node.index] = raw[of].cos() if what == "cos" else raw[of].sin()
+        elif name in inputs.varying and isinstance(inputs.varying[name], Expression):
+            value = inputs.varying[name].at(raw, functions(graph))
+            places[node.index] = value if isinstance(value, Node) else graph.constant(value)
+        elif kind == "common" or (what == "counted" and np.ptp(inputs.found[node](k.trace.course)) == 0):
+            places[node.index] = graph.constant(np.ravel(inputs.found[node](k.trace.course))[0])
+    program = k.program(k.flat)
+    groups = [program.outputs, *(getattr(program.marks, f.name) for f in fields(Marks))]
+    found = iter(graph.substituted([n for group in groups for n in group], places))
+    outputs, *marks = (tuple(next(found) for _ in group) for group in groups)
+    return Program(graph, outputs, Marks(*marks))
+
+
+def functions(graph: Graph) -> dict[str, Any]:
+    """The functions of expressions for nodes."""
+
+    def node(x: Any) -> Node:
+        return x if isinstance(x, Node) else graph.constant(x)
+
+    def one(op: str) -> Any:
+        return lambda x: graph.unary(op, node(x))
+
+    def two(op: str) -> Any:
+        return lambda x, y: graph.binary(op, node(x), node(y))
+
+    out = {
+        name: one(name) for name in ("sin", "cos", "tan", "asin", "acos", "sqrt", "exp", "log", "abs", "sign")
+    }
+    out |= {name: two(name) for name in ("atan2", "min", "max")}
+    return out | {"atan": lambda x: graph.binary("atan2", node(x), graph.one)}
+
+
+_LETTERS = "use letters, digits and single _, a letter first"
+
+
+def _refuse_reduced(k: Kernel) -> None:
+    if k.reduce is not None:
+        raise ModelError("a reduced analysis cannot be exported", "compile it without reduce")
+
+
+def c_source(k: Kernel, name: str) -> str:
+    """Self-contained C of one position."""
+    _refuse_reduced(k)
+    if not re.fullmatch(r"[A-Za-z_]\w*", name):
+        raise ModelError(f"{name!r} is no name for a C function", _LETTERS)
+    program = plain(k)
+    return c_text.function(program, name, _comment(k, program, name))
+
+
+def _comment(k: Kernel, program: Program, name: str) -> str:
+    graph = program.graph
+    numbers = [f"v[{i}] = {path}" for i, path in enumerate(k.numbers)]
+    inputs = [f"c[{i}] = {graph.names[n.index]}" for i, n in enumerate(program.used("channel"))]
+    outputs = [f"out[{i}] = {what}" for i, what in enumerate(output_names(k))]
+    title = k.mechanism.title or "A mechanism"
+    said = f"{title}: {name}(v, c, out) at one position, SI and radians; made by dalembert."
+    result = (
+        "Returns 0; 1 where the linkage does not close; 2 where the numbers may be poor (near a dead centre, or "
+        "friction may jam or have several solutions);"
+    )
+    more = (
+        "3 where friction leaves an interval (a contact at rest); 7 where it jams; "
+        "9 where it is self-locking (the numbers hold)."
+    )
+    return "\n".join([said, result, more, *numbers, *inputs, *outputs])
+
+
+def output_names(k: Kernel) -> list[str]:
+    """One name a number that the program gives."""
+    parts = {
+        name: [name] if len(nodes) == 1 else [f"{name}.{i}" for i in range(len(nodes))]
+        for name, nodes in k.nodes.items()
+    }
+    out = [p for names in parts.values() for p in names]
+    if k.derivatives:
+        out += [f"d {p} / d {n}" for names in parts.values() for p in names for n in k.numbers]
+    return out
+
+
+def casadi_function(k: Kernel, name: str) -> Any:
+    """casadi Function of (values, inputs)."""
+    _refuse_reduced(k)
+    try:
+        from dalembert.kernel.emit import casadi_function
+
+        sizes = [(n.replace(".", "_"), len(nodes)) for n, nodes in k.nodes.items()]
+        program = plain(k)
+        count = sum(size for _, size in sizes)
+        alone = Program(program.graph, program.outputs[:count], program.marks)
+        return casadi_function.function(alone, name, len(k.numbers), sizes)
+    except ImportError:
+        raise ModelError("casadi is not installed", "pip install 'dalembert[fast]'") from None
+    except RuntimeError:
+        raise ModelError(f"{name!r} is no name for a casadi Function", _LETTERS) from None

@@ -1,0 +1,280 @@
+"""What the kernel is given along the positions: drives, changing loads, and the known motion where it is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
+from typing import Any
+
+import numpy as np
+
+from dalembert.analysis.compile.compiled_mechanism import Compiled, compiled
+from dalembert.analysis.positions import Positions, positions
+from dalembert.analysis.result.result import Result
+from dalembert.arrays import Array
+from dalembert.core.friction.contact_equations import bearing
+from dalembert.core.layout import Pose
+from dalembert.kernel.graph import POSITION, Graph, Node
+from dalembert.kernel.trace import Drives
+from dalembert.model import Mechanism, Schedule
+
+
+@dataclass(frozen=True)
+class Course:
+    """The mechanism with the file's numbers at a list of positions, followed when its motion is asked for.
+
+    With the ``result`` of the general executor, which may be of another design, its motion is that.
+    """
+
+    mechanism: Mechanism
+    schedule: Schedule
+    result: Result | None = None
+
+    @cached_property
+    def compiled(self) -> Compiled:
+        return compiled(self.mechanism, self.schedule)
+
+    @cached_property
+    def followed(self) -> Positions:
+        return positions(self.compiled)
+
+    @cached_property
+    def pose(self) -> Pose:
+        """Its poses, NaN where it does not close."""
+        if self.result is not None:
+            return _found(self.result)
+        path = self.followed.path
+        assert path is not None
+        lost = ~path.reached
+        parts = [a.copy() for a in path.pose]
+        for a in parts:
+            a[lost] = np.nan
+        return Pose(*parts)
+
+    @cached_property
+    def first(self) -> int:
+        """The first position that closes."""
+        if self.result is not None:
+            return int(np.argmax(np.isfinite(self.pose.point).all(axis=(1, 2))))
+        path = self.followed.path
+        return int(np.argmax(path.reached)) if path is not None else 0
+
+    @property
+    def drives(self) -> dict[str, Array]:
+        return {name: self.schedule.position[:, k] for k, name in enumerate(self.schedule.names)}
+
+    @cached_property
+    def slips(self) -> dict[tuple[str, str], Array]:
+        """Friction z (P,) of each contact of the result, by joint and kind: c z is its force or couple."""
+        f = None if self.result is None else self.result.friction
+        if self.result is None or f is None:
+            return {}
+        c = self.result.compiled
+        assert c.contacts is not None
+        z = np.nan_to_num(-f.sense * bearing(c.contacts, f.argument))
+        return dict(zip(contact_keys(c), z.T, strict=True))
+
+    @cached_property
+    def reversals(self) -> dict[tuple[str, str], Array]:
+        """Sense (P,) of each contact where it reverses in the result, 0 where its rate tells it."""
+        f = None if self.result is None else self.result.friction
+        if self.result is None or f is None:
+            return {}
+        sense = np.where(f.reversing, f.sense, 0.0)
+        return dict(zip(contact_keys(self.result.compiled), sense.T, strict=True))
+
+    @property
+    def counted(self) -> Compiled:
+        """The mechanism with the whole turns of its torsion springs counted along its motion."""
+        return self.followed.compiled if self.result is None else self.result.compiled
+
+    def at(self, positions: Array) -> Course:
+        """Another list of positions, at the same speeds and accelerations."""
+        count = len(positions)
+        rates = [np.repeat(a[:1], count, axis=0) for a in (self.schedule.speed, self.schedule.acceleration)]
+        schedule = replace(
+            self.schedule, position=positions, speed=rates[0], acceleration=rates[1], time=None
+        )
+        return Course(self.mechanism, schedule)
+
+
+@dataclass
+class Inputs:
+    """The inputs of a trace, each with how it is found for a course: channels (P,), common ones a number."""
+
+    graph: Graph
+    course: Course
+    found: dict[Node, Callable[[Course], Any]] = field(default_factory=dict)
+    named: dict[tuple[str, str], Node] = field(default_factory=dict)
+    varying: dict[str, Any] = field(default_factory=dict)
+
+    def make(self, kind: str, name: str, value: Callable[[Course], Any]) -> Node:
+        """An input, made once."""
+        if (kind, name) not in self.named:
+            node = self.graph.input(kind, name, value(self.course))
+            self.named[kind, name], self.found[node] = node, value
+        return self.named[kind, name]
+
+    def drives(self, symbolic: Any, kind: str = "channel") -> Drives:
+        """The drives' values; those that stay constant along the file's positions are constants of the trace."""
+        names = self.course.schedule.names
+        angular = self.course.compiled.layout.freedoms.angular[self.course.compiled.layout.driven]
+        columns: dict[str, list[Any]] = {k: [] for k in ("q", "cos", "sin", "speed", "acceleration")}
+        for k, name in enumerate(names):
+            q = self._drive(kind, name, "position", k)
+            columns["q"].append(q)
+            for f, ufunc in (("cos", np.cos), ("sin", np.sin)):
+                columns[f].append(self._derived(kind, f, name, k, ufunc) if angular[k] else self.graph.zero)
+            for rate in ("speed", "acceleration"):
+                given = getattr(symbolic.drives[name], rate)
+                steady = np.ptp(getattr(self.course.schedule, rate)[:, k]) == 0
+                value = getattr(self.course.schedule, rate)[0, k]
+                node = given if isinstance(given, Node) else self.graph.constant(value) if steady else None
+                columns[rate].append(self._drive(kind, name, rate, k) if node is None else node)
+        return Drives(*(np.array(column, object) for column in columns.values()))
+
+    def _drive(self, kind: str, name: str, what: str, k: int) -> Node:
+        return self.make(kind, f"{what} {name}", lambda c: _one(kind, c, getattr(c.schedule, what)[:, k]))
+
+    def _derived(self, kind: str, f: str, name: str, k: int, ufunc: Any) -> Node:
+        return self.make(kind, f"{f} {name}", lambda c: _one(kind, c, ufunc(c.schedule.position[:, k])))
+
+    def load(self, name: str, varying: Any) -> Node:
+        """A load that changes with the drives."""
+        self.varying[name] = varying
+        return self.make(
+            "channel", name, lambda c: np.broadcast_to(varying.at(c.drives), (len(c.schedule.position),))
+        )
+
+    def path(self, kind: str) -> Callable[[str, int], Node]:
+        """Quantities of the known motion."""
+
+        def quantity(what: str, which: int) -> Node:
+            return self.make(kind, f"known {what} {which}", lambda c: _one(kind, c, _known(c, what, which)))
+
+        return quantity
+
+    def slips(self, c: Compiled) -> Array:
+        """Friction of each contact in a known solution; none where a radius or height of that design is zero."""
+        return self._by_contact(c, "slip", lambda known: known.slips)
+
+    def reversals(self, c: Compiled) -> Array:
+        """Sense of each contact where it reverses in a known solution, else 0."""
+        return self._by_contact(c, "reversal", lambda known: known.reversals)
+
+    def _by_contact(
+        self, c: Compiled, what: str, of: Callable[[Course], dict[tuple[str, str], Array]]
+    ) -> Array:
+        def one(key: tuple[str, str]) -> Node:
+            name = " ".join((f"known {what}", *key))
+            return self.make("channel", name, lambda c: of(c).get(key, np.zeros(len(c.schedule.position))))
+
+        return np.array([one(key) for key in contact_keys(c)], object)
+
+    def turns(self, c: Compiled) -> tuple[Compiled, dict[int, Node]]:
+        """The mechanism with whole turns of its torsion springs as inputs, and of each such turn, by freedom, how far
+        it may differ from the known motion without another count."""
+        own, margins = c.forcing.resistances, {}
+        turns = np.array([self.graph.zero] * len(own.row), object)
+        for n in self.course.counted.counts:
+            k = n.place
+            turns[k] = self.make("channel", f"counted turns of {n.spring}", partial(_turns, place=k))
+            margin = self.make("channel", f"counted margin of {n.spring}", partial(_margin, place=k))
+            margins[int(own.row[k])] = margin
+        forcing = replace(c.forcing, resistances=replace(own, turns=turns))
+        return replace(c, forcing=forcing), margins
+
+    def signs(self, plus: Any, minus: Any, a: int, b: int) -> Any:
+        """Which of two rotations of link b against link a the known motion has: 1 or -1, or an input if it changes."""
+        kind = "channel" if any(n.level & POSITION for n in plus if isinstance(n, Node)) else "common"
+        signs = self._signs(self.course, kind, plus, minus, a, b)
+        if (signs >= 0).all() or (signs <= 0).all():
+            return 1.0 if signs.sum() >= 0 else -1.0
+        name = f"way {a} {b} {len(self.named)}"
+        return self.make("channel", name, lambda c: _filled(self._signs(c, kind, plus, minus, a, b)))
+
+    def _signs(self, c: Course, kind: str, plus: Any, minus: Any, a: int, b: int) -> Array:
+        values = {} if c is self.course else {n.index: f(c) for n, f in self.found.items()}
+        nodes = [n if isinstance(n, Node) else self.graph.constant(n) for n in (*plus, *minus)]
+        pc, ps, mc, ms = self.graph.evaluated(nodes, values)
+        r = c.pose.rotation
+        cos = r[:, a, 0] * r[:, b, 0] + r[:, a, 1] * r[:, b, 1]
+        sin = r[:, a, 0] * r[:, b, 1] - r[:, a, 1] * r[:, b, 0]
+        if kind == "common":
+            cos, sin = cos[[c.first]], sin[[c.first]]
+        off = [np.hypot(x - cos, y - sin) for x, y in ((pc, ps), (mc, ms))]
+        gain = np.nan_to_num(np.broadcast_to(off[1] - off[0], cos.shape))
+        return np.where(np.abs(gain) > 1e-5, np.sign(gain), 0.0)
+
+
+def _turns(course: Course, place: int) -> Array:
+    """What the count of whole turns adds to the turn of a torsion spring (P,)."""
+    c = course.counted
+    turns = c.forcing.resistances.turns
+    return turns[:, place] if turns.ndim > 1 else np.zeros(len(c.schedule.position))
+
+
+def _margin(course: Course, place: int) -> Array:
+    """How far that turn may differ where it is counted (P,); 0 where it was not."""
+    c = course.counted
+    return next((n.margin for n in c.counts if n.place == place), np.zeros(len(c.schedule.position)))
+
+
+def contact_keys(c: Compiled) -> list[tuple[str, str]]:
+    """Joint and kind of each contact."""
+    if c.contacts is None:
+        return []
+    return [(c.joints[k], kind) for k, kind in zip(c.contacts.joint, c.contact_kinds, strict=True)]
+
+
+def _found(result: Result) -> Pose:
+    """Poses of a result, with those of the ground."""
+    count = len(result.status)
+    point, turn, rotation = (a.copy() for a in (result.point_array, result.turn_array, result.rotation_array))
+    return Pose(
+        np.concatenate([point, np.zeros((count, 1, 2))], axis=1),
+        np.concatenate([turn, np.zeros((count, 1))], axis=1),
+        np.concatenate([rotation, np.broadcast_to([1.0, 0.0], (count, 1, 2))], axis=1),
+    )
+
+
+def _one(kind: str, c: Course, column: Array) -> Any:
+    return column if kind == "channel" else column[c.first]
+
+
+def _filled(signs: Array) -> Array:
+    """Where both ways coincide, the sign before it."""
+    places = np.maximum.accumulate(np.where(signs != 0, np.arange(len(signs)), -1))
+    first = signs[np.argmax(signs != 0)]
+    return np.where(places >= 0, signs[np.maximum(places, 0)], first)
+
+
+def _known(c: Course, what: str, which: int) -> Array:
+    """One quantity of the known motion (P,)."""
+    if what.startswith("line"):
+        angle = _line_angle(c, which)
+        return np.cos(angle) if what.endswith("cos") else np.sin(angle) if what.endswith("sin") else angle
+    pose = c.pose
+    columns: dict[str, Array] = {
+        "x": pose.point[:, which, 0],
+        "y": pose.point[:, which, 1],
+        "turn": pose.turn[:, which],
+        "turn cos": pose.rotation[:, which, 0],
+        "turn sin": pose.rotation[:, which, 1],
+    }
+    return columns[what]
+
+
+def _line_angle(c: Course, row: int) -> Array:
+    """Angle of the line of centres of a mesh, whole turns counted as the mesh counts them."""
+    from dalembert.core.layout import Mesh
+
+    followed = c.followed.compiled
+    for f in followed.layout.stack.families:
+        if isinstance(f, Mesh) and row in f.row:
+            k = int(np.flatnonzero(f.row == row)[0])
+            ri, rj = float(f.ri[k]), float(f.rj[k])
+            turned = ri * c.pose.turn[:, f.i[k]] + rj * c.pose.turn[:, f.j[k]]
+            return np.asarray((turned - followed.target[row]) / (ri + rj))
+    raise KeyError(row)

@@ -1,0 +1,141 @@
+"""A description with symbols in place of the numbers that vary, and of the loads that change along the motion."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from dalembert.errors import ModelError
+from dalembert.kernel.graph import Graph, Node
+from dalembert.model import Mechanism
+from dalembert.model.paths import found, placed
+
+
+@dataclass(frozen=True)
+class Number:
+    """One number of a description: its path and its value there, SI."""
+
+    path: str
+    value: float
+
+    @property
+    def keys(self) -> list[str]:
+        return self.path.split(".")
+
+
+def numbers(m: Mechanism, vary: Iterable[str]) -> tuple[Number, ...]:
+    """The numbers behind dotted paths, vectors as their components `.0` and `.1`."""
+    out: list[Number] = []
+    for path in vary:
+        value = found(m, path.split("."))
+        _refuse_law(m, path)
+        out += _numbers(path, value)
+    double = next((n.path for k, n in enumerate(out) if n.path in {o.path for o in out[:k]}), None)
+    if double:
+        raise ModelError(f"{double!r} is varied twice", "name it once")
+    return tuple(out)
+
+
+def _refuse_law(m: Mechanism, path: str) -> None:
+    keys = path.split(".")
+    if keys[0] == "drives" and len(keys) > 1 and m.drives[keys[1]].law is not None and keys[-1] != "effort":
+        raise ModelError(f"{path!r} follows from the drive's law of motion", "leave it out, or the law", keys)
+
+
+def _numbers(path: str, value: Any) -> list[Number]:
+    keys = path.split(".")
+    if keys[0] == "drives" and len(keys) > 2 and keys[2] in ("position", "law", "range"):
+        raise ModelError(
+            f"{path!r} cannot vary from design to design",
+            "give the positions when you call the kernel",
+            keys,
+        )
+    if keys[0] == "drives" and isinstance(value, tuple):
+        raise ModelError(
+            f"{path!r} is a list along the motion",
+            "vary single speeds, or vary their scale in the units",
+            keys,
+        )
+    if isinstance(value, bool) or value is None or isinstance(value, str):
+        raise ModelError(
+            f"{path!r} is {value!r}, which is no number", "give it a number in the description first", keys
+        )
+    if isinstance(value, (int, float)):
+        return [Number(path, float(value))]
+    if isinstance(value, tuple) and all(isinstance(x, (int, float)) for x in value):
+        return [Number(f"{path}.{k}", float(x)) for k, x in enumerate(value)]
+    raise ModelError(
+        f"{path!r} is no number", "name a number, or a vector of numbers, of the description", keys
+    )
+
+
+def geometric(path: str) -> bool:
+    """Whether the number at a path places joints."""
+    keys = path.split(".")
+    loads = {"damping", "friction"}  # of a joint: it stands where it stood
+    return "points" in keys[2:3] or (keys[0] == "joints" and not loads & set(keys[2:]))
+
+
+def with_numbers(m: Mechanism, where: Iterable[Number], values: Iterable[Any]) -> Any:
+    """The description with other numbers, or symbols, in their places; not checked again."""
+    for number, value in zip(where, values, strict=True):
+        m = placed(m, number.keys, value)
+    return m
+
+
+@dataclass(frozen=True)
+class SymbolicForce:
+    """A force whose components, of an unknown one per unit of it, are symbols."""
+
+    on: str
+    at: Any
+    axes: str
+    components: tuple[Any, Any]
+    type: str = "force"
+    unknown: bool = False
+
+    def force(self, drives: Any) -> tuple[Any, Any]:
+        return self.components
+
+
+def symbolic(m: Mechanism, where: tuple[Number, ...], graph: Graph, channel: Any) -> Any:
+    """The description on symbols; ``channel(name, varying)`` gives the input of a load that changes with the drives."""
+    nodes = [graph.input("number", n.path, n.value) for n in where]
+    s = with_numbers(m, where, nodes)
+    if isinstance(m.gravity, tuple) and not m.g_override:
+        gx, gy = s.gravity_vector
+        if isinstance(gx, Node) or isinstance(gy, Node):
+            s = s.model_copy(update={"g_override": (gx * gx + gy * gy + graph.zero).sqrt()})
+    loads = {name: _load(name, load, channel) for name, load in s.loads.items()}
+    drives = {
+        name: d.model_copy(update={"effort": _value(f"drives.{name}.effort", d.effort, channel)})
+        for name, d in s.drives.items()
+    }
+    return s.model_copy(update={"loads": loads, "drives": drives})
+
+
+def _value(name: str, value: Any, channel: Any) -> Any:
+    """A number or symbol as it is, else the input that stands for its value along the motion."""
+    return channel(name, value) if hasattr(value, "at") else value
+
+
+def _load(name: str, load: Any, channel: Any) -> Any:
+    if load.type == "couple" and not load.unknown:
+        return load.model_copy(update={"value": _value(f"loads.{name}.value", load.value, channel)})
+    if load.type != "force":
+        return load
+    if isinstance(load.value, tuple):
+        x, y = (_value(f"loads.{name}.value.{k}", v, channel) for k, v in enumerate(load.value))
+        return SymbolicForce(load.on, load.at, load.axes, (x, y))
+    size = 1.0 if load.unknown else _value(f"loads.{name}.value", load.value, channel)
+    x, y = _direction(load.direction)
+    return SymbolicForce(load.on, load.at, load.axes, (size * x, size * y), unknown=load.unknown)
+
+
+def _direction(angle: Any) -> tuple[Any, Any]:
+    if isinstance(angle, Node):
+        return angle.cos(), angle.sin()
+    from dalembert.model.quantities.figures import unit_vector
+
+    return unit_vector(angle)

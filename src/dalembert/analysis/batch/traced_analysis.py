@@ -1,0 +1,114 @@
+"""From a description to a traced analysis: the compile step on symbols, then the kernel's trace."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from dalembert.analysis.batch.kernel_inputs import Course, Inputs
+from dalembert.analysis.batch.outputs import Catalogue
+from dalembert.analysis.batch.symbolic_model import Number, geometric, numbers, symbolic
+from dalembert.analysis.closure_failure import open_sentence
+from dalembert.analysis.compile.compiled_mechanism import compiled
+from dalembert.analysis.degree_of_freedom import check_knowns
+from dalembert.analysis.result.result import Result
+from dalembert.errors import ModelError
+from dalembert.kernel.friction_trace import Rough
+from dalembert.kernel.graph import Graph
+from dalembert.kernel.trace import Problem, trace
+from dalembert.model import Mechanism, Schedule
+
+
+@dataclass(frozen=True)
+class Trace:
+    """A traced analysis with the inputs it was traced on."""
+
+    course: Course
+    inputs: Inputs
+    numbers: tuple[Number, ...]
+    catalogue: Catalogue
+    inertia: bool
+
+
+def traced(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Result | None = None) -> Trace:
+    """Everything an analysis computes, as nodes; raises ModelError for what the kernel leaves to the analyses.
+
+    With the general executor's answer for the file's own numbers, ``solved``: from a known solution, not from nothing.
+    """
+    schedule = m.schedule()
+    if schedule.unknown is not None:
+        raise ModelError("equilibrium positions cannot be compiled", "give the drive positions", ("drives",))
+    course = Course(m, schedule, solved)
+    check_knowns(course.compiled)
+    _check(course)
+    graph = Graph()
+    inputs = Inputs(graph, course)
+    where = numbers(m, vary)
+    description = symbolic(m, where, graph, inputs.load)
+    drives = inputs.drives(description)
+    like = course.followed.compiled
+    c, margins = inputs.turns(compiled(description, _symbolic(schedule, drives.position), like=like))
+    problem = Problem(
+        graph=graph,
+        layout=c.layout,
+        forcing=c.forcing,
+        known=c.known,
+        target=_targets(c.target, like.target, like.layout),
+        drives=drives,
+        first=inputs.drives(description, "common"),
+        like=like.layout,
+        like_target=like.targets[course.first],
+        guess=like.guess,
+        inertia=inertia,
+        path=inputs.path("channel"),
+        first_path=inputs.path("common"),
+        signs=inputs.signs,
+        slips=None if solved is None else inputs.slips(c),
+        reversals=None if solved is None else inputs.reversals(c),
+        margins=margins if any(geometric(n.path) for n in where) else {},
+        rough=None if c.contacts is None else Rough(c.contacts, c.damping, c.second, c.joint_at),
+    )
+    return Trace(course, inputs, where, Catalogue(graph, c, _run(problem)), inertia)
+
+
+def _check(course: Course) -> None:
+    followed = course.followed
+    if followed.path is None:
+        raise ModelError(
+            open_sentence(course.compiled, None, np.arange(len(course.schedule.position))).rstrip(".")
+        )
+    if followed.mobility is not None and followed.mobility.redundant:
+        joints = ", ".join(followed.mobility.redundant_joints)
+        raise ModelError(
+            f"{followed.mobility.redundant} redundant constraint(s) among joints {joints}: not all reactions follow "
+            "from equilibrium, so it cannot be compiled",
+            "free a constraint, or use the analyses, which mark what is unique",
+            ("joints",),
+        )
+
+
+def _symbolic(schedule: Schedule, position: Any) -> Schedule:
+    row = position[None]
+    return Schedule(schedule.names, row, row, row)
+
+
+def _targets(symbolic: Any, known: Any, layout: Any) -> Any:
+    """Constants of the constraints; phases of meshes and rolling wheels are those of the known motion."""
+    from dalembert.core.position.first_pose_plane import phase_rows
+
+    out = np.array(symbolic, object)
+    rows = phase_rows(layout.constraints)
+    out[rows] = known[rows]
+    return out
+
+
+def _run(problem: Problem) -> Any:
+    try:
+        return trace(problem)
+    except ValueError as error:
+        if isinstance(error, ModelError):
+            raise
+        raise ModelError(f"the mechanism cannot be compiled: {error}", "use the analyses") from error

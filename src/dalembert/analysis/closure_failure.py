@@ -1,0 +1,130 @@
+"""Where a linkage does not close: by how much its joints stay open, each as a length or as an angle, in a sentence."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.arrays import Array, Ints
+from dalembert.core.layout import Perpendicular, Pose
+from dalembert.core.position.newton import least_gap, moved
+from dalembert.units import file_units
+
+if TYPE_CHECKING:
+    from dalembert.analysis.compile.compiled_mechanism import Compiled
+    from dalembert.core.position.motion_path import Path
+
+
+SHUT = 1e-6
+"""A joint that is open by less than this, radians or characteristic lengths, is not spoken of."""
+
+ALIKE = 0.98
+"""Joints that are open by at least this much of the widest are open alike."""
+
+ASIDE = 0.05
+"""Radians by which links are turned before the least gap is looked for."""
+
+
+def open_sentence(c: Compiled, found: Path | None, where: Ints) -> str:
+    """Why a run of positions does not close: what stays open in the middle of it at least, where, and how far."""
+    middle = int(where[len(where) // 2])
+    shift, turn = _openings(c, found, middle)
+    lengths = _most(c, shift, "length", c.layout.length, "apart")
+    parts = [part for part in (lengths, _most(c, turn, "angle", 1.0, "out of line")) if part]
+    if found is not None and not parts:
+        return (
+            f"The linkage closes {_span(c, where)}, but the motion could not be followed there: on the way lies a dead "
+            "centre, or two branches come too near to each other to be told apart. Solve these positions by "
+            "themselves, with an assembly, or change a length."
+        )
+    there = f"at {_values(c, middle)} " if len(where) > 1 and c.schedule.names else ""
+    gap = f": {there}{' and '.join(parts)}" if parts else ""
+    drives = f", or give {' and '.join(c.schedule.names)} another range" if c.schedule.names else ""
+    datum = "a length" if lengths or not parts else "a direction"
+    return f"The linkage does not close {_span(c, where)}{gap}. Change {datum} or the assembly{drives}."
+
+
+def _openings(c: Compiled, found: Path | None, position: int) -> tuple[Array, Array]:
+    """Least squares of what is missing at a position: of each joint its points apart (m), its axes turned (rad)."""
+    reached = np.flatnonzero(found.reached) if found is not None else np.zeros(0, np.intp)
+    if found is None or not reached.size:
+        start = c.guess.start(c.layout, c.targets[position])
+    else:
+        start = found.pose.at(reached[np.argmin(np.abs(reached - position))])
+    rows = c.layout.constraints
+    missing = least_gap(c.layout, _aside(c, start), c.targets[position])[: rows.count]
+    angle = np.where(rows.angular, missing / c.layout.length, 0.0)
+    for family in rows.families:
+        if isinstance(family, Perpendicular):  # its measure is the sine of what is missing to the right angle
+            angle[family.row] = np.arcsin(np.clip(angle[family.row], -1, 1))
+    square = np.zeros((2, len(c.joints)))
+    held = rows.joint >= 0
+    np.add.at(square[0], rows.joint[held], np.where(rows.angular, 0.0, missing**2)[held])
+    np.add.at(square[1], rows.joint[held], angle[held] ** 2)
+    shift, turn = np.sqrt(square)
+    return shift, turn
+
+
+def _aside(c: Compiled, pose: Pose) -> Pose:
+    """A pose with its links turned a little, each another way: links in one line would stay in it."""
+    g = c.layout.algebra
+    dq = np.zeros((1, c.layout.links, g.n))
+    dq[..., g.d :] = ASIDE * np.cos(np.arange(dq[..., g.d :].size)).reshape(dq[..., g.d :].shape)
+    return moved(c.layout, pose.at(None), dq).at(0)
+
+
+def _most(c: Compiled, open_: Array, kind: str, size: float, how: str) -> str:
+    """'the points of joint B stay 12 mm apart', or of several the sum and the widest; nothing where all are shut."""
+    wide = np.flatnonzero(open_ > SHUT * size)
+    if not wide.size:
+        return ""
+    most = int(np.argmax(open_))
+    figure = quantity_text(c, kind, float(open_[most]), 3)
+    what = "points" if kind == "length" else "axes"
+    if wide.size == 1:
+        return f"the {what} of joint {c.joints[most]} stay {figure} {how}"
+    total = quantity_text(c, kind, float(open_.sum()), 3)
+    alike = open_[wide].min() > ALIKE * open_[most]
+    where = (
+        f"alike at {', '.join(c.joints[k] for k in wide)}"
+        if alike
+        else f"most at {c.joints[most]} ({figure})"
+    )
+    return f"the {what} of its joints stay {total} {how} in all, {where}"
+
+
+def _span(c: Compiled, where: Ints) -> str:
+    """'between 212 deg and 238 deg of O2'."""
+    if not c.schedule.names:
+        return "as it is described"
+    if len(where) == 1:
+        return f"at {_values(c, int(where[0]))}"
+    ends = [[drive_text(c, int(where[e]), k) for e in (0, -1)] for k in range(len(c.schedule.names))]
+    return "between " + ", ".join(
+        f"{a} and {b} of {n}" for n, (a, b) in zip(c.schedule.names, ends, strict=True)
+    )
+
+
+def _values(c: Compiled, position: int) -> str:
+    """'O2 = 60 deg and guide = 20 mm'."""
+    return " and ".join(f"{n} = {drive_text(c, position, k)}" for k, n in enumerate(c.schedule.names))
+
+
+def drive_text(c: Compiled, position: int, drive: int) -> str:
+    """A drive's position as a person writes it."""
+    turns = c.layout.freedoms.angular[c.layout.driven[drive]]
+    return quantity_text(c, "angle" if turns else "length", float(c.schedule.position[position, drive]))
+
+
+def quantity_text(c: Compiled, kind: str, value: float, figures: int = 6) -> str:
+    """A number of SI with its unit, in the units of the mechanism's file (without: SI and degrees).
+
+    >>> from dalembert.analysis.compile.compiled_mechanism import compiled
+    >>> from dalembert.model.library import four_bar
+    >>> m = four_bar()
+    >>> quantity_text(compiled(m, m.schedule()), "angle", 1.0471975511965976)
+    '60 deg'
+    """
+    units = file_units(c.mechanism.units)
+    return f"{units.unit(kind).of_si(value):.{figures}g} {units.text(kind)}"

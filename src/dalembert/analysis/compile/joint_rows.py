@@ -1,0 +1,231 @@
+"""Joints of a description as rows for the core: constraints, freedoms by name, contacts, and the first guess."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, Protocol
+
+import numpy as np
+
+from dalembert.algebra import plane, space
+from dalembert.analysis.compile import pair_table
+from dalembert.analysis.compile import plane_rows as table
+from dalembert.analysis.compile.contacts import contacts, rubs
+from dalembert.analysis.compile.space_contacts import space_contacts
+from dalembert.arrays import Array, Ints
+from dalembert.core.friction.contact_equations import Contacts
+from dalembert.core.layout import Idle, Rows
+from dalembert.core.position.first_pose_plane import Guess
+from dalembert.core.position.first_pose_space import Drawing
+from dalembert.errors import ModelError
+from dalembert.model import Mechanism, Schedule
+from dalembert.model.assembly import SpacePose
+from dalembert.model.joints.space_joints import BALLS
+
+
+class Jointing(Protocol):
+    """Rows and names of all joints; arms (ui, uj) of each from its links' reference points."""
+
+    constraints: table.RowBuilder
+    freedoms: table.RowBuilder
+    names: list[tuple[str, str]]
+    arms: list[tuple[Array, Array]]
+    geometries: tuple[pair_table.Geometry, ...]
+    passive: tuple[str, ...]
+
+    def contacts(self, fixed: Rows) -> tuple[Contacts, tuple[str, ...]] | None: ...
+
+    def compliance(self, fixed: Rows) -> Array | None: ...
+
+    def guess(self) -> Guess | Drawing: ...
+
+
+class _Joints:
+    """What both kinds of joints have in common."""
+
+    def __init__(self, m: Mechanism, schedule: Schedule, index: dict[str, int], reference: Array) -> None:
+        self.m, self.schedule, self.index, self.reference = m, schedule, index, reference
+        links = len(index) - 1
+        self.constraints = table.RowBuilder(links, m.dimension)
+        self.freedoms = table.RowBuilder(links, m.dimension)
+        self.names: list[tuple[str, str]] = []
+        self.ends: list[tuple[int, int]] = []
+        self.arms: list[tuple[Array, Array]] = []
+        self.geometries: tuple[pair_table.Geometry, ...] = ()
+        for k, (name, joint) in enumerate(m.joints.items()):
+            ends = (index[joint.links[0]], index[joint.links[1]])
+            ui, uj = (np.subtract(u, reference[e]) for u, e in zip(m.joint_points(name), ends, strict=True))
+            self.ends.append(ends)
+            self.arms.append((ui, uj))
+            self.add(k, name, joint)
+        self.passive = self.add_passive()
+
+    def add(self, k: int, name: str, joint: Any) -> None:
+        """The rows of one joint."""
+        raise NotImplementedError
+
+    def compliance(self, fixed: Rows) -> Array | None:
+        """Of each constraint, 0 where it is rigid; None where no joint yields."""
+        yielding = {k: j.stiffness for k, j in enumerate(self.m.joints.values()) if j.stiffness is not None}
+        if not yielding:
+            return None
+        out = np.zeros(fixed.count)
+        for k, stiffness in yielding.items():
+            for row, kind, axis, share in self.reactions(k, np.flatnonzero(fixed.joint == k), fixed):
+                given = getattr(stiffness, kind)
+                if given is not None:
+                    out[row] += share**2 / (given[axis] if isinstance(given, tuple) else given)
+        return out
+
+    def reactions(self, k: int, rows: Ints, fixed: Rows) -> Iterator[tuple[int, str, int, float]]:
+        """Each row of a joint, force or moment, its local axis, and how much of it a unit of the row is."""
+        for row in rows:
+            yield int(row), "moment" if fixed.angular[row] else "force", 0, 1.0
+
+    def add_passive(self) -> tuple[str, ...]:
+        """Rows that hold freedoms which move nothing else; the names of their links."""
+        return ()
+
+
+class PlaneJoints(_Joints):
+    """Joints of the plane."""
+
+    def add(self, k: int, name: str, joint: Any) -> None:
+        """The rows of one joint."""
+        if joint.type not in table.FREEDOMS:
+            what = f"joint {name!r}: joints of type {joint.type!r} cannot be analysed yet"
+            raise ModelError(what, "use " + ", ".join(table.FREEDOMS), ("joints", name, "type"))
+        table.add_constraints(self.constraints, k, joint, self.ends[k], *self.arms[k])
+        table.add_freedom(self.freedoms, k, joint, self.ends[k], *self.arms[k])
+        self.names += [(name, freedom) for freedom in table.FREEDOMS[joint.type]]
+
+    def contacts(self, fixed: Rows) -> tuple[Contacts, tuple[str, ...]] | None:
+        """The contacts of the joints with friction."""
+        return contacts(self.m, fixed, self.ends, self.arms)
+
+    def guess(self) -> Guess:
+        """Angles and places of the links that the file gives."""
+        m, index, reference = self.m, self.index, self.reference
+        turn, point = np.full(len(index), np.nan), np.full((len(index), 2), np.nan)
+        for link, given in m.assembly.items():
+            k = index[link]
+            if isinstance(given, float):
+                turn[k] = given
+                continue
+            if not isinstance(given, tuple):
+                raise ModelError(
+                    "a pose in space means nothing in the plane", "give an angle", ("assembly", link)
+                )
+            x, y, angle = given
+            turn[k] = angle
+            arm = plane.rotate(plane.rotation(np.array(angle)), reference[k])
+            point[k] = np.array([x, y]) + arm - reference[-1]
+        return Guess(turn, point)
+
+
+class SpaceJoints(_Joints):
+    """Joints in space."""
+
+    def add(self, k: int, name: str, joint: Any) -> None:
+        """The rows of one joint."""
+        if joint.type == "gear":
+            at = pair_table.Geometry(*self.arms[k], *(np.array(axes) for axes in joint.frames))
+            self.geometries += (at,)
+            self.constraints.counted = max(self.freedoms.counted, self.constraints.counted)
+            pair_table.add_gear(self.constraints, k, joint, self.ends[k], at)
+            self.freedoms.counted = self.constraints.counted
+            return
+        at = pair_table.geometry(joint, *self.arms[k])
+        self.geometries += (at,)
+        split = rubs(self.m, joint) or joint.stiffness is not None
+        pair_table.add_constraints(self.constraints, k, joint, self.ends[k], at, split)
+        axes = (d.axis for key, d in self.m.drives.items() if self.m.drive_joint(key) == name)
+        axis = next((axis for axis in axes if axis is not None), None)
+        self.freedoms.counted = max(self.freedoms.counted, self.constraints.counted)
+        found = pair_table.add_freedom(self.freedoms, k, joint, self.ends[k], at, axis)
+        self.constraints.counted = self.freedoms.counted
+        self.names += [(name, freedom) for freedom in found]
+
+    def add_passive(self) -> tuple[str, ...]:
+        """Links that can spin about the line of their two ball joints: set to no spin."""
+        driven = {self.m.drive_joint(name) for name, drive in self.m.drives.items() if drive.turns}
+        found = []
+        for link, number in self.index.items():
+            ends = [
+                (name, joint, joint.links.index(link))
+                for name, joint in self.m.joints.items()
+                if link in joint.links
+            ]
+            balls = [joint.type in BALLS and name not in driven for name, joint, _ in ends]
+            if link == "ground" or len(ends) != 2 or not all(balls):
+                continue
+            a, b = (np.asarray(self.m.joint_points(name)[side]) for name, _, side in ends)
+            if np.linalg.norm(b - a) == 0:
+                raise ModelError(
+                    f"the two ball joints of link {link!r} have their centres in one point",
+                    "place them apart",
+                    ("joints", ends[1][0]),
+                )
+            line = (b - a) / np.linalg.norm(b - a)
+            given = self.m.assembly.get(link)
+            drawn = space.IDENTITY
+            if isinstance(given, SpacePose):
+                drawn = space.rotation(np.array(given.angle), given.axis)
+            # a ball in a guide of the link moves in it, and the line with it
+            stands = all(joint.type == "spherical" or side == 1 for _, joint, side in ends)
+            self.constraints.add(
+                Idle, -1, (len(self.index) - 1, number), p=line, drawn=drawn, stands=float(stands)
+            )
+            found.append(link)
+        return tuple(found)
+
+    def reactions(self, k: int, rows: Ints, fixed: Rows) -> Iterator[tuple[int, str, int, float]]:
+        """Each row of a joint, force or moment, its local axis, and how much of it a unit of the row is."""
+        joint = list(self.m.joints.values())[k]
+        if joint.type == "gear":
+            yield from super().reactions(k, rows, fixed)
+            return
+        for name, row in pair_table.reaction_rows(joint, int(rows[0])).items():
+            yield row, "force" if name[0] == "F" else "moment", pair_table.AXES.index(name[1]), 1.0
+            if (
+                joint.type == "screw" and name == "Fx" and joint.lead
+            ):  # the thread's couple goes with its force
+                yield row, "moment", 0, joint.lead / (2 * np.pi)
+
+    def contacts(self, fixed: Rows) -> tuple[Contacts, tuple[str, ...]] | None:
+        """The contacts of the joints with friction."""
+        for name, joint in self.m.joints.items():
+            if joint.type == "gear" and rubs(self.m, joint):
+                what = f"gear {name!r}: friction of teeth is not analysed in space"
+                raise ModelError(what, "leave it out", ("joints", name, "friction"))
+        return space_contacts(self.m, fixed, self.ends, self.geometries)
+
+    def guess(self) -> Drawing:
+        """Poses of the links that the file gives, and how the joints let the others be laid."""
+        count = len(self.index)
+        rotation, point = np.full((count, 9), np.nan), np.full((count, 3), np.nan)
+        axis, angle = np.zeros((count, 3)), np.append(np.full(count - 1, np.nan), 0.0)
+        for link, given in self.m.assembly.items():
+            if not isinstance(given, SpacePose):
+                raise ModelError(
+                    "a pose in space needs a position, an axis and an angle",
+                    "write {position: [0, 0, 0], axis: [0, 0, 1], angle: 30 deg}",
+                    ("assembly", link),
+                )
+            k = self.index[link]
+            rotation[k] = space.rotation(np.array(given.angle), given.axis)
+            axis[k], angle[k] = np.array(given.axis) / np.linalg.norm(given.axis), given.angle
+            point[k] = (
+                np.array(given.position) + space.rotate(rotation[k], self.reference[k]) - self.reference[-1]
+            )
+        hinges = []
+        for k, (name, joint) in enumerate(self.m.joints.items()):
+            if joint.type not in pair_table.PAIRS:
+                continue
+            drives = {
+                str(self.m.drives[d].freedom or "turn"): n
+                for n, d in enumerate(self.schedule.names)
+                if self.m.drive_joint(d) == name
+            }
+            hinges.append(pair_table.hinge(joint, self.ends[k], self.geometries[k], drives))
+        return Drawing(rotation, point, tuple(hinges), axis, angle)

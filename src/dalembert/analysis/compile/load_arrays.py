@@ -1,0 +1,218 @@
+"""Loads, masses and given efforts of a description as numbers for the core."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from dalembert.analysis.compile.plane_rows import numbers
+from dalembert.arrays import Array
+from dalembert.core.equilibrium import Known
+from dalembert.core.forcing import Couples, Forces, Forcing, Inertia, Resistances, Springs
+from dalembert.errors import ModelError
+from dalembert.model import Mechanism, Schedule
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What loads are compiled in: numbers and reference points of the links, freedoms by name, drives' positions."""
+
+    m: Mechanism
+    g: Any
+    index: dict[str, int]
+    reference: Array
+    freedoms: list[tuple[str, str]]
+    drives: dict[str, Array]
+    count: int
+
+
+def point_of(m: Mechanism, link: str, at: Any, path: tuple[str | int, ...] = ()) -> Array:
+    """A point of a link in its axes: by name, `center`, or as a vector."""
+    if not isinstance(at, str):
+        return numbers(at)
+    points = m.points(link)
+    if at in points:
+        return np.array(points[at])
+    if at == "center":
+        return np.array(m.center(link))
+    raise ModelError(f"link {link!r} has no point {at!r}", f"it has {', '.join(points) or 'none'}", path)
+
+
+def forcing(s: Setting) -> Forcing:
+    """Everything that loads the links, but for the drives' efforts."""
+    m, g = s.m, s.g
+    links = [name for name in m.links if name != "ground"]
+    known = {k: v for k, v in m.loads.items() if not getattr(v, "unknown", False)}
+    centers = [np.subtract(m.center(k), s.reference[s.index[k]]) for k in links]
+    return Forcing(
+        inertia=Inertia(
+            mass=numbers([m.mass(k) for k in links]),
+            center=numbers(centers).reshape(-1, g.d),
+            inertia=numbers([_inertia(m, k) for k in links]).reshape(len(links), -1),
+            gravity=np.array(m.gravity_vector),
+        ),
+        forces=_forces(s, {k: v for k, v in known.items() if v.type == "force"}),
+        couples=_couples(s, {k: v for k, v in known.items() if v.type == "couple"}),
+        springs=_springs(s, known),
+        resistances=_resistances(s, known),
+        separation=numbers(_mesh_tangents(m)),
+    )
+
+
+def _inertia(m: Mechanism, link: str) -> Any:
+    """One number in the plane; in space the matrix row by row."""
+    given = m.inertia(link)
+    if m.dimension == 2:
+        return given
+    if isinstance(given, tuple):
+        return np.ravel(given if isinstance(given[0], tuple) else np.diag(given))
+    return (given * np.eye(3)).ravel()
+
+
+def _mesh_tangents(m: Mechanism) -> list[Any]:
+    """tan(pressure angle) of each mesh row, 0 for a wheel that rolls on a circle; in the order of the rows."""
+    out = []
+    for joint in m.joints.values():
+        if joint.type == "gear":
+            out.append(np.tan(joint.pressure_angle))
+        elif joint.type == "rolling" and getattr(joint, "radii", None) is not None:
+            out.append(0.0)
+    return out
+
+
+def _forces(s: Setting, loads: dict[str, Any]) -> Forces:
+    link, at, value = [], [], []
+    for name, load in loads.items():
+        link.append(s.index[load.on])
+        at.append(point_of(s.m, load.on, load.at, ("loads", name, "at")) - s.reference[s.index[load.on]])
+        value += [np.broadcast_to(f, (s.count,)) for f in load.force(s.drives)]
+    follows = np.array([load.axes == "link" for load in loads.values()], bool)
+    values = numbers(value).reshape(len(loads), s.g.d, s.count)
+    return Forces(
+        np.array(link, np.intp), numbers(at).reshape(-1, s.g.d), follows, np.moveaxis(values, -1, 0)
+    )
+
+
+def _couples(s: Setting, loads: dict[str, Any]) -> Couples:
+    size = s.g.n - s.g.d
+    value = []
+    for load in loads.values():
+        for part in load.components or (load.value,):
+            number = np.broadcast_to(part.at(s.drives) if hasattr(part, "at") else part, (s.count,))
+            value += [number] if load.components else [number * factor for factor in load.axis]
+    columns = numbers(value).reshape(len(loads), size, s.count)
+    follows = np.array([load.axes == "link" for load in loads.values()], bool)
+    link = np.array([s.index[load.on] for load in loads.values()], np.intp)
+    return Couples(link, np.moveaxis(columns, -1, 0), follows)
+
+
+def _springs(s: Setting, loads: dict[str, Any]) -> Springs:
+    rows: list[tuple[Any, ...]] = []
+    for name, load in loads.items():
+        if load.type in ("spring", "damper"):
+            (a, ua), (b, ub) = s.m.load_points(name)
+            ka, kb = s.index[a], s.index[b]
+            stiffness = getattr(load, "stiffness", 0.0)
+            free, damping = getattr(load, "free_length", 0.0), getattr(load, "damping", 0.0)
+            rows.append((ka, kb, ua - s.reference[ka], ub - s.reference[kb], stiffness, free, damping or 0.0))
+    columns = list(zip(*rows, strict=True)) if rows else [()] * 7
+    return Springs(
+        np.array(columns[0], np.intp),
+        np.array(columns[1], np.intp),
+        numbers(columns[2]).reshape(-1, s.g.d),
+        numbers(columns[3]).reshape(-1, s.g.d),
+        *(numbers(column) for column in columns[4:]),
+    )
+
+
+def _resistances(s: Setting, loads: dict[str, Any]) -> Resistances:
+    """Torsion springs, torsion dampers and the joints' own damping, each in its freedom."""
+    rows: list[tuple[int, float, float, float]] = []
+    for load in loads.values():
+        if load.type in ("torsion_spring", "torsion_damper"):
+            turn = s.m.joints[load.joint].turn_of(load.freedom)
+            stiffness, free = getattr(load, "stiffness", 0.0), getattr(load, "free_angle", 0.0)
+            rows.append(
+                (
+                    s.freedoms.index((load.joint, str(turn))),
+                    stiffness,
+                    free,
+                    getattr(load, "damping", 0.0) or 0.0,
+                )
+            )
+    return _in_freedoms([*rows, *_damped(s.m, s.freedoms)])
+
+
+def joint_resistances(m: Mechanism, freedoms: list[tuple[str, str]]) -> Resistances:
+    """The joints' own damping."""
+    return _in_freedoms(_damped(m, freedoms))
+
+
+def _damped(m: Mechanism, freedoms: list[tuple[str, str]]) -> list[tuple[int, float, float, float]]:
+    """Row, no spring, and coefficient of each freedom that its joint damps."""
+    return [
+        (freedoms.index((name, freedom)), 0.0, 0.0, damping)
+        for name, joint in m.joints.items()
+        for freedom, damping in joint_damping(joint).items()
+    ]
+
+
+def _in_freedoms(rows: list[tuple[int, float, float, float]]) -> Resistances:
+    columns = list(zip(*rows, strict=True)) if rows else [()] * 4
+    stiffness, free, damping = (numbers(c) for c in columns[1:])
+    return Resistances(np.array(columns[0], np.intp), stiffness, free, damping, turns=np.zeros(len(rows)))
+
+
+def joint_damping(joint: Any) -> dict[str, float]:
+    """Viscous coefficient of each damped freedom of a joint."""
+    damping = getattr(joint, "damping", None)
+    if not damping:
+        return {}
+    if isinstance(damping, dict):
+        return {k: v for k, v in damping.items() if v}
+    if not isinstance(damping, tuple):
+        return {joint.freedoms[0]: damping}
+    return {k: v for k, v in zip(joint.freedoms, damping, strict=True) if v}
+
+
+def _effort(s: Setting, name: str, schedule: Schedule) -> Array:
+    """Given effort of a drive at each position, NaN where it is asked for."""
+    given = s.m.drives[name].effort
+    if given is None or schedule.unknown is not None:
+        return np.full(s.count, np.nan)
+    return np.broadcast_to(given.at(s.drives) if hasattr(given, "at") else given, (s.count,))
+
+
+def known(s: Setting, schedule: Schedule, unknown: tuple[str, ...]) -> Known:
+    """What is given of the efforts, and what is asked of the loads."""
+    g = s.g
+    effort = [_effort(s, name, schedule) for name in schedule.names]
+    asked = np.array(
+        [s.m.drives[n].effort is None or schedule.unknown is not None for n in schedule.names], bool
+    )
+    loads: list[Any] = [s.m.loads[name] for name in unknown]
+    at = [
+        point_of(s.m, load.on, load.at, ("loads", name, "at")) - s.reference[s.index[load.on]]
+        if load.type == "force"
+        else np.zeros(g.d)
+        for name, load in zip(unknown, loads, strict=True)
+    ]
+    direction = [load.force({}) if load.type == "force" else (0.0,) * g.d for load in loads]
+    about = [_about(load) if load.type == "couple" else (0.0,) * (g.n - g.d) for load in loads]
+    return Known(
+        asked=asked,
+        effort=numbers(effort).reshape(len(effort), s.count).T,
+        link=np.array([s.index[load.on] for load in loads], np.intp),
+        at=numbers(at).reshape(-1, g.d),
+        direction=numbers(direction).reshape(-1, g.d),
+        about=numbers(about).reshape(-1, g.n - g.d),
+        follows=np.array([getattr(load, "axes", "ground") == "link" for load in loads], bool),
+        couple=np.array([load.type == "couple" for load in loads], bool),
+    )
+
+
+def _about(load: Any) -> tuple[Any, ...]:
+    """A unit of an unknown couple: counter-clockwise, in space about its direction."""
+    return tuple(load.axis)

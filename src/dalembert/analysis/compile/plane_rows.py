@@ -1,0 +1,167 @@
+"""Plane joints as rows: freedoms by name, constraints by complement; higher pairs by their constraints.
+
+To add a joint kind that slides or turns, add its freedoms to ``FREEDOMS``; one that does not, a branch of its own in
+``HIGHER``. The local axes of a joint are `slide` (its direction, in i's axes), `across` and `turn`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from dalembert.arrays import Array
+from dalembert.core.layout import (
+    Along,
+    Angle,
+    Distance,
+    Family,
+    Idle,
+    Meet,
+    Mesh,
+    Perpendicular,
+    Rows,
+    Turn,
+)
+
+Vector = tuple[float, float]
+
+FREEDOMS: dict[str, tuple[str, ...]] = {
+    "pin": ("turn",),
+    "slider": ("slide",),
+    "slot": ("slide", "turn"),
+    "weld": (),
+    "rolling": ("turn",),
+    "gear": (),
+}
+"""Freedoms of j in i that a drive, a spring or a damper can act on."""
+
+
+ANGULAR = (Turn, Angle, Perpendicular, Idle)
+"""Families whose measure is an angle and whose wrench is a couple."""
+
+
+class RowBuilder:
+    """Collects rows one by one, then groups them into families."""
+
+    def __init__(self, links: int, dimension: int = 2) -> None:
+        self.links, self.dimension, self.counted = links, dimension, 0
+        self.targets: list[float] = []
+        self._joint: list[int] = []
+        self._angular: list[bool] = []
+        self._families: dict[type, list[dict[str, Any]]] = {}
+
+    def add(self, kind: type, joint: int, ends: tuple[int, int], target: float = 0.0, **numbers: Any) -> int:
+        """One row (one a ground axis for ``Meet``) between links i and j; returns its place."""
+        count = self.dimension if kind is Meet else 1
+        first = len(self.targets)
+        row: Any = tuple(range(first, first + count)) if kind is Meet else first
+        self.targets += [target] * count
+        self._joint += [joint] * count
+        self._angular += [kind in ANGULAR] * count
+        self._families.setdefault(kind, []).append({"row": row, "i": ends[0], "j": ends[1], **numbers})
+        return first
+
+    def followed(self) -> int:
+        """The place of another relative angle whose whole turns are counted."""
+        self.counted += 1
+        return self.counted - 1
+
+    def rows(self) -> Rows:
+        """All of them, frozen."""
+        families = tuple(_family(kind, entries) for kind, entries in self._families.items())
+        joint, angular = np.array(self._joint, np.intp), np.array(self._angular, bool)
+        return Rows(len(self.targets), self.links, families, joint, angular)
+
+
+def _family(kind: type, entries: list[dict[str, Any]]) -> Family:
+    columns: dict[str, Any] = {}
+    for name in entries[0]:
+        whole = name in ("row", "i", "j", "count")
+        values = [e[name] for e in entries]
+        columns[name] = np.array(values, np.intp) if whole else numbers(values)
+    family: Family = kind(**columns)
+    return family
+
+
+def numbers(values: Any) -> Array:
+    """An array of floats; of symbols where some are (the kernel is traced on them)."""
+    array = np.asarray(values)
+    return array if array.dtype == object else array.astype(float)
+
+
+def direction(joint: Any) -> Array:
+    """Unit vector of the slide in i's axes; x where the joint has none."""
+    angle = getattr(joint, "direction", 0.0) or 0.0
+    return np.array([np.cos(angle), np.sin(angle)])
+
+
+def add_constraints(
+    rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array
+) -> None:
+    """Rows of a joint's constraints: what its freedoms leave over, or those of a higher pair."""
+    if joint.type in HIGHER:
+        HIGHER[joint.type](rows, index, joint, ends, ui, uj)
+        return
+    freedoms = FREEDOMS[joint.type]
+    if "slide" not in freedoms:
+        rows.add(Meet, index, ends, ui=ui, uj=uj)
+    else:
+        across = _across(direction(joint))
+        rows.add(Along, index, ends, ui=ui, uj=uj, axis=across, pitch=0.0)
+    if "turn" not in freedoms:
+        rows.add(Turn, index, ends, target=_fixed_angle(joint))
+
+
+def _fixed_angle(joint: Any) -> Any:
+    """Angle of j's axes to i's where the joint fixes it."""
+    return joint.angle + (joint.direction if joint.type == "slider" else 0.0)
+
+
+def _across(e: Array) -> Array:
+    return np.array([-e[1], e[0]])
+
+
+def add_freedom(
+    rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array
+) -> None:
+    """Rows of a joint's freedoms, in the order of ``FREEDOMS``."""
+    for name in FREEDOMS[joint.type]:
+        if name == "slide":
+            rows.add(Along, index, ends, ui=ui, uj=uj, axis=direction(joint), pitch=0.0)
+        else:
+            rows.add(Turn, index, ends)
+
+
+def _gear(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array) -> None:
+    ri, rj = signed_radii(joint)
+    rows.add(Mesh, index, ends, ui=ui, uj=uj, ri=ri, rj=rj)
+
+
+def signed_radii(joint: Any) -> Vector:
+    """Pitch radii of i and j; of an internal pair the inner (smaller) wheel's is negative, so that their sum is the
+    distance of the centres."""
+    ri, rj = joint.pitch_radii if joint.type == "gear" else joint.radii
+    if not joint.internal:
+        return ri, rj
+    return (ri, -rj) if ri > rj else (-ri, rj)
+
+
+def _rolling(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array) -> None:
+    """A wheel on a line stays at its radius from it and rolls: e . span + r theta is constant."""
+    if getattr(joint, "radii", None) is not None:
+        ri, rj = signed_radii(joint)
+        rows.add(Distance, index, ends, target=ri + rj, ui=ui, uj=uj)
+        rows.add(Mesh, index, ends, ui=ui, uj=uj, ri=ri, rj=rj)
+        return
+    e, r = direction(joint), joint.radius
+    rows.add(Along, index, ends, target=r, ui=ui, uj=uj, axis=_across(e), pitch=0.0)
+    rows.add(Along, index, ends, ui=ui, uj=uj, axis=e, pitch=r)
+
+
+HIGHER: dict[str, Callable[[RowBuilder, int, Any, tuple[int, int], Array, Array], None]] = {
+    "gear": _gear,
+    "rolling": _rolling,
+}
+"""Joints that are given by their constraints."""

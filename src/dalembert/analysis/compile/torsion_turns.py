@@ -1,0 +1,254 @@
+"""Which whole turn the joint of a torsion spring counts: a rule that does not depend on the list of positions.
+
+A turn that no drive settles is counted where the drives stand as `assembly` has them, else at 0: there it is within
+half a turn of what `assembly` states, the angle of j less that of i as written, or of 0 where it states neither link's.
+From there it is followed through the motion. Where wheels that mesh or roll turn it, it is counted where their phase
+is, at the first position.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from dalembert.algebra import space
+from dalembert.analysis.closure_failure import quantity_text
+from dalembert.analysis.compile.compiled_mechanism import Compiled, Count
+from dalembert.arrays import Array, Ints
+from dalembert.core.constraints import measure
+from dalembert.core.geometry import arm
+from dalembert.core.layout import Angle, Pose
+from dalembert.core.position.first_pose_plane import Guess
+from dalembert.core.position.first_pose_space import ALONG, Drawing
+from dalembert.core.position.motion_path import Path
+from dalembert.core.position.whole_turns import Way, phased, turned_together, way, whole_turns
+from dalembert.errors import ModelError
+
+FARTHEST = 1e4
+"""Longest way to where turns are counted, in radians or characteristic lengths."""
+
+MANY = 200
+"""Positions up to which, with several drives, each has its own way to where turns are counted."""
+
+DOUBTFUL = np.radians(20)
+"""An angle this near to half a turn from what it is counted by could as well be meant a turn further."""
+
+
+def wound(c: Compiled, first: tuple[int, Pose], found: Path) -> Compiled:
+    """The mechanism with the whole turns of its torsion springs, ``first`` being the first position and its pose."""
+    names = [n for n, load in c.mechanism.loads.items() if load.type in ("torsion_spring", "torsion_damper")]
+    rows = c.forcing.resistances.row
+    asked = [
+        k
+        for k, n in enumerate(names)
+        if c.mechanism.loads[n].type == "torsion_spring" and _open(c, int(rows[k]))
+    ]
+    if not asked or not found.reached.any():
+        return c
+    counting = _Counting(c, first, found)
+    turns = np.zeros((len(found.reached), len(rows)))
+    counts = []
+    for k in asked:
+        turns[:, k], count = counting.counted(names[k], k, int(rows[k]))
+        counts.append(count)
+    resistances = replace(c.forcing.resistances, turns=turns)
+    return replace(c, forcing=replace(c.forcing, resistances=resistances), counts=tuple(counts))
+
+
+def _open(c: Compiled, row: int) -> bool:
+    """Whether neither a drive nor constraints settle the angle of a freedom."""
+    if row in c.layout.driven:
+        return False
+    i, j = (int(end[row]) for end in c.layout.freedoms.ends)
+    together = turned_together(c.layout)
+    return bool(together[i] != together[j])
+
+
+class _Counting:
+    """Where the turns of one mechanism are counted."""
+
+    def __init__(self, c: Compiled, first: tuple[int, Pose], found: Path) -> None:
+        self.c, self.found, (self.place, self.first) = c, found, first
+        g, self.freedoms = c.layout.algebra, c.layout.freedoms
+        self.given = _given(c)
+        stated = measure(g, self.freedoms, self.given)[c.layout.driven]
+        self.wanted = np.where(np.isfinite(stated), stated, 0.0)
+        self.phased = phased(c.layout, self.first)
+        self.ways: dict[int, Way] = {}
+        self.pieces = self._pieces()
+
+    def _pieces(self) -> list[Any]:
+        """Positions that are counted together: those of a stretch. Several drives may go around a singular place, on
+        either side of which turns count otherwise: then every position has its own way, if there are not too many."""
+        found = self.found
+        if len(self.wanted) > 1 and found.reached.sum() <= MANY:
+            return [np.array([k]) for k in np.flatnonzero(found.reached)]
+        numbers = np.unique(found.stretch[found.reached])
+        return [np.flatnonzero(found.reached & (found.stretch == n)) for n in numbers]
+
+    def counted(self, spring: str, k: int, row: int) -> tuple[Array, Count]:
+        """What the count adds to the turn at each position (P,), and how it was made."""
+        found, with_phase = self.found, bool(self.phased[row])
+        turns, margin = np.zeros((2, len(found.reached)))
+        for number, mask in reversed(list(enumerate(self.pieces))):  # the first is told of
+            end = self._at_first() if with_phase else self._end(spring, number, mask)
+            near, stated = self._near(row, end.pose)
+            whole = whole_turns(end.phi[row], np.array(near))
+            turns[mask] = -2 * np.pi * whole
+            margin[mask] = np.pi - abs(end.phi[row] + turns[mask] - near)
+        at = None if with_phase else self.wanted
+        return turns, Count(spring, k, near, stated, at, end.met, margin)
+
+    def _at_first(self) -> Way:
+        phi = measure(self.c.layout.algebra, self.freedoms, self.first)
+        return Way(self.first, phi, True)
+
+    def _end(self, spring: str, number: int, where: Ints) -> Way:
+        """Where the motion of a piece comes nearest to the drives' positions that turns are counted at."""
+        if number not in self.ways:
+            c = self.c
+            scale = np.where(c.layout.freedoms.angular[c.layout.driven], 1.0, c.layout.length)
+            apart = np.abs((c.schedule.position[where] - self.wanted) / scale).max(axis=1, initial=0.0)
+            self._refuse_endless(spring, float(apart.min()))
+            there = np.concatenate([c.target, self.wanted])
+            order = where[np.argsort(apart, kind="stable")]
+            for k in dict.fromkeys(
+                (order[0], order[-1])
+            ):  # from the farthest too: the nearest may stand at the end itself
+                self.ways[number] = way(c.layout, self.found.pose.at(k), c.targets[k], there)
+                if self.ways[number].met:
+                    break
+        return self.ways[number]
+
+    def _refuse_endless(self, spring: str, apart: float) -> None:
+        if apart > FARTHEST:
+            what = (
+                f"torsion spring {spring!r}: its turns are counted from {_drives(self.c, self.wanted)} on, and the "
+                f"positions are {apart:.3g} rad or link lengths away"
+            )
+            raise ModelError(what, f"check their unit; {FARTHEST:.0e} of them can be followed", ("drives",))
+
+    def _near(self, row: int, actual: Pose) -> tuple[float, bool]:
+        """What a turn is counted by, at a pose of the motion; whether the file states it."""
+        c, given = self.c, self.given
+        ends = [int(end[row]) for end in self.freedoms.ends]
+        known = [bool(np.isfinite(given.rotation[k]).all()) for k in ends]
+        if not any(k != c.layout.links and here for k, here in zip(ends, known, strict=True)):
+            return 0.0, False
+        g, turn = c.layout.algebra, actual.turn
+        rotation = np.where(np.isfinite(given.rotation), given.rotation, actual.rotation)
+        if g.d == 2:  # a link that is not named, nor settled by drives, is within half a turn of 0
+            together = turned_together(c.layout)
+            free = together != together[-1]
+            turn = turn - 2 * np.pi * np.where(free, whole_turns(turn, np.array(0.0)), 0.0)
+            mixed = Pose(actual.point, np.where(np.isfinite(given.turn), given.turn, turn), rotation)
+        else:
+            mixed = _as_written(c, Pose(actual.point, turn, rotation))
+        return float(measure(g, self.freedoms, mixed)[row]), True
+
+
+def _given(c: Compiled) -> Pose:
+    """The poses (L+1, ...) that `assembly` states, NaN where it states none; angles as written."""
+    g, guess = c.layout.algebra, c.guess
+    point = guess.point.copy()
+    point[-1] = 0.0
+    if isinstance(guess, Guess):
+        turn = guess.turn.copy()
+        turn[-1] = 0.0
+        return Pose(point, turn, g.rotation(turn))
+    rotation = guess.rotation.copy()
+    rotation[-1] = space.IDENTITY
+    count = max((int(np.max(f.count)) + 1 for f in c.layout.counted), default=0)
+    return _as_written(c, Pose(point, np.zeros(count), rotation))
+
+
+def _as_written(c: Compiled, pose: Pose) -> Pose:
+    """A pose in space with the turns of its joints as the angles of its links about their axes are written."""
+    turn = np.zeros_like(pose.turn)
+    raw = measure(c.layout.algebra, c.layout.freedoms, pose._replace(turn=turn))
+    for f in c.layout.freedoms.families:
+        if not isinstance(f, Angle):
+            continue
+        axes = arm(c.layout.algebra, pose, f.i, f.a)
+        for row, place, i, j, axis in zip(f.row, f.count, f.i, f.j, axes, strict=True):
+            (angle_i, whole_i), (angle_j, whole_j) = (_about(c, int(link), axis) for link in (i, j))
+            both = angle_j - angle_i
+            turn[place] = np.nan_to_num(both if np.isfinite(both) else raw[row] + whole_j - whole_i)
+    return pose._replace(turn=turn)
+
+
+def _about(c: Compiled, link: int, axis: Array) -> tuple[float, float]:
+    """Angle of a link's stated pose about an axis, NaN where it states none, and the whole turns written."""
+    assert isinstance(c.guess, Drawing)
+    angle, along = float(c.guess.angle[link]), float(np.dot(c.guess.axis[link], axis))
+    if angle == 0.0:
+        return 0.0, 0.0
+    if not abs(along) > 1 - ALONG:
+        return np.nan, 0.0
+    whole = 2 * np.pi * float(whole_turns(np.array(angle), np.array(0.0)))
+    return float(np.sign(along)) * angle, float(np.sign(along)) * whole
+
+
+def _drives(c: Compiled, at: Array) -> str:
+    """'O2 = 60 deg and s = 20 mm'."""
+    angular = c.layout.freedoms.angular[c.layout.driven]
+    kinds = ["angle" if turns else "length" for turns in angular]
+    parts = zip(c.schedule.names, kinds, at, strict=True)
+    return " and ".join(f"{n} = {quantity_text(c, kind, round(float(q), 12) + 0.0)}" for n, kind, q in parts)
+
+
+def counted_turns(c: Compiled, pose: Pose) -> dict[str, Array]:
+    """Turn (P,) of each torsion spring that counts whole turns."""
+    values = measure(c.layout.algebra, c.layout.freedoms, pose) if c.counts else np.zeros(0)
+    own = c.forcing.resistances
+    return {n.spring: values[:, own.row[n.place]] + own.turns[:, n.place] for n in c.counts}
+
+
+def count_notes(c: Compiled, pose: Pose) -> dict[str, str]:
+    """How each of these turns was counted, and where another whole turn could be meant."""
+    turns = counted_turns(c, pose)
+    return {
+        _heading(c, n): _note(c, n, turns[n.spring]) for n in c.counts if np.isfinite(turns[n.spring]).any()
+    }
+
+
+def _heading(c: Compiled, n: Count) -> str:
+    joint, freedom = c.freedoms[c.forcing.resistances.row[n.place]]
+    return f"{freedom} of {joint} for {n.spring}"
+
+
+def _note(c: Compiled, n: Count, turn: Array) -> str:
+    k = int(np.argmax(np.isfinite(turn)))
+    here = f" at {_drives(c, c.schedule.position[k])}" if c.schedule.names else ""
+    near = f"{_angle(c, n.near)}{' of the assembly' if n.stated else ''}"
+    if n.at is None:
+        where = " at the first position, where its wheels have their phase"
+    elif not c.schedule.names:
+        where = ""
+    elif n.met:
+        where = f" at {_drives(c, n.at)}"
+    else:
+        where = f" where the motion ends on the way to {_drives(c, n.at)}"
+    text = f"{_angle(c, turn[k])}{here}, counted to within half a turn of {near}{where}"
+    if not two_ways(c, n, turn):
+        return text
+    others = " or ".join(_angle(c, turn[k] + step) for step in (-2 * np.pi, 2 * np.pi))
+    return f"{text}; {others} could be meant too: the angles written in `assembly` choose"
+
+
+def _angle(c: Compiled, value: float) -> str:
+    return quantity_text(c, "angle", float(value))
+
+
+def two_ways(c: Compiled, n: Count, turn: Array) -> bool:
+    """Whether another whole turn is as likely meant: deflected by more than half a turn, near the edge of the half turn
+    where it is counted or away from there, or counted where the motion ends."""
+    known = turn[np.isfinite(turn)]
+    if not known.size:
+        return False
+    free = float(c.forcing.resistances.free[n.place])
+    far = np.abs(known - free).max() > np.pi or np.abs(known - n.near).max() > np.pi
+    edge = n.margin[np.isfinite(turn)].min() < DOUBTFUL
+    return bool(far or edge or not n.met)

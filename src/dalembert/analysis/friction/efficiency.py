@@ -1,0 +1,168 @@
+"""What friction costs: efficiency at each position and over the cycle, the share of each joint, both senses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from operator import methodcaller
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+
+@dataclass(frozen=True)
+class Efficiency:
+    """Efficiency of a machine with friction.
+
+    At a reversal forward and reverse are those just before it.
+    forward (P,): of the drive against the load, static: effort without friction over effort with it; 0 where it jams
+    reverse (P,): of the load against the drive, static; 0 or less where the machine locks itself
+    cycle: work that arrives over work put in, all positions together; put_in and lost are those works, J
+    share: part of the work put in that each joint's friction takes, dry and viscous
+    """
+
+    forward: Array
+    reverse: Array
+    cycle: float
+    put_in: float
+    lost: float
+    share: dict[str, float]
+
+
+def efficiency(r: Result) -> Efficiency:
+    """Efficiency of a result with friction.
+
+    Forward is the sense of motion in which the drives (and the loads asked for) put power in: eta = P0 / P; reverse the
+    other one, in which they take it out: eta = P / P0, with P0 without friction and the same loads in both senses,
+    inertia left out. Over the cycle: (W - L) / W, with W the work of the drives, or of the loads where those drive, and
+    L what the joints lose. NaN where nothing moves.
+
+    >>> import dalembert as da
+    >>> r = da.statics(da.mechanism({
+    ...     "links": {"ground": {"points": {"O": [0, 0]}}, "block": {"points": {"O": [0, 0]}}},
+    ...     "joints": {"O": {"type": "slider", "links": ["ground", "block"], "friction": {"coefficient": 0.2}}},
+    ...     "drives": {"O": {"position": 0, "speed": 1}},
+    ...     "loads": {"F": {"type": "force", "on": "block", "at": "O", "value": [-100, -100]}},
+    ... }))
+    >>> round(float(efficiency(r).forward[0]), 6), round(float(efficiency(r).reverse[0]), 6)
+    (0.833333, 0.8)
+    """
+    if r.friction is None:
+        raise ModelError("this result has no friction", "give a joint `friction`, and do not switch it off")
+    senses = [_static(r, sign) for sign in (1.0, -1.0)]
+    bare, one, other = senses[0][0], senses[0][1], senses[1][1]
+    drives = bare > 0
+    with np.errstate(all="ignore"):
+        forward = np.where(bare == 0, np.nan, bare / np.where(drives, one, other))
+        reverse = np.where(bare == 0, np.nan, np.where(drives, other, one) / bare)
+    jammed = np.where(drives, senses[0][2], senses[1][2])
+    forward = np.where(jammed & (bare != 0), 0.0, forward)
+    return Efficiency(forward, reverse, *_cycle(r))
+
+
+def _static(r: Result, sign: float) -> tuple[Array, Array, Array]:
+    """Power of the unknowns without and with friction in a sense, per unit of the given speeds; jammed or not."""
+    from dalembert.analysis.one_pass import at_schedule
+
+    schedule = replace(r.schedule, speed=sign * r.schedule.speed, acceleration=0 * r.schedule.acceleration)
+    turned = at_schedule(r.mechanism, schedule, inertia=False)
+    assert turned.friction is not None
+    f = turned.friction
+    powers = [
+        sign * unknown_power(turned, effort, load)
+        for effort, load in ((f.bare_effort, f.bare_load), (turned.effort_array, turned.load_array))
+    ]
+    return powers[0], powers[1], np.array([s == "jammed" for s in turned.status])
+
+
+def unknown_power(r: Result, effort: Array, load: Array) -> Array:
+    """Power (P,) of the efforts and loads that are asked for."""
+    asked = r.compiled.known.asked
+    power = (effort * r.schedule.speed)[:, asked].sum(axis=-1)
+    for k, name in enumerate(r.unknown_loads):
+        power = power + load[:, k] * load_rate(r, name)
+    return np.asarray(power)
+
+
+def load_rate(r: Result, name: str) -> Array:
+    """Speed of a load's point along its direction (P,), or turning rate of a couple's link."""
+    from dalembert.analysis.compile.load_arrays import point_of
+    from dalembert.analysis.methods.applied_forces import unit_load
+
+    load: Any = r.mechanism.loads[name]
+    force, couple = unit_load(r, r.unknown_loads.index(name))
+    if load.type == "couple":
+        turning = r.speed(load.on) * couple
+        return np.asarray(turning if turning.ndim == 1 else turning.sum(axis=-1))
+    velocity = r._velocity(load.on, point_of(r.mechanism, load.on, load.at))
+    return np.asarray((velocity * force).sum(axis=-1))
+
+
+def _cycle(r: Result) -> tuple[float, float, float, dict[str, float]]:
+    """Efficiency, work put in, work lost and shares over the positions."""
+    weight = durations(r)
+    lost = {joint: _work(r, methodcaller("power_lost", joint), weight) for joint in r.joints}
+    drives = _work(r, lambda side: (side.effort_array * side.schedule.speed).sum(axis=-1), weight)
+    loads = [_work(r, partial(_load_power, k), weight) for k in range(len(r.unknown_loads))]
+    total, own = sum(lost.values()), drives + sum(loads)
+    put_in = max(own, total - own)
+    if not put_in > 0:
+        return float("nan"), put_in, total, dict.fromkeys(lost, float("nan"))
+    return (put_in - total) / put_in, put_in, total, {joint: w / put_in for joint, w in lost.items()}
+
+
+def durations(r: Result) -> Array:
+    """Time (P,) that each position stands for, s: half the way to both neighbours, round the turn if it is whole.
+
+    One position stands for one second. From the schedule's times, or from the first drive that moves.
+    """
+    count = len(r.status)
+    if count == 1:
+        return np.ones(1)
+    steps = _steps(r)
+    weight = np.zeros(count)
+    weight[: len(steps)] += steps / 2
+    weight[(np.arange(len(steps)) + 1) % count] += steps / 2
+    return weight
+
+
+def _steps(r: Result) -> Array:
+    """Time between neighbouring positions; with the last one, back to the first, where the turn is whole."""
+    s = r.schedule
+    if s.time is not None:
+        return np.diff(s.time)
+    moving = np.flatnonzero((s.speed != 0).all(axis=0))
+    if not moving.size:
+        return np.full(len(r.status) - 1, np.nan)
+    k = int(moving[0])
+    position, speed = s.position[:, k], s.speed[:, k]
+    if r.compiled.period is not None:
+        target = r.compiled.period[len(r.compiled.target) + k]
+        position, speed = np.append(position, position[0] + target), np.append(speed, speed[0])
+    twice = speed[1:] + speed[:-1]
+    return np.asarray(np.abs(2 * np.diff(position) / np.where(twice != 0, twice, np.nan)))
+
+
+def _load_power(k: int, r: Result) -> Array:
+    """Power (P,) of unknown load number k."""
+    return np.asarray(r.load_array[:, k] * load_rate(r, r.unknown_loads[k]))
+
+
+def _work(r: Result, power: Callable[[Result], Array], weight: Array) -> float:
+    """Power over the times, half of a position's time before a reversal there and half after it; single positions
+    without a value take that of their neighbours."""
+    work = []
+    for side in r.sides:
+        values = power(side)
+        known = np.flatnonzero(np.isfinite(values))
+        if not known.size or np.diff(known).max(initial=1) > 2:
+            return float("nan")
+        work.append((np.interp(np.arange(len(values)), known, values[known]) * weight).sum())
+    return float(np.mean(work))

@@ -1,0 +1,123 @@
+"""The taught iteration of friction as a table: solve, set friction by the reactions found, solve again."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.friction.joint_friction import friction_of
+from dalembert.arrays import Array
+from dalembert.core.equilibrium import known_sources, motion, statement
+from dalembert.core.forcing import summed
+from dalembert.core.friction.contact_equations import (
+    Senses,
+    argument,
+    bearing,
+    multiplier,
+    response,
+    strength,
+)
+from dalembert.errors import ModelError
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+    from dalembert.core.friction.contact_equations import Contacts, Response
+
+
+@dataclass(frozen=True)
+class FixedPoint:
+    """Steps of the iteration at one position; step 0 is without friction.
+
+    unknowns: name -> its value at each step; friction: joint and kind -> force (N) or couple (N m) on j at each step
+    change: largest change of a friction force at each step, by the largest force; rate: what a step leaves of it, at
+    the end; below 1 it converges; arrived: whether it did
+    """
+
+    unknowns: dict[str, Array]
+    friction: dict[str, Array]
+    change: Array
+    rate: float
+    arrived: bool
+
+    @property
+    def steps(self) -> int:
+        """Steps made."""
+        return len(self.change) - 1
+
+    def rows(self) -> list[list[float]]:
+        """The table: step, unknowns, friction, change."""
+        columns = [np.arange(len(self.change)), *self.unknowns.values(), *self.friction.values(), self.change]
+        return [[float(v) for v in row] for row in zip(*columns, strict=True)]
+
+
+def fixed_point(r: Result, position: int = 0, most: int = 1000, tolerance: float = 1e-12) -> FixedPoint:
+    """The iteration at one position of a result with friction (counted from 0).
+
+    It gets slower with mu r / l and may diverge where there is a solution: it is for reading, not how the answer was
+    found.
+    """
+    contacts, problem, sense = stated(r, position)
+    c = strength(contacts, 1.0, sense=sense)
+    z = np.where(contacts.fixed, -sense * bearing(contacts, problem.y), 0.0)
+    x, forces, change = [problem.x[0]], [(c * z)[0]], [np.nan]
+    for _ in range(most):
+        new = -sense * bearing(contacts, argument(problem, c * z))
+        size = np.abs(problem.y).max() + np.abs(new).max()
+        change.append(float(np.abs(new - z).max() / size))
+        z = new
+        x.append(multiplier(problem, c * z)[0])
+        forces.append((c * z)[0])
+        if change[-1] <= tolerance or not np.isfinite(change[-1]) or np.abs(z).max() > 1e12 * size:
+            break
+    found = np.array(change)
+    arrived = bool(found[-1] <= tolerance)
+    return FixedPoint(
+        _unknowns(r, np.array(x)), _forces(r, contacts, np.array(forces)), found, _rate(found), arrived
+    )
+
+
+def _rate(change: Array) -> float:
+    """What a step leaves of the change, over the last five."""
+    last = change[1:][-6:]
+    return float((last[-1] / last[0]) ** (1 / (len(last) - 1))) if len(last) > 1 and last[0] > 0 else 0.0
+
+
+def stated(r: Result, position: int) -> tuple[Contacts, Response, Array]:
+    """Contacts, their response and senses (1, E) at one position; refused at rest."""
+    contacts, problem, told = posed(r, position)
+    if told.open.any():
+        what = "the machine is at rest here: the senses of friction are not given"
+        raise ModelError(what, "give the drive a speed")
+    return contacts, problem, told.sense
+
+
+def posed(r: Result, position: int) -> tuple[Contacts, Response, Senses]:
+    """The same, at rest too."""
+    from dalembert.analysis.one_pass import sliced
+    from dalembert.analysis.result.joint_freedoms import whole_pose
+
+    f, contacts = friction_of(r)
+    c, part = r.compiled, slice(position, position + 1)
+    pose = whole_pose(r, part)
+    forcing, known = sliced(c, part)
+    moving, rows, solver = motion(c.layout, pose, r.schedule.speed[part], r.schedule.acceleration[part])
+    sources = known_sources(c.layout, forcing, pose, moving, r.inertia)
+    w = summed(c.layout, *sources.values())
+    w = np.broadcast_to(w, (1, *w.shape[1:]))
+    stated = statement(c.layout, known, pose, rows, solver, w)
+    _, problem = response(c.layout, contacts, pose, stated.forces, stated.w, moving.twist)
+    return contacts, problem, Senses(f.sense[part], f.open[part], f.rate[part])
+
+
+def _unknowns(r: Result, x: Array) -> dict[str, Array]:
+    count, asked = r.compiled.layout.constraints.count, r.compiled.known.asked
+    names = [*(d for d, a in zip(r.drives, asked, strict=True) if a), *r.unknown_loads]
+    return {name: x[:, count + k] for k, name in enumerate(names)}
+
+
+def _forces(r: Result, contacts: Contacts, cz: Array) -> dict[str, Array]:
+    kinds = r.compiled.contact_kinds
+    names = [f"{r.joints[k]} {kind}" for k, kind in zip(contacts.joint, kinds, strict=True)]
+    return {name: cz[:, e] for e, name in enumerate(names) if not contacts.fixed[e]}

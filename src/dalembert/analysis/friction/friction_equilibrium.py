@@ -1,0 +1,384 @@
+"""Equilibrium with friction at a block of positions: senses, the friction forces, what they cost, the ends at rest."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from dalembert.analysis.result.force_arrays import Forces, Friction
+from dalembert.analysis.result.reaction_axes import marks
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.core.constraints import rates
+from dalembert.core.equilibrium import (
+    UNIQUE,
+    Known,
+    Motion,
+    Statement,
+    checked,
+    reactions,
+    statement,
+)
+from dalembert.core.forcing import Forcing, Source, pair, summed
+from dalembert.core.friction.contact_equations import (
+    Contacts,
+    Response,
+    Senses,
+    argument,
+    bearing,
+    multiplier,
+    response,
+    senses,
+    strength,
+    under,
+)
+from dalembert.core.friction.friction_solver import Slip, slipping, without_friction
+from dalembert.core.friction.holding_range import holding
+from dalembert.core.friction.impending_motion import extreme
+from dalembert.core.friction.losses import by_joint, in_joints, turned, viscous
+from dalembert.core.friction.reversal import Driven, Sides, sides
+from dalembert.core.friction.rod_spin import Spins, raised, rods, settled, spun
+from dalembert.core.layout import Pose, System
+from dalembert.core.linear import Factor, PseudoInverse
+
+if TYPE_CHECKING:
+    from dalembert.analysis.compile.compiled_mechanism import Compiled
+
+
+SAME = 1e-11
+"""A contact that carries less than this part of the largest force carries nothing."""
+
+
+class Setting(NamedTuple):
+    """A block of positions before its friction is known, what loads it by kind, what drives it, and where it moves."""
+
+    c: Compiled
+    contacts: Contacts
+    forcing: Forcing
+    known: Known
+    pose: Pose
+    moving: Motion
+    rows: System
+    solver: Factor
+    sources: dict[str, Source]
+    driven: Driven
+    moves: Flags
+
+
+def rubbing(s: Setting, w: Array) -> Forces:
+    """Forces with friction under the loads w (P, L, n)."""
+    layout, contacts = s.c.layout, s.contacts
+    stated = statement(layout, s.known, s.pose, s.rows, s.solver, w)
+    along, r = response(layout, contacts, s.pose, stated.forces, stated.w, s.moving.twist)
+    blocked = _blocked(contacts, stated)
+    r = r._replace(y=np.where(blocked[:, None, None], np.nan, r.y))
+    r = Response(*(a if len(a) == len(w) else np.repeat(a, len(w), axis=0) for a in r))
+    told, spins, slip = _slipped(s, along, r)
+    made = _Made(s, stated, along, r, blocked, without_friction(contacts, r))
+    open_ = told.open.any(axis=-1)
+    slip.x[open_], slip.z[open_], slip.critical[open_] = np.nan, np.nan, np.nan
+    found = Solved(slip, told, made.locked(slip))
+    return made.forces(found) if not open_.any() else _open(made, found, np.flatnonzero(open_), spins)
+
+
+def _slipped(
+    s: Setting, along: System, r: Response, side: Side | None = None
+) -> tuple[Senses, Spins | None, Slip]:
+    """Senses and friction; with rods that spin the branch is followed with them where it ends or leaves a moment."""
+    contacts = s.contacts
+    told, spins = _told(s, along, r, side)
+    slip = slipping(contacts, r, told.sense, told.open)
+    if spins is None:
+        return told, None, slip
+    left = np.abs(slip.x[..., spins.rods.row]).max(axis=-1) > SAME * np.abs(slip.x).max(axis=-1)
+    some = np.flatnonzero(~told.open.any(axis=-1) & (np.isfinite(slip.critical) | left))
+    if not some.size:
+        return told, spins, slip
+    here = Response(*(np.broadcast_to(a, (len(told.sense), *a.shape[1:]))[some] for a in r))
+    found = raised(contacts, here, told.open[some], spins.at(some))
+    new, on = found.scale > 0, some[found.scale > 0]
+    told = Senses(*(_with(a, on, b[new]) for a, b in zip(told, spins.at(some).told(found.phi), strict=True)))
+    z = np.where(found.scale < 1, np.nan, found.z.T).T[new]
+    c = strength(contacts, 1.0, told.open[on], told.sense[on])
+    slip = slip._replace(
+        z=_with(slip.z, on, z),
+        c=_with(slip.c, on, c),
+        x=_with(slip.x, on, multiplier(Response(*(a[new] for a in here)), c * z)),
+        determinant=_with(slip.determinant, on, found.determinant[new]),
+        critical=_with(slip.critical, on, np.where(found.scale < 1, found.scale, np.nan)[new]),
+        single=_with(slip.single, on, False),
+    )
+    return told, spins, slip
+
+
+def _with(whole: Array, on: Ints, part: Any) -> Array:
+    """A copy with other values at some positions."""
+    out = np.array(whole)
+    out[on] = part
+    return out
+
+
+class Side(NamedTuple):
+    """One side of the positions: the senses (P, E) there of contacts whose rates do not tell, and which those are."""
+
+    sense: Array
+    known: Flags
+
+    def of(self, told: Senses) -> Senses:
+        """The senses that rates tell, and these where they do not."""
+        sense = np.where(self.known, self.sense, told.sense)
+        return Senses(sense, told.open & ~self.known, told.rate)
+
+
+def _told(s: Setting, along: System, r: Response, side: Side | None) -> tuple[Senses, Spins | None]:
+    """Senses of the contacts; rods between balls spin as the balls' friction lets them."""
+    layout, contacts = s.c.layout, s.contacts
+
+    def sensed(twist: Array) -> Senses:
+        told = senses(layout, contacts, along, twist)
+        return told if side is None else side.of(told)
+
+    told = sensed(s.moving.twist)
+    found = rods(layout, contacts, s.pose, along, told.rate) if s.c.passive else None
+    if found is None:
+        return told, None
+
+    def told_at(phi: Array) -> Senses:
+        return sensed(spun(s.moving.twist, found, phi))
+
+    def moment(phi: Array) -> Array:
+        now = told_at(phi)
+        return np.nan_to_num(slipping(contacts, r, now.sense, now.open).x[..., found.row])
+
+    return told_at(settled(found.rate.shape, moment)), Spins(found, told_at)
+
+
+def _blocked(contacts: Contacts, stated: Statement) -> Flags:
+    """Positions where a reaction that friction follows is not unique."""
+    count = stated.w.shape[0]
+    if not isinstance(stated.forces, PseudoInverse):
+        return np.zeros(count, bool)
+    if contacts.read is not None:
+        read = np.flatnonzero(np.abs(contacts.read).max(axis=(0, 1), initial=0.0))
+    else:
+        read = np.concatenate([contacts.first, contacts.second, contacts.couple])
+        read = np.unique(read[read >= 0])
+    return np.asarray(np.abs(stated.forces.null[..., read, :]).max(axis=(-2, -1), initial=0.0) > UNIQUE)
+
+
+def _open(made: _Made, found: Solved, open_: Ints, spins: Spins | None) -> Forces:
+    """Both sides of the positions where the machine moves and contacts only reverse; both ends of every unknown where
+    contacts stay at rest."""
+    told = found.told
+    at_side = _sides(made, told, open_, spins)
+    rest = told.open[open_] & ~at_side.known
+    turns: Flags = np.asarray(at_side.known.any(axis=-1))
+    both = _both_sides(made, found, open_[turns], at_side.at(turns), rest[turns])
+    if rest[turns].any():
+        loaded = np.zeros_like(told.open)
+        loaded[open_[turns]] = rest[turns]
+        idle = [_idle(made.s.contacts, made.r, side.slip, loaded)[open_[turns]] for side in both]
+        turns[turns] = np.all(idle, axis=0)
+        both = _both_sides(made, found, open_[turns], at_side.at(turns), rest[turns])
+    turn, stay = open_[turns], open_[~turns]
+    after, reversing = None, None
+    if turn.size:
+        before, behind = both
+        found = before
+        known = _filled(np.zeros_like(told.open), turn, at_side.known[turns])
+        same = _idle(made.s.contacts, made.r, before.slip, known)[:, None]
+        reversing = known & (before.told.sense != behind.told.sense) & ~same
+        after = made.forces(behind, reversing) if reversing.any() else None
+    whole = _with_ends(made, found, stay, spins, reversing) if stay.size else made.forces(found, reversing)
+    return whole._replace(after=after)
+
+
+def _both_sides(made: _Made, found: Solved, turn: Ints, at_side: Sides, rest: Flags) -> list[Solved]:
+    """Friction just before and just after some positions; contacts that stay at ``rest`` there carry nothing."""
+    if not turn.size:
+        return []
+    told, known = found.told, np.zeros_like(found.told.open)
+    known[turn] = at_side.known | rest
+    senses_ = (np.where(rest, 0.0, sense) for sense in (at_side.before, at_side.after))
+    sides_ = (Side(_filled(told.sense, turn, sense), known) for sense in senses_)
+    return [made.on_side(found.slip, told, turn, side) for side in sides_]
+
+
+def _sides(made: _Made, told: Senses, open_: Ints, spins: Spins | None) -> Sides:
+    """Senses of the open contacts before and after; none is known where the machine does not move."""
+    s = made.s
+    moving = Motion(*(a[open_] for a in s.moving))
+    driven = Driven(*(a[open_] for a in s.driven))
+    known = Senses(*(a[open_] for a in told))
+    spun_: Flags = np.zeros(s.contacts.count, bool)
+    if spins is not None:
+        spun_ = np.asarray(spins.rods.touched.any(axis=0))
+    here = _at(made.along, open_), s.pose.at(open_), moving, driven
+    found = sides(s.c.layout, s.contacts, *here, known, spun_)
+    return found._replace(known=found.known & s.moves[open_][:, None])
+
+
+def _at(along: System, where: Ints) -> System:
+    """The rows at some positions."""
+    return along._replace(on_i=along.on_i[where], on_j=along.on_j[where])
+
+
+def _with_ends(
+    made: _Made, found: Solved, open_: Ints, spins: Spins | None, reversing: Flags | None
+) -> Forces:
+    """Both ends of every unknown at the open positions; where all are one, the number itself."""
+    s, contacts = made.s, made.s.contacts
+    unknowns = range(s.c.layout.constraints.count, made.r.x.shape[-1])
+    part = Response(*(a[open_] for a in made.r))
+    known = Senses(*(a[open_] for a in found.told))
+    ends = [
+        extreme(s.c.layout, contacts, part, known, unknown, end, spins and spins.at(open_))
+        for unknown in unknowns
+        for end in (-1.0, 1.0)
+    ]
+    if not ends:
+        return made.forces(found, reversing)
+    one = _idle(contacts, part, ends[0].slip, known.open)
+    told = found.told._replace(open=_filled(found.told.open, open_[one], np.zeros_like(known.open[one])))
+    main = Solved(_put(found.slip, open_[one], ends[0].slip, one), told, found.locked)
+    whole = [
+        made.forces(
+            Solved(
+                _put(found.slip, open_, end.slip, slice(None)),
+                told._replace(sense=_filled(told.sense, open_, end.sense)),
+                found.locked,
+            ),
+            reversing,
+        )
+        for end in ends
+    ]
+    solved = made.forces(main, reversing)
+    assert solved.friction is not None
+    if spins is None:
+        values = np.stack(
+            [end.slip.x[:, k] for end, k in zip(ends, np.repeat(unknowns, 2), strict=True)], axis=-1
+        )
+        solved.friction.holding[open_] = holding(contacts, part, known, values.reshape((len(values), -1, 2)))
+    return solved._replace(ends=tuple(whole))
+
+
+def _idle(contacts: Contacts, r: Response, slip: Slip, open_: Flags) -> Flags:
+    """Where contacts of unknown sense carry nothing, so that it does not matter."""
+    y = argument(r, slip.c * np.nan_to_num(slip.z))
+    carried = np.where(open_ & (slip.c != 0), np.abs(bearing(contacts, y)), 0.0).max(axis=-1, initial=0.0)
+    return np.asarray(carried <= SAME * np.abs(y).max(axis=(-2, -1), initial=0.0))
+
+
+def _put(whole: Slip, where: Ints, part: Slip, which: Any) -> Slip:
+    return Slip(*(_filled(a, where, b[which]) for a, b in zip(whole, part, strict=True)))
+
+
+def _filled(whole: Array, where: Ints, part: Array) -> Array:
+    out = np.array(whole)
+    out[where] = part
+    return out
+
+
+class Solved(NamedTuple):
+    """Friction under some senses of the contacts; ``locked`` (P,) as in ``Friction``."""
+
+    slip: Slip
+    told: Senses
+    locked: Flags
+
+
+class _Made(NamedTuple):
+    """What does not depend on the senses taken."""
+
+    s: Setting
+    stated: Statement
+    along: System
+    r: Response
+    blocked: Flags
+    bare: Array
+
+    def on_side(self, slip: Slip, told: Senses, turn: Ints, side: Side) -> Solved:
+        """Friction with the senses of a side at the positions ``turn``, as it is elsewhere."""
+        s = self.s
+        here = s._replace(pose=s.pose.at(turn), moving=Motion(*(a[turn] for a in s.moving)))
+        r, own = Response(*(a[turn] for a in self.r)), Side(*(a[turn] for a in side))
+        found, _, part = _slipped(here, _at(self.along, turn), r, own)
+        slip = _put(slip, turn, part, slice(None))
+        told = Senses(*(_filled(a, turn, b) for a, b in zip(told, found, strict=True)))
+        return Solved(slip, told, self.locked(slip, side))
+
+    def locked(self, slip: Slip, side: Side | None = None) -> Flags:
+        """Where friction turns the power of the unknowns round, also without inertia."""
+        s = self.s
+        locked = self._turned(self.stated, self.r, slip)
+        if "inertia" not in s.sources or not locked.any():
+            return locked
+        w = summed(s.c.layout, *(source for kind, source in s.sources.items() if kind != "inertia"))
+        w = np.broadcast_to(w, self.stated.w.shape)
+        still = statement(s.c.layout, s.known, s.pose, s.rows, s.solver, w)
+        rate = rates(self.along, s.moving.twist)
+        r = under(s.c.layout, s.contacts, s.pose, still.forces, still.w, rate, self.r)
+        return locked & self._turned(still, r, _slipped(s, self.along, r, side)[2])
+
+    def _turned(self, stated: Statement, r: Response, slip: Slip) -> Flags:
+        s, bare = self.s, without_friction(self.s.contacts, r)
+        return np.asarray(turned(s.c.layout, stated.unknown, s.moving.twist, stated.w, slip.x, bare))
+
+    def forces(self, found: Solved, reversing: Flags | None = None) -> Forces:
+        """Reactions, efforts and what friction does, of one solution."""
+        s, layout, slip = self.s, self.s.c.layout, found.slip
+        cz = slip.c * slip.z
+        total = self.stated.w + summed(layout, pair(self.along, cz))
+        whole = checked(layout, s.forcing, s.known, s.pose, s.moving, self.stated, slip.x, total)
+        force, couple = reactions(layout, s.pose, s.rows, whole)
+        friction = self._friction(found, cz, reversing)
+        known_by = marks(s.c, s.pose, s.rows, whole.free)
+        force = force + friction.force + friction.viscous_force
+        moment = couple.reshape(friction.moment.shape) + friction.moment + friction.viscous_moment
+        checks = (whole.residual, whole.power_balance, whole.rcond)
+        return Forces(
+            force,
+            moment,
+            whole.effort,
+            whole.load,
+            *checks,
+            *known_by[:2],
+            friction,
+            unique_in=known_by.inside,
+        )
+
+    def _friction(self, found: Solved, cz: Array, reversing: Flags | None) -> Friction:
+        s, contacts, slip, told = self.s, self.s.contacts, found.slip, found.told
+        bare = checked(
+            s.c.layout, s.forcing, s.known, s.pose, s.moving, self.stated, self.bare, self.stated.w
+        )
+        dry = np.where(contacts.fixed, 0.0, cz)
+        joints, link = s.c.layout.joints, s.c.second
+        force, moment = in_joints(s.c.layout, s.pose, self.along, contacts.joint, link, s.c.joint_at, dry)
+        own = viscous(s.c.layout, s.c.damping, s.pose, s.moving.twist, link, s.c.joint_at)
+        return Friction(
+            force,
+            moment,
+            *own[:2],
+            by_joint(contacts.joint, joints, -dry * told.rate),
+            own[2],
+            dry,
+            told.sense,
+            told.rate,
+            argument(self.r, cz),
+            *(slip.determinant, slip.critical, slip.iterations, slip.single),
+            told.open,
+            np.zeros_like(told.open) if reversing is None else reversing,
+            self.blocked,
+            found.locked,
+            bare.effort,
+            bare.load,
+            np.full((len(cz), slip.x.shape[-1] - s.c.layout.constraints.count, 2), np.nan),
+        )
+
+
+def block_size(c: Compiled, most: int) -> int:
+    """Positions at once, so that the matrices H of all stay below a few hundred MB."""
+    if c.contacts is None:
+        return most
+    return max(1, min(most, 10**7 // (c.contacts.count**2 * 3 + 1)))

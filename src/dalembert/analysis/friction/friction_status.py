@@ -1,0 +1,241 @@
+"""What friction does to whole arcs of positions, in sentences: jam, self-locking, efforts left open."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.analysis.closure_failure import drive_text, quantity_text
+from dalembert.analysis.compile.contacts import friction_on
+from dalembert.analysis.friction.joint_friction import holds_beyond
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.errors import ModelError
+
+if TYPE_CHECKING:
+    from dalembert.analysis.compile.compiled_mechanism import Compiled
+    from dalembert.analysis.result.force_arrays import Forces
+    from dalembert.model import Mechanism
+
+
+def refuse_friction(m: Mechanism) -> None:
+    """Equilibrium positions are points only without friction."""
+    if friction_on(m):
+        what = (
+            "a position is asked for and joints have friction: every position of whole arcs is an equilibrium"
+        )
+        remedy = "switch friction off, or ask for the interval of efforts at given positions"
+        raise ModelError(what, remedy, ("drives",))
+
+
+def friction_checks(c: Compiled, f: Forces, solvable: Array) -> list[tuple[str, Any, Callable[[Any], str]]]:
+    """Status, positions and sentence of each thing that friction can do; none without friction."""
+    if f.friction is None:
+        return []
+    jammed, locked = (np.any([ask(side) for side in _sides(f)], axis=0) for ask in (_jams, _locks))
+    return [
+        ("redundant", f.friction.blocked & solvable, lambda k: _blocked_sentence(c)),
+        ("at_rest", f.friction.open.any(axis=-1) & solvable, lambda k: _open_sentence(c, f, k)),
+        ("jammed", jammed & solvable, lambda k: _jam_sentence(c, f, k)),
+        ("self_locking", locked & solvable, lambda k: _locked_sentence(c, f, k)),
+    ]
+
+
+def _sides(f: Forces) -> tuple[Forces, ...]:
+    """Forces just before reversals, and just after."""
+    return (f,) if f.after is None else (f, f.after)
+
+
+def _jams(f: Forces) -> Array:
+    assert f.friction is not None
+    return ~np.isnan(f.friction.critical)
+
+
+def _locks(f: Forces) -> Array:
+    assert f.friction is not None
+    return f.friction.locked
+
+
+def alone(f: Forces) -> Flags:
+    """Positions (P,) with a sentence of their own: contacts reverse, and it is not the same before and after."""
+    if f.friction is None or f.after is None:
+        return np.zeros(len(f.rcond), bool)
+    solved = [~_jams(side) & ~_locks(side) for side in _sides(f)]
+    differs = np.any([ask(f) != ask(f.after) for ask in (_jams, _locks)], axis=0) | (solved[0] & solved[1])
+    return np.asarray(f.friction.reversing.any(axis=-1) & differs)
+
+
+def _side(f: Forces, ask: Callable[[Forces], Array], k: int) -> tuple[Forces, str]:
+    """The side of a position where what is asked is so, and in words where it is one of two."""
+    flags = [bool(ask(side)[k]) for side in _sides(f)]
+    if len(flags) == 1 or flags[0] == flags[1]:
+        return f, ""
+    side, word = (f, "before") if flags[0] else (_sides(f)[1], "after")
+    return side, f", just {word} contacts reverse there"
+
+
+def reversal_checks(c: Compiled, f: Forces) -> list[tuple[str, Any, Callable[[Any], str]]]:
+    """Where contacts reverse, and in words what that does."""
+    if f.friction is None or f.after is None:
+        return []
+    return [("reversal", f.friction.reversing.any(axis=-1), lambda k: _reversal_sentence(c, f, k))]
+
+
+def arc(c: Compiled, run: Ints) -> str:
+    """' between 0 deg and 9 deg of O2', or ' at O2 = 9 deg'."""
+    ends = [(n, *(drive_text(c, int(run[e]), k) for e in (0, -1))) for k, n in enumerate(c.schedule.names)]
+    if not ends:
+        return ""
+    if len(run) == 1:
+        return " at " + " and ".join(f"{n} = {a}" for n, a, _ in ends)
+    return " between " + ", ".join(f"{a} and {b} of {n}" for n, a, b in ends)
+
+
+def _unknowns(c: Compiled) -> list[str]:
+    asked = [n for n, asked in zip(c.schedule.names, c.known.asked, strict=True) if asked]
+    return [*asked, *c.unknown_loads]
+
+
+def _kinds(c: Compiled) -> list[str]:
+    """What the unknowns are: forces or moments."""
+    turns = c.layout.freedoms.angular[c.layout.driven][c.known.asked]
+    return ["moment" if turning else "force" for turning in (*turns, *c.known.couple)]
+
+
+def _jam_sentence(c: Compiled, f: Forces, run: Ints) -> str:
+    f, side = _side(f, _jams, int(run[0]))
+    assert f.friction is not None
+    scale = float(np.nanmin(f.friction.critical[run]))
+    return (
+        f"Friction jams the mechanism{arc(c, run)}{side}: no effort moves it in this sense, whatever its size. "
+        f"It would move with less than {scale:.6g} times the coefficients of friction."
+    )
+
+
+def _locked_sentence(c: Compiled, f: Forces, run: Ints) -> str:
+    f, side = _side(f, _locks, int(run[0]))
+    assert f.friction is not None
+    names = _unknowns(c)
+    with_ = np.concatenate([f.effort[:, c.known.asked], f.load], axis=1)[run]
+    bare = np.concatenate([f.friction.bare_effort[:, c.known.asked], f.friction.bare_load], axis=1)[run]
+    worst = int(np.argmax(np.abs(with_ - bare).sum(axis=1)))
+    figures = ", ".join(
+        f"{name} needs {quantity_text(c, kind, a)} and without friction {quantity_text(c, kind, b)}"
+        for name, kind, a, b in zip(names, _kinds(c), with_[worst], bare[worst], strict=True)
+    )
+    where = "" if len(run) == 1 else arc(c, run[[worst]])
+    return f"Self-locking{arc(c, run)}{side}: the load cannot drive the machine against its friction;{where} {figures}."
+
+
+def _reversal_sentence(c: Compiled, f: Forces, run: Ints) -> str:
+    assert f.friction is not None
+    assert f.after is not None
+    assert c.contacts is not None
+    k = int(run[0])
+    joints = list(dict.fromkeys(c.joints[j] for j in c.contacts.joint[f.friction.reversing[k]]))
+    verb = "reverses" if len(joints) == 1 else "reverse"
+    before, after = (np.concatenate([side.effort[k, c.known.asked], side.load[k]]) for side in (f, f.after))
+    values = _and(
+        [
+            f"{name} is {quantity_text(c, kind, a)} just before and {quantity_text(c, kind, b)} just after"
+            for name, kind, a, b in zip(_unknowns(c), _kinds(c), before, after, strict=True)
+        ]
+    )
+    return f"{_and(joints)} {verb}{arc(c, run)}, and friction there changes its sense: {values}."
+
+
+def _open_sentence(c: Compiled, f: Forces, run: Ints) -> str:
+    assert f.friction is not None
+    open_ = f.friction.open[run]
+    names = _unknowns(c)
+    if not names:
+        return (
+            "Nothing moves in a structure: it holds any load, and friction may take any part of it within its limits. "
+            "Switch it off for the reactions without it. To ask what friction holds, leave out the joint in whose "
+            "place it is to hold, and give the freedom that this leaves a drive without speed."
+        )
+    if not c.schedule.speed[run].any():
+        return _rest_sentence(c, f, run, names)
+    joints = ", ".join(dict.fromkeys(c.joints[k] for k in c.contacts.joint[open_.any(axis=0)]))  # type: ignore[union-attr]
+    verb = "lies in an interval" if len(names) == 1 else "each lie in an interval of their own"
+    return (
+        f"No relative motion in {joints}{arc(c, run)}: the friction there may have any value within its limits, "
+        f"and {_and(names)} {verb}."
+    )
+
+
+def _rest_sentence(c: Compiled, f: Forces, run: Ints, names: list[str]) -> str:
+    """At rest: what holds the machine, and where friction is at its limit."""
+    if len(names) == 1:
+        held = f"any value of {names[0]} between the two impending motions holds the machine"
+        return f"At rest{arc(c, run)}: {held}{_limits(c, f.ends[:2], run)}.{_histories(c, f, run, names)}"
+    limits = "".join(
+        f" For {name}{_limits(c, f.ends[2 * n : 2 * n + 2], run).replace(';', ',', 1)}."
+        for n, name in enumerate(names)
+    )
+    return (
+        f"At rest{arc(c, run)}: {_and(names)} each lie in an interval of their own. At its ends the machine is about "
+        "to move with the other drives held, and what else was asked for has the value given there; not every "
+        f"combination of values within the intervals holds the machine.{limits}{_histories(c, f, run, names)}"
+    )
+
+
+def _histories(c: Compiled, f: Forces, run: Ints, names: list[str]) -> str:
+    """What friction can hold beyond the ends, as an earlier motion left it; nothing where it is no more."""
+    assert f.friction is not None
+    ends = np.stack(
+        [np.concatenate([e.effort[:, c.known.asked], e.load], axis=1)[run] for e in f.ends], axis=-1
+    )
+    ends = np.stack([ends[:, n, 2 * n : 2 * n + 2] for n in range(len(names))], axis=1)
+    held = f.friction.holding[run]
+    beyond = holds_beyond(ends, held)
+    if not beyond.any():
+        return ""
+    if len(run) > 1:
+        count, some = int(beyond.any(axis=-1).sum()), np.flatnonzero(beyond.any(axis=0))
+        where = f"{count} of these {len(run)}" if count < len(run) else "each of these"
+        more = _and([names[n] for n in some])
+        return f" With the right history friction can hold values of {more} beyond them at {where} positions."
+    return "".join(
+        f" Motion impends at {_and([quantity_text(c, kind, v) for v in ends[0, n] if np.isfinite(v)] or ['none'])}; "
+        f"with the right history, friction as an earlier motion left it, {name} can hold "
+        f"{_range_text(c, kind, *held[0, n])}."
+        for n, (name, kind) in enumerate(zip(names, _kinds(c), strict=True))
+        if beyond[0, n]
+    )
+
+
+def _range_text(c: Compiled, kind: str, low: float, high: float) -> str:
+    least, most = (quantity_text(c, kind, v) for v in (low, high))
+    if np.isinf(low) and np.isinf(high):
+        return "any value, its contacts wedged"
+    if np.isinf(low):
+        return f"any value up to {most}, below it with contacts wedged"
+    return f"any value from {least} on, its contacts wedged" if np.isinf(high) else f"from {least} to {most}"
+
+
+def _and(names: list[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+
+
+def _limits(c: Compiled, ends: tuple[Forces, ...], run: Ints) -> str:
+    """Which joints are at their limit at the ends of an unknown."""
+    assert c.contacts is not None
+    parts = []
+    for end, name in zip(ends, ("low", "high"), strict=False):
+        assert end.friction is not None
+        at_limit = (end.friction.sense[run] != 0).any(axis=0) & ~c.contacts.fixed
+        joints = ", ".join(dict.fromkeys(c.joints[k] for k in c.contacts.joint[at_limit]))
+        parts.append(f"at the {name} end friction is at its limit in {joints or 'no joint'}")
+    same = len(parts) == 2 and parts[0].split(" in ")[1] == parts[1].split(" in ")[1]
+    if same:
+        return f"; at both ends friction is at its limit in {parts[0].split(' in ')[1]}"
+    return "".join(f"; {part}" for part in parts)
+
+
+def _blocked_sentence(c: Compiled) -> str:
+    return (
+        "Friction follows reactions that statics does not determine here: constraints are redundant. "
+        "Free a constraint, give the joints a stiffness, or switch friction off."
+    )

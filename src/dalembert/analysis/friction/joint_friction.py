@@ -1,0 +1,233 @@
+"""What friction does in each joint, read from a result: forces, losses, contact of guides, sizes of circles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from dalembert.analysis.compile.contacts import circle
+from dalembert.analysis.plane_only import refuse_space
+from dalembert.arrays import Array
+from dalembert.core.friction.contact_equations import Contacts, bearing, strength
+from dalembert.errors import ModelError
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.force_arrays import Friction
+    from dalembert.analysis.result.result import Result
+
+Loss = Literal["dry", "viscous", "all"]
+
+
+def assumption(result: Result) -> str:
+    """Whether there is friction, and which circle its pins have: 'on, friction circles of R sin(phi)'."""
+    m = result.mechanism
+    if result.friction is None:
+        there = any(getattr(j, "friction", None) is not None for j in m.joints.values())
+        return "off (switched off)" if there and not m.friction.enabled else "off"
+    circles: dict[str, list[str]] = {}
+    for name, joint in m.joints.items():
+        f = getattr(joint, "friction", None)
+        if getattr(f, "radius", None):
+            circles.setdefault("R sin(phi)" if circle(m, joint) == "sin" else "mu R", []).append(name)
+    if len(circles) == 1:
+        return f"on, friction circles of {next(iter(circles))}"
+    parts = [f"of {kind} in {', '.join(names)}" for kind, names in circles.items()]
+    return ", ".join(["on", *(["friction circles " + " and ".join(parts)] if parts else [])])
+
+
+def interval(result: Result, name: str) -> Array:
+    """Low and high end (P, 2) of an effort or unknown load; equal where it is a number."""
+    unknowns = unknown_names(result)
+    if name not in unknowns:
+        raise ModelError(
+            f"{name!r} is neither an effort nor a load that was asked for",
+            f"there are: {', '.join(unknowns)}",
+        )
+
+    def value(r: Result) -> Array:
+        return r.effort(name) if name in r.drives else r.unknown_load(name)
+
+    both = np.stack(result.span(value), axis=-1)
+    if not result.ends:
+        return both
+    ends = np.stack([value(end) for end in result.ends[unknowns.index(name)]], axis=-1)
+    return np.where(result.reverses[:, None], both, ends)
+
+
+def holding(result: Result, name: str) -> Array:
+    """Low and high (P, 2) that friction can hold at rest for some history; the interval where it is a number."""
+    ends = interval(result, name)
+    if result.friction is None:
+        return ends
+    still = np.array([status == "at_rest" for status in result.status])
+    return np.where(still[:, None], result.friction.holding[:, unknown_names(result).index(name)], ends)
+
+
+def holds_beyond(ends: Array, held: Array) -> Array:
+    """Where low and high (..., 2) of what friction can hold lie beyond those at which motion impends."""
+    known = np.where(np.isnan(ends), [-np.inf, np.inf], ends)
+    return np.asarray((held[..., 0] < known[..., 0]) | (held[..., 1] > known[..., 1]))
+
+
+def unknown_names(result: Result) -> list[str]:
+    """Efforts and loads that are asked for, in the order of ``result.ends``."""
+    asked = result.compiled.known.asked
+    return [*(d for d, a in zip(result.drives, asked, strict=True) if a), *result.unknown_loads]
+
+
+def joints_at_limit(result: Result, position: int = 0) -> tuple[str, ...]:
+    """Joints whose friction is at its limit at one end of an interval: ask it of ``result.ends``."""
+    f, contacts = friction_of(result)
+    at_limit = (f.sense[position] != 0) & ~contacts.fixed
+    return tuple(dict.fromkeys(result.joints[k] for k in contacts.joint[at_limit]))
+
+
+def reversing_joints(result: Result, position: int) -> tuple[str, ...]:
+    """Joints whose contacts reverse at a position."""
+    f, contacts = friction_of(result)
+    return tuple(dict.fromkeys(result.joints[k] for k in contacts.joint[f.reversing[position]]))
+
+
+def friction_of(result: Result) -> tuple[Friction, Contacts]:
+    """What friction does at each position, and the contacts it is of; ModelError where there is none."""
+    if result.friction is None or result.compiled.contacts is None:
+        raise ModelError("this result has no friction", "give a joint `friction`, and do not switch it off")
+    return result.friction, result.compiled.contacts
+
+
+def power_lost(result: Result, joint: str, kind: Loss = "all") -> Array:
+    """Power (P,) that friction takes in a joint, W; zero without friction."""
+    k = result.joints.index(joint)
+    f = result.friction
+    if f is None:
+        return np.zeros(len(result.status))
+    parts = {"dry": f.dry_loss, "viscous": f.viscous_loss, "all": f.dry_loss + f.viscous_loss}
+    return np.asarray(parts[kind][:, k])
+
+
+def bearing_contact(result: Result, joint: str, kind: str) -> int:
+    """Index of a joint's contact of a kind."""
+    _, contacts = friction_of(result)
+    for e, found in enumerate(result.compiled.contact_kinds):
+        if result.joints[contacts.joint[e]] == joint and found == kind:
+            return e
+    raise ModelError(
+        f"joint {joint!r} has no friction of a {kind}", "ask a joint that has", ("joints", joint)
+    )
+
+
+def bears_on_faces(result: Result, joint: str) -> bool:
+    """Whether a joint is a slider with friction."""
+    j = result.mechanism.joints[joint]
+    return result.friction is not None and j.type == "slider" and j.friction is not None
+
+
+@dataclass(frozen=True)
+class GuideContact:
+    """Where a guide bears, over P positions.
+
+    normal, couple (P,): of the contact forces about j's point; lower, upper (P,): loads on the two faces, both positive
+    mode: `lower face`, `upper face`, or the diagonals `lower ahead, upper behind` and `lower behind, upper ahead`
+    angle (P,): of the reaction to the normal, atan of friction over normal force
+    """
+
+    normal: Array
+    couple: Array
+    lower: Array
+    upper: Array
+    mode: tuple[str, ...]
+    angle: Array
+
+
+def guide_contact(result: Result, joint: str) -> GuideContact:
+    """Contact of a slider with friction: which faces bear, and how much.
+
+    The lower face pushes j to the left of the direction of the slide. S = max(|N|, |2M - (l2 - l1) N| / (l1 + l2)) is
+    the sum of the contact forces, lower (S + N) / 2 and upper (S - N) / 2.
+    """
+    refuse_space(result.mechanism, "the contact of a guide", "ask friction_force and power_lost of the joint")
+    f, _ = friction_of(result)
+    e = bearing_contact(result, joint, "guide")
+    normal, tilting = f.argument[:, 0, e], f.argument[:, 2, e]
+    total = np.maximum(np.abs(normal), np.abs(tilting))
+    couple = result.reaction_moment(joint) - result.friction_moment(joint)
+    tilted = np.abs(tilting) > np.abs(normal)
+    ahead = np.where(tilting > 0, "lower ahead, upper behind", "lower behind, upper ahead")
+    mode = np.where(tilted, ahead, np.where(normal >= 0, "lower face", "upper face"))
+    angle = np.arctan2(np.abs(f.cz[:, e]), np.abs(normal))
+    lower, upper = (total + normal) / 2, (total - normal) / 2
+    return GuideContact(normal, couple, lower, upper, tuple(str(m) for m in mode), angle)
+
+
+def friction_circle_radius(result: Result, joint: str) -> float:
+    """R sin(phi) or mu R of a pin or revolute, m; 0 without friction, and of other joints in space."""
+    j = result.mechanism.joints[joint]
+    f = getattr(j, "friction", None)
+    if result.friction is None or getattr(f, "radius", None) is None:
+        return 0.0
+    if result.mechanism.dimension == 3 and j.type != "revolute":
+        return 0.0
+    _, contacts = friction_of(result)
+    return float(strength(contacts, 1.0)[bearing_contact(result, joint, "pin")])
+
+
+def friction_circle_radii(result: Result, joint: str) -> Array:
+    """The same at each position (P,): with the coefficient at rest where nothing tells the sense."""
+    if not friction_circle_radius(result, joint):
+        return np.zeros(len(result.status))
+    f, contacts = friction_of(result)
+    e = bearing_contact(result, joint, "pin")
+    return np.asarray(strength(contacts, 1.0, f.open)[:, e])
+
+
+def friction_coefficient(result: Result, joint: str, position: int) -> float:
+    """Coefficient of a joint at a position: that at rest where nothing tells the sense of its friction."""
+    f, contacts = friction_of(result)
+    e = next(n for n, k in enumerate(contacts.joint) if result.joints[k] == joint and not contacts.fixed[n])
+    which = contacts.resting if f.open[position, e] else contacts.coefficient
+    return float(which[e])
+
+
+def friction_sense(result: Result, joint: str, kind: str, position: int) -> float:
+    """Sign of j's motion against i, actual or impending, at a joint's contact of a kind; 0 where there is none."""
+    f, _ = friction_of(result)
+    return float(f.sense[position, bearing_contact(result, joint, kind)])
+
+
+def at_rest(result: Result, joint: str, kind: str, position: int) -> bool:
+    """Whether nothing tells the sense of a joint's contact of a kind but its impending motion."""
+    f, _ = friction_of(result)
+    return bool(f.open[position, bearing_contact(result, joint, kind)])
+
+
+@dataclass(frozen=True)
+class Rub:
+    """One contact of a joint at a position: what it bears and the friction that makes.
+
+    kind: `pin`, `collar`, `guide`, `ball`, `thread`; coefficient mu; bearing S (N), the size of the forces it reads;
+    part: sense of the slip, or the part of its direction along this contact's row; strength c: friction over bearing, m
+    or 1; amount -part c S along its row on j, N or N m.
+    """
+
+    kind: str
+    coefficient: float
+    bearing: float
+    part: float
+    strength: float
+    amount: float
+
+
+def rubs_of(result: Result, joint: str, position: int) -> tuple[Rub, ...]:
+    """The contacts of a joint's dry friction at a position, in the order of its law."""
+    f, contacts = friction_of(result)
+    k, out = result.joints.index(joint), []
+    size = bearing(contacts, f.argument[position])
+    strong = strength(contacts, 1.0, f.open[position], f.sense[position])
+    for e in (e for e in range(contacts.count) if contacts.joint[e] == k and not contacts.fixed[e]):
+        mu = (contacts.resting if f.open[position, e] else contacts.coefficient)[e]
+        part, kind = float(f.sense[position, e]), result.compiled.contact_kinds[e]
+        numbers = (float(size[e]), part, float(strong[e]), float(f.cz[position, e]))
+        out.append(Rub(kind, float(mu), *numbers))
+    return tuple(out)

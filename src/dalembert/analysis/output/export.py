@@ -1,0 +1,291 @@
+"""A result written out: tables (CSV, workbook, DataFrame) and labelled arrays (xarray, netCDF)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.analysis.output.columns import (
+    DRIVE_NUMBERS,
+    EFFORT,
+    LINK_VECTORS,
+    Scale,
+    UnitChoice,
+    columns,
+    drive_kinds,
+    friction_in,
+    link_turning,
+    load_kind,
+    reactions,
+    scale,
+    unknown_kinds,
+)
+from dalembert.analysis.output.json_record import BLOCK, nulled, to_dict, to_json, write_json
+from dalembert.analysis.result.reaction_axes import Axes
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.saving import check_installed, new_file
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+    from dalembert.analysis.result.result import Result
+
+__all__ = [
+    "headings",
+    "rows",
+    "to_csv",
+    "to_dataframe",
+    "to_dict",
+    "to_json",
+    "to_netcdf",
+    "to_xarray",
+    "to_xlsx",
+    "write_csv",
+    "write_json",
+]
+
+
+WORKBOOK_ROWS = 1_048_575
+"""Rows of a worksheet, less its heading."""
+
+
+# tables
+
+
+def headings(
+    result: Result, units: UnitChoice = "SI", axes: Axes = "ground"
+) -> tuple[list[str], list[Array]]:
+    """Names of the columns with their units, and the columns (P,)."""
+    to = scale(result, units)
+    named = [(c.name, to.text(c.kind), to(c.kind, c.values)) for c in columns(result, axes)]
+    return [f"{name} [{unit}]" if unit else name for name, unit, _ in named], [values for *_, values in named]
+
+
+def rows(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Iterator[list[Any]]:
+    """The heading, then one row a position: its number, status, every number (or None), reason."""
+    names, arrays = headings(result, units, axes)
+    yield ["position", "status", *names, "reason"]
+    for start in range(0, len(result.status), BLOCK):
+        lists = [nulled(values[start : start + BLOCK]) for values in arrays]
+        for k, numbers in enumerate(zip(*lists, strict=True), start):
+            yield [k + 1, result.status[k], *numbers, result.reasons[k]]
+
+
+def write_csv(result: Result, stream: IO[str], units: UnitChoice = "SI", axes: Axes = "ground") -> None:
+    """One row a position into an open text file; an empty field where there is no value."""
+    import csv
+
+    csv.writer(stream, lineterminator="\n").writerows(rows(result, units, axes))
+
+
+def to_csv(
+    result: Result,
+    path: str | Path,
+    overwrite: bool = False,
+    units: UnitChoice = "SI",
+    axes: Axes = "ground",
+) -> None:
+    """One row a position as a CSV file, units in the heading."""
+    with new_file(path, overwrite) as temporary, open(temporary, "w", encoding="utf-8", newline="") as stream:
+        write_csv(result, stream, units, axes)
+
+
+def to_xlsx(
+    result: Result,
+    path: str | Path,
+    overwrite: bool = False,
+    units: UnitChoice = "SI",
+    axes: Axes = "ground",
+) -> None:
+    """A workbook: the positions on one sheet, what they rest on on another."""
+    check_installed("openpyxl", "a workbook")
+    from openpyxl import Workbook
+
+    if len(result.status) > WORKBOOK_ROWS:
+        raise ModelError(
+            f"{len(result.status)} positions do not fit a worksheet of {WORKBOOK_ROWS} rows",
+            "write CSV or netCDF",
+        )
+    book = Workbook(write_only=True)
+    sheet = book.create_sheet("positions")
+    sheet.freeze_panes = "C2"
+    for row in rows(result, units, axes):
+        sheet.append(row)
+    about = book.create_sheet("about")
+    for pair in _about(result).items():
+        about.append(pair)
+    with new_file(path, overwrite) as temporary:
+        book.save(temporary)
+
+
+def _about(result: Result) -> dict[str, str]:
+    """What stands beside every table: title, source, assumptions, mobility."""
+    m = result.mechanism
+    about = {"title": m.title or "", "source": m.source_text or "", **result.assumptions}
+    return about | {"mobility": result.mobility.sentence if result.mobility else ""}
+
+
+def to_dataframe(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> pandas.DataFrame:
+    """One row a position, one column a number, units in the names of the columns."""
+    check_installed("pandas", "a DataFrame")
+    import pandas
+
+    names, arrays = headings(result, units, axes)
+    frame = pandas.DataFrame(dict(zip(names, arrays, strict=True)))
+    frame.insert(0, "status", list(result.status))
+    frame.index = pandas.RangeIndex(1, len(frame) + 1, name="position")
+    frame.attrs.update(_about(result))
+    return frame
+
+
+# labelled arrays
+
+
+def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> xarray.Dataset:
+    """Arrays over position, drive, joint, link and component, each with ``attrs["units"]``."""
+    check_installed("xarray", "a dataset")
+    import xarray
+
+    to = scale(result, units)
+    data: dict[str, Any] = {"status": ("position", np.array(result.status, dtype=str))}
+    data |= _drive_arrays(result, to) | _link_arrays(result, to) | _force_arrays(result, to, axes)
+    data |= _joined(result, axes) | _ends(result, to)
+    if result.after is not None:
+        data |= _spans(result, to, axes)
+    data["residual"] = ("position", result.residual, {"units": "1"})
+    data["power_balance"] = ("position", result.power_balance, {"units": "1"})
+    coordinates: dict[str, Any] = {
+        "position": np.arange(1, len(result.status) + 1),
+        "component": list("xyz"[: result.mechanism.dimension]),
+        "link_axis": [] if result.mechanism.dimension == 2 else list("xyz"),
+        "drive": list(result.drives),
+        "joint": list(result.joints),
+        "link": list(result.links),
+    }
+    present = {name: names for name, names in coordinates.items() if len(names)}
+    return xarray.Dataset(data, coords=present, attrs=_about(result) | {"reaction_axes": axes})
+
+
+def _drive_arrays(result: Result, to: Scale) -> dict[str, Any]:
+    """Position, speed and acceleration."""
+    return {f"drive_{name}": array for name, array in _by_drive(result, to, DRIVE_NUMBERS).items()}
+
+
+def _by_drive(result: Result, to: Scale, numbers: dict[str, Any]) -> dict[str, Any]:
+    """Numbers of all drives; drives that turn and that slide differ in their units."""
+    if not result.drives:
+        return {}
+    out: dict[str, Any] = {}
+    for name, read in numbers.items():
+        kinds = [drive_kinds(result, drive)[name] for drive in result.drives]
+        stacked = np.stack(
+            [to(k, read(result, d)) for k, d in zip(kinds, result.drives, strict=True)], axis=1
+        )
+        texts = [to.text(kind) for kind in kinds]
+        unit = texts[0] if len(set(texts)) == 1 else "of each drive: " + ", ".join(texts)
+        out[name] = (("position", "drive"), stacked, {"units": unit})
+    return out
+
+
+def _force_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
+    """Efforts, unknown loads, reactions, and what friction does in the joints."""
+    out = _by_drive(result, to, EFFORT)
+    out |= _joint_arrays(result, to, axes) | _friction_arrays(result, to, axes)
+    for load in result.unknown_loads:
+        kind = load_kind(result, load)
+        values = to(kind, result.unknown_load(load))
+        out[f"unknown_load_{load}"] = ("position", values, {"units": to.text(kind)})
+    return out
+
+
+def _spans(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
+    """Low and high of the numbers just before and just after reversals; elsewhere twice the number itself."""
+    sides = [_force_arrays(side, to, axes) for side in result.sides]
+    out: dict[str, Any] = {}
+    for name, (over, before, units) in sides[0].items():
+        for word, of in (("low", np.minimum), ("high", np.maximum)):
+            out[f"{name}_{word}"] = (over, of(before, sides[1][name][1]), units)
+    return out
+
+
+def _joint_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
+    """Reactions on each joint's j."""
+    found = list(reactions(result, axes))
+    if not found:
+        return {}
+    force = to("force", np.stack([r.force for r in found], axis=1))
+    moment = to("moment", np.stack([r.moment for r in found], axis=1))
+    return {
+        "reaction": (("position", "joint", "component"), force, {"units": to.text("force")}),
+        "reaction_moment": (_over("joint", moment), moment, {"units": to.text("moment")}),
+    }
+
+
+def _joined(result: Result, axes: Axes) -> dict[str, Any]:
+    """The link that each joint's reaction is on, and the one it is by."""
+    found = list(reactions(result, axes))
+    if not found:
+        return {}
+    return {
+        "reaction_on": ("joint", [r.on for r in found]),
+        "reaction_by": ("joint", [r.by for r in found]),
+    }
+
+
+def _friction_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
+    """What dry friction does in each joint, on j, and the power that all friction takes."""
+    if result.friction is None:
+        return {}
+    parts = [friction_in(result, joint, axes) for joint in result.joints]
+    force = to("force", np.stack([part for part, _ in parts], axis=1))
+    moment = to("moment", np.stack([part for _, part in parts], axis=1))
+    lost = to("power", np.stack([result.power_lost(j) for j in result.joints], axis=1))
+    return {
+        "friction_force": (("position", "joint", "component"), force, {"units": to.text("force")}),
+        "friction_moment": (_over("joint", moment), moment, {"units": to.text("moment")}),
+        "power_lost": (("position", "joint"), lost, {"units": to.text("power")}),
+    }
+
+
+def _ends(result: Result, to: Scale) -> dict[str, Any]:
+    """Ends of the efforts and loads that friction leaves open at rest."""
+    out: dict[str, Any] = {}
+    for name, kind in unknown_kinds(result).items() if result.ends else ():
+        for k, end in enumerate(("low", "high")):
+            values = to(kind, result.interval(name)[:, k])
+            out[f"{name}_{end}_end"] = ("position", values, {"units": to.text(kind)})
+    return out
+
+
+def _link_arrays(result: Result, to: Scale) -> dict[str, Any]:
+    if not result.links:
+        return {}
+    out: dict[str, Any] = {}
+    for name, (kind, read) in {**link_turning(result), **LINK_VECTORS}.items():
+        stacked = np.stack([read(result, link) for link in result.links], axis=1)
+        out[f"link_{name}"] = (_over("link", stacked), to(kind, stacked), {"units": to.text(kind)})
+    return out
+
+
+def _over(what: str, values: Array) -> tuple[str, ...]:
+    """Dimensions of numbers, vectors or rotations of each link or joint: rows are ground components."""
+    return ("position", what, "component", "link_axis")[: values.ndim]
+
+
+def to_netcdf(
+    result: Result,
+    path: str | Path,
+    overwrite: bool = False,
+    units: UnitChoice = "SI",
+    axes: Axes = "ground",
+) -> None:
+    """The labelled arrays as a netCDF file."""
+    check_installed("h5netcdf", "a netCDF file")
+    dataset = to_xarray(result, units, axes)
+    with new_file(path, overwrite) as temporary:
+        dataset.to_netcdf(temporary, engine="h5netcdf")

@@ -1,0 +1,358 @@
+"""The JSON answer of the model file's contract (section 6), made position by position."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.analysis.compile.torsion_turns import counted_turns, two_ways
+from dalembert.analysis.friction.joint_friction import bears_on_faces, guide_contact, joints_at_limit
+from dalembert.analysis.output.columns import (
+    DRIVE_NUMBERS,
+    LINK_VECTORS,
+    Scale,
+    UnitChoice,
+    drive_kinds,
+    force_and_moment,
+    friction_in,
+    in_plane,
+    link_turning,
+    load_kind,
+    reactions,
+    rubbing_joints,
+    scale,
+    unknown_kinds,
+)
+from dalembert.analysis.result.joint_freedoms import whole_pose
+from dalembert.analysis.result.reaction_axes import Axes
+from dalembert.arrays import Array
+from dalembert.saving import new_file
+from dalembert.units import KINDS
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+
+BLOCK = 1024
+"""Positions turned into Python objects at once: of a hundred thousand few stand in memory together."""
+
+
+def to_dict(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> dict[str, Any]:
+    """The JSON answer of the model file's contract (section 6); None where there is no value."""
+    return {**head(result, units, axes), "positions": list(position_records(result, units, axes))}
+
+
+def head(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> dict[str, Any]:
+    """What stands before the positions: title, units, assumptions, mobility."""
+    to = scale(result, units)
+    mobility = result.mobility
+    return {
+        "dalembert": 1,
+        "title": result.mechanism.title,
+        "units": "SI" if units == "SI" else {kind: to.text(kind) for kind in KINDS if to.text(kind)},
+        "reaction_axes": axes,
+        "friction": not result.assumptions["friction"].startswith("off"),
+        "assumptions": dict(result.assumptions),
+        "mobility": None
+        if mobility is None
+        else {
+            "freedoms": mobility.freedoms,
+            "drives": mobility.drives,
+            "redundant": mobility.redundant,
+            "redundant_joints": list(mobility.redundant_joints),
+            **({} if in_plane(result) else {"passive": list(mobility.passive)}),
+        },
+        "assembly_mode": result.mode,
+        **_counts(result, to),
+    }
+
+
+def _counts(result: Result, to: Scale) -> dict[str, Any]:
+    """How the turns of torsion springs were counted, where there are any that whole turns make different."""
+    c, turns = result.compiled, counted_turns(result.compiled, whole_pose(result))
+    found = {
+        n.spring: {
+            "joint": c.freedoms[c.forcing.resistances.row[n.place]][0],
+            "freedom": c.freedoms[c.forcing.resistances.row[n.place]][1],
+            "within_half_a_turn_of": float(to("angle", n.near)),
+            "stated": n.stated,
+            "two_readings": two_ways(c, n, turns[n.spring]),
+        }
+        for n in c.counts
+    }
+    return {"counted_turns": found} if found else {}
+
+
+def position_records(
+    result: Result, units: UnitChoice = "SI", axes: Axes = "ground", others: bool = False
+) -> Iterator[dict[str, Any]]:
+    """One mapping a position, made a block at a time; ``others`` seeks the other solutions of friction."""
+    fields = _fields(result, scale(result, units), axes)
+    sought = _other_solutions(result, scale(result, units)) if others else {}
+    for start in range(0, len(result.status), BLOCK):
+        part = slice(start, start + BLOCK)
+        yield from (
+            _with_others(_record(result, start + k, group), sought.get(start + k))
+            for k, group in enumerate(_transposed({name: lists(part) for name, lists in fields.items()}))
+        )
+
+
+Lists = Callable[[slice], list[Any]]
+
+
+def _fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], Lists]:
+    """Keys down the record -> its values of some positions, as lists with None for NaN."""
+
+    numbers = _numbers(to)
+    out: dict[tuple[str, ...], Lists] = {}
+    for drive in result.drives:
+        kinds = drive_kinds(result, drive)
+        for name, of in DRIVE_NUMBERS.items():
+            out["drives", drive, name] = numbers(kinds[name], of(result, drive))
+    out |= {path: numbers(kind, values) for path, (kind, values) in _unknowns(result).items()}
+    if result.after is not None:
+        out |= _side_fields(result, to, axes)
+    for name, kind in unknown_kinds(result).items() if result.ends else ():
+        group = "efforts" if name in result.drives else "unknown_loads"
+        out[group, name] = _ranges(out[group, name], numbers(kind, result.interval(name)), result.status)
+        out["holding", name] = _sought(numbers(kind, result.holding(name)), result.holding(name))
+    out |= _reaction_fields(result, to, axes)
+    for name, ends in zip(unknown_kinds(result), result.ends, strict=False):
+        for which, end in zip(("low", "high"), ends, strict=True):
+            for path, lists in _reaction_fields(end, to, axes).items():
+                out["ends", name, which, *path] = lists
+            out["ends", name, which, "at_limit"] = _limits(end)
+    for link in result.links:
+        for name, (kind, read) in {**LINK_VECTORS, **link_turning(result)}.items():
+            out["links", link, name] = numbers(kind, read(result, link))
+    for spring, turn in counted_turns(result.compiled, whole_pose(result)).items():
+        out["spring_turns", spring] = numbers("angle", turn)
+    out["residual",] = numbers("number", result.residual)
+    out["power_balance",] = numbers("number", result.power_balance)
+    return out
+
+
+Numbers = dict[tuple[str, ...], tuple[str, Array]]
+
+
+def _unknowns(result: Result) -> Numbers:
+    """Kind and values of the efforts and unknown loads."""
+    out: Numbers = {}
+    for drive in result.drives:
+        out["efforts", drive] = drive_kinds(result, drive)["effort"], result.effort(drive)
+    for load in result.unknown_loads:
+        out["unknown_loads", load] = load_kind(result, load), result.unknown_load(load)
+    return out
+
+
+def _side_fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], Lists]:
+    """Everything just after reversals, and the low and the high of both sides."""
+    numbers = _numbers(to)
+    before, after = (_unknowns(side) | _joint_numbers(side, axes) for side in result.sides)
+    out: dict[tuple[str, ...], Lists] = {}
+    for path, (kind, values) in _unknowns(result.sides[1]).items():
+        out["after", *path] = numbers(kind, values)
+    for path, lists in _reaction_fields(result.sides[1], to, axes).items():
+        out["after", *path] = lists
+    for path, (kind, values) in before.items():
+        out["low", *path] = numbers(kind, np.minimum(values, after[path][1]))
+        out["high", *path] = numbers(kind, np.maximum(values, after[path][1]))
+    for name in ("residual", "power_balance"):
+        out["after", name] = numbers("number", getattr(result.sides[1], name))
+    return out
+
+
+def _joint_numbers(result: Result, axes: Axes) -> Numbers:
+    """Kind and values of the reactions, and of friction's part of them."""
+    out: Numbers = {}
+    for r in reactions(result, axes):
+        out["reactions", r.joint, "force"] = "force", r.force
+        out["reactions", r.joint, "moment"] = "moment", r.moment
+    for joint in rubbing_joints(result):
+        at = "reactions", joint, "friction"
+        force, moment = friction_in(result, joint, axes)
+        out[*at, "force"], out[*at, "moment"] = ("force", force), ("moment", moment)
+        out[*at, "power_lost"] = "power", result.power_lost(joint)
+    return out
+
+
+def _reaction_fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], Lists]:
+    """Reactions, and what friction does in them."""
+
+    numbers = _numbers(to)
+    out: dict[tuple[str, ...], Lists] = {
+        path: numbers(kind, values) for path, (kind, values) in _joint_numbers(result, axes).items()
+    }
+    for r in reactions(result, axes):
+        if r.least_norm is not None:
+            force, moment = force_and_moment(r.least_norm)
+            out["reactions", r.joint, "least_norm", "force"] = numbers("force", force)
+            out["reactions", r.joint, "least_norm", "moment"] = numbers("moment", moment)
+        if axes == "joint":
+            own, of_moment = (result.joint_axes(r.joint, moment) for moment in (False, True))
+            out["reactions", r.joint, "axes"] = numbers("number", own)
+            if not np.array_equal(own, of_moment, equal_nan=True):
+                out["reactions", r.joint, "moment_axes"] = numbers("number", of_moment)
+    for joint in rubbing_joints(result):
+        if bears_on_faces(result, joint):
+            contact = guide_contact(result, joint)
+            out["reactions", joint, "contact", "mode"] = _words(contact.mode)
+            out["reactions", joint, "contact", "lower"] = numbers("force", contact.lower)
+            out["reactions", joint, "contact", "upper"] = numbers("force", contact.upper)
+    return out
+
+
+def _numbers(to: Scale) -> Callable[[str, Array], Lists]:
+    """A kind and SI values -> some positions' values in the reader's unit."""
+
+    def numbers(kind: str, values: Array) -> Lists:
+        scaled = to(kind, values)
+        return lambda part: nulled(scaled[part])
+
+    return numbers
+
+
+def _words(words: tuple[str, ...]) -> Lists:
+    return lambda part: list(words[part])
+
+
+def _limits(end: Result) -> Lists:
+    """Joints whose friction is at its limit, position by position."""
+    return lambda part: [list(joints_at_limit(end, k)) for k in range(*part.indices(len(end.status)))]
+
+
+def _ranges(single: Lists, ends: Lists, status: tuple[str, ...]) -> Lists:
+    """The number, or `[low, high]` where friction leaves it open."""
+
+    def lists(part: slice) -> list[Any]:
+        rows = zip(single(part), ends(part), status[part], strict=True)
+        return [both if word == "at_rest" else number for number, both, word in rows]
+
+    return lists
+
+
+def _sought(ends: Lists, values: Array) -> Lists:
+    """`[low, high]`, where nothing bounds it null; None where it is not sought."""
+    unsought = np.asarray(np.isnan(values).all(axis=-1))
+    return lambda part: [None if no else both for both, no in zip(ends(part), unsought[part], strict=True)]
+
+
+def nulled(values: Array) -> list[Any]:
+    """A list with None for NaN and infinity."""
+    finite = np.isfinite(values)
+    if finite.all():
+        return list(values.tolist())
+    out = values.astype(object)
+    out[~finite] = None
+    return list(out.tolist())
+
+
+def _transposed(lists: dict[tuple[str, ...], list[Any]]) -> Iterator[dict[tuple[str, ...], Any]]:
+    for row in zip(*lists.values(), strict=True):
+        yield dict(zip(lists, row, strict=True))
+
+
+def _record(result: Result, position: int, values: dict[tuple[str, ...], Any]) -> dict[str, Any]:
+    status, reason = result.status[position], result.reasons[position]
+    record: dict[str, Any] = {"drives": {}, "status": status}
+    if reason is not None:
+        record["reason"] = reason
+    if result.stability is not None and result.stability[position] is not None:
+        record["stability"] = result.stability[position]
+    record |= {"efforts": {}, "unknown_loads": {}, "reactions": {}, "links": {}}
+    for joint in result.joints:
+        by, on = result.mechanism.joints[joint].links
+        record["reactions"][joint] = {"on": on, "by": by}
+    reverses = bool(result.reverses[position])
+    if result.friction is not None:
+        record["friction"] = _solution(result, position)
+    if reverses and result.after is not None:
+        record["after"] = {"friction": _solution(result.after, position)}
+    for path, value in values.items():
+        if path[0] in ("ends", "holding") and (status != "at_rest" or value is None):
+            continue
+        if path[0] in SIDES and not reverses:
+            continue
+        place = record
+        for key in path[:-1]:
+            place = place.setdefault(key, {})
+        place[path[-1]] = value
+    return record
+
+
+SIDES = ("after", "low", "high")
+"""Keys of a position where contacts reverse: what holds just after, and the low and the high of both sides."""
+
+
+def _solution(result: Result, position: int) -> dict[str, Any]:
+    """How sure the branch is: det(A + J) / det(A), whether no other exists, and the scale at which it jams."""
+    f = result.friction
+    assert f is not None
+    determinant, critical = nulled(np.array([f.determinant[position], f.critical[position]]))
+    if result.status[position] == "at_rest":
+        determinant = None
+    return {
+        "determinant_ratio": determinant,
+        "only_solution": bool(f.single[position]),
+        "critical_scale": critical,
+    }
+
+
+def _other_solutions(result: Result, to: Scale) -> dict[int, list[dict[str, Any]]]:
+    """What `--other-solutions` found at each position where it had to seek."""
+    from dalembert.analysis.friction.other_solutions import every_other_solution
+
+    kinds = unknown_kinds(result)
+    return {
+        k: [
+            {
+                group: {
+                    name: float(to(kinds[name], v))
+                    for name, v in s.unknowns.items()
+                    if (name in result.drives) == drive
+                }
+                for group, drive in (("efforts", True), ("unknown_loads", False))
+            }
+            | {"determinant_ratio": s.determinant}
+            for s in found
+        ]
+        for k, found in every_other_solution(result).items()
+    }
+
+
+def _with_others(record: dict[str, Any], others: list[dict[str, Any]] | None) -> dict[str, Any]:
+    if others is not None:
+        record["friction"]["other_solutions"] = others
+    return record
+
+
+def write_json(
+    result: Result,
+    stream: IO[str],
+    units: UnitChoice = "SI",
+    axes: Axes = "ground",
+    others: bool = False,
+) -> None:
+    """The JSON answer into an open text file, one position a line."""
+    opening = json.dumps(head(result, units, axes), ensure_ascii=False, allow_nan=False, indent=1)
+    stream.write(opening.removesuffix("\n}") + ',\n "positions": [')
+    for k, record in enumerate(position_records(result, units, axes, others)):
+        stream.write((",\n  " if k else "\n  ") + json.dumps(record, ensure_ascii=False, allow_nan=False))
+    stream.write("]}\n")
+
+
+def to_json(
+    result: Result,
+    path: str | Path,
+    overwrite: bool = False,
+    units: UnitChoice = "SI",
+    axes: Axes = "ground",
+    others: bool = False,
+) -> None:
+    """The JSON answer as a file."""
+    with new_file(path, overwrite) as temporary, open(temporary, "w", encoding="utf-8") as stream:
+        write_json(result, stream, units, axes, others)

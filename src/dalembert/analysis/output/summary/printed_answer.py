@@ -1,0 +1,295 @@
+"""The answer as a person reads it: what was assumed, one position in full or many in a table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.analysis.friction.joint_friction import reversing_joints
+from dalembert.analysis.output.columns import (
+    UnitChoice,
+    drive_kinds,
+    in_plane,
+    load_kind,
+    reactions,
+    unknown_kinds,
+)
+from dalembert.analysis.output.summary.printed_friction import (
+    branch_note,
+    efficiency_note,
+    friction_table,
+    open_text,
+)
+from dalembert.analysis.output.summary.printed_in_space import (
+    NOT_UNIQUE,
+    space_link_tables,
+    space_reaction_tables,
+)
+from dalembert.analysis.output.summary.printed_series import position_tables, where
+from dalembert.analysis.output.summary.printed_units import (
+    Printed,
+    motion_only,
+    printed,
+    significant,
+    without_reactions,
+)
+from dalembert.analysis.result.reaction_axes import Axes
+from dalembert.printing import number, remainder, rounded, table, tables, with_unit, wrapped
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+
+def answer_text(
+    result: Result, units: UnitChoice = "file", axes: Axes = "ground", every: bool = False
+) -> str:
+    """The whole answer as text."""
+    to = printed(result, units)
+    parts = [heading(result)]
+    if len(result.status) == 1:
+        parts += _one(result, to, axes)
+    else:
+        parts += position_tables(result, to, axes, every)
+    parts += [reversals_text(result, to), problems_text(result, to)]
+    parts += [wrapped(branch_note(result)), checks_text(result)]
+    return "\n\n".join(part for part in parts if part)
+
+
+def heading(result: Result) -> str:
+    """Title, source, what was assumed, mobility, assembly mode."""
+    m = result.mechanism
+    assumed = ", ".join(f"{name} {value}" for name, value in result.assumptions.items())
+    lines = [m.title, m.source_text, f"Assumptions: {assumed}"]
+    if result.mobility is not None:
+        lines.append(_sentence(result.mobility.sentence))
+    if result.mode:
+        lines.append(_sentence(result.mode))
+    return "\n".join(wrapped(line, "  ") for line in lines if line)
+
+
+def _sentence(text: str) -> str:
+    return text[:1].upper() + text[1:]
+
+
+# one position
+
+
+def _one(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
+    status = result.status[0]
+    if result.drives:
+        yield _drive_table(result, to)
+    if status == "not_assembled":
+        return
+    if result.unknown_loads:
+        yield _load_table(result, to)
+    rubbed = result.friction is not None and result.friction.known(0)
+    if status == "at_rest" and result.ends:
+        yield from _ends(result, to, axes)
+    elif result.joints and not without_reactions(result):
+        for side, words in zip(result.sides, ("Just before:", "Just after:"), strict=False):
+            yield from [words] if result.reverses[0] else []
+            yield _reactions(side, to, axes)
+            if rubbed:
+                yield friction_table(side, to)
+    if status != "at_rest" and rubbed:
+        yield wrapped(efficiency_note(result))
+    if result.links:
+        yield (_link_tables if in_plane(result) else space_link_tables)(result, to)
+
+
+def _drive_table(result: Result, to: Printed) -> str:
+    rows = []
+    for drive in result.drives:
+        kinds = drive_kinds(result, drive)
+        values = {
+            "position": result.drive_position(drive),
+            "speed": result.drive_speed(drive),
+            "acceleration": result.drive_acceleration(drive),
+            "effort": significant(result, kinds["effort"], result.effort(drive)),
+        }
+        if motion_only(result):
+            del values["effort"]
+        cells = [with_unit(float(to(kinds[n], v[0])), to.text(kinds[n]), 7) for n, v in values.items()]
+        if drive in unknown_kinds(result):
+            cells[-1] = open_text(result, drive, to) or cells[-1]
+        rows.append([drive, *cells, *([result.stability[0] or "-"] if result.stability else [])])
+    heads = [
+        "drive",
+        "position",
+        "speed",
+        "acceleration",
+        *([] if motion_only(result) else ["effort"]),
+        *(["stability"] if result.stability else []),
+    ]
+    return tables(heads, rows, 1)
+
+
+def _load_table(result: Result, to: Printed) -> str:
+    def value(name: str) -> str:
+        if there := open_text(result, name, to):
+            return there
+        kind = load_kind(result, name)
+        return with_unit(
+            float(to(kind, significant(result, kind, result.unknown_load(name)[0]))), to.text(kind)
+        )
+
+    rows = [[name, value(name)] for name in result.unknown_loads]
+    return table(["unknown load", "value"], rows)
+
+
+def _ends(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
+    """Reactions at both ends of each unknown that friction leaves open."""
+    for name, ends in zip(unknown_kinds(result), result.ends, strict=True):
+        for which, end in zip(("low", "high"), ends, strict=True):
+            yield f"At the {which} end of {name}:"
+            yield _reactions(end, to, axes)
+
+
+def _reactions(result: Result, to: Printed, axes: Axes) -> str:
+    if in_plane(result):
+        return _reaction_table(result, to, axes)
+    sized = [
+        r._replace(
+            force=significant(result, "force", r.force[0]),
+            moment=significant(result, "moment", r.moment[0]),
+        )
+        for r in reactions(result, axes)
+    ]
+    return space_reaction_tables(sized, to, axes)
+
+
+def _reaction_table(result: Result, to: Printed, axes: Axes) -> str:
+    force, moment, angle = to.text("force"), to.text("moment"), to.text("angle")
+    heads = ["joint", "by i", "on j", f"F_ij x\n{force}", f"F_ij y\n{force}", f"|F_ij|\n{force}"]
+    heads += [f"direction\n{angle}", f"moment\n{moment}"]
+    rows, least = [], []
+    for r in reactions(result, axes):
+        f, m = significant(result, "force", r.force[0]), significant(result, "moment", r.moment[0])
+        rows.append([r.joint, r.by, r.on, *_wrench(f, float(m), to)])
+        if r.least_norm is not None and np.isfinite(r.least_norm[0]).any():
+            least.append([r.joint, r.by, r.on, *_wrench(r.least_norm[0, :2], r.least_norm[0, 2], to)])
+    where = "ground axes" if axes == "ground" else "the axes of link j"
+    note = f"F_ij is the force by link i on link j, in {where}; moments about j's point of the joint."
+    shown = f"{tables(heads, rows, 3)}\n{wrapped(note)}"
+    if least:
+        shown += f"\n\n{NOT_UNIQUE}\n\n" + tables(heads, least, 3)
+    return shown
+
+
+def _wrench(force: Any, moment: float, to: Printed) -> list[str]:
+    """x, y, magnitude, direction, moment as text."""
+    x, y = rounded(to("force", force))
+    size = float(np.hypot(x, y))
+    direction = float(to("angle", np.arctan2(y, x))) if size else 0.0
+    return [number(v) for v in (x, y, size, direction, float(to("moment", moment)))]
+
+
+def _largest(values: Any) -> float:
+    return float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0
+
+
+def _link_tables(result: Result, to: Printed) -> str:
+    def of_all(question: Any) -> Any:
+        return np.array([np.atleast_1d(question(link)[0]) for link in result.links])
+
+    columns = [
+        (["angle"], "angle", of_all(result.angle)),
+        (["speed"], "angular_speed", of_all(result.speed)),
+        (["acceler."], "angular_acceleration", of_all(result.acceleration)),
+        (["center x", "center y"], "length", of_all(result.center)),
+        (["its acc. x", "its acc. y"], "acceleration", of_all(result.center_acceleration)),
+    ]
+    heads, cells = ["link"], [[link] for link in result.links]
+    for names, kind, values in columns:
+        heads += [f"{name}\n{to.text(kind)}" for name in names]
+        size = 1.0 if kind == "angle" else _largest(values)
+        for row, vector in zip(cells, values, strict=True):
+            row += [number(float(v), 5) for v in to(kind, np.array(rounded(vector, size)))]
+    return tables(heads, cells, 1)
+
+
+# what did not work, and how far the rest can be trusted
+
+
+def problems_text(result: Result, to: Printed) -> str:
+    """Runs of positions that are not ok, with their sentence."""
+    lines = []
+    for which, status, sentence in result.problems():
+        said = any(f"{text} {d}" in sentence for d in result.drives for text in ("of", "at"))
+        at = "" if said else _range(result, to, which)
+        place = "" if len(result.status) == 1 else f" position{'s' if '-' in which else ''} {which}{at}:"
+        lines.append(wrapped(f"{status}:{place} {sentence}", "  "))
+    return "\n".join(lines)
+
+
+def _range(result: Result, to: Printed, which: str) -> str:
+    if len(result.drives) != 1:
+        return ""
+    ends: Sequence[str] = [where(result, to, int(k) - 1) for k in which.split("-")]
+    return f" ({result.drives[0]} {' to '.join(ends)})"
+
+
+NOT_IN_FULL = {
+    "redundant": "solved but for the reactions that are not unique",
+    "self_locking": "solved, self-locking",
+    "at_rest": "solved to an interval",
+}
+"""Statuses that come with an answer all the same, in the words that count them."""
+
+
+def _count(result: Result) -> str:
+    """How many positions are solved, and what became of the others."""
+    many, solved = len(result.status), int(result.ok.sum())
+    if many == 1:
+        return ""
+    if solved == many:
+        return f"{solved} of {many} positions solved"
+    answered = np.isfinite(result.power_balance) | np.isfinite(result.effort_array).any(axis=-1)
+    said = [
+        NOT_IN_FULL[s] if s in NOT_IN_FULL and (known or s == "at_rest") else "without an answer"
+        for s, known in zip(result.status, answered, strict=True)
+        if s != "ok"
+    ]
+    others = "; ".join(f"{said.count(words)} {words}" for words in dict.fromkeys(said))
+    return f"{solved} of {many} positions solved in full; {others}"
+
+
+def checks_text(result: Result) -> str:
+    """How many positions are solved, and the worst residual and power balance of what is solved."""
+    found = [
+        (n, v[np.isfinite(v)])
+        for n, v in (("residual", result.residual), ("power balance", result.power_balance))
+    ]
+    shown = ", ".join(
+        f"{name} {remainder(float(np.abs(values).max()), 1)}" for name, values in found if values.size
+    )
+    count = _count(result)
+    between = "; " if ";" in count else ", "
+    return wrapped(_sentence(between.join(filter(None, (count, shown)))) + ".") if count or shown else ""
+
+
+MOST_NAMED = 8
+"""Reversals that are named one by one."""
+
+
+def reversals_text(result: Result, to: Printed) -> str:
+    """Which contacts reverse where, and how that is shown; the sentence itself of a single position."""
+    places = np.flatnonzero(result.reverses)
+    if not places.size or len(result.status) == 1:
+        return wrapped(result.reasons[0] or "", "  ") if places.size and result.ok[0] else ""
+    by_joints: dict[str, list[str]] = {}
+    for k in places:
+        by_joints.setdefault(", ".join(reversing_joints(result, int(k))), []).append(
+            where(result, to, int(k))
+        )
+    parts = [
+        f"{joints} at {', '.join(at[:MOST_NAMED])}"
+        + (f" and {len(at) - MOST_NAMED} more" if at[MOST_NAMED:] else "")
+        for joints, at in by_joints.items()
+    ]
+    words = (
+        "friction there changes its sense; given are the numbers just before, and under them those just after"
+    )
+    return wrapped(f"Reversal of {'; '.join(parts)}: {words}.", "  ")

@@ -1,0 +1,138 @@
+"""What friction does, as a person reads it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.analysis.compile.contacts import coefficient
+from dalembert.analysis.friction.joint_friction import bears_on_faces, friction_circle_radius, guide_contact
+from dalembert.analysis.output.columns import Scale, rubbing_joints, unknown_kinds
+from dalembert.printing import number, tables, with_unit
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+
+def ends_text(result: Result, name: str, to: Any, position: int = 0) -> str:
+    """'-7304 to -4522 N*m'; a dash where no value holds."""
+    kind = unknown_kinds(result)[name]
+    low, high = (number(float(v)) for v in to(kind, result.interval(name)[position]))
+    return f"{low} to {high} {to.text(kind)}"
+
+
+def open_text(result: Result, name: str, to: Any) -> str:
+    """At the first position of two numbers: the interval at rest, both sides of a reversal; '' where there is one."""
+    if result.status[0] == "at_rest":
+        return ends_text(result, name, to)
+    if not result.reverses[0]:
+        return ""
+    kind = unknown_kinds(result)[name]
+    values = (
+        side.effort(name) if name in result.drives else side.unknown_load(name) for side in result.sides
+    )
+    return " / ".join(number(float(to(kind, v[0]))) for v in values) + f" {to.text(kind)}"
+
+
+def with_ends(result: Result, to: Any, position: int, cells: list[str]) -> list[str]:
+    """A row of the table of positions with intervals where friction leaves efforts and unknown loads open."""
+    names = [*result.drives, *result.unknown_loads]
+    out = list(cells)
+    for k, name in enumerate(names, len(result.drives)):
+        if result.ends and name in unknown_kinds(result):
+            ends = to(unknown_kinds(result)[name], result.interval(name)[position])
+            out[k] = " to ".join(number(float(end), 5) for end in ends)
+    return out
+
+
+def branch_note(result: Result) -> str:
+    """Where the solution is the physical one of possibly several."""
+    f = result.friction
+    if f is None:
+        return ""
+    several = ~f.single & np.isfinite(f.cz).all(axis=-1) & np.isnan(f.critical)
+    if not several.any():
+        return ""
+    which = "here" if len(several) == 1 else f"at {int(several.sum())} positions"
+    return (
+        f"Friction is so strong {which} that its equations may have other solutions: given is the physical one, "
+        "continued from no friction (`--other-solutions` seeks the others, in Python `da.other_solutions`)."
+    )
+
+
+NOTHING = 1e-9
+"""An efficiency below this is rounding."""
+
+
+def efficiency_note(result: Result) -> str:
+    """Efficiency at a single position in both senses; without speed there is none."""
+    from dalembert.analysis.friction.efficiency import efficiency
+
+    if not (result.schedule.speed != 0).any():
+        return ""
+    found = efficiency(result)
+    held = " (0 or less: self-locking)" if found.reverse[0] <= 0 else ""
+    senses = ((found.forward[0], "drive moves the load"), (found.reverse[0], f"load moves the drive{held}"))
+    parts = [
+        f"{number(100 * float(value), 4)} % where the {words}"
+        for value, words in senses
+        if np.isfinite(value)
+    ]
+    return f"Efficiency, without inertia: {'; '.join(parts)}." if parts else ""
+
+
+def cycle_text(result: Result, to: Any) -> str:
+    """What each joint's friction takes over all positions, and the efficiency."""
+    from dalembert.analysis.friction.efficiency import efficiency
+
+    if result.friction is None or not (result.schedule.speed != 0).any():
+        return ""
+    found = efficiency(result)
+    if not np.isfinite(found.cycle):
+        return ""
+    unit = to("moment", 1.0)
+    rows = [
+        [joint, number(share * found.put_in * unit), f"{number(100 * share, 4)} %"]
+        for joint, share in found.share.items()
+        if joint in rubbing_joints(result)
+    ]
+    heads = ["friction over\nthe positions", f"work lost\n{to.text('moment')}", "of the work\nput in"]
+    cycle = 0.0 if abs(found.cycle) < NOTHING else 100 * found.cycle
+    words = f"Efficiency over the positions, inertia and all: {number(cycle, 4)} %."
+    return f"{tables(heads, rows, 1)}\n{words}"
+
+
+def friction_table(result: Result, to: Any) -> str:
+    """Friction force, couple and lost power of each joint at the first position, and how guides bear."""
+    heads = ["friction", "on j", f"force\n{to.text('force')}", f"couple\n{to.text('moment')}"]
+    heads += [f"power lost\n{to.text('power')}", "law"]
+    rows = []
+    for joint in rubbing_joints(result):
+        part = result.mechanism.joints[joint]
+        force = float(to("force", np.linalg.norm(result.friction_force(joint)[0])))
+        turning = result.friction_moment(joint)[0]
+        couple = float(to("moment", np.linalg.norm(turning) if np.ndim(turning) else turning))
+        lost = float(to("power", result.power_lost(joint)[0]))
+        law = friction_text(result, joint, to)
+        if bears_on_faces(result, joint):
+            law += f", {guide_contact(result, joint).mode[0]}"
+        rows.append([joint, part.links[1], number(force), number(couple), number(lost), law])
+    return tables(heads, rows, 2)
+
+
+def friction_text(result: Result, joint: str, to: Scale) -> str:
+    """The friction of a joint in words: 'mu 0.1, friction circle 2 mm', in space also 'collar 15 mm'."""
+    part = result.mechanism.joints[joint]
+    friction: Any = getattr(part, "friction", None)
+    if friction is None:
+        return "viscous"
+    sizes = {
+        "friction circle": friction_circle_radius(result, joint),
+        "thread": friction.radius if part.type == "screw" else None,
+        "collar": getattr(friction, "thrust_radius", None),
+    }
+    shown = [
+        f"{name} {with_unit(to('length', size), to.text('length'))}" for name, size in sizes.items() if size
+    ]
+    return ", ".join([f"mu {coefficient(result.mechanism, part):.6g}", *shown])

@@ -1,0 +1,25 @@
+"""How well the closure equations hold: what is left of the joints' and drives' conditions at each position."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.result.joint_freedoms import whole_pose
+from dalembert.arrays import Array
+from dalembert.core.position.newton import gap
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+
+def closure_gap(r: Result) -> Array:
+    """Largest gap of the closure equations (P,), m; angles count as arcs of the mechanism's characteristic length.
+
+    >>> import dalembert as da
+    >>> bool(closure_gap(da.kinematics(da.four_bar())).max() < 1e-12)
+    True
+    """
+    found = gap(r.compiled.layout, whole_pose(r), r.compiled.targets)
+    return np.asarray(np.abs(found).max(axis=-1, initial=0.0))

@@ -1,0 +1,84 @@
+"""Forces at some positions as arrays, and what friction does there."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags, Ints
+
+
+class Friction(NamedTuple):
+    """What friction does at each position.
+
+    force (P, joints, 2), moment (P, joints): dry friction on j, moment about j's point; viscous beside it
+    dry_loss, viscous_loss (P, joints): power
+    cz, sense, rate (P, E), argument (P, 3, E) of each contact
+    determinant, critical, iterations, single (P,): of the solution (core.friction.friction_solver)
+    open (P, E): contacts at rest, whose sense nothing tells; reversing (P, E): contacts that only reverse here, so that
+    these are the numbers just before, and others hold just after; blocked (P,): their reactions are not unique
+    locked (P,): the unknowns' power has the other sign than without friction, with and without inertia
+    bare_effort (P, D), bare_load (P, U): without friction
+    holding (P, unknowns, 2): low and high that friction can hold at rest for some history (core.friction.holding_range)
+    """
+
+    force: Array
+    moment: Array
+    viscous_force: Array
+    viscous_moment: Array
+    dry_loss: Array
+    viscous_loss: Array
+    cz: Array
+    sense: Array
+    rate: Array
+    argument: Array
+    determinant: Array
+    critical: Array
+    iterations: Ints
+    single: Flags
+    open: Flags
+    reversing: Flags
+    blocked: Flags
+    locked: Flags
+    bare_effort: Array
+    bare_load: Array
+    holding: Array
+
+    def known(self, position: int) -> bool:
+        """Whether every contact has its numbers at a position."""
+        return bool(np.isfinite(self.cz[position]).all())
+
+
+class Forces(NamedTuple):
+    """Forces of some positions; ``ends``: the low and high end of each unknown where friction leaves it open;
+    ``after``: just after positions where contacts reverse, the same elsewhere."""
+
+    force: Array
+    moment: Array
+    effort: Array
+    load: Array
+    residual: Array
+    power_balance: Array
+    rcond: Array
+    unique: Array | None
+    unique_unknowns: Array | None
+    friction: Friction | None = None
+    ends: tuple[Forces, ...] = ()
+    unique_in: Array | None = None
+    after: Forces | None = None
+
+
+def joined(parts: list[Forces]) -> Forces:
+    """Blocks of positions one after the other."""
+    if len(parts) == 1:
+        return parts[0]
+    count = max(len(p.ends) for p in parts)
+    ends = tuple(joined([p.ends[k] if p.ends else p for p in parts]) for k in range(count))
+    friction = [p.friction for p in parts if p.friction is not None]
+    whole = Friction(*(np.concatenate(a) for a in zip(*friction, strict=True))) if friction else None
+    arrays = (None if a[0] is None else np.concatenate(a) for a in zip(*(p[:9] for p in parts), strict=True))
+    inside = [p.unique_in for p in parts if p.unique_in is not None]
+    made: Any = Forces._make([*arrays, whole, ends, np.concatenate(inside) if inside else None, None])
+    some = any(p.after is not None for p in parts)
+    return made._replace(after=joined([p.after or p for p in parts]) if some else None)  # type: ignore[no-any-return]

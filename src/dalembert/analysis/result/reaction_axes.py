@@ -1,0 +1,143 @@
+"""Reactions of a result in any axes: ground's, those of the link acted on, in space the joint's own.
+
+A wrench is (force, moment about j's point of the joint): three numbers in the plane, six in space.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Literal, NamedTuple
+
+import numpy as np
+
+from dalembert.algebra import plane
+from dalembert.analysis.compile.pair_table import local_axes
+from dalembert.analysis.result.joint_freedoms import whole_pose
+from dalembert.arrays import Array, Flags
+from dalembert.core.equilibrium import shifts, unique
+from dalembert.core.gear_rows import gearings, own_axes
+from dalembert.core.layout import Pose, System
+from dalembert.errors import ModelError
+
+if TYPE_CHECKING:
+    from dalembert.analysis.compile.compiled_mechanism import Compiled
+    from dalembert.analysis.result.result import Result
+
+Axes = Literal["ground", "link", "joint"]
+
+PARTS = (slice(0, 3), slice(3, 6))
+"""Force and moment of a wrench in space."""
+
+PLACES = ("i", "j", "joint")
+"""Axes other than ground's in which uniqueness is known: of both links of each joint, and its own."""
+
+
+def in_axes(c: Compiled, pose: Pose, shift: Array) -> Iterator[Array]:
+    """Changes (P, joints, 6, X) of the reactions in the axes of link i, of link j, and of the joint."""
+    rows = c.layout.constraints
+    ends = {int(k): (int(i), int(j)) for k, i, j in zip(rows.joint, *rows.ends, strict=True) if k >= 0}
+    for place in PLACES:
+        turned = np.empty_like(shift)
+        for k in range(c.layout.joints):
+            for part in PARTS:
+                axes = _axes(c, k, pose, place, ends.get(k, (0, 0)), part is PARTS[1])
+                turned[:, k, part] = axes @ shift[:, k, part]
+        yield turned
+
+
+class Marks(NamedTuple):
+    """What statics alone determines: components (P, joints, n) of reactions, other unknowns (P, X - K), and in space
+    components (P, joints, 3, 6) in the axes of ``PLACES``."""
+
+    reactions: Array | None
+    others: Array | None
+    inside: Array | None
+
+
+def marks(c: Compiled, pose: Pose, rows: System, free: Array | None) -> Marks:
+    """Of the projector (P, X, X) on free multipliers; nothing where there is none."""
+    if free is None:
+        return Marks(None, None, None)
+    shift, others = shifts(c.layout, pose, rows, free)
+    inside = [unique(turned) for turned in in_axes(c, pose, shift)] if c.geometries else []
+    return Marks(unique(shift), others, np.stack(inside, axis=-2) if inside else None)
+
+
+def _axes(c: Compiled, k: int, pose: Pose, place: str, ends: tuple[int, int], moment: bool = False) -> Array:
+    """Axes (P, 3, 3), a row each, in ground axes, from the poses of all links."""
+    i, j = (pose.rotation[..., end, :] for end in ends)
+    if place == "joint" and c.mechanism.joints[c.joints[k]].type == "gear":
+        rows = c.layout.constraints
+        f, mesh = next(
+            (f, m) for f in gearings(c.layout) for m, row in enumerate(f.row) if rows.joint[row] == k
+        )
+        return np.asarray(own_axes(c.layout.algebra, f, pose)[..., mesh, :, :])
+    if place == "joint":
+        return local_axes(c.mechanism.joints[c.joints[k]], c.geometries[k], i, j, moment)
+    r = i if place == "i" else j
+    return np.swapaxes(r.reshape((*r.shape[:-1], 3, 3)), -1, -2)
+
+
+def axes_of(result: Result, joint: str, place: str, moment: bool = False) -> Array:
+    """Axes (P, 3, 3), a row each, in ground axes, of a joint in space: of its link "i" or "j", or its own "joint".
+
+    Those of its ``moment`` are others in one pair only (``pairs.local_axes``).
+    """
+    c = result.compiled
+    if not c.geometries:
+        raise ModelError("a joint of the plane has no axes of its own", "take ground's or the link's")
+    index = {name: k for k, name in enumerate(c.links)} | {"ground": len(c.links)}
+    i, j = (index[name] for name in c.mechanism.joints[joint].links)
+    return _axes(c, c.joints.index(joint), whole_pose(result), place, (i, j), moment)
+
+
+def wrench(result: Result, joint: str, on: str | None, axes: Axes, least: bool = False) -> Array:
+    """Wrench of a joint on one of its links (P, n), default on j, NaN in components that are not unique.
+
+    ``least`` gives least-norm numbers in their places.
+    """
+    g, k = result.compiled.layout.algebra, result.joints.index(joint)
+    by, to = result.mechanism.joints[joint].links
+    moment = result.moment_array[..., k, None] if g.d == 2 else result.moment_array[..., k, :]
+    whole = (-1.0 if on == by else 1.0) * np.concatenate([result.force_array[..., k, :], moment], axis=-1)
+    if g.d == 2:
+        kept = whole if least else np.where(result.unique(joint), whole, np.nan)
+        return turned(result, joint, on, axes, kept)
+    whole = turned(result, joint, on, axes, whole)
+    return whole if least else np.where(unique_in(result, joint, _place(axes, by, on or to)), whole, np.nan)
+
+
+def _place(axes: Axes, by: str, on: str) -> str:
+    """The place that axes are of: the ground, the joint, its link i or its link j."""
+    return axes if axes != "link" else "i" if on == by else "j"
+
+
+def turned(result: Result, joint: str, on: str | None, axes: Axes, whole: Array) -> Array:
+    """A force (P, d) or wrench (P, n) of a joint on one of its links, default on j, from ground axes to others."""
+    by, to = result.mechanism.joints[joint].links
+    place = _place(axes, by, on or to)
+    if place == "ground":
+        return whole
+    if result.compiled.layout.algebra.d == 2:
+        return _turned(result, on or to, whole) if place != "joint" else axes_of(result, joint, place)
+    parts = np.split(whole, whole.shape[-1] // 3, axis=-1)
+    turns = [axes_of(result, joint, place, bool(moment)) for moment in range(len(parts))]
+    turned = [(turn @ part[..., None])[..., 0] for turn, part in zip(turns, parts, strict=True)]
+    return np.concatenate(turned, axis=-1)
+
+
+def unique_in(result: Result, joint: str, place: str) -> Flags:
+    """Which components (P, n) of a joint's wrench statics alone determines, in the axes of a place."""
+    k = result.joints.index(joint)
+    if result.unique_array is None:
+        return np.ones((*result.force_array.shape[:-2], result.compiled.layout.algebra.n), bool)
+    if place == "ground" or result.unique_in is None:
+        return np.asarray(result.unique_array[..., k, :])
+    return np.asarray(result.unique_in[..., k, PLACES.index(place), :])
+
+
+def _turned(result: Result, link: str, whole: Array) -> Array:
+    if link == "ground":
+        return whole
+    force = plane.unrotate(plane.rotation(result.angle(link)), whole[..., :2])
+    return np.concatenate([force, whole[..., 2:]], axis=-1)

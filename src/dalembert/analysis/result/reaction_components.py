@@ -1,0 +1,83 @@
+"""In space: the unknown components of joints' reactions, as the table of pairs names them, and how many there are.
+
+A joint that carries all three forces (or moments) has them along any axes; one that carries fewer has them along its
+own local axes, marked by a prime: x'. A screw's force along its axis brings its couple with it; the teeth of a gear
+press along one line.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from dalembert.analysis.compile.pair_table import AXES, PAIRS, Pair, pair_of
+from dalembert.analysis.methods.applied_forces import Action
+from dalembert.analysis.result.reaction_axes import axes_of
+from dalembert.arrays import Array
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+
+class Component(NamedTuple):
+    """One unknown number of a reaction at a position.
+
+    turning: a moment; axis: its letter, with a prime along the joint's own axes, empty of a gear; force, couple (3,):
+    of one unit of it on the link acted on, at the joint's place, ground axes; value: N or N m.
+    """
+
+    turning: bool
+    axis: str
+    force: Array
+    couple: Array
+    value: float
+
+    @property
+    def own(self) -> bool:
+        """Whether it has a direction of its own, and is not one of three along any axes."""
+        return self.axis not in AXES or not self.axis
+
+
+def table_row(joint: Any) -> Pair:
+    """Forces and moments that a joint carries along its axes; of a gear none by name."""
+    return pair_of(joint) if joint.type in PAIRS else Pair("", "")
+
+
+def local_words(joint: Any) -> str:
+    """What a joint's own axes are, in words."""
+    return PAIRS[joint.type].local if joint.type in PAIRS else "x radial, y tangential, z along the axis of i"
+
+
+def unknown_count(r: Result, joint: str) -> int:
+    """How many constraints a joint has, and so how many unknown components its reaction."""
+    return int((r.compiled.layout.constraints.joint == r.joints.index(joint)).sum())
+
+
+def components(r: Result, a: Action, k: int, axes: Array) -> tuple[Component, ...]:
+    """The unknown components of a joint's action on a link at position k; three of a kind along ``axes`` (3, 3)."""
+    described: Any = r.mechanism.joints[a.of]
+    if described.type not in PAIRS:
+        size = math.hypot(*a.force[k])
+        unit = a.force[k] / size if size else np.zeros(3)
+        return (Component(False, "", unit, np.zeros(3), size),)
+    pair, out = pair_of(described), []
+    for turning, letters, vector in ((False, pair.forces, a.force[k]), (True, pair.moments, a.couple[k])):
+        whole = letters == AXES and described.type != "screw"
+        rows = axes if whole else axes_of(r, a.of, "joint", turning)[k]
+        for letter in letters:
+            e = rows[AXES.index(letter)]
+            force, couple = (np.zeros(3), e) if turning else (e, np.zeros(3))
+            if described.type == "screw" and not turning and letter == "x":
+                couple = -described.lead / (2 * math.pi) * e
+            name = letter if whole else f"{letter}'"
+            out.append(Component(turning, name, force, couple, float(vector @ e)))
+    return tuple(out)
+
+
+def left_over(a: Action, k: int, some: tuple[Component, ...]) -> tuple[Array, Array]:
+    """Force and couple (3,) of a joint's action that no unknown component makes: damping within the reaction."""
+    force = a.force[k] - sum((c.value * c.force for c in some), np.zeros(3))
+    couple = a.couple[k] - sum((c.value * c.couple for c in some), np.zeros(3))
+    return force, couple

@@ -1,0 +1,312 @@
+"""What an analysis answers: arrays with names, a status and a sentence a position."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from dalembert.analysis.result.link_motion import LinkMotion, place_of
+from dalembert.arrays import Array, Flags
+from dalembert.errors import SOLVED, ModelError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    import pandas
+    import xarray
+
+    from dalembert.analysis.compile.compiled_mechanism import Compiled
+    from dalembert.analysis.degree_of_freedom import Mobility
+    from dalembert.analysis.result.force_arrays import Friction
+    from dalembert.analysis.result.reaction_axes import Axes
+    from dalembert.model import Schedule
+
+
+@dataclass(frozen=True, repr=False)
+class Result(LinkMotion):
+    """Answer of one analysis over P positions (a leading axis design may stand before position).
+
+    Everything in SI and radians, vectors in ground axes. A reaction is what a joint's other link exerts on the link
+    asked for, at that link's point of the joint. NaN where there is no value; ``status`` and ``reasons`` say why.
+    Where contacts reverse the numbers are those just before, and ``after`` is the whole result with those just after.
+    """
+
+    compiled: Compiled
+    inertia: bool
+    mobility: Mobility | None
+    mode: str | None
+    status: tuple[str, ...]
+    reasons: tuple[str | None, ...]
+    point_array: Array  # (P, L, 2) links' reference points
+    turn_array: Array  # (P, L) links' angles; in space (P, T) the followed relative ones
+    rotation_array: Array  # (P, L, 2) cosine and sine; in space (P, L, 9) matrices
+    twist_array: Array  # (P, L, 3); in space 6
+    acceleration_array: Array  # (P, L, 3); in space 6
+    force_array: Array  # (P, joints, 2) on j; in space 3
+    moment_array: Array  # (P, joints); in space (P, joints, 3)
+    effort_array: Array  # (P, D)
+    load_array: Array  # (P, U)
+    residual: Array
+    power_balance: Array
+    unique_array: Flags | None = None  # (P, joints, 3)
+    unique_unknowns: Flags | None = None  # (P, D asked + U)
+    unique_in: Flags | None = None  # in space (P, joints, 3, 6): AXES
+    stability: tuple[str | None, ...] | None = None
+    friction: Friction | None = None
+    ends: tuple[tuple[Result, Result], ...] = ()
+    after: Result | None = None
+
+    def __str__(self) -> str:
+        """What `dalembert solve` prints."""
+        from dalembert.analysis.output.summary.printed_answer import answer_text
+
+        return answer_text(self)
+
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{self.status.count(s)} {s}" for s in dict.fromkeys(self.status))
+        return f"<Result of {self.mechanism.title or 'a mechanism'!r}: positions {counts}>"
+
+    # what was asked
+
+    @property
+    def schedule(self) -> Schedule:
+        """Positions, speeds and accelerations of the drives."""
+        return self.compiled.schedule
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Names of the joints."""
+        return self.compiled.joints
+
+    @property
+    def drives(self) -> tuple[str, ...]:
+        """Names of the drives."""
+        return tuple(self.schedule.names)
+
+    @property
+    def unknown_loads(self) -> tuple[str, ...]:
+        """Names of the loads that were asked for."""
+        return self.compiled.unknown_loads
+
+    @cached_property
+    def assumptions(self) -> dict[str, str]:
+        """What the numbers rest on, each as a phrase."""
+        from dalembert.analysis.output.assumptions import assumptions
+
+        return assumptions(self)
+
+    @property
+    def ok(self) -> Flags:
+        """Which positions are solved, at a reversal for both sides of it."""
+        return np.array([s in SOLVED for s in self.status])
+
+    @property
+    def reverses(self) -> Flags:
+        """Positions where contacts reverse, so that friction has other numbers just before and just after."""
+        if self.after is None or self.friction is None:
+            return np.zeros(len(self.status), bool)
+        return np.asarray(self.friction.reversing.any(axis=-1))
+
+    @property
+    def sides(self) -> tuple[Result, ...]:
+        """Two results, with the numbers just before reversals and just after; the result alone where there are none."""
+        return (self,) if self.after is None else (replace(self, after=None), self.after)
+
+    @property
+    def before(self) -> Result:
+        """The result with only the numbers just before reversals, as ``after`` has those just after."""
+        return self.sides[0]
+
+    def span(self, read: Callable[[Result], Array]) -> tuple[Array, Array]:
+        """Low and high of what ``read`` takes from a result: just before and just after reversals, else one number."""
+        from dalembert.analysis.result import outcome
+
+        return outcome.span(self, read)
+
+    def problems(self) -> list[tuple[str, str, str]]:
+        """Runs of positions that are not ok: which ("3" or "3-7", counted from 1), status, sentence."""
+        from dalembert.analysis.result import outcome
+
+        return outcome.problems(self)
+
+    # drives and unknown loads
+
+    def drive_position(self, drive: str) -> Array:
+        """Position of a drive (P,), rad or m."""
+        return np.asarray(self.schedule.position[:, place_of(self.drives, drive, "drive")])
+
+    def drive_speed(self, drive: str) -> Array:
+        """Speed of a drive (P,), rad/s or m/s."""
+        return np.asarray(self.schedule.speed[:, place_of(self.drives, drive, "drive")])
+
+    def drive_acceleration(self, drive: str) -> Array:
+        """Acceleration of a drive (P,), rad/s2 or m/s2."""
+        return np.asarray(self.schedule.acceleration[:, place_of(self.drives, drive, "drive")])
+
+    def effort(self, drive: str) -> Array:
+        """Torque (N m) or force (N) of a drive on link j of its joint (P,), positive with the freedom."""
+        k = place_of(self.drives, drive, "drive")
+        return self._masked_unknown(self.effort_array[..., k], self._unknown_place(k))
+
+    def unknown_load(self, name: str) -> Array:
+        """Value of a load that was asked for (P,), N along its direction, or N m."""
+        k = place_of(self.unknown_loads, name, "unknown load")
+        asked = int(self.compiled.known.asked.sum())
+        return self._masked_unknown(self.load_array[..., k], asked + k)
+
+    def _unknown_place(self, drive: int) -> int | None:
+        asked = self.compiled.known.asked
+        return int(asked[:drive].sum()) if asked[drive] else None
+
+    def _masked_unknown(self, value: Array, place: int | None) -> Array:
+        if self.unique_unknowns is None or place is None:
+            return np.asarray(value)
+        return np.where(self.unique_unknowns[..., place], value, np.nan)
+
+    # reactions
+
+    def reaction(self, joint: str, on: str | None = None, axes: Axes = "ground") -> Array:
+        """Force of a joint on one of its links (P, d), default on j; NaN in components that are not unique.
+
+        Asking ``on`` the other link changes the sign, nothing else. ``axes="link"`` gives components in the axes of
+        the link acted on, in space ``axes="joint"`` in the joint's own.
+        """
+        return self._wrench(joint, on, axes)[..., : self._d]
+
+    def reaction_moment(self, joint: str, on: str | None = None, axes: Axes = "ground") -> Array:
+        """Moment of a joint on one of its links about j's point of the joint: (P,), in space (P, 3)."""
+        if self._d == 2:
+            return self._wrench(joint, on, "ground")[..., 2]
+        return self._wrench(joint, on, axes)[..., 3:]
+
+    def unique(self, joint: str) -> Flags:
+        """Which components of a joint's force and moment, in ground axes, statics alone determines (P, n)."""
+        from dalembert.analysis.result.reaction_axes import unique_in
+
+        self._joint(joint, None)
+        return unique_in(self, joint, "ground")
+
+    def least_norm(self, joint: str, on: str | None = None, axes: Axes = "ground") -> Array:
+        """Force and moment of a joint with the smallest sum of squares where they are not unique (P, n)."""
+        return self._wrench(joint, on, axes, least=True)
+
+    def _wrench(self, joint: str, on: str | None, axes: Axes, least: bool = False) -> Array:
+        from dalembert.analysis.result.reaction_axes import wrench
+
+        self._joint(joint, on)
+        return wrench(self, joint, on, axes, least)
+
+    def joint_axes(self, joint: str, moment: bool = False) -> Array:
+        """In space: a joint's own axes x, y, z (P, 3, 3), a row each, in ground axes.
+
+        Those of its ``moment`` are others in one joint only, the slotted sphere in a cylinder.
+        """
+        from dalembert.analysis.result.reaction_axes import axes_of
+
+        self._joint(joint, None)
+        return axes_of(self, joint, "joint", moment)
+
+    def _joint(self, joint: str, on: str | None) -> tuple[int, float]:
+        k = place_of(self.joints, joint, "joint")
+        i, j = self.mechanism.joints[joint].links
+        if on not in (None, i, j):
+            raise ModelError(
+                f"joint {joint!r} does not act on {on!r}", f"it joins {i} and {j}", ("joints", joint)
+            )
+        return k, -1.0 if on == i else 1.0
+
+    # friction
+
+    def friction_force(self, joint: str, on: str | None = None) -> Array:
+        """Dry friction's part of a joint's force on one of its links (P, 2), default on j, ground axes."""
+        k, sign = self._joint(joint, on)
+        return (
+            sign * (np.zeros_like(self.force_array) if self.friction is None else self.friction.force)[:, k]
+        )
+
+    def friction_moment(self, joint: str, on: str | None = None) -> Array:
+        """Dry friction's couple in a joint on one of its links (P,), in space (P, 3), default on j."""
+        k, sign = self._joint(joint, on)
+        return (
+            sign * (np.zeros_like(self.moment_array) if self.friction is None else self.friction.moment)[:, k]
+        )
+
+    def power_lost(self, joint: str, kind: Literal["dry", "viscous", "all"] = "all") -> Array:
+        """Power that friction takes in a joint (P,), W."""
+        from dalembert.analysis.friction import joint_friction
+
+        self._joint(joint, None)
+        return joint_friction.power_lost(self, joint, kind)
+
+    def interval(self, name: str) -> Array:
+        """Low and high end (P, 2) where motion impends, or one number twice; ``ends`` has the whole result there."""
+        from dalembert.analysis.friction import joint_friction
+
+        return joint_friction.interval(self, name)
+
+    def holding(self, name: str) -> Array:
+        """Low and high (P, 2) of what friction can hold at rest for some history: ``interval`` or more.
+
+        Infinite where the contacts wedge and hold any value; NaN where it is not sought.
+        """
+        from dalembert.analysis.friction import joint_friction
+
+        return joint_friction.holding(self, name)
+
+    # joints' freedoms
+
+    def freedom(self, joint: str, kind: str) -> tuple[Array, Array, Array]:
+        """Value, rate and second rate of a joint's freedom `slide` or `turn`, each (P,)."""
+        from dalembert.analysis.result.joint_freedoms import freedom_motion
+
+        return freedom_motion(self, joint, kind)
+
+    # summaries and files
+
+    def worst(self, quantity: Literal["effort", "reaction", "moment"], of: str) -> tuple[float, int]:
+        """Largest magnitude over the positions, both sides of reversals counted, and the position (from 0) of it."""
+        from dalembert.analysis.result import outcome
+
+        return outcome.worst(self, quantity, of)
+
+    def to_dict(self, units: Literal["SI", "file"] = "SI", axes: Axes = "ground") -> dict[str, Any]:
+        """The JSON answer of the model file's contract."""
+        from dalembert.analysis.output import export
+
+        return export.to_dict(self, units, axes)
+
+    def to_dataframe(self, units: Literal["SI", "file"] = "SI", axes: Axes = "ground") -> pandas.DataFrame:
+        """One row a position, one column a quantity."""
+        from dalembert.analysis.output import export
+
+        return export.to_dataframe(self, units, axes)
+
+    def to_xarray(self, units: Literal["SI", "file"] = "SI", axes: Axes = "ground") -> xarray.Dataset:
+        """Labelled arrays with units in their attributes."""
+        from dalembert.analysis.output import export
+
+        return export.to_xarray(self, units, axes)
+
+    def to_csv(self, path: str | Path, overwrite: bool = False, units: Literal["SI", "file"] = "SI") -> None:
+        """Write one row a position."""
+        from dalembert.analysis.output import export
+
+        export.to_csv(self, path, overwrite=overwrite, units=units)
+
+    def to_xlsx(self, path: str | Path, overwrite: bool = False, units: Literal["SI", "file"] = "SI") -> None:
+        """Write a workbook."""
+        from dalembert.analysis.output import export
+
+        export.to_xlsx(self, path, overwrite=overwrite, units=units)
+
+    def to_netcdf(
+        self, path: str | Path, overwrite: bool = False, units: Literal["SI", "file"] = "SI"
+    ) -> None:
+        """Write labelled arrays."""
+        from dalembert.analysis.output import export
+
+        export.to_netcdf(self, path, overwrite=overwrite, units=units)

@@ -1,1 +1,0 @@
-"""A result as a person reads it: tables and sentences, printed by the command line and by `print(result)`."""

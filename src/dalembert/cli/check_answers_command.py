@@ -1,0 +1,69 @@
+"""`dalembert check-answers`: a student's figures against ours."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from dalembert.errors import ModelError
+from dalembert.printing import table
+
+if TYPE_CHECKING:
+    from dalembert.grading.mistakes import Verdict
+
+
+def graded(file: Path, answers: Path | None, interactive: bool, static: bool, friction: bool = True) -> int:
+    """Compare figures with what is computed; 1 where one is not right."""
+    from dalembert.cli.model_argument import loaded
+    from dalembert.grading.mistakes import check_answers, figures
+    from dalembert.model.files.model_files import read_file
+
+    m = loaded(file, friction)
+    if interactive:
+        tree: Any = _asked(m, static)
+    elif answers is None:
+        raise ModelError("check-answers needs a file of answers", "name one, or answer with --interactive")
+    else:
+        tree, _ = read_file(answers)
+    found = check_answers(m, figures(tree), static)
+    print(_text(found))
+    return 0 if all(v.right for v in found) else 1
+
+
+def _asked(m: Any, static: bool) -> dict[str, dict[str, Any]]:
+    """Ask for every effort and joint force; an empty line skips one, the end of the input all that follow."""
+    from dalembert.analysis import solve
+
+    r = solve(m, static=static)
+    form = "size @ angle" if m.dimension == 2 else "x, y, z"
+    asked = [("effort", d, f"Effort of {d} (a number, or with its unit; empty to skip): ") for d in r.drives]
+    asked += [("unknown_load", name, f"Load {name}: ") for name in r.unknown_loads]
+    for joint in r.joints:
+        i, j = m.joints[joint].links
+        asked.append(("reaction", joint, f"Joint {joint}, force of {i} on {j} ({form}): "))
+    out: dict[str, dict[str, Any]] = {"effort": {}, "unknown_load": {}, "reaction": {}}
+    for quantity, name, question in asked:
+        try:
+            said = input(question).strip()
+        except EOFError:
+            print()
+            break
+        if said:
+            parts = [part.strip() for part in said.strip("[]").split(",")]
+            out[quantity][name] = parts if quantity == "reaction" and len(parts) > 1 else said
+    return out
+
+
+def _text(found: list[Verdict]) -> str:
+    rows = [
+        [v.quantity, v.given, v.computed, "right" if v.right else f"off by {100 * v.off:.2g} %"]
+        for v in found
+    ]
+    said = [f"{v.quantity}: {v.mistake}." for v in found if not v.right]
+    right = sum(v.right for v in found)
+    parts = [
+        table(["answer", "yours", "computed", "verdict"], rows, left=1),
+        *said,
+        f"{right} of {len(found)} right.",
+    ]
+    return "\n\n".join(parts[:1]) + "\n\n" + "\n".join(parts[1:])

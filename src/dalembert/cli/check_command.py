@@ -1,0 +1,177 @@
+"""`dalembert check` and `dalembert validate`: answers compared, as one table."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from dalembert.errors import DalembertError, ModelError
+from dalembert.printing import table, wrapped
+
+if TYPE_CHECKING:
+    from dalembert.grading.file_answers import Row
+
+ENDINGS = (".yaml", ".yml", ".json", ".toml")
+
+
+def checked(files: Sequence[Path], every: bool, friction: bool = True) -> int:
+    """Compare the answers of files and folders; 1 where one disagrees, 2 where a file is wrong."""
+    if not files:
+        raise ModelError("check needs a file or a folder", "for example: dalembert check four_bar.yaml")
+    found = list(_model_files(files))
+    rows, wrong = _compared(found, friction)
+    if rows or not wrong:
+        print(_text(rows, every or len(found) == 1))
+    return 2 if wrong else 0 if all(row.ok for row in rows) else 1
+
+
+def validated() -> int:
+    """Compare the answers of every bundled case; 1 on any failure."""
+    from dalembert.bundled import cases
+
+    started = time.perf_counter()
+    found = cases()
+    rows, wrong = _compared(list(found.values()))
+    failed = [row for row in rows if not row.ok]
+    print(_text(rows, every=True))
+    print(_installation())
+    seconds = time.perf_counter() - started
+    good = bool(rows) and not failed and not wrong
+    counted = f"{len(found)} problems, {f'{wrong} of them not read, ' if wrong else ''}{len(rows)} answers"
+    print(f"{'PASSED' if good else 'FAILED'}: {counted}, {seconds:.1f} s")
+    return 0 if good else 1
+
+
+def _model_files(named: Iterable[Path]) -> Iterator[Path]:
+    for path in named:
+        if path.is_dir():
+            inside = sorted(p for p in path.rglob("*") if p.suffix in ENDINGS)
+            if not inside:
+                raise ModelError(f"there is no model file in {path}", f"they end in {', '.join(ENDINGS)}")
+            yield from inside
+        else:
+            yield path
+
+
+def _compared(files: Sequence[Path], friction: bool = True) -> tuple[list[Row], int]:
+    """Rows of all files, and how many files are wrong; what is wrong is said at once."""
+    from dalembert.cli.model_argument import loaded
+    from dalembert.grading.file_answers import check
+
+    rows: list[Row] = []
+    wrong = 0
+    with _progress(len(files)) as step:
+        for path in files:
+            step(path.name)
+            try:
+                rows += check(loaded(path, friction), path.stem)
+            except DalembertError as error:
+                print(error, file=sys.stderr)
+                wrong += 1
+    return rows, wrong
+
+
+@contextmanager
+def _progress(count: int) -> Iterator[Callable[[str], None]]:
+    """A bar on the terminal's standard error; nothing in a pipe."""
+    if count < 3 or not sys.stderr.isatty():
+        yield lambda name: None
+        return
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("Checking", total=count)
+        yield lambda name: bar.update(task, advance=1, description=name)
+
+
+def _text(rows: Sequence[Row], every: bool) -> str:
+    """One line a case; with `every` one line an answer; then those that disagree, in full."""
+    if not rows:
+        return "No answers to compare."
+    failed = [row for row in rows if not row.ok]
+    parts = [_answers_table(rows) if every else _case_table(rows)]
+    parts += [_failure(row) for row in failed]
+    exact = sum(1 for row in rows if row.exact)
+    some = f"{len(rows)} answer{'s' if len(rows) > 1 else ''}, {exact} with an exact value"
+    parts.append(f"{some}; {f'{len(failed)} not met' if failed else 'all met'}.")
+    return "\n\n".join(parts)
+
+
+def _answers_table(rows: Sequence[Row]) -> str:
+    """One line an answer; the names of cases stand above theirs."""
+    cells = [
+        [
+            row.quantity,
+            row.published,
+            row.exact or "-",
+            row.computed,
+            row.tolerance,
+            row.deviation,
+            _mark(row),
+        ]
+        for row in rows
+    ]
+    heads = ["quantity", "published", "exact", "computed", "tolerance", "deviation", "ok"]
+    head, rule, *lines = table(heads, cells, 1).splitlines()
+    if len({row.case for row in rows}) == 1:
+        return "\n".join([head, rule, *lines])
+    shown, case = [head, rule], ""
+    for row, line in zip(rows, lines, strict=True):
+        if row.case != case:
+            shown += ["", row.case]
+            case = row.case
+        shown.append(line)
+    return "\n".join(shown)
+
+
+def _case_table(rows: Sequence[Row]) -> str:
+    by_case: dict[str, list[Row]] = {}
+    for row in rows:
+        by_case.setdefault(row.case, []).append(row)
+    cells = [
+        [
+            case,
+            str(len(of)),
+            str(sum(1 for r in of if r.exact)),
+            str(sum(1 for r in of if r.ok)),
+            _verdict(of),
+        ]
+        for case, of in by_case.items()
+    ]
+    return table(["case", "answers", "exact", "agree", "ok"], cells, 1)
+
+
+def _mark(row: Row) -> str:
+    return "yes" if row.ok else "NO"
+
+
+def _verdict(rows: Sequence[Row]) -> str:
+    return "yes" if all(row.ok for row in rows) else "NO"
+
+
+def _failure(row: Row) -> str:
+    """What disagrees, by how much, where it stands."""
+    place = f"{row.case}, line {row.line}" if row.line else row.case
+    said = f"{place}: {row.quantity}: published {row.published}, computed {row.computed}"
+    said += f", {row.deviation} apart" if row.deviation else ""
+    said += f", tolerance {row.tolerance}" if row.tolerance else ""
+    said += f" ({row.why})" if row.why else ""
+    said += f"; exact {row.exact}" if row.exact else ""
+    return wrapped(said + (f". {row.problem}" if row.problem else ""), "  ")
+
+
+def _installation() -> str:
+    """What the numbers were computed with."""
+    import platform
+
+    import numpy
+
+    from dalembert import __version__
+
+    python = f"Python {platform.python_version()}, numpy {numpy.__version__}"
+    return f"dalembert {__version__}, {python}, {platform.system()} {platform.machine()}"

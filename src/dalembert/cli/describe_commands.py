@@ -1,0 +1,154 @@
+"""`dalembert schema`, `new`, `convert` and `examples`: descriptions rather than answers."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from dalembert.errors import ModelError
+from dalembert.printing import table
+from dalembert.saving import check_new, new_file
+from dalembert.wording import closest
+
+YAML = (".yaml", ".yml")
+
+
+def begun(template: str, output: Path | None, force: bool) -> int:
+    """A template printed or written; without a name, the list of them."""
+    if not template:
+        return emitted(template_list(), output, force)
+    return _model_file(template_file(template), output, force)
+
+
+def example_copied(name: str, output: Path | None, force: bool) -> int:
+    """An example printed or written; without a name, the list of them."""
+    if not name:
+        return emitted(example_list(), output, force)
+    return _model_file(example_text(name), output, force)
+
+
+def _model_file(text: str, output: Path | None, force: bool) -> int:
+    if output is not None and not _on_screen(output) and output.suffix.lower() not in YAML:
+        raise ModelError(
+            f"{output} is not named like YAML, which this is",
+            "end its name with .yaml; `dalembert convert` writes JSON and TOML",
+        )
+    return emitted(text, output, force)
+
+
+def _on_screen(output: Path | None) -> bool:
+    return output is None or str(output) in ("-", "/dev/stdout")
+
+
+def emitted(text: str, output: Path | None, force: bool) -> int:
+    """Text to a new file, or printed."""
+    if _on_screen(output):
+        print(text.rstrip("\n"))
+        return 0
+    assert output is not None
+    with new_file(output, force) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+    print(f"Written: {output}")
+    return 0
+
+
+def schema_text() -> str:
+    """The JSON schema of the model file."""
+    from dalembert.model import json_schema
+
+    return json.dumps(json_schema(), indent=2, ensure_ascii=False) + "\n"
+
+
+def example_list() -> str:
+    """Names and titles of the bundled examples."""
+    from dalembert.bundled import cases, examples
+
+    rows = [[name, _title(path)] for name, path in examples().items()]
+    shown = table(["example", "title"], rows, 2)
+    return f"{shown}\n\n{len(cases())} published problems with their answers are bundled too: `dalembert validate`."
+
+
+def example_text(name: str) -> str:
+    """The file of a bundled example, or of a bundled published problem."""
+    from dalembert.bundled import cases, examples
+
+    found = {**cases(), **examples()}
+    if name not in found:
+        raise ModelError(f"there is no example {name!r}", closest(name, list(examples())))
+    return found[name].read_text(encoding="utf-8")
+
+
+def _title(path: Path) -> str:
+    """The title of a model file, read without the rest."""
+    for line in path.read_text(encoding="utf-8").splitlines():
+        if line.startswith("title:"):
+            return line.removeprefix("title:").strip().strip("\"'")
+    return ""
+
+
+def converted(file: Path, output: Path, force: bool) -> int:
+    """Write a model file in the format that the ending of the output names."""
+    from dalembert.model import convert
+
+    check_new(output, force)
+    convert(file, output, overwrite=force)
+    print(f"Written: {output}")
+    return 0
+
+
+def template_list() -> str:
+    """Names of the templates and what they build."""
+    from dalembert.model.library import TEMPLATES
+
+    return table(["template", "what it is"], [[name, t.description] for name, t in TEMPLATES.items()], 2)
+
+
+def template_file(name: str) -> str:
+    """The commented model file of a template."""
+    from dalembert.model.library import template_text
+
+    return template_text(name)
+
+
+JOINT_HEADS = ("joint", "turns", "slides", "reactions", "its own axes")
+
+
+def joint_rows() -> list[list[str]]:
+    """Type, turns and slides of j in i, reactions, own axes of every joint in space, a row each."""
+    from dalembert.analysis.compile.pair_table import PAIRS
+    from dalembert.views.symbols.pair_pictures import ordered
+
+    return [
+        [kind, str(len(p.turns)), str(len(p.slides)), " ".join(p.reactions), p.local]
+        for kind, p in ((kind, PAIRS[kind]) for kind in ordered())
+    ]
+
+
+def joint_table() -> str:
+    """The joints in space: turns and slides of j in i, and the reactions along the joint's own axes."""
+    shown = table(JOINT_HEADS, joint_rows(), len(JOINT_HEADS))
+    more = (
+        "Beside these there are gears in space, and in the plane pin, slider, slot, weld, gear and rolling."
+    )
+    drawn = "`dalembert joints -o joints.svg` draws them."
+    return f"{shown}\n\nA screw slides with its turn. {drawn}\n{more}"
+
+
+def joints_shown(output: Path | None, camera: str | None, theme: Any, force: bool) -> int:
+    """The table printed; or all joints in one picture, or a picture each in a folder."""
+    from dalembert.analysis.compile.pair_table import PAIRS
+    from dalembert.cli.draw_command import camera_at
+    from dalembert.views import draw
+
+    if output is None:
+        return emitted(joint_table(), None, force)
+    seen = camera_at(camera)
+    if output.suffix:
+        draw.joints(seen).save(output, force, theme)
+    else:
+        output.mkdir(parents=True, exist_ok=True)
+        for kind in PAIRS:
+            draw.joint(kind, seen).save(output / f"{kind}.svg", force, theme)
+    print(f"Written: {output}")
+    return 0

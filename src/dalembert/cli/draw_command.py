@@ -1,0 +1,176 @@
+"""`dalembert draw` and `report`: a file analysed, drawn and worked out on paper."""
+
+from __future__ import annotations
+
+import math
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from dalembert.errors import ModelError
+from dalembert.saving import check_new
+
+if TYPE_CHECKING:
+    from dalembert.analysis import Result
+    from dalembert.model import Mechanism
+
+OK, SOME_NOT_OK = 0, 1
+MOVING = ("animation", "mechanism", "all")
+"""Views that an animation may stand for."""
+PICTURES = (".svg", ".pdf", ".png", ".dxf", ".gif", ".webp", ".glb")
+
+
+def drawn(
+    file: Path,
+    output: Path,
+    view: Any,
+    at: str | None,
+    positions: int | None,
+    static: bool,
+    theme: Literal["light", "dark", "print"],
+    names: bool,
+    force: bool,
+    friction: bool = True,
+    camera: str | None = None,
+) -> int:
+    """Draw a file; 1 where some position has a status other than ok."""
+    from dalembert.cli.model_argument import loaded
+    from dalembert.views import draw
+
+    if output.suffix.lower() not in PICTURES:
+        raise ModelError(
+            f"{output.name}: the ending names no kind of drawing", f"use one of {' '.join(PICTURES)}"
+        )
+    if _moves(view, output) and view not in MOVING:
+        raise ModelError(
+            f"{output.name}: {output.suffix} holds an animation of the mechanism, and not {view}",
+            "write .svg, .pdf or .png, or ask for --view animation",
+        )
+    check_new(output, force)
+    m = loaded(file, friction)
+    if positions is None and (view == "charts" or _moves(view, output)):
+        positions = _enough(m, 36 if _moves(view, output) else 72)
+    result, at = _solved(m, at, static, positions)
+    notation = draw.Notation(links="name" if names else "number")
+    if output.suffix.lower() == ".glb":
+        draw.solid_model(result).save(output, force)
+    elif _moves(view, output):
+        draw.animation(result, notation, camera=camera_at(camera)).save(output, force, theme)
+    else:
+        draw.view(result, view, at, notation, camera_at(camera)).save(output, force, theme)
+    return _written(result, output)
+
+
+def camera_at(text: str | None) -> str | tuple[float, float] | None:
+    """A camera by its name, or by azimuth and elevation in degrees."""
+    if text is None or "," not in text:
+        return text
+    try:
+        azimuth, elevation = (float(part) for part in text.split(","))
+    except ValueError:
+        raise ModelError(f"--camera {text} is no direction", "write --camera 30,20: degrees") from None
+    return azimuth, elevation
+
+
+def reported(
+    file: Path,
+    output: Path,
+    at: str | None,
+    positions: int | None,
+    static: bool,
+    methods: Any,
+    notation: Any,
+    about: str,
+    force: bool,
+    friction: bool = True,
+) -> int:
+    """Write the worked solution; 1 where some position has a status other than ok."""
+    from dalembert.cli.model_argument import loaded
+    from dalembert.report import report
+
+    check_new(output, force)
+    result, at = _solved(loaded(file, friction), at, static, positions)
+    report(result, at, methods, notation, about).save(output, force)
+    return _written(result, output)
+
+
+def _written(result: Result, output: Path) -> int:
+    """Say what was written, and which positions are not ok and why; the exit status."""
+    from dalembert.analysis.output.summary.printed_answer import problems_text
+    from dalembert.analysis.output.summary.printed_units import printed
+
+    print(f"Written: {output}", file=sys.stderr)
+    if result.ok.all():
+        return OK
+    print(problems_text(result, printed(result, "file")), file=sys.stderr)
+    return SOME_NOT_OK
+
+
+def _solved(m: Mechanism, at: str | None, static: bool, positions: int | None) -> tuple[Result, str | None]:
+    """The result and the position asked for; a drive's value that the file has not is gone to from its first one."""
+    from dalembert.analysis import solve
+
+    if at is None or at.strip().isdigit() or positions is not None or len(m.drives) != 1:
+        return solve(m, static=static, positions=positions), at
+    values = _way(m, at)
+    if values is None:
+        return solve(m, static=static), at
+    return solve(_moved(m, values), static=static), None
+
+
+def _moved(m: Mechanism, values: list[float]) -> Mechanism:
+    """The mechanism at the last of some positions of its drive, in the assembly mode that leads there."""
+    from dalembert.analysis import kinematics
+
+    path = f"drives.{next(iter(m.drives))}.position"
+    r = kinematics(m.with_values({path: values}))
+    there: dict[str, Any] = {path: values[-1]}
+    if all(map(math.isfinite, r.point_array[-1].ravel())):
+        there["assembly"] = {link: _pose(r, link) for link in r.links}
+    return m.with_values(there)
+
+
+def _pose(r: Result, link: str) -> Any:
+    """Where a link is at the last position, as an assembly says it."""
+    if r.mechanism.dimension == 2:
+        return float(r.angle(link)[-1])
+    from dalembert.algebra import space
+
+    x, y, z, w = (float(q) for q in space.quaternion(r.rotation(link)[-1].ravel()))
+    size = math.hypot(x, y, z)
+    position = [float(p) for p in r.position(link)[-1]]
+    return {"position": position, "axis": [x, y, z] if size else [0, 0, 1], "angle": 2 * math.atan2(size, w)}
+
+
+def _way(m: Mechanism, at: str) -> list[float] | None:
+    """Positions in small steps from the file's only one to a value of its drive; None where the file has more."""
+    import numpy as np
+
+    from dalembert.units import file_units, quantity
+
+    schedule = m.schedule()
+    if schedule.position.shape != (1, 1) or schedule.unknown is not None:
+        return None
+    drive = m.drives[schedule.names[0]]
+    slides = (
+        not drive.turns
+        if drive.freedom
+        else m.joints[drive.joint or schedule.names[0]].freedoms[0] == "slide"
+    )
+    start = float(schedule.position[0, 0])
+    end = quantity(at, "length" if slides else "angle", file_units(m.units))
+    if abs(end - start) < 1e-9:
+        return None
+    count = 40 if slides else max(2, int(np.ceil(abs(end - start) / 0.05)) + 1)
+    return [float(v) for v in np.linspace(start, end, count)]
+
+
+def _moves(view: str, output: Path) -> bool:
+    """Whether an animation is asked for."""
+    return view == "animation" or output.suffix.lower() in (".gif", ".webp", ".glb")
+
+
+def _enough(m: Mechanism, count: int) -> int | None:
+    """Charts and animations of a file with one position show a whole turn."""
+    schedule = m.schedule()
+    return count if len(schedule.position) == 1 and m.drives and schedule.unknown is None else None

@@ -1,0 +1,249 @@
+"""`solve --method`: contributions of a superposition, powers of virtual work, as text."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.analysis.friction.joint_friction import unknown_names
+from dalembert.analysis.output.columns import UnitChoice, drive_kinds, load_kind, unknown_kinds
+from dalembert.analysis.output.summary.printed_units import Printed, printed, significant
+from dalembert.errors import ModelError
+from dalembert.printing import number, remainder, rounded, table, tables, with_unit, wrapped
+from dalembert.units import KINDS
+
+if TYPE_CHECKING:
+    from dalembert.analysis import Result
+
+
+def superposition_text(result: Result, units: UnitChoice) -> str:
+    """Every effort, unknown load and joint force by source, at the first solved position."""
+    from dalembert.analysis.methods.superposition import superposition
+
+    parts, to, k = superposition(result), printed(result, units), _first(result)
+    if not parts.sources:
+        return f"Superposition\n\n{NOTHING_ACTS}: all forces are 0."
+    rows = []
+    floor = _rounding(result, [(kind, values[:, k]) for _, values, kind in _quantities(parts, to)])
+    for n, source in [*enumerate(parts.sources), (None, "sum")]:
+        row = [str(source)]
+        for _, values, kind in _quantities(parts, to):
+            total = float(np.sum(values[:, k] if n is None else values[n : n + 1, k]))
+            row.append(number(total * to(kind, 1.0) if abs(total) > floor[kind] else 0.0, 5))
+        rows.append(row)
+    heads = [f"{name}\n[{to.text(kind)}]" for name, _, kind in _quantities(parts, to)]
+    gap = float(np.nanmax(parts.gap, initial=0.0))
+    words = (
+        f"Joint forces are those on j. The parts sum to the whole within {remainder(gap, 1)} of the largest."
+    )
+    where = f" at position {k + 1} of {len(result.status)}" if len(result.status) > 1 else ""
+    return f"Superposition{where}\n\n{_split(['source', *heads], rows)}\n\n{wrapped(words)}"
+
+
+def _rounding(result: Result, quantities: list[tuple[str, Any]]) -> dict[str, float]:
+    """Force and moment below which a part is nothing but rounding, beside the largest of both."""
+    length = result.compiled.layout.length
+    largest = max(
+        (float(np.abs(v).max()) / (1.0 if kind == "force" else length) for kind, v in quantities), default=0.0
+    )
+    return {"force": NOTHING * largest, "moment": NOTHING * largest * length}
+
+
+NOTHING_ACTS = "No given load, weight or inertia acts"
+
+NOTHING = 1e-12
+"""Part of the largest below which a number is rounding."""
+
+
+def _split(heads: list[str], rows: list[list[str]]) -> str:
+    """Six columns of numbers at a time."""
+    blocks = []
+    for start in range(1, len(heads), 6):
+        part = [0, *range(start, min(start + 6, len(heads)))]
+        blocks.append(table([heads[n] for n in part], [[row[n] for n in part] for row in rows]))
+    return "\n\n".join(blocks)
+
+
+def _quantities(parts: Any, to: Printed) -> list[tuple[str, Any, str]]:
+    """Name, values (S, P) and kind of every number that is split."""
+    r = parts.result
+    out = [(d, parts.efforts[..., n], drive_kinds(r, d)["effort"]) for n, d in enumerate(r.drives)]
+    out += [(u, parts.loads[..., n], load_kind(r, u)) for n, u in enumerate(r.unknown_loads)]
+    for n, joint in enumerate(r.joints):
+        force, moment = parts.force[:, :, n], parts.moment[:, :, n]
+        out += [(f"{joint} {axis}", force[..., c], "force") for c, axis in zip_axes(force)]
+        if moment.ndim == 2 and np.any(moment):
+            out.append((f"{joint} m", moment, "moment"))
+        elif moment.ndim == 3 and np.any(moment):
+            out += [(f"{joint} m{axis}", moment[..., c], "moment") for c, axis in zip_axes(moment)]
+    return out
+
+
+def zip_axes(vectors: Any) -> list[tuple[int, str]]:
+    """Number and name of each component of vectors (..., d)."""
+    return list(enumerate("xyz"[: vectors.shape[-1]]))
+
+
+def virtual_work_answer(result: Result, units: UnitChoice) -> tuple[Result, str]:
+    """The answer without reactions, and the power of every load at unit speed of each drive."""
+    from dalembert.analysis.methods.virtual_work import virtual_work
+
+    if not result.drives:
+        raise ModelError(
+            "virtual work finds efforts and unknown loads, and nothing moves here", "leave --method out"
+        )
+    found, to, k = virtual_work(result), printed(result, units), _first(result)
+    blocks = _all_powers(found, k, to)
+    if result.status[k] == "at_rest":
+        blocks = []
+        for name, pair in zip(unknown_names(result), result.ends, strict=True):
+            for which, end in zip(("low", "high"), pair, strict=True):
+                at_end = virtual_work(end)
+                known = bool(np.isfinite(at_end.effort[k]).all())
+                blocks.append(f"At the {which} end of {name}:" + ("" if known else " no value"))
+                blocks += _all_powers(at_end, k, to) if known else []
+    if result.reverses[k]:
+        behind = _all_powers(virtual_work(result.sides[1]), k, to)
+        blocks = ["Just before the reversal:", *blocks, "Just after it:", *behind]
+    where = f" at position {k + 1} of {len(result.status)}" if len(result.status) > 1 else ""
+    return found.answer, "\n\n".join([f"Virtual work{where}", *blocks, *_agreement(found)])
+
+
+def _agreement(found: Any) -> list[str]:
+    """How far the matrix answer is off, and what that shows."""
+    words = []
+    if not found.independent:
+        words.append(
+            "The work of friction contains the reactions of the matrix answer: with friction virtual work checks "
+            "that answer, it is no independent solution."
+        )
+    if np.isfinite(found.gap).any():
+        gap = remainder(float(np.nanmax(found.gap)), 1)
+        words.append(
+            f"No reaction appears. The matrix answer agrees within {gap}."
+            if found.independent
+            else f"They agree within {gap}."
+        )
+    return [wrapped(" ".join(words))] if words else []
+
+
+def _all_powers(found: Any, k: int, to: Printed) -> list[str]:
+    return [_powers(found, n, k, to) for n in range(len(found.result.drives))]
+
+
+HEADS = ["load", "force x", "y", "couple", "moves x", "y", "turns", "work"]
+SPACE_HEADS = [
+    *("load", "force x", "force y", "force z", "couple x", "couple y", "couple z"),
+    *("moves x", "moves y", "moves z", "turns x", "turns y", "turns z", "work"),
+]
+
+
+def _powers(found: Any, drive: int, k: int, to: Printed) -> str:
+    r = found.result
+    name = r.drives[drive]
+    angular = drive_kinds(r, name)["effort"] == "moment"
+    kind = "moment" if angular else "force"
+    found_effort = with_unit(float(to(kind, significant(r, kind, found.effort[:, drive])[k])), to.text(kind))
+    effort = f"Effort that balances the work: {name} = {found_effort}"
+    if not found.actions:
+        return f"{NOTHING_ACTS}.\n\n{effort}"
+    unit = "rad" if angular else to.text("length")
+    per = to("length", 1.0) if angular else 1.0
+    length = r.compiled.layout.length
+    reach = (
+        1.0 if angular else 1 / length
+    )  # turn of a link that moves its ends by its length, or by the drive's
+    force = np.array([a.force[k] for a in found.actions])
+    couple = np.array([a.couple[k] for a in found.actions])
+    load = max(_largest(force), _largest(couple) / length)
+    columns = (
+        (force, to("force", 1.0), load),
+        (couple, to("moment", 1.0), load * length),
+        (found.velocity[:, k, drive], per, reach * length),
+        (found.spin[:, k, drive], 1.0 if angular else 1 / to("length", 1.0), reach),
+        (found.power[:, k, drive], to(kind, 1.0), load * reach * length),
+    )
+    numbers = [
+        _cells(values * factor, len(found.actions), least * factor) for values, factor, least in columns
+    ]
+    rows = [[a.source, *(x for part in numbers for x in part[n])] for n, a in enumerate(found.actions)]
+    total = float(found.power[:, k, drive].sum()) * to(kind, 1.0)
+    heads = HEADS if r.mechanism.dimension == 2 else SPACE_HEADS
+    rows.append(
+        ["sum", *[""] * (len(heads) - 2), number(rounded([total], load * reach * length * to(kind, 1.0))[0])]
+    )
+    units = f"forces in {to.text('force')}, couples in {to.text('moment')}, moves in {to.text('length')}"
+    return (
+        f"1 {unit} of {name}: {units}, turns in rad\n\n"
+        f"{table(heads, rows) if heads is HEADS else tables(heads, rows, 1)}\n\n{effort}"
+    )
+
+
+def _largest(values: Any) -> float:
+    return float(np.nan_to_num(np.abs(values)).max(initial=0.0))
+
+
+def _cells(values: Any, count: int, beside: float) -> list[list[str]]:
+    """Numbers of some actions, those that are nothing but rounding beside the largest, or beside a size, as 0."""
+    rows = np.reshape(values, (count, -1)).tolist()
+    largest = max(_largest(values), beside)
+    return [[number(x, 5) for x in rounded(row, largest)] for row in rows]
+
+
+def _first(result: Result) -> int:
+    """The first solved position."""
+    good = np.flatnonzero(result.ok)
+    return int(good[0]) if len(good) else 0
+
+
+MOST_STEPS = 24
+"""Steps of the taught iteration that are printed."""
+
+
+def fixed_point_text(result: Result) -> str:
+    """The taught iteration at the first position: unknowns and friction at each step, and its rate."""
+    from dalembert.analysis.friction.fixed_point import fixed_point
+
+    table = fixed_point(result)
+    kinds = unknown_kinds(result)
+    heads = ["step", *(f"{name}\n{KINDS[kinds[name]].si}" for name in table.unknowns)]
+    heads += [f"friction\n{name}" for name in table.friction] + ["change"]
+    every = [[f"{row[0]:.0f}", *(number(v, 8) for v in row[1:-1]), f"{row[-1]:.1e}"] for row in table.rows()]
+    every[0][-1] = "-"
+    rows = (
+        every if len(every) <= MOST_STEPS else [*every[: MOST_STEPS - 3], ["..."] * len(heads), *every[-2:]]
+    )
+    end = (
+        f"arrives after {table.steps} steps"
+        if table.arrived
+        else f"has not arrived after {table.steps} steps"
+    )
+    words = (
+        f"The taught iteration {end}; each step leaves {table.rate:.3g} of the change. Friction on j in N or N*m; "
+        "solve, set friction by the reactions found, solve again."
+    )
+    return f"{tables(heads, rows, 1)}\n{wrapped(words)}"
+
+
+def other_solutions_text(result: Result, units: UnitChoice) -> str:
+    """Solutions of friction's equations beside the physical one, where that is not proved to be the only one."""
+    from dalembert.analysis.friction.other_solutions import SOUGHT, every_other_solution
+
+    found, to, kinds = every_other_solution(result), printed(result, units), unknown_kinds(result)
+    if not any(found.values()):
+        proved = "it is proved that there are none" if not found else "none was found"
+        if not any(s in SOUGHT for s in result.status):
+            proved = "they are sought where the senses of friction are given, at no position here"
+        return wrapped(f"Other solutions of friction: {proved}.")
+    heads = ["other solutions\nat position", *(f"{name}\n{to.text(kind)}" for name, kind in kinds.items())]
+    heads.append("determinant\nratio")
+    rows = [
+        [str(k + 1), *(number(float(to(kinds[n], v))) for n, v in s.unknowns.items()), number(s.determinant)]
+        for k, some in found.items()
+        for s in some
+    ]
+    words = (
+        "The physical solution, above, is continued from no friction and has a positive determinant ratio."
+    )
+    return f"{tables(heads, rows, 1)}\n{wrapped(words)}"

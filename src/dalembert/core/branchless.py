@@ -1,0 +1,96 @@
+"""Choices between values, for numbers and for the traced values of the kernel alike.
+
+A traced value has no truth: a comparison of two is itself a value, 1 where it holds and 0 elsewhere, with ``&`` and
+``~`` as flags have them. Arrays of traced values have the type object.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from dalembert.arrays import Array
+
+
+def traced(*arrays: Array) -> bool:
+    """Whether some of the arrays hold traced values."""
+    return any(np.asarray(a).dtype == object for a in arrays)
+
+
+def above(a: Array, b: Array | float) -> Array:
+    """Where a is larger than b."""
+    difference = np.subtract(a, b)
+    return np.asarray(_POSITIVE(difference) if traced(difference) else difference > 0)
+
+
+def where(test: Array, a: Array | float, b: Array | float) -> Array:
+    """a where the test holds, else b."""
+    return test * a + (1.0 - test) * b if traced(test) else np.where(test, a, b)
+
+
+def larger(a: Array, b: Array | float) -> Array:
+    """The larger of each two."""
+    return np.asarray(_LARGER(a, b) if traced(a, np.asarray(b)) else np.maximum(a, b))
+
+
+def sign(a: Array) -> Array:
+    """-1, 0 or 1."""
+    return np.asarray(_SIGN(a) if traced(a) else np.sign(a))
+
+
+def hypot(a: Array, b: Array) -> Array:
+    """Root of the sum of the squares."""
+    return np.asarray(_HYPOT(a, b) if traced(a, b) else np.hypot(a, b))
+
+
+def unit(a: Array, b: Array, least: Array) -> tuple[Array, Array, Array]:
+    """Components of the unit vector along (a, b), shorter where the vector is below ``least``; and its length."""
+    if traced(a, b, least):
+        return tuple(_UNIT(a, b, least))
+    length = np.hypot(a, b)
+    over = 1.0 / np.maximum(length, least)
+    return a * over, b * over, length
+
+
+def root(a: Array) -> Array:
+    """Square root."""
+    return np.asarray(_ROOT(a) if traced(a) else np.sqrt(a))
+
+
+def top(a: Array, axes: int) -> Array:
+    """Largest value over the last axes, and 0."""
+    flat = a.reshape((*a.shape[: a.ndim - axes], -1))
+    if not traced(a):
+        return np.asarray(flat.max(axis=-1, initial=0.0))
+    out = np.zeros(flat.shape[:-1], object)
+    for k in range(flat.shape[-1]):
+        out = larger(flat[..., k], out)
+    return out
+
+
+def _value(x: Any, method: str, plain: Any) -> Any:
+    return getattr(x, method)() if hasattr(x, method) else plain(x)
+
+
+_POSITIVE = np.frompyfunc(lambda x: _value(x, "positive", lambda n: float(n > 0)), 1, 1)
+_SIGN = np.frompyfunc(lambda x: _value(x, "sign", np.sign), 1, 1)
+_ROOT = np.frompyfunc(lambda x: _value(x, "sqrt", np.sqrt), 1, 1)
+_LARGER = np.frompyfunc(
+    lambda x, y: x.larger(y) if hasattr(x, "larger") else y.larger(x) if hasattr(y, "larger") else max(x, y),
+    2,
+    1,
+)
+
+
+def _unit(a: Any, b: Any, least: Any) -> tuple[Any, Any, Any]:
+    """A single component keeps its sign, whatever its size."""
+    if not b:
+        return a.sign(), b, abs(a)
+    square = a * a + b * b
+    over = 1.0 / square.larger(least * least).sqrt()
+    return a * over, b * over, square * over
+
+
+_UNIT = np.frompyfunc(_unit, 3, 3)
+_HYPOT = np.frompyfunc(lambda x, y: _value(x * x + y * y, "sqrt", np.sqrt), 2, 1)

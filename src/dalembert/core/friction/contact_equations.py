@@ -1,0 +1,373 @@
+"""Wrenches that follow the joints' own reactions: dry friction, and the separation of teeth beside it.
+
+Mechanics: docs/theory.md 6 and 5.4.
+
+A contact e acts along one row with c z, so that  A x + w + B c z = 0  and  z = -s S(y),  y = Y x.  With A factored
+once, x = x0 - A^-1 B c z leaves a small system in z at every position, solved for all of them at once.
+
+S   bearing force (..., E): of a pin |F|, of a guide max(|N|, |2M - (l2 - l1) N| / (l1 + l2))
+s   sense (..., E): sign of the relative rate of j against i; between -1 and 1 where that is zero
+c   strength (..., E): lever of a couple or coefficient of a force; it grows with the friction scale
+y   arguments (..., 3, E): two forces at a right angle, and the tilting one of a guide
+H   change of y with c z (..., 3, E, E): -Y A^-1 B
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.core import branchless
+from dalembert.core.branchless import above, hypot, larger, root, top, unit, where
+from dalembert.core.constraints import drift, measure, rates, system
+from dalembert.core.forcing import Source, summed
+from dalembert.core.layout import Layout, Pose, Rows, System
+from dalembert.core.linear import Factor
+
+STILL = 1e-9
+"""A relative rate below this part of the fastest one of the machine counts as zero."""
+
+
+NOTHING = 1e-14
+"""A force below this part of the largest is rounding: its direction means nothing."""
+
+TINY = 1e-150
+"""Added to what may be zero; its square is a number."""
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """The contacts of a mechanism, E of them.
+
+    rows        what each acts along: a turn, a slide, the line of centres of two wheels
+    joint (E,)  the joint it belongs to
+    first, second, couple (E,)  multipliers its arguments are read from; -1 where it has none
+    tilt (E, 2) parts of the couple and of the first force in the tilting force
+    gain (E,)   factor on its forces
+    lever (E,)  strength at a coefficient of one; radius of a pin
+    coefficient, resting (E,)  of friction in motion and at rest
+    circle (E,) strength lever sin(atan(mu)), else lever mu
+    signed (E,) S is the first force with its sign: the couple of the two faces of a guide
+    fixed (E,)  not friction: strength is the lever whatever the scale, sense -1
+    led (E,)    contact whose rate tells its sense: itself, or the slide to which a couple of faces belongs
+    reach (E,)  where positive: its forces hold at this distance of the centres and fall as it grows
+    read (3, E, K)  in space, in place of first to gain: its arguments of the constraints' multipliers
+    ball (E,)   its three arguments are the components of one force
+    group (E,)  contacts of one number share a slip: each has its part of the direction of it, by ``reckoned`` (E,),
+                the length that turns its rate into a speed
+    around (E,) it is of a group that goes along and around an axis with friction circles of R sin(phi)
+    carried (E,)  contact whose friction it carries too, as its second force: the slide of a block on a pin; -1 none
+    viscous (E,)  damping of that slide, whose force it carries with it
+    """
+
+    rows: Rows
+    joint: Ints
+    first: Ints
+    second: Ints
+    couple: Ints
+    tilt: Array
+    gain: Array
+    lever: Array
+    coefficient: Array
+    resting: Array
+    circle: Flags
+    signed: Flags
+    fixed: Flags
+    led: Ints
+    reach: Array
+    read: Array | None = None
+    ball: Flags | None = None
+    group: Ints | None = None
+    reckoned: Array | None = None
+    around: Flags | None = None
+    carried: Ints | None = None
+    viscous: Array | None = None
+
+    @property
+    def count(self) -> int:
+        """E."""
+        return len(self.joint)
+
+
+class Senses(NamedTuple):
+    """Sense of each contact, 0 where ``open``: there is no relative rate to tell it; rate (..., E) of each."""
+
+    sense: Array
+    open: Flags
+    rate: Array
+
+
+class Response(NamedTuple):
+    """x without contacts (..., X), its change with c z (..., X, E), and the same of the arguments: y, H."""
+
+    x: Array
+    change: Array
+    y: Array
+    h: Array
+
+
+def senses(layout: Layout, contacts: Contacts, along: System, twist: Array) -> Senses:
+    """Senses of the contacts from the twists of all links (..., L+1, n)."""
+    rate = rates(along, twist)
+    return _senses(contacts, rate, _below(layout, contacts, rate, STILL * fastest(layout, twist)))
+
+
+def next_senses(
+    layout: Layout, contacts: Contacts, along: System, pose: Pose, twist: Array, acceleration: Array
+) -> Senses:
+    """Senses of the second rates: those just behind a place where the first are zero, and the opposite just before."""
+    second = rates(along, acceleration) + drift(layout.algebra, contacts.rows, pose, twist)
+    speed = fastest(layout, twist)
+    size = larger(fastest(layout, acceleration), speed * speed * (1 / layout.length))
+    return _senses(contacts, second, _below(layout, contacts, second, STILL * size))
+
+
+def passing(layout: Layout, contacts: Contacts, twist: Array, rate: Array, second: Array) -> Flags:
+    """Contacts (..., E) whose rate passes through zero here: within ``STILL`` of the time in which the fastest link
+    moves by the characteristic length."""
+    speed, size = fastest(layout, twist) / (STILL * layout.length), np.abs(second)
+    if contacts.group is None:
+        return np.asarray((~above(speed * np.abs(rate), size) & ~contacts.fixed)[..., contacts.led])
+    return ~above(speed * _slip(contacts, rate), _slip(contacts, second))
+
+
+def fastest(layout: Layout, twist: Array) -> Array:
+    """The largest component (..., 1) of twists, turns times the characteristic length."""
+    return top(np.abs(twist / layout.wrench_scale), 2)[..., None]
+
+
+def _below(layout: Layout, contacts: Contacts, rate: Array, least: Array) -> Flags:
+    """Contacts (..., E) whose rate, or that of the one they are led by, is below a speed (..., 1)."""
+    scaled = np.abs(rate) * np.where(contacts.rows.angular, layout.length, 1.0)
+    return np.asarray((above(least + TINY, scaled) & ~contacts.fixed)[..., contacts.led])
+
+
+def _senses(contacts: Contacts, rate: Array, still: Flags) -> Senses:
+    """Senses of rates (..., E) of the contacts, some of which are ``still``."""
+    holds = above(strength(contacts, 1.0, True), 0.0)
+    if contacts.group is not None:
+        part, still = _directed(contacts, rate, still)
+        return Senses(part, still & holds, rate)
+    sense = np.where(contacts.fixed, -1.0, where(still, 0.0, branchless.sign(rate)[..., contacts.led]))
+    return Senses(sense, still & holds, rate)
+
+
+def _directed(contacts: Contacts, rate: Array, still: Flags) -> tuple[Array, Flags]:
+    """Part of each contact in the direction of its group's slip, and the groups that do not slip at all."""
+    assert contacts.reckoned is not None
+    part = sign(contacts, rate * contacts.reckoned, still)
+    return part, ~moving_together(contacts, ~still)
+
+
+def _slip(contacts: Contacts, rate: Array) -> Array:
+    """Speed (..., E) of the slip that each contact has a part of."""
+    value = rate * contacts.reckoned
+    return np.asarray(np.sqrt((value * value) @ _together(contacts)))
+
+
+def sign(contacts: Contacts, value: Array, none: Flags) -> Array:
+    """Sign of each value (..., E), 0 where ``none``; of a group of contacts its direction, a unit vector."""
+    value = np.where(none, 0.0, value)
+    if contacts.group is None:
+        return np.sign(value)
+    size = np.sqrt((value * value) @ _together(contacts))
+    return np.asarray(value / np.where(size > 0, size, 1.0))
+
+
+def moving_together(contacts: Contacts, moves: Flags) -> Flags:
+    """Whether a contact (..., E), or another of its group, moves."""
+    if contacts.group is None:
+        return moves
+    return np.asarray(moves.astype(float) @ _together(contacts) > 0)
+
+
+def _together(contacts: Contacts) -> Array:
+    """1 where two contacts (E, E) are of one group."""
+    assert contacts.group is not None
+    return np.asarray((contacts.group[:, None] == contacts.group).astype(float))
+
+
+def impending(contacts: Contacts, g: Array, moves: Flags) -> Array:
+    """Part of each contact (..., E) in the impending slip of rates -g."""
+    if contacts.group is None:
+        return np.where(moves, -np.sign(g)[..., contacts.led], 0.0)
+    return _directed(contacts, -g, ~moves)[0]
+
+
+def strength(
+    contacts: Contacts, scale: Array | float, resting: Array | bool = False, sense: Array | None = None
+) -> Array:
+    """c (..., E) at a scale of all coefficients; ``resting`` contacts take the coefficient at rest.
+
+    Where a group has friction circles of R sin(phi), its reaction includes the part s of the friction that goes around
+    the axis, of the direction ``sense``: c is divided by sqrt(1 + (mu s)^2).
+    """
+    mu = scale * np.where(resting, contacts.resting, contacts.coefficient)
+    friction = np.where(contacts.circle, mu / root(1 + mu * mu), mu)
+    if sense is not None and contacts.around is not None and contacts.around.any():
+        turning = (mu * sense * (contacts.around & contacts.rows.angular)) ** 2 @ _together(contacts)
+        friction = friction / np.sqrt(1 + turning)
+    return np.asarray(contacts.lever * np.where(contacts.fixed, 1.0, friction))
+
+
+def response(
+    layout: Layout, contacts: Contacts, pose: Pose, forces: Factor, w: Array, twist: Array
+) -> tuple[System, Response]:
+    """What the contacts act along; x and y without contacts and per unit of each, from the factored A.
+
+    twist (..., L+1, n) tells the viscous forces that some contacts carry.
+    """
+    along = system(layout.algebra, contacts.rows, pose)
+    change = [_multipliers(forces, _unit(layout, along, e)) for e in range(contacts.count)]
+    by_contact = np.stack(np.broadcast_arrays(*change), axis=-2)  # (..., E, X)
+    near = _near(layout, contacts, pose)
+    h = np.swapaxes(np.stack(_arguments(contacts, by_contact, near[..., None, :]), axis=-3), -1, -2)
+    for e, slide in _carrying(contacts):
+        h[..., 1, e, slide] += 1.0
+    x = _multipliers(forces, w)
+    y = _loaded(contacts, x, near, rates(along, twist))
+    return along, Response(x, np.swapaxes(by_contact, -1, -2), y, h)
+
+
+def under(
+    layout: Layout, contacts: Contacts, pose: Pose, forces: Factor, w: Array, rate: Array, like: Response
+) -> Response:
+    """The response under other wrenches w (..., L, n), at rates (..., E) of the contacts."""
+    x = _multipliers(forces, w)
+    return like._replace(x=x, y=_loaded(contacts, x, _near(layout, contacts, pose), rate))
+
+
+def _loaded(contacts: Contacts, x: Array, near: Array, rate: Array) -> Array:
+    """y of multipliers x, with the viscous forces at rates (..., E) of the contacts."""
+    y = np.stack(_arguments(contacts, x, near), axis=-2)
+    for e, slide in _carrying(contacts):
+        assert contacts.viscous is not None
+        y[..., 1, e] = y[..., 1, e] - contacts.viscous[e] * rate[..., slide]
+    return y
+
+
+def _carrying(contacts: Contacts) -> list[tuple[int, int]]:
+    """Contacts that carry the force of another one, with that one."""
+    if contacts.carried is None:
+        return []
+    return [(e, int(slide)) for e, slide in enumerate(contacts.carried) if slide >= 0]
+
+
+def _multipliers(forces: Factor, wrench: Array) -> Array:
+    return forces.forces(-wrench.reshape((*wrench.shape[:-2], -1)))
+
+
+def _near(layout: Layout, contacts: Contacts, pose: Pose) -> Array:
+    """Factor (..., E) on the forces of contacts that fall as the centres go apart."""
+    distance = measure(layout.algebra, contacts.rows, pose)
+    near, falls = np.ones_like(distance), contacts.reach > 0
+    near[..., falls] = contacts.reach[falls] / distance[..., falls]
+    return near
+
+
+def _unit(layout: Layout, along: System, e: int) -> Array:
+    """Wrenches on the links of a unit of contact e."""
+    link = np.array([along.i[e], along.j[e]])
+    return summed(layout, Source(link, np.stack([along.on_i[..., e, :], along.on_j[..., e, :]], axis=-2)))
+
+
+def _arguments(contacts: Contacts, x: Array, near: Array) -> list[Array]:
+    """y of multipliers x (..., X), each part (..., E)."""
+
+    def read(which: Ints) -> Array:
+        return np.where(which >= 0, x[..., which], 0.0)
+
+    if contacts.read is not None:
+        parts = np.einsum("aek,...k->...ae", contacts.read, x[..., : contacts.read.shape[-1]])
+        return [parts[..., k, :] for k in range(3)]
+    first = read(contacts.first) * contacts.gain * near
+    second = read(contacts.second) * contacts.gain
+    tilting = contacts.tilt[:, 0] * read(contacts.couple) + contacts.tilt[:, 1] * first
+    return [first, second, tilting]
+
+
+def bearing(contacts: Contacts, y: Array) -> Array:
+    """S (..., E) of arguments (..., 3, E)."""
+    force = hypot(y[..., 0, :], y[..., 1, :])
+    if contacts.ball is not None:
+        return np.where(contacts.ball, hypot(force, y[..., 2, :]), force)
+    return np.where(contacts.signed, y[..., 0, :], larger(force, np.abs(y[..., 2, :])))
+
+
+def slope(contacts: Contacts, y: Array, largest: Array) -> tuple[Array, Array]:
+    """Derivative of S after y (..., 3, E), one of its branches where two meet, and S (..., E).
+
+    Almost 0 where a contact carries nothing beside the ``largest`` (...) of all arguments.
+    """
+    least = NOTHING * largest[..., None] + TINY
+    if contacts.ball is not None:
+        return _round_slope(contacts, y, least)
+    first, second, force = unit(y[..., 0, :], y[..., 1, :], least)
+    tilt, _, tilting = unit(y[..., 2, :], np.zeros_like(y[..., 2, :]), least)
+    tilted = above(tilting, force) & ~contacts.signed
+    plain = ~tilted & ~contacts.signed
+    parts = [np.where(contacts.signed, 1.0, plain * first), plain * second, tilted * tilt]
+    return np.stack(parts, axis=-2), np.where(contacts.signed, y[..., 0, :], larger(force, tilting))
+
+
+def _round_slope(contacts: Contacts, y: Array, least: Array) -> tuple[Array, Array]:
+    """Derivative of the size of a force of two or three components, and the size."""
+    assert contacts.ball is not None
+    y = y * np.where(np.arange(3)[:, None] < 2, True, contacts.ball)
+    size = np.sqrt((y * y).sum(axis=-2))
+    return y / np.maximum(size, least)[..., None, :], size
+
+
+def argument(r: Response, cz: Array) -> Array:
+    """y with contacts c z (..., E), or z where H is after z."""
+    return np.asarray(r.y + (r.h @ cz[..., None, :, None])[..., 0])
+
+
+def multiplier(r: Response, cz: Array) -> Array:
+    """x with contacts c z."""
+    return np.asarray(r.x + (r.change @ cz[..., None])[..., 0])
+
+
+def strong(r: Response, c: Array) -> Response:
+    """The response with H after z itself, for strengths c (..., E)."""
+    return r._replace(h=r.h * c[..., None, None, :])
+
+
+def jacobian(r: Response, steep: Array, sense: Array) -> Array:
+    """Derivative of z + s S(y) after z (..., E, E) from the slope of S and H after z; its determinant is
+    det(A + J) / det(A)."""
+    change = ((sense[..., None, :] * steep)[..., None] * r.h).sum(axis=-3)
+    return np.asarray(np.eye(sense.shape[-1]) + change)
+
+
+def correction(r: Response, steep: Array, sense: Array, off: Array, solve: Any) -> Array:
+    """Newton's step where z + s S is ``off`` (..., E), from the slope of S and H after z."""
+    return np.asarray(solve(jacobian(r, steep, sense), -off))
+
+
+def levers(contacts: Contacts, h: Array) -> Array:
+    """Bounds (..., E, E) of the change of S with what H (..., 3, E, E) is after."""
+    lever = np.maximum(np.hypot(h[..., 0, :, :], h[..., 1, :, :]), np.abs(h[..., 2, :, :]))
+    if contacts.ball is not None:
+        lever = np.where(contacts.ball[:, None], np.sqrt((h * h).sum(axis=-3)), lever)
+    return np.where(contacts.signed[:, None], np.abs(h[..., 0, :, :]), lever)
+
+
+def spread(contacts: Contacts, r: Response) -> Array:
+    """Bound (...) of the spectral radius of the fixed point, from H after z without its sign.
+
+    Below 1 there is one solution, at any smaller scale too.
+    """
+    power = levers(contacts, r.h)
+    log, size = np.zeros(power.shape[:-2]), 1
+    for _ in range(6):
+        largest = np.maximum(power.sum(axis=-1).max(axis=-1, initial=0.0), 1e-300)
+        power = power / largest[..., None, None]
+        log = log + np.log(largest) / size
+        power, size = power @ power, 2 * size
+    return np.asarray(
+        np.exp(log + np.log(np.maximum(power.sum(axis=-1).max(axis=-1, initial=0.0), 1e-300)) / size)
+    )

@@ -1,0 +1,197 @@
+"""Friction forces with known senses: semi-smooth Newton at all positions at once, continued in the friction scale.
+
+Newton starts from no friction. Where the fixed point is a contraction (``spread`` below 1) the solution is the only
+one. Elsewhere the scale of all coefficients goes from 0 to 1 in steps, with the determinant ratio kept positive: that
+stays on the physical branch, and ends where it ends: at the critical scale the mechanism jams.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.core.friction.contact_equations import (
+    Contacts,
+    Response,
+    argument,
+    bearing,
+    correction,
+    jacobian,
+    multiplier,
+    slope,
+    spread,
+    strength,
+    strong,
+)
+from dalembert.core.linear import solved
+
+NEWTON = 25
+"""Steps after which Newton has not arrived."""
+
+ARRIVED = 1e-13
+"""Change of a force, relative to the largest, below which it has."""
+
+ROUNDING = 1e-15
+"""So has it where what is left of the equations, relative to the largest force and by contact, is rounding: where the
+branch ends the changes do not get smaller than that times the condition."""
+
+LONGEST = 0.1
+"""Largest step of the friction scale."""
+
+BENT = 0.2
+"""How far Newton may end from where its first step led, by the length of that step."""
+
+SHORT = 1e-3
+"""A change below this part of the largest friction force may bend: the branch has a kink there."""
+
+SMALLEST = 1e-10
+"""Step of the friction scale below which the branch has ended."""
+
+
+class Slip(NamedTuple):
+    """z (P, E), c (P, E), the multipliers x (P, X), what came of it.
+
+    determinant: det(A + J) / det(A); iterations of Newton; critical: friction scale where the branch ends, NaN where
+    it does not before 1; single: proved to be the only solution.
+    """
+
+    z: Array
+    c: Array
+    x: Array
+    determinant: Array
+    iterations: Ints
+    critical: Array
+    single: Flags
+
+
+class Try(NamedTuple):
+    """Newton's answer; ``landing``, where its first step led; ``ahead``, the determinant of that step."""
+
+    z: Array
+    arrived: Flags
+    determinant: Array
+    iterations: Ints
+    landing: Array
+    ahead: Array
+
+
+def without_friction(contacts: Contacts, r: Response) -> Array:
+    """Multipliers (P, X) without friction; the teeth's separation stays."""
+    if not contacts.fixed.any():
+        return r.x
+    sense = np.broadcast_to(np.where(contacts.fixed, -1.0, 0.0), r.y.shape[:-2] + r.y.shape[-1:])
+    c = np.broadcast_to(strength(contacts, 0.0), sense.shape)
+    return multiplier(r, c * newton(contacts, r, sense, c, np.zeros_like(sense)).z)
+
+
+def slipping(contacts: Contacts, r: Response, sense: Array, resting: Array) -> Slip:
+    """Friction at each position; sense (P, E), where ``resting`` (P, E) with the coefficients at rest."""
+    r = Response(*(np.broadcast_to(a, (len(sense), *a.shape[1:])) for a in r))
+    c = np.broadcast_to(strength(contacts, 1.0, resting, sense), sense.shape)
+    first = newton(contacts, r, sense, c, np.zeros_like(sense))
+    single = spread(contacts, strong(r, c * np.abs(sense))) < 1
+    z, determinant, count = first.z, first.determinant, first.iterations
+    critical = np.full(len(sense), np.nan)
+    finite = np.isfinite(r.y).all(axis=(-2, -1))
+    rest = np.flatnonzero(~(first.arrived & single) & finite)
+    if rest.size:
+        part, scale = _continued(contacts, at(r, rest), sense[rest], resting[rest])
+        z[rest], determinant[rest], count[rest] = part.z, part.determinant, part.iterations
+        critical[rest] = np.where(part.arrived, np.nan, scale)
+        z[rest[~part.arrived]] = np.nan
+    return Slip(z, c, multiplier(r, c * z), determinant, count, critical, single)
+
+
+def roots(contacts: Contacts, r: Response, sense: Array, starts: Array) -> tuple[Array, Array, Array]:
+    """Where Newton arrives from many starts (P, E): c z, multipliers and determinants of those that do."""
+    c = np.broadcast_to(strength(contacts, 1.0, sense=sense), sense.shape)
+    found = newton(contacts, r, sense, c, starts, most=4 * NEWTON)
+    cz = (c * found.z)[found.arrived]
+    return cz, multiplier(at(r, found.arrived), cz), found.determinant[found.arrived]
+
+
+def at(r: Response, where: Any) -> Response:
+    """Of some positions."""
+    return Response(*(a[where] for a in r))
+
+
+def newton(
+    contacts: Contacts,
+    r: Response,
+    sense: Array,
+    c: Array,
+    z: Array,
+    before: Array | None = None,
+    most: int = NEWTON,
+) -> Try:
+    """Newton on z + s S(y0 + H c z) = 0 from z, all positions together.
+
+    S is homogeneous: S = slope . y. The first step takes the slope at ``before``, the arguments of a solution close
+    by, rather than at the start, which may lie behind a kink.
+    """
+    count = np.zeros(len(sense), np.intp)
+    arrived = np.zeros(len(sense), bool)
+    r = strong(r, c)
+    y, landing, ahead = argument(r, z), z, np.ones(len(sense))
+    for k in range(most):
+        at = y if k or before is None else before
+        steep, _ = slope(contacts, at, _largest(at))
+        if k == 0 and before is not None:
+            ahead = np.linalg.det(np.nan_to_num(jacobian(r, steep, sense)))
+        step = correction(r, steep, sense, z + sense * (steep * y).sum(axis=-2), solved)
+        z = np.where(arrived[:, None], z, z + step)
+        landing = z if k == 0 else landing
+        y = argument(r, z)
+        largest = np.maximum(_largest(y), np.abs(z).max(axis=-1, initial=0.0))
+        new = np.abs(z + sense * bearing(contacts, y)).max(axis=-1, initial=0.0)
+        now = (new <= ROUNDING * contacts.count * largest) | (
+            np.abs(step).max(axis=-1, initial=0.0) <= ARRIVED * largest
+        )
+        count = np.where(arrived, count, k + 1)
+        arrived |= now
+        if arrived.all():
+            break
+    steep, _ = slope(contacts, y, _largest(y))
+    determinant = np.linalg.det(np.nan_to_num(jacobian(r, steep, sense)))
+    return Try(np.where(arrived[:, None], z, np.nan), arrived, determinant, count, landing, ahead)
+
+
+def _largest(y: Array) -> Array:
+    return np.asarray(np.abs(y).max(axis=(-2, -1), initial=0.0))
+
+
+def _continued(contacts: Contacts, r: Response, sense: Array, resting: Array) -> tuple[Try, Array]:
+    """The branch from scale 0 to 1 and the scale it reaches."""
+    count = len(sense)
+    scale, step = np.zeros(count), np.full(count, LONGEST)
+    c = np.array(np.broadcast_to(strength(contacts, 0.0), sense.shape))
+    found = newton(contacts, r, sense, c, np.zeros_like(sense))
+    z, determinant, iterations = found.z, found.determinant, found.iterations.copy()
+    while True:
+        on = np.flatnonzero((scale < 1) & (step > SMALLEST))
+        if not on.size:
+            break
+        aim = np.minimum(scale[on] + step[on], 1.0)
+        part, raised = at(r, on), strength(contacts, aim[:, None], resting[on], sense[on])
+        before = argument(part, c[on] * z[on])
+        new = newton(contacts, part, sense[on], raised, z[on], before, 10)
+        good = new.arrived & (new.determinant > 0) & _same_branch(z[on], new)
+        iterations[on] += new.iterations
+        kept = on[good]
+        z[kept], determinant[kept] = new.z[good], new.determinant[good]
+        scale[kept], c[kept] = aim[good], raised[good]
+        step[on] = np.where(good, np.minimum(2 * step[on], LONGEST), step[on] / 2)
+    return Try(z, scale >= 1, determinant, iterations, z, determinant), scale
+
+
+def _same_branch(start: Array, new: Try) -> Flags:
+    """Whether Newton went almost where its first step led, or went hardly anywhere.
+
+    A first step whose determinant is not positive leads past where forces go beyond all bounds.
+    """
+    first, more, size = (
+        np.abs(a).max(axis=-1, initial=0.0) for a in (new.landing - start, new.z - new.landing, new.z)
+    )
+    return np.asarray((new.ahead > 0) & ((more <= BENT * first) | (first + more <= SHORT * size)))

@@ -1,0 +1,241 @@
+"""What friction can hold for some history: the range of an unknown over all states with friction within its limits.
+
+A state of rest is t = c z with |t_e| <= c_e S_e(y0 + H t) for every contact. S is convex: with its slope s at a state
+y, s . y0 + s H t is never more than S, and is S there. So |t_e| <= c_e s_e . (y0 + H t) allows only such states, the
+one it was made at among them, and the furthest of those is a linear programme. Taking the slope anew there goes on to
+the next, as long as the unknown gains; every state on the way can be reached from the one without friction through
+states of rest. A programme without a furthest state shows a wedge: friction holds any value.
+
+t   friction forces and couples (..., E), taken by a unit of each that makes numbers around one
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.core.friction.contact_equations import (
+    Contacts,
+    Response,
+    Senses,
+    argument,
+    bearing,
+    levers,
+    slope,
+    strength,
+    strong,
+)
+from dalembert.core.friction.friction_solver import newton
+from dalembert.core.friction.linear_programmes import furthest
+from dalembert.core.linear import inverses
+
+ROUNDS = 40
+"""Linear programmes after which the state reached is taken."""
+
+GAIN = 1e-12
+"""Rise of the unknown, by its own size and that of what friction can change in it, that is none."""
+
+SAME = 1e-9
+"""A part of the unknown at which motion impends; what is held beyond it by less is the rounding of the search."""
+
+UNLOADED = 1e-9
+"""A contact that bears less than this part of the largest force may change its side."""
+
+SINGLE = 16
+"""Contacts up to which the search also starts from the extremes of each."""
+
+MOST = 10**6
+"""Numbers in the tables of the positions at once."""
+
+
+class State(NamedTuple):
+    """Friction t (B, E) of a batch of states; open (B,): that there is no furthest one."""
+
+    t: Array
+    open: Flags
+
+
+class _Rest(NamedTuple):
+    """The contacts and a response whose t are of numbers around one; c (E,) in the same; the contacts of their own
+    friction (F,)."""
+
+    contacts: Contacts
+    r: Response
+    c: Array
+    own: Ints
+
+    def at(self, which: Any) -> _Rest:
+        return self._replace(r=Response(*(a[which] for a in self.r)))
+
+
+def holding(contacts: Contacts, r: Response, known: Senses, ends: Array) -> Array:
+    """Low and high (P, U, 2) of the last U multipliers, whose ``ends`` (P, U, 2) at impending motion are known.
+
+    Infinite where there is no bound. NaN where a contact moves: its friction is at its limit, whatever its history; and
+    where friction of one contact has several directions.
+    """
+    own = np.asarray(~contacts.fixed & (strength(contacts, 1.0, True) > 0))
+    if contacts.group is not None and len(np.unique(contacts.group[own])) < own.sum():
+        return np.full(ends.shape, np.nan)
+    free = np.asarray((known.open | ~own).all(axis=-1) & np.isfinite(r.y).all(axis=(-2, -1)))
+    out = np.where(free[:, None, None], ends, np.nan)
+    rest = _scaled(contacts, r)
+    gains = rest.r.change[:, -ends.shape[1] :, :]
+    open_ = np.flatnonzero(free & ~_monotonic(rest, gains))
+    outward, n = _outward(rest), len(rest.own)
+    size = max(1, MOST // (2 * ends.shape[1] * (len(outward) + 3) * (2 * n + 1) * (n + 1)))
+    for some in np.split(open_, range(size, len(open_), size)) if open_.size else ():
+        best = _best(rest.at(some), np.concatenate([gains, -gains], axis=1)[some], outward)
+        x = r.x[some][:, -ends.shape[1] :]
+        sought = np.stack([x - best[:, ends.shape[1] :], x + best[:, : ends.shape[1]]], axis=-1)
+        room = SAME * np.nan_to_num(np.abs(ends[some])).max(axis=-1)[..., None]
+        out[some] = np.where((sought - ends[some]) * [-1.0, 1.0] > room, sought, ends[some])
+    unheld = np.isnan(ends) & free[:, None, None]
+    return np.where(unheld, [-np.inf, np.inf], out)
+
+
+def _monotonic(rest: _Rest, gains: Array) -> Flags:
+    """Where (P,) it is proved that every unknown rises or falls with each contact's part of its limit, whatever the
+    others': then the extremes are the ends at which motion impends.
+
+    The change a of an unknown with t, the other contacts following, is a = g - (f S' H)^T a for parts f. With a bound M
+    of the size of S' H:  |a - g| <= M^T (1 - M^T)^-1 |g|,  where the inverse has no negative number.
+    """
+    contacts, h = rest.contacts, rest.r.h
+    lever = np.where(rest.c[:, None] != 0, levers(contacts, h), 0.0)
+    follow = np.swapaxes(lever, -1, -2)
+    inverse = inverses(np.eye(h.shape[-1]) - follow)
+    most = np.abs(gains) @ np.swapaxes(inverse, -1, -2)
+    least = np.abs(gains) - most @ np.swapaxes(follow, -1, -2)
+    faces = np.flatnonzero(contacts.signed)
+    least[..., contacts.led[faces]] -= most[..., faces]
+    proved = (inverse >= 0).all(axis=(-2, -1)) & (least[..., rest.own] > 0).all(axis=(-2, -1))
+    return np.asarray(proved)
+
+
+def _best(rest: _Rest, ends: Array, outward: Array) -> Array:
+    """The largest q . t (P, Q) of the states found, of the gains q (P, Q, E)."""
+    count, many = ends.shape[:2]
+    seen = _seen(rest, np.concatenate([np.broadcast_to(outward, (count, *outward.shape)), ends], axis=1))
+    starts = seen.shape[1]
+    every = np.repeat(np.arange(count), starts * many)
+    q = np.repeat(ends[:, None], starts, axis=1).reshape(len(every), -1)
+    found = _furthest(rest.at(every), q, np.repeat(seen.reshape(count * starts, -1), many, axis=0))
+    value = np.where(found.open, np.inf, (q * found.t).sum(axis=-1))
+    return np.asarray(value.reshape(count, starts, many).max(axis=1))
+
+
+def _scaled(contacts: Contacts, r: Response) -> _Rest:
+    """t by the strength of each contact and the largest force."""
+    c = strength(contacts, 1.0, True)
+    size = np.abs(r.y).max(axis=(-2, -1), initial=0.0)
+    size = np.where(size > 0, size, 1.0)
+    unit = np.where(c != 0, np.abs(c), 1.0)
+    part = r._replace(y=r.y / size[:, None, None], change=r.change * unit * size[:, None, None])
+    own = np.flatnonzero(~contacts.fixed & ~contacts.signed & (c > 0))
+    return _Rest(contacts, strong(part, np.broadcast_to(unit, (len(size), len(unit)))), c / unit, own)
+
+
+def _bare(rest: _Rest) -> Array:
+    """t (P, E) without friction: what keeps gears' teeth apart alone."""
+    c = np.where(rest.contacts.fixed, rest.c, 0.0)
+    return _at_parts(rest, np.where(rest.contacts.fixed, -1.0, 0.0), c, np.zeros(rest.r.y.shape[::2]))[0]
+
+
+def _at_parts(rest: _Rest, part: Array, c: Array, t: Array) -> tuple[Array, Flags]:
+    """The state near t (B, E) in which every contact has a part of its limit, and where there is one."""
+    part, c = np.broadcast_to(part, t.shape), np.broadcast_to(c, t.shape)
+    found = newton(rest.contacts, rest.r, part, c, c * t)
+    return np.where(found.arrived[:, None], c * found.z, t), found.arrived
+
+
+def _outward(rest: _Rest) -> Array:
+    """Gains (K, E) whose furthest states the search also starts from: each contact's friction, in both senses."""
+    unit = np.eye(rest.contacts.count)[rest.own if len(rest.own) <= SINGLE else []]
+    return np.concatenate([unit, -unit])
+
+
+def _seen(rest: _Rest, q: Array) -> Array:
+    """States (P, K + 1, E): without friction, and the furthest from there of gains q (P, K, E)."""
+    bare = _bare(rest)
+    every = np.repeat(np.arange(len(bare)), q.shape[1])
+    found = _furthest(rest.at(every), q.reshape(len(every), -1), bare[every])
+    return np.concatenate([bare[:, None], found.t.reshape(q.shape)], axis=1)
+
+
+class _Limits(NamedTuple):
+    """Ways (B, E, F) of t with those of the own contacts; g (B, M, F) times a change of these is at most h (B, M)."""
+
+    ways: Array
+    g: Array
+    h: Array
+
+
+def _furthest(rest: _Rest, q: Array, t: Array) -> State:
+    """The states with the largest q . t that are reached from t (B, E)."""
+    t, open_ = t.copy(), np.zeros(len(t), bool)
+    on, idle, sides = np.arange(len(t)), np.zeros(len(t), int), None
+    size = np.abs(q).sum(axis=-1)
+    for _ in range(ROUNDS):
+        part = rest.at(on)
+        sides = _slopes(part, t[on], sides)
+        limits = _limits(part, t[on], sides)
+        way, unbounded = furthest(limits.g, limits.h, (q[on, None, :] @ limits.ways)[:, 0])
+        new = _exact(part, t[on] + (limits.ways @ way[..., None])[..., 0])
+        gain = ((new - t[on]) * q[on]).sum(axis=-1)
+        gained = gain > GAIN * size[on]
+        t[on] = np.where((gained | unbounded)[:, None], new, t[on])
+        open_[on[unbounded]] = True
+        idle[on] = np.where(gained, 0, idle[on] + 1)
+        kept = ~unbounded & (idle[on] < 2)
+        on, sides = on[kept], sides[kept]
+        if not on.size:
+            break
+    return State(t, open_)
+
+
+def _slopes(rest: _Rest, t: Array, before: Array | None) -> Array:
+    """Slope (B, 3, E) of the bearing forces; of a contact that bears nothing the other side of what it was."""
+    y = argument(rest.r, t)
+    largest = np.abs(y).max(axis=(-2, -1), initial=0.0)
+    steep, size = slope(rest.contacts, y, largest)
+    unloaded = np.abs(size) <= UNLOADED * largest[:, None]
+    if before is None:
+        before = np.zeros(steep.shape)
+        before[:, 0] = -1.0
+    return np.where(unloaded[:, None, :], -before, steep)
+
+
+def _exact(rest: _Rest, t: Array) -> Array:
+    """t with the couples of guides' faces as the parts of friction in the guides make them."""
+    contacts = rest.contacts
+    if not contacts.signed.any():
+        return t
+    bears = bearing(contacts, argument(rest.r, t))
+    part = np.where(bears > 0, -t / np.where(bears > 0, bears, 1.0), 0.0)
+    part = np.where(contacts.fixed, -1.0, np.clip(part, -1.0, 1.0))[:, contacts.led]
+    return _at_parts(rest, part, rest.c, t)[0]
+
+
+def _limits(rest: _Rest, t: Array, steep: Array) -> _Limits:
+    """What changes of t the contacts allow, their bearing forces taken along the slopes."""
+    contacts, own, c = rest.contacts, rest.own, rest.c
+    count, each = t.shape
+    bears = (steep * argument(rest.r, t)).sum(axis=-2)
+    turn = (steep[..., None] * rest.r.h).sum(axis=-3)
+    ways: Array = np.zeros((count, each, len(own)))
+    ways[:, own, np.arange(len(own))] = 1.0
+    for face in np.flatnonzero(contacts.signed & (c > 0)):
+        guide = contacts.led[face]
+        ratio = bears[:, face] / np.where(bears[:, guide] > 0, bears[:, guide], 1.0)
+        ways[:, face] = ratio[:, None] * ways[:, guide]
+    fixed = np.flatnonzero(contacts.fixed)
+    follows = np.zeros((count, each, each))
+    follows[:, fixed] = c[fixed, None] * turn[:, fixed]
+    ways = np.asarray(np.linalg.solve(np.eye(each) - follows, ways))
+    mine, turned, limit = ways[:, own], turn[:, own] @ ways, bears[:, own]
+    g = np.concatenate([mine - turned, -mine - turned, -(turn[:, fixed] @ ways)], axis=1)
+    h = np.concatenate([limit - t[:, own], limit + t[:, own], bears[:, fixed]], axis=1)
+    return _Limits(ways, g, np.maximum(h, 0.0))

@@ -1,0 +1,104 @@
+"""Contacts of a moving machine that have no rate at a position: their senses just before and just after it.
+
+At a dead centre the slide of an engine stands still for an instant while the crank goes on. Its friction has one sense
+before and the other after: that of its second rate, and against it. Where that is zero too the sense is looked up at
+positions a little before and after; a contact that has none there stays at rest.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags
+from dalembert.core.constraints import system
+from dalembert.core.equilibrium import Motion, motion
+from dalembert.core.friction.contact_equations import Contacts, Senses, next_senses, passing, senses, sign
+from dalembert.core.layout import Layout, Pose, System
+from dalembert.core.position.newton import CLOSED, closed, moved
+
+ASIDE = 0.01
+"""How far before and after: radians, or characteristic lengths, of the fastest link."""
+
+
+class Driven(NamedTuple):
+    """What the drives ask for at each position: stacked targets (P, K + D), speeds and accelerations (P, D)."""
+
+    target: Array
+    speed: Array
+    acceleration: Array
+
+
+class Sides(NamedTuple):
+    """Senses (P, E) of contacts just before and just after each position, and of which contacts they are known."""
+
+    before: Array
+    after: Array
+    known: Flags
+
+    def at(self, some: Any) -> Sides:
+        """Of some positions."""
+        return Sides(*(a[some] for a in self))
+
+
+def sides(
+    layout: Layout,
+    contacts: Contacts,
+    along: System,
+    pose: Pose,
+    moving: Motion,
+    driven: Driven,
+    told: Senses,
+    spun: Flags,
+) -> Sides:
+    """Senses on both sides of positions where some contact is open: of it, and of all that pass through zero with it.
+
+    spun (E,): contacts of rods that spin, whose second rates are not those of the motion.
+    """
+    turning = next_senses(layout, contacts, along, pose, moving.twist, moving.acceleration)
+    passes = passing(layout, contacts, moving.twist, told.rate, turning.rate) & ~turning.open
+    here = passes & (told.open | ~spun)
+    slow = told.open & ~here & ~turning.open  # it hardly moves, but it does, and on for a while
+    now = _sign(contacts, told.rate)
+    before, after = (np.where(slow, now, side) for side in (-turning.sense, turning.sense))
+    known, rest = here | slow, told.open & turning.open
+    some = np.flatnonzero(rest.any(axis=-1))
+    if some.size:
+        where = pose.at(some), Motion(*(a[some] for a in moving)), Driven(*(a[some] for a in driven))
+        last, next_ = (_aside(layout, contacts, *where, sign) for sign in (-1.0, 1.0))
+        for side, found in ((before, last), (after, next_)):
+            side[some] = np.where(rest[some], found.sense, side[some])
+        known[some] |= rest[some] & ~last.open & ~next_.open
+    return Sides(before, after, known & ~contacts.fixed)
+
+
+def _sign(contacts: Contacts, rate: Array) -> Array:
+    """Senses of rates that tell them, however small."""
+    reckoned = 1.0 if contacts.reckoned is None else contacts.reckoned
+    return sign(contacts, rate * reckoned, rate == 0)[..., contacts.led]
+
+
+def _aside(
+    layout: Layout, contacts: Contacts, pose: Pose, moving: Motion, driven: Driven, sign: float
+) -> Senses:
+    """Senses a little before (sign -1) or after the positions; open where the linkage does not close there."""
+    dt = _moment(layout, moving)[:, None]
+    ahead, bent = sign * dt, dt * dt / 2
+    target = driven.target.copy()
+    target[:, layout.constraints.count :] += ahead * driven.speed + bent * driven.acceleration
+    step = ahead[..., None] * moving.twist + bent[..., None] * moving.acceleration
+    there, missing = closed(layout, moved(layout, pose, step[:, :-1]), target)
+    twist = motion(layout, there, driven.speed + ahead * driven.acceleration, driven.acceleration)[0].twist
+    found = senses(layout, contacts, system(layout.algebra, contacts.rows, there), twist)
+    return found._replace(open=found.open | (missing > CLOSED * layout.length)[:, None])
+
+
+def _moment(layout: Layout, moving: Motion) -> Array:
+    """Time (P,) in which the fastest link moves by ``ASIDE``."""
+    way = ASIDE * layout.length
+    speed, rate = (
+        np.abs(a / layout.wrench_scale).max(axis=(-2, -1)) for a in (moving.twist, moving.acceleration)
+    )
+    with np.errstate(divide="ignore"):
+        return np.asarray(np.minimum(way / speed, np.sqrt(2 * way / rate)))

@@ -1,0 +1,231 @@
+"""Rods between two balls with friction: the spin at which the balls' couples about the rod's line vanish.
+
+A rod that could spin about the line of its two ball joints is set to no spin. Friction in the balls decides it: their
+couples, against the relative angular velocities, must leave nothing about the line, which nothing else holds. That
+moment falls as the spin grows, so there is one spin, or none where the loads turn the rod more than friction holds.
+The spin's own inertia about the line is left out.
+
+s   spin, tan(phi) times the fastest rate of the rod's balls
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.core.friction.contact_equations import Contacts, Response, Senses, multiplier, strength
+from dalembert.core.friction.friction_solver import LONGEST, Try, newton
+from dalembert.core.geometry import arm
+from dalembert.core.layout import Idle, Layout, Pose, System
+from dalembert.core.linear import solved
+
+STEPS = 60
+"""Halvings and secants after which the last spin is taken."""
+
+STEEPEST = 1.56
+"""Largest phi: a spin 90 times faster than the balls, where their couples have all but turned into it."""
+
+SETTLED = 1e-14
+"""Change of phi at which it has arrived."""
+
+SWEEPS = 8
+"""Times that every rod is settled while the others spin as they do: its couples change the others' forces little."""
+
+NEAR, SECANTS = 1e-4, 12
+"""First step and number of the secants of all rods together."""
+
+FIRST, ENDED = 0.01, 1e-8
+"""First step of the scale of friction of a branch with spinning rods, and the one below which it has ended."""
+
+SPUN, FAR, ALMOST, CLOSE = 8, 0.3, 1e-9, 1e-7
+"""Newton's steps on the spins, their largest change, when they have arrived, and the step of their differences."""
+
+
+class Rods(NamedTuple):
+    """Rods that spin in balls with friction: rows, links, directions (P, k, 3), whose contacts (k, E), rates (P, k).
+
+    The rate is the fastest of the rod's balls.
+    """
+
+    row: Ints
+    link: Ints
+    line: Array
+    touched: Flags
+    rate: Array
+
+    def fastest(self, rate: Array) -> Array:
+        """The fastest (..., k) of a rod's contacts, of rates (..., E)."""
+        return np.asarray(np.where(self.touched, np.abs(rate)[..., None, :], 0.0).max(axis=-1))
+
+
+class Spins(NamedTuple):
+    """Rods that spin, and the senses of the contacts where they spin at phi (P, k)."""
+
+    rods: Rods
+    told: Callable[[Array], Senses]
+
+    def at(self, some: Ints) -> Spins:
+        """Of some positions."""
+
+        def told(phi: Array) -> Senses:
+            every = np.zeros(self.rods.rate.shape)
+            every[some] = phi
+            return Senses(*(a[some] for a in self.told(every)))
+
+        return Spins(self.rods, told)
+
+    def added(self, r: Response, rate: Array, phi: Array) -> Array:
+        """What spins at phi add to the rates (P, E) of an impending motion: a unit of spin turns each contact as far
+        as the contact's couple turns the rod."""
+        unit = r.change[..., self.rods.row, :]
+        return np.asarray(((self.rods.fastest(rate) * np.tan(phi))[..., None] * unit).sum(axis=-2))
+
+
+def rods(layout: Layout, contacts: Contacts, pose: Pose, along: System, rate: Array) -> Rods | None:
+    """The rods whose balls rub; None without any."""
+    for f in layout.constraints.families:
+        if isinstance(f, Idle):
+            touched = (along.i == f.j[:, None]) | (along.j == f.j[:, None])
+            which = np.flatnonzero(touched.any(axis=1))
+            if which.size:
+                line = arm(layout.algebra, pose, f.j, f.p)[..., which, :]
+                found = Rods(f.row[which], f.j[which], line, touched[which], rate)
+                return found._replace(rate=found.fastest(rate))
+    return None
+
+
+def spun(twist: Array, found: Rods, phi: Array) -> Array:
+    """The twists (P, L+1, 6) with the rods spinning at phi (P, k)."""
+    out = twist.copy()
+    out[..., found.link, 3:] += (found.rate * np.tan(phi))[..., None] * found.line
+    return out
+
+
+def settled(shape: tuple[int, ...], moment: Callable[[Array], Array]) -> Array:
+    """phi (P, k) of a shape at which the moments (P, k) about the lines vanish: rod after rod, then all together."""
+    phi: Array = np.zeros(shape)
+    for _ in range(SWEEPS if phi.shape[-1] > 1 else 1):
+        for n in range(phi.shape[-1]):
+            phi[..., n] = _bracketed(_of_one(moment, phi, n), phi[..., n].shape)
+        if phi.shape[-1] > 1:
+            phi, arrived = _together(moment, phi)
+            if arrived.all():
+                break
+    return phi
+
+
+def _together(moment: Callable[[Array], Array], phi: Array) -> tuple[Array, Flags]:
+    """Secants of all rods at once from close by, and the positions where they arrive; elsewhere what was given."""
+    last, here = phi + NEAR, moment(phi)
+    before, new, size = moment(last), phi, np.full(phi.shape[:-1], np.inf)
+    for _ in range(SECANTS):
+        with np.errstate(all="ignore"):
+            step = np.nan_to_num(here * (new - last) / (here - before), posinf=0.0, neginf=0.0)
+        last, before, new = new, here, np.clip(new - step, -STEEPEST, STEEPEST)
+        here, size = moment(new), np.abs(step).max(axis=-1)
+        if (size < SETTLED).all():
+            break
+    arrived = size < 10 * SETTLED
+    return np.where(arrived[..., None], new, phi), arrived
+
+
+def _of_one(moment: Callable[[Array], Array], phi: Array, n: int) -> Callable[[Array], Array]:
+    """The moment about the line of rod n with its own phi, the others' as they are."""
+
+    def own(value: Array) -> Array:
+        tried = phi.copy()
+        tried[..., n] = value
+        return moment(tried)[..., n]
+
+    return own
+
+
+def _bracketed(moment: Callable[[Array], Array], shape: tuple[int, ...]) -> Array:
+    """phi at which a moment vanishes, by secants and halvings of a bracket; 0 where it does not change its sign."""
+    low, high = np.full(shape, -STEEPEST), np.full(shape, STEEPEST)
+    at_low, at_high = moment(low), moment(high)
+    none = ~(at_low * at_high < 0)
+    for k in range(STEPS):
+        with np.errstate(all="ignore"):
+            secant = low - at_low * (high - low) / (at_high - at_low)
+        middle = (low + high) / 2
+        new = np.where((k % 3 == 2) | ~(np.abs(secant - middle) <= (high - low) / 2), middle, secant)
+        new = np.where(none, 0.0, new)
+        here = moment(new)
+        left = here * at_low > 0
+        low, at_low = np.where(left, new, low), np.where(left, here, at_low)
+        high, at_high = np.where(left, high, new), np.where(left, at_high, here)
+        if (none | (high - low < SETTLED) | (here == 0)).all():
+            break
+    return np.where(none, 0.0, np.where(np.abs(at_low) < np.abs(at_high), low, high))
+
+
+class Raised(NamedTuple):
+    """Where the branch with spinning rods ends: spins phi (P, k), friction z (P, E), determinant and scale (P,)."""
+
+    phi: Array
+    z: Array
+    determinant: Array
+    scale: Array
+
+
+def raised(contacts: Contacts, r: Response, resting: Flags, spins: Spins) -> Raised:
+    """The branch from no friction, the rods spinning all along as the balls let them.
+
+    It is followed as that of ``slip``: where no step of the scale of friction goes further it ends.
+    """
+    z, count = np.zeros(resting.shape), len(resting)
+    row, least = spins.rods.row, np.full(count, FIRST)
+    phi = settled((count, len(row)), lambda phi: _moment(contacts, r, resting, spins, _Aim(least, z, phi))[1])
+    scale, step, sign, determinant = np.zeros(count), least, np.zeros(count), np.ones(count)
+    while ((scale < 1) & (step > ENDED)).any():
+        aim = np.where(step > ENDED, np.minimum(scale + step, 1.0), scale)
+        new, turned, there = _spun_newton(contacts, r, resting, spins, _Aim(aim, z, phi))
+        near = (np.abs(turned - phi) < FAR).all(axis=-1)
+        good = new.arrived & near & (new.determinant > 0) & (there * sign >= 0) & (aim > scale)
+        phi = np.where(good[:, None], turned, phi)
+        z, determinant = np.where(good[:, None], new.z, z), np.where(good, new.determinant, determinant)
+        sign, scale = np.where(good, there, sign), np.where(good, aim, scale)
+        step = np.where(good, np.minimum(2 * step, LONGEST), step / 2)
+    return Raised(phi, z, determinant, scale)
+
+
+class _Aim(NamedTuple):
+    """A scale of friction (P,), and friction z and spins phi to start from."""
+
+    scale: Array
+    z: Array
+    phi: Array
+
+
+def _moment(contacts: Contacts, r: Response, resting: Flags, spins: Spins, aim: _Aim) -> tuple[Try, Array]:
+    """Friction where the rods spin at phi, and the moments (P, k) about their lines that it leaves."""
+    sense = spins.told(aim.phi).sense
+    c = strength(contacts, aim.scale[:, None], resting, sense)
+    found = newton(contacts, r, sense, c, aim.z, most=12)
+    return found, np.nan_to_num(multiplier(r, c * found.z)[..., spins.rods.row])
+
+
+def _spun_newton(
+    contacts: Contacts, r: Response, resting: Flags, spins: Spins, aim: _Aim
+) -> tuple[Try, Array, Array]:
+    """Newton on friction within Newton on the spins, whose derivatives are differences; sign of their determinant."""
+    phi, unit = aim.phi, np.eye(len(spins.rods.row))
+
+    def moment(tried: Array) -> tuple[Try, Array]:
+        return _moment(contacts, r, resting, spins, aim._replace(phi=tried))
+
+    for _ in range(SPUN):
+        _, here = moment(phi)
+        steep = np.stack([(moment(phi + CLOSE * e)[1] - here) / CLOSE for e in unit], axis=-1)
+        change = np.nan_to_num(solved(steep, -here))
+        phi = phi + np.clip(change, -FAR, FAR)
+        if (np.abs(change) < SETTLED).all():
+            break
+    found, left = moment(phi)
+    balanced = np.abs(left).max(axis=-1) <= ALMOST * np.abs(r.x).max(axis=-1)
+    arrived = found.arrived & balanced & (np.abs(change).max(axis=-1) < ALMOST)
+    return found._replace(arrived=arrived), phi, np.sign(np.linalg.det(steep))

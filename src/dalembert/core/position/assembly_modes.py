@@ -1,0 +1,191 @@
+"""The ways a linkage of the plane closes: enumerated, told apart, and put in the order in which they are taken.
+
+First come those with every group on the side that the given angles state, then the nearest to the given angles. Where
+nothing is given, sliders farthest along their directions come first, then the highest links.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array, Ints
+from dalembert.core.constraints import measure
+from dalembert.core.layout import Layout, Meet, Pose, Rows, Turn
+from dalembert.core.position.assur_plan import Plan
+from dalembert.core.position.dyads import Laid, begun, extended, offsets, sides
+
+MOST = 64
+"""Ways that are kept while links are laid down: all there are of six groups, of more the first in order."""
+
+NEAR = 0.35
+"""How far given angles may be off, radians. A way this close to them is taken without a look for others; two that both
+are stand near a dead centre, where Newton from the given angles goes to the nearer one."""
+
+TRIALS = 16
+"""In how many cases of being off given angles have to state the same side."""
+
+SAME = 1e-4
+"""Two poses this close to each other, radians or characteristic lengths, are the same way."""
+
+
+class Wanted(NamedTuple):
+    """What is given of the pose: angles (L+1,) and places (L+1, 2), NaN where nothing is; the pose that Newton finds
+    from there, which settles what they leave open, None where it finds none."""
+
+    turn: Array
+    point: Array
+    start: Pose | None
+
+    @property
+    def given(self) -> bool:
+        """Whether there is an angle."""
+        return bool(np.isfinite(self.turn[:-1]).any())
+
+
+def enumerated(layout: Layout, plan: Plan, target: Array, wanted: Wanted) -> Pose:
+    """The ways (M, L+1, ...) that a linkage closes at a target (K + D,), group by group, the first one first."""
+    with np.errstate(all="ignore"):
+        return _enumerated(layout, plan, target, wanted)
+
+
+def _enumerated(layout: Layout, plan: Plan, target: Array, wanted: Wanted) -> Pose:
+    stated = stated_sides(layout, plan, target, wanted)
+    laid, off = begun(plan, target[None]), offsets(plan, target[None])
+    for group in plan.groups:
+        laid = extended(group, laid, *(np.repeat(a, len(laid.turn), axis=0) for a in (target[None], off)))[1]
+        for links in group.turning:
+            _wind(laid.turn, group.links[links], wanted.turn)
+        if len(laid.turn) > MOST:
+            laid = laid.at(_order(layout, laid, stated, wanted)[:MOST])
+    order = _order(layout, laid, stated, wanted)
+    return posed(layout, laid.at(order))
+
+
+def on_sides(layout: Layout, plan: Plan, targets: Array, like: Pose, turn: Array) -> tuple[Ints, Pose]:
+    """Which of the targets (P, K + D) a linkage reaches with every group on its side of a pose (L+1, ...), and how.
+
+    ``turn`` (L+1,) are given angles, NaN where there is none. Where a group has several ways on that side,
+    none is taken.
+    """
+    with np.errstate(all="ignore"):
+        here = np.full((1, targets.shape[1]), np.nan)
+        side = sides(plan, like.turn[None], like.point[None], here)[0]
+        off, laid, places = offsets(plan, targets), begun(plan, targets), np.arange(len(targets))
+        for k, group in enumerate(plan.groups):
+            which, laid = extended(group, laid, targets[places], off[places])
+            same = laid.side[:, k] * side[k] >= 0
+            once = same & (np.bincount(which[same], minlength=len(places))[which] == 1)
+            laid, places = laid.at(once), places[which[once]]
+            for links in group.turning:
+                _wind(laid.turn, group.links[links], turn)
+        return places, posed(layout, laid)
+
+
+def posed(layout: Layout, laid: Laid) -> Pose:
+    """Links laid down as a pose."""
+    return Pose(laid.point, laid.turn, layout.algebra.rotation(laid.turn))
+
+
+def _wind(turn: Array, links: Ints, given: Array) -> None:
+    """Whole turns of links that turn together: the nearest to the angle that one of them is given, else the least."""
+    known = links[np.isfinite(given[links])]
+    head = known[0] if known.size else links[0]
+    wanted = given[head] if known.size else 0.0
+    turn[:, links] -= 2 * np.pi * np.ceil((turn[:, [head]] - wanted) / (2 * np.pi) - 0.5)
+
+
+def stated_sides(layout: Layout, plan: Plan, target: Array, wanted: Wanted) -> Array:
+    """The side (G,) of each group that the given angles state, were each of them ``NEAR`` off; 0 where they do not.
+
+    The drives' positions are not taken: the angles may have been read off at others.
+    """
+    if not wanted.given:
+        return np.zeros(len(plan.groups))
+    target = target.copy()
+    target[layout.constraints.count :] = np.nan
+    off = NEAR * np.sign(np.sin(np.arange(TRIALS)[:, None] * (1 + np.arange(len(wanted.turn)) ** 2)))
+    turn = wanted.turn + off
+    turn[:, -1] = 0.0
+    held = [entry for entry in plan.turns if entry[3] < layout.constraints.count]
+    for _ in range(len(held)):
+        for new, known, sign, row in held:
+            if np.isnan(turn[0, new]):
+                turn[:, new] = turn[:, known] + sign * target[row]
+            elif np.isnan(turn[0, known]):
+                turn[:, known] = turn[:, new] - sign * target[row]
+    every = np.ones((TRIALS, 1))
+    found = sides(plan, turn, every[:, None] * wanted.point, every * target)
+    return np.where((found == found[0]).all(axis=0), found[0], 0.0)
+
+
+def _order(layout: Layout, laid: Laid, stated: Array, wanted: Wanted) -> Ints:
+    """The order in which ways are taken, which may be laid down in part."""
+    wrong = (laid.side * stated[: laid.side.shape[1]] < 0).sum(axis=1)
+    off = np.nansum(turned(laid.turn - wanted.turn)[:, :-1] ** 2, axis=1)
+    shift = np.nansum((laid.point - wanted.point)[:, :-1] ** 2, axis=(1, 2)) / layout.length**2
+    along, height = measures(layout, posed(layout, laid))
+    keys = [wrong, off, shift, -along, -height]
+    if wanted.start is not None:
+        away = np.nansum(turned(laid.turn - wanted.start.turn) ** 2, axis=1)
+        apart = np.nansum((laid.point - wanted.start.point) ** 2, axis=(1, 2)) / layout.length**2
+        keys.insert(3 if wanted.given else 5, away + apart)
+    return np.lexsort([key.round(9) for key in reversed(keys)])
+
+
+def turned(angle: Array) -> Array:
+    """Angles reduced to (-pi, pi]."""
+    return np.asarray(angle - 2 * np.pi * np.ceil(angle / (2 * np.pi) - 0.5))
+
+
+def reduced(layout: Layout, pose: Pose) -> Pose:
+    """Whole turns taken off links whose angle no row of the system counts."""
+    counted = {int(k) for rows in (layout.constraints, layout.freedoms) for k in _counted(layout, rows)}
+    turn = pose.turn.copy()
+    free = [k for k in range(layout.links) if k not in counted]
+    turn[..., free] = turned(turn[..., free])
+    return Pose(pose.point, turn, pose.rotation)
+
+
+def _counted(layout: Layout, rows: Rows) -> list[int]:
+    driven = set(layout.driven.tolist()) if rows is layout.freedoms else None
+    out: list[int] = []
+    for f in rows.families:
+        if isinstance(f, Turn):
+            keep = [driven is None or int(k) in driven for k in f.row]
+            out += f.i[keep].tolist() + f.j[keep].tolist()
+    return out
+
+
+def distinct(layout: Layout, pose: Pose) -> Pose:
+    """The first of each of the ways."""
+    kept: list[int] = []
+    for k in range(len(pose.turn)):
+        others = np.array(kept, np.intp)
+        shift = np.abs(pose.point[others] - pose.point[k]).max(axis=(1, 2), initial=0.0) / layout.length
+        turn = np.abs(turned(pose.turn[others] - pose.turn[k])).max(axis=1, initial=0.0)
+        if (np.maximum(shift, turn) > SAME).all():
+            kept.append(k)
+    return pose.at(np.array(kept, np.intp))
+
+
+def ordered(layout: Layout, pose: Pose, wanted: Wanted) -> Ints:
+    """The order of ways whose groups are not known: the nearest to given angles, else as they are preferred."""
+    if wanted.given:
+        off = np.nansum(turned(pose.turn - wanted.turn)[:, :-1] ** 2, axis=1).round(9)
+        return np.argsort(off, kind="stable")
+    along, height = measures(layout, pose)
+    return np.lexsort((-height, -along))
+
+
+def measures(layout: Layout, pose: Pose) -> tuple[Array, Array]:
+    """How far sliders stand along their directions, and how high the links, of those that are laid down (M,)."""
+    slides = np.setdiff1d(np.flatnonzero(~layout.freedoms.angular), layout.driven)
+    along = np.nansum(measure(layout.algebra, layout.freedoms, pose)[:, slides], axis=1)
+    height = np.nansum(pose.point[:, :-1, 1], axis=1)
+    for f in layout.constraints.families:
+        if isinstance(f, Meet):  # the links' far ends
+            arm = layout.algebra.rotate(pose.rotation[:, f.j], f.uj)
+            height = height + np.nansum(pose.point[:, f.j, 1] + arm[..., 1], axis=1)
+    return np.round(along / layout.length, 6), np.round(height / layout.length, 6)

@@ -1,0 +1,185 @@
+"""Groups of links that are solved one after another, and which way each of them is assembled.
+
+Rows and unknowns of a square J are put in block triangular form (Dulmage and Mendelsohn, 1958): a group of links that
+only closes as a whole (Assur) has a diagonal block of its own. J becomes singular where one block does, so along a
+motion no block's determinant changes its sign, while det J, their product, keeps its own where two of them do.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array, Ints
+from dalembert.core.constraints import dense, stacked
+from dalembert.core.factor import row_scale
+from dalembert.core.layout import Layout, Pose, System
+from dalembert.core.linear import Inverse, inverse
+
+NOTHING = 1e-9
+"""Part of the largest entry of J below which an entry counts as 0: cosines of right angles, rounded."""
+
+DEPENDENT = 1e-6
+"""Part of a row of J that rows before it have to leave of it for it to say something new."""
+
+LARGEST = 600
+"""Unknowns above which J is not asked."""
+
+TOLD_APART = 3
+"""Links up to which a group closes in two ways, of opposite signs: two, and one that a drive holds to one of them.
+Larger ones close in more ways, several of the same sign."""
+
+
+class Group(NamedTuple):
+    """Rows and columns (b,) of a diagonal block of J."""
+
+    row: Ints
+    column: Ints
+
+
+def groups(layout: Layout, pose: Pose) -> list[Group]:
+    """Diagonal blocks of J by the entries that differ from 0 at any of the poses (P, L+1, ...) of one branch.
+
+    Where rows repeat each other, those of two choices of independent ones, the first and the last: a sign that changes
+    because a choice fails, not the linkage, would have to change in both. None where J is too large, has too few rows
+    or is singular by its zeros alone, where a group has too many links for its sign to tell all its ways apart, and
+    where a choice fails already at one of the poses.
+    """
+    if layout.stack.count < layout.unknowns or layout.unknowns > LARGEST:
+        return []
+    j = _scaled(layout, pose)
+    filled = np.abs(j).max(axis=0)
+    filled = filled > NOTHING * filled.max()
+    every = np.arange(layout.stack.count)
+    choices = [every] if layout.square else [_independent(j[0], every), _independent(j[0], every[::-1])]
+    found: list[Group] = []
+    for kept in choices:
+        blocks = block_triangular([np.flatnonzero(filled[row]).tolist() for row in kept], layout.unknowns)
+        if blocks is None:
+            return []
+        found += [Group(kept[rows], np.array(columns, np.intp)) for rows, columns in blocks]
+    links = [len(np.unique(group.column // layout.algebra.n)) for group in found]
+    steady = layout.square or bool((np.ptp(senses(layout, found, pose), axis=0) == 0).all())
+    return found if max(links) <= TOLD_APART and steady else []
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """A factored system of some of the rows of J (..., K, n L): Newton steps where the others repeat them."""
+
+    rows: Ints
+    inverse: Inverse
+
+    @property
+    def rcond(self) -> Array:
+        return self.inverse.rcond
+
+    def motion(self, rates: Array) -> Array:
+        return self.inverse.motion(rates[..., self.rows])
+
+
+def on_independent_rows(layout: Layout, pose: Pose) -> Layout:
+    """The layout with a solver by the first rows of J that do not depend on those before, at a pose (L+1, ...).
+
+    It takes a fraction of the time of singular values; whether the other rows hold too is seen by the gap.
+    """
+    if layout.square:
+        return layout
+    kept = _independent(_scaled(layout, pose.at(None))[0], np.arange(layout.stack.count))
+
+    def solver(at: Layout, rows: System) -> Chosen:
+        some = rows.rows(kept)
+        return Chosen(kept, inverse(dense(at, some), row_scale(at, some.angular), at.column_scale))
+
+    return replace(layout, solver=solver)
+
+
+def _independent(j: Array, order: Ints) -> Ints:
+    """Rows of J (K, n L), taken in an order, that do not depend on those before."""
+    kept, basis = [], np.zeros((0, j.shape[1]))
+    for row in order:
+        rest = j[row] - (basis @ j[row]) @ basis
+        rest -= (basis @ rest) @ basis
+        size = float(np.linalg.norm(rest))
+        if size > DEPENDENT * float(np.linalg.norm(j[row])):
+            kept.append(int(row))
+            basis = np.vstack([basis, rest / size])
+    return np.array(kept, np.intp)
+
+
+def senses(layout: Layout, found: list[Group], pose: Pose) -> Array:
+    """Signs (P, G) of the groups' determinants: each tells the two sides of a dead centre of its group apart."""
+    j = _scaled(layout, pose)
+    return np.stack([np.linalg.slogdet(j[:, g.row[:, None], g.column])[0] for g in found], axis=1)
+
+
+def _scaled(layout: Layout, pose: Pose) -> Array:
+    """J (P, K + D, n L) without dimensions."""
+    return dense(layout, stacked(layout, pose)) * layout.row_scale[:, None] * layout.column_scale
+
+
+def block_triangular(rows: list[list[int]], columns: int) -> list[tuple[list[int], list[int]]] | None:
+    """Rows and columns of the diagonal blocks of a square pattern, in the order in which they can be solved.
+
+    A pattern is the columns that each row has; None where rows and columns cannot be paired. Rows are paired with
+    columns, then those that need each other are found by depth-first search (Tarjan, 1972).
+
+    >>> block_triangular([[0], [0, 1, 2], [1, 2]], 3)
+    [([0], [0]), ([1, 2], [1, 2])]
+    """
+    own = _paired(rows) if len(rows) == columns else None
+    if own is None:
+        return None
+    owner = {column: row for row, column in enumerate(own)}
+    needed = [[owner[column] for column in row] for row in rows]
+    return [(block, sorted(own[row] for row in block)) for block in _together(needed)]
+
+
+def _paired(rows: list[list[int]]) -> list[int] | None:
+    """A column of its own for each row, by augmenting paths; None where there are not enough."""
+    own: list[int] = [-1] * len(rows)
+    owner: dict[int, int] = {}
+    for start in range(len(rows)):
+        came: dict[int, int] = {}
+        queue, free = [start], -1
+        for row in queue:
+            new = [column for column in rows[row] if column not in came]
+            came.update(dict.fromkeys(new, row))
+            free = next((column for column in new if column not in owner), -1)
+            if free >= 0:
+                break
+            queue += [owner[column] for column in new]
+        while free >= 0:
+            row = came[free]
+            own[row], owner[free], free = free, row, own[row]
+        if own[start] < 0:
+            return None
+    return own
+
+
+def _together(needed: list[list[int]]) -> list[list[int]]:
+    """Strongly connected components of a graph, each behind those that it needs."""
+    order: dict[int, int] = {}
+    low: dict[int, int] = {}
+    found, stack, done = [], [], set()
+    for root in range(len(needed)):
+        path = [root] if root not in order else []
+        while path:
+            node = path[-1]
+            if node not in order:
+                order[node] = low[node] = len(order)
+                stack.append(node)
+            new = next((other for other in needed[node] if other not in order), None)
+            if new is not None:
+                path.append(new)
+                continue
+            path.pop()
+            low[node] = min([order[node], *(low[other] for other in needed[node] if other not in done)])
+            if low[node] == order[node]:
+                first = stack.index(node)
+                found.append(stack[first:])
+                done.update(stack[first:])
+                del stack[first:]
+    return found

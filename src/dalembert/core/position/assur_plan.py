@@ -1,0 +1,178 @@
+"""The groups of links of a plane linkage, found from its joints alone, in the order in which they are laid down.
+
+With the drives known, the conditions split into groups that are solved one after another (Assur, 1916; the block
+triangular form of ``core.position.assur_groups``). Each condition between two links i and j is
+
+    n . (P_j + R_j u_j - P_i - R_i u_i) = target
+
+with n ground's x and y for points that coincide, an axis of i for a slide. Links whose relative angle is held turn
+together: all of them follow a leader's angle.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.core.layout import Along, Distance, Layout, Meet, Turn
+from dalembert.core.position.assur_groups import block_triangular
+
+
+class Conditions(NamedTuple):
+    """Scalar conditions (K,): links i and j, arms (K, 2), the axis n in the axes of link ``frame``, the target's row.
+
+    Of ``far`` ones the axis is the line of the two points: they hold their distance.
+    """
+
+    i: Ints
+    j: Ints
+    frame: Ints
+    ui: Array
+    uj: Array
+    axis: Array
+    row: Ints
+    far: Flags
+
+    def at(self, rows: list[int]) -> Conditions:
+        """Some of them."""
+        parts: Any = (part[rows] for part in self)
+        return Conditions(*parts)
+
+
+@dataclass(frozen=True)
+class Group:
+    """A group: its conditions, the unknown coordinates of its links, the links that turn with each unknown angle.
+
+    ``links`` are all that it touches; everything else counts them by their places there.
+    """
+
+    links: Ints
+    conditions: Conditions
+    link: Ints  # (p,)
+    axis: Ints  # (p,)
+    turning: tuple[Ints, ...]
+
+    @cached_property
+    def incidence(self) -> Array:
+        """1 where a coordinate is that of link j of a condition, -1 of link i (K, p)."""
+        c = self.conditions
+        return np.asarray((c.j[:, None] == self.link) * 1.0 - (c.i[:, None] == self.link))
+
+    @cached_property
+    def sliding(self) -> int:
+        """Conditions along axes that turn with an unknown angle."""
+        own = np.concatenate([*self.turning, np.zeros(0, np.intp)])
+        return int(np.isin(self.conditions.frame, own).sum())
+
+    @cached_property
+    def closed(self) -> bool:
+        """Whether there is a closed form (``core.position.dyads``)."""
+        count = len(self.turning)
+        return not self.conditions.far.any() and (count < 2 or (count == 2 and not self.sliding))
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How the links are laid down: angles that follow from others, then group after group.
+
+    turns   a link, the one it turns with, sign and row of the angle between them, in an order that starts from leaders
+    """
+
+    links: int
+    turns: tuple[tuple[int, int, float, int], ...]
+    groups: tuple[Group, ...]
+
+    @cached_property
+    def closed(self) -> bool:
+        """Whether every group has a closed form."""
+        return all(group.closed for group in self.groups)
+
+
+def plan(layout: Layout) -> Plan | None:
+    """The plan of a layout without phases; None where its conditions are too few, too many or repeated."""
+    if layout.stack.count != layout.unknowns or layout.algebra.d != 2:
+        return None
+    turns, leader = _turns(layout)
+    conditions = _conditions(layout)
+    held = sum(len(f.row) for f in layout.stack.families if isinstance(f, Turn))
+    if len(turns) != held or conditions is None:
+        return None
+    heads, places = sorted(set(leader.tolist()) - {layout.links}), 2 * layout.links
+    angles = {head: places + k for k, head in enumerate(heads)}
+    entries = [_entries(conditions, k, leader, angles) for k in range(len(conditions.i))]
+    blocks = block_triangular(entries, places + len(heads))
+    if blocks is None:
+        return None
+    groups = []
+    for rows, columns in blocks:
+        link = np.array([c for c in columns if c < places], np.intp)
+        turning = [np.flatnonzero(leader == heads[c - places]) for c in columns if c >= places]
+        groups.append(_group(conditions.at(rows), link // 2, link % 2, turning))
+    return Plan(layout.links, turns, tuple(groups))
+
+
+def _group(c: Conditions, link: Ints, axis: Ints, turning: list[Ints]) -> Group:
+    """A group by the links it touches."""
+    links = np.unique(np.concatenate([c.i, c.j, c.frame, link, *turning]))
+    i, j, frame, place, *turns = (
+        np.searchsorted(links, part) for part in (c.i, c.j, c.frame, link, *turning)
+    )
+    return Group(links, c._replace(i=i, j=j, frame=frame), place, axis, tuple(turns))
+
+
+def _turns(layout: Layout) -> tuple[tuple[tuple[int, int, float, int], ...], Ints]:
+    """Angles that follow from others by rows that hold relative angles; the leader of each link, ground where fixed."""
+    rows = [
+        (int(i), int(j), int(row))
+        for f in layout.stack.families
+        if isinstance(f, Turn)
+        for i, j, row in zip(f.i, f.j, f.row, strict=True)
+    ]
+    leader, out = np.full(layout.links + 1, -1, np.intp), []
+    for head in (layout.links, *range(layout.links)):
+        if leader[head] >= 0:
+            continue
+        leader[head] = head
+        queue = [head]
+        for known in queue:
+            for i, j, row in rows:
+                new, sign = (j, 1.0) if i == known else (i, -1.0)
+                if known in (i, j) and leader[new] < 0:
+                    leader[new] = head
+                    out.append((new, known, sign, row))
+                    queue.append(new)
+    return tuple(out), leader
+
+
+def _conditions(layout: Layout) -> Conditions | None:
+    """The rows but for those of angles; None where there are others than points, slides and distances."""
+    ground, parts = layout.links, []
+    for f in layout.stack.families:
+        count, none = len(f.i), np.zeros(len(f.i), bool)
+        if isinstance(f, Meet):
+            for k, axis in enumerate(np.eye(2)):
+                frame, axes = np.full(count, ground), np.tile(axis, (count, 1))
+                parts.append(Conditions(f.i, f.j, frame, f.ui, f.uj, axes, f.row[:, k], none))
+        elif isinstance(f, Along) and not f.pitch.any():
+            parts.append(Conditions(f.i, f.j, f.i, f.ui, f.uj, f.axis, f.row, none))
+        elif isinstance(f, Distance):
+            frame, axes = np.full(count, ground), np.zeros((count, 2))
+            parts.append(Conditions(f.i, f.j, frame, f.ui, f.uj, axes, f.row, ~none))
+        elif not isinstance(f, Turn):
+            return None
+    return Conditions(*(np.concatenate(part) for part in zip(*parts, strict=True))) if parts else None
+
+
+def _entries(c: Conditions, k: int, leader: Ints, angles: dict[int, int]) -> list[int]:
+    """Unknowns of a condition: coordinates 2 link + axis, then the angles by their leaders."""
+    ground, frame = len(leader) - 1, int(c.frame[k])
+    found = {angles.get(int(leader[frame]), -1)}
+    for link, arm in ((int(c.i[k]), c.ui[k]), (int(c.j[k]), c.uj[k])):
+        if link != ground:
+            found |= {2 * link + a for a in range(2) if c.axis[k, a] or c.far[k] or frame != ground}
+            found |= {angles.get(int(leader[link]), -1)} if arm.any() else set()
+    return sorted(found - {-1})

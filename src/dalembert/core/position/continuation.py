@@ -1,0 +1,346 @@
+"""Stations of a motion, followed from its first pose step by step, on one branch.
+
+A predictor through the last stations is corrected by Newton; a step is halved where the corrector moves far, or where
+the rates at its two ends do not fit the way between them. Where J tends to become singular ahead, branches may cross
+there or only come near: the march closes in on the place, so that near branches are told apart at their own scale,
+and goes straight through only where J is singular as far as ``THROUGH`` can tell. Where no step is small enough it
+has come to a dead centre, and ends.
+
+s  parameter of the course
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags
+from dalembert.core.constraints import stacked
+from dalembert.core.factor import displacements
+from dalembert.core.layout import Idle, Layout, Pose
+from dalembert.core.linear import RANK, generalized_inverse
+from dalembert.core.position.newton import closed, distance, gap, largest, moved
+from dalembert.core.position.path_parameter import Course
+from dalembert.core.rotation_rows import settled
+
+STRIDE = 0.43
+"""Radians of a drive (or slide over characteristic length) between stations; no divisor of a quarter turn."""
+
+NODES = 5
+"""Stations in an interpolation, each with pose and rate."""
+
+CROWDED = 0.3
+"""Interpolation in an interval reaches no farther than to stations nearer to each other than this part of it."""
+
+RECENT = 3
+"""Stations in an extrapolation."""
+
+CLOSE, POOR, STEPS = 0.01, 0.1, 5
+"""Newton's step over the travel at which it may stop, the whole correction that is refused, most steps."""
+
+BENT = 0.15
+"""Difference of the way between two stations from the mean of their rates, over it, that is refused: a branch that
+crosses has another direction, however near it is."""
+
+NEARER, AWAY = 0.75, 3.0
+"""Part of the way to a singular pose ahead that a step may take; step over the way since one behind."""
+
+THROUGH = 1e-5
+"""Way to a singular pose, in s, from which a step goes through it: branches nearer to each other count as crossing."""
+
+LOST = -25.0
+"""Logarithm of the determinant between two stations below which J is singular at both: its sign says nothing."""
+
+FAR = 4 * STRIDE
+"""Longest travel of a link between stations: radians, or lengths over the machine's reach."""
+
+SHORTEST = 2.0**-20
+"""Part of a stride at which the march gives up: a dead centre lies within."""
+
+SHORT, MOST_SHORT = 1e-3, 500
+"""Part of a stride that is a short step, and how many may follow each other: a sharp turn takes some fifty."""
+
+
+class March(NamedTuple):
+    """Stations of a march: parameters (S,) ascending, their poses (S, L+1, ...), whether the course's end was met."""
+
+    s: Array
+    pose: Pose
+    whole: bool
+
+
+class Nodes(NamedTuple):
+    """Stations with their rates: parameters (S,) ascending, poses (S, L+1, ...), twists per unit of s (S, L+1, n)."""
+
+    s: Array
+    pose: Pose
+    rate: Array
+
+
+class Station(NamedTuple):
+    """One pose (L+1, ...) of a march and the links' twists (L+1, n) per unit of s there.
+
+    ``clear`` tells how far the pose is from a singular one, like the least singular value of J; its sign changes
+    where the march goes through one. ``side`` changes its sign where J (``matrix``) became singular since the station
+    before: it is the sign of det J, or of det(J+ J) with the pseudo-inverse of the station before where J is not
+    square; 0 where J is too large to ask.
+    """
+
+    s: float
+    pose: Pose
+    rate: Array
+    clear: float
+    matrix: Array | None
+    side: float
+
+
+def interpolated(layout: Layout, s: Array, nodes: Nodes) -> Pose:
+    """Poses at s (P,) by Hermite polynomials through up to ``NODES`` stations around each."""
+    interval = np.clip(np.searchsorted(nodes.s, s) - 1, 0, max(len(nodes.s) - 2, 0))
+    around = [_around(nodes.s, k) for k in range(max(len(nodes.s) - 1, 1))]
+    counts = np.array([len(index) for index in around])[interval]
+    parts = []
+    for count in np.unique(counts):
+        which = np.flatnonzero(counts == count)
+        index = np.array([around[k] for k in interval[which]])
+        if which.size == s.size:
+            return _through(layout, s, nodes, index)
+        parts.append((which, _through(layout, s[which], nodes, index)))
+    order = np.argsort(np.concatenate([which for which, _ in parts]))
+    return Pose(*(np.concatenate(part)[order] for part in zip(*(pose for _, pose in parts), strict=True)))
+
+
+def _around(s: Array, k: int) -> list[int]:
+    """Up to ``NODES`` stations around the interval from s[k] to s[k + 1], the nearest first, to where they crowd.
+
+    They crowd where the motion bends sharply: a polynomial that reaches over such a place is of no use here.
+    """
+    if len(s) == 1:
+        return [0]
+    low, high, spaced = k, k + 1, CROWDED * (s[k + 1] - s[k])
+    while high - low + 1 < NODES:
+        down = s[low] - s[low - 1] if low > 0 else 0.0
+        up = s[high + 1] - s[high] if high + 1 < len(s) else 0.0
+        if max(down, up) < max(spaced, 1e-300):
+            break
+        below = up < spaced or (down >= spaced and s[k] - s[low] + down <= s[high] - s[k + 1] + up)
+        low, high = (low - 1, high) if below else (low, high + 1)
+    return list(range(low, high + 1))
+
+
+def _through(layout: Layout, s: Array, nodes: Nodes, index: Array) -> Pose:
+    """Hermite polynomials at s (P,) through the stations index (P, k)."""
+    g = layout.algebra
+    value, slope = _hermite(s, nodes.s[index])
+    weights = np.concatenate([value, slope], axis=1)
+    q, rate = g.coordinates(*nodes.pose), g.coordinate_rates(nodes.pose.rotation, nodes.rate)
+    q = np.concatenate([q[index], rate[index]], axis=1)
+    q = (weights[:, None] @ q.reshape((*q.shape[:2], -1))).reshape((len(s), *q.shape[2:]))
+    nearest = index[np.arange(len(s)), np.abs(s[:, None] - nodes.s[index]).argmin(axis=1)]
+    return settled(layout, Pose(*g.from_coordinates(q, nodes.pose.turn[nearest])))
+
+
+def _hermite(s: Array, nodes: Array) -> tuple[Array, Array]:
+    """Weights (P, k) of values and of slopes at nodes (P, k), for s (P,)."""
+    count = nodes.shape[1]
+    apart = nodes[:, :, None] - nodes[:, None, :] + np.eye(count)
+    away = s[:, None] - nodes
+    product = np.repeat(away[:, None, :], count, axis=1)
+    product[:, np.arange(count), np.arange(count)] = 1.0
+    lagrange = (product / apart).prod(axis=2)
+    steep = (1 / apart).sum(axis=2) - 1.0
+    square = lagrange * lagrange
+    return square * (1 - 2 * steep * away), square * away
+
+
+def march(layout: Layout, first: Pose, along: Course, start: float, backward: bool = False) -> March:
+    """Stations from parameter ``start`` to the end of the course (or its beginning), from the pose there."""
+    end, sign = (0.0, -1.0) if backward else (along.end, 1.0)
+    if start == end:
+        return March(np.array([start]), stack([first]), True)
+    at = _setting(layout, along)
+    found, size, smooth, exact, short = [_standing(at, start, first, sign)], 1.0, 0, True, 0
+    while sign * (end - found[-1].s) > 0 and short < MOST_SHORT:
+        last, recent = found[-1], found[max(smooth, len(found) - RECENT) :]
+        ahead = abs(along.limit(last.s, sign) - last.s)
+        step = min(size * STRIDE, _safe(recent), ahead)
+        new = _station(at, recent, last.s + sign * step)
+        if new is None:
+            if not exact:  # what the corrector left of this station may be large beside a shorter step
+                found[-1] = _exact(at, last, sign)
+                exact = True
+            size = step / STRIDE / 2
+            if size < SHORTEST:
+                break
+            continue
+        found.append(new)
+        short = short + 1 if step < min(SHORT * STRIDE, ahead) else 0
+        size, exact = min(2 * max(size, step / STRIDE), 1.0), False
+        if np.abs(along.breaks - new.s).min() < 1e-12:
+            smooth = len(found) - 1
+            found[-1] = new._replace(rate=_standing(at, new.s, new.pose, sign).rate)
+    whole = sign * (end - found[-1].s) <= 0
+    found.sort(key=lambda station: station.s)
+    return March(np.array([f.s for f in found]), stack([f.pose for f in found]), bool(whole))
+
+
+def _safe(recent: list[Station]) -> float:
+    """The longest step that stays clear of a singular pose ahead, or keeps its distance to one behind."""
+    if len(recent) < 2:
+        return np.inf
+    before, last = recent[-2:]
+    way, was, now = abs(last.s - before.s), before.clear, last.clear
+    if was * now <= 0 or abs(now) > abs(was):
+        since = way * abs(now) / max(abs(now - was), 1e-300)
+        return max(AWAY * since, THROUGH)
+    if abs(was) == abs(now):
+        return np.inf
+    left = way * now / (was - now)
+    return NEARER * left if left > THROUGH else left + THROUGH
+
+
+def stack(poses: list[Pose]) -> Pose:
+    """Single poses as one with a leading axis."""
+    return Pose(*(np.stack(part) for part in zip(*poses, strict=True)))
+
+
+class _Setting(NamedTuple):
+    """What a march works with: ``probes`` (2, K + D), arbitrary right sides of unit size, whose solutions grow where J
+    becomes singular, and ``turned`` (L+1,), the links whose rotation follows from their twists.
+    """
+
+    layout: Layout
+    along: Course
+    probes: Array
+    turned: Flags
+
+
+def _setting(layout: Layout, along: Course) -> _Setting:
+    count = np.arange(len(layout.row_scale))
+    probes = np.stack([np.cos(1.0 + 2.7 * count), np.cos(2.0 + 1.9 * count)]) * layout.length
+    turned = np.ones(layout.links + 1, bool)
+    for family in layout.constraints.families:
+        if isinstance(
+            family, Idle
+        ):  # such a link stands as it is drawn: its spin has nothing to do with its rate
+            turned[family.j] = False
+    return _Setting(layout, along, probes, turned)
+
+
+def _standing(at: _Setting, s: float, pose: Pose, sign: float, before: Station | None = None) -> Station:
+    """A station at a known pose, its rate taken on one side of s."""
+    (rate,), clear, matrix = _rates(at, pose.at(None), at.along.slope(s, sign) * at.layout.row_scale)
+    return Station(s, pose, rate, clear, matrix, _side(at.layout, matrix, before))
+
+
+def _exact(at: _Setting, old: Station, sign: float) -> Station:
+    """The same station corrected to rounding; the sign of ``clear`` stays."""
+    pose = closed(at.layout, old.pose.at(None), at.along.target(old.s))[0].at(0)
+    new = _standing(at, old.s, pose, sign, old)
+    return new._replace(clear=np.copysign(new.clear, old.clear))
+
+
+def _rates(at: _Setting, pose: Pose, right: Array) -> tuple[Array, float, Array | None]:
+    """Solutions (R, L+1, n) of J dq = right (R, K + D) at a single pose, how clear of singular J is, J itself."""
+    with np.errstate(all="ignore"):
+        rows = stacked(at.layout, pose)
+        every, matrix = displacements(at.layout, rows, np.concatenate([right, at.probes]))
+    found = twists(at.layout, every)
+    clear = 1 / max(largest(at.layout, found[-2:, :-1]).max(), 1e-300)
+    return found[:-2], float(clear), matrix
+
+
+def _side(layout: Layout, matrix: Array | None, before: Station | None) -> float:
+    """The ``side`` of a station with this J, behind the one before it."""
+    if matrix is None or not np.isfinite(matrix).all():
+        return 0.0
+    if layout.square:
+        return float(np.linalg.slogdet(matrix)[0])
+    if before is None or before.matrix is None:
+        return 1.0
+    scale = layout.column_scale
+    back = generalized_inverse(before.matrix * scale, RANK)
+    sign, size = np.linalg.slogdet(back @ (matrix * scale))
+    return float(sign) * before.side if size > LOST else 0.0
+
+
+def twists(layout: Layout, dq: Array) -> Array:
+    """Displacements (..., n L) by link, ground's zeros included."""
+    moving: Array = dq.reshape((*dq.shape[:-1], layout.links, layout.algebra.n))
+    return np.concatenate([moving, np.zeros_like(moving[..., :1, :])], axis=-2)
+
+
+def _station(at: _Setting, recent: list[Station], ahead: float) -> Station | None:
+    """The station at ``ahead``, predicted from the last ones and corrected; None where that cannot be trusted.
+
+    Newton stops when its step is small next to the travel: what it leaves is the square of that, and the whole march
+    is polished later. The matrix of the last step gives the rate as well.
+    """
+    layout, along, last = at.layout, at.along, recent[-1]
+    there, slope = along.target(ahead), along.slope(ahead, last.s - ahead) * layout.row_scale
+    guess = pose = _predicted(layout, recent, ahead)
+    for _ in range(STEPS):
+        (dq, rate), clear, matrix = _rates(at, pose, np.concatenate([gap(layout, pose, there), slope]))
+        pose = moved(layout, pose, dq[None, :-1])
+        travel = distance(layout, pose, last.pose.at(None))[0]
+        if not distance(layout, pose, guess)[0] <= POOR * travel + 1e-9 or _is_far(
+            layout, last.pose, pose.at(0)
+        ):
+            return None
+        if largest(layout, dq[None])[0] <= CLOSE * min(travel, clear) + 1e-12:
+            pose = settled(layout, pose)
+            if not layout.square and np.abs(gap(layout, pose, there)).max() > CLOSE * travel * layout.length:
+                return None  # more constraints than unknowns, and no pose meets them all
+            side = _side(layout, matrix, last)
+            return _continued(at, recent, Station(ahead, pose.at(0), rate, clear, matrix, side))
+    return None
+
+
+def _continued(at: _Setting, recent: list[Station], new: Station) -> Station | None:
+    """The new station as the next one of the march; None where it seems to be on another branch."""
+    last, step = recent[-1], abs(new.s - recent[-1].s)
+    changed = last.side * new.side < 0
+    if (changed and step > 4 * THROUGH) or _bend(at, last, new) > BENT:
+        return None
+    through = changed or (len(recent) > 1 and _passes(recent[-2:], step))
+    return new._replace(clear=np.copysign(new.clear, -last.clear if through else last.clear))
+
+
+def _passes(recent: list[Station], step: float) -> bool:
+    """Whether a step goes through a singular pose, as ``_safe`` foresees it."""
+    (before, last), way = recent, abs(recent[1].s - recent[0].s)
+    change = (before.clear - last.clear) * np.sign(last.clear)
+    return bool(step * change > way * abs(last.clear))
+
+
+def _bend(at: _Setting, a: Station, b: Station) -> float:
+    """How far the way between two stations is from the mean of their rates, over the faster of them."""
+    g, step = at.layout.algebra, b.s - a.s
+    way = g.coordinates(*b.pose) - g.coordinates(*a.pose)
+    first = step * g.coordinate_rates(a.pose.rotation, a.rate)
+    second = step * g.coordinate_rates(b.pose.rotation, b.rate)
+    both = np.abs(np.stack([way - (first + second) / 2, np.maximum(np.abs(first), np.abs(second))]))
+    shift, turn = both[..., : g.d].max(axis=(1, 2)) / at.layout.length, both[..., g.d :][:, at.turned]
+    off, fastest = np.maximum(shift, turn.max(axis=(1, 2), initial=0.0))
+    return float(off / max(fastest, 1e-300))
+
+
+def _is_far(layout: Layout, before: Pose, after: Pose) -> bool:
+    """Whether a link travelled too far between two poses (L+1, ...) for all branches to be told apart.
+
+    Shifts are compared with the reach of the moving links, not with one link's length: what stands at the end of a
+    long chain goes far by the chain's turns alone.
+    """
+    reach = max(np.ptp(before.point[:-1], axis=0).max(initial=0.0), layout.length)
+    shift = np.abs(after.point - before.point).max() / reach
+    turned = layout.algebra.apart(after.rotation, before.rotation, after.turn, before.turn).max()
+    return bool(max(shift, turned) > FAR)
+
+
+def _predicted(layout: Layout, recent: list[Station], ahead: float) -> Pose:
+    """Hermite polynomial through the last stations."""
+    order = sorted(recent, key=lambda station: station.s)
+    s, poses, rates, *_ = zip(*order, strict=True)
+    nodes = Nodes(np.array(s), stack(list(poses)), np.stack(rates))
+    return _through(layout, np.array([ahead]), nodes, np.arange(len(s))[None])

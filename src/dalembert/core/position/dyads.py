@@ -1,0 +1,297 @@
+"""Links of the plane laid down group after group (``assur_plan``), two-link groups (dyads) in closed form.
+
+At given angles the conditions of a group are linear in the places of its links, so that what it has to find is its
+angles. Links that slide on each other share one. There is none in PRP and RPP dyads; one in RRP, RPR and for a pin in
+a slot, where the determinant of the conditions is a trigonometric polynomial of it; two in RRR, where two circles cut
+and one angle follows from the other. Larger groups (triads) are sought by Newton from many angles.
+
+S  poses that are laid down together
+side  sign of the determinant of a group's Jacobian, which tells its two ways apart
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from dalembert.algebra import plane
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.core.linear import apply, generalized_inverse, solved
+from dalembert.core.position.assur_plan import Conditions, Group, Plan
+from dalembert.core.position.newton import LONGEST_TURN
+
+TOUCHING = 1e-8
+"""How far the cosine of an angle may be beyond 1 where circles just touch; Newton decides then."""
+
+NEGLIGIBLE = 1e-9
+"""Part of the largest coefficient of a trigonometric polynomial that counts as 0."""
+
+STARTS, STEPS = 64, 40
+"""Starts and steps of Newton for a group that has no closed form."""
+
+CLOSE = 1e-9
+"""Gap over the group's size above which such a group does not close."""
+
+
+class Laid(NamedTuple):
+    """Poses (S, L+1, ...) as far as laid down, NaN where not yet; the sides of their groups (S, G), 0 if not known."""
+
+    point: Array
+    turn: Array
+    side: Array
+
+    def at(self, index: Any) -> Laid:
+        return Laid(*(part[index] for part in self))
+
+
+class Part(NamedTuple):
+    """What a group touches of the poses (S,): places and angles of its links, how much further than their leaders they
+    are turned (S, n), and the targets of its conditions (S, K)."""
+
+    point: Array
+    turn: Array
+    off: Array
+    target: Array
+
+    def at(self, index: Any) -> Part:
+        return Part(*(part[index] for part in self))
+
+
+def begun(p: Plan, target: Array) -> Laid:
+    """Ground, and the links whose angles follow from its own, at targets (S, K + D)."""
+    count = len(target)
+    turn = np.full((count, p.links + 1), np.nan)
+    point = np.full((count, p.links + 1, 2), np.nan)
+    turn[:, -1], point[:, -1] = 0.0, 0.0
+    for new, known, sign, row in p.turns:
+        turn[:, new] = turn[:, known] + sign * target[:, row]
+    return Laid(point, turn, np.zeros((count, 0)))
+
+
+def offsets(p: Plan, target: Array) -> Array:
+    """How much further than their leaders the links are turned (S, L+1)."""
+    off = np.zeros((len(target), p.links + 1))
+    for new, known, sign, row in p.turns:
+        off[:, new] = off[:, known] + sign * target[:, row]
+    return off
+
+
+def extended(group: Group, laid: Laid, target: Array, off: Array) -> tuple[Ints, Laid]:
+    """All ways to lay a group down: which of the poses (S,) each starts from, and what has become of it."""
+    part = _part(group, laid, target, off)
+    found = _ways(group, part)
+    which, way = np.nonzero(np.isfinite(found).all(axis=-1))
+    part = part.at(which)
+    _turn(group, part, found[which, way])
+    _put(group, part, _places(group, part))
+    if group.closed:
+        side = np.sign(np.linalg.det(jacobian(group, part)))
+    else:
+        good = np.flatnonzero(_newton(group, part))
+        kept = good[_distinct(group, which[good], part.at(good))]
+        which, part, side = which[kept], part.at(kept), np.zeros(len(kept))
+    new = laid.at(which)
+    new.point[:, group.links], new.turn[:, group.links] = part.point, part.turn
+    return which, new._replace(side=np.column_stack([new.side, side]))
+
+
+def _part(group: Group, laid: Laid, target: Array, off: Array) -> Part:
+    links = group.links
+    return Part(laid.point[:, links], laid.turn[:, links], off[:, links], target[:, group.conditions.row])
+
+
+def _ways(group: Group, part: Part) -> Array:
+    """Unknown angles (S, ways, angles) of a group, NaN where there are fewer ways; starts where it has no formula."""
+    count = len(group.turning)
+    if not group.closed:
+        steps = np.modf(np.sqrt(np.arange(2, 2 + count) + 0.5) * 1.6180339887)[0]
+        starts = 2 * np.pi * np.modf(0.5 + np.arange(STARTS)[:, None] * steps)[0] - np.pi
+        return np.broadcast_to(starts, (len(part.turn), STARTS, count))
+    if count == 0:
+        return np.zeros((len(part.turn), 1, 0))
+    if count == 1:
+        degree = 1 + group.sliding
+        angles = np.arange(2 * degree + 1) * 2 * np.pi / (2 * degree + 1)
+        samples = [_determinant(group, part, angle) for angle in angles]
+        return _roots(np.stack(samples, axis=-1))[..., None]
+    return _circles(group, part)
+
+
+def _determinant(group: Group, part: Part, angle: float) -> Array:
+    """Determinant (S,) of the conditions at an angle: 0 where places exist that meet them all."""
+    part = part._replace(turn=part.turn.copy())
+    _turn(group, part, np.full((len(part.turn), 1), angle))
+    matrix, constant = _system(group, part, _rotation(part.turn))
+    return np.asarray(np.linalg.det(np.concatenate([matrix, constant[..., None]], axis=-1)))
+
+
+def _circles(group: Group, part: Part) -> Array:
+    """Two angles: what the places leave of the conditions is w + M1 u1 + M2 u2 = 0 with unit vectors u."""
+    none = _rotation(part.turn)
+    for links in group.turning:
+        none[:, links] = 0.0
+    matrix, constant = _system(group, part, none)
+    free = np.linalg.qr(matrix, mode="complete")[0][..., matrix.shape[-1] :]
+    columns = []
+    for links in group.turning:
+        for quarter in (0.0, np.pi / 2):
+            rotation = none.copy()
+            rotation[:, links] = _rotation(part.off[:, links] + quarter)
+            columns.append(_system(group, part, rotation)[1] - constant)
+    w, *columns = (np.einsum("skc,sk->sc", free, k) for k in (constant, *columns))
+    one, two = np.stack(columns[:2], axis=-1), np.stack(columns[2:], axis=-1)
+    back = _inverse(two)
+
+    def second(angle: Array) -> Array:
+        return -apply(back, apply(one, _rotation(angle)) + w)
+
+    samples = [second(np.full(len(w), angle)) for angle in np.arange(5) * 2 * np.pi / 5]
+    first = _roots((np.stack(samples, axis=1) ** 2).sum(axis=-1) - 1.0)
+    u = np.stack([second(first[:, k]) for k in range(first.shape[1])], axis=1)
+    return np.stack([first, np.arctan2(u[..., 1], u[..., 0])], axis=-1)
+
+
+def _inverse(matrix: Array) -> Array:
+    """Inverses of matrices (S, 2, 2)."""
+    (a, b), (c, d) = np.moveaxis(matrix, (-2, -1), (0, 1))
+    turned = np.stack([np.stack([d, -b], axis=-1), np.stack([-c, a], axis=-1)], axis=-2)
+    return np.asarray(turned / (a * d - b * c)[..., None, None])
+
+
+def _roots(samples: Array) -> Array:
+    """Angles (S, m) at which trigonometric polynomials are 0, given at evenly spaced angles (S, 2 degree + 1)."""
+    factors = np.fft.rfft(samples, axis=-1) / samples.shape[-1]
+    size = np.abs(factors).max(axis=-1, keepdims=True, initial=0.0)
+    degree = int(np.flatnonzero((np.abs(factors) > NEGLIGIBLE * size).any(axis=0)).max(initial=1))
+    if degree == 1:
+        cosine = -factors[:, 0].real / (2 * np.abs(factors[:, 1]))
+        cosine = np.where(np.abs(cosine) <= 1 + TOUCHING, np.clip(cosine, -1, 1), np.nan)
+        middle = -np.angle(factors[:, 1])
+        return np.stack([middle + np.arccos(cosine), middle - np.arccos(cosine)], axis=-1)
+    out = np.full((len(samples), 2 * degree), np.nan)
+    for k, one in enumerate(factors[:, : degree + 1]):
+        if np.isfinite(one).all():
+            z = np.roots(np.concatenate([one[:0:-1], one.conj()]))
+            z = z[np.abs(np.abs(z) - 1) < np.sqrt(TOUCHING)]
+            out[k, : len(z)] = np.angle(z)
+    return out
+
+
+def _rotation(turn: Array) -> Array:
+    return np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+
+
+def _turn(group: Group, part: Part, angle: Array) -> None:
+    """Set the angles (S, angles) of a group's links."""
+    for k, links in enumerate(group.turning):
+        part.turn[:, links] = angle[:, k, None] + part.off[:, links]
+
+
+def _put(group: Group, part: Part, places: Array) -> None:
+    part.point[:, group.link, group.axis] = places
+
+
+def _arms(c: Conditions, rotation: Array) -> tuple[Array, Array, Array]:
+    """Arms on i and j and the axes (S, K, 2), in ground axes."""
+    ri, rj, n = (
+        np.where((u != 0).any(axis=-1, keepdims=True), plane.rotate(rotation[:, link], u), 0.0)
+        for link, u in ((c.i, c.ui), (c.j, c.uj), (c.frame, c.axis))
+    )
+    return ri, rj, n
+
+
+def _system(group: Group, part: Part, rotation: Array) -> tuple[Array, Array]:
+    """Conditions matrix (S, K, p) times places plus constant (S, K) are 0, at given rotations (S, n, 2)."""
+    c = group.conditions
+    point = part.point.copy()
+    point[:, group.link, group.axis] = 0.0
+    ri, rj, n = _arms(c, rotation)
+    span = _where(n, point[:, c.j] + rj - point[:, c.i] - ri)
+    matrix = _where(group.incidence, n[..., group.axis]) * group.incidence
+    return matrix, (n * span).sum(axis=-1) - part.target
+
+
+def _where(factor: Array, value: Array) -> Array:
+    """The value where its factor is not 0: what is not known does not matter elsewhere."""
+    return np.where(factor == 0, 0.0, value)
+
+
+def _places(group: Group, part: Part) -> Array:
+    """Places (S, p) at known angles, those of least squares where the conditions are more than the places."""
+    if not group.link.size:
+        return np.zeros((len(part.turn), 0))
+    near = ~group.conditions.far
+    matrix, constant = _system(group, part, _rotation(part.turn))
+    if near.sum() < len(group.link):
+        return -apply(generalized_inverse(matrix[:, near]), constant[:, near])
+    q, r = np.linalg.qr(matrix[:, near])
+    return solved(r, -np.einsum("skp,sk->sp", q, constant[:, near]))
+
+
+def _lines(group: Group, part: Part) -> tuple[Array, Array, Array, Array]:
+    """Arms on i and j, the axes n and the ways from point to point of the conditions (S, K, 2)."""
+    c = group.conditions
+    ri, rj, n = _arms(c, _rotation(part.turn))
+    span = part.point[:, c.j] + rj - part.point[:, c.i] - ri
+    n = np.where(c.far[:, None], span / np.linalg.norm(span, axis=-1, keepdims=True), n)
+    return ri, rj, n, span
+
+
+def jacobian(group: Group, part: Part) -> Array:
+    """Derivatives (S, K, angles + p) of a group's conditions by its angles and places."""
+    c = group.conditions
+    ri, rj, n, span = _lines(group, part)
+    columns = []
+    for links in group.turning:
+        own_i, own_j, own_n = (np.isin(link, links).reshape(-1, 1) for link in (c.i, c.j, c.frame))
+        arm = np.where(own_j, plane.across(rj), 0.0) - np.where(own_i, plane.across(ri), 0.0)
+        axis = np.where(own_n, plane.across(n), 0.0)
+        columns.append((n * _where(n, arm)).sum(axis=-1) + (axis * _where(axis, span)).sum(axis=-1))
+    places = _where(group.incidence, n[..., group.axis]) * group.incidence
+    return np.concatenate([np.stack(columns, axis=-1), places], axis=-1) if columns else places
+
+
+def _newton(group: Group, part: Part) -> Flags:
+    """Newton for a group without a closed form; which of the poses (S,), changed in place, close."""
+    count, heads = len(group.turning), [links[0] for links in group.turning]
+    for _ in range(STEPS):
+        step = np.nan_to_num(-solved(jacobian(group, part), _gap(group, part)))
+        step /= np.maximum(1.0, np.abs(step[:, :count]).max(axis=-1, initial=0.0) / LONGEST_TURN)[:, None]
+        _turn(group, part, part.turn[:, heads] - part.off[:, heads] + step[:, :count])
+        _put(group, part, part.point[:, group.link, group.axis] + step[:, count:])
+    size = np.abs(_lines(group, part)[-1]).max(axis=(1, 2)) + np.abs(part.target).max(axis=1)
+    return np.asarray(np.abs(_gap(group, part)).max(axis=-1) <= CLOSE * size)
+
+
+def _gap(group: Group, part: Part) -> Array:
+    """What is missing of the conditions (S, K)."""
+    _, _, n, span = _lines(group, part)
+    return np.asarray((n * span).sum(axis=-1) - part.target)
+
+
+def _distinct(group: Group, which: Ints, part: Part) -> Ints:
+    """The first of each of the ways that several starts have led to."""
+    places = part.point[:, group.link, group.axis]
+    turned = _rotation(part.turn[:, [links[0] for links in group.turning]])
+    size = max(float(np.abs(places).max(initial=0.0)), 1e-300)
+    told = np.column_stack([which, turned.reshape(len(which), -1), places / size]).round(6)
+    return np.sort(np.unique(told, axis=0, return_index=True)[1])
+
+
+def sides(p: Plan, turn: Array, point: Array, target: Array) -> Array:
+    """The side (S, G) of each group at given angles (S, L+1) and places, which need not close; 0 where not known.
+
+    What is not given is NaN: it does not matter where a side does not depend on it, as that of an RRR dyad does on its
+    two angles alone.
+    """
+    point, found = point.copy(), np.zeros((len(turn), len(p.groups)))
+    point[:, -1] = 0.0
+    for k, group in enumerate(p.groups):
+        part = _part(group, Laid(point, turn, found), target, turn)
+        given = part.point[:, group.link, group.axis]
+        _put(group, part, np.where(np.isnan(given), _places(group, part), given))
+        point[:, group.links] = part.point
+        if group.closed:
+            found[:, k] = np.nan_to_num(np.sign(np.linalg.det(jacobian(group, part))))
+    return found

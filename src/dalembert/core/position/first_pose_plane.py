@@ -1,0 +1,339 @@
+"""The first pose: links laid down joint by joint, Newton from many starts at once, the modes told apart.
+
+Each link's angle is given, follows from a joint that fixes it (slider, weld, driven pin), or is free: free ones are
+zero in the first start ("as drawn") and spread evenly over the turn in the others, always in the same way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array, Ints
+from dalembert.core.constraints import dense, measure, stacked
+from dalembert.core.layout import Along, Distance, Gearing, Layout, Meet, Mesh, Pose, Rows, Turn, selected
+from dalembert.core.linear import generalized_inverse
+from dalembert.core.position.assembly_modes import (
+    NEAR,
+    SAME,
+    Wanted,
+    distinct,
+    enumerated,
+    ordered,
+    reduced,
+    turned,
+)
+from dalembert.core.position.assur_plan import plan
+from dalembert.core.position.newton import CLOSED, closed, distance
+
+STARTS = 64
+FEW = 40
+"""Links up to which every start is worth its cost; of more, starts are few and laid down link by link only."""
+
+LOOSE = 1e-6
+"""Part of a link's turn that the constraints leave, above which it can be held."""
+
+
+@dataclass(frozen=True)
+class Guess:
+    """What is given of the first pose: angles (L+1,) and reference points (L+1, d), NaN where nothing is."""
+
+    turn: Array
+    point: Array
+
+    def modes(self, layout: Layout, target: Array) -> Modes | None:
+        """The ways the linkage closes at a target (K + D,); None if no start closes."""
+        return modes(layout, target, self)
+
+    def every(self, layout: Layout, target: Array) -> Modes | None:
+        """All the ways found, of a layout without phases."""
+        return _searched(layout, layout, target, Wanted(self.turn, self.point, None), self)
+
+    @property
+    def stated(self) -> Array:
+        """The given angles (L+1,)."""
+        return self.turn
+
+    def start(self, layout: Layout, target: Array) -> Pose:
+        """The links laid down joint by joint (L+1, ...): before any correction."""
+        return drawn(layout, target, self)
+
+    def near(self, pose: Pose) -> Guess:
+        """The guess with what it leaves open taken from a pose (L+1, ...), and no points."""
+        turn = np.where(np.isfinite(self.turn), self.turn, pose.turn)
+        return Guess(turn, np.full_like(self.point, np.nan))
+
+
+class Modes(NamedTuple):
+    """The ways the linkage closes at the first position: poses (M, L+1, ...), the chosen one first."""
+
+    pose: Pose
+    chosen_by: str  # "given" | "drawn" | "search" | "nearest"
+
+
+def modes(layout: Layout, target: Array, guess: Guess) -> Modes | None:
+    """Modes at a target (K + D,), or None if no start closes.
+
+    The phase of a mesh (or of a rolling wheel) is that of this first pose: its row is left out here, and one wheel
+    of it held at its given angle; where that does not close, wheels turn as little as possible from the start.
+    """
+    found = _modes(layout, *_without_phase(layout, target, guess, hold=True), guess)
+    if found is None and phase_rows(layout.constraints).size:
+        found = _modes(layout, *_without_phase(layout, target, guess, hold=False), guess)
+    return found
+
+
+def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes | None:
+    rows = free.constraints.count
+    drawn = _laid(free, target, guess, np.zeros((1, layout.links + 1)), np.full((1, rows), layout.length))
+    pose, missing = closed(free, drawn, target[None])
+    given = np.isfinite(guess.turn[:-1])
+    if missing[0] <= CLOSED * layout.length:
+        off = np.abs(turned(pose.turn[0, :-1] - guess.turn[:-1])[given]).max(initial=0.0)
+        if given.any() and off < NEAR:
+            return Modes(reduced(layout, pose), "given")
+        if not given.any() and distance(layout, pose, drawn)[0] < SAME:
+            return Modes(reduced(layout, pose), "drawn")
+    start = pose.at(0) if missing[0] <= CLOSED * layout.length else None
+    return _searched(layout, free, target, Wanted(guess.turn, guess.point, start), guess)
+
+
+def drawn(layout: Layout, target: Array, guess: Guess) -> Pose:
+    """The links laid down joint by joint (L+1, ...): the first start, before any correction."""
+    one = np.zeros((1, layout.links + 1))
+    return _laid(layout, target, guess, one, np.full((1, layout.constraints.count), layout.length)).at(0)
+
+
+def phase_rows(rows: Rows) -> Ints:
+    """Rows whose target is their measure at the first pose: meshes and rolling without slip."""
+    found = [
+        f.row[f.pitch != 0] if isinstance(f, Along) else f.row
+        for f in rows.families
+        if isinstance(f, Mesh | Along | Gearing)
+    ]
+    return np.concatenate([*found, np.zeros(0, np.intp)]).astype(np.intp)
+
+
+def _without_phase(layout: Layout, target: Array, guess: Guess, hold: bool) -> tuple[Layout, Array]:
+    """The layout and target without phase rows; with ``hold``, wheels held at their given angles, or at 0."""
+    phased = phase_rows(layout.constraints)
+    if not phased.size:
+        return layout, target
+    kept = np.setdiff1d(np.arange(layout.constraints.count), phased)
+    target = np.concatenate([target[kept], target[layout.constraints.count :]])
+    free = with_rows(layout, kept, [])
+    held = held_wheels(layout, free, target, phased, guess) if hold else []
+    angles = np.nan_to_num(guess.turn[np.array(held, np.intp)])
+    return with_rows(layout, kept, held), np.concatenate([target[: len(kept)], angles, target[len(kept) :]])
+
+
+def with_rows(layout: Layout, kept: Ints, held: list[int]) -> Layout:
+    """The layout with some of its constraints, and rows that hold the angles of some links."""
+    rows, count = layout.constraints, len(kept) + len(held)
+    place, ground = np.arange(len(kept), count), np.full(len(held), layout.links)
+    families = selected(rows, kept)
+    if held:
+        families.append(Turn(place, ground, np.array(held, np.intp)))
+    angular = np.concatenate([rows.angular[kept], np.ones(len(held), bool)])
+    joint = np.concatenate([rows.joint[kept], np.zeros(len(held), np.intp)])
+    return replace(layout, constraints=Rows(count, rows.links, tuple(families), joint, angular))
+
+
+def held_wheels(layout: Layout, free: Layout, target: Array, phased: Ints, guess: Guess) -> list[int]:
+    """A link for each phase row that still turns where it is laid down: j, else i, else any; given angles first."""
+    one = np.zeros((1, layout.links + 1))
+    pose = _laid(free, target, guess, one, np.full((1, free.constraints.count), layout.length))
+    rows = stacked(free, pose)
+    scaled = dense(free, rows)[0] * free.row_scale[:, None] * free.column_scale
+    idle = np.eye(layout.unknowns) - generalized_inverse(scaled, rcond=1e-7) @ np.nan_to_num(scaled)
+    turn = np.arange(layout.links) * layout.algebra.n + layout.algebra.d
+    i, j = layout.constraints.ends
+    held: list[int] = []
+    for row in phased:
+        wheels = sorted((int(j[row]), int(i[row])), key=lambda k: not np.isfinite(guess.turn[k]))
+        loose = np.append(idle[turn, turn], 0.0)
+        others = sorted(
+            range(layout.links), key=lambda k: (not np.isfinite(guess.turn[k]), -round(float(loose[k]), 6))
+        )
+        chosen = next((k for k in [*wheels, *others] if loose[k] > LOOSE), None)
+        if chosen is not None:
+            held.append(chosen)
+            column = idle[:, turn[chosen]]
+            idle = idle - np.outer(column, column) / column[turn[chosen]]
+    return held
+
+
+def _searched(layout: Layout, free: Layout, target: Array, wanted: Wanted, guess: Guess) -> Modes | None:
+    """Every mode, in the order of ``assembly_modes``: group by group in closed form, else as many as starts find."""
+    way, starts = plan(free), STARTS if layout.links <= FEW else 8
+    by = "nearest" if wanted.given else "search"
+    if way is None or not way.closed:
+        angles, slides = _spread(starts, layout.links + 1, free.constraints.count)
+        found = _closing(free, _laid(free, target, guess, angles, slides * layout.length), target)
+        if found is not None:
+            found = distinct(layout, reduced(layout, found))
+            return Modes(found.at(ordered(layout, found, wanted)), by)
+    if way is None:
+        return None
+    found = _closing(free, enumerated(free, way, target, wanted).at(slice(starts)), target)
+    return None if found is None else Modes(distinct(layout, reduced(layout, found)), by)
+
+
+def _closing(layout: Layout, start: Pose, target: Array) -> Pose | None:
+    """Starts (S, ...) corrected, those that close; None where none does."""
+    wanted = np.broadcast_to(target, (len(start.turn), len(target))).copy()
+    pose, missing = closed(layout, start, wanted, iterations=60)
+    good = np.flatnonzero(missing <= CLOSED * layout.length)
+    return pose.at(good) if good.size else None
+
+
+def _spread(starts: int, links: int, rows: int) -> tuple[Array, Array]:
+    """Angles (S, L+1) and slide lengths (S, K) by a Kronecker sequence of irrational steps; always the same."""
+    primes = np.arange(2, 2 + links + rows)
+    steps = np.modf(np.sqrt(primes + 0.5) * 1.6180339887)[0]
+    unit = np.modf(0.5 + np.arange(starts)[:, None] * steps)[0]
+    return 2 * np.pi * unit[:, :links] - np.pi, 5 * unit[:, links:] - 2
+
+
+def _laid(layout: Layout, target: Array, guess: Guess, angles: Array, slides: Array) -> Pose:
+    """Starting poses (S, L+1, ...): links laid joint by joint from the ground."""
+    g = layout.algebra
+    edges = _edges(layout)
+    turn = _turns(layout, target, guess, angles, edges)
+    rotation = g.rotation(turn)
+    point = np.full((*turn.shape, g.d), np.nan)
+    point[:, -1] = 0.0
+    given = np.isfinite(guess.point).all(axis=-1)
+    point[:, given] = guess.point[given]
+    placed = set(np.flatnonzero(given).tolist()) | {layout.links}
+    while len(placed) <= layout.links:
+        if _grown(placed, edges.pins, lambda e: _place(g, e, target, point, rotation, slides)):
+            continue
+        if _grown(placed, edges.others, lambda e: _place(g, e, target, point, rotation, slides), one=True):
+            continue
+        lone = min(set(range(layout.links)) - placed)
+        point[:, lone] = 0.0
+        placed.add(lone)
+    return _settled(layout, target, Pose(point, turn, rotation))
+
+
+def _settled(layout: Layout, target: Array, pose: Pose) -> Pose:
+    """Links shifted, not turned, to where their points and slides fit best: at given angles that is linear."""
+    linear = [f.row.ravel() for f in layout.stack.families if isinstance(f, Meet | Along)]
+    if not linear or layout.links > FEW:
+        return pose
+    kept = np.sort(np.concatenate(linear))
+    g = layout.algebra
+    rows = stacked(layout, pose).rows(kept)
+    j = dense(layout, rows).reshape(len(pose.turn), len(kept), layout.links, g.n)[..., : g.d]
+    missing = (target - measure(g, layout.stack, pose))[:, kept]
+    shift = generalized_inverse(j.reshape(len(pose.turn), len(kept), -1)) @ missing[..., None]
+    point = pose.point.copy()
+    point[:, :-1] += shift.reshape(len(pose.turn), layout.links, g.d)
+    return pose._replace(point=point)
+
+
+def _grown(
+    placed: set[int], edges: list[_PointEdge], place: Callable[[_PointEdge], None], one: bool = False
+) -> bool:
+    """Lay links across edges that have one end placed; whether there was any."""
+    any_ = False
+    for edge in edges:
+        if (edge.i in placed) != (edge.j in placed):
+            place(edge)
+            placed |= {edge.i, edge.j}
+            any_ = True
+            if one:
+                break
+    return any_
+
+
+class _PointEdge(NamedTuple):
+    i: int
+    j: int
+    ui: Array
+    uj: Array
+    axis: Array | None  # in i's axes, of a coordinate kept at its target
+    row: int
+    far: float = 0.0  # distance of the points, where that is what the row keeps
+
+
+class _Edges(NamedTuple):
+    turns: list[tuple[int, int, int]]  # link i, link j, stacked row
+    pins: list[_PointEdge]
+    others: list[_PointEdge]
+
+
+def _edges(layout: Layout) -> _Edges:
+    turns: list[tuple[int, int, int]] = []
+    pins: list[_PointEdge] = []
+    slides: list[_PointEdge] = []
+    place = {int(f): layout.constraints.count + k for k, f in enumerate(layout.driven)}
+    for rows, where in ((layout.constraints, None), (layout.freedoms, place)):
+        for f in rows.families:
+            for k in range(len(f.i)):
+                row = int(np.ravel(f.row[k])[0])
+                if where is not None:
+                    if row not in where:
+                        continue
+                    row = where[row]
+                i, j = int(f.i[k]), int(f.j[k])
+                if isinstance(f, Turn):
+                    turns.append((i, j, row))
+                elif isinstance(f, Meet):
+                    pins.append(_PointEdge(i, j, f.ui[k], f.uj[k], None, row))
+                elif isinstance(f, Along) and where is None and not f.pitch[k]:
+                    slides.append(_PointEdge(i, j, f.ui[k], f.uj[k], f.axis[k], row))
+                elif isinstance(f, Mesh):
+                    slides.append(_PointEdge(i, j, f.ui[k], f.uj[k], None, row, float(f.ri[k] + f.rj[k])))
+                elif isinstance(f, Distance):
+                    slides.append(_PointEdge(i, j, f.ui[k], f.uj[k], None, row, np.nan))
+    return _Edges(turns, pins, slides)
+
+
+def _turns(layout: Layout, target: Array, guess: Guess, angles: Array, edges: _Edges) -> Array:
+    """Angles (S, L+1): ground and given ones, spread over the joints that fix relative angles, then the free ones.
+
+    Later starts stray further and further from the given angles.
+    """
+    turn = np.full(angles.shape, np.nan)
+    turn[:, -1] = 0.0
+    _spread_turns(turn, target, edges)
+    given = np.isfinite(guess.turn)
+    further = np.linspace(0, 1, len(turn))
+    for k in np.argsort(~given, kind="stable").tolist():
+        if np.isnan(turn[0, k]):
+            turn[:, k] = guess.turn[k] + angles[:, k] * further if given[k] else angles[:, k]
+            _spread_turns(turn, target, edges)
+    return turn
+
+
+def _spread_turns(turn: Array, target: Array, edges: _Edges) -> None:
+    grown = True
+    while grown:
+        grown = False
+        for i, j, row in edges.turns:
+            if np.isnan(turn[0, i]) != np.isnan(turn[0, j]):
+                known, new, sign = (i, j, 1.0) if np.isnan(turn[0, j]) else (j, i, -1.0)
+                turn[:, new] = turn[:, known] + sign * target[row]
+                grown = True
+
+
+def _place(g: Any, edge: _PointEdge, target: Array, point: Array, rotation: Array, slides: Array) -> None:
+    """Lay one of the two links of an edge by the other."""
+    offset = np.zeros(point[:, 0].shape)
+    if edge.axis is not None:
+        across = g.rotate(rotation[:, edge.i], edge.axis)
+        along = -g.across(across)
+        offset = across * target[edge.row] + along * slides[:, edge.row, None]
+    elif edge.far:
+        far = target[edge.row] if np.isnan(edge.far) else edge.far
+        offset = far * g.rotation(np.pi / 2 * slides[:, edge.row] / np.abs(slides).max())
+    ri, rj = g.rotate(rotation[:, edge.i], edge.ui), g.rotate(rotation[:, edge.j], edge.uj)
+    if np.isnan(point[0, edge.j, 0]):
+        point[:, edge.j] = point[:, edge.i] + ri + offset - rj
+    else:
+        point[:, edge.i] = point[:, edge.j] + rj - offset - ri

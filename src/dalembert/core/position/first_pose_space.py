@@ -1,0 +1,259 @@
+"""The first pose in space: as drawn and followed from there, or near the given poses, or from many starts at once.
+
+Drawn means: every link's axes parallel to the ground's, its points laid joint by joint, the drives at 0. From there
+the motion is followed to the first position. Where that fails, links are laid by random values of their joints'
+freedoms, always the same ones.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags
+from dalembert.core.constraints import measure
+from dalembert.core.gear_rows import meshed
+from dalembert.core.layout import Angle, Helix, Layout, Pose
+from dalembert.core.position.assembly_modes import SAME
+from dalembert.core.position.first_pose_plane import STARTS, Modes, phase_rows, with_rows
+from dalembert.core.position.motion_path import path
+from dalembert.core.position.newton import CLOSED, closed, distance
+from dalembert.core.position.path_parameter import course
+from dalembert.core.rotation_rows import along_axis
+
+FEW = 16
+"""Starts behind a gap, where the group that is asked closes in two ways."""
+
+ALONG = 1e-9
+"""How far the cosine between two shared axes may be from 1 to count as parallel."""
+
+
+class Hinge(NamedTuple):
+    """How a joint lets j be laid by i: local axes on both links (9,), and the axes of its slides and turns in order.
+
+    The local axes of j are those of i turned about ``turns`` one after the other; ``drives`` (slides, then turns) are
+    the drives that prescribe them, -1 where none does; ``parallel`` is the axis that both links share, -1 for none.
+    A screw advances by ``rise`` a radian of its turn; where its slide is driven, ``sliding`` is that drive, else -1.
+    """
+
+    i: int
+    j: int
+    ui: Array
+    uj: Array
+    frame_i: Array
+    frame_j: Array
+    slides: tuple[int, ...]
+    turns: tuple[int, ...]
+    drives: tuple[int, ...]
+    parallel: int
+    rise: float = 0.0
+    sliding: int = -1
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """What is given of the first pose: rotations (L+1, 9) and reference points (L+1, 3), NaN where nothing is.
+
+    The rotations are by ``angle`` (L+1,), whole turns and all, about unit vectors ``axis`` (L+1, 3); 0 of the ground.
+    """
+
+    rotation: Array
+    point: Array
+    hinges: tuple[Hinge, ...]
+    axis: Array
+    angle: Array
+
+    @property
+    def given(self) -> Flags:
+        """Which links have a given pose (L+1,)."""
+        return np.asarray(np.isfinite(self.rotation).all(axis=-1))
+
+    def modes(self, layout: Layout, target: Array) -> Modes | None:
+        """The way the linkage closes at a target (K + D,); None if no start closes."""
+        if self.given.any():
+            return self._near(layout, target) or self._searched(layout, target)
+        return self._as_drawn(layout, target) or self._near(layout, target) or self._searched(layout, target)
+
+    def every(self, layout: Layout, target: Array) -> Modes | None:
+        """The ways found from a few random starts."""
+        return self._searched(layout, target, FEW)
+
+    @property
+    def stated(self) -> None:
+        """No angles in space."""
+        return None
+
+    def start(self, layout: Layout, target: Array) -> Pose:
+        """The links laid down as drawn, given or driven (L+1, ...): before any correction."""
+        return self._laid(layout, target, np.zeros((1, self._values)), driven=bool(self.given.any())).at(0)
+
+    def near(self, pose: Pose) -> Drawing:
+        """The drawing with every link given at a pose (L+1, ...)."""
+        return replace(self, rotation=pose.rotation, point=pose.point)
+
+    @property
+    def _values(self) -> int:
+        return sum(len(h.drives) for h in self.hinges)
+
+    def _as_drawn(self, layout: Layout, target: Array) -> Modes | None:
+        """From the drawing at drives 0 to the target."""
+        zero = target.copy()
+        zero[layout.constraints.count :] = 0.0
+        pose = self._closed(layout, self._laid(layout, zero, np.zeros((1, self._values)), driven=False), zero)
+        if pose is None:
+            return None
+        if np.any(zero != target):
+            layout = meshed(layout, pose.at(0))[0]
+            phased = phase_rows(layout.constraints)
+            ends = np.stack([zero, target])
+            ends[:, phased] = measure(layout.algebra, layout.constraints, pose.at(0))[phased]
+            along = course(layout, ends)
+            way = path(layout, pose.at(0), along, along.at(0))
+            if not way.reached[1]:
+                return None
+            pose = way.pose.at(slice(1, 2))
+        return Modes(pose, "drawn")
+
+    def _near(self, layout: Layout, target: Array) -> Modes | None:
+        pose = self._closed(
+            layout, self._laid(layout, target, np.zeros((1, self._values)), driven=True), target
+        )
+        return None if pose is None else Modes(pose, "given" if self.given.any() else "drawn")
+
+    def _closed(self, layout: Layout, start: Pose, target: Array) -> Pose | None:
+        """Starts (S, ...) corrected; those that close with parallel axes parallel, None where none does."""
+        layout, target = _without_phase(layout, target)
+        wanted = np.broadcast_to(target, (len(start.point), len(target))).copy()
+        pose, missing = closed(layout, start, wanted, iterations=60)
+        good = (missing <= CLOSED * layout.length) & self._upright(layout, pose)
+        return pose.at(np.flatnonzero(good)) if good.any() else None
+
+    def _searched(self, layout: Layout, target: Array, starts: int = STARTS) -> Modes | None:
+        """Every mode that random starts find, the one that is turned least from the drawn or given poses first."""
+        steps = np.modf(np.sqrt(np.arange(2, 2 + self._values) + 0.5) * 1.6180339887)[0]
+        values = np.modf(0.5 + np.arange(starts)[:, None] * steps)[0] * 2 * np.pi - np.pi
+        free = replace(
+            self, point=np.full_like(self.point, np.nan), rotation=np.full_like(self.rotation, np.nan)
+        )
+        start = free if self.given[:-1].all() else self  # where all are given, values would lay none
+        pose = self._closed(layout, start._laid(layout, target, values, driven=True), target)
+        if pose is None:
+            return None
+        drawn = self.start(layout, target)
+        away = ((pose.rotation - drawn.rotation) ** 2).sum(axis=(-2, -1)).round(9)
+        pose = pose.at(np.argsort(away, kind="stable"))
+        kept: list[int] = []
+        for k in range(len(pose.point)):
+            others = pose.at(np.array(kept, np.intp))
+            if not kept or distance(layout, pose.at(k), others).min() > SAME:
+                kept.append(k)
+        return Modes(pose.at(np.array(kept)), "nearest" if self.given.any() else "search")
+
+    def _upright(self, layout: Layout, pose: Pose) -> Flags:
+        """Poses whose shared axes point the same way on both links: three right angles between axes of j and other axes
+        of i hold where an axis points against its own, and where each lies along another's."""
+        g, good = layout.algebra, np.ones(len(pose.point), bool)
+        for h in self.hinges:
+            for axis in range(3) if not h.turns else [h.parallel] * (h.parallel >= 0):
+                on_i = g.rotate(pose.rotation[:, h.i], g.matrix(h.frame_i)[:, axis])
+                on_j = g.rotate(pose.rotation[:, h.j], g.matrix(h.frame_j)[:, axis])
+                good &= g.dot(on_i, on_j) > 0.5
+        return good
+
+    def _laid(self, layout: Layout, target: Array, values: Array, driven: bool) -> Pose:
+        """Starting poses (S, L+1, ...) by values (S, V) of the joints' freedoms, or of the drives where ``driven``."""
+        g, count = layout.algebra, len(values)
+        drives = target[layout.constraints.count :]
+        pose = Pose(np.full((count, layout.links + 1, 3), np.nan), *g.unturned(count, layout.links + 1))
+        turn = _counters(layout, count, drives if driven else np.zeros_like(drives))
+        pose.point[:, -1] = 0.0
+        given = self.given
+        pose.rotation[:, given], pose.point[:, given] = self.rotation[given], self.point[given]
+        placed = {*np.flatnonzero(given).tolist(), layout.links}
+        by_values = bool(np.any(values)) or driven
+        while len(placed) <= layout.links:
+            grown, first = False, 0
+            for h in self.hinges:
+                part = values[:, first : first + len(h.drives)].copy()
+                first += len(h.drives)
+                if (h.i in placed) == (h.j in placed):
+                    continue
+                if driven:
+                    wanted = np.array(h.drives, np.intp)
+                    known = (wanted >= 0) & (wanted < len(drives))  # none are where the drives are left out
+                    part[:, known] = drives[wanted[known]]
+                    if 0 <= h.sliding < len(drives):
+                        part = np.full_like(part, drives[h.sliding] / h.rise)
+                _place(layout, h, pose, part, h.i in placed, by_values)
+                placed |= {h.i, h.j}
+                grown = True
+            if not grown:
+                lone = min(set(range(layout.links)) - placed)
+                pose.point[:, lone] = 0.0
+                placed.add(lone)
+        for f in layout.constraints.families:
+            if isinstance(f, Helix):
+                turn[:, f.count] = -along_axis(g, f, pose) / f.pitch
+        return pose._replace(turn=turn)
+
+
+def _without_phase(layout: Layout, target: Array) -> tuple[Layout, Array]:
+    """The layout and target without the rows whose target is their measure at the first pose."""
+    phased = phase_rows(layout.constraints)
+    if not phased.size:
+        return layout, target
+    kept = np.setdiff1d(np.arange(layout.constraints.count), phased)
+    return with_rows(layout, kept, []), np.delete(target, phased)
+
+
+def _counters(layout: Layout, count: int, drives: Array) -> Array:
+    """Followed angles (count, T): the drives' positions, 0 of the others."""
+    turn = np.zeros((count, max((int(f.count.max()) + 1 for f in layout.counted), default=0)))
+    for f in layout.counted:
+        if isinstance(f, Angle):
+            for d, row in enumerate(layout.driven):
+                turn[:, f.count[f.row == row]] = drives[d]
+    return turn
+
+
+def _place(layout: Layout, h: Hinge, pose: Pose, values: Array, forward: bool, by_values: bool) -> None:
+    """Lay one link of a hinge by the other; as drawn where the joint allows it and no values are asked for."""
+    g, size = layout.algebra, layout.length / np.pi
+    known, new = (h.i, h.j) if forward else (h.j, h.i)
+    if by_values or not _as_drawn(g, h, pose):
+        relative = np.broadcast_to(h.frame_i, (len(values), 9))
+        for k, axis in enumerate(h.turns, start=len(h.slides)):
+            relative = g.compose(relative, g.rotation(values[:, k], np.eye(3)[axis]))
+        relative = g.compose(relative, _inverse(g, h.frame_j))
+        if not forward:
+            relative = _inverse(g, relative)
+        pose.rotation[:, new] = g.compose(pose.rotation[:, known], relative)
+    ri, rj = g.rotate(pose.rotation[:, h.i], h.ui), g.rotate(pose.rotation[:, h.j], h.uj)
+    offset = np.zeros_like(ri)
+    for k, axis in enumerate(h.slides):
+        e = g.rotate(pose.rotation[:, h.i], g.matrix(h.frame_i)[:, axis])
+        offset = offset + e * (values[:, k, None] if h.drives[k] >= 0 else values[:, k, None] * size)
+    if h.rise and by_values:
+        e = g.rotate(pose.rotation[:, h.i], g.matrix(h.frame_i)[:, h.turns[0]])
+        offset = offset + h.rise * e * values
+    if forward:
+        pose.point[:, new] = pose.point[:, known] + ri + offset - rj
+    else:
+        pose.point[:, new] = pose.point[:, known] + rj - offset - ri
+
+
+def _as_drawn(g: Any, h: Hinge, pose: Pose) -> bool:
+    """Whether the joint lets its links stand as they are drawn, as far as its axes say."""
+    axes = [h.parallel] * (h.parallel >= 0) if h.turns else [0, 1, 2]
+    on_i, on_j = (
+        [g.rotate(pose.rotation[0, link], g.matrix(frame)[:, axis]) for axis in axes]
+        for link, frame in ((h.i, h.frame_i), (h.j, h.frame_j))
+    )
+    return all(g.dot(a, b) > 1 - ALONG for a, b in zip(on_i, on_j, strict=True))
+
+
+def _inverse(g: Any, r: Array) -> Array:
+    turned: Array = np.swapaxes(g.matrix(r), -1, -2)
+    return turned.reshape((*turned.shape[:-2], 9))

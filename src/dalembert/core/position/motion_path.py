@@ -1,0 +1,337 @@
+"""A motion followed from its first pose: marched from station to station, then all positions corrected at once.
+
+Between stations the poses are interpolated and corrected together; a position whose correction is not small next to
+the spacing of the stations is not trusted.
+
+s  parameter of the course
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.core.constraints import stacked
+from dalembert.core.factor import displacement
+from dalembert.core.layout import Angle, Layout, Mesh, Pose, Turn
+from dalembert.core.position.assembly_modes import on_sides
+from dalembert.core.position.assur_groups import Group, groups, on_independent_rows, senses
+from dalembert.core.position.assur_plan import Plan, plan
+from dalembert.core.position.continuation import POOR, March, Nodes, interpolated, march, twists
+from dalembert.core.position.first_pose_plane import phase_rows
+from dalembert.core.position.newton import CLOSED, closed, distance, gap
+from dalembert.core.position.path_parameter import Course, course
+
+BLOCK = 2048
+"""Positions corrected at once: enough to hide the cost of a numpy call, few enough to stay in the cache."""
+
+TRUSTED = 1e-6
+"""Correction of an interpolated pose, radians or characteristic lengths, that is never suspicious."""
+
+SAME = 1e-6
+"""Distance over characteristic length, or change of a rotation, below which two poses are the same."""
+
+BETWEEN = 8
+"""Parts of the way between two positions at which a gap between them is looked for."""
+
+MOST_GAPS = 8
+"""Times a motion is taken up again behind a gap."""
+
+
+class Path(NamedTuple):
+    """All positions of a list: poses (P, L+1, ...), which were reached (P,), and by which stretch (P,) of the motion.
+
+    From position to position of a stretch the motion is continuous; between two of them lies a gap. ``entered`` are the
+    positions at which stretches begin that the motion from the first pose does not reach.
+    """
+
+    pose: Pose
+    reached: Flags
+    stretch: Ints
+    entered: tuple[int, ...] = ()
+
+
+class Ways(Protocol):
+    """What knows the ways that a linkage closes (``Guess``, ``Drawing``)."""
+
+    @property
+    def stated(self) -> Array | None:
+        """Given angles of the links (L+1,), NaN where there is none; None in space."""
+
+    def every(self, layout: Layout, target: Array) -> Any:
+        """All ways found at a target (K + D,), poses (M, L+1, ...) in ``pose``; None where there is none."""
+
+
+def path(
+    layout: Layout,
+    first: Pose,
+    along: Course,
+    start: float,
+    period: Array | None = None,
+    ways: Ways | None = None,
+) -> Path:
+    """Poses at every position of the list, followed both ways from the pose (L+1, ...) at parameter ``start``.
+
+    ``period`` (K + D) is what a whole cycle adds to the targets, if the list is one: then what lies behind a dead
+    centre is also reached around the other way. What is still missing is looked for from the poses already known,
+    on the first one's side of every group's dead centres (``core.position.assur_groups``).
+    """
+    result = _both_ways(layout, first, along, start, len(along.s))
+    if len(along.s) == 1 or result.reached.all():
+        return result
+    if period is not None and result.reached.any():
+        result = _around(layout, along, period, result)
+    known = result.reached
+    return result if known.all() or not known.any() else _reentered(layout, first, along, result, ways)
+
+
+def _both_ways(layout: Layout, first: Pose, along: Course, start: float, count: int) -> Path:
+    """The first ``count`` positions of the list, from the pose at ``start``.
+
+    Positions passed but not trusted, near dead centres, are marched to once more, each made a station of its own.
+    """
+    result, passed = _marched(layout, first, along, start, count)
+    lost = passed & (along.order < count)
+    lost[lost] = ~result.reached[along.order[lost]]
+    if not lost.any():
+        return result
+    landing = replace(along, breaks=np.union1d(along.breaks, along.s[lost]))
+    return _joined(result, _marched(layout, first, landing, start, count)[0])
+
+
+def _marched(layout: Layout, first: Pose, along: Course, start: float, count: int) -> tuple[Path, Flags]:
+    """Positions reached by marching both ways, and which places of the course the marches passed."""
+    ways = [False] * (start < along.end or start <= 0) + [True] * (start > 0)
+    pieces = [march(layout, first, along, start, back) for back in ways]
+    found = [_filled(layout, along, piece, count) for piece in pieces]
+    passed = np.any([(along.s >= p.s[0]) & (along.s <= p.s[-1]) for p in pieces], axis=0)
+    return (found[0] if len(found) == 1 else _joined(*found)), passed
+
+
+def _around(layout: Layout, along: Course, period: Array, known: Path) -> Path:
+    """Positions of the cycle before and after this one, from the first and last of the list."""
+    count, listed = len(along.s), np.empty_like(along.targets)
+    listed[along.order] = along.targets
+    for sign, place in ((-1, 0), (1, count - 1)):
+        if known.reached[place] and not known.reached.all():
+            cycle = course(layout, np.concatenate([listed + sign * period, listed[place : place + 1]]))
+            found = _both_ways(layout, known.pose.at(place), cycle, cycle.at(count), count)
+            known = _joined(known, _apart(_same(layout, found, listed, -sign * period), known))
+    return known
+
+
+def _same(layout: Layout, found: Path, targets: Array, more: Array) -> Path:
+    """What was reached a cycle away, as poses of this cycle; not where wheels stand in another phase there."""
+    there = np.flatnonzero(found.reached)
+    counted = _counted(layout, found.pose.at(there), more)
+    pose, missing = closed(layout, Pose(*(part.copy() for part in counted)), targets[there])
+    off = [np.abs(a - b).max(axis=(-2, -1)) for a, b in zip(pose[::2], counted[::2], strict=True)]
+    same = (missing <= CLOSED * layout.length) & (off[0] <= SAME * layout.length) & (off[1] <= SAME)
+    reached = found.reached.copy()
+    reached[there] = same
+    for whole, part in zip(found.pose, pose, strict=True):
+        whole[there] = part
+    return found._replace(reached=reached)
+
+
+def _counted(layout: Layout, pose: Pose, more: Array) -> Pose:
+    """The pose with its whole turns counted further by ``more`` (K + D) in the relative turns that have a target.
+
+    Wheels that mesh with a link so turned are turned back by the ratio of their radii, where that is whole turns.
+    """
+    turn, known = pose.turn.copy(), {layout.links: 0.0}
+    rows: list[tuple[int, int, float]] = []
+    meshes: list[tuple[int, int, float]] = []
+    for f in layout.stack.families:
+        if isinstance(f, Angle):
+            turn[..., f.count] += more[f.row]
+        elif isinstance(f, Turn):
+            rows += zip(f.i.tolist(), f.j.tolist(), more[f.row], strict=True)
+        elif isinstance(f, Mesh):
+            meshes += zip(f.i.tolist(), f.j.tolist(), f.ri / f.rj, strict=True)
+            meshes += zip(f.j.tolist(), f.i.tolist(), f.rj / f.ri, strict=True)
+    while rows:
+        i, j, add = next((row for row in rows if row[0] in known or row[1] in known), rows[0])
+        rows.remove((i, j, add))
+        first = known.setdefault(i, known.get(j, add) - add)
+        known.setdefault(j, first + add)
+    for _ in meshes:
+        for i, j, ratio in meshes:
+            back = -ratio * known.get(i, 0.0) / (2 * np.pi)
+            if i in known and j not in known and abs(back - round(back)) < SAME:
+                known[j] = 2 * np.pi * round(back)
+    if known.keys() - {layout.links}:
+        turn[..., list(known)] += list(known.values())
+    return pose._replace(turn=turn)
+
+
+def _filled(layout: Layout, along: Course, piece: March, count: int) -> Path:
+    """The first ``count`` positions of the list, where they lie within a march, by interpolation and correction."""
+    inside = (along.s >= piece.s[0] - 1e-12) & (along.s <= piece.s[-1] + 1e-12) & (along.order < count)
+    nowhere = Pose(*(np.full((count, *part.shape[1:]), np.nan) for part in piece.pose))
+    found = Path(nowhere, np.zeros(count, bool), np.zeros(count, np.intp))
+    for low, high in zip(along.breaks[:-1], along.breaks[1:], strict=True) if along.end > 0 else [(0.0, 0.0)]:
+        which = np.flatnonzero((piece.s >= low - 1e-12) & (piece.s <= high + 1e-12))
+        places = np.flatnonzero(inside & (along.s >= low - 1e-12) & (along.s <= high + 1e-12))
+        if which.size and places.size:
+            nodes = _polished(layout, along, piece.s[which], piece.pose.at(which), (low + high) / 2)
+            for block in np.split(places, range(BLOCK, len(places), BLOCK)):
+                _fill(layout, along, nodes, block, found)
+    return found
+
+
+def _polished(layout: Layout, along: Course, s: Array, pose: Pose, inside: float) -> Nodes:
+    """Stations of one smooth piece corrected together, with their rates."""
+    targets = np.concatenate([along.target(x) for x in s])
+    pose, _ = closed(layout, pose, targets)
+    slopes = np.concatenate([along.slope(x, inside - x) for x in s]) * layout.row_scale
+    with np.errstate(all="ignore"):
+        return Nodes(s, pose, twists(layout, displacement(layout, stacked(layout, pose), slopes)))
+
+
+def _fill(layout: Layout, along: Course, nodes: Nodes, places: Ints, found: Path) -> None:
+    """Put corrected poses at some places of the course into the list."""
+    guess = interpolated(layout, along.s[places], nodes)
+    part, missing = closed(layout, guess, along.targets[places])
+    near = distance(layout, part, guess) <= TRUSTED + POOR * _travel(layout, along.s[places], nodes)
+    listed = along.order[places]
+    for whole, new in zip(found.pose, part, strict=True):
+        whole[listed] = new
+    found.reached[listed] = near & (missing <= CLOSED * layout.length)
+
+
+def _travel(layout: Layout, s: Array, nodes: Nodes) -> Array:
+    """How far the links go between the stations on both sides of s."""
+    if len(nodes.s) == 1:
+        return np.zeros(len(s))
+    between = distance(layout, nodes.pose.at(slice(1, None)), nodes.pose.at(slice(None, -1)))
+    return np.asarray(between[np.clip(np.searchsorted(nodes.s, s) - 1, 0, len(between) - 1)])
+
+
+def _joined(a: Path, b: Path) -> Path:
+    """The first where it reached, else the second."""
+    if a.reached.all():
+        return a
+    take = a.reached
+    pose = Pose(*(np.where(_over(take, x), x, y) for x, y in zip(a.pose, b.pose, strict=True)))
+    return Path(pose, take | b.reached, np.where(take, a.stretch, b.stretch))
+
+
+def _apart(new: Path, known: Path) -> Path:
+    """The path as a stretch of its own."""
+    return new._replace(stretch=np.full_like(new.stretch, known.stretch.max() + 1))
+
+
+def _over(mask: Flags, array: Array) -> Flags:
+    return mask.reshape(mask.shape + (1,) * (array.ndim - 1))
+
+
+def _reentered(layout: Layout, first: Pose, along: Course, known: Path, ways: Ways | None) -> Path:
+    """Positions behind a gap: entered at some of them, on the first one's side of every group, then followed both ways.
+
+    Where no sides tell the branches apart there, what lies behind a gap counts as not reached.
+    """
+    way, entered = plan(layout), []
+    if way is not None and way.closed:
+        entries = _laid_down(layout, way, first, along, known, ways)
+    else:
+        entries = _sought(layout, first, along, lambda: known, ways)
+    for place, entry in entries:
+        if known.reached[place]:
+            continue
+        more = _both_ways(layout, entry, along, along.at(place), len(known.reached))
+        if (more.reached & ~known.reached).any():
+            entered.append(place)
+        known = _joined(known, _apart(more, known))
+        if known.reached.all() or len(entered) == MOST_GAPS:
+            break
+    return known._replace(entered=tuple(entered))
+
+
+def _laid_down(
+    layout: Layout, way: Plan, first: Pose, along: Course, known: Path, ways: Ways | None
+) -> Iterator[tuple[int, Pose]]:
+    """Where groups in closed form close on the first pose's sides: the middle of each range that nothing has reached.
+
+    A gap that is seen lies between: where none does, the march has stopped at a place that it could not follow.
+    """
+    turn = np.full(layout.links + 1, np.nan) if ways is None or ways.stated is None else ways.stated
+    reached = known.reached[along.order]
+    part = np.arange(BETWEEN) / BETWEEN
+    s = np.append((along.s[:-1, None] + np.diff(along.s)[:, None] * part).ravel(), along.s[-1])
+    listed = np.arange(len(s)) % BETWEEN == 0
+    there = np.zeros(len(s), bool)
+    there[listed] = reached
+    asked = np.flatnonzero(~there)
+    which, found = on_sides(layout, way, np.concatenate([along.target(x) for x in s[asked]]), first, turn)
+    closes = there.copy()
+    closes[asked[which]] = True
+    pose = dict(zip(asked[which].tolist(), range(len(which)), strict=True))
+    for run in np.split(np.arange(len(s)), np.flatnonzero(np.diff(closes)) + 1):
+        places = run[listed[run]]
+        if closes[run[0]] and places.size and not there[run].any():
+            middle = int(places[len(places) // 2])
+            yield int(along.order[middle // BETWEEN]), found.at(pose[middle])
+
+
+class Fast(NamedTuple):
+    """What entries are sought with: the layout with a solver that is fast, groups and their senses (G,)."""
+
+    layout: Layout
+    kinds: list[Group]
+    sense: Array
+
+
+def _sought(
+    layout: Layout, first: Pose, along: Course, now: Callable[[], Path], ways: Ways | None
+) -> Iterator[tuple[int, Pose]]:
+    """Entries found by Newton from the poses known so far, or by a search, on the first pose's sides."""
+    kinds = groups(layout, _some(now()))
+    if not kinds:
+        return
+    sense, tried = senses(layout, kinds, first.at(None)), np.zeros(0, np.intp)
+    fast = Fast(on_independent_rows(layout, first), kinds, sense)
+    while True:
+        missing = np.setdiff1d(np.flatnonzero(~now().reached), tried)
+        if not missing.size:
+            return
+        sample = missing[np.unique(np.linspace(0, len(missing) - 1, min(len(missing), 12)).astype(int))]
+        targets = ((int(k), along.target(along.at(int(k)))[0]) for k in sample)
+        found = ((k, _entry(layout, fast, target, now(), ways)) for k, target in targets)
+        place, entry = next(((k, e) for k, e in found if e is not None), (0, None))
+        if entry is None:
+            return
+        tried = np.append(tried, place)
+        yield place, entry
+
+
+def _some(known: Path) -> Pose:
+    """A few of the known poses, spread over all of them."""
+    good = np.flatnonzero(known.reached)
+    return known.pose.at(good[np.linspace(0, len(good) - 1, min(len(good), 24)).astype(int)])
+
+
+def _entry(layout: Layout, fast: Fast, target: Array, known: Path, ways: Ways | None) -> Pose | None:
+    """A pose at one target with the groups' given senses: from the nearest of the known poses that leads there, else
+    the only one of the ways that a search finds."""
+    guess = _some(known)
+    pose, _ = closed(fast.layout, guess, np.broadcast_to(target, (len(guess.point), len(target))).copy())
+    fits = _fitting(layout, fast, pose, target, 0.0)
+    if fits.any():
+        return pose.at(np.flatnonzero(fits)[np.argmin(distance(layout, pose, guess)[fits])])
+    if ways is None or phase_rows(layout.constraints).size:
+        return None
+    found = ways.every(fast.layout, target)
+    fits = np.zeros(0, bool) if found is None else _fitting(layout, fast, found.pose, target, 0.5)
+    return found.pose.at(np.flatnonzero(fits)[0]) if fits.sum() == 1 else None
+
+
+def _fitting(layout: Layout, fast: Fast, pose: Pose, target: Array, least: float) -> Flags:
+    """Poses (P, L+1, ...) that meet a target with all rows, their groups' senses as given."""
+    missing = np.abs(gap(layout, pose, np.broadcast_to(target, (len(pose.point), len(target))))).max(axis=1)
+    same = senses(layout, fast.kinds, pose) * fast.sense >= least
+    return np.asarray((missing <= CLOSED * layout.length) & same.all(axis=1))

@@ -1,0 +1,378 @@
+"""The answers that stand in a model file, compared with what is computed."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from dalembert.analysis.output.columns import drive_kinds
+from dalembert.arrays import Array
+from dalembert.errors import STATUSES, ModelError
+from dalembert.grading.quantities import QUANTITIES, WHOLE, WORDS, Series, component, size
+from dalembert.grading.tolerance import Target, radians
+from dalembert.unit_names import unit
+from dalembert.units import KINDS, NUMBER, Units, file_units, quantity
+from dalembert.wording import closest, shown
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+    from dalembert.model import Answer, Mechanism
+
+
+TOLERANCE = 1e-6
+"""Relative deviation that an answer without a tolerance of its own may have."""
+
+EXACT = 1e-7
+"""Relative deviation from an independent exact value."""
+
+DIGITS = 7
+"""Significant digits of the numbers shown."""
+
+SAME_POSITION = 1e-6
+"""Difference, in radians or metres, up to which a drive's position is the one that an answer names."""
+
+
+class Row(NamedTuple):
+    """One answer compared: as published, as computed, how far apart and how far they may be; ok, and why not."""
+
+    case: str
+    quantity: str
+    published: str
+    exact: str
+    computed: str
+    tolerance: str
+    deviation: str
+    ok: bool
+    why: str
+    problem: str = ""
+    line: int = 0
+
+
+def check_file(path: str | Path) -> list[Row]:
+    """The answers of a model file compared with what is computed; raises ModelError where the file is wrong.
+
+    >>> from dalembert.bundled import examples
+    >>> check_file(examples()["four_bar"])
+    []
+    """
+    from dalembert.model import load
+
+    return check(load(path), Path(path).stem)
+
+
+def check(mechanism: Mechanism, case: str = "") -> list[Row]:
+    """The answers of a mechanism compared with what is computed: one row an answer."""
+    from dalembert.analysis.solution import solve
+
+    if not mechanism.answers:
+        return []
+    result = solve(mechanism)
+    return [_row(result, answer, k, case or mechanism.title) for k, answer in enumerate(mechanism.answers)]
+
+
+def _row(result: Result, answer: Answer, number: int, case: str) -> Row:
+    source = result.mechanism.source
+    path = ("answers", number)
+    try:
+        row = _compared(result, answer, case)
+    except ModelError as error:
+        raise ModelError(error.what, error.remedy, (*path, *error.path)).located(source) from None
+    return row._replace(line=source.line(path) if source else 0)
+
+
+def _compared(result: Result, answer: Answer, case: str) -> Row:
+    if answer.quantity in WHOLE:
+        return _word(answer, case, WHOLE[answer.quantity](result), "")
+    if answer.quantity in WORDS:
+        position = position_of(result, answer)
+        return _word(answer, case, WORDS[answer.quantity](result, position), _reason(result, position))
+    if answer.quantity not in QUANTITIES:
+        known = [*QUANTITIES, *WORDS, *WHOLE]
+        raise ModelError(
+            f"there is no quantity {answer.quantity!r}", closest(answer.quantity, known, 40), ("quantity",)
+        )
+    rows = [_measured(side, answer, read(side, answer), case) for side in sides_of(result, answer)]
+    return next((row for row in rows if row.ok), rows[0])
+
+
+def read(result: Result, answer: Answer) -> Series:
+    """The quantity of an answer over the positions."""
+    return component(QUANTITIES[answer.quantity](result, answer), answer.component)
+
+
+def sides_of(result: Result, answer: Answer) -> tuple[Result, ...]:
+    """The results that an answer may be of: just before reversals or just after; of an extreme the one that has it."""
+    if result.after is None or answer.quantity.endswith(("_low", "_high")):
+        return (result,)
+    if answer.extreme is None:
+        return result.sides
+    found = []
+    for side in result.sides:
+        values = BY[answer.extreme](size(read(side, answer)))
+        found.append(float(np.nanmax(values)) if np.isfinite(values).any() else -math.inf)
+    return (result.sides[int(np.argmax(found))],)
+
+
+def named(answer: Answer) -> str:
+    """The quantity in words: 'reaction of A on crank, magnitude, at 60 deg'."""
+    parts = [answer.quantity.replace("_", " ")]
+    parts += [f"of {answer.of}"] if answer.of else []
+    parts += [f"on {answer.on}"] if answer.on else [f"by {answer.by}"] if answer.by else []
+    text = " ".join(parts)
+    where = "" if answer.at is None else _at_text(answer.at)
+    axes = "" if answer.axes == "ground" else f"{answer.axes} axes"
+    return ", ".join(part for part in (text, answer.component, axes, where, answer.extreme) if part)
+
+
+def _at_text(at: Any) -> str:
+    return f"at no. {at}" if isinstance(at, int) else f"at {at}"
+
+
+# words and counts
+
+
+def _word(answer: Answer, case: str, found: str | int | None, problem: str) -> Row:
+    ok = found is not None and str(found) == _plain(answer.value)
+    computed = "-" if found is None else str(found)
+    return Row(
+        case,
+        named(answer),
+        _plain(answer.value),
+        "",
+        computed,
+        "",
+        "",
+        ok,
+        answer.why or "",
+        "" if ok else problem,
+    )
+
+
+def _plain(value: Any) -> str:
+    return str(int(value)) if isinstance(value, float) and value.is_integer() else str(value)
+
+
+def _reason(result: Result, position: int) -> str:
+    if result.status[position] == "ok":
+        return ""
+    return result.reasons[position] or STATUSES[result.status[position]].sentence
+
+
+# positions
+
+
+def position_of(result: Result, answer: Answer, series: Series | None = None) -> int:
+    """Which position an answer is about, from 0."""
+    count = len(result.status)
+    if answer.extreme is not None and series is not None:
+        return _extreme(answer.extreme, size(series))
+    if answer.at is None:
+        if count == 1:
+            return 0
+        raise ModelError(
+            f"the answer has {count} positions", "say which: at: 1, or at: 60 deg", ("quantity",)
+        )
+    if isinstance(answer.at, int):
+        if not 1 <= answer.at <= count:
+            raise ModelError(f"there is no position {answer.at}", f"they are 1 to {count}", ("at",))
+        return answer.at - 1
+    return _named_position(result, answer.at)
+
+
+BY: dict[str, Callable[[Array], Array]] = {"max": lambda v: v, "min": lambda v: -v, "maxabs": np.abs}
+"""What is largest at an extreme."""
+
+
+def _extreme(which: str, values: Array) -> int:
+    return 0 if np.isnan(values).all() else int(np.nanargmax(BY[which](values)))
+
+
+def _named_position(result: Result, at: Any) -> int:
+    """The position where the first drive has a value: `60 deg`."""
+    if not result.drives:
+        raise ModelError(
+            "there is no drive whose position could be named", "number the position: at: 1", ("at",)
+        )
+    drive = result.drives[0]
+    kind = drive_kinds(result, drive)["position"]
+    try:
+        wanted = quantity(at, kind, file_units(result.mechanism.units))
+    except ModelError as error:
+        raise ModelError(error.what, error.remedy, ("at",)) from None
+    away = np.abs(_apart(result.drive_position(drive), wanted, kind))
+    if not away.min() < SAME_POSITION:
+        raise ModelError(
+            f"no position has {drive} = {at}", "number the position, or give the drive that value", ("at",)
+        )
+    return int(away.argmin())
+
+
+def _apart(found: Array, wanted: Any, kind: str) -> Array:
+    """Difference of two values; angles a whole turn apart are the same."""
+    difference = found - wanted
+    return np.asarray(np.angle(np.exp(1j * difference)) if kind == "angle" else difference)
+
+
+# numbers and vectors
+
+
+def target(value: Any, series: Series, units: Units, key: str) -> Target:
+    """A value as it stands in the file, read as the kind of the series."""
+    from dalembert.model.part import Reading
+    from dalembert.model.quantities.values import at_item, listed, vector
+
+    rules = Reading(units, dimension=series.values.shape[-1])
+    depth = series.values.ndim - 1
+    try:
+        if depth == 2:
+            rows = listed(value, rules, "")
+            read: Any = [at_item(k, vector, row, series.kind, rules) for k, row in enumerate(rows)]
+        else:
+            read = vector(value, series.kind, rules) if depth else quantity(value, series.kind, units)
+    except ModelError as error:
+        raise ModelError(error.what, error.remedy, (key, *error.path)) from None
+    polar = depth == 1 and isinstance(value, str)
+    return Target(np.array(read, dtype=float), _unit_of(value, series.kind, units), polar)
+
+
+def _unit_of(value: Any, kind: str, units: Units) -> str:
+    """The unit a published value is written in: its own, or the file's."""
+    for item in value if isinstance(value, (list, tuple)) else [value]:
+        for text in re.findall(rf"(?>{NUMBER})\s*([^\W\d][^@]*)", str(item)):
+            if unit(text.strip()).dimension == KINDS[kind].dimension:
+                return str(text.strip())
+    return units.text(kind)
+
+
+def _measured(result: Result, answer: Answer, series: Series, case: str) -> Row:
+    units = file_units(result.mechanism.units)
+    position = position_of(result, answer, series)
+    published = target(answer.value, series, units, "value")
+    exact = None if answer.exact is None else target(answer.exact, series, units, "exact")
+    found = _same_turn(np.asarray(series.values[position], dtype=float), published.value, series.kind)
+    scale = _scale((exact or published).value, series)
+    away = _away(found, published.value, series.kind)
+    allowed, said = _tolerance(answer.tolerance, scale, series.kind, units, TOLERANCE, "tolerance")
+    near = away <= allowed
+    met = exact is None or _meets_exact(found, exact, answer, series, units)
+    problem = _reason(result, position) or ("" if met else "The exact value is missed.")
+    return Row(
+        case,
+        named(answer),
+        value_text(answer.value),
+        "" if exact is None else _shortened(value_text(answer.exact)),
+        computed_text(found, published, series.kind, units, answer.value),
+        said,
+        _deviation(away, _size(published.value) and scale, series.kind, published.unit),
+        near and met,
+        answer.why or "",
+        "" if near and met else problem,
+    )
+
+
+def _meets_exact(found: Array, exact: Target, answer: Answer, series: Series, units: Units) -> bool:
+    scale = _scale(exact.value, series)
+    allowed, _ = _tolerance(answer.exact_tolerance, scale, series.kind, units, EXACT, "exact_tolerance")
+    return _away(found, exact.value, series.kind) <= allowed
+
+
+def _same_turn(found: Array, wanted: Array, kind: str) -> Array:
+    """An angle in the turn that the published one is in."""
+    return found + 2 * np.pi * np.round((wanted - found) / (2 * np.pi)) if kind == "angle" else found
+
+
+def _away(found: Array, wanted: Array, kind: str) -> float:
+    """Distance of two numbers or vectors."""
+    return _size(_apart(found, wanted, kind))
+
+
+def _size(value: Array) -> float:
+    return float(np.linalg.norm(np.atleast_1d(value)))
+
+
+def _scale(wanted: Array, series: Series) -> float:
+    """What a relative tolerance is relative to: the value wanted, or where that is 0 the largest of its series."""
+    values = size(series)
+    return _size(wanted) or (float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0)
+
+
+def _tolerance(
+    given: Any, scale: float, kind: str, units: Units, default: float, key: str
+) -> tuple[float, str]:
+    """Allowed distance in SI, and as text: relative (`0.3 %`) or a quantity of the same kind."""
+    if given is None:
+        return default * scale, f"{default:g}"
+    if isinstance(given, str) and given.strip().endswith("%"):
+        return _percent(given, key) / 100 * scale, given.strip()
+    try:
+        return quantity(given, kind, units), value_text(given)
+    except ModelError as error:
+        raise ModelError(error.what, error.remedy, (key,)) from None
+
+
+def _percent(text: str, key: str) -> float:
+    try:
+        return float(text.strip().removesuffix("%"))
+    except ValueError:
+        raise ModelError(f"{shown(text)} is no percentage", "write one, for example 0.3 %", (key,)) from None
+
+
+# as text
+
+
+def value_text(value: Any) -> str:
+    """A value as it stands in the file."""
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(value_text(item) for item in value) + "]"
+    return f"{value:.{DIGITS}g}" if isinstance(value, float) else str(value)
+
+
+def _shortened(text: str) -> str:
+    """The same with no more digits than a computed value is shown with."""
+    return re.sub(rf"(?<![\w.]){NUMBER}", lambda found: f"{float(found[0]):.{DIGITS}g}", text)
+
+
+def computed_text(found: Array, published: Target, kind: str, units: Units, form: Any = "") -> str:
+    """A computed value in the unit and the form of the published one, its direction in the turn of that."""
+    if not np.isfinite(found).all():
+        return "-"
+    own = unit(published.unit).of_si if published.unit else float
+    behind = "" if published.unit in ("", units.text(kind)) else f" {published.unit}"
+    if found.ndim == 0:
+        return f"{own(float(found)):.{DIGITS}g}{behind}"
+    if published.polar:
+        turn = float(np.angle(complex(*found) * complex(*published.value).conjugate()))
+        angle = units.unit("angle").of_si(_direction(form, units, published.value) + turn)
+        return f"{own(float(np.hypot(*found))):.{DIGITS}g} @ {angle:.6g}{behind}"
+    clean = np.where(np.abs(found) < 1e-12 * np.abs(found).max(), 0.0, found)
+    return _bracketed(clean, own) + behind
+
+
+def _direction(form: Any, units: Units, vector: Array) -> float:
+    """The angle of a polar value in radians as it was written, 220 deg and not -140."""
+    number = re.search(NUMBER, str(form).partition("@")[2])
+    angle = math.atan2(vector[1], vector[0])
+    if number is None:
+        return angle
+    written = radians(float(number[0]), str(form), units)
+    return angle + 2 * math.pi * round((written - angle) / (2 * math.pi))
+
+
+def _bracketed(values: Array, own: Any) -> str:
+    """Numbers in brackets; of a rotation a row each in brackets of its own."""
+    inner = [f"{own(float(v)):.{DIGITS}g}" if v.ndim == 0 else _bracketed(v, own) for v in values]
+    return "[" + ", ".join(inner) + "]"
+
+
+def _deviation(away: float, scale: float, kind: str, unit_text: str) -> str:
+    """How far: in percent, or in the published unit where there is nothing to be relative to."""
+    if not math.isfinite(away):
+        return "-"
+    if scale and kind != "angle":
+        return f"{100 * away / scale:.2g} %"
+    return f"{unit(unit_text).of_si(away):.2g} {unit_text}" if unit_text else f"{away:.2g}"

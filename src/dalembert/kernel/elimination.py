@@ -1,0 +1,299 @@
+"""Elimination of traced square systems by structure: A and its transpose from one set of factors.
+
+Pivots are the entries that are exactly 1 or -1 first (the force balances: no growth, no division), least fill first.
+What remains falls into blocks, each two-link group one block of 2 x 2 whose determinant is the sine of its
+transmission angle; larger blocks are eliminated entry by entry, with pivots chosen on sampled values.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from dalembert.arrays import Array
+from dalembert.kernel.graph import Graph, Node, is_zero, unit_value
+
+Row = dict[int, Any]
+
+
+@dataclass
+class Step:
+    """Pivot block: rows, columns, its inverse, what stands right of it and below it."""
+
+    rows: tuple[int, ...]
+    columns: tuple[int, ...]
+    inverse: list[list[Any]]
+    right: list[Row]
+    below: list[tuple[int, list[Any]]]
+
+
+@dataclass
+class Structural:
+    """Factors of a traced system J (K, m): the ``Factor`` of the core, for traced values.
+
+    ``pivots``: determinants of the pivot blocks that are not +-1; one near zero makes the system singular.
+    """
+
+    size: int
+    steps: list[Step]
+    pivots: list[Node] = field(default_factory=list)
+
+    @property
+    def rcond(self) -> Array:
+        return np.array(1.0)
+
+    def motion(self, rates: Array) -> Array:
+        """Solve J v = rates."""
+        b, v = list(rates), np.full(self.size, 0.0, object)
+        kept = []
+        for step in self.steps:
+            t = _times(step.inverse, [b[r] for r in step.rows])
+            kept.append(t)
+            for i, factors in step.below:
+                b[i] = _minus(b[i], factors, t)
+        for step, t in zip(reversed(self.steps), reversed(kept), strict=True):
+            if any(step.right):
+                sums = [_dot(row.values(), [v[c] for c in row]) for row in step.right]
+                t = [x - y for x, y in zip(t, _times(step.inverse, sums), strict=True)]
+            for c, x in zip(step.columns, t, strict=True):
+                v[c] = x
+        return v
+
+    def forces(self, wrench: Array) -> Array:
+        """Solve J^T x = wrench."""
+        c, x = list(wrench), np.full(self.size, 0.0, object)
+        kept = []
+        for step in self.steps:
+            y = _times(_transposed(step.inverse), [c[k] for k in step.columns])
+            kept.append(y)
+            for row, factor in zip(step.right, y, strict=True):
+                for k, u in row.items():
+                    c[k] = c[k] - u * factor
+        for step, y in zip(reversed(self.steps), reversed(kept), strict=True):
+            if step.below:
+                sums = [
+                    _dot([factors[k] for _, factors in step.below], [x[i] for i, _ in step.below])
+                    for k in range(len(step.columns))
+                ]
+                y = [p - q for p, q in zip(y, _times(_transposed(step.inverse), sums), strict=True)]
+            for r, value in zip(step.rows, y, strict=True):
+                x[r] = value
+        return x
+
+
+def _dot(a: Any, b: Any) -> Any:
+    total: Any = 0.0
+    for x, y in zip(a, b, strict=True):
+        if not (is_zero(x) or is_zero(y)):
+            total = x * y + total
+    return total
+
+
+def _minus(start: Any, a: list[Any], b: list[Any]) -> Any:
+    for x, y in zip(a, b, strict=True):
+        if not (is_zero(x) or is_zero(y)):
+            start = start - x * y
+    return start
+
+
+def _times(matrix: list[list[Any]], vector: list[Any]) -> list[Any]:
+    return [_dot(row, vector) for row in matrix]
+
+
+def _transposed(matrix: list[list[Any]]) -> list[list[Any]]:
+    return [list(column) for column in zip(*matrix, strict=True)]
+
+
+def structural(graph: Graph, rows: list[Row], size: int) -> Structural:
+    """Factor a square system given by its rows {column: entry}; raises ValueError where its structure is singular."""
+    if len(rows) != size:
+        raise ValueError(f"{len(rows)} equations for {size} unknowns")
+    work = _Work(graph, [{c: x for c, x in row.items() if not is_zero(x)} for row in rows])
+    work.unit_pivots()
+    work.block_pivots()
+    return Structural(size, work.steps, work.pivots)
+
+
+class _Work:
+    """The part not yet eliminated, and the steps taken."""
+
+    def __init__(self, graph: Graph, rows: list[Row]) -> None:
+        self.graph, self.rows = graph, dict(enumerate(rows))
+        self.columns: dict[int, set[int]] = {}
+        for r, row in self.rows.items():
+            for c in row:
+                self.columns.setdefault(c, set()).add(r)
+        self.steps: list[Step] = []
+        self.pivots: list[Node] = []
+
+    def unit_pivots(self) -> None:
+        while True:
+            best = None
+            for r, row in self.rows.items():
+                for c, x in row.items():
+                    if unit_value(x):
+                        fill = (len(row) - 1) * (len(self.columns[c]) - 1)
+                        if best is None or fill < best[0]:
+                            best = (fill, r, c, unit_value(x))
+                if best is not None and best[0] == 0:
+                    break
+            if best is None:
+                return
+            _, r, c, sign = best
+            self.eliminate((r,), (c,), [[sign]])
+
+    def eliminate(self, rows: tuple[int, ...], columns: tuple[int, ...], inverse: list[list[Any]]) -> None:
+        """Take a pivot block out: Schur complement of the rest."""
+        taken = [self.rows.pop(r) for r in rows]
+        right = [{c: x for c, x in row.items() if c not in columns} for row in taken]
+        for r, row in zip(rows, taken, strict=True):
+            for c in row:
+                self.columns[c].discard(r)
+        touched = sorted(set().union(*(self.columns.pop(c) for c in columns)))
+        below = []
+        for i in touched:
+            row = self.rows[i]
+            factors = [row.pop(c, 0.0) for c in columns]
+            below.append((i, factors))
+            scaled = _times(_transposed(inverse), factors)
+            for u, factor in zip(right, scaled, strict=True):
+                if not is_zero(factor):
+                    self.subtract(i, row, u, factor)
+        self.steps.append(Step(rows, columns, inverse, right, below))
+
+    def subtract(self, i: int, row: Row, u: Row, factor: Any) -> None:
+        for c, x in u.items():
+            new = row.get(c, 0.0) - x * factor
+            if is_zero(new):
+                if row.pop(c, None) is not None:
+                    self.columns[c].discard(i)
+            else:
+                row[c] = new
+                self.columns[c].add(i)
+
+    def block_pivots(self) -> None:
+        for rows, columns in _blocks(self.rows):
+            self.block(rows, columns)
+
+    def block(self, rows: list[int], columns: list[int]) -> None:
+        if len(rows) == 1:
+            pivot = self.rows[rows[0]][columns[0]]
+            self.pivots.append(pivot)
+            self.eliminate((rows[0],), (columns[0],), [[1.0 / pivot]])
+        elif len(rows) == 2:
+            entries = [[self.rows[r].get(c, self.graph.zero) for c in columns] for r in rows]
+            det, inverse = _inverse2(entries)
+            self.pivots.append(det)
+            self.eliminate((rows[0], rows[1]), (columns[0], columns[1]), inverse)
+        else:
+            self.large(rows, columns)
+
+    def large(self, rows: list[int], columns: list[int]) -> None:
+        """One scalar pivot after another: of those sampled large enough everywhere, the one of least fill."""
+        left_rows, left_columns = set(rows), set(columns)
+        while left_rows:
+            if len(left_rows) == 2:
+                self.block(sorted(left_rows), sorted(left_columns))
+                return
+            r, c = self.choice(left_rows, left_columns)
+            pivot = self.rows[r][c]
+            self.pivots.append(pivot)
+            self.eliminate((r,), (c,), [[1.0 / pivot]])
+            left_rows.discard(r)
+            left_columns.discard(c)
+
+    def choice(self, rows: set[int], columns: set[int]) -> tuple[int, int]:
+        places = [(r, c) for r in sorted(rows) for c in self.rows[r] if c in columns]
+        entries = [self.rows[r][c] for r, c in places]
+        nodes = [x if type(x) is Node else self.graph.constant(x) for x in entries]
+        sampled = np.broadcast_arrays(*self.graph.evaluated(nodes, {}))
+        largest = {
+            r: np.max([np.abs(s) for (q, _), s in zip(places, sampled, strict=True) if q == r], axis=0)
+            for r in rows
+        }
+        best = None
+        for (r, c), s in zip(places, sampled, strict=True):
+            share = float(np.nanquantile(np.abs(s) / np.where(largest[r] > 0, largest[r], 1.0), 0.02))
+            fill = (len(self.rows[r]) - 1) * (len(self.columns[c]) - 1)
+            rank = (share < 0.05, fill if share >= 0.05 else 0, -share)
+            if best is None or rank < best[0]:
+                best = (rank, r, c)
+        if best is None:
+            raise ValueError("structurally singular")
+        return best[1], best[2]
+
+
+def _inverse2(m: list[list[Any]]) -> tuple[Any, list[list[Any]]]:
+    (a, b), (c, d) = m
+    det = a * d - b * c
+    over = 1.0 / det
+    return det, [[d * over, -(b * over)], [-(c * over), a * over]]
+
+
+def _blocks(rows: dict[int, Row]) -> list[tuple[list[int], list[int]]]:
+    """Block lower triangular form: rows and columns of each block, in the order in which they can be solved."""
+    if not rows:
+        return []
+    names, columns = sorted(rows), sorted({c for row in rows.values() for c in row})
+    if len(names) != len(columns):
+        raise ValueError("structurally singular")
+    match = matched({r: set(rows[r]) for r in names})
+    if len(match) != len(names):
+        raise ValueError("structurally singular")
+    owner = {c: r for r, c in match.items()}
+    graph = {r: {owner[c] for c in rows[r] if owner[c] != r} for r in names}
+    return [(sorted(group), sorted(match[r] for r in group)) for group in components(graph)]
+
+
+def matched(wants: dict[int, set[int]]) -> dict[int, int]:
+    """A largest matching of rows to columns (augmenting paths)."""
+    owner: dict[int, int] = {}
+
+    def find(r: int, seen: set[int]) -> bool:
+        for c in sorted(wants[r]):
+            if c not in seen:
+                seen.add(c)
+                if c not in owner or find(owner[c], seen):
+                    owner[c] = r
+                    return True
+        return False
+
+    for r in wants:
+        find(r, set())
+    return {r: c for c, r in owner.items()}
+
+
+def components(graph: dict[int, set[int]]) -> list[list[int]]:
+    """Strongly connected parts, those that need nothing else first (Tarjan)."""
+    number: dict[int, int] = {}
+    low: dict[int, int] = {}
+    stack: list[int] = []
+    on: set[int] = set()
+    out: list[list[int]] = []
+
+    def visit(v: int) -> None:
+        number[v] = low[v] = len(number)
+        stack.append(v)
+        on.add(v)
+        for w in sorted(graph[v]):
+            if w not in number:
+                visit(w)
+                low[v] = min(low[v], low[w])
+            elif w in on:
+                low[v] = min(low[v], number[w])
+        if low[v] == number[v]:
+            part = []
+            while True:
+                w = stack.pop()
+                on.discard(w)
+                part.append(w)
+                if w == v:
+                    break
+            out.append(part)
+
+    for v in graph:
+        if v not in number:
+            visit(v)
+    return out

@@ -1,0 +1,163 @@
+"""Sine, cosine, the angle of a vector, 1/x and 1/sqrt(x) for several lanes at once, as LLVM text, to an ulp or two.
+
+Arguments are reduced by pi/2 in three parts (Cody and Waite), the polynomials are those of fdlibm and cephes. They
+carry no fast-math flags: the reduction depends on the order of its subtractions. With AVX-512 the two inverses start
+from the processor's estimates of 14 bits: the divider takes 16 cycles for 1/x and 40 for 1/sqrt(x), they take 4 and 5.
+"""
+
+from __future__ import annotations
+
+from dalembert.kernel.emit.llvm_builder import Text
+from dalembert.kernel.emit.machine_code import host_lanes
+
+SINE = (
+    1.58969099521155010221e-10,
+    -2.50507602534068634195e-08,
+    2.75573137070700676789e-06,
+    -1.98412698298579493134e-04,
+    8.33333333332248946124e-03,
+    -1.66666666666666324348e-01,
+)
+COSINE = (
+    -1.13596475577881948265e-11,
+    2.08757232129817482790e-09,
+    -2.75573143513906633035e-07,
+    2.48015872894767294178e-05,
+    -1.38888888888741095749e-03,
+    4.16666666666666019037e-02,
+)
+HALF_PI = (1.5707963267341256, 6.0771005063039660e-11, 2.0222662487959506e-21)
+ATAN_P = (
+    -8.750608600031904122785e-1,
+    -1.615753718733365076637e1,
+    -7.500855792314704667340e1,
+    -1.228866684490136173410e2,
+    -6.485021904942025371773e1,
+)
+ATAN_Q = (
+    1.0,
+    2.485846490142306297962e1,
+    1.650270098316988542046e2,
+    4.328810604912902668951e2,
+    4.853903996359136964868e2,
+    1.945506571482613964425e2,
+)
+
+
+def elementary(lanes: int, used: set[str]) -> list[str]:
+    """Definitions of those functions that are used."""
+    lines: list[str] = []
+    for op, name, odd in (("sin", "sine", 0), ("cos", "cosine", 1)):
+        if op in used:
+            lines += _circular(lanes, name, odd)
+    lines += _angle(lanes) if "atan2" in used else []
+    inverses = [name for op, name in (("inv", "reciprocal"), ("rsqrt", "inverse_root")) if op in used]
+    for name in inverses:
+        lines += _estimated(lanes, name) if lanes in (8, 16) and host_lanes() == 8 else _divided(lanes, name)
+    return lines
+
+
+def _divided(lanes: int, name: str) -> list[str]:
+    """1/x or 1/sqrt(x) as the processor divides."""
+    t = Text(lanes)
+    t.lines.append(f"define internal {t.kind} @{name}({t.kind} %x) alwaysinline {{")
+    below = "%x" if name == "reciprocal" else t.intrinsic("sqrt", "%x")
+    value = _exact(t, "fdiv", t.splat(1.0), below)
+    return [*t.lines, f"  ret {t.kind} {value}", "}"]
+
+
+def _estimated(lanes: int, name: str) -> list[str]:
+    """1/x or 1/sqrt(x) from an estimate y: with e = 1 - x y, or 1 - x y^2, the series of y/(1 - e), y/sqrt(1 - e)."""
+    t, kind = Text(lanes), "rcp14" if name == "reciprocal" else "rsqrt14"
+    declared = f"declare <8 x double> @{_ESTIMATE}{kind}.pd.512(<8 x double>, <8 x double>, i8)"
+    t.lines += [declared, f"define internal {t.kind} @{name}({t.kind} %x) alwaysinline {{"]
+    y = _estimate(t, kind, "%x")
+    given = "%x" if name == "reciprocal" else _exact(t, "fmul", "%x", y)
+    e = _fma(t, t.let(f"fneg {t.kind} {given}"), y, t.splat(1.0))
+    if name == "reciprocal":
+        value = _fma(t, y, _fma(t, e, _fma(t, e, e, e), e), y)
+    else:
+        value = _fma(t, _exact(t, "fmul", y, e), _horner(t, (0.3125, 0.375, 0.5), e), y)
+    return [*t.lines, f"  ret {t.kind} {value}", "}"]
+
+
+_ESTIMATE = "llvm.x86.avx512."
+
+
+def _estimate(t: Text, kind: str, x: str) -> str:
+    """The instruction for eight lanes, twice for sixteen."""
+
+    def places(first: int, count: int) -> str:
+        return f"<{count} x i32> <" + ", ".join(f"i32 {k}" for k in range(first, first + count)) + ">"
+
+    def eight(x: str) -> str:
+        zero, wide = "<8 x double> zeroinitializer", "<8 x double>"
+        return t.let(f"call {wide} @{_ESTIMATE}{kind}.pd.512({wide} {x}, {zero}, i8 -1)")
+
+    if t.lanes == 8:
+        return eight(x)
+    halves = [eight(t.let(f"shufflevector {t.kind} {x}, {t.kind} poison, {places(k, 8)}")) for k in (0, 8)]
+    return t.let(f"shufflevector <8 x double> {halves[0]}, <8 x double> {halves[1]}, {places(0, 16)}")
+
+
+def _exact(t: Text, op: str, a: str, b: str) -> str:
+    return t.let(f"{op} {t.kind} {a}, {b}")
+
+
+def _fma(t: Text, a: str, b: str, c: str) -> str:
+    return t.intrinsic("fma", a, b, c)
+
+
+def _horner(t: Text, coefficients: tuple[float, ...], z: str) -> str:
+    total = t.splat(coefficients[0])
+    for c in coefficients[1:]:
+        total = _fma(t, total, z, t.splat(c))
+    return total
+
+
+def _circular(lanes: int, name: str, shift: int) -> list[str]:
+    """sin(x), or cos(x) = sin(x + pi/2): the quadrant is counted one further."""
+    t = Text(lanes)
+    t.lines.append(f"define internal {t.kind} @{name}({t.kind} %x) alwaysinline {{")
+    n = t.intrinsic("rint", _exact(t, "fmul", "%x", t.splat(0.6366197723675814)))
+    minus = t.let(f"fneg {t.kind} {n}")
+    r = "%x"
+    for part in HALF_PI:
+        r = _fma(t, minus, t.splat(part), r)
+    z = _exact(t, "fmul", r, r)
+    sine = _fma(t, _exact(t, "fmul", _horner(t, SINE, z), z), r, r)
+    z2 = _exact(t, "fmul", z, z)
+    cosine = _fma(t, _horner(t, COSINE, z), z2, _fma(t, z, t.splat(-0.5), t.splat(1.0)))
+    quadrant = t.let(f"fptosi {t.kind} {n} to {t.whole}")
+    one, two = (str(k) if lanes == 1 else "<" + ", ".join([f"i64 {k}"] * lanes) + ">" for k in (1, 2))
+    if shift:
+        quadrant = t.let(f"add {t.whole} {quadrant}, {one}")
+    zero = "0" if lanes == 1 else "zeroinitializer"
+    swapped = t.let(f"icmp ne {t.whole} {t.let(f'and {t.whole} {quadrant}, {one}')}, {zero}")
+    negative = t.let(f"icmp ne {t.whole} {t.let(f'and {t.whole} {quadrant}, {two}')}, {zero}")
+    value = t.select(swapped, cosine, sine)
+    value = t.select(negative, t.let(f"fneg {t.kind} {value}"), value)
+    return [*t.lines, f"  ret {t.kind} {value}", "}"]
+
+
+def _angle(lanes: int) -> list[str]:
+    """atan2(y, x): the smaller over the larger, reduced once more at tan(pi/8)."""
+    t = Text(lanes)
+    t.lines.append(f"define internal {t.kind} @angle({t.kind} %y, {t.kind} %x) alwaysinline {{")
+    ax, ay = t.intrinsic("fabs", "%x"), t.intrinsic("fabs", "%y")
+    steep = t.compare("ogt", ay, ax)
+    large, small = t.select(steep, ay, ax), t.select(steep, ax, ay)
+    safe = t.select(t.compare("oeq", large, t.splat(0.0)), t.splat(1.0), large)
+    q = _exact(t, "fdiv", small, safe)
+    upper = t.compare("ogt", q, t.splat(0.4142135623730950))
+    folded = _exact(t, "fdiv", _exact(t, "fsub", q, t.splat(1.0)), _exact(t, "fadd", q, t.splat(1.0)))
+    q = t.select(upper, folded, q)
+    z = _exact(t, "fmul", q, q)
+    ratio = _exact(t, "fdiv", _exact(t, "fmul", _horner(t, ATAN_P, z), z), _horner(t, ATAN_Q, z))
+    a = _fma(t, ratio, q, q)
+    a = t.select(upper, _exact(t, "fadd", a, t.splat(0.7853981633974483)), a)
+    a = t.select(steep, _exact(t, "fsub", t.splat(1.5707963267948966), a), a)
+    left = t.compare("olt", "%x", t.splat(0.0))
+    a = t.select(left, _exact(t, "fsub", t.splat(3.141592653589793), a), a)
+    signed = t.intrinsic("copysign", a, "%y")
+    return [*t.lines, f"  ret {t.kind} {signed}", "}"]

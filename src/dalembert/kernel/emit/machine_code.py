@@ -1,0 +1,106 @@
+"""Machine code for the processor at hand: LLVM text compiled in memory, called without Python's lock."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import platform
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+from typing import Any
+
+import numpy as np
+
+from dalembert.arrays import Array
+
+LANES = {"AVX-512": 8, "AVX2": 4, "NEON": 2, "SSE2": 2, "none": 1}
+"""Numbers a vector register holds."""
+
+
+@cache
+def _binding() -> Any:
+    import llvmlite.binding as llvm
+
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    return llvm
+
+
+@cache
+def host_lanes() -> int:
+    """Lanes of the widest registers of this processor."""
+    features = _binding().get_host_cpu_features()
+    for name, key in (("AVX-512", "avx512f"), ("AVX2", "avx2")):
+        if features.get(key, False):
+            return LANES[name]
+    return LANES["NEON"] if platform.machine() in ("aarch64", "arm64") else LANES["SSE2"]
+
+
+@dataclass(frozen=True)
+class Machine:
+    """A compiled function; ``lanes`` values side by side.
+
+    The function takes pointers to values, path, results and marks, then the counts of numbers, channels, designs
+    and blocks. grid: values (design, numbers), path (block, channel, lane), results (design, output, position).
+    pairs: values (block, numbers, lane), path (block, channel, lane), results (block, output, lane).
+    """
+
+    lanes: int
+    address: int
+    engine: Any = field(repr=False)
+    text: str = field(repr=False)
+
+    def __call__(
+        self, values: Array, path: Array, out: Array, code: Array, counts: tuple[int, int, int, int]
+    ) -> None:
+        self.function(*(a.__array_interface__["data"][0] for a in (values, path, out, code)), *counts)
+
+    @cached_property
+    def function(self) -> Any:
+        """The function for ctypes: four addresses, four counts."""
+        return ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4, *[ctypes.c_int64] * 4)(self.address)
+
+
+def aligned(shape: tuple[int, ...]) -> Array:
+    """An empty array that begins at a line of the cache: a register's worth stored across two lines takes twice as
+    long."""
+    count = math.prod(shape)
+    whole = np.empty(count + LINE // 8)
+    first = -whole.__array_interface__["data"][0] % LINE // 8
+    return whole[first : first + count].reshape(shape)
+
+
+LINE = 64
+"""Bytes of a line of the cache."""
+
+
+def compiled(text: str, lanes: int) -> Machine:
+    """Machine code of one module. A target machine passes into its engine and dies with it, so each has its own."""
+    llvm = _binding()
+    module = llvm.parse_assembly(text)
+    module.triple = llvm.get_process_triple()
+    target = llvm.Target.from_triple(module.triple).create_target_machine(
+        cpu=llvm.get_host_cpu_name(),
+        features=llvm.get_host_cpu_features().flatten(),
+        opt=3,
+        codemodel="jitdefault",
+    )
+    module.data_layout = str(target.target_data)
+    module.verify()
+    tuning = llvm.create_pipeline_tuning_options(speed_level=3)
+    tuning.slp_vectorization = False
+    tuning.loop_vectorization = False
+    tuning.loop_unrolling = False
+    builder = llvm.create_pass_builder(target, tuning)
+    builder.getModulePassManager().run(module, builder)
+    engine = llvm.create_mcjit_compiler(module, target)
+    engine.finalize_object()
+    return Machine(lanes, engine.get_function_address("run"), engine, text)
+
+
+def blocked(array: Array, lanes: int) -> Array:
+    """(count, quantity) as (block, quantity, lane); the last block filled up with the last row."""
+    count = len(array)
+    blocks = -(-count // lanes)
+    padded = array[np.minimum(np.arange(blocks * lanes), count - 1)]
+    return np.ascontiguousarray(padded.reshape(blocks, lanes, -1).swapaxes(1, 2))

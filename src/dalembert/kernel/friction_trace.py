@@ -1,0 +1,302 @@
+"""Dry friction traced: the core's contact equations by unrolled Newton.
+
+A contact's force changes the reactions of the links between it and the ground only, so the small system falls into
+blocks, each two-link group one of three or four contacts; each block is solved for itself, those that load others
+first. What the unrolled steps cannot be sure of is in doubt: a block whose fixed point is not surely a contraction
+(several solutions, a jam), a last step that is not small.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from dalembert.arrays import Array, Ints
+from dalembert.core.branchless import above, top
+from dalembert.core.equilibrium import Motion, Statement
+from dalembert.core.forcing import Resistances, pair, summed
+from dalembert.core.friction.contact_equations import (
+    Contacts,
+    Response,
+    argument,
+    bearing,
+    correction,
+    multiplier,
+    response,
+    senses,
+    slope,
+    strength,
+    strong,
+    under,
+)
+from dalembert.core.friction.losses import in_joints, turned, viscous
+from dalembert.core.layout import Layout, Pose
+from dalembert.kernel.elimination import components, structural
+from dalembert.kernel.graph import CONSTANT, Graph, Node, is_zero, traced
+from dalembert.kernel.jam_proof import jams, lever
+
+Nodes = Sequence[Node]
+
+FEWEST, MOST = 3, 7
+"""Newton's steps."""
+
+ENOUGH = 1e-4
+"""Change of a force in a step, relative to the largest, after which one more is taken: everywhere in the file's own
+motion. A kink costs other designs a step: it is worth its time, as one that the general executor redoes costs
+thousands of positions."""
+
+LAST = 1e-7
+"""Largest change of the last step in any design: what it leaves is its square."""
+
+CARRIES = 1e-8
+"""A contact that carries more than this part of the largest force surely carries something."""
+
+POWER = 12
+"""Power of the fixed point's matrix whose norm bounds its spectral radius."""
+
+
+@dataclass(frozen=True)
+class Rough:
+    """A mechanism's contacts and its joints' own damping; link j (joints,) of each joint and its point there."""
+
+    contacts: Contacts
+    damping: Resistances
+    link: Ints
+    at: Array
+
+
+@dataclass(frozen=True)
+class Rubbed:
+    """Multipliers x, total wrenches w, and friction's and damping's force (joints, 2) and moment (joints,) on j.
+
+    rest: below zero where a contact that carries something has no rate to tell its sense. doubt: below zero where the
+    general executor decides elsewhere, so where both ``unsure`` and ``sure`` are, but for ``jam``: surely a jam.
+    turned, locked: below zero where friction turns the power of the unknowns round, with inertia and without;
+    ``locked`` and ``still`` (its doubt) are asked only where it is turned, ``jam`` where it is unsure and not sure.
+    """
+
+    x: Array
+    total: Array
+    force: Array
+    moment: Array
+    doubt: Nodes = ()
+    rest: Nodes = ()
+    unsure: Nodes = ()
+    sure: Nodes = ()
+    jam: Nodes = ()
+    turned: Nodes = ()
+    still: Nodes = ()
+    locked: Nodes = ()
+
+
+@dataclass(frozen=True)
+class Slipped:
+    """z and S of each contact (E,), and what is below zero, or no number, where they are in doubt: so where both
+    ``unsure`` and ``sure`` are; and what is below zero where they jam."""
+
+    z: Array
+    bears: Array
+    doubt: list[Node]
+    unsure: list[Node]
+    sure: list[Node]
+    jam: list[Node]
+
+
+def rubbed(
+    graph: Graph,
+    layout: Layout,
+    rough: Rough,
+    pose: Pose,
+    moving: Motion,
+    s: Statement,
+    still: Array | None,
+    slips: Array | None = None,
+    reversals: Array | None = None,
+) -> Rubbed:
+    """Multipliers with friction; ``still``: what loads the links beside inertia, None where there is none.
+
+    ``slips``: z of each contact where the solution is known; then there are no verdicts, which are known too, and
+    ``reversals`` has the sense of contacts that reverse there, else 0.
+    """
+    contacts = _traced(graph, rough.contacts)
+    twist = traced(graph, moving.twist)  # without motion they are numbers
+    along, found = response(layout, contacts, pose, s.forces, s.w, twist)
+    r = Response(*(traced(graph, a) for a in found))
+    told = senses(layout, contacts, along, twist)
+    if reversals is not None:
+        moves = 1.0 - np.abs(reversals)
+        open_: Any = moves * traced(graph, told.open)
+        told = told._replace(sense=reversals + moves * told.sense, open=open_)
+    sense, c = traced(graph, told.sense), traced(graph, strength(contacts, 1.0))
+    slip = slipped(graph, contacts, strong(r, c), sense, slips)
+    x = multiplier(r, c * slip.z)
+    unknown = layout.constraints.count < len(x) and slips is None
+
+    def turning(problem: Response, x: Array, w: Array) -> Node:
+        bare = without(graph, contacts, problem)
+        flag: Node = -traced(graph, turned(layout, s.unknown, moving.twist, w, x, bare)).item()
+        return flag
+
+    turns = turning(r, x, s.w) if unknown else graph.zero
+    doubt, locked = [], turns
+    if still is not None and not is_zero(turns):
+        other = under(layout, contacts, pose, s.forces, still, told.rate, r)
+        other = Response(*(traced(graph, a) for a in other))
+        alone = slipped(graph, contacts, strong(other, c), sense)
+        locked, doubt = turning(other, multiplier(other, c * alone.z), still), alone.doubt
+    dry = np.where(contacts.fixed, 0.0, c * slip.z)
+    force, moment = in_joints(layout, pose, along, contacts.joint, rough.link, rough.at, dry)
+    damping = viscous(layout, rough.damping, pose, moving.twist, rough.link, rough.at)
+    rest, idle = _at_rest(graph, traced(graph, told.open), slip.bears, top(np.abs(r.y), 2))
+    same = locked is turns
+    return Rubbed(
+        x=x,
+        total=s.w + summed(layout, pair(along, c * slip.z)),
+        force=force + damping[0],
+        moment=moment + damping[1],
+        doubt=[*slip.doubt, *idle],
+        rest=rest,
+        unsure=slip.unsure,
+        sure=slip.sure,
+        jam=slip.jam,
+        turned=_used(turns),
+        still=[] if same else doubt,
+        locked=[] if same else [locked],
+    )
+
+
+def _traced(graph: Graph, contacts: Contacts) -> Contacts:
+    names = ("tilt", "gain", "lever", "coefficient", "resting", "reach", "viscous")
+    numbers: dict[str, Any] = {name: traced(graph, getattr(contacts, name)) for name in names}
+    return replace(contacts, **numbers)
+
+
+def _used(*nodes: Node) -> list[Node]:
+    return [n for n in nodes if not is_zero(n)]
+
+
+def without(graph: Graph, contacts: Contacts, r: Response) -> Array:
+    """Multipliers without friction; the teeth's separation stays."""
+    if not contacts.fixed.any():
+        return r.x
+    sense = traced(graph, np.where(contacts.fixed, -1.0, 0.0))
+    c = traced(graph, strength(contacts, 0.0))
+    return multiplier(r, c * slipped(graph, contacts, strong(r, c), sense).z)
+
+
+def _at_rest(graph: Graph, open_: Array, bears: Array, largest: Array) -> tuple[list[Node], list[Node]]:
+    """Below zero where a contact without a rate surely carries something, and where such contacts may carry nothing."""
+    carries = above(np.abs(bears), CARRIES * largest)
+    rest, idle = traced(graph, (open_ & carries).sum()).item(), traced(graph, (open_ & ~carries).sum()).item()
+    return _used(-rest), _used(-(idle & ~rest.positive()))
+
+
+def slipped(
+    graph: Graph, contacts: Contacts, r: Response, sense: Array, slips: Array | None = None
+) -> Slipped:
+    """Friction forces z of known senses, from the response with H after z; ``slips`` where they are known."""
+    count, largest = contacts.count, traced(graph, top(np.abs(r.y), 2))
+    z, bears = traced(graph, np.zeros(count)), traced(graph, np.zeros(count))
+    acts = [b for b in range(count) if not is_zero(sense[b])]
+    needs = {a: {b for b in acts if not all(is_zero(x) for x in r.h[:, a, b])} for a in range(count)}
+    doubt: list[Node] = []
+    unsure: list[Node] = []
+    single: list[Node] = []
+    stuck: list[Node] = []
+    right: dict[int, Node] = {}
+    for block in components({a: needs[a] - {a} if a in acts else needs[a] for a in range(count)}):
+        k = np.array(sorted(block))
+        others = sorted({b for a in block for b in needs[a]} - set(block))
+        y = argument(r._replace(y=r.y[:, k], h=r.h[:, k][:, :, others]), z[others])
+        part = replace(contacts, signed=contacts.signed[k])
+        known = graph.one
+        for b in others:
+            known = known * right.get(b, graph.one)
+        if len(block) == 1 and (block[0] not in acts or block[0] not in needs[block[0]]):
+            bears[k] = bearing(part, y)
+            z[k] = -sense[k] * bears[k]
+            right |= dict.fromkeys(block, known)
+            continue
+        inner = r._replace(y=y, h=r.h[:, k][:, :, k])
+        rough, sure = _contraction(graph, inner.h, sense[k])
+        start = None if slips is None else slips[k]
+        z[k], bears[k], last = _newton(graph, part, inner, sense[k], largest, sure, start)
+        doubt.append(last)
+        if slips is not None:
+            continue
+        unsure.append(rough)
+        single.append(sure)
+        stuck.append(jams(graph, part, inner, sense[k]) * known)
+        right |= dict.fromkeys(block, known * last.positive() * rough.positive().larger(sure.positive()))
+    doubt, unsure, single, stuck = (_unfixed(nodes) for nodes in (doubt, unsure, single, stuck))
+    asked = unsure and single  # in doubt, or jammed, only where both are
+    return Slipped(z, bears, doubt, *((unsure, single, stuck) if asked else ([], [], [])))
+
+
+def _unfixed(nodes: list[Node]) -> list[Node]:
+    return [n for n in nodes if n.level != CONSTANT or not n.value >= 0]
+
+
+def _contraction(graph: Graph, h: Array, sense: Array) -> tuple[Node, Node]:
+    """Above zero where the fixed point is surely a contraction: then it is the only one, at any smaller scale too.
+
+    First by the sums of the rows of its matrix, without signs, then by those of a power of it.
+    """
+    bound = lever(h)
+    moves, reached = np.abs(sense), np.abs(sense)
+    bounds = []
+    for _ in range(POWER):
+        reached = (bound @ (moves * reached)[:, None])[:, 0]
+        bounds.append(reached)
+    short, long = (1.0 - traced(graph, top(bounds[k], 1)).item() for k in (0, -1))
+    return short, long
+
+
+def _newton(
+    graph: Graph,
+    contacts: Contacts,
+    r: Response,
+    sense: Array,
+    largest: Array,
+    sure: Node,
+    known: Array | None,
+) -> tuple[Array, Array, Node]:
+    """z and S of one block, and what is below zero where the last step is not small.
+
+    The steps start from no friction; from what is known only the last one is taken, and has to be felt little: a
+    contact without strength may not be known. All but the last are constants to
+    derivatives: it carries them exactly.
+    """
+    detached: Any = np.frompyfunc(graph.detached, 1, 1)
+    fixed, scale, z = detached(r.h), np.asarray(detached(largest)), known
+    if z is None:
+        z = traced(graph, np.zeros(len(sense)))
+
+    def solve(matrix: Array, right: Array) -> Array:
+        rows = [{c: x for c, x in enumerate(row) if not is_zero(x)} for row in matrix]
+        return structural(graph, rows, len(rows)).motion(right)
+
+    enough = known is not None
+    for k in range(1, MOST + 1):
+        y = argument(r, z)
+        steep, bears = slope(contacts, detached(y), scale)
+        off = z + sense * (steep * y).sum(axis=0)
+        step = traced(graph, correction(r._replace(h=fixed), steep, sense, off, solve))
+        felt = step if known is None else (fixed @ step[:, None])[..., 0]
+        change = traced(graph, top(np.abs(felt), felt.ndim))
+        if k == MOST or enough:
+            break
+        enough = k + 1 >= FEWEST and _small(graph, change, scale, sure)
+        z = detached(z + step)
+    return z + step, bears, traced(graph, LAST * scale - change).item()
+
+
+def _small(graph: Graph, change: Array, scale: Array, sure: Node) -> bool:
+    """Whether a change is small everywhere in the file's own motion."""
+    found = graph.evaluated([change.item(), scale.item(), sure], {})
+    size, force, single = np.broadcast_arrays(*found)
+    with np.errstate(all="ignore"):
+        return not bool(((size > ENOUGH * force) & (single > 0)).any())

@@ -1,0 +1,84 @@
+"""Proof that friction jams, traced: that no friction forces are in equilibrium with the loads, whatever their size.
+
+Friction of known senses z = -s S has S = S(y0 + K S) >= 0 with K = -H s. S(y) >= e . y for every slope e of S, so any
+weights w >= 0 ask of a solution
+
+    sum_a w_a e_a . y0_a + sum_b d_b S_b <= 0    with d_b = sum_a w_a e_a . K_ab - w_b
+
+Where no d_b is negative and the first sum is above zero there is none. What is negative is first taken to the other
+contacts by S_b <= |y0_b| + sum_c |K_bc| S_c. Slopes and weights are those along which friction would grow without end:
+S and w after a few multiplications by K and its transpose. Whatever they are, what they prove is proved.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from dalembert.arrays import Array
+from dalembert.core.branchless import larger
+from dalembert.core.friction.contact_equations import Contacts, Response, bearing, slope
+from dalembert.kernel.graph import Graph, Node, traced
+
+TIMES = 3
+"""Multiplications by K and by its transpose; twelve prove hardly more."""
+
+MARGIN = 1e-9
+"""By how much a sum has to be above zero, relative to its terms."""
+
+LEAST = 1e-30
+"""In place of 1 - |K_bb| where that is not above zero."""
+
+
+def lever(h: Array) -> Array:
+    """Bound (E, E) of the change of S with each z, from H (3, E, E) without signs: a length is at most 0.586 of the
+    larger of its components and 0.415 of both."""
+    first, second, tilting = np.abs(h)
+    return larger(0.586 * larger(first, second) + 0.415 * (first + second), tilting)
+
+
+def jams(graph: Graph, contacts: Contacts, r: Response, sense: Array) -> Node:
+    """Below zero where a block of contacts surely has no solution; from the response with H after z."""
+    contacts, y0, k = _unsigned(graph, contacts, r.y, -r.h * sense)
+    s: Array = traced(graph, np.ones(y0.shape[1]))
+    for _ in range(TIMES):
+        y = (k @ s[:, None])[..., 0]
+        e, s = slope(contacts, y, np.asarray(graph.zero, object))
+    pull = traced(graph, (e[..., None] * k).sum(axis=0))  # e_a . K_ab
+    w = traced(graph, np.ones(len(s)))
+    for _ in range(TIMES):
+        w = traced(graph, larger(w @ pull, 0.0))
+    return _proved(graph, w, w @ pull, (e * y0).sum(axis=0), bearing(contacts, y0), lever(k))
+
+
+def _unsigned(graph: Graph, contacts: Contacts, y: Array, k: Array) -> tuple[Contacts, Array, Array]:
+    """Without the contacts whose S has a sign: S = y of them is linear, and is put in its place."""
+    signed = contacts.signed
+    y, k = traced(graph, y), traced(graph, k)
+    for a in np.flatnonzero(signed):
+        row, own = k[0, a].copy(), k[:, :, a].copy()
+        over = 1.0 / (1.0 - row[a])
+        row[a] = graph.zero
+        y = y + own * (over * y[0, a])
+        k = k + own[:, :, None] * (over * row)
+        k[:, :, a] = graph.zero
+    kept = np.flatnonzero(~signed)
+    contacts = replace(contacts, signed=signed[kept])
+    return contacts, traced(graph, y[:, kept]), traced(graph, k[:, kept][:, :, kept])
+
+
+def _proved(graph: Graph, w: Array, pulled: Array, loads: Array, size: Array, bound: Array) -> Node:
+    """Below zero where the inequality of the weights has no solution. What is no number proves nothing: the larger of
+    zero and that is none either."""
+    zero = traced(graph, np.zeros(len(w)))
+    d = traced(graph, pulled - (1 + MARGIN) * w)
+    own = np.diag(bound)
+    lacking = larger(zero, -d) / larger(np.full(len(w), LEAST), 1.0 - own)
+    rest = larger(d, zero) - lacking @ (bound - np.diag(own))
+    sum_ = (w * loads).sum() - (lacking * size).sum() - MARGIN * (w * size).sum()
+    proved: Any = traced(graph, sum_).item().positive()
+    for x in traced(graph, rest):
+        proved = proved * ~((-x).positive())
+    return -proved  # type: ignore[no-any-return]

@@ -1,0 +1,5 @@
+"""Poses of a traced mechanism in closed form, group by group; Newton unrolled where there is none.
+
+In: relations of the layout's rows. Out: traced poses.
+Imports ``core``, ``kernel``.
+"""

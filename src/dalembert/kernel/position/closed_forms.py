@@ -1,0 +1,251 @@
+"""Positions of traced mechanisms: rigid parts joined one after the other in closed form, Newton for what is left.
+
+A *part* is a set of links whose relative positions are known. Two parts with three conditions between them, or three
+parts joined pairwise by pins and sliders (all five kinds of two-link groups), become one part, until all are one with
+the ground. Of the two ways such a group closes the one of the mechanism's own motion is taken.
+"""
+
+from __future__ import annotations
+
+from itertools import combinations
+from typing import Any
+
+from dalembert.kernel.elimination import components, matched
+from dalembert.kernel.position import plane_vectors as v
+from dalembert.kernel.position.plane_vectors import Pair
+from dalembert.kernel.position.relations import Relation
+from dalembert.kernel.position.rigid_parts import DEAD, Motion, Parts, Place, Placed
+from dalembert.kernel.position.unrolled_newton import newton
+
+
+class Groups(Parts):
+    """Parts that are joined group by group."""
+
+    def grow(self) -> Placed:
+        """Join parts until one is left."""
+        while len(self.part) > 1:
+            if not (self.pairs() or self.triples()):
+                self.general()
+        self.out.pose = self.pose()
+        return self.out
+
+    def pairs(self) -> bool:
+        for (a, b), found in self.between().items():
+            x, y = self.base(a, b)
+            pose = self.pair(x, y, found)
+            if pose is not None:
+                self.merge(x, y, pose)
+                return True
+        return False
+
+    def pair(self, x: int, y: int, found: list[Relation]) -> Place | None:
+        turns = [r for r in found if r.kind == "turn"]
+        meets = [r for r in found if r.kind == "meet"]
+        along = [r for r in found if r.kind == "along"]
+        if turns and (meets or len(along) >= 2):
+            rotation = self.rotation(turns[0], y)
+            return rotation, self.translation(rotation, y, meets, along)
+        if meets and along:
+            return self.pin_and_slot(x, y, meets[0], along[0])
+        if meets and any(r.kind == "mesh" for r in found) and x == self.owner[self.ground]:
+            return self.wheel(y, meets[0], next(r for r in found if r.kind == "mesh"))
+        return None
+
+    def pin_and_slot(self, x: int, y: int, pin: Relation, slot: Relation) -> Place:
+        """A part pinned to another, and a point of one on a line of the other."""
+        (lx, ux), (ly, uy) = self.ends(pin, y)
+        px, py = self.point(lx, ux), self.point(ly, uy)
+        axis = v.turned(self.part[self.owner[slot.i]][slot.i][0], slot.axis)
+        pi, pj = self.point(slot.i, slot.ui), self.point(slot.j, slot.uj)
+        on_y = self.owner[slot.j] == y
+
+        def rotation(sign: Any) -> Pair:
+            if on_y:  # the line on x, the point on y
+                arm = v.minus(pj, py)
+                k = slot.target - v.dot(axis, v.minus(px, pi))
+                length2 = v.dot(arm, arm)
+                h = self.root(length2 - k * k, length2)
+                w = v.plus(v.times(k, axis), v.times(sign * h, v.across(axis)))
+                return self.onto(arm, length2, w)
+            d = v.minus(pj, px)
+            k = slot.target + v.dot(axis, v.minus(pi, py))
+            d2 = v.dot(d, d)
+            h = self.root(d2 - k * k, d2)
+            e = v.times(1.0 / d2, v.plus(v.times(k, d), v.times(sign * h, v.across(d))))
+            return v.unturned(axis, e)
+
+        r = self.chosen(rotation, x, y)
+        return r, v.minus(px, v.turned(r, py))
+
+    def wheel(self, y: int, pin: Relation, mesh: Relation) -> Place | None:
+        """A wheel pinned at its centre, in mesh with one whose angle is known (ground axes)."""
+        wheel, other = (mesh.j, mesh.i) if self.owner[mesh.j] == y else (mesh.i, mesh.j)
+        (lx, ux), (ly, uy) = self.ends(pin, y)
+        centre = mesh.uj if wheel == mesh.j else mesh.ui
+        if ly != wheel or not all(a is b or a == b for a, b in zip(uy, centre, strict=True)):
+            return None
+        px = self.point(lx, ux)
+        u = mesh.ui if wheel == mesh.j else mesh.uj
+        line = v.minus(px, self.point(other, u))
+        ri, rj = mesh.radii
+        if wheel == mesh.i:
+            line, (ri, rj) = v.times(-1.0, line), (rj, ri)
+        phi = self.near(line, "line", mesh.rows[0])
+        theta = (mesh.target + (ri + rj) * phi - ri * self.turn_of(other)) / rj
+        self.turn[wheel] = theta
+        r = v.unturned(self.part[y][wheel][0], (theta.cos(), theta.sin()))
+        return r, v.minus(px, v.turned(r, self.point(ly, uy)))
+
+    def triples(self) -> bool:
+        found = self.between()
+        parts = sorted(self.part, key=lambda k: k != self.owner[self.ground])
+        near = {k: {b for pair in found for b in pair if k in pair and b != k} for k in parts}
+        for a in parts:
+            for b, c in combinations(sorted(near[a]), 2):
+                if c in near[b] and self.triple(a, b, c, found):
+                    return True
+        return False
+
+    def triple(self, a: int, b: int, c: int, found: dict[tuple[int, int], list[Relation]]) -> bool:
+        sides = [(min(p), max(p)) for p in combinations((a, b, c), 2)]
+        kinds = {pair: _kind(found[pair]) for pair in sides}
+        slides = [pair for pair, kind in kinds.items() if kind == "slide"]
+        if None in kinds.values() or len(slides) > 2:
+            return False
+        if len(slides) == 2:
+            self.two_slides(slides, next(p for p in kinds if p not in slides), found)
+        elif slides:
+            self.one_slide(slides[0], next(k for k in (a, b, c) if k not in slides[0]), found)
+        else:
+            x, y, z = self.base(a, b, c)
+            self.three_pins(x, y, z, found)
+        return True
+
+    def three_pins(self, x: int, y: int, z: int, found: dict[tuple[int, int], list[Relation]]) -> None:
+        (a, ya), (b, zb), (yc, zc) = self.pins(x, y, found), self.pins(x, z, found), self.pins(y, z, found)
+        d, p, q = v.minus(b, a), v.minus(yc, ya), v.minus(zc, zb)
+        d2, p2, q2 = v.dot(d, d), v.dot(p, p), v.dot(q, q)
+        if self.longer(p2, q2):
+            self.three_pins(x, z, y, found)
+            return
+        foot = 0.5 * d2 + 0.5 * (p2 - q2)
+        area = self.root(p2 * d2 - foot * foot, p2 * d2)  # twice that of the triangle of d, p and q
+        self.doubted(
+            area * area - DEAD * p2 * q2
+        )  # of a short d neither angle at its ends is that between p and q
+        over = 1.0 / d2
+        along, aside = over * foot, over * area
+
+        def legs(sign: Any) -> tuple[Pair, Pair]:
+            e = v.plus(v.times(along, d), v.times(sign * aside, v.across(d)))
+            return e, v.minus(e, d)
+
+        def sides(sign: Any) -> tuple[Pair, Pair]:
+            e, s = legs(sign)
+            return self.onto(p, p2, e), self.onto(q, q2, s)
+
+        self.chosen(lambda sign: sides(sign)[0], x, y)
+        self.crossed(*legs(self.sign), self.sign * area)
+        ry, rz = sides(self.sign)
+        self.join(x, (y, (ry, v.minus(a, v.turned(ry, ya)))), (z, (rz, v.minus(b, v.turned(rz, zb)))))
+
+    def one_slide(self, slide: tuple[int, int], y: int, found: dict[tuple[int, int], list[Relation]]) -> None:
+        """Parts x and z slide on each other; y has a pin on each."""
+        x, z = self.base(*slide)
+        turn = next(r for r in found[slide] if r.kind == "turn")
+        along = next(r for r in found[slide] if r.kind == "along")
+        rz = self.rotation(turn, z)
+        n, c = self.line(along, z, rz)
+        (a, ya), (b, yb) = self.pins(x, y, found), self.pins(z, y, found)
+        p = v.minus(yb, ya)
+        k = c + v.dot(n, v.minus(v.turned(rz, b), a))
+        p2 = v.dot(p, p)
+        h = self.root(p2 - k * k, p2)
+
+        def side(sign: Any) -> Pair:
+            return v.plus(v.times(k, n), v.times(sign * h, v.across(n)))
+
+        def rotation(sign: Any) -> Pair:
+            return self.onto(p, p2, side(sign))
+
+        ry = self.chosen(rotation, x, y)
+        at = v.plus(a, side(self.sign))
+        self.join(x, (z, (rz, v.minus(at, v.turned(rz, b)))), (y, (ry, v.minus(a, v.turned(ry, ya)))))
+
+    def two_slides(
+        self,
+        slides: list[tuple[int, int]],
+        pin: tuple[int, int],
+        found: dict[tuple[int, int], list[Relation]],
+    ) -> None:
+        """Part x slides on y and on z, which are pinned together: all turns are known, the rest is linear."""
+        x = next(k for k in slides[0] if k in slides[1])
+        y, z = (next(k for k in pair if k != x) for pair in slides)
+        rotations, lines = [], []
+        for k, pair in ((y, slides[0]), (z, slides[1])):
+            rotations.append(self.rotation(next(r for r in found[pair] if r.kind == "turn"), k))
+            lines.append(self.line(next(r for r in found[pair] if r.kind == "along"), k, rotations[-1]))
+        yc, zc = self.pins(y, z, found)
+        (n1, c1), (n2, c2) = lines  # of the translations; of the common pin:
+        c1 = c1 + v.dot(n1, v.turned(rotations[0], yc))
+        c2 = c2 + v.dot(n2, v.turned(rotations[1], zc))
+        det = v.cross(n1, n2)
+        self.regular(det)
+        at = (c1 * n2[1] - c2 * n1[1]) / det, (n1[0] * c2 - n2[0] * c1) / det
+        first = rotations[0], v.minus(at, v.turned(rotations[0], yc))
+        second = rotations[1], v.minus(at, v.turned(rotations[1], zc))
+        self.join(x, (y, first), (z, second))
+
+    def general(self) -> None:
+        """Newton for the fewest links that can be placed together."""
+        links = self.smallest()
+        ground = self.owner[self.ground]
+        self.m.placed = set(self.part[ground])
+        found = newton(self.m, self.pose(partial=True), links)
+        self.out.doubt += found.doubt
+        for link in links:
+            self.part.pop(self.owner[link], None)
+        for link in links:
+            self.owner[link] = ground
+            point, rotation = found.pose.point[link], found.pose.rotation[link]
+            self.part[ground][link] = ((rotation[0], rotation[1]), (point[0], point[1]))
+            self.turn[link] = found.pose.turn[link]
+
+    def smallest(self) -> list[int]:
+        """Links of the first block of parts that depends on nothing unplaced."""
+        ground = self.owner[self.ground]
+        wants: dict[int, set[int]] = {}
+        for r in self.todo:
+            parts = {self.owner[r.i], self.owner[r.j]} - {ground}
+            if self.owner[r.i] != self.owner[r.j]:
+                for row in r.rows:
+                    wants[row] = {3 * p + k for p in parts for k in range(3)}
+        match = matched(wants)
+        if len(match) < 3 * (len(self.part) - 1):
+            raise ValueError("the positions are not determined by the drives")
+        needs: dict[int, set[int]] = {p: set() for p in self.part if p != ground}
+        for row, column in match.items():
+            needs[column // 3] |= {c // 3 for c in wants[row]} - {column // 3}
+        first = components(needs)[0]
+        return sorted(link for p in first for link in self.part[p])
+
+
+def _kind(found: list[Relation]) -> str | None:
+    """pin, slide, or None where the two parts are joined otherwise."""
+    kinds = sorted(r.kind for r in found)
+    if "meet" in kinds:
+        return "pin"
+    return "slide" if "turn" in kinds and "along" in kinds else None
+
+
+def positions(motion: Motion) -> Placed:
+    """Poses of all links from the drives' positions."""
+    return Groups(motion).grow()
+
+
+def settled(motion: Motion) -> Placed:
+    """Poses of all links where the known motion is the solution: a last step of Newton carries the derivatives."""
+    parts = Parts(motion)
+    motion.placed = {parts.ground}
+    found = newton(motion, parts.pose(partial=True), list(range(parts.ground)), steps=0)
+    return Placed(found.pose, doubt=found.doubt)

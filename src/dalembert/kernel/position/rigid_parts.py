@@ -1,0 +1,246 @@
+"""Parts: sets of links whose relative positions are known, with what their closed forms are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from dalembert.arrays import Array
+from dalembert.core.layout import Layout, Pose
+from dalembert.kernel.graph import CONSTANT, POSITION, Graph, Node
+from dalembert.kernel.position import plane_vectors as v
+from dalembert.kernel.position.plane_vectors import Pair
+from dalembert.kernel.position.relations import Relation, relations
+
+Place = tuple[Pair, Pair]
+"""Rotation and reference point of a link in the axes of its part."""
+IDENTITY: Place = ((1.0, 0.0), (0.0, 0.0))
+DEAD = 1e-5
+"""Square of the sine of a group's transmission angle below which the general executor decides."""
+
+
+@dataclass
+class Placed:
+    """Poses of all links as nodes, and what must hold for them to be right.
+
+    ``open``: below zero the linkage does not close; ``doubt``: below zero the general executor must look; ``flips``:
+    a group changes its way of closing along the motion.
+    """
+
+    pose: Pose
+    open: list[Node] = field(default_factory=list)
+    doubt: list[Node] = field(default_factory=list)
+    flips: bool = False
+
+
+@dataclass
+class Motion:
+    """What positions are traced from: targets (K + D,) with their cosines and sines, and the known motion.
+
+    ``path`` gives one quantity of the known motion, that of the mechanism with the file's numbers, as an input;
+    ``signs`` says which of two relative rotations of two links it has.
+    """
+
+    graph: Graph
+    layout: Layout
+    target: Array
+    turns: dict[int, Pair]
+    path: Callable[[str, int], Node]
+    signs: Callable[[Pair, Pair, int, int], Any]
+    placed: set[int] = field(default_factory=set)
+
+
+class Parts:
+    """The parts as they grow together."""
+
+    def __init__(self, motion: Motion) -> None:
+        self.m, self.graph = motion, motion.graph
+        self.ground = motion.layout.links
+        self.part: dict[int, dict[int, Place]] = {k: {k: IDENTITY} for k in range(self.ground + 1)}
+        self.owner = {k: k for k in range(self.ground + 1)}
+        self.turn: dict[int, Node] = {self.ground: self.graph.zero}
+        self.todo = relations(motion.layout, motion.target, motion.turns)
+        self.out = Placed(Pose(np.zeros(0), np.zeros(0), np.zeros(0)))
+
+    def between(self) -> dict[tuple[int, int], list[Relation]]:
+        """Conditions between each two parts."""
+        out: dict[tuple[int, int], list[Relation]] = {}
+        for r in self.todo:
+            a, b = sorted((self.owner[r.i], self.owner[r.j]))
+            if a != b:
+                out.setdefault((a, b), []).append(r)
+        return out
+
+    def point(self, link: int, u: Pair) -> Pair:
+        """A point of a link in the axes of its part."""
+        rotation, point = self.part[self.owner[link]][link]
+        return v.plus(point, v.turned(rotation, u))
+
+    def base(self, *parts: int) -> list[int]:
+        """Ground first, else the largest part."""
+        return sorted(parts, key=lambda k: (k != self.owner[self.ground], -len(self.part[k]), k))
+
+    def merge(self, x: int, y: int, pose: Place) -> None:
+        """Part y becomes part of x, at a pose in its axes."""
+        for link, (rotation, point) in self.part.pop(y).items():
+            self.part[x][link] = (v.turned(pose[0], rotation), v.plus(pose[1], v.turned(pose[0], point)))
+            self.owner[link] = x
+
+    def join(self, x: int, *others: tuple[int, Place]) -> None:
+        """Parts with their poses in the axes of x become one with it; with the ground, if it is among them."""
+        ground = self.owner[self.ground]
+        at = next((pose for part, pose in others if part == ground), None)
+        if at is None:
+            for part, pose in others:
+                self.merge(x, part, pose)
+            return
+        back = _inverted(at)
+        self.merge(ground, x, back)
+        for part, pose in others:
+            if part != ground:
+                self.merge(ground, part, _composed(back, pose))
+
+    def rotation(self, r: Relation, y: int) -> Pair:
+        """Rotation of part y in the axes of the other, from a fixed relative turn."""
+        i, j = self.part[self.owner[r.i]][r.i][0], self.part[self.owner[r.j]][r.j][0]
+        if self.owner[r.j] == y:
+            self.follow(r, r.i, r.j, 1.0)
+            return v.unturned(j, v.turned(i, r.turn))
+        self.follow(r, r.j, r.i, -1.0)
+        return v.unturned(i, v.unturned(r.turn, j))
+
+    def follow(self, r: Relation, known: int, new: int, sign: float) -> None:
+        if known in self.turn:
+            self.turn[new] = self.turn[known] + sign * r.target
+
+    def translation(self, rotation: Pair, y: int, meets: list[Relation], along: list[Relation]) -> Pair:
+        if meets:
+            r = meets[0]
+            (lx, ux), (ly, uy) = self.ends(r, y)
+            return v.minus(self.point(lx, ux), v.turned(rotation, self.point(ly, uy)))
+        (n1, c1), (n2, c2) = (self.line(r, y, rotation) for r in along[:2])
+        det = v.cross(n1, n2)
+        self.regular(det)
+        return (c1 * n2[1] - c2 * n1[1]) / det, (n1[0] * c2 - n2[0] * c1) / det
+
+    def ends(self, r: Relation, y: int) -> tuple[tuple[int, Pair], tuple[int, Pair]]:
+        """(link, point) of the end on the other part, and on part y."""
+        return ((r.i, r.ui), (r.j, r.uj)) if self.owner[r.j] == y else ((r.j, r.uj), (r.i, r.ui))
+
+    def line(self, r: Relation, y: int, rotation: Pair) -> tuple[Pair, Any]:
+        """A slide's condition n . T = c on the translation T of part y, whose rotation is known."""
+        axis = v.turned(self.part[self.owner[r.i]][r.i][0], r.axis)
+        pi, pj = self.point(r.i, r.ui), self.point(r.j, r.uj)
+        if self.owner[r.j] == y:
+            return axis, r.target - v.dot(axis, v.minus(v.turned(rotation, pj), pi))
+        e = v.turned(rotation, axis)
+        return e, v.dot(e, v.minus(pj, v.turned(rotation, pi))) - r.target
+
+    def pins(self, x: int, y: int, found: dict[tuple[int, int], list[Relation]]) -> tuple[Pair, Pair]:
+        """The common pin's place on x and on y."""
+        a, b = sorted((x, y))
+        r = next(r for r in found[a, b] if r.kind == "meet")
+        (lx, ux), (ly, uy) = self.ends(r, y)
+        return self.point(lx, ux), self.point(ly, uy)
+
+    def onto(self, u: Pair, length2: Any, w: Pair) -> Pair:
+        """The rotation that turns a vector u, of known square, into w of the same length."""
+        r = v.unturned(v.times(1.0 / length2, u), w)
+        for node, same in zip(v.turned(r, u), w, strict=True):
+            self.graph.known(node, same)
+        return r
+
+    def root(self, square: Any, scale: Any) -> Any:
+        """Square root of what is negative where the linkage does not close; its inverse is computed with it."""
+        if not isinstance(square, Node):
+            square = self.graph.constant(square)
+        if square.level == CONSTANT:
+            return square.sqrt()
+        small = DEAD * scale
+        self.out.open.append(square + small)
+        self.out.doubt.append(square - small)
+        inverse = self.graph.unary("rsqrt", square)
+        root = square * inverse
+        self.graph.known(root * root, square)
+        self.graph.known(1.0 / root, inverse)
+        return root
+
+    def doubted(self, margin: Any) -> None:
+        """Below zero the general executor must look."""
+        if isinstance(margin, Node) and margin.level != CONSTANT:
+            self.out.doubt.append(margin)
+
+    def crossed(self, a: Pair, b: Pair, product: Any) -> None:
+        """What the products a x b and b x a are: determinants of the group, which need not be computed again."""
+        self.graph.known(v.cross(a, b), product)
+        self.graph.known(v.cross(b, a), -product)
+
+    def longer(self, a: Any, b: Any) -> bool:
+        """Whether one square is larger than another at the file's numbers; no, where they change along the motion."""
+        moving = any(type(x) is Node and x.level & POSITION for x in (a, b))
+        return not moving and bool(a > b)
+
+    def regular(self, det: Any) -> None:
+        self.doubted(det * det - DEAD)
+
+    def chosen(self, rotation: Callable[[Any], Pair], x: int, y: int) -> Pair:
+        """The rotation of y in x of the two, that the known motion has; ``sign`` is kept for the other parts."""
+        lx = self.ground if self.ground in self.part[x] else min(self.part[x])
+        ly = min(self.part[y])
+        rx, ry = self.part[x][lx][0], self.part[y][ly][0]
+        before = len(self.out.open), len(self.out.doubt)
+        ways = [v.unturned(rx, v.turned(rotation(s), ry)) for s in (1.0, -1.0)]
+        del self.out.open[before[0] :], self.out.doubt[before[1] :]
+        self.sign: Any = self.m.signs(ways[0], ways[1], lx, ly)
+        if isinstance(self.sign, Node):
+            self.out.flips = self.out.flips or self.sign.level != CONSTANT
+        return rotation(self.sign)
+
+    def near(self, line: Pair, what: str, which: int) -> Any:
+        """Angle of a line, whole turns counted along the known motion."""
+        c, s = self.m.path(what + " cos", which), self.m.path(what + " sin", which)
+        off = self.graph.binary(
+            "atan2", _node(self.graph, c * line[1] - s * line[0]), _node(self.graph, v.dot((c, s), line))
+        )
+        return self.m.path(what, which) + off
+
+    def turn_of(self, link: int) -> Node:
+        """Angle of a link of the ground's part, whole turns counted."""
+        if link not in self.turn:
+            self.turn[link] = self.near(self.part[self.owner[self.ground]][link][0], "turn", link)
+        return self.turn[link]
+
+    def pose(self, partial: bool = False) -> Pose:
+        """Poses of all links; with ``partial``, the known motion's where a link is not placed yet."""
+        size = self.ground + 1
+        point, rotation = np.empty((size, 2), object), np.empty((size, 2), object)
+        turn = np.empty(size, object)
+        placed = self.part[self.owner[self.ground]]
+        for link in range(size):
+            if link in placed:
+                (c, s), (x, y) = placed[link]
+                angle: Any = self.turn_of(link)
+            else:
+                assert partial
+                x, y, angle, c, s = (self.m.path(k, link) for k in ("x", "y", "turn", "turn cos", "turn sin"))
+            point[link] = [_node(self.graph, x), _node(self.graph, y)]
+            rotation[link] = [_node(self.graph, c), _node(self.graph, s)]
+            turn[link] = _node(self.graph, angle)
+        return Pose(point, turn, rotation)
+
+
+def _node(graph: Graph, x: Any) -> Node:
+    return x if type(x) is Node else graph.constant(x)
+
+
+def _inverted(pose: Place) -> Place:
+    r, t = pose
+    back = (r[0], -r[1])
+    return back, v.times(-1.0, v.turned(back, t))
+
+
+def _composed(a: Place, b: Place) -> Place:
+    return v.turned(a[0], b[0]), v.plus(a[1], v.turned(a[0], b[1]))

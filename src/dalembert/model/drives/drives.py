@@ -1,0 +1,327 @@
+"""Drives: each prescribes one freedom of a joint; its effort is unknown unless given."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, FieldSerializationInfo, ValidationInfo, field_serializer, model_validator
+
+from dalembert.errors import ModelError
+from dalembert.model.drives.laws import Law, Rise, TimeTable, count, law, law_schema
+from dalembert.model.part import Part, Reading, mapping, reading
+from dalembert.model.quantities.figures import in_units
+from dalembert.model.quantities.values import (
+    NUMBER_OR_TEXT,
+    Components,
+    JsonSchema,
+    Name,
+    Value,
+    Vector,
+    at_item,
+    directed,
+    numbers,
+    written,
+)
+from dalembert.model.quantities.varying import Varying, varying, varying_schema, varying_tree
+from dalembert.units import NUMBER, quantity
+
+UNKNOWN: Literal["unknown"] = "unknown"
+TURN = {"": "angle", "speed": "angular_speed", "acceleration": "angular_acceleration", "effort": "moment"}
+SLIDE = {"": "length", "speed": "speed", "acceleration": "acceleration", "effort": "force"}
+EXAMPLE = "{from: 0 deg, to: 360 deg, count: 72}"
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """Equal steps from `start` to `stop`; a full turn does not repeat its first position."""
+
+    start: float
+    stop: float
+    count: int
+
+
+Positions = float | tuple[float, ...] | Range | Literal["unknown"]
+Rates = float | tuple[float, ...]
+
+
+class DriveValue(Value):
+    """A value of a drive, of the kind that its freedom says."""
+
+    what = ""
+
+    def read(self, value: Any, info: ValidationInfo) -> Any:
+        freedom = info.data.get("freedom")
+        return self.parsed(value, kind_of(freedom, self.what), reading(info))
+
+    def parsed(self, value: Any, kind: str, rules: Reading) -> Any:
+        raise NotImplementedError
+
+
+class PositionValue(DriveValue):
+    """One value, a list, a range, or unknown."""
+
+    def parsed(self, value: Any, kind: str, rules: Reading) -> Positions:
+        if value == UNKNOWN:
+            return UNKNOWN
+        if isinstance(value, Range):
+            return value
+        if isinstance(value, Mapping):
+            return _range(value, kind, rules)
+        if isinstance(value, (list, tuple)):
+            return numbers(value, kind, rules)
+        return quantity(value, kind, rules.units)
+
+    def json_schema(self) -> JsonSchema:
+        steps = {
+            "type": "object",
+            "properties": {
+                "from": NUMBER_OR_TEXT | {"description": "first position"},
+                "to": NUMBER_OR_TEXT | {"description": "last position; of a full turn not repeated"},
+                "count": {"type": "integer", "minimum": 1, "description": "number of positions"},
+            },
+            "required": ["from", "to", "count"],
+            "additionalProperties": False,
+        }
+        return {"anyOf": [NUMBER_OR_TEXT, {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 1}, steps]}
+
+
+def _range(value: Mapping[str, Any], kind: str, rules: Reading) -> Range:
+    mapping(value, ["from", "to", "count"], EXAMPLE)
+    for key in ("from", "to", "count"):
+        if key not in value:
+            raise ModelError(f"the key {key!r} is missing", f"write {EXAMPLE}")
+    start, stop = (at_item(key, quantity, value[key], kind, rules.units) for key in ("from", "to"))
+    return Range(start, stop, at_item("count", count, value["count"]))
+
+
+class RateValue(DriveValue):
+    """Speeds or accelerations: one value or a list."""
+
+    def __init__(self, what: str) -> None:
+        self.what = what
+
+    def parsed(self, value: Any, kind: str, rules: Reading) -> Rates:
+        if value == 0 and not isinstance(value, (str, bool)):
+            return 0.0
+        if isinstance(value, (list, tuple)):
+            return numbers(value, kind, rules)
+        return quantity(value, kind, rules.units)
+
+    def json_schema(self) -> JsonSchema:
+        return {"anyOf": [NUMBER_OR_TEXT, {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 1}]}
+
+
+class LawValue(DriveValue):
+    """A law of motion."""
+
+    def parsed(self, value: Any, kind: str, rules: Reading) -> Law:
+        return law(value, kind, rules)
+
+    def json_schema(self) -> JsonSchema:
+        return law_schema()
+
+
+class EffortValue(DriveValue):
+    """A known effort, which may change along the motion."""
+
+    what = "effort"
+
+    def parsed(self, value: Any, kind: str, rules: Reading) -> Varying:
+        if value == UNKNOWN:
+            raise ModelError("an effort is unknown unless it is given", "leave it out")
+        return varying(value, kind, rules)
+
+    def json_schema(self) -> JsonSchema:
+        return varying_schema()
+
+
+class Interval(DriveValue):
+    """`[a, b]`."""
+
+    def parsed(self, value: Any, kind: str, rules: Reading) -> tuple[float, float]:
+        found = numbers(value, kind, rules)
+        if len(found) != 2 or not found[0] < found[1]:
+            raise ModelError("a range is two increasing positions", "write range: [0 deg, 180 deg]")
+        return found[0], found[1]
+
+    def json_schema(self) -> JsonSchema:
+        return {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 2, "maxItems": 2}
+
+
+def kind_of(freedom: str | None, what: str) -> str:
+    """The kind of a drive's numbers; `what` is speed, acceleration, effort or, for the position, nothing."""
+    return (SLIDE if slides(freedom) else TURN)[what]
+
+
+def slides(freedom: str | None) -> bool:
+    """Whether a freedom is a length."""
+    return (freedom or "").startswith("slide")
+
+
+def implied_freedom(keys: Mapping[str, Any]) -> str | None:
+    """Slide or turn, if the unit of some value says so."""
+    for key, what in (("position", ""), ("range", ""), ("speed", "speed"), ("acceleration", "acceleration")):
+        value = keys.get(key)
+        value = value.get("from") if isinstance(value, Mapping) else value
+        first = value[0] if isinstance(value, (list, tuple)) and value else value
+        for freedom in ("turn", "slide"):
+            if (
+                isinstance(first, str)
+                and not re.fullmatch(NUMBER, first)
+                and _fits(first, kind_of(freedom, what))
+            ):
+                return freedom
+    return None
+
+
+def _fits(value: str, kind: str) -> bool:
+    try:
+        quantity(value, kind)
+    except ModelError:
+        return False
+    return True
+
+
+class Drive(Part):
+    """A freedom of a joint that is prescribed: position, speed and acceleration, or a law of motion.
+
+    >>> Drive(position="60 deg", speed="25 rad/s").speed
+    25.0
+    """
+
+    joint: Name | None = Field(None, description="the joint it drives; default the drive's own name")
+    freedom: Literal["turn", "slide", "turn1", "turn2", "slide1", "slide2"] | None = Field(
+        None, description="which freedom of the joint; needed where it has several"
+    )
+    position: Annotated[Positions, PositionValue()] | None = Field(
+        None,
+        description="one value, a list, {from, to, count}, or unknown; angles of a turn, lengths of a slide",
+    )
+    speed: Annotated[Rates, RateValue("speed")] = Field(
+        0.0,
+        description="one value or a list; rad/s, deg/s or rpm of a turn, length/time of a slide; default 0",
+    )
+    acceleration: Annotated[Rates, RateValue("acceleration")] = Field(
+        0.0, description="one value or a list; rad/s^2 of a turn, length/time^2 of a slide; default 0"
+    )
+    law: Annotated[Law, LawValue()] | None = Field(
+        None, description="a law of motion in place of position, speed and acceleration"
+    )
+    effort: Annotated[Varying, EffortValue()] | None = Field(
+        None, description="known effort: a moment on a turn, a force on a slide; then a load must be unknown"
+    )
+    range: Annotated[tuple[float, float], Interval()] | None = Field(
+        None, description="[a, b]: where an unknown position is sought; default one turn"
+    )
+    axis: Annotated[Vector, Components("number")] | None = Field(
+        None, description="in space: the axis of a spherical joint's turn"
+    )
+
+    @property
+    def unknown(self) -> bool:
+        """Whether its position is asked for."""
+        return isinstance(self.position, str)
+
+    @property
+    def moves(self) -> bool:
+        """Whether it has a speed, an acceleration or a law."""
+        return self.law is not None or any(map(_nonzero, (self.speed, self.acceleration)))
+
+    @property
+    def turns(self) -> bool:
+        """Whether its freedom is an angle."""
+        return not slides(self.freedom)
+
+    @property
+    def effort_unit(self) -> str:
+        """`moment` or `force`: the kind of its effort."""
+        return kind_of(self.freedom, "effort")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _freedom_of_units(cls, keys: Any) -> Any:
+        if isinstance(keys, Mapping) and keys.get("freedom") is None:
+            return {**keys, "freedom": implied_freedom(keys)}
+        return keys
+
+    @model_validator(mode="after")
+    def _one_motion(self) -> Self:
+        if self.law is not None:
+            self._refuse("a law of motion", "position", "speed", "acceleration", "range")
+        elif self.position is None:
+            raise ModelError(
+                "its position is not said",
+                "write position: 60 deg, or {from: ..., to: ..., count: ...}, or a law",
+            )
+        if self.unknown:
+            self._refuse("an unknown position", "speed", "acceleration")
+            self._check_unknown()
+        elif self.range is not None:
+            raise ModelError(
+                "a range is given and the position is known", f"write position: {EXAMPLE}", ("range",)
+            )
+        self._check_counts()
+        if self.axis is not None:
+            at_item("axis", directed, self.axis)
+        return self
+
+    def _refuse(self, reason: str, *keys: str) -> None:
+        for key in keys:
+            if getattr(self, key) != type(self).model_fields[key].default:
+                raise ModelError(f"{reason} and a {key} are given", "leave one of them out", (key,))
+
+    def _check_unknown(self) -> None:
+        if self.effort is None:
+            raise ModelError(
+                "its position is unknown and its effort is not given",
+                "write effort: 0, or the effort that holds it",
+            )
+        if slides(self.freedom) and self.range is None:
+            raise ModelError(
+                "its position along a slide is unknown without a range", "write range: [0 mm, 100 mm]"
+            )
+
+    def _check_counts(self) -> None:
+        counts = self.counts()
+        if len(set(counts.values())) > 1:
+            said = " and ".join(f"{number} in {key}" for key, number in counts.items())
+            raise ModelError(
+                f"its lists differ in length: {said}", "give lists of equal length", (next(iter(counts)),)
+            )
+
+    def counts(self) -> dict[str, int]:
+        """Key -> number of positions, for those that say one."""
+        values = {
+            "position": self.position,
+            "speed": self.speed,
+            "acceleration": self.acceleration,
+            "law": self.law,
+        }
+        return {
+            key: len(value) if isinstance(value, tuple) else value.count
+            for key, value in values.items()
+            if isinstance(value, (tuple, Range, Rise, TimeTable))
+        }
+
+    @field_serializer("position", "speed", "acceleration", "law", "effort", "range", when_used="json")
+    def _written(self, value: Any, info: FieldSerializationInfo) -> Any:
+        what = info.field_name if info.field_name in TURN else ""
+        with in_units(info.context):
+            return _tree(value, kind_of(self.freedom, str(what)))
+
+
+def _nonzero(rate: Rates) -> bool:
+    return any(rate) if isinstance(rate, tuple) else rate != 0
+
+
+def _tree(value: Any, kind: str) -> Any:
+    if isinstance(value, tuple):
+        return [written(number, kind) for number in value]
+    if isinstance(value, Range):
+        return {"from": written(value.start, kind), "to": written(value.stop, kind), "count": value.count}
+    if isinstance(value, (Rise, TimeTable)):
+        return value.tree(kind)
+    return value if value is None or value == UNKNOWN else varying_tree(value, kind)

@@ -1,0 +1,214 @@
+"""Laws of motion: the position of a drive in time, with its speed and acceleration."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+from dalembert.errors import ModelError
+from dalembert.model.part import Reading, mapping
+from dalembert.model.quantities.values import NUMBER_OR_TEXT, JsonSchema, at_item, numbers, signed, written
+from dalembert.units import quantity
+from dalembert.wording import closest, shown
+
+RISES = ("harmonic", "cycloidal", "polynomial345")
+TYPES = (*RISES, "table")
+EXAMPLES = {
+    "rise": "{type: cycloidal, from: 0, to: 90 deg, duration: 0.2 s, count: 50}",
+    "table": "{type: table, time: [...], position: [...], count: 50}",
+}
+MOST = 10_000_000
+"""Positions of one analysis."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rise:
+    """A rise from `start` to `stop` within `duration`, at rest before and after it; u = t / duration.
+
+    harmonic:      (1 - cos pi u) / 2
+    cycloidal:     u - sin(2 pi u) / (2 pi)
+    polynomial345: 10 u^3 - 15 u^4 + 6 u^5
+    """
+
+    type: str
+    start: float
+    stop: float
+    duration: float
+    count: int
+
+    def motion(self, count: int | None = None) -> tuple[Any, Any, Any, Any]:
+        """Time, position, speed and acceleration at `count` equal steps, both ends among them."""
+        import numpy as np
+
+        u = np.linspace(0.0, 1.0, count or self.count)
+        shape, slope, bend = _shape(self.type, u)
+        rise, t = self.stop - self.start, self.duration
+        return u * t, self.start + rise * shape, rise / t * slope, rise / t**2 * bend
+
+    def tree(self, kind: str) -> dict[str, Any]:
+        """As a file says it."""
+        return {
+            "type": self.type,
+            "from": written(self.start, kind),
+            "to": written(self.stop, kind),
+            "duration": written(self.duration, "time"),
+            "count": self.count,
+        }
+
+
+def _shape(form: str, u: Any) -> tuple[Any, Any, Any]:
+    import numpy as np
+
+    if form == "harmonic":
+        a = math.pi
+        return (1 - np.cos(a * u)) / 2, a / 2 * np.sin(a * u), a**2 / 2 * np.cos(a * u)
+    if form == "cycloidal":
+        a = 2 * math.pi
+        return u - np.sin(a * u) / a, 1 - np.cos(a * u), a * np.sin(a * u)
+    return (
+        u**3 * (10 - 15 * u + 6 * u**2),
+        30 * u**2 * (1 - u) ** 2,
+        60 * u * (1 - u) * (1 - 2 * u),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class TimeTable:
+    """Positions at given times, between them a cubic spline, so that speed and acceleration exist.
+
+    periodic: the last position repeats the first, with its speed and acceleration; the last instant is not repeated.
+    """
+
+    time: tuple[float, ...]
+    position: tuple[float, ...]
+    count: int
+    periodic: bool = False
+
+    def motion(self, count: int | None = None) -> tuple[Any, Any, Any, Any]:
+        """Time, position, speed and acceleration at `count` equal steps of time."""
+        import numpy as np
+        from scipy.interpolate import CubicSpline
+
+        y = np.asarray(self.position)
+        if self.periodic:
+            y[-1] = y[0]
+        spline = CubicSpline(self.time, y, bc_type="periodic" if self.periodic else "not-a-knot")
+        t = np.linspace(self.time[0], self.time[-1], count or self.count, endpoint=not self.periodic)
+        return t, spline(t), spline(t, 1), spline(t, 2)
+
+    def tree(self, kind: str) -> dict[str, Any]:
+        """As a file says it."""
+        tree: dict[str, Any] = {
+            "type": "table",
+            "time": [written(t, "time") for t in self.time],
+            "position": [written(x, kind) for x in self.position],
+            "count": self.count,
+        }
+        return tree | ({"periodic": True} if self.periodic else {})
+
+
+Law = Rise | TimeTable
+
+
+def law(value: object, kind: str, rules: Reading) -> Law:
+    """The law that a tree describes; positions are of the kind `angle` or `length`."""
+    if isinstance(value, (Rise, TimeTable)):
+        return value
+    if not isinstance(value, Mapping):
+        raise ModelError(f"{shown(value)} is no law", f"write {EXAMPLES['rise']}")
+    form = value.get("type")
+    if form not in TYPES:
+        found = "the key 'type' is missing" if form is None else f"there is no law {shown(form)}"
+        raise ModelError(found, closest(str(form), list(TYPES)), () if form is None else ("type",))
+    return _table(value, kind, rules) if form == "table" else _rise(value, kind, rules)
+
+
+def _rise(value: Mapping[str, Any], kind: str, rules: Reading) -> Rise:
+    _needed(value, ["type", "from", "to", "duration", "count"], EXAMPLES["rise"])
+    start, stop = (at_item(key, quantity, value[key], kind, rules.units) for key in ("from", "to"))
+    duration = at_item("duration", quantity, value["duration"], "time", rules.units)
+    at_item("duration", signed, duration, value["duration"], "positive")
+    return Rise(value["type"], start, stop, duration, at_item("count", count, value["count"], 2))
+
+
+def _table(value: Mapping[str, Any], kind: str, rules: Reading) -> TimeTable:
+    if value.get("interpolate", "cubic") != "cubic":
+        raise ModelError(
+            f"a law of motion is not interpolated {shown(value['interpolate'])}: its accelerations would be infinite",
+            "write interpolate: cubic, or leave it out",
+            ("interpolate",),
+        )
+    keys = {key: item for key, item in value.items() if key not in ("interpolate", "periodic")}
+    _needed(keys, ["type", "time", "position", "count"], EXAMPLES["table"])
+    time = at_item("time", numbers, value["time"], "time", rules)
+    position = at_item("position", numbers, value["position"], kind, rules)
+    periodic = value.get("periodic", False)
+    _check_table(time, position, periodic)
+    return TimeTable(time, position, at_item("count", count, value["count"], 1), periodic)
+
+
+def _check_table(time: tuple[float, ...], position: tuple[float, ...], periodic: object) -> None:
+    if len(time) != len(position):
+        raise ModelError(
+            f"it has {len(time)} times and {len(position)} positions", "give one position for each time"
+        )
+    if len(time) < 4:
+        raise ModelError(f"it has too few points: {len(time)}", "give at least 4, or a harmonic law")
+    if any(not a < b for a, b in pairwise(time)):
+        raise ModelError("its times do not increase", "sort the points", ("time",))
+    if not isinstance(periodic, bool):
+        raise ModelError(
+            f"{shown(periodic)} is neither true nor false", "write periodic: true", ("periodic",)
+        )
+    if periodic and abs(position[-1] - position[0]) > 1e-9 * max(map(abs, position)):
+        raise ModelError(
+            "it does not end where it begins", "repeat the first position at the end", ("periodic",)
+        )
+
+
+def _needed(value: Mapping[str, Any], keys: list[str], example: str) -> None:
+    mapping(value, keys, example)
+    for key in keys:
+        if key not in value:
+            raise ModelError(f"the key {key!r} is missing", f"write {example}")
+
+
+def count(value: object, least: int = 1) -> int:
+    """A number of positions."""
+    if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= MOST:
+        raise ModelError(
+            f"{shown(value)} is no number of positions", f"write a whole number from {least} to {MOST}"
+        )
+    return value
+
+
+def law_schema() -> JsonSchema:
+    listed = {"type": "array", "items": NUMBER_OR_TEXT}
+    rise = {
+        "type": {"enum": list(RISES), "description": "form of the rise, at rest at both ends"},
+        "from": NUMBER_OR_TEXT | {"description": "position at its beginning, an angle or length"},
+        "to": NUMBER_OR_TEXT | {"description": "position at its end, an angle or length"},
+        "duration": NUMBER_OR_TEXT | {"description": "of the rise, a time"},
+        "count": {"type": "integer", "minimum": 2, "description": "instants, both ends among them"},
+    }
+    table = {
+        "type": {"const": "table", "description": "positions at given times"},
+        "time": listed | {"description": "times, increasing"},
+        "position": listed | {"description": "positions then, angles or lengths"},
+        "count": {"type": "integer", "minimum": 1, "description": "instants, at equal steps of time"},
+        "interpolate": {"const": "cubic", "description": "a cubic spline, the default"},
+        "periodic": {"type": "boolean", "description": "the last position repeats the first; default false"},
+    }
+    objects = [
+        {
+            "type": "object",
+            "properties": keys,
+            "required": [key for key in keys if key not in ("interpolate", "periodic")],
+            "additionalProperties": False,
+        }
+        for keys in (rise, table)
+    ]
+    return {"anyOf": objects}

@@ -1,0 +1,165 @@
+"""The positions of all drives together: ranges advance together, single values combine with any."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from dalembert.errors import ModelError
+from dalembert.model.drives.drives import Drive, Range
+from dalembert.model.drives.laws import MOST
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """What the drives do, position by position.
+
+    position, speed, acceleration: (positions, drives), SI and radians; an unknown position is NaN
+    time:    (positions,) of a law of motion, else None
+    unknown: the drive whose position is asked for, and the `range` it is sought in
+    """
+
+    names: tuple[str, ...]
+    position: Any
+    speed: Any
+    acceleration: Any
+    time: Any = None
+    unknown: str | None = None
+    range: tuple[float, float] | None = None
+
+    @property
+    def count(self) -> int:
+        """The number of positions."""
+        return len(self.position)
+
+    @property
+    def moves(self) -> Any:
+        """Whether the machine moves at each position (positions,): some drive has a speed, or all stand only to turn
+        back, between two positions where they move."""
+        import numpy as np
+
+        moving = (self.speed != 0).any(axis=1)
+        turning = np.zeros_like(moving)
+        turning[1:-1] = moving[:-2] & moving[2:] & (self.acceleration != 0).any(axis=1)[1:-1]
+        return moving | turning
+
+
+def schedule(drives: Mapping[str, Drive], positions: int | None = None) -> Schedule:
+    """The drives' positions; `positions` replaces the counts of ranges and laws, or steps a lone turn round.
+
+    Raises ModelError where counts disagree.
+    """
+    import numpy as np
+
+    if positions is not None:
+        drives = _stepped(drives, positions)
+    size = _count(drives, positions)
+    columns = {name: _motion(drive, size) for name, drive in drives.items()}
+    shape = (size, len(drives))
+    position, speed, acceleration = (
+        np.array([np.broadcast_to(column[i], (size,)) for column in columns.values()]).T.reshape(shape)
+        for i in (1, 2, 3)
+    )
+    unknown = _unknown(drives)
+    span = (drives[unknown].range or (0.0, 2 * math.pi)) if unknown else None
+    return Schedule(tuple(drives), position, speed, acceleration, _time(columns), unknown, span)
+
+
+def _stepped(drives: Mapping[str, Drive], positions: int) -> Mapping[str, Drive]:
+    """The drives, a lone turn of one value stepped round a full turn."""
+    if isinstance(positions, bool) or not isinstance(positions, int) or not 1 <= positions <= MOST:
+        raise ModelError(f"{positions} positions are asked for", f"ask for 1 to {MOST}")
+    if positions == 1 or any(drive.counts() for drive in drives.values()):
+        return drives
+    sought = [name for name, drive in drives.items() if drive.unknown]
+    if sought or not drives:
+        why = (
+            f"drive {sought[0]!r} has all that are found in its range"
+            if sought
+            else "a structure has no drive"
+        )
+        raise ModelError(
+            f"{positions} positions are asked for, and {why}", "leave the number out", ("drives",)
+        )
+    turning = [name for name, drive in drives.items() if drive.turns]
+    if len(turning) != 1:
+        raise ModelError(
+            f"{positions} positions are asked for, and {len(turning)} drives turn ({', '.join(turning) or 'none'})",
+            "say in the file which one steps: position: {from: 0 deg, to: 360 deg, count: 72}",
+            ("drives",),
+        )
+    drive = drives[turning[0]]
+    start = float(drive.position)  # type: ignore[arg-type]
+    turn = Range(start, start + 2 * math.pi, positions)
+    return {**drives, turning[0]: drive.model_copy(update={"position": turn})}
+
+
+def _count(drives: Mapping[str, Drive], positions: int | None) -> int:
+    """The number of positions all drives agree on."""
+    found: dict[int, str] = {}
+    for name, drive in drives.items():
+        listed = [number for key, number in drive.counts().items() if isinstance(getattr(drive, key), tuple)]
+        for number in listed or drive.counts().values():
+            found.setdefault(number if listed or positions is None else positions, name)
+    if len(found) > 1 or (positions is not None and found and positions not in found):
+        said = " and ".join(f"{number} of drive {name!r}" for number, name in found.items())
+        asked = f", and {positions} are asked for" if positions is not None else ""
+        raise ModelError(
+            f"the numbers of positions differ: {said}{asked}",
+            "drives advance together: give equal counts, or single values"
+            if len(found) > 1
+            else "a list has its own count: leave the number out, or write {from, to, count}",
+            ("drives", list(found.values())[-1]),
+        )
+    return next(iter(found), 1)
+
+
+def _motion(drive: Drive, size: int) -> tuple[Any, Any, Any, Any]:
+    """Time, position, speed and acceleration of one drive."""
+    import numpy as np
+
+    if drive.law is not None:
+        return drive.law.motion(size)
+    position = drive.position
+    if isinstance(position, Range):
+        position = _steps(position, size, drive.turns)
+    elif isinstance(position, str):
+        position = math.nan
+    return None, np.asarray(position, float), np.asarray(drive.speed), np.asarray(drive.acceleration)
+
+
+def _steps(span: Range, size: int, turns: bool) -> Any:
+    import numpy as np
+
+    turned = abs(span.stop - span.start) / (2 * math.pi)
+    full = turns and turned > 0.5 and abs(turned - round(turned)) < 1e-9
+    return np.linspace(span.start, span.stop, size, endpoint=not full)
+
+
+def _time(columns: Mapping[str, tuple[Any, Any, Any, Any]]) -> Any:
+    """The time of the laws, which must agree."""
+    import numpy as np
+
+    times = {name: column[0] for name, column in columns.items() if column[0] is not None}
+    first = next(iter(times), None)
+    for name, time in times.items():
+        if not np.allclose(time, times[first], rtol=1e-9, atol=0.0):  # type: ignore[index]
+            raise ModelError(
+                f"the laws of drives {first!r} and {name!r} have different times",
+                "give them the same duration",
+                ("drives", name, "law"),
+            )
+    return times[first] if first is not None else None
+
+
+def _unknown(drives: Mapping[str, Drive]) -> str | None:
+    names = [name for name, drive in drives.items() if drive.unknown]
+    if len(names) > 1:
+        raise ModelError(
+            f"the positions of {len(names)} drives are unknown: {', '.join(names)}",
+            "leave one unknown, give the others",
+            ("drives", names[1], "position"),
+        )
+    return names[0] if names else None

@@ -1,0 +1,123 @@
+"""JSON to a tree, with the line of each path where a message needs it."""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any
+
+from dalembert.model.files.source import Path
+from dalembert.model.files.yaml_text import DEEPEST, at_line
+from dalembert.wording import shown
+
+
+def read(text: str) -> Any:
+    """The tree; raises ModelError with its `line`."""
+    _check_tokens(text)
+    try:
+        return json.loads(text, object_pairs_hook=_object, parse_int=_number)
+    except json.JSONDecodeError as error:
+        raise at_line(
+            f"it is not JSON here: {error.msg.lower()}", "check commas, quotes and brackets", error.lineno
+        ) from None
+    except _TwiceError as twice:
+        line = _second(text, str(twice))
+        raise at_line(f"the key {shown(str(twice))} stands twice", "leave one of them out", line) from None
+
+
+class _TwiceError(ValueError):
+    """A key that an object has twice."""
+
+
+def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in found:
+            raise _TwiceError(key)
+        found[key] = value
+    return found
+
+
+def _number(digits: str) -> int | float:
+    return int(digits) if len(digits) < 19 else float(digits)
+
+
+_TOKEN = re.compile(r'"(?:[^"\\\n]|\\.)*"|[][{},:]|[^][{},:"\s]+|\n')
+
+
+def _check_tokens(text: str) -> None:
+    depth, line = 0, 1
+    for match in _TOKEN.finditer(text):
+        token = match[0]
+        depth += (token in "[{") - (token in "]}")
+        line += token == "\n"
+        if token in ("NaN", "Infinity", "-Infinity"):
+            raise at_line(f"{token} is no number of JSON", "write a finite number", line)
+        if depth > DEEPEST:
+            raise at_line(
+                f"the file is nested deeper than {DEEPEST} levels", "a model file needs 6 or so", line
+            )
+
+
+def lines(text: str) -> dict[Path, int]:
+    """The line of each path of a text that is JSON."""
+    found: dict[Path, int] = {}
+    stack: list[list[Any]] = []
+    line = 1
+    for match in _TOKEN.finditer(text):
+        token = match[0]
+        if token == "\n":
+            line += 1
+        elif token in "]}":
+            stack.pop()
+        elif token not in ",:":
+            _place(token, stack, found, line)
+        elif token == "," and stack:
+            _next(stack[-1])
+    return found
+
+
+def _place(token: str, stack: list[list[Any]], found: dict[Path, int], line: int) -> None:
+    """Note a value or key; stack items are [path, key or index, whether a key comes next]."""
+    path: Path = ()
+    if stack:
+        top = stack[-1]
+        if top[2]:
+            top[1], top[2] = json.loads(token), False
+            found[(*top[0], top[1])] = line
+            return
+        path = (*top[0], top[1])
+        found.setdefault(path, line)
+    if token in "[{":
+        stack.append([path, 0, token == "{"])
+
+
+def _next(top: list[Any]) -> None:
+    if isinstance(top[1], int):
+        top[1] += 1
+    else:
+        top[2] = True
+
+
+def _second(text: str, key: str) -> int:
+    """The line where a key comes a second time within one object, or the first time at all."""
+    seen: set[tuple[int, str]] = set()
+    stack: list[int] = []
+    line = fresh = 0
+    previous = ""
+    for match in _TOKEN.finditer(text):
+        token = match[0]
+        if token == "\n":
+            line += 1
+            continue
+        if token in "[{":
+            fresh += 1
+            stack.append(fresh)
+        elif token in "]}":
+            stack.pop()
+        elif token == ":" and json.loads(previous) == key:
+            if (stack[-1], key) in seen:
+                return line + 1
+            seen.add((stack[-1], key))
+        previous = token
+    return 1

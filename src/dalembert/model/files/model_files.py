@@ -1,0 +1,249 @@
+"""Model files: YAML, JSON and TOML carry the same keys."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import sys
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from dalembert.errors import ModelError
+from dalembert.model.description import Mechanism, mechanism
+from dalembert.model.files.source import STANDARD_INPUT, Lines, Source, is_stream
+from dalembert.saving import new_file
+from dalembert.wording import nearest
+
+LARGEST = 1_000_000
+"""Bytes of a model file."""
+
+FORMATS = {".yaml": "yaml", ".yml": "yaml", ".json": "json", ".toml": "toml"}
+
+FilePath = str | os.PathLike[str]
+
+
+def load(path: FilePath) -> Mechanism:
+    """The mechanism of a .yaml, .json or .toml file; raises ModelError with file and line."""
+    return mechanism(*read_file(path))
+
+
+def loads(text: str, form: str = "yaml", name: str = "text") -> Mechanism:
+    """The mechanism of a text; `name` stands for the file in messages.
+
+    >>> loads("{links: {ground: {}, bar: {mass: 2 lbm}}}").mass("bar")
+    0.90718474
+    """
+    return mechanism(*read_text(text, form, name))
+
+
+def read_file(path: FilePath) -> tuple[Any, Source]:
+    """The tree of a file as it is written, and where it came from; `-` is standard input."""
+    name = STANDARD_INPUT[-1] if os.fspath(path) in STANDARD_INPUT[:2] else os.fspath(path)
+    text = _decoded(_content(Path(path), name), name)
+    return read_text(text, _form_of_stream(path, text) if is_stream(path) else format_of(path), name)
+
+
+def read_text(text: str, form: str = "yaml", name: str = "text") -> tuple[Any, Source]:
+    """The tree of a text as it is written, and where it came from."""
+    if form not in FORMATS.values():
+        raise ModelError(f"there is no format {form!r}", "yaml, json or toml")
+    if len(text) > LARGEST:
+        raise ModelError(
+            f"the file has more than {LARGEST} characters", "give large tables fewer points", (), name, 1
+        )
+    try:
+        tree, lines = _READERS[form](text.removeprefix("\ufeff"))
+    except ModelError as error:
+        raise ModelError(error.what, error.remedy, (), name, error.line or 1) from None
+    if tree is None or tree == {}:
+        raise ModelError(
+            "the file is empty", "begin with links: and joints:, or with `dalembert new`", (), name, 1
+        )
+    return tree, Source(name, lines, text, form)
+
+
+def _yaml(text: str) -> tuple[Any, Callable[[], Lines]]:
+    from dalembert.model.files import yaml_text
+
+    tree, lines = yaml_text.read(text)
+    return tree, _Known(lines)
+
+
+def _json(text: str) -> tuple[Any, Callable[[], Lines]]:
+    from dalembert.model.files import json_text
+
+    if not text.strip():
+        return None, _Known({})
+    return json_text.read(text), _Later(json_text.lines, text)
+
+
+def _toml(text: str) -> tuple[Any, Callable[[], Lines]]:
+    from dalembert.model.files import toml_text
+
+    return toml_text.read(text), _Later(toml_text.lines, text)
+
+
+_READERS: dict[str, Callable[[str], tuple[Any, Callable[[], Lines]]]] = {
+    "yaml": _yaml,
+    "json": _json,
+    "toml": _toml,
+}
+
+
+class _Known:
+    """Lines that are known."""
+
+    def __init__(self, lines: Lines) -> None:
+        self.lines = lines
+
+    def __call__(self) -> Lines:
+        return self.lines
+
+
+class _Later:
+    """Lines that are found when a message needs them."""
+
+    def __init__(self, find: Callable[[str], Lines], text: str) -> None:
+        self.find, self.text = find, text
+        self.lines: Lines | None = None
+
+    def __call__(self) -> Lines:
+        if self.lines is None:
+            self.lines = self.find(self.text)
+        return self.lines
+
+
+def _content(path: Path, name: str) -> bytes:
+    try:
+        directory = path.is_dir()
+        content = b"" if directory else _first_bytes(path)
+    except FileNotFoundError:
+        raise ModelError(f"there is no file {name}", _neighbour(path), (), name, 1) from None
+    except (OSError, ValueError) as error:
+        said = getattr(error, "strerror", None) or error
+        raise ModelError(
+            f"the file {name!r} cannot be read: {said}",
+            "check its name and permissions",
+            (),
+            repr(name)[1:-1],
+            1,
+        ) from None
+    if directory:
+        raise ModelError(f"{name} is a directory", "name a .yaml, .json or .toml file", (), name, 1)
+    if len(content) > LARGEST:
+        raise ModelError(
+            f"the file has more than {LARGEST} bytes", "give large tables fewer points", (), name, 1
+        )
+    return content
+
+
+def _form_of_stream(path: FilePath, text: str) -> str:
+    """The format by the name's ending, or else by how the text begins."""
+    suffix = Path(path).suffix.lower()
+    if suffix in FORMATS:
+        return FORMATS[suffix]
+    text = text.removeprefix("\ufeff")
+    if text.lstrip()[:1] == "{":
+        try:
+            json.loads(text)
+        except (ValueError, RecursionError):
+            return "yaml"
+        return "json"
+    said = re.search(r"^(?!\s*(#|$)).*", text, re.MULTILINE)
+    return "toml" if said and re.match(r"\[|[\w.\"'-]+\s*=", said[0]) else "yaml"
+
+
+def _first_bytes(path: Path) -> bytes:
+    if str(path) in STANDARD_INPUT[:2]:
+        return sys.stdin.buffer.read(LARGEST + 1)
+    with path.open("rb") as file:
+        return file.read(LARGEST + 1)
+
+
+def _neighbour(path: Path) -> str:
+    files = sorted(path.parent.iterdir()) if path.parent.is_dir() else []
+    named = {p.stem: p.name for p in reversed(files) if p.suffix in FORMATS}
+    near = nearest(path.stem, list(named))
+    return f"did you mean {named[near]!r}?" if near else "check the name and the folder"
+
+
+def _decoded(content: bytes, name: str) -> str:
+    try:
+        return content.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = content[: error.start].count(b"\n") + 1
+        raise ModelError(
+            f"the file is not UTF-8 text: byte {content[error.start]:#04x} has no meaning there",
+            "save it as UTF-8",
+            (),
+            name,
+            line,
+        ) from None
+
+
+def format_of(path: FilePath) -> str:
+    """The format that the ending of a name says."""
+    suffix = Path(path).suffix.lower()
+    if suffix not in FORMATS:
+        raise ModelError(
+            f"{os.fspath(path)} is named like no model file", "end its name with .yaml, .json or .toml"
+        )
+    return FORMATS[suffix]
+
+
+def convert(path: FilePath, target: FilePath, overwrite: bool = False) -> None:
+    """Write a model file in another format, keeping the user's own units, texts and order of keys.
+
+    The mechanism is read first, so that nothing wrong is converted. Comments are not kept.
+    """
+    tree, source = read_file(path)
+    mechanism(tree, source)
+    save_tree({key: value for key, value in tree.items() if value is not None}, target, overwrite)
+
+
+def save_tree(tree: Mapping[str, Any], path: FilePath, overwrite: bool = False) -> None:
+    """Write a tree to a .yaml, .json or .toml file; raises ModelError if there is one and not `overwrite`."""
+    save_text(tree_text(tree, format_of(path)), path, overwrite)
+
+
+def save_text(text: str, path: FilePath, overwrite: bool = False) -> None:
+    """Write the text of a model file; raises ModelError if there is one and not `overwrite`."""
+    try:
+        content = text.encode("utf-8")
+    except UnicodeEncodeError as error:
+        half = text[error.start]
+        raise ModelError(
+            f"cannot write {os.fspath(path)}: a text in it has {half!r}, half a character",
+            "write that text anew",
+        ) from None
+    with new_file(path, overwrite) as temporary:
+        temporary.write_bytes(content)
+
+
+def tree_text(tree: Mapping[str, Any], form: str = "yaml") -> str:
+    """A tree as text.
+
+    >>> print(tree_text({"title": "Bar", "links": {"bar": {"points": {"A": [0, "1 m"]}}}}), end="")
+    title: Bar
+    links:
+      bar: {points: {A: [0, 1 m]}}
+    """
+    if form == "yaml":
+        from dalembert.model.files.yaml_writing import written
+
+        return written(tree)
+    if form == "json":
+        return json.dumps(tree, indent=2, ensure_ascii=False) + "\n"
+    return _toml_text(tree)
+
+
+def _toml_text(tree: Mapping[str, Any]) -> str:
+    try:
+        import tomli_w
+    except ImportError:
+        raise ModelError(
+            "TOML is written by the package tomli-w", "install it: pip install tomli-w"
+        ) from None
+    return tomli_w.dumps(tree)

@@ -1,0 +1,238 @@
+"""The text of a mechanism: its file's own, with only the changed values changed; or one that a person would write."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+from dalembert.model.files.source import Path, Source
+from dalembert.model.files.splicing import REMOVED, Renamed, spliced
+from dalembert.model.files.yaml_text import scalar
+from dalembert.model.quantities.figures import (
+    SHORT,
+    in_own_unit,
+    own_polar,
+    plain,
+    polar_text,
+    si_quantity,
+    whole,
+    with_own_unit,
+)
+from dalembert.units import NUMBER, Units
+
+if TYPE_CHECKING:
+    from dalembert.model.description import Mechanism
+
+ROUNDS = 3
+"""What an anchor hands on changes with it, so that others get their own value back in a second round."""
+
+
+def text_of(m: Mechanism, form: str) -> str:
+    """The text of a model file in a format: that of the mechanism's own file as far as there is one."""
+    from dalembert.model.files.model_files import read_text, tree_text
+
+    own = _own_text(m, m.source) if m.source is not None and m.source.text else None
+    if own is None:
+        return tree_text(file_tree(m), form)
+    assert m.source is not None
+    if m.source.form == form:
+        return own
+    tree = read_text(own, m.source.form)[0]
+    return tree_text({key: value for key, value in tree.items() if value is not None}, form)
+
+
+def file_tree(m: Mechanism) -> dict[str, Any]:
+    """The description in its own units, without what goes without saying."""
+    tree = m.model_dump(mode="json", by_alias=True, context=m.units)
+    for name, drive in tree.get("drives", {}).items():
+        if len(m.joints[m.drive_joint(name)].freedoms) == 1:
+            drive.pop("freedom", None)
+    return tree
+
+
+def _own_text(m: Mechanism, source: Source) -> str | None:
+    """The source's text with the changes; None where that would not be read as this mechanism."""
+    from dalembert.model.description import mechanism
+    from dalembert.model.files.model_files import read_text
+
+    mark = "\ufeff" if source.text.startswith("\ufeff") else ""
+    text = source.text.removeprefix(mark)
+    tree = read_text(text, source.form, source.name)[0]
+    values = dict(_values(m, tree))
+    for _ in range(ROUNDS):
+        try:
+            changed = spliced(text, source.form, values)
+            read = mechanism(*read_text(changed, source.form, source.name))
+        except (ValueError, LookupError, AssertionError):
+            return None
+        if read == m:
+            return mark + changed
+        values |= dict(_missed(m, read, tree))
+    return None
+
+
+def _values(m: Mechanism, tree: Mapping[str, Any]) -> Iterator[tuple[Path, Any]]:
+    """The changes as paths down the file's tree, with values in the file's own words."""
+    dumped = m.to_tree()
+    for path, given in m.changes.items():
+        yield from _value(m, tree, dumped, path.split("."), given)
+
+
+def _missed(m: Mechanism, read: Mechanism, tree: Mapping[str, Any]) -> Iterator[tuple[Path, Any]]:
+    """What a text says otherwise than the mechanism, leaf by leaf."""
+    wanted = m.to_tree()
+    for path in _differing(wanted, read.to_tree(), ()):
+        yield from _value(m, tree, wanted, list(map(str, path)), _at(wanted, path, REMOVED), said=False)
+
+
+def _differing(a: Any, b: Any, path: Path) -> Iterator[Path]:
+    if isinstance(a, dict) and isinstance(b, dict):
+        for key in dict.fromkeys([*a, *b]):
+            yield from _differing(a.get(key), b.get(key), (*path, key))
+    elif isinstance(a, list) and isinstance(b, list) and len(a) == len(b):
+        for i, (x, y) in enumerate(zip(a, b, strict=True)):
+            yield from _differing(x, y, (*path, i))
+    elif a != b:
+        yield path
+
+
+def _value(
+    m: Mechanism, tree: Any, dumped: Any, keys: list[str], given: Any, said: bool = True
+) -> Iterator[tuple[Path, Any]]:
+    """A change as paths and values of the tree; `said`: a text given is written as it is."""
+    path, old = _typed(tree, keys)
+    while keys[len(path) - 1].isdigit() and _at(dumped, path, REMOVED) is REMOVED:  # it is written otherwise
+        path, old = path[:-1], _at(tree, path[:-1], None)
+    text = given if said and len(path) == len(keys) else None
+    if keys[0] == "loads" and keys[2:3] in (["value"], ["direction"]):
+        found = list(_of_load(m, tree, keys[1], text if keys[2:] == ["value"] else None))
+        if found:
+            yield from found
+            return
+    beside = (*path[:-1], {"mass": "weight", "weight": "mass"}.get(keys[-1], ""))
+    if given is None or given is REMOVED:
+        yield path, REMOVED
+    elif keys[0] == "links" and _at(tree, beside, None) is not None:
+        yield beside, Renamed(keys[-1], _worded(m, text, _at(dumped, path, given), None))
+    else:
+        value = _worded(m, text, _at(dumped, path, given), old)
+        yield from _items(path, value, old) if said else [(path, value)]
+        if "inertia" in keys and len(path) == 5:  # a product of inertia stands in two places
+            other = (*path[:3], path[4], path[3])
+            yield other, _worded(m, text, _at(dumped, other, given), _at(tree, other, None))
+
+
+def _typed(tree: Any, keys: list[str]) -> tuple[Path, Any]:
+    """The path down the tree, as far as it goes before a value that is one text, and what stands there."""
+    path: Path = ()
+    for key in keys:
+        if isinstance(tree, list) and key.isdigit() and int(key) < len(tree):
+            path, tree = (*path, int(key)), tree[int(key)]
+        elif isinstance(tree, str):
+            break
+        else:
+            path, tree = (*path, key), tree.get(key) if isinstance(tree, Mapping) else None
+    return path, tree
+
+
+def _at(tree: Any, path: Path, default: Any) -> Any:
+    """What stands at a path of a tree."""
+    for key in path:
+        try:
+            tree = tree[key]
+        except (KeyError, IndexError, TypeError):
+            return default
+    return tree
+
+
+def _items(path: Path, value: Any, old: Any) -> Iterator[tuple[Path, Any]]:
+    """Item by item where both have the same items, so that what is between them stays."""
+    if isinstance(value, list) and isinstance(old, list) and len(value) == len(old):
+        for i, (new, was) in enumerate(zip(value, old, strict=True)):
+            yield from _items((*path, i), new, was)
+    elif isinstance(value, dict) and isinstance(old, dict) and set(value) == set(old):
+        for key, new in value.items():
+            yield from _items((*path, key), new, old[key])
+    elif value != old or type(value) is not type(old):
+        yield path, value
+
+
+def _worded(m: Mechanism, given: Any, si: Any, old: Any) -> Any:
+    """A value in the words of the one it replaces: as given where it is text, else its number in the same unit."""
+    if isinstance(given, str):
+        return scalar(given) if re.fullmatch(NUMBER, given) else given
+    worded = isinstance(given, (list, tuple)) and any(isinstance(item, str) for item in given)
+    if isinstance(si, list) and isinstance(old, str) and "@" in old and len(si) == 2 and not worded:
+        return _polar(m, si, old)
+    if isinstance(si, list):
+        olds = old if isinstance(old, list) and len(old) == len(si) else [None] * len(si)
+        items = given if isinstance(given, (list, tuple)) and len(given) == len(si) else [None] * len(si)
+        return [_worded(m, g, s, o) for g, s, o in zip(items, si, olds, strict=True)]
+    if isinstance(given, Mapping):
+        return {
+            key: _worded(m, item, _at(si, (key,), item), _at(old, (key,), None))
+            for key, item in given.items()
+        }
+    if isinstance(si, dict):
+        return {key: _worded(m, None, value, _at(old, (key,), None)) for key, value in si.items()}
+    found = si_quantity(si)
+    if found:
+        return _number(*found, old, m.units)
+    if isinstance(si, float):
+        return (with_own_unit(si, "number", old, m.units) if isinstance(old, str) else None) or whole(si)
+    return si
+
+
+def _number(number: float, kind: str, old: Any, units: Units) -> Any:
+    if isinstance(old, str):
+        own = with_own_unit(number, kind, old, units)
+        if own is not None:
+            return own
+    elif old is not None and not units.refuses_bare(kind):
+        own = in_own_unit(number, kind, "", units)
+        if own is not None:
+            return scalar(own)
+    return plain(number, kind, units)
+
+
+def _polar(m: Mechanism, si: list[Any], old: str) -> Any:
+    """A vector as polar text again, where some polar text is exactly this vector."""
+    found = [si_quantity(x) or (float(x), "number") for x in si]
+    vector, kind = tuple(number for number, _ in found), found[0][1]
+    size, angle = own_polar(old, kind, m.units)
+    polar = polar_text(vector, kind, m.units, size, angle)
+    components = [plain(x, kind, m.units) for x in vector]
+    return polar if polar and len(polar) <= max(2 * SHORT, len(str(components))) else components
+
+
+def _of_load(m: Mechanism, tree: Any, name: str, given: Any) -> Iterator[tuple[Path, Any]]:
+    """The value and direction of a force, which may stand as one polar text, or as a vector without a direction."""
+    load, was = m.loads[name], _at(tree, ("loads", name), {})
+    path, old = ("loads", name, "value"), was.get("value") if isinstance(was, Mapping) else None
+    value, direction = getattr(load, "value", None), getattr(load, "direction", None)
+    if isinstance(value, tuple) and was.get("direction") is not None:
+        yield ("loads", name, "direction"), REMOVED
+        yield path, _worded(m, given, m.to_tree()["loads"][name]["value"], None)
+    elif isinstance(given, str) and "@" in given:
+        yield path, given
+        if was.get("direction") is not None:
+            yield ("loads", name, "direction"), REMOVED
+    elif (
+        isinstance(old, str) and "@" in old and isinstance(direction, float) and not isinstance(value, tuple)
+    ):
+        size, angle = own_polar(old, "force", m.units)
+        said = m.to_tree()["loads"][name]["value"]
+        quantity = si_quantity(said)
+        if quantity and (found := _sized(quantity[0], direction, size, angle, m.units)):
+            yield path, found
+            return
+        for key, si in m.to_tree()["loads"][name].items():
+            if key in ("value", "direction"):
+                yield ("loads", name, key), _worded(m, given if key == "value" else None, si, None)
+
+
+def _sized(size: float, angle: float, size_unit: str, angle_unit: str, units: Units) -> str | None:
+    r = in_own_unit(size, "force", size_unit, units)
+    turn = in_own_unit(angle, "angle", angle_unit, units)
+    return None if r is None or turn is None else f"{r} @ {turn}"

@@ -1,0 +1,238 @@
+"""YAML 1.2 to a tree of mappings, lists, texts and numbers, with the line of each; nothing else is built.
+
+The events of ruamel's parser are taken one by one, so that depth and size are bounded before anything is stored,
+keys are texts, equal keys are refused, and tags and second documents never come in.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from dalembert.errors import ModelError
+from dalembert.model.files.source import Path
+from dalembert.wording import shown
+
+DEEPEST, MOST = 30, 50_000
+"""Levels of nesting and values of one file."""
+
+MERGE = "<<"
+"""The key that takes in another mapping."""
+
+_WORDS: dict[str, Any] = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
+_WORDS |= {
+    word: value for value in (True, False) for word in (str(value), str(value).lower(), str(value).upper())
+}
+_INTEGER = re.compile(r"[-+]?[0-9]{1,18}")
+_BASED = re.compile(r"0o[0-7]{1,20}|0x[0-9a-fA-F]{1,16}")
+_FLOAT = re.compile(
+    r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?|[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)"
+)
+
+
+def read(text: str) -> tuple[Any, dict[Path, int]]:
+    """The tree and the line of each path; raises ModelError with its `line`."""
+    from ruamel.yaml import YAML
+    from ruamel.yaml.error import MarkedYAMLError, YAMLError
+
+    _check_properties(text)
+    builder = _Builder()
+    try:
+        for event in YAML(typ="safe", pure=True).parse(text):
+            builder.take(event)
+    except MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        problem = _problem(error)
+        raise at_line(
+            f"it is not YAML here: {problem}", _advice(text, mark), mark.line + 1 if mark else 1
+        ) from None
+    except (YAMLError, ValueError, IndexError, AssertionError, RecursionError, OverflowError) as error:
+        if isinstance(error, ModelError):
+            raise
+        said = str(error).split("\n")[0]
+        raise at_line(f"it is not YAML: {said}", "check its characters and brackets", 1) from None
+    return builder.root, builder.lines
+
+
+_LONG = re.compile(r"[!&*%][^\s,\[\]{}]{2000}")
+
+
+def _check_properties(text: str) -> None:
+    """Refuse long tags, anchors and directives, over which the parser takes its time."""
+    match = _LONG.search(text)
+    if match:
+        line = text.count("\n", 0, match.start()) + 1
+        raise at_line(
+            f"{shown(match[0])} is longer than any word of a model file", "put text in quotes", line
+        )
+
+
+def _problem(error: Any) -> str:
+    said = " ".join(str(error.problem or error.context).split())
+    begun, found = error.context_mark, error.problem_mark
+    if begun is not None and found is not None and begun.line != found.line:
+        return f"{said}, {error.context} that begins in line {begun.line + 1}"
+    return said
+
+
+def at_line(what: str, remedy: str, line: int) -> ModelError:
+    """An error whose line is known before there is a tree."""
+    return ModelError(what, remedy, (), "", line)
+
+
+def _advice(text: str, mark: Any) -> str:
+    lines = text.split("\n")
+    line = lines[mark.line] if mark and mark.line < len(lines) else ""
+    if "\t" in line[: len(line) - len(line.lstrip())]:
+        return "indent with spaces, not with tabs"
+    return "check indentation, brackets and colons, and put text with ': ' or '#' in quotes"
+
+
+class _Builder:
+    """Stacks the open mappings and lists; `key` is the mapping key whose value comes next."""
+
+    def __init__(self) -> None:
+        self.root: Any = None
+        self.lines: dict[Path, int] = {}
+        self.anchors: dict[str, tuple[Any, int]] = {}
+        self.stack: list[_Open] = []
+        self.size = self.documents = 0
+
+    def take(self, event: Any) -> None:
+        kind = type(event).__name__
+        line = event.start_mark.line + 1 if event.start_mark else 1
+        self.size += 1
+        if self.size > MOST:
+            raise at_line(
+                f"the file has more than {MOST} values",
+                "give large tables fewer points, or write the file as JSON",
+                line,
+            )
+        if kind == "DocumentStartEvent":
+            self.document(line)
+        elif kind == "ScalarEvent":
+            self.scalar(event, line)
+        elif kind == "AliasEvent":
+            self.alias(event.anchor, line)
+        elif kind in ("MappingStartEvent", "SequenceStartEvent"):
+            self.opened(event, {} if kind == "MappingStartEvent" else [], line)
+        elif kind in ("MappingEndEvent", "SequenceEndEvent"):
+            self.closed()
+
+    def document(self, line: int) -> None:
+        self.documents += 1
+        if self.documents > 1:
+            raise at_line(
+                "a second document begins", "keep one mechanism in a file: leave out the line ---", line
+            )
+
+    def scalar(self, event: Any, line: int) -> None:
+        if event.tag is not None:
+            raise at_line(f"a tag {shown(str(event.tag))} has no place in a model file", "leave it out", line)
+        if self.stack and self.stack[-1].wants_key:
+            self.stack[-1].merges |= event.value == MERGE and event.implicit[0]
+            self.key(event.value, line)
+            return
+        value = scalar(event.value) if event.implicit[0] else event.value
+        self.add(value, line)
+        self.anchored(event.anchor, value, 1)
+
+    def key(self, key: str, line: int) -> None:
+        top = self.stack[-1]
+        if key in top.value:
+            first = self.lines.get((*top.path, key), line)
+            raise at_line(
+                f"the key {shown(key)} stands twice, first in line {first}", "leave one of them out", line
+            )
+        top.key, top.wants_key = key, False
+        self.lines[(*top.path, key)] = line
+
+    def opened(self, event: Any, value: Any, line: int) -> None:
+        if event.tag is not None:
+            raise at_line(f"a tag {shown(str(event.tag))} has no place in a model file", "leave it out", line)
+        if self.stack and self.stack[-1].wants_key:
+            raise at_line("a list or mapping stands where a key is needed", "write key: value", line)
+        if len(self.stack) >= DEEPEST:
+            raise at_line(
+                f"the file is nested deeper than {DEEPEST} levels", "a model file needs 6 or so", line
+            )
+        path = self.add(value, line)
+        self.stack.append(_Open(value, path, event.anchor, self.size))
+
+    def closed(self) -> None:
+        top = self.stack.pop()
+        if top.merges:
+            self.merge(top)
+        self.anchored(top.anchor, top.value, self.size - top.start)
+
+    def merge(self, top: _Open) -> None:
+        """Take in what `<<: *name` names; keys that stand in the mapping itself, and earlier ones, go first."""
+        given = top.value.pop(MERGE)
+        line = self.lines.pop((*top.path, MERGE))
+        merged: dict[str, Any] = {}
+        for other in reversed(given if isinstance(given, list) else [given]):
+            if not isinstance(other, dict):
+                raise at_line(
+                    f"{shown(other)} stands where {MERGE} takes in a mapping",
+                    f"write {MERGE}: *name, after &name {{...}}",
+                    line,
+                )
+            merged |= other
+        own = dict(top.value)
+        top.value.clear()
+        top.value.update(merged | own)
+        self.lines |= {(*top.path, key): line for key in merged if key not in own}
+
+    def anchored(self, anchor: str | None, value: Any, size: int) -> None:
+        if anchor:
+            self.anchors[anchor] = value, size
+
+    def alias(self, anchor: str, line: int) -> None:
+        if anchor not in self.anchors:
+            raise at_line(
+                f"there is no anchor {shown(anchor)}", f"write &{anchor} before a complete value", line
+            )
+        if self.stack and self.stack[-1].wants_key:
+            raise at_line("an alias stands where a key is needed", "write the key", line)
+        value, size = self.anchors[anchor]
+        self.size += size
+        self.add(value, line)
+
+    def add(self, value: Any, line: int) -> Path:
+        if not self.stack:
+            self.root = value
+            return ()
+        top = self.stack[-1]
+        if isinstance(top.value, list):
+            path = (*top.path, len(top.value))
+            self.lines[path] = line
+            top.value.append(value)
+        else:
+            path = (*top.path, top.key)
+            top.value[top.key], top.wants_key = value, True
+        return path
+
+
+class _Open:
+    """A mapping or list that is not closed yet."""
+
+    def __init__(self, value: Any, path: Path, anchor: str | None, start: int) -> None:
+        self.value, self.path, self.anchor, self.start = value, path, anchor, start
+        self.key, self.wants_key, self.merges = "", isinstance(value, dict), False
+
+
+def scalar(text: str) -> Any:
+    """The value of a plain scalar by the core schema of YAML 1.2: `1e-3` is a number, `on` is text.
+
+    >>> scalar("1e-3"), scalar("on"), scalar("true")
+    (0.001, 'on', True)
+    """
+    if text in _WORDS:
+        return _WORDS[text]
+    if _INTEGER.fullmatch(text):
+        return int(text)
+    if _BASED.fullmatch(text):
+        return int(text, 0)
+    if _FLOAT.fullmatch(text):
+        return float(re.sub(r"\.(?=[a-zA-Z])", "", text))
+    return text

@@ -1,0 +1,156 @@
+"""Dry friction of joints, as a file describes it; its mechanics are in docs/theory.md 6.1."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, StrictBool, ValidationInfo
+
+from dalembert.errors import ModelError
+from dalembert.model.part import Part, reading
+from dalembert.model.quantities.values import (
+    NUMBER_OR_TEXT,
+    JsonSchema,
+    Scalar,
+    Value,
+    numbers,
+    signed,
+    written,
+)
+
+Coefficient = Annotated[float, Scalar("number", "not negative")]
+Circle = Literal["sin", "tan"]
+
+
+class Guide(Value):
+    """How far the guide reaches behind and ahead of j's point, `[l1, l2]`."""
+
+    def read(self, value: Any, info: ValidationInfo) -> tuple[float, float]:
+        lengths = numbers(value, "length", reading(info))
+        if len(lengths) != 2 or not sum(signed(length, length, "not negative") for length in lengths) > 0:
+            raise ModelError(
+                "a guide is two lengths, behind and ahead of the point", "write guide: [0.02, 0.03]"
+            )
+        return lengths[0], lengths[1]
+
+    def write(self, value: tuple[float, float]) -> Any:
+        return [written(length, "length") for length in value]
+
+    def json_schema(self) -> JsonSchema:
+        return {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 2, "maxItems": 2}
+
+
+class FrictionDefaults(Part):
+    """The top-level `friction`: what the joints' own `friction` leaves out, and whether there is any.
+
+    >>> FrictionDefaults(coefficient=0.1).circle
+    'sin'
+    """
+
+    coefficient: Coefficient | None = Field(None, description="coefficient of friction, a plain number")
+    static: Coefficient | None = Field(None, description="coefficient at rest; default that of motion")
+    circle: Circle = Field("sin", description="radius of the friction circle: R sin(phi), or mu R with tan")
+    enabled: StrictBool = Field(True, description="false: all friction is left out")
+
+
+class PinFriction(Part):
+    """Friction of a pin of a radius: a couple of the friction circle."""
+
+    coefficient: Coefficient | None = Field(
+        None, description="coefficient of friction; default the top level's"
+    )
+    static: Coefficient | None = Field(
+        None,
+        description="coefficient at rest; default the joint's own coefficient, then the top level's static",
+    )
+    radius: Annotated[float, Scalar("length", "not negative")] = Field(
+        description="radius of the pin, a length"
+    )
+    circle: Circle | None = Field(None, description="R sin(phi), or mu R with tan; default the top level's")
+
+
+class GuideFriction(Part):
+    """Friction along a slide; without `guide` the normal force bears on one face."""
+
+    coefficient: Coefficient | None = Field(
+        None, description="coefficient of friction; default the top level's"
+    )
+    static: Coefficient | None = Field(
+        None,
+        description="coefficient at rest; default the joint's own coefficient, then the top level's static",
+    )
+    guide: Annotated[tuple[float, float], Guide()] | None = Field(
+        None, description="how far the guide reaches behind and ahead of j's point, two lengths"
+    )
+    half_height: Annotated[float, Scalar("length", "not negative")] | None = Field(
+        None, description="of the guide, from its middle to a face, a length"
+    )
+
+
+class SlotFriction(Part):
+    """Friction of a pin in a slot: along the slide, and with a radius also the pin's couple."""
+
+    coefficient: Coefficient | None = Field(
+        None, description="coefficient of friction; default the top level's"
+    )
+    static: Coefficient | None = Field(
+        None,
+        description="coefficient at rest; default the joint's own coefficient, then the top level's static",
+    )
+    radius: Annotated[float, Scalar("length", "not negative")] | None = Field(
+        None, description="radius of the pin in the slot, a length"
+    )
+    circle: Circle | None = Field(None, description="R sin(phi), or mu R with tan; default the top level's")
+
+
+class GearFriction(Part):
+    """Friction of teeth: a couple on each wheel against their relative turn, mu |F_n| times the arm.
+
+    Teeth slide at the rate of the wheels' relative turn times the distance of their contact from the pitch point; the
+    friction force changes its sense at the pitch point, so that what is left over a mesh is this couple. Without
+    `arm`, the mean distance on the path of contact of standard full-depth teeth (needs `teeth` and `module`).
+    """
+
+    coefficient: Coefficient | None = Field(
+        None, description="coefficient of friction; default the top level's"
+    )
+    static: Coefficient | None = Field(
+        None,
+        description="coefficient at rest; default the joint's own coefficient, then the top level's static",
+    )
+    arm: Annotated[float, Scalar("length", "positive")] | None = Field(
+        None, description="mean distance of the teeth's contact from the pitch point, a length"
+    )
+
+
+class SpaceFriction(Part):
+    """Friction of a joint in space: a journal, a guide, a ball or a thread.
+
+    Without `guide` the bearing couple of a journal or guide is not counted; with it two ends bear.
+    """
+
+    coefficient: Coefficient | None = Field(
+        None, description="coefficient of friction; default the top level's"
+    )
+    static: Coefficient | None = Field(
+        None,
+        description="coefficient at rest; default the joint's own coefficient, then the top level's static",
+    )
+    radius: Annotated[float, Scalar("length", "positive")] | None = Field(
+        None, description="of the journal, of the ball, or the mean one of the thread; a length"
+    )
+    circle: Circle | None = Field(None, description="R sin(phi), or mu R with tan; default the top level's")
+    guide: Annotated[tuple[float, float], Guide()] | None = Field(
+        None,
+        description="how far the bearing reaches behind and ahead of j's point along the axis, two lengths",
+    )
+    thrust_radius: Annotated[float, Scalar("length", "positive")] | None = Field(
+        None,
+        description="of a revolute: mean radius of the collar that carries the axial force; default none",
+    )
+    thread_angle: Annotated[float, Scalar("angle", "not negative")] | None = Field(
+        None, description="of a screw: half the angle of the thread's profile; default 0, a square thread"
+    )
+
+
+Friction = PinFriction | GuideFriction | SlotFriction | GearFriction | SpaceFriction

@@ -1,0 +1,69 @@
+"""What all joints have: two links and a point on each."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import Field, ValidationInfo, model_validator
+
+from dalembert.errors import ModelError
+from dalembert.model.joints.stiffness import Stiffness
+from dalembert.model.part import Part
+from dalembert.model.quantities.values import JsonSchema, TwoNames, Value, name, pair_of_names
+
+
+class At(Value):
+    """The name of a point, or `[point of i, point of j]`."""
+
+    def read(self, value: Any, info: ValidationInfo) -> str | tuple[str, str]:
+        return pair_of_names(value) if isinstance(value, (list, tuple)) else name(value)
+
+    def write(self, value: str | tuple[str, str]) -> Any:
+        return value if isinstance(value, str) else list(value)
+
+    def json_schema(self) -> JsonSchema:
+        names = {"type": ["string", "integer"]}
+        return {"anyOf": [names, {"type": "array", "items": names, "minItems": 2, "maxItems": 2}]}
+
+
+class JointPart(Part):
+    """What all joints have: the links i and j, and the point on each."""
+
+    FREEDOMS: ClassVar[tuple[str, ...]] = ()
+
+    type: str
+    links: TwoNames = Field(description="[i, j]: motion and reaction are those of j against i")
+    at: Annotated[str | tuple[str, str], At()] | None = Field(
+        None, description="point of both links, or [point of i, point of j]; default the joint's own name"
+    )
+
+    stiffness: Stiffness | None = Field(
+        None, description="where reactions are not unique: {force: ..., moment: ...}, by which they are found"
+    )
+
+    @property
+    def freedoms(self) -> tuple[str, ...]:
+        """The freedoms of j in i that a drive can prescribe."""
+        return self.FREEDOMS
+
+    def turn_of(self, named: str | None) -> str | None:
+        """The turn that is named, or its only one; None where there is no such one, or a name is needed."""
+        turns = [freedom for freedom in self.freedoms if freedom.startswith("turn")]
+        if named is not None:
+            return named if named in turns else None
+        return turns[0] if len(turns) == 1 else None
+
+    def point_names(self, own: str) -> tuple[str, str]:
+        """The names of its points on i and on j; `own` is the joint's name."""
+        if isinstance(self.at, tuple):
+            return self.at
+        point = self.at or own
+        return point, point
+
+    @model_validator(mode="after")
+    def _two_links(self) -> Self:
+        if self.links[0] == self.links[1]:
+            raise ModelError(
+                f"it connects link {self.links[0]!r} with itself", "name two different links", ("links",)
+            )
+        return self

@@ -1,0 +1,288 @@
+"""Joints: what each kind is made of, and the freedoms it leaves of link j against link i."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal, Self
+
+from pydantic import Field, StrictBool, ValidationInfo, model_validator
+
+from dalembert.errors import ModelError
+from dalembert.model.joints.friction_keys import GearFriction, GuideFriction, PinFriction, SlotFriction
+from dalembert.model.joints.joint_part import JointPart
+from dalembert.model.joints.space_joints import SPACE_FREEDOMS, Frames, Matrix, SpaceJoint, frames
+from dalembert.model.part import mapping, reading
+from dalembert.model.quantities.values import (
+    NUMBER_OR_TEXT,
+    Components,
+    JsonSchema,
+    Scalar,
+    Value,
+    Vector,
+    at_item,
+    numbers,
+    signed,
+    written,
+)
+from dalembert.units import quantity
+
+
+class Pair(Value):
+    """Two positive numbers of a kind, `[of i, of j]`."""
+
+    def __init__(self, kind: str) -> None:
+        self.kind = kind
+
+    def read(self, value: Any, info: ValidationInfo) -> tuple[float, float]:
+        found = numbers(value, self.kind, reading(info))
+        if len(found) != 2:
+            raise ModelError(f"a list of {len(found)} stands where two are needed", "write [of i, of j]")
+        for i, number in enumerate(found):
+            at_item(i, signed, number, value[i], "positive")
+        return found[0], found[1]
+
+    def write(self, value: tuple[float, float]) -> Any:
+        return [written(number, self.kind) for number in value]
+
+    def json_schema(self) -> JsonSchema:
+        return {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 2, "maxItems": 2}
+
+
+class SlotDamping(Value):
+    """Of the slide; or `{slide:, turn:}`."""
+
+    def read(self, value: Any, info: ValidationInfo) -> tuple[float, float]:
+        rules = reading(info)
+        if isinstance(value, tuple):
+            return value[0], value[1]
+        keys = value if isinstance(value, Mapping) else {"slide": value}
+        mapping(keys, ["slide", "turn"], "{slide: 30, turn: 0.2}")
+        found = (
+            at_item(key, quantity, keys.get(key, 0.0), kind, rules.units)
+            for key, kind in (("slide", "damping"), ("turn", "torsion_damping"))
+        )
+        slide, turn = (signed(number, number, "not negative") for number in found)
+        return slide, turn
+
+    def write(self, value: tuple[float, float]) -> Any:
+        return {"slide": written(value[0], "damping"), "turn": written(value[1], "torsion_damping")}
+
+    def json_schema(self) -> JsonSchema:
+        both = {
+            "type": "object",
+            "properties": {
+                "slide": NUMBER_OR_TEXT | {"description": "force per speed"},
+                "turn": NUMBER_OR_TEXT | {"description": "moment per angular speed"},
+            },
+            "additionalProperties": False,
+        }
+        return {"anyOf": [NUMBER_OR_TEXT, both]}
+
+
+Angle = Annotated[float, Scalar("angle")]
+TurnDamping = Annotated[float, Scalar("torsion_damping", "not negative")]
+SlideDamping = Annotated[float, Scalar("damping", "not negative")]
+_DIRECTION = "of the slide, an angle in i's axes; default 0"
+
+
+class Pin(JointPart):
+    """A turning joint.
+
+    >>> Pin(links=("ground", "crank"), damping="0.2 N*m*s").freedoms
+    ('turn',)
+    """
+
+    FREEDOMS: ClassVar = ("turn",)
+    type: Literal["pin"] = "pin"
+    friction: PinFriction | None = Field(None, description="dry friction of the pin")
+    damping: TurnDamping = Field(0.0, description="viscous couple per angular speed")
+
+
+class Slider(JointPart):
+    """A straight guide: j slides along `direction` of i and does not turn in it."""
+
+    FREEDOMS: ClassVar = ("slide",)
+    type: Literal["slider"] = "slider"
+    direction: Angle = Field(0.0, description=_DIRECTION)
+    angle: Angle = Field(0.0, description="of j's axes to the direction, default 0")
+    friction: GuideFriction | None = Field(None, description="dry friction of the guide")
+    damping: SlideDamping = Field(0.0, description="viscous force per speed")
+
+
+class Slot(JointPart):
+    """A pin of j in a straight slot of i: it slides and turns."""
+
+    FREEDOMS: ClassVar = ("slide", "turn")
+    type: Literal["slot"] = "slot"
+    direction: Angle = Field(0.0, description=_DIRECTION)
+    friction: SlotFriction | None = Field(None, description="dry friction in the slot")
+    damping: Annotated[tuple[float, float], SlotDamping()] = Field(
+        (0.0, 0.0), description="viscous force per speed along the slot, or {slide:, turn:}"
+    )
+
+
+class Weld(JointPart):
+    """A rigid connection."""
+
+    type: Literal["weld"] = "weld"
+    angle: Angle = Field(0.0, description="of j's axes to i's, default 0")
+    axes: Frames | None = Field(
+        None, description="in space: local axes on both links, which are held together"
+    )
+
+    @property
+    def frames(self) -> tuple[Matrix, Matrix]:
+        """In space: its local axes in i's and in j's axes, a column each."""
+        return frames(self.axes, None, "")
+
+
+class Gear(JointPart):
+    """Two toothed wheels on i and j: their pitch circles, about the joint's points, roll on each other.
+
+    >>> Gear(links=("pinion", "wheel"), teeth=(20, 50), module="2 mm").pitch_radii
+    (0.02, 0.05)
+    """
+
+    type: Literal["gear"] = "gear"
+    radii: Annotated[tuple[float, float], Pair("length")] | None = Field(
+        None, description="of the pitch circles, [of i, of j], lengths; or teeth and module"
+    )
+    teeth: Annotated[tuple[float, float], Pair("number")] | None = Field(
+        None, description="numbers of teeth, [of i, of j]"
+    )
+    module: Annotated[float, Scalar("length", "positive")] | None = Field(
+        None, description="pitch diameter over number of teeth, a length"
+    )
+    pressure_angle: Angle = Field(0.3490658503988659, description="of the teeth, an angle; default 20 deg")
+    helix_angle: Angle = Field(
+        0.0,
+        description="in space: of i's teeth to its axis (of a bevel wheel, to the cone), right-hand positive",
+    )
+    axes: Frames | None = Field(
+        None, description="in space: {i: {z: [...]}, j: {z: [...]}}, the wheels' axes"
+    )
+    axis: Annotated[Vector, Components("number")] | None = Field(
+        None, description="in space: the axis of both wheels, the same components in both links"
+    )
+    internal: StrictBool = Field(False, description="true: the larger wheel is an internal gear")
+    friction: GearFriction | None = Field(None, description="dry friction of the teeth")
+
+    @property
+    def pitch_radii(self) -> tuple[float, float]:
+        """Radii of the pitch circles of i and j, metres."""
+        if self.radii is not None:
+            return self.radii
+        assert self.teeth is not None
+        assert self.module is not None
+        return self.teeth[0] * self.module / 2, self.teeth[1] * self.module / 2
+
+    @property
+    def frames(self) -> tuple[Matrix, Matrix]:
+        """In space: local axes in i's and in j's axes; z is the wheel's axis."""
+        return frames(self.axes, self.axis, "z")
+
+    @model_validator(mode="after")
+    def _in_space(self, info: ValidationInfo) -> Self:
+        dimension = reading(info).dimension
+        for key in ("helix_angle", "axes", "axis"):
+            if dimension == 2 and getattr(self, key):
+                raise ModelError(f"a wheel of the plane has no {key}", "leave it out", (key,))
+        if dimension == 3 and (self.axes is None) == (self.axis is None):
+            what = "a gear in space needs the axes of its wheels"
+            raise ModelError(what, "write axis: [0, 0, 1] for both, or axes: {i: {z: ...}, j: {z: ...}}")
+        if not -1.5 < self.helix_angle < 1.5:
+            raise ModelError("the helix angle is not between -86 and 86 deg", "write one", ("helix_angle",))
+        return self
+
+    @model_validator(mode="after")
+    def _one_size(self) -> Self:
+        toothed = self.teeth is not None and self.module is not None
+        half = (self.teeth is None) != (self.module is None)
+        if half or toothed == (self.radii is not None):
+            raise ModelError("its size is not clear", "give either radii, or both teeth and module")
+        if self.teeth is not None and any(number != round(number) for number in self.teeth):
+            raise ModelError("a number of teeth is not whole", "write whole numbers", ("teeth",))
+        if not 0 <= self.pressure_angle < 1.2:
+            raise ModelError(
+                "the pressure angle is not between 0 and 68 deg", "20 deg is usual", ("pressure_angle",)
+            )
+        _check_internal(self.internal, self.pitch_radii)
+        if self.friction is not None and self.friction.arm is None and self.teeth is None:
+            raise ModelError(
+                "its friction needs the arm of the teeth's contact",
+                "give arm, or the size as teeth and module",
+                ("friction",),
+            )
+        return self
+
+
+def _check_internal(internal: bool, radii: tuple[float, float]) -> None:
+    if internal and radii[0] == radii[1]:
+        raise ModelError(
+            "a wheel is as large as the internal wheel around it", "make one of the radii larger"
+        )
+
+
+class Rolling(JointPart):
+    """A wheel on j, about j's point, that rolls without slip on a line through i's point, or on a circle about it."""
+
+    FREEDOMS: ClassVar = ("turn",)
+    type: Literal["rolling"] = "rolling"
+    radius: Annotated[float, Scalar("length", "positive")] | None = Field(
+        None, description="of the wheel on a straight line, a length; or radii"
+    )
+    direction: Angle = Field(
+        0.0, description="of the line, an angle in i's axes; the wheel is on its left; default 0"
+    )
+    radii: Annotated[tuple[float, float], Pair("length")] | None = Field(
+        None, description="of the circle on i and of the wheel on j, lengths"
+    )
+    internal: StrictBool = Field(False, description="true: one rolls inside the other")
+
+    @model_validator(mode="after")
+    def _line_or_circle(self) -> Self:
+        if (self.radius is None) == (self.radii is None):
+            raise ModelError(
+                "its size is not clear",
+                "give either radius, for a wheel on a line, or radii, for one on a circle",
+            )
+        if self.radii is not None and self.direction:
+            raise ModelError("a wheel on a circle has no direction", "leave it out", ("direction",))
+        if self.radii is None and self.internal:
+            raise ModelError("a wheel on a line cannot be internal", "leave it out", ("internal",))
+        if self.radii is not None:
+            _check_internal(self.internal, self.radii)
+        return self
+
+
+PLANE_FREEDOMS: dict[str, tuple[str, ...]] = {
+    "pin": Pin.FREEDOMS,
+    "slider": Slider.FREEDOMS,
+    "slot": Slot.FREEDOMS,
+    "weld": (),
+    "gear": (),
+    "rolling": Rolling.FREEDOMS,
+}
+"""Joint in the plane -> freedoms that a drive can prescribe."""
+
+Joint = Annotated[
+    Pin | Slider | Slot | Weld | Gear | Rolling | SpaceJoint,
+    Field(discriminator="type", description="a joint"),
+]
+
+
+def freedoms(kind: object) -> tuple[str, ...]:
+    """The freedoms of a joint type, none for an unknown one."""
+    if not isinstance(kind, str):
+        return ()
+    return PLANE_FREEDOMS.get(kind) or SPACE_FREEDOMS.get(kind) or ()
+
+
+def refuse_unfinished(joint: str, kind: object) -> None:
+    """A cam is in the format but not in this version."""
+    if kind == "cam":
+        raise ModelError(
+            f"joint {joint!r} is a cam, which this version does not analyse",
+            "make the follower a slider or pin, driven by a law",
+            (joint,),
+        )

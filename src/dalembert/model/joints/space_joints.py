@@ -1,0 +1,301 @@
+"""Joints in space: their local axes on both links, and the freedoms that a drive can prescribe."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, ValidationInfo, model_validator
+
+from dalembert.errors import ModelError
+from dalembert.model.joints.friction_keys import SpaceFriction
+from dalembert.model.joints.joint_part import JointPart
+from dalembert.model.part import Part, mapping, reading
+from dalembert.model.quantities.values import (
+    NUMBER_OR_TEXT,
+    Components,
+    JsonSchema,
+    Scalar,
+    Value,
+    Vector,
+    at_item,
+    directed,
+    signed,
+    written,
+)
+from dalembert.units import quantity
+
+Matrix = tuple[Vector, Vector, Vector]
+"""Three axes, a vector each."""
+
+RIGHT = 1e-6
+"""Cosine of the angle between two axes that counts as a right angle."""
+
+
+class Frame(Part):
+    """Local axes of a joint on one link, in space."""
+
+    x: Annotated[Vector, Components("number")] | None = Field(None, description="direction of local x")
+    z: Annotated[Vector, Components("number")] | None = Field(None, description="direction of local z")
+
+    @model_validator(mode="after")
+    def _right_angle(self) -> Self:
+        for key in ("x", "z"):
+            vector = getattr(self, key)
+            if vector is not None:
+                at_item(key, directed, vector)
+        if self.x is not None and self.z is not None and abs(_dot(_unit(self.x), _unit(self.z))) > RIGHT:
+            raise ModelError("x and z are not at a right angle", "turn one of them, or leave it out")
+        return self
+
+
+class Frames(Part):
+    """Local axes of a joint on its two links."""
+
+    i: Frame = Field(default_factory=Frame, description="in i's axes")
+    j: Frame = Field(default_factory=Frame, description="in j's axes")
+
+
+class Dampings(Value):
+    """Of the only freedom; or `{freedom: coefficient}`."""
+
+    def read(self, value: Any, info: ValidationInfo) -> dict[str, float]:
+        rules, kind = reading(info), str(info.data.get("type"))
+        freedoms = damped_freedoms(kind)
+        if not freedoms:
+            raise ModelError("this joint has no freedom about one axis to damp", "leave it out")
+        keys = value if isinstance(value, dict) else {freedoms[0]: value}
+        if not isinstance(value, dict) and len(freedoms) > 1:
+            raise ModelError(f"it has the freedoms {', '.join(freedoms)}", f"write {{{freedoms[0]}: 0.2}}")
+        mapping(keys, list(freedoms), f"{{{freedoms[0]}: 0.2}}")
+        kinds = {key: "damping" if key.startswith("slide") else "torsion_damping" for key in keys}
+        return {
+            key: signed(at_item(key, quantity, item, kinds[key], rules.units), item, "not negative")
+            for key, item in keys.items()
+        }
+
+    def write(self, value: dict[str, float]) -> Any:
+        kinds = {key: "damping" if key.startswith("slide") else "torsion_damping" for key in value}
+        return {key: written(item, kinds[key]) for key, item in value.items()}
+
+    def json_schema(self) -> JsonSchema:
+        names = sorted({name for freedoms in SPACE_FREEDOMS.values() for name in freedoms})
+        what = {True: "force per speed", False: "moment per angular speed"}
+        both = {
+            "type": "object",
+            "properties": {
+                name: NUMBER_OR_TEXT | {"description": what[name.startswith("slide")]} for name in names
+            },
+            "additionalProperties": False,
+        }
+        return {"anyOf": [NUMBER_OR_TEXT, both]}
+
+
+SPACE_FREEDOMS: dict[str, tuple[str, ...]] = {
+    "revolute": ("turn",),
+    "prismatic": ("slide",),
+    "screw": ("turn", "slide"),
+    "cylindrical": ("slide", "turn"),
+    "universal": ("turn1", "turn2"),
+    "spherical": ("turn",),
+    "plane": ("slide1", "slide2", "turn"),
+    "sphere_between_planes": ("slide1", "slide2", "turn"),
+    "sphere_in_cylinder": ("slide", "turn"),
+    "cylinder_between_planes": ("slide1", "slide2", "turn1", "turn2"),
+    "slotted_sphere": ("turn1", "turn2"),
+    "torus": ("turn1", "turn2"),
+    "slotted_cylinder": ("slide", "turn"),
+    "slotted_sphere_in_cylinder": ("slide", "turn1", "turn2"),
+}
+"""Joint in space -> freedoms that a drive can prescribe; the turn of a sphere needs the drive's ``axis``."""
+
+BALLS = ("spherical", "sphere_between_planes", "sphere_in_cylinder")
+"""Joints that turn any way."""
+
+
+def damped_freedoms(kind: str) -> tuple[str, ...]:
+    """The freedoms of a joint type that can be damped: of a ball its slides, for it turns about no axis of its own.
+
+    >>> damped_freedoms("sphere_in_cylinder")
+    ('slide',)
+    """
+    return tuple(f for f in SPACE_FREEDOMS.get(kind, ()) if kind not in BALLS or f.startswith("slide"))
+
+
+MAIN: dict[str, str] = dict.fromkeys(SPACE_FREEDOMS, "x") | {"revolute": "z"}
+"""The local axis that the short form `axis` means."""
+
+
+FRICTION_KEYS: dict[str, tuple[str, ...]] = {
+    "revolute": ("radius", "circle", "guide", "thrust_radius"),
+    "prismatic": ("guide",),
+    "cylindrical": ("radius", "circle", "guide"),
+    "spherical": ("radius", "circle"),
+    "screw": ("radius", "thread_angle"),
+}
+"""Joints in space that can have friction, and what describes theirs beside the coefficients."""
+
+NEEDED_RADIUS = {"revolute": "journal", "spherical": "ball", "screw": "thread, the mean one"}
+"""Joints whose friction needs a radius, and what it is the radius of."""
+
+
+class SpaceJoint(JointPart):
+    """A joint in space, described by its local axes.
+
+    >>> SpaceJoint(type="revolute", links=("ground", "crank"), axis=(0, 0, 2)).frames[0][2]
+    (0.0, 0.0, 1.0)
+    """
+
+    type: Literal[
+        "revolute",
+        "prismatic",
+        "screw",
+        "cylindrical",
+        "universal",
+        "spherical",
+        "plane",
+        "sphere_between_planes",
+        "sphere_in_cylinder",
+        "cylinder_between_planes",
+        "slotted_sphere",
+        "torus",
+        "slotted_cylinder",
+        "slotted_sphere_in_cylinder",
+    ]
+    axes: Frames | None = Field(None, description="{i: {x: [...], z: [...]}, j: {...}} in link axes")
+    axis: Annotated[Vector, Components("number")] | None = Field(
+        None, description="the joint's axis, the same components in both links"
+    )
+    lead: Annotated[float, Scalar("length")] | None = Field(
+        None, description="of a screw: advance of j along the axis a turn, negative for a left-hand thread"
+    )
+    blocked: Literal["x", "y", "z"] | None = Field(
+        None, description="of a slotted sphere: the local axis about which it cannot turn; default x"
+    )
+    friction: SpaceFriction | None = Field(
+        None, description="dry friction, of a revolute, prismatic, cylindrical, spherical or screw joint"
+    )
+    damping: Annotated[dict[str, float], Dampings()] = Field(
+        default_factory=dict, description="viscous: of the only freedom, or {freedom: coefficient}"
+    )
+
+    @property
+    def freedoms(self) -> tuple[str, ...]:
+        """The freedoms of j in i that a drive can prescribe."""
+        return SPACE_FREEDOMS[self.type]
+
+    @property
+    def frames(self) -> tuple[Matrix, Matrix]:
+        """Its local axes in i's and in j's axes, each x, y, z."""
+        return frames(self.axes, self.axis, MAIN[self.type])
+
+    @model_validator(mode="after")
+    def _own_keys(self, info: ValidationInfo) -> Self:
+        if reading(info).dimension == 2:  # the mechanism says that it is not for the plane
+            return self
+        if (self.lead is None) == (self.type == "screw"):
+            if self.type == "screw":
+                raise ModelError("a screw needs its lead", "write lead: 5 mm, the advance a turn")
+            raise ModelError(f"a {self.type} joint has no lead", "leave it out", ("lead",))
+        if self.lead == 0:
+            raise ModelError(
+                "a screw of lead 0 does not advance", "write its lead, or type: revolute", ("lead",)
+            )
+        if self.blocked is not None and not self.type.startswith("slotted_sphere"):
+            raise ModelError(
+                f"a {self.type} joint has no blocked turn to choose", "leave it out", ("blocked",)
+            )
+        if self.axis is not None:
+            at_item("axis", directed, self.axis)
+            if self.axes is not None:
+                raise ModelError("both axis and axes are given", "leave one of them out", ("axis",))
+        self._check_axes()
+        if self.friction is not None:
+            self._check_friction(self.friction)
+        return self
+
+    def _check_friction(self, friction: SpaceFriction) -> None:
+        keys = FRICTION_KEYS.get(self.type)
+        if keys is None:
+            what = f"friction of a {self.type} joint is not analysed"
+            raise ModelError(what, "give it to one of " + ", ".join(FRICTION_KEYS), ("friction",))
+        for key in ("radius", "circle", "guide", "thrust_radius", "thread_angle"):
+            if key not in keys and getattr(friction, key) is not None:
+                raise ModelError(
+                    f"the friction of a {self.type} joint has no {key}", "leave it out", ("friction", key)
+                )
+        if friction.thrust_radius is not None and friction.radius is None:
+            if friction.guide is not None:
+                what = "its friction has a guide, and no radius of the journal in it"
+                raise ModelError(what, "write radius: 10 mm, or leave guide out", ("friction", "guide"))
+        elif friction.radius is None and self.type in NEEDED_RADIUS:
+            what = f"its friction needs the radius of its {NEEDED_RADIUS[self.type]}"
+            collar = ", or thrust_radius alone for a collar" if self.type == "revolute" else ""
+            raise ModelError(what, f"write radius: 10 mm{collar}", ("friction",))
+
+    def _check_axes(self) -> None:
+        if self.type == "universal":
+            pins = self.axes and (self.axes.i.z, self.axes.j.z)
+            if not pins or None in pins:
+                what = "a universal joint needs the directions of its two pins"
+                raise ModelError(what, "write axes: {i: {z: [0, 0, 1]}, j: {z: [0, 1, 0]}}")
+        elif self.axis is None and self.axes is None and self.type != "spherical":
+            raise ModelError(f"a {self.type} joint needs its axis", "write axis: [0, 0, 1], or axes")
+
+
+def frames(axes: Frames | None, axis: Vector | None, main: str) -> tuple[Matrix, Matrix]:
+    """Local axes on both links; what is not given of one link has the components it has in the other, made square.
+
+    What neither says is the link's own axis that is nearest to a right angle, z before x before y.
+    """
+    if axis is not None:
+        given = {main: axis}
+        return _frame(given, given, main), _frame(given, given, main)
+    i, j = (
+        {key: value for key in ("x", "z") if (value := getattr(part, key)) is not None}
+        for part in ((axes.i, axes.j) if axes else (Frame(), Frame()))
+    )
+    return _frame(i, j, main), _frame(j, i, main)
+
+
+def _frame(own: dict[str, Vector], other: dict[str, Vector], main: str) -> Matrix:
+    """x, y and z of one link."""
+    first = next((key for key in (main, "z", "x") if key in own), None)
+    if first is None:
+        own, first = other, next((key for key in (main, "z", "x") if key in other), None)
+    if first is None:
+        return (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+    second = "z" if first == "x" else "x"
+    one = _unit(own[first])
+    wanted = [v for part in (own, other) if (v := part.get(second)) is not None]
+    two = next(square for v in [*wanted, *_LINK_AXES[second]] if (square := _square(v, one)) is not None)
+    x, z = (one, two) if first == "x" else (two, one)
+    return x, _cross(z, x), z
+
+
+_LINK_AXES: dict[str, tuple[Vector, ...]] = {
+    "x": ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)),
+    "z": ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
+}
+
+
+def _square(vector: Vector, axis: Vector) -> Vector | None:
+    """The unit vector across an axis nearest to a vector; None where that is nearly along it."""
+    unit = _unit(vector)
+    along = _dot(unit, axis)
+    if abs(along) > 0.9:
+        return None
+    return _unit(tuple(u - along * a for u, a in zip(unit, axis, strict=True)))
+
+
+def _dot(a: Vector, b: Vector) -> float:
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def _unit(vector: Vector) -> Vector:
+    size = math.hypot(*vector)
+    return tuple(x / size for x in vector)
+
+
+def _cross(a: Vector, b: Vector) -> Vector:
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]

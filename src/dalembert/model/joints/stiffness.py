@@ -1,0 +1,69 @@
+"""Stiffness of joints, which settles reactions that equilibrium leaves open."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import Field, ValidationInfo
+
+from dalembert.errors import ModelError
+from dalembert.model.part import Part, reading
+from dalembert.model.quantities.values import (
+    NUMBER_OR_TEXT,
+    JsonSchema,
+    Value,
+    at_item,
+    numbers,
+    signed,
+    written,
+)
+from dalembert.units import quantity
+
+AXES = ", or [x, y, z] for the joint's own axes (of a joint that turns in two ways those of its link i)"
+
+
+class Stiffnesses(Value):
+    """One number; in space also one for each of the joint's own axes x, y, z."""
+
+    def __init__(self, kind: str) -> None:
+        self.kind = kind
+
+    def read(self, value: Any, info: ValidationInfo) -> float | tuple[float, ...]:
+        rules = reading(info)
+        if not isinstance(value, (list, tuple)):
+            return signed(quantity(value, self.kind, rules.units), value, "positive")
+        if rules.dimension == 2 or len(value) != 3:
+            what = f"a list of {len(value)} is no stiffness"
+            raise ModelError(what, "write one number" + ("" if rules.dimension == 2 else AXES))
+        found = numbers(value, self.kind, rules)
+        return tuple(at_item(k, signed, x, value[k], "positive") for k, x in enumerate(found))
+
+    def write(self, value: float | tuple[float, ...]) -> Any:
+        if isinstance(value, tuple):
+            return [written(x, self.kind) for x in value]
+        return written(value, self.kind)
+
+    def json_schema(self) -> JsonSchema:
+        return {
+            "anyOf": [
+                NUMBER_OR_TEXT,
+                {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 3, "maxItems": 3},
+            ]
+        }
+
+
+class Stiffness(Part):
+    """How a joint yields to its reaction; what is left out is rigid.
+
+    >>> Stiffness(force="20 kN/mm").force
+    20000000.0
+    """
+
+    force: Annotated[float | tuple[float, ...], Stiffnesses("stiffness")] | None = Field(
+        None,
+        description="force per length; in space also [x, y, z] along the joint's own axes, "
+        "of a joint that turns in two ways along those of its link i",
+    )
+    moment: Annotated[float | tuple[float, ...], Stiffnesses("torsion_stiffness")] | None = Field(
+        None, description="moment per angle; in space also [x, y, z] about the joint's own axes"
+    )

@@ -1,0 +1,274 @@
+"""A link: a rigid body with named points in its own axes and mass properties; it has no position and no forces."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar, Self
+
+from pydantic import Discriminator, Field, Tag, ValidationInfo, model_validator
+
+from dalembert.errors import ModelError
+from dalembert.model.links.shapes import (
+    MassProperties,
+    Shape,
+    ShapePart,
+    check_densities,
+    finite,
+    mass_properties,
+)
+from dalembert.model.part import Part, mapping, reading
+from dalembert.model.quantities.values import (
+    NUMBER_OR_TEXT,
+    Components,
+    JsonSchema,
+    Name,
+    Scalar,
+    Value,
+    Vector,
+    at_item,
+    name,
+    numbers,
+    signed,
+    vector,
+    vector_schema,
+    written,
+    written_vector,
+)
+from dalembert.units import quantity
+from dalembert.wording import closest, shown
+
+CENTER = "center"
+"""The name of the mass centre where a point is asked for."""
+
+GROUND = "ground"
+"""The reserved name of the fixed link."""
+
+
+@dataclass(frozen=True, slots=True)
+class Offset:
+    """A point placed from another one, or from the mass centre."""
+
+    start: str
+    at: Vector
+
+
+Inertia = float | tuple[float, ...] | tuple[tuple[float, ...], ...]
+
+
+class Place(Value):
+    """A point: a vector in link axes, or `{from: OTHER, at: VECTOR}`."""
+
+    def read(self, value: Any, info: ValidationInfo) -> Vector | Offset:
+        rules = reading(info)
+        if isinstance(value, Offset):
+            return value
+        if not isinstance(value, Mapping):
+            return vector(value, "length", rules)
+        keys = mapping(value, ["from", "at"], "{from: center, at: [x, y]}")
+        for key in ("from", "at"):
+            if key not in keys:
+                raise ModelError(f"the key {key!r} is missing", "write {from: center, at: [x, y]}")
+        return Offset(at_item("from", name, keys["from"]), at_item("at", vector, keys["at"], "length", rules))
+
+    def write(self, value: Vector | Offset) -> Any:
+        if isinstance(value, Offset):
+            return {"from": value.start, "at": written_vector(value.at, "length")}
+        return written_vector(value, "length")
+
+    def json_schema(self) -> JsonSchema:
+        relative = {
+            "type": "object",
+            "properties": {
+                "from": {"type": "string", "description": "another point of the link, or center"},
+                "at": vector_schema() | {"description": "from there, in link axes, lengths"},
+            },
+            "required": ["from", "at"],
+            "additionalProperties": False,
+        }
+        return {"anyOf": [*vector_schema()["anyOf"], relative]}
+
+
+class InertiaValue(Value):
+    """About the mass centre: one number; in space three principal values or a symmetric matrix."""
+
+    def read(self, value: Any, info: ValidationInfo) -> Inertia:
+        rules = reading(info)
+        if not isinstance(value, (list, tuple)):
+            return signed(quantity(value, "inertia", rules.units), value, "not negative")
+        if rules.dimension == 2:
+            remedy = "in the plane, write inertia: 0.02; in space, space: space at the top"
+            raise ModelError(f"{shown(value)} stands where one number is needed", remedy)
+        if len(value) != 3:
+            raise ModelError(
+                f"a list of {len(value)} is no inertia", "write 3 principal values, or the 3 rows of a matrix"
+            )
+        if isinstance(value[0], (list, tuple)):
+            return _symmetric(
+                tuple(at_item(i, numbers, row, "inertia", rules) for i, row in enumerate(value))
+            )
+        found = numbers(value, "inertia", rules)
+        return tuple(at_item(i, signed, x, value[i], "not negative") for i, x in enumerate(found))
+
+    def write(self, value: Inertia) -> Any:
+        if isinstance(value, tuple):
+            return [self.write(item) for item in value]
+        return written(value, "inertia")
+
+    def json_schema(self) -> JsonSchema:
+        rows = {
+            "type": "array",
+            "items": {"anyOf": [NUMBER_OR_TEXT, {"type": "array", "items": NUMBER_OR_TEXT}]},
+        }
+        return {"anyOf": [NUMBER_OR_TEXT, rows]}
+
+
+def _symmetric(rows: tuple[tuple[float, ...], ...]) -> tuple[tuple[float, ...], ...]:
+    if any(len(row) != 3 for row in rows) or any(
+        rows[i][j] != rows[j][i] for i in range(3) for j in range(i)
+    ):
+        raise ModelError(
+            "the matrix of inertia is not symmetric, 3 by 3", "give [i][j] and [j][i] the same value"
+        )
+    import numpy as np
+
+    principal = np.linalg.eigvalsh(np.array(rows))
+    if principal[0] < -1e-9 * principal[-1]:
+        raise ModelError(
+            f"the matrix of inertia has the principal value {principal[0]:.3g} kg m2, and no body has a negative one",
+            "check the signs of the products of inertia",
+        )
+    return rows
+
+
+Shapes = Annotated[
+    Annotated[Shape, Tag("one")] | Annotated[tuple[Shape, ...], Tag("several")],
+    Discriminator(lambda value: "several" if isinstance(value, (list, tuple)) else "one"),
+]
+
+
+class Link(Part):
+    """A rigid body.
+
+    >>> link = Link(points={"O": (0, 0), "A": "5 in @ 30 deg"}, mass="2 lbm", center=(0.06, 0))
+    >>> link.mass
+    0.90718474
+    """
+
+    INSTEAD: ClassVar = {"mass": "weight", "weight": "mass"}
+
+    points: dict[Name, Annotated[Vector | Offset, Place()]] = Field(
+        default_factory=dict, description="named points in link axes: lengths, or {from: OTHER, at: VECTOR}"
+    )
+    mass: Annotated[float, Scalar("mass", "not negative")] | None = Field(
+        None, description="mass; or give weight; default massless"
+    )
+    weight: Annotated[float, Scalar("force", "not negative")] | None = Field(
+        None, description="weight, a force, in place of the mass: divided by g"
+    )
+    center: Annotated[Vector, Components("length")] | None = Field(
+        None, description="mass centre in link axes, lengths; default the link's origin"
+    )
+    inertia: Annotated[Inertia, InertiaValue()] = Field(
+        0.0,
+        description="moment of inertia about the mass centre; in space 3 principal values or a 3 x 3 matrix",
+    )
+
+    shape: Shapes | None = Field(
+        None, description="what it looks like, one shape or a list: gives mass, center and inertia"
+    )
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        if self.mass is not None and self.weight is not None:
+            raise ModelError("both mass and weight are given", "leave one of them out")
+        if self.shape is not None:
+            self._check_shape()
+        if CENTER in self.points:
+            raise ModelError(
+                f"a point is named {CENTER!r}, the name of the mass centre",
+                "give it another name",
+                ("points", CENTER),
+            )
+        for point in self.points:
+            self.point(point)
+        return self
+
+    @property
+    def shapes(self) -> tuple[ShapePart, ...]:
+        """Its shapes, none, one or several."""
+        return () if self.shape is None else self.shape if isinstance(self.shape, tuple) else (self.shape,)
+
+    def _check_shape(self) -> None:
+        for key in ("center", "inertia"):
+            if getattr(self, key):
+                raise ModelError(
+                    f"both shape and {key} are given", "leave one of them out: a shape gives both", (key,)
+                )
+        check_densities(self.shapes, self.mass is not None or self.weight is not None)
+        if not finite(self.mass_properties, 1.0 if self.weight is not None else self.mass):
+            raise ModelError(
+                "its mass or inertia is no finite number", "check its size and units", ("shape",)
+            )
+
+    def mass_properties(self, mass: Any = None) -> MassProperties:
+        """Mass, centre and inertia of its shapes; of one density where the whole mass is given."""
+        return mass_properties(self.shapes, self._marked, mass)
+
+    def _marked(self, point: str) -> Vector:
+        """A point of its shape, which is not placed from the mass centre that the shape gives."""
+        if point not in self.points:
+            raise ModelError(f"there is no point {point!r}", closest(point, list(self.points)))
+        start = point
+        for _ in self.points:
+            place = self.points.get(start)
+            if isinstance(place, Offset):
+                start = place.start
+        if start == CENTER:
+            raise ModelError(
+                f"point {point!r} is placed from the mass centre, which the shape gives",
+                "place it from the origin",
+            )
+        return self.point(point)
+
+    def point(self, point: str) -> Vector:
+        """A point in link axes, metres; `center` is the mass centre. Raises ModelError if there is none."""
+        total: Vector | None = None
+        seen: list[str] = []
+        while True:
+            place = self._place(point, seen)
+            at = place.at if isinstance(place, Offset) else place
+            total = at if total is None else tuple(a + b for a, b in zip(total, at, strict=True))
+            if not isinstance(place, Offset):
+                return total
+            seen.append(point)
+            point = place.start
+
+    def _place(self, point: str, seen: list[str]) -> Vector | Offset:
+        if point in seen:
+            circle = " from ".join([*seen, point])
+            raise ModelError(
+                f"points are placed in a circle: {circle}",
+                "give one of them a vector",
+                ("points", seen[0], "from"),
+            )
+        if point == CENTER:
+            return self._center()
+        if point not in self.points:
+            path = ("points", seen[-1], "from") if seen else ("points",)
+            raise ModelError(f"there is no point {point!r}", closest(point, [*self.points, CENTER]), path)
+        return self.points[point]
+
+    def _center(self) -> Vector:
+        if self.center is not None:
+            return self.center
+        size = self._dimension()
+        if not self.shapes:
+            return (0.0,) * size
+        weighed = self.mass is not None or self.weight is not None
+        return tuple(self.mass_properties(1.0 if weighed else None).center[:size].tolist())
+
+    def _dimension(self) -> int:
+        for place in self.points.values():
+            return len(place.at if isinstance(place, Offset) else place)
+        return 2

@@ -1,0 +1,116 @@
+"""Solids within closed surfaces, read from STL files with the package trimesh."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pydantic import ValidationInfo
+
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.model.part import reading
+from dalembert.model.quantities.values import NUMBER_OR_TEXT, JsonSchema, Value, signed, written
+from dalembert.saving import check_installed
+from dalembert.unit_names import unit
+from dalembert.units import KINDS, quantity
+from dalembert.wording import shown
+
+LARGEST = 50_000_000
+"""Bytes of a mesh."""
+
+
+@dataclass(frozen=True)
+class MeshFile:
+    """A mesh's path as it is written, and the folder it is relative to."""
+
+    written: str
+    folder: str = ""
+
+    @property
+    def path(self) -> Path:
+        """Where the file is."""
+        return Path(self.folder) / self.written
+
+
+class MeshFileValue(Value):
+    """The path of an .stl file, relative to the model file."""
+
+    def read(self, value: Any, info: ValidationInfo) -> MeshFile:
+        if isinstance(value, MeshFile):
+            return value
+        if not isinstance(value, str) or not value.lower().endswith(".stl"):
+            raise ModelError(f"{shown(value)} is no STL file", "name one, for example file: rod.stl")
+        return MeshFile(value, reading(info).folder)
+
+    def write(self, value: MeshFile) -> Any:
+        return value.written
+
+    def json_schema(self) -> JsonSchema:
+        return {"type": "string"}
+
+
+class MeshUnit(Value):
+    """A unit of length, or a length: what 1 in the file is."""
+
+    def read(self, value: Any, info: ValidationInfo) -> float:
+        units = reading(info).units
+        if value is None:
+            return quantity(1, "length", units)
+        if (
+            isinstance(value, str)
+            and value[:1].isalpha()
+            and unit(value).dimension == KINDS["length"].dimension
+        ):
+            value = f"1 {value}"
+        return signed(quantity(value, "length", units), value, "positive")
+
+    def write(self, value: float) -> Any:
+        return written(value, "length")
+
+    def json_schema(self) -> JsonSchema:
+        return NUMBER_OR_TEXT
+
+
+def mesh_solid(file: MeshFile) -> tuple[float, Array, Array]:
+    """Volume, centre (3,) and inertia (3, 3) about it at a density of 1, in the mesh's own unit of length."""
+    check_installed("trimesh", "a mesh", "cad")
+    try:
+        state = os.stat(file.path)
+    except (OSError, ValueError):
+        raise ModelError(
+            f"there is no file {file.written!r}", "check the name; it is relative to the model file"
+        ) from None
+    if not file.path.is_file() or state.st_size > LARGEST:
+        what = "is no ordinary file" if not file.path.is_file() else f"has more than {LARGEST} bytes"
+        raise ModelError(f"the mesh {file.written!r} {what}", "name an STL file of a coarser mesh")
+    return _read(file, state.st_mtime_ns)
+
+
+@lru_cache(maxsize=64)
+def _read(file: MeshFile, changed: int) -> tuple[float, Array, Array]:
+    """Read once as long as the file stays as it is."""
+    import trimesh
+
+    try:
+        mesh = trimesh.load_mesh(file.path, file_type="stl")
+    except Exception as error:  # the package raises errors of many kinds for a file that is no mesh
+        raise ModelError(
+            f"the mesh {file.written!r} cannot be read: {error}", "write it anew as STL"
+        ) from None
+    if not len(mesh.faces) or not np.isfinite(mesh.vertices).all():
+        raise ModelError(f"the mesh {file.written!r} has no triangles", "write it anew as STL")
+    if not mesh.is_watertight or not mesh.is_winding_consistent:
+        raise ModelError(
+            f"the surface of the mesh {file.written!r} is not closed, so it has no volume",
+            "close its holes, or give mass, center and inertia",
+        )
+    if mesh.volume < 0:
+        mesh.invert()
+    middle = np.array(mesh.center_mass, float)
+    mesh.density = 1.0
+    return float(mesh.volume), middle, np.array(mesh.moment_inertia, float)

@@ -1,0 +1,339 @@
+"""Loads: forces, couples, springs and dampers, some of them unknown."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, ValidationInfo, model_validator
+
+from dalembert.errors import ModelError
+from dalembert.model.part import Part, Reading, reading
+from dalembert.model.quantities.figures import unit_vector
+from dalembert.model.quantities.values import (
+    Components,
+    JsonSchema,
+    Name,
+    Scalar,
+    Value,
+    Vector,
+    at_item,
+    directed,
+    listed,
+    name,
+    polar,
+    vector,
+    vector_schema,
+    written,
+    written_vector,
+)
+from dalembert.model.quantities.varying import Varying, value_at, varying, varying_schema, varying_tree
+from dalembert.wording import shown
+
+UNKNOWN: Literal["unknown"] = "unknown"
+
+
+class ForceValue(Value):
+    """A vector whose components may change, a scalar along `direction`, or unknown."""
+
+    def read(self, value: Any, info: ValidationInfo) -> Varying | tuple[Varying, ...] | Literal["unknown"]:
+        rules = reading(info)
+        if value == UNKNOWN:
+            return UNKNOWN
+        if isinstance(value, (list, tuple)):
+            items = listed(value, rules, "[x, y] or polar text r @ angle")
+            return tuple(at_item(i, varying, item, "force", rules) for i, item in enumerate(items))
+        return varying(value, "force", rules)
+
+    def write(self, value: Any) -> Any:
+        if value == UNKNOWN:
+            return value
+        if isinstance(value, tuple):
+            return [varying_tree(item, "force") for item in value]
+        return varying_tree(value, "force")
+
+    def json_schema(self) -> JsonSchema:
+        one = varying_schema()
+        return {"anyOf": [{"type": "array", "items": one, "minItems": 2, "maxItems": 3}, *one["anyOf"]]}
+
+
+class CoupleValue(Value):
+    """A couple that may change, or unknown; in space a vector."""
+
+    def read(self, value: Any, info: ValidationInfo) -> Any:
+        rules = reading(info)
+        if value == UNKNOWN:
+            return UNKNOWN
+        if isinstance(value, (list, tuple)):
+            items = listed(value, Reading(dimension=3), "[x, y, z]")
+            return tuple(at_item(i, varying, item, "moment", rules) for i, item in enumerate(items))
+        return varying(value, "moment", rules)
+
+    def write(self, value: Any) -> Any:
+        if isinstance(value, tuple):
+            return [varying_tree(item, "moment") for item in value]
+        return value if value == UNKNOWN else varying_tree(value, "moment")
+
+    def json_schema(self) -> JsonSchema:
+        one = varying_schema()
+        return {"anyOf": [*one["anyOf"], {"type": "array", "items": one, "minItems": 3, "maxItems": 3}]}
+
+
+class Direction(Value):
+    """An angle; in space a vector."""
+
+    def read(self, value: Any, info: ValidationInfo) -> float | Vector:
+        if isinstance(value, (list, tuple)):
+            return directed(vector(value, "number", Reading(dimension=3)))
+        return Scalar("angle").read(value, info)
+
+    def write(self, value: float | Vector) -> Any:
+        return list(value) if isinstance(value, tuple) else written(value, "angle")
+
+    def json_schema(self) -> JsonSchema:
+        components = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
+        return {"anyOf": [Scalar("angle").json_schema(), components]}
+
+
+class Spot(Value):
+    """A point of the link by name, or a vector in link axes."""
+
+    def read(self, value: Any, info: ValidationInfo) -> str | Vector:
+        if isinstance(value, (list, tuple)) or (isinstance(value, str) and "@" in value):
+            return vector(value, "length", reading(info))
+        return name(value)
+
+    def write(self, value: str | Vector) -> Any:
+        return value if isinstance(value, str) else written_vector(value, "length")
+
+    def json_schema(self) -> JsonSchema:
+        return {"anyOf": [{"type": ["string", "integer"]}, vector_schema()]}
+
+
+class Ends(Value):
+    """`[link.point, link.point]`."""
+
+    def read(self, value: Any, info: ValidationInfo) -> tuple[tuple[str, str], tuple[str, str]]:
+        if isinstance(value, str) or not isinstance(value, (list, tuple)) or len(value) != 2:
+            raise ModelError(f"{shown(value)} stands where two ends are needed", "write [ground.A, rod.B]")
+        first, second = (at_item(i, _end, item) for i, item in enumerate(value))
+        return first, second
+
+    def write(self, value: Any) -> Any:
+        return [".".join(end) for end in value]
+
+    def json_schema(self) -> JsonSchema:
+        return {"type": "array", "items": {"type": "string"}, "minItems": 2, "maxItems": 2}
+
+
+def _end(value: object) -> tuple[str, str]:
+    if isinstance(value, tuple) and len(value) == 2:
+        return name(value[0]), name(value[1])
+    if not isinstance(value, str) or value.count(".") != 1:
+        raise ModelError(f"{shown(value)} is no point of a link", "write link.point, for example rod.B")
+    link, point = value.split(".")
+    return name(link), name(point)
+
+
+class Directed(Part):
+    """A load along a direction, or a vector, which needs none."""
+
+    def replaced_by(self, name: str, value: object) -> tuple[str, ...]:
+        """A vector later takes the place of a single value and its direction."""
+        vector = isinstance(value, (list, tuple)) or (isinstance(value, str) and "@" in value)
+        return ("direction",) if name == "value" and vector else ()
+
+
+class ForceLoad(Directed):
+    """A force on a link: a vector, or a value along a direction; or unknown along a direction.
+
+    >>> ForceLoad(on="rod", at="P", value="100 N @ 90 deg").force({})
+    (np.float64(0.0), np.float64(100.0))
+    """
+
+    type: Literal["force"] = "force"
+    on: Name = Field(description="the link it acts on")
+    at: Annotated[str | Vector, Spot()] = Field(
+        description="the point it acts at: a name, center, or a vector in link axes"
+    )
+    value: Annotated[Varying | tuple[Varying, ...] | Literal["unknown"], ForceValue()] = Field(
+        description="[x, y], polar text r @ angle, a value along `direction`, or unknown; forces"
+    )
+    direction: Annotated[float | Vector, Direction()] | None = Field(
+        None, description="of a single value or an unknown force: an angle in `axes`; in space a vector"
+    )
+    axes: Literal["ground", "link"] = Field("ground", description="the axes of value and direction")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _polar(cls, keys: Any, info: ValidationInfo) -> Any:
+        if (
+            not isinstance(keys, Mapping)
+            or not isinstance(keys.get("value"), str)
+            or "@" not in keys["value"]
+        ):
+            return keys
+        if keys.get("direction") is not None:
+            raise ModelError(
+                "both a polar value and a direction are given", "leave one of them out", ("direction",)
+            )
+        rules = reading(info)
+        size, angle = at_item("value", polar, keys["value"], "force", rules)
+        value = at_item("value", varying, size, "force", rules)
+        return {**keys, "value": varying_tree(value, "force"), "direction": written(angle, "angle")}
+
+    @model_validator(mode="after")
+    def _one_meaning(self, info: ValidationInfo) -> Self:
+        vectorial = isinstance(self.value, tuple)
+        if vectorial and self.direction is not None:
+            raise ModelError("a vector needs no direction", "leave the direction out", ("direction",))
+        if not vectorial and self.direction is None:
+            raise ModelError(
+                f"{'an unknown force' if self.unknown else 'a single value'} needs a direction",
+                "write direction: [0, 0, 1], or value: [x, y, z]"
+                if reading(info).dimension == 3
+                else "write direction: 30 deg, or value: [x, y]",
+            )
+        return self
+
+    @property
+    def unknown(self) -> bool:
+        """Whether its size along `direction` is asked for."""
+        return isinstance(self.value, str)
+
+    @property
+    def components(self) -> tuple[Varying, ...] | None:
+        """Its components in `axes`, if it is given as a vector."""
+        return self.value if isinstance(self.value, tuple) else None
+
+    @property
+    def varying(self) -> tuple[Varying, ...]:
+        """Its values that may change."""
+        if isinstance(self.value, str):
+            return ()
+        return self.value if isinstance(self.value, tuple) else (self.value,)
+
+    def force(self, drives: Mapping[str, Any], functions: Mapping[str, Any] | None = None) -> tuple[Any, ...]:
+        """The components (fx, fy) in `axes`, N, at the drives' positions; of an unknown force, per unit of it."""
+        if isinstance(self.value, tuple):
+            return tuple(value_at(value, drives, functions) for value in self.value)
+        size = value_at(1.0 if isinstance(self.value, str) else self.value, drives, functions)
+        if isinstance(self.direction, tuple):
+            length = sum(x * x for x in self.direction) ** 0.5
+            return tuple(size * (x / length) for x in self.direction)
+        assert self.direction is not None
+        return tuple(size * x for x in unit_vector(self.direction))
+
+
+class Couple(Directed):
+    """A couple on a link, counter-clockwise positive."""
+
+    type: Literal["couple"] = "couple"
+    on: Name = Field(description="the link it acts on")
+    value: Annotated[Varying | tuple[Varying, ...] | Literal["unknown"], CoupleValue()] = Field(
+        description="a moment, or unknown; in space a vector"
+    )
+    direction: Annotated[Vector, Components("number")] | None = Field(
+        None, description="in space: the axis of a single value or of an unknown couple, a vector in `axes`"
+    )
+    axes: Literal["ground", "link"] = Field("ground", description="in space: the axes of value and direction")
+
+    @model_validator(mode="after")
+    def _one_meaning(self) -> Self:
+        if self.direction is not None and isinstance(self.value, tuple):
+            raise ModelError("a vector needs no direction", "leave the direction out", ("direction",))
+        if self.direction is not None:
+            at_item("direction", directed, self.direction)
+        return self
+
+    @property
+    def unknown(self) -> bool:
+        """Whether it is asked for."""
+        return isinstance(self.value, str)
+
+    @property
+    def axis(self) -> Vector:
+        """Unit vector of a single value in space; 1 in the plane."""
+        if self.direction is None:
+            return (1.0,)
+        length = sum(x * x for x in self.direction) ** 0.5
+        return tuple(x / length for x in self.direction)
+
+    @property
+    def components(self) -> tuple[Varying, ...] | None:
+        """Its components in `axes`, if it is given as a vector."""
+        return self.value if isinstance(self.value, tuple) else None
+
+    @property
+    def varying(self) -> tuple[Varying, ...]:
+        """Its values that may change."""
+        if isinstance(self.value, str):
+            return ()
+        return self.value if isinstance(self.value, tuple) else (self.value,)
+
+    def moment(self, drives: Mapping[str, Any], functions: Mapping[str, Any] | None = None) -> Any:
+        """The moment, N m, at the drives' positions; of an unknown couple, per unit of it."""
+        if isinstance(self.value, tuple):
+            return tuple(value_at(value, drives, functions) for value in self.value)
+        return value_at(1.0 if isinstance(self.value, str) else self.value, drives, functions)
+
+
+TwoEnds = Annotated[tuple[tuple[str, str], tuple[str, str]], Ends()]
+
+
+class Spring(Part):
+    """A straight spring between points of two links."""
+
+    type: Literal["spring"] = "spring"
+    between: TwoEnds = Field(description="[link.point, link.point]")
+    stiffness: Annotated[float, Scalar("stiffness", "not negative")] = Field(description="force per length")
+    free_length: Annotated[float, Scalar("length", "not negative")] = Field(
+        0.0, description="its length without force; default 0"
+    )
+
+
+class Damper(Part):
+    """A straight viscous damper between points of two links."""
+
+    type: Literal["damper"] = "damper"
+    between: TwoEnds = Field(description="[link.point, link.point]")
+    damping: Annotated[float, Scalar("damping", "not negative")] = Field(description="force per speed")
+
+
+Turning = Literal["turn", "turn1", "turn2"]
+WHICH_TURN = "in space: which turn of the joint; needed where it has several"
+
+
+class TorsionSpring(Part):
+    """A spring in the turn of a joint."""
+
+    type: Literal["torsion_spring"] = "torsion_spring"
+    joint: Name = Field(description="the joint it turns with")
+    freedom: Turning | None = Field(None, description=WHICH_TURN)
+    stiffness: Annotated[float, Scalar("torsion_stiffness", "not negative")] = Field(
+        description="moment per angle; a bare number is one per radian"
+    )
+    free_angle: Annotated[float, Scalar("angle")] = Field(
+        0.0,
+        description="the joint's angle without moment; default 0. A driven turn counts whole turns "
+        "with its drive. Another is, where the drives stand as assembly has them (else at 0), within half a turn of "
+        "what assembly states, the angle of j less that of i as written (460 deg is a turn more than 100 deg), else "
+        "of 0; from there it is followed",
+    )
+
+
+class TorsionDamper(Part):
+    """A viscous damper in the turn of a joint."""
+
+    type: Literal["torsion_damper"] = "torsion_damper"
+    joint: Name = Field(description="the joint it turns with")
+    freedom: Turning | None = Field(None, description=WHICH_TURN)
+    damping: Annotated[float, Scalar("torsion_damping", "not negative")] = Field(
+        description="moment per angular speed; a bare number is one per radian"
+    )
+
+
+Load = Annotated[
+    ForceLoad | Couple | Spring | Damper | TorsionSpring | TorsionDamper,
+    Field(discriminator="type", description="a load"),
+]

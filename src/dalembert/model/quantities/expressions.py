@@ -1,0 +1,339 @@
+"""Expressions in the drives' names, parsed against a fixed grammar of our own; nothing in a file is ever executed.
+
+sum     = product {("+" | "-") product}
+product = sign {("*" | "/") sign}
+sign    = {"+" | "-"} power
+power   = atom [("^" | "**") sign]          the exponent: a number from -16 to 16, without drives
+atom    = NUMBER | "pi" | DRIVE | FUNCTION "(" sum {"," sum} ")" | "(" sum ")"
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from dalembert.errors import ModelError
+from dalembert.unit_names import unit
+from dalembert.wording import closest, shown
+
+GRAMMAR = (
+    "an expression is made of numbers, drives' names, pi, + - * / ^, brackets and sin cos tan asin acos atan "
+    "atan2 sqrt exp log abs sign min max"
+)
+ARGUMENTS = dict.fromkeys(
+    ["sin", "cos", "tan", "asin", "acos", "atan", "sqrt", "exp", "log", "abs", "sign"], 1
+) | {
+    "atan2": 2,
+    "min": 2,
+    "max": 2,
+}
+"""Function -> how many arguments it takes."""
+
+CONSTANTS = {"pi": math.pi}
+
+LONGEST, DEEPEST, MOST, EXPONENT = 1000, 40, 200, 16
+"""Characters, brackets, operations, and size of an exponent."""
+OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "^": operator.pow,
+}
+RANKS = {"+": 1, "-": 1, "*": 2, "/": 2, "^": 4}
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    value: float
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Apply:
+    """An operator (`+ - * / ^`, one argument: the sign) or a function applied to its arguments."""
+
+    function: str
+    arguments: tuple[Tree, ...]
+
+
+Tree = Number | Name | Apply
+
+
+@dataclass(frozen=True, slots=True)
+class Expression:
+    """A quantity as an expression in the drives' positions (radians, metres), its result in `unit`.
+
+    >>> Expression("500*sin(O2)", "N").at({"O2": 0.5})
+    np.float64(239.712769302...)
+    """
+
+    text: str
+    unit: str = ""
+    tree: Tree = field(init=False, compare=False, repr=False)
+
+    def __post_init__(self) -> None:
+        tree, rest = parsed(self.text)
+        if rest:
+            raise ModelError(f"{shown(self.text)} ends with {shown(rest)}, which has no place there", GRAMMAR)
+        object.__setattr__(self, "tree", tree)
+
+    @property
+    def numbers(self) -> frozenset[str]:
+        """The numbers that stand in it, as written."""
+        return frozenset(match["number"] for match in _TOKEN.finditer(self.text) if match["number"])
+
+    @property
+    def names(self) -> frozenset[str]:
+        """The drives it uses."""
+        return frozenset(node.name for node in nodes(self.tree) if isinstance(node, Name))
+
+    def at(self, drives: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]] | None = None) -> Any:
+        """The SI value at the drives' positions; `functions` replaces numpy's, for values of another kind."""
+        scale = unit(self.unit) if self.unit else None
+        value = evaluated(self.tree, drives, functions) if functions else self._of_numbers(drives)
+        return value if scale is None else scale.si(value)
+
+    def _of_numbers(self, drives: Mapping[str, Any]) -> Any:
+        import numpy as np
+
+        with np.errstate(all="ignore"):
+            value = np.asarray(evaluated(self.tree, drives, numpy_functions()), float)
+        if not np.isfinite(value).all():
+            raise ModelError(
+                f"the expression {shown(self.text)} has no finite value {self._where(drives, value)}",
+                "change it, or the range of the drive",
+            )
+        return value[()]
+
+    def _where(self, drives: Mapping[str, Any], value: Any) -> str:
+        import numpy as np
+
+        first = np.argmin(np.isfinite(value).ravel())
+        shape = np.shape(value)
+        said = [
+            f"{name} = {np.broadcast_to(drives[name], shape).ravel()[first]:.6g}"
+            for name in sorted(self.names)
+        ]
+        return "at " + ", ".join(said) if said else "anywhere"
+
+
+def numpy_functions() -> dict[str, Callable[..., Any]]:
+    """The functions of the grammar for numbers and arrays."""
+    import numpy as np
+
+    other = {"asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2}
+    other |= {"min": np.minimum, "max": np.maximum}
+    return {name: other.get(name) or getattr(np, name) for name in ARGUMENTS}
+
+
+def evaluated(tree: Tree, drives: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]]) -> Any:
+    """The value of a tree over anything that has operators, functions from the table given."""
+    if isinstance(tree, Number):
+        return tree.value
+    if isinstance(tree, Name):
+        if tree.name not in drives:
+            raise ModelError(
+                f"an expression uses {tree.name!r}, which is no drive", closest(tree.name, list(drives))
+            )
+        return drives[tree.name]
+    values = [evaluated(argument, drives, functions) for argument in tree.arguments]
+    if tree.function in OPERATORS:
+        return -values[0] if len(values) == 1 else _applied(tree.function, *values)
+    return functions[tree.function](*values)
+
+
+def _applied(sign: str, a: Any, b: Any) -> Any:
+    if isinstance(a, float) and isinstance(b, float):
+        import numpy as np
+
+        return OPERATORS[sign](np.float64(a), np.float64(b))
+    return OPERATORS[sign](a, b)
+
+
+def nodes(tree: Tree) -> Iterator[Tree]:
+    """The tree and everything in it."""
+    yield tree
+    if isinstance(tree, Apply):
+        for argument in tree.arguments:
+            yield from nodes(argument)
+
+
+def written(tree: Tree, rank: int = 0) -> str:
+    """The tree as text that parses to the same tree.
+
+    >>> written(parsed("2*( (O2) + 1)^2")[0])
+    '2*(O2 + 1)^2'
+    """
+    if isinstance(tree, Number):
+        return (
+            format(tree.value, ".17g")
+            if tree.value != round(tree.value, 12)
+            else repr(tree.value).removesuffix(".0")
+        )
+    if isinstance(tree, Name):
+        return tree.name
+    if tree.function not in OPERATORS:
+        return f"{tree.function}({', '.join(written(argument) for argument in tree.arguments)})"
+    own = RANKS[tree.function]
+    if len(tree.arguments) == 1:
+        own, said = 3, "-" + written(tree.arguments[0], 3)
+    else:
+        left, right = tree.arguments
+        space = " " if own == 1 else ""
+        base = own + 1 if own == 4 else own
+        said = (
+            f"{written(left, base)}{space}{tree.function}{space}{written(right, 3 if own == 4 else own + 1)}"
+        )
+    return f"({said})" if own < rank else said
+
+
+_TOKEN = re.compile(
+    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[^\W\d]\w*)|(?P<sign>\*\*|[-+*/^(),]))"
+)
+
+
+def parsed(text: str) -> tuple[Tree, str]:
+    """The tree of the longest expression that the text begins with, and the text left over."""
+    if len(text) > LONGEST:
+        raise ModelError(
+            f"an expression of {len(text)} characters is too long", f"at most {LONGEST}; use a table instead"
+        )
+    parser = _Parser(text.replace("\u2212", "-"))
+    tree = parser.sum(0)
+    return tree, text[parser.place :].strip()
+
+
+class _Parser:
+    """Recursive descent over the grammar at the head of this file."""
+
+    def __init__(self, text: str) -> None:
+        self.text, self.place, self.operations = text, 0, 0
+
+    def peek(self) -> re.Match[str] | None:
+        return _TOKEN.match(self.text, self.place)
+
+    def sign_among(self, signs: tuple[str, ...]) -> str | None:
+        match = self.peek()
+        if match is None or match["sign"] not in signs:
+            return None
+        self.place = match.end()
+        return str(match["sign"])
+
+    def sum(self, depth: int) -> Tree:
+        if depth > DEEPEST:
+            raise ModelError(
+                f"the expression {shown(self.text)} is nested deeper than {DEEPEST}", "use fewer brackets"
+            )
+        return self.chain(("+", "-"), self.product, depth)
+
+    def product(self, depth: int) -> Tree:
+        return self.chain(("*", "/"), self.sign, depth)
+
+    def chain(self, signs: tuple[str, ...], part: Callable[[int], Tree], depth: int) -> Tree:
+        tree = part(depth)
+        while sign := self.sign_among(signs):
+            tree = Apply(sign, (tree, part(depth)))
+            self.operations += 1
+            if self.operations > MOST:
+                raise ModelError(
+                    f"the expression {shown(self.text)} has more than {MOST} operations",
+                    "use a table instead",
+                )
+        return tree
+
+    def sign(self, depth: int) -> Tree:
+        if depth > DEEPEST:
+            raise ModelError(
+                f"the expression {shown(self.text)} is nested deeper than {DEEPEST}", "use fewer signs"
+            )
+        found = self.sign_among(("+", "-"))
+        if found is None:
+            return self.power(depth)
+        inner = self.sign(depth + 1)
+        return inner if found == "+" else Apply("-", (inner,))
+
+    def power(self, depth: int) -> Tree:
+        base = self.atom(depth)
+        if not self.sign_among(("^", "**")):
+            return base
+        exponent = self.sign(depth + 1)
+        value = _constant(exponent)
+        if value is None or abs(value) > EXPONENT:
+            raise ModelError(
+                f"the expression {shown(self.text)} has an exponent that is no number from -{EXPONENT} to {EXPONENT}",
+                GRAMMAR,
+            )
+        return Apply("^", (base, exponent))
+
+    def atom(self, depth: int) -> Tree:
+        match = self.peek()
+        if match is None or (match["sign"] and match["sign"] != "("):
+            raise self.refusal()
+        self.place = match.end()
+        if match["number"]:
+            return Number(_finite(match["number"]))
+        if match["sign"]:
+            return self.closed(self.sum(depth + 1))
+        return self.named(match["name"], depth)
+
+    def named(self, name: str, depth: int) -> Tree:
+        call = self.sign_among(("(",))
+        if call and name not in ARGUMENTS:
+            raise ModelError(f"there is no function {shown(name)} in an expression", GRAMMAR)
+        if call:
+            return self.called(name, depth)
+        if name in CONSTANTS:
+            return Number(CONSTANTS[name])
+        if name in ARGUMENTS:
+            raise ModelError(f"the function {name} stands without its brackets", f"write {name}(...)")
+        if "__" in name:
+            raise self.refusal(name)
+        return Name(name)
+
+    def called(self, name: str, depth: int) -> Tree:
+        arguments = [self.sum(depth + 1)]
+        while self.sign_among((",",)):
+            arguments.append(self.sum(depth + 1))
+        tree = self.closed(Apply(name, tuple(arguments)))
+        if len(arguments) != ARGUMENTS[name]:
+            raise ModelError(
+                f"{name} is given {len(arguments)} arguments in {shown(self.text)}",
+                f"it takes {ARGUMENTS[name]}",
+            )
+        return tree
+
+    def closed(self, tree: Tree) -> Tree:
+        if not self.sign_among((")",)):
+            raise self.refusal("", "a bracket is not closed")
+        return tree
+
+    def refusal(self, found: str = "", why: str = "") -> ModelError:
+        rest = found or self.text[self.place :].strip()
+        why = why or (f"{shown(rest[:20])} has no place there" if rest else "it stops in the middle")
+        return ModelError(f"{shown(self.text)} is no expression: {why}", GRAMMAR)
+
+
+def _finite(digits: str) -> float:
+    value = float(digits)
+    if not math.isfinite(value):
+        raise ModelError(f"{shown(digits)} is no finite number", "write a finite one")
+    return value
+
+
+def _constant(tree: Tree) -> float | None:
+    if any(isinstance(node, Name) for node in nodes(tree)):
+        return None
+    import numpy as np
+
+    with np.errstate(all="ignore"):
+        value = float(evaluated(tree, {}, numpy_functions()))
+    return value if math.isfinite(value) else None

@@ -1,0 +1,246 @@
+"""Types of values for pydantic: scalars, vectors, names and quantities that change along the motion."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from typing import Annotated, Any
+
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, SerializationInfo, ValidationInfo
+from pydantic_core import CoreSchema, core_schema
+
+from dalembert.errors import ModelError
+from dalembert.model.part import Reading, reading
+from dalembert.model.quantities.expressions import parsed
+from dalembert.model.quantities.figures import FILE_UNITS, in_units, plain, plain_vector, unit_vector, whole
+from dalembert.unit_names import unit
+from dalembert.units import KINDS, NUMBER, quantity, text
+from dalembert.wording import shown
+
+Vector = tuple[float, ...]
+
+JsonSchema = dict[str, Any]
+NUMBER_OR_TEXT: JsonSchema = {"type": ["number", "string"]}
+
+
+class Value:
+    """Annotation of a field: how its value is read from a tree, written to one, and described."""
+
+    def read(self, value: Any, info: ValidationInfo) -> Any:
+        raise NotImplementedError
+
+    def write(self, value: Any) -> Any:
+        return value
+
+    def json_schema(self) -> JsonSchema:
+        raise NotImplementedError
+
+    def _serialized(self, value: Any, info: SerializationInfo) -> Any:
+        with in_units(info.context):
+            return self.write(value)
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.with_info_plain_validator_function(
+            self.read,
+            serialization=core_schema.plain_serializer_function_ser_schema(
+                self._serialized, info_arg=True, when_used="json"
+            ),
+        )
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchema:
+        return self.json_schema()
+
+
+class Scalar(Value):
+    """A number of one kind, in SI inside."""
+
+    def __init__(self, kind: str, sign: str = "") -> None:
+        self.kind, self.sign = kind, sign
+
+    def read(self, value: Any, info: ValidationInfo) -> float:
+        return signed(quantity(value, self.kind, reading(info).units), value, self.sign)
+
+    def write(self, value: float) -> Any:
+        return written(value, self.kind)
+
+    def json_schema(self) -> JsonSchema:
+        return NUMBER_OR_TEXT | {"description": f"{KINDS[self.kind].phrase}, SI unit {KINDS[self.kind].si}"}
+
+
+def signed(number: float, value: object, sign: str) -> float:
+    """The number, if it has the sign wanted: `positive`, `not negative` or any."""
+    if (sign == "positive" and not number > 0) or (sign == "not negative" and number < 0):
+        positive = sign == "positive"
+        raise ModelError(
+            f"{shown(value)} is {'not positive' if positive else 'negative'}",
+            "write a positive one" if positive else "write a positive one, or 0",
+        )
+    return number
+
+
+def written(number: float, kind: str) -> Any:
+    """The number with its SI unit as text, or as a file in the units of the moment has it; a plain number as it is."""
+    units = FILE_UNITS.get()
+    if units is None:
+        return text(number, kind) if KINDS[kind].si else number
+    return plain(number, kind, units) if KINDS[kind].si else whole(number)
+
+
+def written_vector(vector: Vector, kind: str) -> Any:
+    """The components, or polar text, as `written` has them."""
+    units = FILE_UNITS.get()
+    return [written(x, kind) for x in vector] if units is None else plain_vector(vector, kind, units)
+
+
+class Components(Value):
+    """A vector `[x, y]`, polar text `r @ angle`, in space `[x, y, z]`; Cartesian and SI inside."""
+
+    def __init__(self, kind: str) -> None:
+        self.kind = kind
+
+    def read(self, value: Any, info: ValidationInfo) -> Vector:
+        return vector(value, self.kind, reading(info))
+
+    def write(self, value: Vector) -> Any:
+        return written_vector(value, self.kind)
+
+    def json_schema(self) -> JsonSchema:
+        return vector_schema()
+
+
+def directed(direction: Vector) -> Vector:
+    """The components of a direction in space, if they say one."""
+    if len(direction) != 3:
+        raise ModelError(f"a direction in space has {len(direction)} components", "write [x, y, z]")
+    if not any(direction):
+        raise ModelError(
+            "all its components are 0", "write the direction it points in, for example [0, 0, 1]"
+        )
+    return direction
+
+
+def vector_schema() -> JsonSchema:
+    items = {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 2, "maxItems": 3}
+    return {"anyOf": [items, {"type": "string", "description": "polar: r @ angle"}]}
+
+
+def vector(value: object, kind: str, rules: Reading) -> Vector:
+    """The Cartesian components of a vector, SI.
+
+    >>> vector("2 m @ 90 deg", "length", Reading())
+    (0.0, 2.0)
+    """
+    if isinstance(value, str) and "@" in value:
+        radius, angle = polar(value, kind, rules)
+        x, y = unit_vector(angle)
+        size = quantity(radius, kind, rules.units)
+        return size * x, size * y
+    items = listed(value, rules, "[x, y] or polar text r @ angle")
+    return tuple(at_item(i, quantity, item, kind, rules.units) for i, item in enumerate(items))
+
+
+def at_item(index: int | str, function: Callable[..., Any], *arguments: Any) -> Any:
+    """The function's value; an error in it is one of this item."""
+    try:
+        return function(*arguments)
+    except ModelError as error:
+        raise type(error)(error.what, error.remedy, (index, *error.path)) from None
+
+
+def listed(value: object, rules: Reading, example: str) -> Sequence[object]:
+    """The components of a vector, counted."""
+    if rules.dimension == 3:
+        example = "[x, y, z]"
+    if isinstance(value, str) or not isinstance(value, Sequence):
+        raise ModelError(f"{shown(value)} is no vector", f"write {example}")
+    wanted = (rules.dimension,) if rules.dimension else (2, 3)
+    if len(value) not in wanted:
+        if rules.dimension == 2 and len(value) == 3:
+            example += ", or space: space at the top of the file"
+        if len(value) == 1 and len(parts := str(value[0]).split()) in wanted:
+            example = f"[{', '.join(parts)}]: commas stand between the components"
+        counted = f"{len(value)} component{'' if len(value) == 1 else 's'}"
+        raise ModelError(f"a vector has {counted} where {wanted[0]} are needed", f"write {example}")
+    return value
+
+
+def polar(value: str, kind: str, rules: Reading) -> tuple[str, float]:
+    """The radius as text and the angle in radians of `r @ angle`; a unit behind belongs where its dimension fits."""
+    if rules.dimension == 3:
+        raise ModelError(f"{shown(value)} is polar, which is for the plane", "write [x, y, z]")
+    radius, angle = (side.strip() for side in value.split("@", 1))
+    if "@" in angle or not radius or not angle:
+        raise ModelError(f"{shown(value)} is no polar vector", "write r @ angle, for example 3 @ 30 deg")
+    match = re.fullmatch(rf"({NUMBER})\s*(.*)", angle.replace("\u2212", "-"))
+    if match and match[2] and unit(match[2]).dimension == KINDS[kind].dimension:
+        if not re.fullmatch(NUMBER, radius) and parsed(radius)[1]:
+            raise ModelError(
+                f"{shown(value)} has two units of {KINDS[kind].phrase[2:].strip()}", "leave one of them out"
+            )
+        return f"{radius} {match[2]}", quantity(match[1], "angle", rules.units)
+    try:
+        return radius, quantity(angle, "angle", rules.units)
+    except ModelError:
+        if match is None:
+            raise
+        raise ModelError(
+            f"{shown(value)} ends with a unit that is neither of {KINDS[kind].phrase} nor of an angle",
+            f"write for example 3 {KINDS[kind].example.split(' ')[-1]} @ 30 deg",
+        ) from None
+
+
+def numbers(value: object, kind: str, rules: Reading) -> tuple[float, ...]:
+    """The SI values of a list of quantities."""
+    if isinstance(value, str) or not isinstance(value, Sequence):
+        raise ModelError(f"{shown(value)} stands where a list is needed", "write [..., ...]")
+    if not value:
+        raise ModelError("an empty list stands where values are needed", "write [..., ...]")
+    return tuple(at_item(i, quantity, item, kind, rules.units) for i, item in enumerate(value))
+
+
+def name(value: object) -> str:
+    """A name of a link, point, joint, drive or load; a whole number is one too."""
+    if isinstance(value, int) and not isinstance(value, bool):
+        return str(value)
+    if not isinstance(value, str):
+        raise ModelError(f"{shown(value)} is no name", "write a name as text")
+    if not value.strip() or value != value.strip() or not value.isprintable() or re.search(r"[.@]", value):
+        raise ModelError(
+            f"{shown(value)} cannot be a name", "a name is text without '.', '@' and spaces at its ends"
+        )
+    return value
+
+
+class NameValue(Value):
+    """A name."""
+
+    def read(self, value: Any, info: ValidationInfo) -> str:
+        return name(value)
+
+    def json_schema(self) -> JsonSchema:
+        return {"type": ["string", "integer"]}
+
+
+class PairOfNames(Value):
+    """Two names, `[i, j]`."""
+
+    def read(self, value: Any, info: ValidationInfo) -> tuple[str, str]:
+        return pair_of_names(value)
+
+    def write(self, value: tuple[str, str]) -> Any:
+        return list(value)
+
+    def json_schema(self) -> JsonSchema:
+        return {"type": "array", "items": {"type": ["string", "integer"]}, "minItems": 2, "maxItems": 2}
+
+
+def pair_of_names(value: object) -> tuple[str, str]:
+    if isinstance(value, str) or not isinstance(value, Sequence) or len(value) != 2:
+        found = f"a list of {len(value)}" if isinstance(value, (list, tuple)) else shown(value)
+        raise ModelError(f"{found} stands where two names are needed", "write [ground, crank]")
+    first, second = (at_item(i, name, item) for i, item in enumerate(value))
+    return first, second
+
+
+Name = Annotated[str, NameValue()]
+TwoNames = Annotated[tuple[str, str], PairOfNames()]

@@ -1,0 +1,210 @@
+"""Quantities that may change along the motion: a number, an expression in the drives, or a table."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import ValidationInfo
+
+from dalembert.errors import ModelError
+from dalembert.model.part import Reading, mapping, reading
+from dalembert.model.quantities.expressions import Expression, parsed
+from dalembert.model.quantities.figures import FILE_UNITS
+from dalembert.model.quantities.tables import SLACK, Table
+from dalembert.model.quantities.values import (
+    NUMBER_OR_TEXT,
+    JsonSchema,
+    Value,
+    at_item,
+    name,
+    numbers,
+    written,
+)
+from dalembert.units import KINDS, NUMBER, check_unit, quantity
+from dalembert.wording import shown
+
+Varying = float | Expression | Table
+"""A quantity that may change along the motion, in SI."""
+
+
+class Changing(Value):
+    """A quantity that may change along the motion: number, text with unit, expression, table."""
+
+    def __init__(self, kind: str) -> None:
+        self.kind = kind
+
+    def read(self, value: Any, info: ValidationInfo) -> Varying:
+        return varying(value, self.kind, reading(info))
+
+    def write(self, value: Varying) -> Any:
+        return varying_tree(value, self.kind)
+
+    def json_schema(self) -> JsonSchema:
+        return varying_schema()
+
+
+def varying_schema() -> JsonSchema:
+    table = {
+        "type": "object",
+        "properties": {
+            "against": {"type": "string", "description": "the drive whose position x is"},
+            "x": {
+                "type": "array",
+                "items": NUMBER_OR_TEXT,
+                "description": "positions of the drive, increasing",
+            },
+            "y": {"type": "array", "items": NUMBER_OR_TEXT, "description": "values there, one for each x"},
+            "interpolate": {"enum": ["linear", "cubic"], "description": "between the points; default linear"},
+            "periodic": {
+                "type": ["boolean", "number", "string"],
+                "description": "true: after a turn, or the whole turns x goes over (a slide: all of x); or the period",
+            },
+        },
+        "required": ["against", "x", "y"],
+        "additionalProperties": False,
+    }
+    expression = {
+        "type": "object",
+        "properties": {
+            "expression": {"type": "string", "description": "in the drives' names, radians and metres"},
+            "unit": {"type": "string", "description": "of its result; default the file's"},
+        },
+        "required": ["expression"],
+        "additionalProperties": False,
+    }
+    return {"anyOf": [NUMBER_OR_TEXT, table, expression]}
+
+
+def varying(value: object, kind: str, rules: Reading) -> Varying:
+    """A number, an expression or a table, as its form says.
+
+    >>> varying("2*sin(O2) kN", "force", Reading())
+    Expression(text='2*sin(O2)', unit='kN')
+    """
+    if isinstance(value, Expression) and (value.unit or KINDS[kind].si):
+        check_unit(value.unit, kind)
+    if isinstance(value, (Expression, Table)):
+        return value
+    if isinstance(value, Mapping):
+        return _mapped(value, kind, rules)
+    if isinstance(value, str) and _is_expression(value):
+        return expression(value, kind, rules)
+    return quantity(value, kind, rules.units)
+
+
+def _is_expression(value: str) -> bool:
+    plain = value.strip().replace("\u2212", "-")
+    if re.fullmatch(r"[+-]?(nan|inf|infinity)", plain.lower()):
+        return False
+    return bool(plain) and not re.fullmatch(  # the whole number first: the e of 1e3*O begins no unit
+        rf"(?>{NUMBER})(\s*[^\W\d].*|\s*[°%].*|\s+\d.*|,.*|\s*)", plain, re.DOTALL
+    )
+
+
+def expression(value: object, kind: str, rules: Reading, unit_text: str = "") -> Expression:
+    """An expression, with a unit behind it or the file's."""
+    if not isinstance(value, str):
+        raise ModelError(f"{shown(value)} is no expression", "write it as text, for example 500*sin(O2)")
+    rest = parsed(value)[1]
+    if rest and not re.match(r"[^\W\d]", rest):
+        Expression(value)
+    if rest:
+        value, unit_text = value.strip()[: -len(rest)].strip(), rest
+    if unit_text:
+        check_unit(unit_text, kind)
+    default = rules.units.text(kind) if rules.units else KINDS[kind].si
+    return Expression(value, unit_text or default)
+
+
+def _mapped(value: Mapping[str, Any], kind: str, rules: Reading) -> Varying:
+    if "expression" in value:
+        keys = mapping(value, ["expression", "unit"], "")
+        unit_text = keys.get("unit", "")
+        if not isinstance(unit_text, str):
+            raise ModelError(
+                f"{shown(unit_text)} is no unit", f"write {KINDS[kind].si}, for example", ("unit",)
+            )
+        return at_item("expression", expression, keys["expression"], kind, rules, unit_text)  # type: ignore[no-any-return]
+    return _table(value, kind, rules)
+
+
+def _table(value: Mapping[str, Any], kind: str, rules: Reading) -> Table:
+    example = "{against: O2, x: [...], y: [...]}"
+    keys = mapping(value, ["against", "x", "y", "interpolate", "periodic"], example)
+    for key in ("against", "x", "y"):
+        if key not in keys:
+            raise ModelError(f"the key {key!r} of a table is missing", f"write {example}")
+    against = at_item("against", name, keys["against"])
+    along = _along(keys["x"], rules.freedoms.get(against))
+    x = at_item("x", numbers, keys["x"], along, rules)
+    return Table(
+        against,
+        x,
+        at_item("y", numbers, keys["y"], kind, rules),
+        keys.get("interpolate", "linear"),
+        at_item("periodic", _period, keys.get("periodic", False), along, x, rules),
+        along,
+    )
+
+
+def _along(x: object, freedom: str | None) -> str:
+    """Whether a table's x are angles or lengths: the drive's freedom says; without one, their unit."""
+    if freedom:
+        return "length" if (freedom or "").startswith("slide") else "angle"
+    first = x[0] if isinstance(x, (list, tuple)) and x else 0
+    try:
+        quantity(first, "angle")
+    except ModelError:
+        return "length"
+    return "angle"
+
+
+def _period(value: object, along: str, x: tuple[float, ...], rules: Reading) -> float | None:
+    if value is False:
+        return None
+    if value is not True:
+        return quantity(value, along, rules.units)
+    span = x[-1] - x[0]
+    if along == "length":
+        return span
+    turns = max(round(span / (2 * math.pi)), 1)
+    return span if abs(span - 2 * math.pi * turns) <= SLACK * span else 2 * math.pi
+
+
+def varying_tree(value: Varying, kind: str) -> Any:
+    """The value as it stands in a file, in SI, units said."""
+    if isinstance(value, Expression):
+        units = FILE_UNITS.get()
+        if units is not None and _is_expression(value.text):
+            return value.text if value.unit == units.text(kind) else f"{value.text} {value.unit}"
+        return {"expression": value.text, "unit": value.unit} if value.unit else {"expression": value.text}
+    if isinstance(value, Table):
+        tree: dict[str, Any] = {
+            "against": value.against,
+            "x": [written(x, value.along) for x in value.x],
+            "y": [written(y, kind) for y in value.y],
+        }
+        if value.interpolate != "linear":
+            tree["interpolate"] = value.interpolate
+        if value.period is not None:
+            tree["periodic"] = written(value.period, value.along)
+        return tree
+    return written(value, kind)
+
+
+def value_at(value: Varying, drives: Mapping[str, Any], functions: Mapping[str, Any] | None = None) -> Any:
+    """The SI value at the drives' positions, of the drives' common shape.
+
+    >>> value_at(3.0, {})
+    np.float64(3.0)
+    """
+    found = value if isinstance(value, (int, float)) else value.at(drives, functions)
+    if functions is not None:
+        return found
+    import numpy as np
+
+    shape = np.broadcast_shapes(*(np.shape(position) for position in drives.values()))
+    return np.broadcast_to(np.asarray(found, float), shape)[()]

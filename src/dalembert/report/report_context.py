@@ -1,0 +1,36 @@
+"""What a report is about: the result, the position, the reader's notation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal
+
+from dalembert.views.notation import Notation, Shown
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+Method = Literal["matrix", "graphical", "superposition", "virtual-work"]
+METHODS: tuple[Method, ...] = ("matrix", "graphical", "superposition", "virtual-work")
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """What a report is about: the result, the position, the reader's notation, and the methods shown."""
+
+    r: Result
+    k: int
+    shown: Shown
+    methods: tuple[Method, ...] = METHODS
+    about: str = ""
+    notation: Notation = field(default_factory=Notation)
+
+
+def as_formula(sign: str) -> str:
+    """A sign of a drawing as a formula: only its index is marked there."""
+    return f"${sign}$" if "_{" in sign or len(sign) == 1 else sign
+
+
+def in_ground(c: Chosen) -> str:
+    """What a table in ground axes says of them where the equations are in the links' own."""
+    return ", in ground axes" if c.notation.axes == "link" else ""

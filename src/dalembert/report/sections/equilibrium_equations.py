@@ -1,0 +1,61 @@
+"""Free bodies' equations: letters, numbers, results."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from dalembert.analysis.methods.applied_forces import actions, joint_place, on_link
+from dalembert.analysis.result.reaction_components import table_row
+from dalembert.report.sections.terms import AXES, About, Piece, setting, signed, terms
+from dalembert.report.sections.terms import about as at
+from dalembert.report.sheet import Working
+from dalembert.views.notation import Shown
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+
+def moment_point(r: Result, link: str, k: int, wanted: str = "") -> About:
+    """A joint of one's choice if the link has it.
+
+    Else in the plane the mass centre, or the first joint; in space the joint with the most unknown forces, which then
+    are not in the moments, and of several that with the most unknowns.
+    """
+    joints = [name for name, d in r.mechanism.joints.items() if link in d.links]
+    if wanted in joints:
+        return About(wanted, joint_place(r, wanted)[k])
+    if not joints or (r.mechanism.dimension == 2 and r.mechanism.mass(link)):
+        return About("G", r.center(link)[k])
+    if r.mechanism.dimension == 2:
+        return About(joints[0], joint_place(r, joints[0])[k])
+    rows = {n: table_row(r.mechanism.joints[n]) for n in joints}
+    most = max(joints, key=lambda n: (len(rows[n].forces), len(rows[n].moments)))
+    return About(most, joint_place(r, most)[k])
+
+
+def link_equations(
+    r: Result, link: str, k: int, shown: Shown, wanted: str = ""
+) -> tuple[list[Working], About]:
+    """Sums of forces along the axes and of moments, each in letters, with numbers, and its value."""
+    about, everything = moment_point(r, link, k, wanted), actions(r)
+    s = setting(r, link, k, shown, about)
+    some = terms(s, on_link(everything, link))
+    axes, plane = AXES[: r.mechanism.dimension], r.mechanism.dimension == 2
+    lines = []
+    for axis, letter in enumerate(axes):
+        pieces = [piece for t in some for piece in t.force(axis)]
+        lines.append(_line(f"sum F_{{{letter}}}", pieces, shown, "force"))
+    for axis, letter in [(2, "")] if plane else list(enumerate(axes)):
+        pieces = [piece for t in some for piece in t.moment(axis)]
+        lines.append(_line(f"sum M_{{{at(about.name, letter)}}}", pieces, shown, "moment"))
+    return lines, about
+
+
+def _line(left: str, pieces: list[Piece], shown: Shown, kind: str) -> Working:
+    """One sum; what is left of it beside its largest term is rounding."""
+    total = math.fsum(p.value for p in pieces)
+    largest = max((abs(p.value) for p in pieces), default=0.0)
+    shown_total = shown.notation.number(0.0 if abs(total) < 1e-9 * largest else total)
+    letters, numbers = signed([p.letters for p in pieces]), signed([p.numbers for p in pieces])
+    return Working(f"{left}: quad {letters} = 0", f'{numbers} = {shown_total} "{shown.unit(kind)}"')

@@ -1,0 +1,244 @@
+"""Friction in the worked solution: circles, tangents, guides, what it costs, and both ends at rest."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from dalembert.analysis.compile.contacts import circle as circle_kind
+from dalembert.analysis.friction.efficiency import efficiency
+from dalembert.analysis.friction.friction_circles import (
+    TwoPins,
+    friction_circles,
+    pin_center,
+    tangent_sides,
+    two_pins,
+)
+from dalembert.analysis.friction.joint_friction import (
+    bears_on_faces,
+    friction_circle_radius,
+    friction_coefficient,
+    guide_contact,
+    holds_beyond,
+    unknown_names,
+)
+from dalembert.analysis.output.columns import rubbing_joints, unknown_kinds
+from dalembert.report.pictures import rubbing_pictures
+from dalembert.report.report_context import Chosen
+from dalembert.report.sheet import Sheet, Working
+from dalembert.views import both_ends
+
+GROUND = "ground"
+
+
+def friction(sheet: Sheet, c: Chosen) -> None:
+    """The section on friction of a solved position; none without friction."""
+    if c.r.friction is None or not c.r.friction.known(c.k):
+        return
+    sheet.heading("Friction")
+    sheet.text(
+        "Signs follow the relative motion. The reaction of a pin touches its friction circle on the side that turns "
+        "the link against that motion; on a guide it leans from the normal by phi, against the sliding."
+    )
+    sheet.figure(*rubbing_pictures(c))
+    for joint in (n for n in c.r.joints if friction_circle_radius(c.r, n)):
+        sheet.equations(pin_lines(c, joint))
+    for two in _two_force_links(c):
+        words, lines = tangent_lines(c, two)
+        sheet.text(words)
+        sheet.equations(lines)
+    for joint in (n for n in c.r.joints if bears_on_faces(c.r, n)):
+        sheet.equations(guide_lines(c, joint))
+    cost(sheet, c)
+
+
+def pin_lines(c: Chosen, joint: str) -> list[Working]:
+    """Radius of the friction circle and the couple of friction about the pin's centre."""
+    r, shown, k = c.r, c.shown, c.k
+    described: Any = r.mechanism.joints[joint]
+    mu, unit = friction_coefficient(r, joint, k), shown.unit("length")
+    large = shown.number("length", float(described.friction.radius))
+    radius = shown.number("length", float(friction_circles(r, joint).radii[k]))
+    if circle_kind(r.mechanism, described) == "sin":
+        angle = f"{c.notation.degrees(math.atan(mu))} deg"
+        letters, numbers = f"R_{{{joint}}} sin (arctan mu_{{{joint}}})", f"{large} sin {angle}"
+    else:
+        letters, numbers = f"mu_{{{joint}}} R_{{{joint}}}", f"{c.notation.given(mu)} cdot {large}"
+    i, j = described.links
+    on = i if j == GROUND else j
+    force = float(np.hypot(*r.reaction(joint)[k]))
+    couple = float(r.friction_moment(joint, on)[k])
+    sign = "−" if couple * c.notation.torque < 0 else ""
+    sense = "clockwise" if couple < 0 else "counter-clockwise"
+    other = i if on == j else j
+    return [
+        Working(f"r_{{{joint}}} = {letters}", numbers, f'{radius} "{unit}"'),
+        Working(
+            f"M_{{f{shown.pair(other, on)}}} = {sign}r_{{{joint}}} {shown.reaction(joint, on)}",
+            shown.converted(
+                f"{sign}{radius} cdot {shown.number('force', force)}", "moment", "length", "force"
+            ),
+            f'{shown.number("moment", couple)} "{shown.unit("moment")}, {sense} about {joint}"',
+        ),
+    ]
+
+
+def _two_force_links(c: Chosen) -> list[TwoPins]:
+    """Links that two pins alone load, with a friction circle in one at least."""
+    found: dict[str, TwoPins] = {}
+    for joint in (n for n in c.r.joints if friction_circle_radius(c.r, n)):
+        two = two_pins(c.r, joint) if c.r.mechanism.joints[joint].type == "pin" else None
+        if two is not None and abs(two.tension[c.k]) > c.shown.least["force"]:
+            found[two.link] = two
+    return list(found.values())
+
+
+def tangent_lines(c: Chosen, two: TwoPins) -> tuple[str, list[Working]]:
+    """Which common tangent of its circles a two-force link's reactions take, and the direction of that line."""
+    r, shown, k = c.r, c.shown, c.k
+    a, b = two.joints
+    span = pin_center(r, b)[k] - pin_center(r, a)[k]
+    length, along = float(np.hypot(*span)), math.atan2(span[1], span[0])
+    radii = [float(friction_circles(r, n).radii[k]) if friction_circle_radius(r, n) else 0.0 for n in (a, b)]
+    sides = [int(s) for s in np.nan_to_num(tangent_sides(r, a, b)[k])]
+    sine = (sides[0] * radii[0] - sides[1] * radii[1]) / length
+    turn = -math.asin(sine)
+    inner = sides[0] * sides[1] < 0
+    sign = "+" if inner else "−"
+    n, state = shown.link(two.link), two.state(k)
+    large, small = ((a, b), radii) if radii[0] >= radii[1] else ((b, a), radii[::-1])
+    sizes = [shown.number("length", x) for x in small]
+    words = (
+        f"Link {shown.heading(two.link)} carries the forces of {a} and {b} alone, so both lie on one line, a common "
+        f"tangent of the two friction circles{f', in {state}' if state else ''}. It takes "
+        + ("an inner one, as friction turns the link the same way at both pins" if inner else "an outer one")
+        + "; its inclination to the line of the pins:"
+    )
+    number, degrees = shown.number("length", length), c.notation.degrees
+    moved = "+" if turn >= 0 else "−"
+    return words, [
+        Working(
+            f"beta_{{{n}}} = arcsin (frac(r_{{{large[0]}}} {sign} r_{{{large[1]}}}; {a}{b}))",
+            f"arcsin (frac({sizes[0]} {sign} {sizes[1]}; {number}))",
+            f"{degrees(abs(turn))} deg",
+        ),
+        Working(
+            f"theta_{{{a}{b}}} {moved} beta_{{{n}}}",
+            f"{degrees(along)} deg {moved} {degrees(abs(turn))} deg",
+            f"{degrees(along + turn)} deg",
+        ),
+    ]
+
+
+def guide_lines(c: Chosen, joint: str) -> list[Working]:
+    """Sum of the contact forces of a guide, its corner loads, and the friction they make."""
+    r, shown, k = c.r, c.shown, c.k
+    contact = guide_contact(r, joint)
+    described: Any = r.mechanism.joints[joint]
+    i, j = described.links
+    unit = shown.unit("force")
+    normal, couple = float(contact.normal[k]), float(contact.couple[k])
+    total = float(contact.lower[k] + contact.upper[k])
+    number = shown.number
+    name = f"N_{{{shown.pair(i, j)}}}"
+    out = []
+    if described.friction.guide is None:
+        out.append(Working(f"S_{{{joint}}} = |{name}|", "", f'{number("force", total)} "{unit}"'))
+    else:
+        behind, ahead = described.friction.guide
+        tilting = f"frac(|2 M_{{{joint}}} − (l_{{2}} − l_{{1}}) {name}|; l_{{1}} + l_{{2}})"
+        size = abs(2 * couple - (ahead - behind) * normal) / (behind + ahead)
+        out.append(
+            Working(
+                f'S_{{{joint}}} = "greater of" |{name}| "and" {tilting}',
+                f'"greater of" {number("force", abs(normal))} "and" {number("force", size)}',
+                f'{number("force", total)} "{unit}: {contact.mode[k]}"',
+            )
+        )
+        loads = (("lower", "+", float(contact.lower[k])), ("upper", "−", float(contact.upper[k])))
+        out += [
+            Working(
+                f"N_{{{face}}} = frac(S_{{{joint}}} {sign} {name}; 2)",
+                "",
+                f'{number("force", load)} "{unit}"',
+            )
+            for face, sign, load in loads
+        ]
+    mu = friction_coefficient(r, joint, k)
+    rub = float(np.hypot(*r.friction_force(joint)[k]))
+    out.append(
+        Working(
+            f"F_{{f{shown.pair(i, j)}}} = mu_{{{joint}}} S_{{{joint}}}",
+            f"{c.notation.given(mu)} cdot {number('force', total)}",
+            f'{number("force", rub)} "{unit}"',
+        )
+    )
+    return out
+
+
+def cost(sheet: Sheet, c: Chosen) -> None:
+    """Power that each joint loses and its share; the efficiency in both senses."""
+    r, shown, k = c.r, c.shown, c.k
+    lost = {n: float(r.power_lost(n)[k]) for n in rubbing_joints(r)}
+    total = sum(lost.values())
+    if not total > 0:
+        return
+    drives = sum(float((r.effort(d) * r.drive_speed(d))[k]) for d in r.drives)
+    put_in = max(drives, total - drives)
+    rows = [
+        [n, shown.number("power", p), c.notation.percent(p / put_in) if not r.unknown_loads else "–"]
+        for n, p in lost.items()
+    ]
+    rows.append(
+        [
+            "sum",
+            shown.number("power", total),
+            c.notation.percent(total / put_in) if not r.unknown_loads else "–",
+        ]
+    )
+    heads = ["Joint", f"Power lost ({shown.unit('power')})", "of the power put in"]
+    sheet.table(heads, rows, "What friction takes at this position", total=True)
+    found = efficiency(r)
+    forward, reverse = float(found.forward[k]), float(found.reverse[k])
+    parts = []
+    if math.isfinite(forward):
+        parts.append(f"{c.notation.percent(forward)} where the drive moves the load")
+    if math.isfinite(reverse):
+        held = " (0 or less: self-locking)" if reverse <= 0 else ""
+        parts.append(f"{c.notation.percent(reverse)} where the load moves the drive{held}")
+    if len(r.status) > 1 and math.isfinite(found.cycle):
+        parts.append(f"{c.notation.percent(found.cycle)} over all positions, inertia and all")
+    if parts:
+        sheet.text(f"Efficiency, without inertia: {'; '.join(parts)}.")
+
+
+def at_rest(sheet: Sheet, c: Chosen, answers: Any) -> None:
+    """Both ends of every effort or load that friction leaves open: drawing and joint forces of each."""
+    r, shown, k = c.r, c.shown, c.k
+    sheet.heading("At rest: what friction can hold")
+    sheet.text(str(r.reasons[k]))
+    sheet.equations(intervals(c))
+    for words, end, known in both_ends.ends(r, k, shown):
+        sheet.heading(words, 2)
+        if known:
+            there = replace(c, r=end)
+            sheet.figure(*rubbing_pictures(there))
+            answers(sheet, there)
+
+
+def intervals(c: Chosen) -> list[Working]:
+    """What friction leaves open: every effort or unknown load between the two impending motions, and beyond them."""
+    r, shown, out = c.r, c.shown, []
+    for name in unknown_names(r):
+        kind = unknown_kinds(r)[name]
+        low, high = (shown.number(kind, float(v)) for v in r.interval(name)[c.k])
+        out.append(Working(f'"{name}: {low} to {high} {shown.unit(kind)}"'))
+        held = r.holding(name)[c.k]
+        if holds_beyond(r.interval(name)[c.k], held):
+            low, high = (shown.number(kind, float(v)) if math.isfinite(v) else "any value" for v in held)
+            words = f"with the right history friction can hold {low} to {high} {shown.unit(kind)}"
+            out.append(Working(f'"{name}: {words}"'))
+    return out

@@ -1,0 +1,152 @@
+"""The motion by loop equations, and the inertia forces that follow from it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from dalembert.analysis.methods.members import displaced_inertia, inertia_shares
+from dalembert.analysis.output.rounding import PART
+from dalembert.report.formula import bracketed
+from dalembert.report.report_context import Chosen
+from dalembert.report.sections import kinematics
+from dalembert.report.sections.gear_motion import mesh
+from dalembert.report.sheet import Sheet, Working
+from dalembert.views import draw
+from dalembert.views.notation import Notation
+
+
+def motion(sheet: Sheet, c: Chosen) -> None:
+    r, shown = c.r, c.shown
+    if not r.drives:
+        return
+    sheet.heading("Motion")
+    moving = any(np.any(r.speed(link)) or np.any(r.acceleration(link)) for link in r.links)
+    for n, loop in enumerate(kinematics.loops(r, c.k)):
+        names = " – ".join(shown.heading(link) for link in loop.links)
+        sheet.text(f"Loop {n + 1} through links {names}: the sides sum to zero.")
+        sheet.equations(kinematics.position_lines(loop, shown))
+        if moving:
+            sheet.equations(kinematics.velocity_lines(loop, shown))
+            sheet.equations(kinematics.acceleration_lines(loop, shown))
+    for name, joint in r.mechanism.joints.items() if moving else ():
+        if joint.type == "gear":
+            words, lines = mesh(r, c.k, name, shown)
+            sheet.text(words)
+            sheet.equations(lines)
+    heads, rows = _motion_table(c, moving)
+    sheet.table(heads, rows, "Solved for the motion of the links and of their mass centres")
+    if moving:
+        sheet.figure(
+            draw.velocity_polygon(r, c.k + 1, c.notation), draw.acceleration_polygon(r, c.k + 1, c.notation)
+        )
+
+
+def _motion_table(c: Chosen, moving: bool) -> tuple[list[str], list[list[str]]]:
+    r, shown, k = c.r, c.shown, c.k
+    heads = ["Link", "$theta$ (°)"]
+    if moving:
+        heads += ["$omega$ (rad/s)", "$alpha$ (rad/s²)"]
+        heads += [f"$a_{{G{axis}}}$ ({shown.unit('acceleration')})" for axis in "xy"]
+    rows = []
+    for link in r.links:
+        row = [shown.heading(link), shown.notation.degrees(float(r.angle(link)[k]))]
+        if moving:
+            a = r.center_acceleration(link)[k]
+            row += [shown.number("angular_speed", float(r.speed(link)[k]))]
+            row += [shown.number("angular_acceleration", float(r.acceleration(link)[k]))]
+            row += [shown.number("acceleration", float(x)) for x in a]
+        rows.append(row)
+    return heads, rows
+
+
+def inertia(sheet: Sheet, c: Chosen) -> None:
+    r = c.r
+    heavy = [link for link in r.links if r.mechanism.mass(link)]
+    if not r.inertia or not heavy:
+        return
+    sheet.heading("Inertia forces")
+    units_of_inertia(sheet, c)
+    lines = [line for link in heavy for line in _inertia_lines(c, link)]
+    sheet.equations(lines)
+    turned = {k for k in heavy if abs(float(r.acceleration(k)[c.k])) > c.shown.least["angular_acceleration"]}
+    displaced = [k for k in heavy if r.mechanism.inertia(k) and k in turned]
+    sheet.figure(*(draw.displaced_inertia(r, k, c.k + 1, c.notation) for k in displaced[:3]))
+    shares(sheet, c)
+
+
+def units_of_inertia(sheet: Sheet, c: Chosen) -> None:
+    """Where a mass times an acceleration is no force in the reader's units: the factor between them."""
+    shown, said = c.shown, []
+    for words, kind, of in (
+        ("masses times accelerations", "force", ("mass", "acceleration")),
+        ("moments of inertia times angular accelerations", "moment", ("inertia", "angular_acceleration")),
+    ):
+        factor, product = shown.factor(kind, *of), "·".join(shown.unit(k).removeprefix("rad") for k in of)
+        product = product.replace("·/", "/")
+        if factor < 1:
+            size = shown.conversion(1 / factor)
+            said.append(f"As 1 {shown.unit(kind)} is {size} {product}, {words} are divided by {size}.")
+        elif factor > 1:
+            size = shown.conversion(factor)
+            said.append(f"As 1 {product} is {size} {shown.unit(kind)}, {words} are multiplied by {size}.")
+    turning = shown.factor("moment", "inertia", "angular_acceleration")
+    same = math.isclose(shown.factor("force", "mass", "acceleration"), turning)
+    sheet.text(" ".join(said[:1] if same else said))
+
+
+def shares(sheet: Sheet, c: Chosen) -> None:
+    """Whether inertia could be left out."""
+    found = inertia_shares(c.r)
+    if found:
+        least = max(s.share for s in found)
+        worst, share = found[0], Notation(figures=2).percent(least if least > PART else 0.0)
+        said = "could be left out" if least < 0.05 else "must not be left out"
+        sheet.text(
+            f"Inertia {said}: it makes up to {share} of the largest {worst.quantity} of {worst.of}"
+            f"{' over the cycle' if len(c.r.status) > 1 else ''}."
+        )
+
+
+def _inertia_lines(c: Chosen, link: str) -> list[Working]:
+    """F_I = -m a_G with its size and direction, T_I = -I alpha, and the offset of the force that makes both."""
+    r, shown, k = c.r, c.shown, c.k
+    n, m, inertia = shown.link(link), r.mechanism.mass(link), r.mechanism.inertia(link)
+    a, found = r.center_acceleration(link)[k], displaced_inertia(r, link)
+    fx, fy = (float(f) for f in found.force[k])
+    size, alpha = math.hypot(fx, fy), float(r.acceleration(link)[k])
+    number = shown.number
+    product = (
+        f"−{number('mass', m)} ({number('acceleration', float(a[0]))}, {number('acceleration', float(a[1]))})"
+    )
+    direction = f" angle {c.notation.direction(fx, fy)} deg" if size > shown.least["force"] else ""
+    out = [
+        Working(
+            f"F_{{I{n}}} = −m_{{{n}}} a_{{G{n}}}",
+            shown.converted(product, "force", "mass", "acceleration"),
+            f'({number("force", fx)}, {number("force", fy)}) = {number("force", size)} "{shown.unit("force")}"'
+            + direction,
+        )
+    ]
+    if not inertia or abs(alpha) <= shown.least["angular_acceleration"]:
+        return out
+    minus = "−" if c.notation.torque > 0 else ""
+    product = f"{minus}{number('inertia', inertia)} cdot {bracketed(number('angular_acceleration', alpha))}"
+    couple = number("moment", float(found.couple[k]))
+    out.append(
+        Working(
+            f"T_{{I{n}}} = {minus}I_{{{n}}} alpha_{{{n}}}",
+            shown.converted(product, "moment", "inertia", "angular_acceleration"),
+            f'{couple} "{shown.unit("moment")}"',
+        )
+    )
+    if size > shown.least["force"]:
+        out.append(
+            Working(
+                f"h_{{{n}}} = frac(|T_{{I{n}}}|; F_{{I{n}}})",
+                f"frac({couple.lstrip('−')}; {number('force', size)})",
+                f'{c.notation.number(float(found.offset[k]) / shown.arm)} "{shown.arm_unit}"',
+            )
+        )
+    return out

@@ -1,0 +1,210 @@
+"""What each source does: the answer split by superposition, and the work of each for a displacement of the drives."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.analysis.methods.applied_forces import GROUND, Action, actions
+from dalembert.analysis.output.columns import drive_kinds, load_kind
+from dalembert.analysis.output.rounding import PART
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.printing import remainder
+from dalembert.report.report_context import Chosen, as_formula, in_ground
+from dalembert.report.sections.terms import floors
+from dalembert.report.sheet import Sheet, Working
+from dalembert.views import draw
+from dalembert.views.notation import Shown, along, own_name
+
+if TYPE_CHECKING:
+    from dalembert.analysis.methods.virtual_work import VirtualWork
+    from dalembert.analysis.result.result import Result
+
+Column = tuple[str, Array, str]
+"""Sign, parts by source (S,), and kind of one number."""
+
+
+def superposition(sheet: Sheet, c: Chosen) -> None:
+    """Tables of the efforts and joint forces by source; in the plane the chain's polygon for each load."""
+    from dalembert.analysis.methods.superposition import superposition as split
+
+    r, shown, k = c.r, c.shown, c.k
+    try:
+        parts = split(r)
+    except ModelError as error:
+        sheet.heading("Superposition")
+        sheet.text(f"{error.what[:1].upper()}{error.what[1:]}.")
+        return
+    if len(parts.sources) < 2:
+        return
+    sheet.heading("Superposition")
+    efforts: list[Column] = [
+        (shown_name(c, "effort", d), parts.efforts[:, k, n], drive_kinds(r, d)["effort"])
+        for n, d in enumerate(r.drives)
+    ]
+    efforts += [(own_name(u), parts.loads[:, k, n], load_kind(r, u)) for n, u in enumerate(r.unknown_loads)]
+    forces: list[Column] = []
+    for n, joint in enumerate(r.joints):
+        sign = shown.reaction(joint, r.mechanism.joints[joint].links[1])
+        for axis in range(r.mechanism.dimension):
+            forces.append((along(sign, "xyz"[axis]), parts.force[:, k, n, axis], "force"))
+    units = f"Forces in {shown.unit('force')}{in_ground(c)}, couples in {shown.unit('moment')}"
+    tables, gap = _tables(efforts, forces, r.mechanism.dimension), remainder(float(parts.gap[k]))
+    for n, columns in enumerate(tables):
+        caption = (
+            f"{units}; the parts sum to the whole within {gap}" if n == len(tables) - 1 else in_ground(c)[2:]
+        )
+        heads = ["Source", *(f"{as_formula(name)}" for name, _, _ in columns)]
+        sheet.table(heads, _rows(c, parts.sources, columns), caption, total=True)
+    external = [s for s in parts.sources if s in r.mechanism.loads]
+    if 2 <= len(external) <= 4 and "graphical" in c.methods and r.mechanism.dimension == 2:
+        sheet.figure(*(draw.force_chain(r, k + 1, c.notation, case=s) for s in external))
+
+
+def _tables(efforts: list[Column], forces: list[Column], dimension: int) -> list[list[Column]]:
+    """Columns side by side: in the plane the first nine; in space all of up to six joints, whole joints a table."""
+    if dimension == 2:
+        return [[*efforts, *forces[:10]][:9]]
+    first = max(0, (9 - len(efforts)) // 3 * 3)
+    out = [[*efforts, *forces[:first]]]
+    return [*out, *(forces[n : min(n + 9, 18)] for n in range(first, min(len(forces), 18), 9))]
+
+
+def _rows(c: Chosen, sources: tuple[str, ...], columns: list[Column]) -> list[list[str]]:
+    """A row a source and the sum; rounding is 0."""
+    rows = [
+        [source_sign(c, s), *(c.shown.number(kind, float(v[n])) for _, v, kind in columns)]
+        for n, s in enumerate(sources)
+        if c.r.mechanism.dimension == 2
+        or any(abs(float(v[n])) > c.shown.least[kind] for _, v, kind in columns)
+    ]
+    return [*rows, ["sum", *(c.shown.number(kind, float(v.sum())) for _, v, kind in columns)]]
+
+
+def shown_name(c: Chosen, kind: str, of: str) -> str:
+    """The sign of a drive's effort."""
+    a = next(a for a in actions(c.r) if a.kind == kind and a.of == of)
+    return c.shown.effort(a) if kind == "effort" else c.shown.symbol(a)
+
+
+def source_sign(c: Chosen, source: str) -> str:
+    """A contribution as the reader writes it."""
+    if source in c.r.mechanism.loads:
+        return as_formula(own_name(source))
+    for words, letter in (
+        ("inertia force of ", "F_{I"),
+        ("inertia couple of ", "T_{I"),
+        ("weight of ", "W_{"),
+    ):
+        if source.startswith(words):
+            return f"${letter}{c.shown.link(source.removeprefix(words))}}}$"
+    return source
+
+
+def virtual_work(sheet: Sheet, c: Chosen) -> None:
+    from dalembert.analysis.methods.virtual_work import virtual_work as by_virtual_work
+
+    r, shown, k = c.r, c.shown, c.k
+    if not r.drives:
+        return
+    found = by_virtual_work(r)
+    if found.independent:
+        sheet.heading("Virtual work, the independent check")
+    else:
+        sheet.heading("Virtual work, a check")
+        sheet.text(
+            "The work of friction contains the joint forces found above: with friction virtual work checks that "
+            "solution, it is no independent one."
+        )
+    least = floors(r, k)
+    idle = "no reaction does work" if found.independent else "of the reactions friction alone does work"
+    for n, drive in enumerate(r.drives):
+        kind = drive_kinds(r, drive)["effort"]
+        angular = kind == "moment"
+        unit = "rad" if angular else shown.arm_unit
+        way = " clockwise" if angular and c.notation.torque < 0 else ""
+        sheet.text(f"Displacements for one {unit} of drive {drive}{way}; {idle}.")
+        sense = c.notation.torque if angular else 1  # the drive turns the way that counts as positive
+        move, turn = (sense / shown.arm, sense) if angular else (1.0, shown.arm)
+        reach = (
+            1.0 if angular else 1.0 / r.compiled.layout.length
+        )  # a turn that moves as far as the drive does
+        rows = []
+        floor = max(least[angular], 1e-12 * float(np.abs(found.power[:, k, n]).max(initial=0.0)))
+        for a, v, w, p in zip(found.actions, found.velocity, found.spin, found.power, strict=True):
+            if _nothing(a, k, least):
+                continue
+            force = bool(np.nan_to_num(a.force).any())
+            acts = [_vector_of(shown, "force", a.force[k])] if force else []
+            moves = [_moved(shown, v[k, n], move, reach * r.compiled.layout.length)] if force else []
+            if np.abs(a.couple[k]).max() > least[1] or not force:
+                acts.append(_vector_of(shown, "moment", a.couple[k]))
+                moves.append(_moved(shown, w[k, n], turn * c.notation.torque, reach))
+            work = shown.number(kind, float(p[k, n]), floor)
+            rows.append([source_sign(c, a.source), " and ".join(acts), " and ".join(moves), work])
+        total = float(found.power[:, k, n].sum())
+        rows.append(["sum", "", "", shown.number(kind, total, floor)])
+        heads = ["Load", "Force or couple", "Displacement or turn", f"Work ({shown.unit(kind)})"]
+        sheet.table(heads, rows, total=True)
+        sign = shown_name(c, "effort", drive)
+        effort = shown.number(kind, float(found.effort[k, n]), floor)
+        sheet.equations(
+            [Working(f"{sign} = −sum (F cdot delta r + T delta theta)", "", f'{effort} "{shown.unit(kind)}"')]
+        )
+    sheet.text(f"The matrix answer agrees within {remainder(float(found.gap[k]))} of the largest work.")
+    if r.mechanism.dimension == 3:
+        _powers(sheet, c, found)
+
+
+def _powers(sheet: Sheet, c: Chosen, found: VirtualWork) -> None:
+    """Power of the drives, loads, inertia and friction at the speeds of this position: their sum is zero."""
+    r, k = c.r, c.k
+    speed = r.schedule.speed[k]
+    if not speed.any():
+        return
+    words = {kind: f"{kind}s" for kind in ("weight", "damper", "spring")}
+    words |= {kind: kind for kind in ("inertia", "friction")}
+    parts = {"drives": float(r.effort_array[k] @ speed)}
+    for a, power in zip(found.actions, found.power[:, k], strict=True):
+        name = words.get(a.kind, "loads")
+        parts[name] = parts.get(name, 0.0) + float(power @ speed)
+    for name in r.unknown_loads:
+        a = next(a for a in actions(r) if a.kind == "load" and a.of == name)
+        parts["loads"] = parts.get("loads", 0.0) + _power(r, a, k)
+    rows = [[name, c.shown.number("power", value)] for name, value in parts.items()]
+    total = sum(parts.values())
+    rows.append(["sum", c.shown.number("power", total)])
+    heads = ["Power put in by", f"Power ({c.shown.unit('power')})"]
+    idle = "no reaction has power" if found.independent else "of the reactions friction alone has power"
+    sheet.table(heads, rows, f"At the speeds of this position; {idle}", total=True)
+
+
+def _power(r: Result, a: Action, k: int) -> float:
+    """Power of an action on a link in space at the speeds of a position."""
+    if a.link == GROUND:
+        return 0.0
+    w = r.speed(a.link)[k]
+    v = r.velocity(a.link)[k] + np.cross(w, a.at[k] - r.position(a.link)[k])
+    return float(a.force[k] @ v + a.couple[k] @ w)
+
+
+def _nothing(a: Action, k: int, least: tuple[float, ...]) -> bool:
+    """Whether an action in space is rounding at this position."""
+    return bool(np.abs(a.force[k]).max() <= least[0] and np.abs(a.couple[k]).max() <= least[1] and least[2])
+
+
+def _vector_of(shown: Shown, kind: str, v: Any) -> str:
+    """A number, or a vector by its components."""
+    numbers = [shown.number(kind, float(x)) for x in np.atleast_1d(v)]
+    return f"({', '.join(numbers)})" if np.ndim(v) else numbers[0]
+
+
+def _moved(shown: Shown, v: Any, factor: float, size: float) -> str:
+    """A displacement or turn for a unit of the drive, in the reader's units; beside a size rounding is 0."""
+    numbers = [
+        shown.notation.number(float(x) * factor if abs(float(x)) > PART * size else 0.0)
+        for x in np.atleast_1d(v)
+    ]
+    return f"({', '.join(numbers)})" if np.ndim(v) else numbers[0]

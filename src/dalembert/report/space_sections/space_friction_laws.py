@@ -1,0 +1,256 @@
+"""Friction in space: the law of each joint in figures, the force and couple it makes, what it costs."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from dalembert.analysis.compile.contacts import circle as circle_kind
+from dalembert.analysis.friction.joint_friction import Rub, rubs_of
+from dalembert.analysis.output.rounding import PART
+from dalembert.arrays import Array
+from dalembert.report.report_context import Chosen
+from dalembert.report.sections.friction import cost
+from dalembert.report.sheet import Sheet, Working
+from dalembert.views.notation import along
+
+LAWS = {
+    "revolute": "the couple about z' is the radius of the friction circle times S, the force across the axis; that of "
+    "a collar its radius times the force along the axis",
+    "prismatic": "the force along x' is the coefficient times S, the force across the slide",
+    "cylindrical": "the coefficient times S, the force across the axis, lies along the slip, which is made of the "
+    "slide and of the radius times the turn; p is the part of its direction along x', and around it; with k for the "
+    "coefficient S is without the friction around the axis",
+    "spherical": "the couple is the radius times the force S, against the relative angular velocity",
+    "screw": "the coefficient times the thread's normal force, and times the force across the axis, lies along the "
+    "helix at the mean radius",
+}
+"""What makes the friction of a joint, by its type."""
+
+
+def space_friction(sheet: Sheet, c: Chosen) -> None:
+    """The section on friction of a solved position; none without friction."""
+    if c.r.friction is None or not c.r.friction.known(c.k):
+        return
+    sheet.heading("Friction")
+    sheet.text(
+        "On the second link of a joint friction is against its motion relative to the first. It follows the joint's "
+        "normal forces, which are those of the solution below."
+    )
+    for joint in c.r.joints:
+        rubs = rubs_of(c.r, joint, c.k)
+        if rubs:
+            kind = c.r.mechanism.joints[joint].type
+            sheet.text(f"Joint {joint}, {kind}: {LAWS[kind]}.")
+            sheet.equations(_Joint(c, joint, rubs).lines())
+    cost(sheet, c)
+
+
+class _Joint:
+    """The lines of one joint."""
+
+    def __init__(self, c: Chosen, joint: str, rubs: tuple[Rub, ...]) -> None:
+        self.c, self.joint, self.rubs = c, joint, rubs
+        self.described: Any = c.r.mechanism.joints[joint]
+        self.j = self.described.links[1]
+        self.sign = c.shown.reaction(joint, self.j)
+        if c.r.friction_force(joint)[c.k].any():
+            self.sign = f"N{self.sign.removeprefix(c.notation.letter)}"
+        index = c.shown.between(joint, self.j)
+        self.force_sign, self.couple_sign = f"{c.notation.letter}_{{f{index}}}", f"M_{{f{index}}}"
+
+    def lines(self) -> list[Working]:
+        kind = self.described.type
+        return getattr(self, f"_{kind}")()  # type: ignore[no-any-return]
+
+    # figures
+
+    def _number(self, kind: str, value: float) -> str:
+        return self.c.shown.number(kind, value)
+
+    def _text(self, kind: str, value: float) -> str:
+        return f'{self._number(kind, value)} "{self.c.shown.unit(kind)}"'
+
+    def _bearing(self, rub: Rub, n: int, of: int, axes: str) -> Working:
+        """N of one contact: of both ends of a bearing that has them, else of the components that make it."""
+        name = f"S_{{{self.joint}{f',{n + 1}' if of > 1 else ''}}}"
+        if of > 1:
+            end = ("behind", "ahead")[n]
+            return Working(name, "", f'{self._text("force", rub.bearing)} "at the end {end}"')
+        inside = " + ".join(f"{along(self.sign, a + chr(39))}^{{2}}" for a in axes)
+        return Working(name, f"({inside})^{{1/2}}", self._text("force", rub.bearing))
+
+    def _radius(self, rub: Rub, radius: float) -> Working:
+        """Radius of a friction circle: R sin(arctan mu), or mu R."""
+        large, mu, given = self._number("length", radius), rub.coefficient, self.c.notation.given
+        if circle_kind(self.c.r.mechanism, self.described) == "sin":
+            letters = f"R_{{{self.joint}}} sin (arctan mu_{{{self.joint}}})"
+            numbers = f"{large} sin {self.c.notation.degrees(math.atan(mu))} deg"
+        else:
+            letters, numbers = f"mu_{{{self.joint}}} R_{{{self.joint}}}", f"{given(mu)} cdot {large}"
+        return Working(f"r_{{{self.joint}}} = {letters}", numbers, self._text("length", rub.strength))
+
+    def _sum(self, sign: str, kind: str, parts: list[tuple[str, str]], amounts: list[float]) -> Working:
+        """Letters and numbers of products, all with the sign of the friction."""
+        minus = "−" if sum(amounts) < 0 else ""
+        letters, numbers = (" + ".join(p[n] for p in parts) for n in (0, 1))
+        if len(parts) > 1:
+            letters, numbers = f"({letters})", f"({numbers})"
+        total, numbers = self._text(kind, sum(amounts)), f"{minus}{numbers}"
+        return Working(
+            f"{sign} = {minus}{letters}", self._couple(numbers) if kind == "moment" else numbers, total
+        )
+
+    def _couple(self, numbers: str) -> str:
+        """A product of a length and a force as a moment."""
+        return self.c.shown.converted(numbers, "moment", "length", "force")
+
+    def _product(self, factor: str, factor_number: str, rub: Rub, n: int, of: int) -> tuple[str, str]:
+        name = f"S_{{{self.joint}{f',{n + 1}' if of > 1 else ''}}}"
+        return f"{factor} {name}", f"{factor_number} cdot {self._number('force', rub.bearing)}"
+
+    # laws
+
+    def _revolute(self) -> list[Working]:
+        pins = [rub for rub in self.rubs if rub.kind == "pin"]
+        collars = [rub for rub in self.rubs if rub.kind == "collar"]
+        out = (
+            [self._radius(pins[0], self.described.friction.radius)] if pins else []
+        )  # none of a collar alone
+        out += [self._bearing(rub, n, len(pins), "xy") for n, rub in enumerate(pins)]
+        parts = [
+            self._product(f"r_{{{self.joint}}}", self._number("length", rub.strength), rub, n, len(pins))
+            for n, rub in enumerate(pins)
+        ]
+        for rub in collars:
+            mu, arm = self._given(rub), self._number("length", self.described.friction.thrust_radius)
+            size = f"|{along(self.sign, 'z' + chr(39))}|"
+            letters = f"mu_{{{self.joint}}} R_{{t}} {size}"
+            parts.append((letters, f"{mu} cdot {arm} cdot {self._number('force', rub.bearing)}"))
+        sign = along(self.couple_sign, "z'")
+        return [*out, self._sum(sign, "moment", parts, [rub.amount for rub in self.rubs])]
+
+    def _prismatic(self) -> list[Working]:
+        of, mu = len(self.rubs), f"mu_{{{self.joint}}}"
+        out = [self._bearing(rub, n, of, "yz") for n, rub in enumerate(self.rubs)]
+        parts = [self._product(mu, self._given(rub), rub, n, of) for n, rub in enumerate(self.rubs)]
+        return [
+            *out,
+            self._sum(along(self.force_sign, "x'"), "force", parts, [rub.amount for rub in self.rubs]),
+        ]
+
+    def _cylindrical(self) -> list[Working]:
+        guides = [rub for rub in self.rubs if rub.kind == "guide"]
+        pins = [rub for rub in self.rubs if rub.kind == "pin"]
+        of, rub, name = len(guides), guides[0], self.joint
+        out = [self._bearing(rub, n, of, "yz") for n, rub in enumerate(guides)]
+        parts = [("p_{x'}", rub.part), *([("p_{t}", pins[0].part)] if pins else [])]
+        out.append(Working(", quad ".join(f"{sign} = {self._figure(part)}" for sign, part in parts)))
+        factor, figure = f"mu_{{{name}}}", self._given(rub)
+        if pins and circle_kind(self.c.r.mechanism, self.described) == "sin":
+            below = f"(1 + ({figure} cdot {self._figure(abs(pins[0].part))})^{{2}})^{{1/2}}"
+            letters = f"k_{{{name}}} = frac(mu_{{{name}}}; (1 + (mu_{{{name}}} p_{{t}})^{{2}})^{{1/2}})"
+            factor, figure = f"k_{{{name}}}", self._figure(rub.strength)
+            out.append(Working(letters, f"frac({self._given(rub)}; {below})", figure))
+        out.append(
+            self._shared(
+                "force", f"{factor} |p_{{x'}}|", f"{figure} cdot {self._figure(abs(rub.part))}", guides
+            )
+        )
+        if pins:
+            arm, part = (
+                self._number("length", self.described.friction.radius),
+                self._figure(abs(pins[0].part)),
+            )
+            out.append(
+                self._shared(
+                    "moment", f"{factor} R_{{{name}}} |p_{{t}}|", f"{figure} cdot {arm} cdot {part}", pins
+                )
+            )
+        return out
+
+    def _shared(self, kind: str, factor: str, figure: str, rubs: list[Rub]) -> Working:
+        """The part of the friction along x', or around it."""
+        parts = [self._product(factor, figure, rub, n, len(rubs)) for n, rub in enumerate(rubs)]
+        sign = along(self.couple_sign if kind == "moment" else self.force_sign, "x'")
+        return self._sum(sign, kind, parts, [rub.amount for rub in rubs])
+
+    def _figure(self, x: float) -> str:
+        return self.c.shown.number("number", x)
+
+    def _given(self, rub: Rub) -> str:
+        return self.c.notation.given(rub.coefficient)
+
+    def _spherical(self) -> list[Working]:
+        rub = self.rubs[0]
+        couple = self.c.r.friction_moment(self.joint)[self.c.k]
+        least = PART * float(np.abs(couple).max())
+        size = self._text("moment", float(np.linalg.norm(couple)))
+        numbers = ", ".join(self.c.shown.number("moment", float(x), least) for x in couple)
+        return [
+            self._radius(rub, self.described.friction.radius),
+            self._bearing(rub, 0, 1, "xyz"),
+            Working(
+                f"|{self.couple_sign}| = r_{{{self.joint}}} S_{{{self.joint}}}",
+                self._couple(
+                    f"{self._number('length', rub.strength)} cdot {self._number('force', rub.bearing)}"
+                ),
+                size,
+            ),
+            Working(self.couple_sign, "", f'({numbers}) "{self.c.shown.unit("moment")}, ground axes"'),
+        ]
+
+    def _screw(self) -> list[Working]:
+        thread, pin = self.rubs
+        f, joint = self.described.friction, self.joint
+        climb = math.atan(abs(self.described.lead) / (2 * math.pi * f.radius))
+        flank = f.thread_angle or 0.0
+        axial = thread.bearing * math.cos(climb) * math.cos(flank)
+        rub = (thread.amount + pin.amount) / math.sin(climb)
+        mu, degrees = self._given(thread), self.c.notation.degrees(climb)
+        both = f"({self._number('force', thread.bearing)} + {self._number('force', pin.bearing)})"
+        lead = self._number("length", abs(self.described.lead))
+        radius = self._number("length", f.radius)
+        out = [
+            Working(
+                "beta = arctan (frac(l; 2 pi R))",
+                f"arctan (frac({lead}; 2 pi cdot {radius}))",
+                f"{degrees} deg",
+            ),
+            Working(
+                f"S_{{{joint},t}} = frac(|{along(self.sign, 'x' + chr(39))}|; cos beta cos gamma)",
+                f"frac({self._number('force', axial)}; cos {degrees} deg cos {self.c.notation.degrees(flank)} deg)",
+                self._text("force", thread.bearing),
+            ),
+            self._bearing(pin, 0, 1, "yz"),
+            Working(
+                f"|{self.force_sign}| = mu_{{{joint}}} (S_{{{joint},t}} + S_{{{joint}}})",
+                f"{mu} cdot {both}",
+                self._text("force", abs(rub)),
+            ),
+        ]
+        force, couple = (float(v @ self._axis()) for v in self._made())
+        size, minus = self._number("force", abs(rub)), "−" if force < 0 else ""
+        turned = "−" if couple < 0 else ""
+        return [
+            *out,
+            Working(
+                f"{along(self.force_sign, 'x' + chr(39))} = {minus}|{self.force_sign}| sin beta",
+                f"{minus}{size} sin {degrees} deg",
+                self._text("force", force),
+            ),
+            Working(
+                f"{along(self.couple_sign, 'x' + chr(39))} = {turned}|{self.force_sign}| R cos beta",
+                self._couple(f"{turned}{size} cdot {radius} cos {degrees} deg"),
+                self._text("moment", couple),
+            ),
+        ]
+
+    def _axis(self) -> Array:
+        return np.asarray(self.c.r.joint_axes(self.joint)[self.c.k, 0])
+
+    def _made(self) -> tuple[Array, Array]:
+        r, k = self.c.r, self.c.k
+        return r.friction_force(self.joint)[k], r.friction_moment(self.joint)[k]

@@ -1,0 +1,90 @@
+"""In space: the unknowns of each joint, and the reactions found, in ground axes and in the joints' own."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from dalembert.analysis.compile.pair_table import AXES
+from dalembert.analysis.result.reaction_components import table_row
+from dalembert.report.report_context import Chosen, as_formula
+from dalembert.report.sections.terms import floors
+from dalembert.report.sheet import Sheet
+
+
+def reaction_tables(sheet: Sheet, c: Chosen) -> None:
+    """Forces and moments of all joints by components and sizes; what is not unique in brackets."""
+    r, on = c.r, {joint: _acted(c, joint) for joint in c.r.joints}
+    least = floors(r, c.k)
+    for axes, words, prime in (("ground", "ground axes", ""), ("joint", "each joint's own axes", "'")):
+        heads = ["Joint", "Force", *(f"{a}{prime}" for a in AXES), "size"]
+        heads += ["Moment", *(f"{a}{prime}" for a in AXES), "size"]
+        rows = [_row(c, joint, on[joint], axes, least) for joint in r.joints]
+        caption = (
+            f"In {words}; forces in {c.shown.unit('force')}, moments in {c.shown.unit('moment')} about the joint, "
+            f"on the link that the sign names{', friction in them' if r.friction is not None else ''}"
+        )
+        sheet.table(heads, rows, caption)
+    sheet.text(uniqueness(c))
+
+
+def _acted(c: Chosen, joint: str) -> str:
+    """j of a joint, or i where j is the ground."""
+    i, j = c.r.mechanism.joints[joint].links
+    return j if j != "ground" else i
+
+
+def _row(c: Chosen, joint: str, on: str, axes: Any, least: tuple[float, ...]) -> list[str]:
+    """One joint's force and moment; a stroke where it cannot carry a component along its own axes."""
+    r, k, shown = c.r, c.k, c.shown
+    exact = np.concatenate([f(joint, on, axes)[k] for f in (r.reaction, r.reaction_moment)])
+    whole = r.least_norm(joint, on, axes)[k]
+    row = [joint]
+    for n, (kind, sign) in enumerate((("force", shown.reaction), ("moment", shown.joint_moment))):
+        part, known = whole[3 * n : 3 * n + 3], np.isfinite(exact[3 * n : 3 * n + 3])
+        if n and not table_row(r.mechanism.joints[joint]).moments and not (np.abs(part) > least[1]).any():
+            return [*row, *["–"] * 5]
+        carried = _carried(c, joint, n) if axes == "joint" else (True,) * 3
+        row.append(as_formula(sign(joint, on)))
+        for value, is_known, is_carried in zip(map(float, part), known, carried, strict=True):
+            text = shown.number(kind, value, least[n])
+            row.append(
+                "–" if not is_carried and abs(value) <= least[n] else text if is_known else f"({text})"
+            )
+        size = shown.number(kind, math.hypot(*part), least[n])
+        row.append(size if known.all() else f"({size})")
+    return row
+
+
+def _carried(c: Chosen, joint: str, moments: int) -> tuple[bool, ...]:
+    """Which components along its own axes a joint carries; of a gear any."""
+    described = c.r.mechanism.joints[joint]
+    pair = table_row(described)
+    letters = pair.moments if moments else pair.forces
+    screw = described.type == "screw" and moments == 1
+    return tuple(described.type == "gear" or a in letters or (screw and a == "x") for a in AXES)
+
+
+def uniqueness(c: Chosen) -> str:
+    """Which reactions equilibrium alone does not settle, in the joints' own axes."""
+    r, found = c.r, []
+    for joint in r.joints:
+        exact = np.concatenate([f(joint, None, "joint")[c.k] for f in (r.reaction, r.reaction_moment)])
+        free = [
+            f"${'FM'[n // 3]}_{{{AXES[n % 3]}'}}$"
+            for n in range(6)
+            if not np.isfinite(exact[n]) and _carried(c, joint, n // 3)[n % 3]
+        ]
+        if free:
+            found.append(f"{joint} ({', '.join(free)})")
+    if found:
+        return (
+            f"Not unique, as equilibrium alone leaves them open: {'; '.join(found)}. Figures in brackets are those of "
+            "the least sum of squares, one answer of many that balance all links; the others hold in all of them."
+        )
+    settled = r.assumptions.get("redundant reactions")
+    if settled and r.unique_array is not None:
+        return f"Equilibrium alone does not settle all reactions; they are found {settled}."
+    return "Every reaction is unique: equilibrium alone settles it."

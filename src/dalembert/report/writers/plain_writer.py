@@ -1,0 +1,67 @@
+"""A sheet as plain text, 100 columns wide."""
+
+from __future__ import annotations
+
+import textwrap
+
+from dalembert.report.formula import mixed, plain
+from dalembert.report.sheet import Block, Equations, Figure, Heading, Matrix, Paragraph, Sheet, Table, Working
+from dalembert.views.paper.lettering import plain as plain_sign
+
+WIDTH = 100
+
+
+def plain_text(sheet: Sheet) -> str:
+    """The report as text for a terminal."""
+    head = [sheet.title, "=" * len(sheet.title), *(t for t in (sheet.source, sheet.subtitle) if t)]
+    numbered, count = [], 0
+    for b in sheet.blocks:
+        if isinstance(b, Heading) and b.level == 1:
+            count += 1
+            b = Heading(f"{count} {b.text}")
+        numbered.append(_block(b))
+    return "\n".join(head) + "\n\n" + "\n\n".join(t for t in numbered if t) + "\n"
+
+
+def _rich(text: str) -> str:
+    return "".join(mixed(text, plain, str))
+
+
+def _block(b: Block) -> str:
+    if isinstance(b, Heading):
+        return f"{b.text}\n{('-' if b.level == 1 else '.') * len(b.text)}"
+    if isinstance(b, Paragraph):
+        return textwrap.fill(_rich(b.text), WIDTH)
+    if isinstance(b, Equations):
+        return "\n".join(line for w in b.lines for line in _equation(w))
+    if isinstance(b, Table):
+        return _table([[_rich(c) for c in row] for row in (b.heads, *b.rows)], b.caption, b.total)
+    if isinstance(b, Matrix):
+        return _matrix(b)
+    assert isinstance(b, Figure)
+    return "\n".join(f"[drawing: {plain_sign(s.title)}]" for s in b.scenes)
+
+
+def _equation(w: Working) -> list[str]:
+    if w.result:
+        return ["  " + " = ".join(plain(t) for t in (w.letters, w.numbers, w.result) if t)]
+    return ["  " + plain(w.letters), *(["      " + plain(w.numbers)] if w.numbers else [])]
+
+
+def _table(rows: list[list[str]], caption: str, total: bool) -> str:
+    wide = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    lines = ["  ".join(c.ljust(w) for c, w in zip(row, wide, strict=True)).rstrip() for row in rows]
+    rule = "-" * (sum(wide) + 2 * (len(wide) - 1))
+    body = [lines[0], rule, *lines[1:]]
+    if total:
+        body.insert(len(body) - 1, rule)
+    return "\n".join([*body, *([caption] if caption else [])])
+
+
+def _matrix(b: Matrix) -> str:
+    heads = [*(plain(u) for u in b.unknowns), "=", "unknown", "value"]
+    rows = [
+        [*(plain(c) for c in row), plain(right), plain(unknown), plain(value)]
+        for row, right, unknown, value in zip(b.rows, b.right, b.unknowns, b.values, strict=True)
+    ]
+    return textwrap.fill(b.caption, WIDTH) + "\n\n" + _table([heads, *rows], "", False)

@@ -1,0 +1,39 @@
+"""A scene to a file; the ending names the format."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from dalembert.errors import ModelError
+from dalembert.saving import check_installed, new_file
+
+if TYPE_CHECKING:
+    from dalembert.views.paper.scene import Scene
+
+
+def save(scene: Scene, path: str | Path, overwrite: bool = False, theme: str = "light") -> None:
+    """Write .svg, .pdf, .png or .dxf."""
+    from dalembert.views.formats.themes import THEMES
+
+    target = Path(path)
+    if theme not in THEMES:
+        raise ModelError(f"there is no theme {theme!r}", f"there is {', '.join(THEMES)}")
+    kind = target.suffix.lower()
+    if kind not in (".svg", ".pdf", ".png", ".dxf"):
+        raise ModelError(
+            f"{target.name}: drawings are not written as {kind or 'that'}", "use .svg, .pdf, .png or .dxf"
+        )
+    with new_file(target, overwrite) as temporary:
+        if kind == ".svg":
+            temporary.write_text(scene.to_svg(theme), encoding="utf-8")
+        elif kind == ".dxf":
+            check_installed("ezdxf", "writing DXF", "cad")
+            from dalembert.views.formats.dxf import write_dxf
+
+            write_dxf(scene, temporary)
+        else:
+            check_installed("matplotlib", f"writing {kind[1:].upper()}", "plot")
+            from dalembert.views.formats.matplotlib_figure import write_figure
+
+            write_figure(scene, temporary, theme)

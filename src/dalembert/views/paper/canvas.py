@@ -1,0 +1,247 @@
+"""A drawing in the making: primitives now, labels at the end, each where it covers neither a line nor another text."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags
+from dalembert.views.paper.lettering import BOLD, broken, text_width
+from dalembert.views.paper.scene import (
+    Arc,
+    Arrow,
+    Circle,
+    Group,
+    Item,
+    Line,
+    Point,
+    Polygon,
+    Scene,
+    Text,
+    item_box,
+)
+
+STAGES = ((0.9, 1.6), (2.6, 4.0), (6.0, 8.5), (12.0, 17.0), (24.0, 34.0, 48.0))
+"""Distances in mm at which a label is tried, some at a time: a free place near ends the search."""
+
+TAKEN = 1000.0
+"""Cost of a place over a stroke or a text, or whose leader would cross a text."""
+
+LEADER = 5.0
+"""Distance in mm beyond which a thin line leads from the label to its place."""
+
+
+@dataclass(frozen=True)
+class Label:
+    """A text near one of some points, preferably in a direction (radians)."""
+
+    text: str
+    near: tuple[Point, ...]
+    prefer: float | None
+    size: float
+    role: str
+    leads: bool
+
+
+class Canvas:
+    """Collects primitives and labels."""
+
+    def __init__(self) -> None:
+        self.items: list[Item] = []
+        self._labels: list[Label] = []
+
+    def add(self, *items: Item) -> None:
+        """Primitives."""
+        self.items += items
+
+    def label(
+        self,
+        text: str,
+        *near: Point,
+        prefer: float | None = None,
+        size: float = 3.0,
+        role: str = "text",
+        leads: bool = True,
+    ) -> None:
+        """A text near one of some points, placed at the end."""
+        if text:
+            self._labels.append(Label(text, near, prefer, size, role, leads))
+
+    def scene(self, title: str = "", heading: bool = True, notes: Sequence[str] = (), **given: Any) -> Scene:
+        """The finished drawing, with its title above and notes below."""
+        placer = _Placer(self.items)
+        left_over = []
+        for label in self._labels:
+            items = placer.placed(label)
+            self.items += items
+            left_over += [] if items else [label.text]
+        self._labels = []
+        if left_over:
+            notes = [*notes, f"Without room for a label: {', '.join(left_over)}"]
+        if heading:
+            self._headed(title, notes)
+        return Scene(tuple(self.items), title, **given)
+
+    def _headed(self, title: str, notes: Sequence[str]) -> None:
+        left, bottom, right, top = Scene(tuple(self.items)).bounds
+        width = max(right - left, 80.0)
+        for k, line in enumerate(reversed(broken(title, 3.6 * BOLD, width))):
+            self.add(Text((left, top + 4.5 + 4.8 * k), line, 3.6, "title", "start"))
+        lines = [line for note in notes for line in broken(note, 2.6, width)]
+        for k, line in enumerate(lines):
+            self.add(Text((left, bottom - 4.0 - 4.0 * k), line, 2.6, "note", "start"))
+
+
+def segments(items: Sequence[Item]) -> Array:
+    """Every stroke as straight pieces (S, 2, 2); areas without an outline (`-fill`) have none."""
+    out: list[tuple[Point, Point]] = []
+    for item in items:
+        if isinstance(item, Group):
+            out += [tuple(map(tuple, s)) for s in segments(item.items).tolist()]  # type: ignore[misc]
+        elif not isinstance(item, Text) and not item.role.endswith("-fill"):
+            points = _outline(item)
+            out += list(pairwise(points))
+    return np.array(out, float).reshape(-1, 2, 2)
+
+
+def _outline(item: Item) -> Sequence[Point]:
+    if isinstance(item, Circle):
+        return Arc(item.center, item.radius, 0.0, 2 * math.pi).points
+    if isinstance(item, Arrow):
+        return (item.tail, item.head)
+    if isinstance(item, Polygon):
+        return (*item.points, item.points[0])
+    return item.points  # type: ignore[union-attr]
+
+
+def crossed(box: Array, pieces: Array) -> Flags:
+    """Which straight pieces (S, 2, 2) touch each of some boxes (B, 4): (B, S), by separating axes."""
+    middle, half = (box[:, None, :2] + box[:, None, 2:]) / 2, (box[:, None, 2:] - box[:, None, :2]) / 2
+    c, d = pieces.mean(axis=1) - middle, (pieces[:, 1] - pieces[:, 0]) / 2
+    d = np.broadcast_to(d, c.shape)
+    near = (np.abs(c) <= half + np.abs(d)).all(axis=-1)
+    turn = np.abs(c[..., 0] * d[..., 1] - c[..., 1] * d[..., 0])
+    return np.asarray(near & (turn <= half[..., 0] * np.abs(d[..., 1]) + half[..., 1] * np.abs(d[..., 0])))
+
+
+def overlapping(a: Array, b: Array) -> Flags:
+    """Which of boxes a (A, 4) and b (B, 4) overlap."""
+    lower = np.maximum(a[:, None, :2], b[None, :, :2])
+    upper = np.minimum(a[:, None, 2:], b[None, :, 2:])
+    return np.asarray((upper > lower).all(axis=-1))
+
+
+class _Place(NamedTuple):
+    """A candidate: its cost, middle, box, the point it belongs to and the distance from it."""
+
+    cost: float
+    at: Array
+    box: Array
+    near: Array
+    gap: float
+
+
+class _Placer:
+    """Finds places for labels one by one."""
+
+    def __init__(self, items: Sequence[Item]) -> None:
+        self.strokes = segments(items)
+        self.boxes = np.array([item_box(i) for i in items if isinstance(i, Text)], float).reshape(-1, 4)
+
+    def placed(self, label: Label) -> list[Item]:
+        """The text at its best place, with a leader where that is far; nothing where every place is taken."""
+        bold = BOLD if label.role == "title" else 1.0
+        room = (bold * text_width(label.text, label.size) / 2 + 0.25, 0.65 * label.size + 0.25)
+        best = _Place(np.inf, np.zeros(2), np.zeros(4), np.zeros(2), 0.0)
+        for gaps in STAGES:
+            if best.cost > gaps[0]:
+                best = min(best, self._best(label, room, gaps), key=lambda place: place.cost)
+        if best.cost >= TAKEN:
+            return []
+        x, y = best.at
+        lift = 0.07 * label.size if "_{" in label.text else 0.0
+        text = Text((float(x), float(y + lift)), label.text, label.size, label.role)
+        items: list[Item] = [text]
+        if label.leads and best.gap >= LEADER:
+            items.append(_leader(best.near, best.box))
+            self.strokes = np.concatenate([self.strokes, segments(items[1:])])
+        self.boxes = np.concatenate([self.boxes, best.box[None]])
+        return items
+
+    def _best(self, label: Label, room: tuple[float, float], gaps: tuple[float, ...]) -> _Place:
+        """The cheapest candidate at some distances: near, in the preferred direction, over nothing."""
+        at, near, gap = _candidates(label, room[0] - 0.25, room[1] - 0.25, gaps)
+        box = np.concatenate([at - room, at + room], axis=1)
+        cost = gap + self._preference(label, at, near)
+        cost += np.where(crossed(box, self._close(box)).any(axis=1), TAKEN, 0.0)
+        cost += np.where(overlapping(box, self.boxes).any(axis=1), TAKEN, 0.0)
+        if label.leads and gaps[-1] >= LEADER:
+            cost += np.where((gap >= LEADER) & self._blocked(near, box), TAKEN, 0.0)
+        k = int(cost.argmin())
+        return _Place(float(cost[k]), at[k], box[k], near[k], float(gap[k]))
+
+    def _close(self, box: Array) -> Array:
+        """Strokes in the region of some boxes."""
+        low, high = box[:, :2].min(axis=0), box[:, 2:].max(axis=0)
+        ends = self.strokes
+        kept = (ends.max(axis=1) >= low).all(axis=1) & (ends.min(axis=1) <= high).all(axis=1)
+        return np.asarray(ends[kept])
+
+    def _blocked(self, near: Array, box: Array) -> Flags:
+        """Whether the straight way to a candidate crosses a text."""
+        if not len(self.boxes):
+            return np.zeros(len(box), bool)
+        edge = np.clip(near, box[:, :2], box[:, 2:])
+        return np.asarray(crossed(self.boxes, np.stack([near, edge], axis=1)).any(axis=0))
+
+    def _preference(self, label: Label, at: Array, near: Array) -> Array:
+        if label.prefer is None:
+            return np.zeros(len(at))
+        away = at - near
+        angle = np.arctan2(away[:, 1], away[:, 0]) - label.prefer
+        return np.asarray(2.0 * (1 - np.cos(angle)))
+
+
+def _candidates(
+    label: Label, half_width: float, half_height: float, distances: tuple[float, ...]
+) -> tuple[Array, Array, Array]:
+    """Middles of boxes (B, 2) at distances ``gap`` around the points, and those points."""
+    angles = np.arange(24) * (2 * math.pi / 24) + (label.prefer or 0.0)
+    direction = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    reach = np.clip(direction * 1.5, -1, 1) * np.array([half_width, half_height])
+    gaps = np.array(distances)
+    near = np.array(label.near, float)
+    at = near[:, None, None, :] + gaps[None, :, None, None] * direction + reach
+    shape = at.shape[:-1]
+    starts = np.broadcast_to(near[:, None, None, :], at.shape)
+    far = np.broadcast_to(gaps[None, :, None], shape) + 0.2 * np.arange(len(near))[:, None, None]
+    return at.reshape(-1, 2), starts.reshape(-1, 2), np.asarray(far).reshape(-1)
+
+
+def _leader(near: Array, box: Array) -> Line:
+    """From the nearest point of the box to the place."""
+    edge = np.clip(near, box[:2], box[2:])
+    return Line(((float(edge[0]), float(edge[1])), (float(near[0]), float(near[1]))), "leader")
+
+
+def text_overlaps(scene: Scene) -> list[tuple[str, str]]:
+    """Pairs of texts that overlap; none in a good drawing."""
+    texts = scene.texts()
+    boxes = np.array([t.box for t in texts], float).reshape(-1, 4)
+    pairs = np.argwhere(np.triu(overlapping(boxes, boxes), 1))
+    return [(texts[a].text, texts[b].text) for a, b in pairs]
+
+
+def text_over_lines(scene: Scene) -> list[str]:
+    """Texts that a stroke crosses; none in a good drawing."""
+    texts = scene.texts()
+    boxes = np.array([t.box for t in texts], float).reshape(-1, 4)
+    strokes = segments([i for i in scene.flat() if not isinstance(i, Text)])
+    if not len(strokes) or not len(boxes):
+        return []
+    return [texts[k].text for k in np.flatnonzero(crossed(boxes, strokes).any(axis=1))]

@@ -1,0 +1,56 @@
+"""A drawing with its details: what is too small to be seen, beside it at a larger scale."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.friction.friction_circles import friction_circles, two_pins
+from dalembert.views.notation import Shown
+from dalembert.views.paper.frame import Frame
+from dalembert.views.paper.scene import Scene, stacked
+from dalembert.views.plane.circle_details import SEEN, circled, pin_detail
+from dalembert.views.plane.guide_details import guide_detail, guided
+from dalembert.views.plane.outline import GROUND
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+ROW = 190.0
+"""Width in mm of a drawing with its details."""
+
+
+def detail_scenes(
+    r: Result, k: int, frame: Frame | None, shown: Shown, link: str | None = None, words: bool = True
+) -> list[Scene]:
+    """Pins whose friction circle is too small in a frame, and guides with friction; of one link, or of all.
+
+    Without words only what is too small is drawn; with them, or without a frame, every pin.
+    """
+    joints = [n for n in r.joints if link is None or link in r.mechanism.joints[n].links]
+    out = []
+    for name in circled(r, joints):
+        small = frame is None or frame.length(float(friction_circles(r, name).radii[k])) < SEEN
+        if (small or words) and np.isfinite(r.reaction(name)[k]).all():
+            out.append(pin_detail(r, name, k, shown, link or _own(r, name), words))
+    return out + [guide_detail(r, n, k, shown, link or _own(r, n), words) for n in guided(r, joints)]
+
+
+def _own(r: Result, joint: str) -> str:
+    """The link whose reaction a detail shows: the one that two pins alone load, else j, unless that is ground."""
+    two = two_pins(r, joint) if r.mechanism.joints[joint].type == "pin" else None
+    i, j = r.mechanism.joints[joint].links
+    return two.link if two is not None else i if j == GROUND else j
+
+
+def with_details(main: Scene, details: Sequence[Scene]) -> Scene:
+    """A drawing and its details as one: beside it where there is room, else below."""
+    if not details:
+        return main
+    whole = stacked([main, stacked(details, width=ROW)], width=ROW, title=main.title)
+    scales = dict(main.scales)
+    for scene in details:
+        scales |= scene.scales
+    return Scene(whole.items, main.title, scales, main.numbers)

@@ -1,0 +1,238 @@
+"""A drawing as data: a few primitives in millimetres of paper, x right, y up. It knows no mechanics.
+
+A role (`link`, `joint-force`, `dimension`, ...) says what a primitive is; a theme says how a role looks. An arrow keeps
+the number it stands for, so that its length can be checked against the stated scale.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
+from pathlib import Path
+from typing import Any
+
+from dalembert.views.paper.lettering import Box, text_box
+
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """Straight pieces through points."""
+
+    points: tuple[Point, ...]
+    role: str = "link"
+
+
+@dataclass(frozen=True, slots=True)
+class Polygon:
+    """A closed, filled outline."""
+
+    points: tuple[Point, ...]
+    role: str = "link"
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """A circle."""
+
+    center: Point
+    radius: float
+    role: str = "link"
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """Part of a circle from angle start to end, radians; ``arrow`` puts a head at its end."""
+
+    center: Point
+    radius: float
+    start: float
+    end: float
+    role: str = "construction"
+    arrow: bool = False
+    of: str = ""
+    value: float | None = None
+
+    def at(self, angle: float) -> Point:
+        """A point of it."""
+        return (
+            self.center[0] + self.radius * math.cos(angle),
+            self.center[1] + self.radius * math.sin(angle),
+        )
+
+    @property
+    def points(self) -> tuple[Point, ...]:
+        """Straight pieces close enough to it."""
+        count = max(2, math.ceil(abs(self.end - self.start) / 0.15) + 1)
+        step = (self.end - self.start) / (count - 1)
+        return tuple(self.at(self.start + k * step) for k in range(count))
+
+
+@dataclass(frozen=True, slots=True)
+class Arrow:
+    """From tail to head; ``value`` in SI is what its length stands for, by the scale of its ``kind``."""
+
+    tail: Point
+    head: Point
+    role: str = "joint-force"
+    of: str = ""
+    kind: str = ""
+    value: float | None = None
+
+    @property
+    def length(self) -> float:
+        """Drawn length in mm."""
+        return math.dist(self.tail, self.head)
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """Text whose middle height is at a point; `_{...}` and `^{...}` lower and raise."""
+
+    at: Point
+    text: str
+    size: float = 3.0
+    role: str = "text"
+    anchor: str = "middle"
+
+    @property
+    def box(self) -> Box:
+        """What it covers: (left, bottom, right, top)."""
+        return text_box(self.at, self.text, self.size, self.anchor, self.role == "title")
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Items that belong together."""
+
+    items: tuple[Item, ...]
+    name: str = ""
+
+
+Item = Line | Polygon | Circle | Arc | Arrow | Text | Group
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Items, a title, scales (kind -> SI units a millimetre) and numbers that belong to the drawing.
+
+    >>> scene = Scene((Line(((0, 0), (10, 0))),), "a line")
+    >>> scene.bounds
+    (0.0, 0.0, 10.0, 0.0)
+    """
+
+    items: tuple[Item, ...]
+    title: str = ""
+    scales: Mapping[str, float] = field(default_factory=dict)
+    numbers: Mapping[str, Any] = field(default_factory=dict)
+
+    def flat(self) -> Iterator[Item]:
+        """All primitives, groups opened."""
+        yield from _opened(self.items)
+
+    def texts(self) -> list[Text]:
+        """All texts."""
+        return [item for item in self.flat() if isinstance(item, Text)]
+
+    def arrows(self) -> list[Arrow]:
+        """All arrows."""
+        return [item for item in self.flat() if isinstance(item, Arrow)]
+
+    @property
+    def bounds(self) -> Box:
+        """What is drawn: (left, bottom, right, top) in mm."""
+        boxes = [item_box(item) for item in self.flat()]
+        if not boxes:
+            return (0.0, 0.0, 0.0, 0.0)
+        left, bottom, right, top = zip(*boxes, strict=True)
+        return (float(min(left)), float(min(bottom)), float(max(right)), float(max(top)))
+
+    def moved(self, dx: float, dy: float) -> Scene:
+        """The same elsewhere on the paper."""
+        return replace(self, items=tuple(moved(item, dx, dy) for item in self.items))
+
+    def to_dict(self) -> dict[str, Any]:
+        """The data form: every primitive with its kind, role and numbers."""
+        return {
+            "title": self.title,
+            "scales": dict(self.scales),
+            "numbers": dict(self.numbers),
+            "items": [_tree(item) for item in self.items],
+        }
+
+    def to_svg(self, theme: str = "light") -> str:
+        """SVG text, to scale when printed."""
+        from dalembert.views.formats.svg import svg_text
+
+        return svg_text(self, theme)
+
+    def save(self, path: str | Path, overwrite: bool = False, theme: str = "light") -> None:
+        """Write .svg, .pdf, .png or .dxf; themes: light, dark, print."""
+        from dalembert.views.formats.scene_file import save
+
+        save(self, path, overwrite, theme)
+
+    def _repr_svg_(self) -> str:
+        return self.to_svg()
+
+
+def _opened(items: Sequence[Item]) -> Iterator[Item]:
+    for item in items:
+        if isinstance(item, Group):
+            yield from _opened(item.items)
+        else:
+            yield item
+
+
+def item_box(item: Item) -> Box:
+    """What a primitive covers."""
+    if isinstance(item, Text):
+        return item.box
+    if isinstance(item, Circle):
+        (x, y), r = item.center, item.radius
+        return (x - r, y - r, x + r, y + r)
+    points = (item.tail, item.head) if isinstance(item, Arrow) else item.points  # type: ignore[union-attr]
+    across, up = [p[0] for p in points], [p[1] for p in points]
+    return (min(across), min(up), max(across), max(up))
+
+
+def moved(item: Item, dx: float, dy: float) -> Item:
+    """A primitive elsewhere."""
+
+    def to(p: Point) -> Point:
+        return (p[0] + dx, p[1] + dy)
+
+    if isinstance(item, Group):
+        return replace(item, items=tuple(moved(one, dx, dy) for one in item.items))
+    if isinstance(item, (Line, Polygon)):
+        return replace(item, points=tuple(to(p) for p in item.points))
+    if isinstance(item, Arrow):
+        return replace(item, tail=to(item.tail), head=to(item.head))
+    if isinstance(item, Text):
+        return replace(item, at=to(item.at))
+    return replace(item, center=to(item.center))
+
+
+def _tree(item: Item) -> dict[str, Any]:
+    tree: dict[str, Any] = {"primitive": type(item).__name__.lower()}
+    if isinstance(item, Group):
+        return tree | {"name": item.name, "items": [_tree(one) for one in item.items]}
+    return tree | {f.name: getattr(item, f.name) for f in fields(item)}
+
+
+def stacked(scenes: Sequence[Scene], gap: float = 8.0, width: float = 180.0, title: str = "") -> Scene:
+    """Several drawings as panels in rows no wider than ``width``, each under its title."""
+    items: list[Item] = []
+    x, top, row_bottom = 0.0, 0.0, 0.0
+    for scene in scenes:
+        left, bottom, right, high = scene.bounds
+        if x > 0 and x + right - left > width:
+            x, top = 0.0, row_bottom - gap
+        drawn = scene.moved(x - left, top - high)
+        items.append(Group(drawn.items, scene.title))
+        row_bottom = min(row_bottom, top - (high - bottom))
+        x += right - left + gap
+    scales = {f"{s.title}: {k}": v for s in scenes for k, v in s.scales.items()}
+    return Scene(tuple(items), title, scales, {s.title: dict(s.numbers) for s in scenes})

@@ -1,0 +1,274 @@
+"""The mechanism with the field's plane_symbols, its loads, traces and joints' names."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.friction.friction_circles import two_pins
+from dalembert.analysis.methods.applied_forces import Action, actions, link_place
+from dalembert.views.notation import Figures, Notation, Shown
+from dalembert.views.paper.canvas import Canvas
+from dalembert.views.paper.details import detail_scenes, with_details
+from dalembert.views.paper.frame import Frame, fitted, force_scale
+from dalembert.views.paper.scene import Arrow, Line, Point, Scene
+from dalembert.views.plane.circle_details import circled, draw_circles
+from dalembert.views.plane.guide_details import guided
+from dalembert.views.plane.outline import (
+    GROUND,
+    draw_joint,
+    every_place,
+    link_points,
+    link_shape,
+    rail,
+    unbroken,
+)
+from dalembert.views.symbols import plane_symbols
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+OWN = "Friction circles to scale; dash-dotted: the line of each reaction."
+TAKEN = f"{OWN[:-1]}, of a two-force link on both circles; faint: the common tangents not taken."
+
+NOISE = 1e-12
+"""Positions of drives below this, rad or m, are rounding."""
+
+ROLES = {"joint": "joint-force", "spring": "load", "damper": "friction"}
+
+
+def role_of(kind: str) -> str:
+    """The role of an action's arrow."""
+    return ROLES.get(kind, kind)
+
+
+def mechanism_scene(
+    r: Result,
+    k: int = 0,
+    notation: Notation | None = None,
+    forces: bool = False,
+    width: float = 120.0,
+    height: float = 90.0,
+    title: str | None = None,
+    friction: bool = True,
+    details: bool = True,
+) -> Scene:
+    """The mechanism at one position: links, joints, mass centres, traces, loads; with ``forces`` the efforts too.
+
+    Lengths and forces are to scale, both stated below. With ``friction`` (where there is some) the friction circles
+    with the lines of the reactions, and with ``details`` pins and guides at a larger scale.
+    """
+    shown = Shown(r, notation or Notation(), k)
+    frame = whole_frame(r, k, width, height)
+    canvas = Canvas()
+    draw_traces(canvas, r, frame)
+    draw_links(canvas, r, k, frame)
+    rubs = friction and r.friction is not None
+    if rubs:
+        draw_circles(canvas, r, k, frame, circled(r, r.joints))
+    canvas_names(canvas, r, k, frame, shown)
+    kinds = ("load", "spring", "effort", "weight", "inertia", "damper") if forces else ("load", "effort")
+    some = [a for a in actions(r) if a.kind in kinds and drawn_once(r, a)]
+    per_mm = draw_actions(canvas, r, some, k, frame, shown, 22.0)
+    notes, scales = stated(shown, frame, per_mm)
+    heading = title if title is not None else r.mechanism.title or "Mechanism"
+    if rubs and circled(r, r.joints):
+        notes = [TAKEN if any(two_pins(r, n) for n in circled(r, r.joints)) else OWN, *notes]
+    scene = canvas.scene(place_title(r, k, heading, shown), notes=notes, scales=scales)
+    return with_details(scene, detail_scenes(r, k, frame, shown) if rubs and details else [])
+
+
+def drawn_once(r: Result, a: Action) -> bool:
+    """Whether an action is drawn in the whole mechanism: not on the ground, an effort on one of its links."""
+    if a.kind != "effort" or a.by == GROUND:
+        return a.link != GROUND
+    return a.link != GROUND and a.link == r.mechanism.joints[r.mechanism.drives[a.of].joint or a.of].links[1]
+
+
+def stated(shown: Figures, frame: Frame | None, per_mm: float | None) -> tuple[list[str], dict[str, float]]:
+    """The scales as a note and as numbers."""
+    notes, scales = [], {}
+    if frame is not None:
+        notes.append(f"lengths: 1 mm = {shown.plain('length', frame.per_mm)}")
+        scales["length"] = frame.per_mm
+    if per_mm:
+        notes.append(f"forces: 1 mm = {shown.plain('force', per_mm)}")
+        scales["force"] = per_mm
+    text = "; ".join(notes)
+    return [text[:1].upper() + text[1:]], scales
+
+
+def place_title(r: Result, k: int, heading: str, shown: Shown) -> str:
+    """A heading with the position of the drives."""
+    if not r.drives:
+        return heading
+    from dalembert.analysis.output.columns import drive_kinds
+
+    at = [
+        f"{d} = {shown.text(drive_kinds(r, d)['position'], float(r.drive_position(d)[k]), NOISE)}"
+        for d in r.drives
+    ]
+    return f"{heading}, {', '.join(at)}"
+
+
+def unit_size(r: Result, kind: str, notation: Notation | None = None) -> float:
+    """Size in SI of the reader's unit of a kind."""
+    return Shown(r, notation or Notation()).size(kind)
+
+
+def whole_frame(r: Result, k: int, width: float, height: float) -> Frame:
+    """A frame that holds all positions where there are traces, else this one."""
+    places = every_place(r, k)
+    if len(r.status) > 2:
+        some = np.unique(np.linspace(0, len(r.status) - 1, 24).astype(int))
+        places += [p for n in some if r.ok[n] for p in every_place(r, int(n))]
+    return fitted(places, width, height, unit_size(r, "length"))
+
+
+def draw_traces(canvas: Canvas, r: Result, frame: Frame) -> None:
+    """Paths of moving joints over the cycle."""
+    if len(r.status) < 8 or r.stability is not None:
+        return
+    for name, joint in r.mechanism.joints.items():
+        if GROUND in joint.links and joint.type == "pin":
+            continue
+        path = link_place(r, joint.links[1], r.mechanism.joint_points(name)[1])
+        canvas.add(*(Line(tuple(frame(p) for p in run), "trace") for run in unbroken(path)))
+
+
+def draw_links(canvas: Canvas, r: Result, k: int, frame: Frame) -> None:
+    """Links, springs, joints and mass centres."""
+    m = r.mechanism
+    for name in r.joints:
+        canvas.add(*rail(r, name, k, frame))
+    for link in r.links:
+        canvas.add(*link_shape(r, link, k, frame))
+    for name, load in m.loads.items():
+        if load.type in ("spring", "damper"):
+            a, b = (frame(link_place(r, end, u)[k]) for end, u in m.load_points(name))
+            canvas.add(*(plane_symbols.spring(a, b) if load.type == "spring" else plane_symbols.damper(a, b)))
+            for (end, _), at in zip(m.load_points(name), (a, b), strict=True):
+                canvas.add(*(plane_symbols.fixed_pin(at) if end == GROUND else plane_symbols.pin(at)))
+    for name in sorted(r.joints, key=lambda n: m.joints[n].type == "pin"):
+        draw_joint(canvas, r, name, k, frame)
+    joints = [frame(p) for link in r.links for p in link_points(r, link, k).values()]
+    for link in r.links:
+        at = frame(r.center(link)[k])
+        if m.mass(link) and all(math.dist(at, p) > 1.5 for p in joints):
+            canvas.add(*plane_symbols.mass_center(at))
+
+
+def canvas_names(canvas: Canvas, r: Result, k: int, frame: Frame, shown: Shown) -> None:
+    """Names of joints and links."""
+    m = r.mechanism
+    middle = np.mean([frame(p) for p in every_place(r, k)], axis=0)
+    for name, joint in m.joints.items():
+        at = frame(link_place(r, joint.links[1], m.joint_points(name)[1])[k])
+        away = math.atan2(at[1] - middle[1], at[0] - middle[0])
+        canvas.label(name, around(at), *ring(at, 1.0), prefer=away, size=3.4, role="title", leads=False)
+    for link in r.links:
+        places = [frame(p) for p in link_points(r, link, k).values()]
+        if not places:
+            continue
+        if len(places) == 1:
+            canvas.label(shown.link(link), places[0], size=3.0, role="note")
+            continue
+        a, b = places[0], places[1]
+        spots = [(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])) for t in (0.5, 0.35, 0.65)]
+        canvas.label(shown.link(link), *spots, size=3.0, role="note")
+
+
+def around(at: Point) -> Point:
+    """The place itself, for labels."""
+    return at
+
+
+def ring(at: Point, radius: float) -> list[Point]:
+    """Places around a point."""
+    return [
+        (at[0] + radius * math.cos(a), at[1] + radius * math.sin(a))
+        for a in (math.pi / 4 + n * math.pi / 2 for n in range(4))
+    ]
+
+
+def draw_actions(
+    canvas: Canvas,
+    r: Result,
+    some: list[Action],
+    k: int,
+    frame: Frame,
+    shown: Shown,
+    longest: float,
+    per_mm: float | None = None,
+    values: bool = True,
+) -> float | None:
+    """Arrows and curved arrows of actions at their places; returns newtons a millimetre, None without forces."""
+    some = [a for a in some if np.isfinite(a.force[k]).all() and np.isfinite(a.couple[k])]
+    sizes = [float(np.hypot(*a.force[k])) for a in some]
+    largest = max(sizes, default=0.0)
+    couples = [abs(float(a.couple[k])) for a in some]
+    per_mm = per_mm or force_scale(sizes, longest, unit_size(r, "force", shown.notation))
+    drawn = False
+    for a, size in zip(some, sizes, strict=True):
+        if size > 1e-9 * largest and size / per_mm > 0.05:
+            draw_force(canvas, r, a, k, frame, shown, per_mm, values)
+            drawn = True
+        if abs(float(a.couple[k])) > max(1e-9 * max(couples, default=0.0), shown.least["moment"]):
+            draw_couple(canvas, r, a, k, frame, shown, values)
+    return per_mm if drawn else None
+
+
+def draw_force(
+    canvas: Canvas,
+    r: Result,
+    a: Action,
+    k: int,
+    frame: Frame,
+    shown: Shown,
+    per_mm: float,
+    values: bool | None,
+) -> None:
+    """An arrow that leaves its point, or ends there where it pushes inwards; ``values`` None leaves it unnamed."""
+    at, (fx, fy) = frame(a.at[k]), map(float, a.force[k])
+    dx, dy = fx / per_mm, fy / per_mm
+    size = math.hypot(fx, fy)
+    inward = _pushes(r, a, k)
+    tail, head = ((at[0] - dx, at[1] - dy), at) if inward else (at, (at[0] + dx, at[1] + dy))
+    canvas.add(Arrow(tail, head, role_of(a.kind), a.of, "force", size))
+    free = tail if inward else head
+    side = (free[0] - at[0], free[1] - at[1])
+    if values is None:
+        return
+    name = shown.symbol(a)
+    text = f"{name} = {shown.text('force', size)}" if values else name
+    along = [(at[0] + t * side[0], at[1] + t * side[1]) for t in (1.0, 0.8, 0.6)]
+    canvas.label(text, *along, prefer=math.atan2(side[1], side[0]), size=2.8, role=role_of(a.kind))
+
+
+def _pushes(r: Result, a: Action, k: int) -> bool:
+    """Whether a force points from its place towards the middle of its link; what bears on a guide always pushes."""
+    if a.kind == "joint" and guided(r, [a.of]):
+        return True
+    places = list(link_points(r, a.link, k).values())
+    if len(places) < 2:
+        return False
+    middle = np.mean(places, axis=0)
+    return bool(float(np.dot(a.force[k], middle - a.at[k])) > 1e-12)
+
+
+def draw_couple(
+    canvas: Canvas, r: Result, a: Action, k: int, frame: Frame, shown: Shown, values: bool | None
+) -> None:
+    """A curved arrow about its place; the sense is drawn, the size written."""
+    at, value = frame(a.at[k]), float(a.couple[k])
+    radius = 4.6 if a.kind != "inertia" else 3.4
+    role = role_of(a.kind)
+    canvas.add(*plane_symbols.couple(at, value, radius, role, a.of, value))
+    if values is None:
+        return
+    name = shown.turning_symbol(a)
+    text = f"{name} = {shown.text('moment', abs(value) * shown.notation.torque)}" if values else name
+    spots = [(at[0] + radius * math.cos(t), at[1] + radius * math.sin(t)) for t in np.arange(8) * math.pi / 4]
+    canvas.label(text, *spots, size=2.8, role=role)

@@ -1,0 +1,349 @@
+"""The links of a result as solids in their own axes: bars and plates between joints, joints' symbols, feet on ground.
+
+Pictures in space and 3-D files are made of the same solids. A mechanism of the plane has its links in layers along z.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.analysis.compile.load_arrays import point_of
+from dalembert.analysis.compile.pair_table import AXES, pair_of
+from dalembert.arrays import Array
+from dalembert.model.links.shapes import Box, Sphere
+from dalembert.model.links.shapes import Cylinder as Round
+from dalembert.model.links.shapes import Tube as Hollow
+from dalembert.views.plane.outline import convex
+from dalembert.views.space.solids import (
+    Ball,
+    Block,
+    Cylinder,
+    Plate,
+    Ring,
+    Solid,
+    Wire,
+    across,
+    all_placed,
+    circle,
+)
+from dalembert.views.symbols.pair_symbols import Setting, Symbol, symbol
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+GROUND = "ground"
+ROD = 0.8
+"""Radius of a link's bars, mm."""
+
+LAYER = 2.2
+"""Distance of the layers of a plane mechanism, mm."""
+
+PLANE_KINDS = {"pin": "revolute", "slider": "prismatic", "slot": "slotted_cylinder", "weld": "weld"}
+"""Joint of the plane -> the joint in space whose symbol it has."""
+
+
+@dataclass(frozen=True)
+class Mount:
+    """A joint on its two links: points (3,) and axes (3, 3), a row each, in link axes, metres; i's slides' ends."""
+
+    kind: str
+    links: tuple[str, str]
+    points: tuple[Array, Array]
+    axes: tuple[Array, Array]
+    low: Array
+    high: Array
+    blocked: str = "x"
+    hand: float = 1.0
+
+
+def link_solids(r: Result, size: float) -> dict[str, list[Solid]]:
+    """Solids of all links, ground included, in link axes and metres; ``size`` is a symbol's millimetre in metres."""
+    out: dict[str, list[Solid]] = {link: [] for link in (*r.links, GROUND)}
+    clear: dict[tuple[str, str], float] = {}
+    mounts = {name: mount(r, name) for name in r.joints if r.mechanism.joints[name].type not in WHEELS}
+    for name, m in mounts.items():
+        found = _symbol(r, m, size)
+        for end, solids in enumerate((found.on_i, found.on_j)):
+            out[m.links[end]] += all_placed(solids, m.axes[end].T, m.points[end], size)
+            clear[m.links[end], name] = found.clear * size
+        if GROUND in m.links:
+            height = _layers(r, m)[m.links.index(GROUND)] if r.mechanism.dimension == 2 else 0.0
+            feet = _feet(r, m, found.clear, size)
+            out[GROUND] += all_placed(feet, np.eye(3), np.array([0.0, 0.0, height * size]))
+    for name in r.joints:
+        if name not in mounts:
+            for link, solid in _wheels(r, name, size):
+                out[link].append(solid)
+    for link in r.links:
+        out[link] += _frame(r, link, clear, size)
+    return out
+
+
+WHEELS = ("gear", "rolling")
+
+
+def pose(r: Result, link: str, k: int) -> tuple[Array, Array]:
+    """Rotation (3, 3) and origin (3,) of a link, ground included, at a position."""
+    turn, at = np.eye(3), np.zeros(3)
+    if link != GROUND:
+        d = r.mechanism.dimension
+        turn[:d, :d], at[:d] = r.rotation(link)[k], r.position(link)[k]
+    return turn, at
+
+
+def lift(r: Result, link: str, u: Any, size: float = 0.0) -> Array:
+    """A point of a link with three components; in the plane in the link's layer."""
+    if r.mechanism.dimension == 3:
+        return np.asarray(u, float)
+    return np.array([*map(float, u), size * LAYER * (0 if link == GROUND else 1 + r.links.index(link))])
+
+
+def mount(r: Result, name: str) -> Mount:
+    """How a joint is mounted on its links; slides over all positions."""
+    m = r.mechanism
+    joint: Any = m.joints[name]
+    points = tuple(lift(r, link, u) for link, u in zip(joint.links, m.joint_points(name), strict=True))
+    low, high = np.zeros(3), np.zeros(3)
+    if m.dimension == 2:
+        direction, angle = (
+            float(getattr(joint, "direction", 0.0) or 0.0),
+            float(getattr(joint, "angle", 0.0) or 0.0),
+        )
+        axes, slides = (_about_z(direction), _about_z(-angle)), {"slide": 0}
+        kind, blocked = PLANE_KINDS[joint.type], "x"
+    else:
+        geometry = r.compiled.geometries[r.joints.index(name)]
+        axes, kind = (geometry.on_i, geometry.on_j), joint.type
+        blocked = getattr(joint, "blocked", None) or "x"
+        names = [n for n in getattr(joint, "freedoms", ()) if n.startswith("slide")]
+        slides = {n: AXES.index(a) for n, a in zip(names, pair_of(joint).slides or "x", strict=False)}
+    for freedom, axis in slides.items():
+        if (name, freedom) in r.compiled.freedoms:
+            values = r.freedom(name, freedom)[0]
+            values = values[np.isfinite(values)]
+            if len(values):
+                low[axis], high[axis] = float(values.min()), float(values.max())
+    hand = -1.0 if (getattr(joint, "lead", None) or 1.0) < 0 else 1.0
+    return Mount(kind, joint.links, points, axes, low, high, blocked, hand)  # type: ignore[arg-type]
+
+
+def _about_z(angle: float) -> Array:
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+
+
+def _symbol(r: Result, m: Mount, size: float) -> Symbol:
+    """The joint's symbol, turned to where its links come from; in the plane its parts reach through the layers."""
+    to = [_towards(r, m, end) for end in (0, 1)]
+    low, high = m.low / size, m.high / size
+    if m.links[0] != GROUND:
+        low, high = np.minimum(low, 0.0), np.maximum(high, 0.0)
+    found = symbol(m.kind, Setting(to[0], to[1], low, high, m.blocked, m.hand))
+    if r.mechanism.dimension == 3:
+        return found
+    shift = _layers(r, m)
+    up = np.array([0.0, 0.0, 1.0])
+    parts = [all_placed(part, np.eye(3), z * up) for part, z in zip(found[:2], shift, strict=True)]
+    if m.kind in ("revolute", "slotted_cylinder"):
+        ends = np.array([[min(shift) - 2.0], [max(shift) + 2.0]]) * up
+        parts[1] = [Cylinder(ends[0], ends[1], 0.9, "inner")]
+    return Symbol(parts[0], parts[1], found.clear)
+
+
+def _layers(r: Result, m: Mount) -> list[float]:
+    """Heights in mm of a plane joint's parts; a block and its rail are in the block's layer."""
+    heights = [float(lift(r, link, (0, 0), 1.0)[2]) for link in m.links]
+    return [heights[1]] * 2 if m.kind == "prismatic" else heights
+
+
+def _towards(r: Result, m: Mount, end: int) -> Array:
+    """Unit vector in the joint's axes to the middle of the rest of a link; away from the other link without one."""
+    here = m.points[end]
+    rest = [p for p in nodes(r, m.links[end]).values() if np.linalg.norm(p - here) > 1e-9]
+    if m.links[end] == GROUND or not rest:
+        return np.array([0.0, 0.0, -1.0]) if end == 0 else np.array([1.0, 0.0, 0.0])
+    away = m.axes[end] @ (np.mean(rest, axis=0) - here)
+    length = float(np.linalg.norm(away))
+    return np.asarray(away / length if length > 1e-12 else np.array([1.0, 0.0, 0.0]))
+
+
+def nodes(r: Result, link: str) -> dict[str, Array]:
+    """What a link spans, in its axes: joints' points, then points that carry loads; its mass centre where alone."""
+    m = r.mechanism
+    out: dict[str, Array] = {}
+    for name, joint in m.joints.items():
+        for end, u in zip(joint.links, m.joint_points(name), strict=True):
+            if end == link:
+                out.setdefault(name, lift(r, link, u))
+    for name, load in m.loads.items():
+        if load.type == "force" and load.on == link:
+            out.setdefault(name, lift(r, link, point_of(m, link, load.at)))
+        if load.type in ("spring", "damper"):
+            for end, u in m.load_points(name):
+                if end == link:
+                    out.setdefault(f"{name} {end}", lift(r, link, u))
+    if link != GROUND and len(out) == 1 and m.mass(link):
+        out[""] = lift(r, link, m.center(link))
+    return out
+
+
+def _frame(r: Result, link: str, clear: dict[tuple[str, str], float], size: float) -> list[Solid]:
+    """Bars along the shortest tree between a link's nodes; a plate where they lie in one plane but not on a line."""
+    height = lift(r, link, (0.0,) * r.mechanism.dimension, size)
+    places: list[Array] = []
+    free: list[float] = []
+    for name, u in nodes(r, link).items():
+        if all(np.linalg.norm(u - other) > 0.05 * size for other in places):
+            places.append(u)
+            free.append(clear.get((link, name), 0.0))
+    out: list[Solid] = list(_plate(np.array(places), height, size)) if len(places) > 2 else []
+    if out:
+        return out
+    for a, b in _tree(places):
+        along = places[b] - places[a]
+        length = float(np.linalg.norm(along))
+        if length > free[a] + free[b] + 0.2 * size:
+            e = along / length
+            out.append(
+                Cylinder(places[a] + free[a] * e + height, places[b] - free[b] * e + height, ROD * size)
+            )
+    return out
+
+
+def _tree(places: list[Array]) -> list[tuple[int, int]]:
+    """Pairs of places that join all with the least length."""
+    joined, out = [0], []
+    while len(joined) < len(places):
+        a, b = min(
+            ((a, b) for a in joined for b in range(len(places)) if b not in joined),
+            key=lambda pair: float(np.linalg.norm(places[pair[0]] - places[pair[1]])),
+        )
+        joined.append(b)
+        out.append((a, b))
+    return out
+
+
+def _plate(places: Array, height: Array, size: float) -> list[Plate]:
+    """The convex outline of points in one plane, none of more than two on a line."""
+    middle = places.mean(axis=0)
+    _, spread, axes = np.linalg.svd(places - middle)
+    if spread[1] < 1e-3 * spread[0] or (len(spread) > 2 and spread[2] > 1e-3 * spread[0]):
+        return []
+    flat = (places - middle) @ axes[:2].T
+    hull = np.array(convex([(float(x), float(y)) for x, y in flat / size])) * size
+    return [Plate(middle + hull @ axes[:2] + height, 1.2 * size)]
+
+
+def _feet(r: Result, m: Mount, clear: float, size: float) -> list[Solid]:
+    """What holds a joint to the ground: posts with hatched squares, at the ends of what a slide runs on."""
+    end = m.links.index(GROUND)
+    axes, at = m.axes[end], m.points[end]
+    if m.kind in ("plane", "sphere_between_planes", "cylinder_between_planes") and end == 0:
+        off = {"plane": 1.0, "sphere_between_planes": 2.2, "cylinder_between_planes": 1.8}[m.kind]
+        center = np.array([0.0, *((m.low + m.high) / 2)[1:]])
+        return _foot(at + center @ axes - off * size * axes[0], -axes[0], 0.0, size)
+    rails = (
+        "prismatic",
+        "cylindrical",
+        "sphere_in_cylinder",
+        "slotted_sphere_in_cylinder",
+        "slotted_cylinder",
+    )
+    if m.kind in rails and end == 0:
+        beyond = (3.4 if m.kind == "slotted_cylinder" else 5.0) * size
+        aside = {"prismatic": 0.8, "cylindrical": 0.9, "slotted_cylinder": 0.7}.get(m.kind, 2.5)
+        down = _down(r, m, axes[0])
+        ends = (m.low[0] - beyond + 0.8 * size, m.high[0] + beyond - 0.8 * size)
+        return [s for x in ends for s in _foot(at + x * axes[0], down, aside, size)]
+    return _foot(at, _down(r, m, None), {"spherical": 3.1, "slotted_sphere": 3.1}.get(m.kind, clear), size)
+
+
+def _down(r: Result, m: Mount, rail: Array | None) -> Array:
+    """The direction of a post: down, unless the joint's axis, its slide or the other link are there."""
+    other = m.links[1 - m.links.index(GROUND)]
+    good = np.flatnonzero(r.ok)
+    turn, at = pose(r, other, int(good[0]) if len(good) else 0)
+    here = m.points[m.links.index(GROUND)]
+    rest = [turn @ p + at - here for p in nodes(r, other).values()] if np.isfinite(turn).all() else []
+    away = [v / np.linalg.norm(v) for v in rest if np.linalg.norm(v) > 1e-9]
+    z, x, y = np.eye(3)[2], np.eye(3)[0], np.eye(3)[1]
+    best, lowest = -z, np.inf
+    ways: tuple[tuple[float, Array], ...] = ((0.0, -z), (0.35, -y), (0.35, -x), (0.4, x), (0.4, y), (0.8, z))
+    if r.mechanism.dimension == 2:
+        ways = ((0.0, -y), (0.35, -x), (0.35, x), (0.8, y))
+    for preference, e in ways:
+        if rail is not None:
+            e = e - (e @ rail) * rail
+            if np.linalg.norm(e) < 0.3:
+                continue
+            e = e / np.linalg.norm(e)
+        cost = preference + max([max(0.0, float(e @ v)) ** 4 for v in away], default=0.0)
+        if cost < lowest - 1e-9:
+            best, lowest = e, cost
+    return np.asarray(best)
+
+
+def _foot(at: Array, down: Array, start: float, size: float) -> list[Solid]:
+    """A post and a square with strokes below it."""
+    u, v = across(down)
+    base = at + (start + 2.4) * size * down
+    half = 2.8 * size
+    corners = np.array([base + half * (a * u + b * v) for a, b in ((1, 1), (-1, 1), (-1, -1), (1, -1))])
+    strokes = []
+    for a, b, away in ((u, v, 1), (u, v, -1), (v, u, 1), (v, u, -1)):
+        for t in np.linspace(-0.75, 1.0, 5):
+            p = base + half * (away * a + t * b)
+            strokes.append(Wire(np.array([p, p + size * (1.2 * down - 0.9 * b)]), "hatch"))
+    post = [Cylinder(at + start * size * down, base, 0.55 * size, "ground-solid")]
+    return [*post, Plate(corners, 0.4 * size, "ground-solid"), *strokes]
+
+
+def wheels(r: Result, name: str, size: float = 0.0) -> list[tuple[str, Array, Array, float]]:
+    """Link, centre, axis, both in link axes, and pitch radius of the wheels of a gear or rolling joint."""
+    joint: Any = r.mechanism.joints[name]
+    radii = joint.pitch_radii if joint.type == "gear" else (joint.radii or (0.0, joint.radius))
+    axes = [np.array(f[2]) for f in joint.frames] if r.mechanism.dimension == 3 else [np.eye(3)[2]] * 2
+    places = zip(joint.links, r.mechanism.joint_points(name), axes, radii, strict=True)
+    return [(link, lift(r, link, u, size), axis, float(radius)) for link, u, axis, radius in places if radius]
+
+
+def _wheels(r: Result, name: str, size: float) -> list[tuple[str, Solid]]:
+    """Discs; a ring for the wheel around an internal one; a worm has a thread."""
+    joint: Any = r.mechanism.joints[name]
+    found = wheels(r, name, size)
+    largest = max(radius for *_, radius in found)
+    helix = float(getattr(joint, "helix_angle", 0.0) or 0.0)
+    out: list[tuple[str, Solid]] = []
+    for n, (link, at, axis, radius) in enumerate(found):
+        if joint.internal and radius == largest:
+            out.append((link, Ring(at, axis, radius + 0.9 * size, 0.9 * size)))
+            continue
+        if abs(helix) > 0.8 and n == 0:
+            half, lead = 2.0 * radius * axis, 2 * np.pi * radius / np.tan(helix)
+            out.append((link, Cylinder(at - half, at + half, radius, thread=lead)))
+            continue
+        out.append((link, Plate(circle(at, axis, radius, 48)[:-1], 1.4 * size, spoke=True)))
+    return out
+
+
+def shape_solids(r: Result, link: str, size: float) -> list[Solid]:
+    """The shapes that a link is described by, in link axes; slender bars and meshes from files are left out."""
+    m = r.mechanism
+    height = lift(r, link, (0.0,) * m.dimension, size)
+    out: list[Solid] = []
+    for shape in m.links[link].shapes:
+        if isinstance(shape, Box):
+            out.append(
+                Block(shape.middle() + height, np.array(shape.own_axes), np.array(shape.size) / 2, "shape")
+            )
+        elif isinstance(shape, Sphere):
+            out.append(Ball(shape.middle() + height, shape.radius, "shape"))
+        elif isinstance(shape, (Round, Hollow)):
+            length, middle, axis = shape.line(lambda name: m.point(link, name))
+            radius = shape.radius if isinstance(shape, Round) else shape.radii[1]
+            ends = [middle + sign * length / 2 * axis + height for sign in (-1, 1)]
+            out.append(Cylinder(ends[0], ends[1], radius, "shape"))
+    return out

@@ -1,0 +1,182 @@
+"""Simple solids in space: what pictures in space are painted from and what 3-D files are meshed from.
+
+All lengths are in one unit that the maker chooses (millimetres of paper, or metres). A role says what a solid is, as in
+a Scene; what is seen through (a tube around a ball) is a Tube or a Pane.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+
+from dalembert.arrays import Array
+
+Rotation = Array
+
+
+@dataclass(frozen=True)
+class Cylinder:
+    """A round bar from start to end; ``whole``: a sleeve, painted in one piece over what runs in it.
+
+    ``thread``: advance a turn of the thread on it, negative where it is left-handed, 0 where there is none.
+    """
+
+    start: Array
+    end: Array
+    radius: float
+    role: str = "solid"
+    whole: bool = False
+    thread: float = 0.0
+
+
+@dataclass(frozen=True)
+class Ball:
+    """A sphere."""
+
+    center: Array
+    radius: float
+    role: str = "solid"
+
+
+@dataclass(frozen=True)
+class Block:
+    """A box: axes (3, 3) are unit vectors, a row each, half (3,) its half lengths along them; ``whole`` as above."""
+
+    center: Array
+    axes: Array
+    half: Array
+    role: str = "solid"
+    whole: bool = False
+
+
+@dataclass(frozen=True)
+class Plate:
+    """A flat convex polygon of corners (n, 3), in order, with a thickness that pictures leave out.
+
+    ``spoke``: a line from its middle to the first corner shows how it is turned.
+    """
+
+    corners: Array
+    thickness: float
+    role: str = "solid"
+    spoke: bool = False
+
+
+@dataclass(frozen=True)
+class Ring:
+    """A round bar bent to a circle about an axis."""
+
+    center: Array
+    axis: Array
+    radius: float
+    thickness: float
+    role: str = "solid"
+
+
+@dataclass(frozen=True)
+class Tube:
+    """A cylinder that is seen through: its end circles and its outline."""
+
+    start: Array
+    end: Array
+    radius: float
+    role: str = "guide"
+
+
+@dataclass(frozen=True)
+class Pane:
+    """A flat polygon that is seen through: its edges."""
+
+    corners: Array
+    role: str = "guide"
+
+
+@dataclass(frozen=True)
+class Wire:
+    """Thin lines through points (n, 3)."""
+
+    points: Array
+    role: str = "guide"
+
+
+Solid = Cylinder | Ball | Block | Plate | Ring | Tube | Pane | Wire
+
+PLACES = ("start", "end", "center", "corners", "points")
+DIRECTIONS = ("axes", "axis")
+SIZES = ("radius", "half", "thickness", "thread")
+
+
+def placed(solid: Solid, turn: Rotation, at: Array, scale: float = 1.0) -> Solid:
+    """A solid enlarged, turned by a matrix (3, 3) and moved.
+
+    >>> ball = placed(Ball(np.array([1.0, 0, 0]), 2.0), np.eye(3), np.array([0, 0, 5.0]), scale=3.0)
+    >>> ball.center.tolist(), ball.radius
+    ([3.0, 0.0, 5.0], 6.0)
+    """
+    changed: dict[str, Any] = {}
+    for f in fields(solid):
+        value = getattr(solid, f.name)
+        if f.name in PLACES:
+            changed[f.name] = scale * np.asarray(value) @ turn.T + at
+        elif f.name in DIRECTIONS:
+            changed[f.name] = np.asarray(value) @ turn.T
+        elif f.name in SIZES:
+            changed[f.name] = scale * value
+    return replace(solid, **changed)
+
+
+def all_placed(solids: Sequence[Solid], turn: Rotation, at: Array, scale: float = 1.0) -> list[Solid]:
+    """Solids enlarged, turned and moved together."""
+    return [placed(s, turn, at, scale) for s in solids]
+
+
+def extent(solid: Solid) -> Array:
+    """Points (n, 3) that a solid reaches, as far as a box around it needs them."""
+    if isinstance(solid, (Plate, Pane)):
+        return solid.corners
+    if isinstance(solid, Wire):
+        return solid.points
+    if isinstance(solid, Block):
+        return block_corners(solid)
+    reach = solid.radius + getattr(solid, "thickness", 0.0)
+    ends = [solid.start, solid.end] if isinstance(solid, (Cylinder, Tube)) else [solid.center]
+    return np.array([p + reach * e for p in ends for e in (*np.eye(3), *-np.eye(3))])
+
+
+def block_corners(block: Block) -> Array:
+    """The eight corners (8, 3), x slowest."""
+    signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+    return np.asarray(block.center + (signs * block.half) @ block.axes)
+
+
+def across(direction: Array) -> tuple[Array, Array]:
+    """Two unit vectors at right angles to a unit vector and to each other; the three are right-handed.
+
+    >>> [v.tolist() for v in across(np.array([0.0, 0.0, 1.0]))]
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+    """
+    e = np.eye(3)[np.abs(direction).argmin()]
+    first = e - (e @ direction) * direction
+    first = first / np.linalg.norm(first)
+    return first, np.cross(direction, first)
+
+
+def helix(solid: Cylinder, count: int = 24) -> Array:
+    """Points (n, 3) of a cylinder's thread, so many a turn."""
+    length = float(np.linalg.norm(solid.end - solid.start))
+    along = (solid.end - solid.start) / length
+    u, v = across(along)
+    s = np.linspace(0.0, length, math.ceil(count * length / abs(solid.thread)) + 1)[:, None]
+    t = 2 * np.pi * s / solid.thread
+    return np.asarray(solid.start + s * along + solid.radius * (np.cos(t) * u + np.sin(t) * v))
+
+
+def circle(center: Array, axis: Array, radius: float, count: int = 32) -> Array:
+    """Points (count + 1, 3) of a circle about an axis, the first again at the end."""
+    u, v = across(axis / np.linalg.norm(axis))
+    t = np.linspace(0.0, 2 * np.pi, count + 1)[:, None]
+    return np.asarray(center + radius * (np.cos(t) * u + np.sin(t) * v))

@@ -1,0 +1,94 @@
+"""Is a force system in equilibrium, and what is missing where it is not."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from dalembert.arrays import Array
+from dalembert.units import Units
+from dalembert.wrench.forces import Couple, Force
+from dalembert.wrench.reading import fixed
+
+
+@dataclass(frozen=True, eq=False)
+class Balance:
+    """Sums of forces (N) and of moments (N m) about ``at`` (m), and their largest part of what acts.
+
+    ``residual`` is the larger of |sum of forces| / largest force and |sum of moments| / (largest force x length).
+    """
+
+    holds: bool
+    residual: float
+    force: Array
+    moment: Array
+    at: Array
+    missing: tuple[Force | Couple, ...]
+    sentence: str
+
+
+def balance(
+    sums: tuple[Array, Array],
+    at: Array,
+    scales: tuple[float, float],
+    tolerance: float,
+    missing: tuple[Force | Couple, ...],
+    units: Units,
+) -> Balance:
+    """The check of equilibrium of a system with these sums of forces, and of moments about ``at``.
+
+    ``scales``: the largest force and moment; ``missing``: what would bring it to equilibrium.
+
+    >>> from dalembert.wrench import Force, System
+    >>> System(Force([0, 10]), Force([0, -10], at=[2, 0])).equilibrium().sentence
+    'Not in equilibrium: the forces balance, the moments do not. A couple of 20 N*m is missing.'
+    """
+    force, moment = sums
+    parts = _part(force, scales[0]), _part(moment, scales[1])
+    residual = max(parts)
+    holds = residual <= tolerance
+    if holds:
+        sentence = f"In equilibrium: {residual:.1g} of the largest force is left."
+    else:
+        sentence = f"Not in equilibrium: {_which(parts, tolerance)}. {_missing(missing, units)}"
+    return Balance(holds, residual, force, fixed(moment), at, missing, sentence)
+
+
+def _part(sum_of: Array, scale: float) -> float:
+    size = math.hypot(*sum_of)
+    return size / scale if scale > 0 else 0.0 if size == 0 else np.inf
+
+
+def _which(parts: tuple[float, float], tolerance: float) -> str:
+    force, moment = (part <= tolerance for part in parts)
+    if force:
+        return "the forces balance, the moments do not"
+    if moment:
+        return "the moments about the middle balance, the forces do not"
+    return "neither forces nor moments balance"
+
+
+def _missing(parts: tuple[Force | Couple, ...], units: Units) -> str:
+    said = " and ".join(_said(part, units) for part in parts)
+    return f"{said[0].upper()}{said[1:]} {'is' if len(parts) == 1 else 'are'} missing."
+
+
+def _said(part: Force | Couple, units: Units) -> str:
+    if isinstance(part, Couple):
+        return f"a couple of {listed(part.vector, 'moment', units)}"
+    place = listed(part.at, "length", units)
+    return f"a force of {listed(part.vector, 'force', units)} on the line through {place}"
+
+
+def listed(values: Array, kind: str, units: Units) -> str:
+    """Components with their unit, five figures: `[3, 4] N`.
+
+    >>> listed(np.array([3.0, 4.0]), "force", Units(force="kN"))
+    '[0.003, 0.004] kN'
+    """
+    floor = 1e-12 * float(np.abs(values).max(initial=0.0))
+    shown = [f"{units.unit(kind).of_si(0.0 if abs(v) < floor else float(v)):.5g}" for v in values]
+    numbers = shown[0] if len(shown) == 1 else f"[{', '.join(shown)}]"
+    return f"{numbers} {units.text(kind)}"
