@@ -1,0 +1,59 @@
+"""Parts of the command line by themselves: ways to a pose, whole numbers, what is rounding, long tables."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.cli.draw_command import _moved, _way
+from dalembert.cli.method_text import MOST_STEPS, NOTHING, _rounding, fixed_point_text
+from dalembert.cli.options import whole
+from dalembert.model.library import TEMPLATES
+from tests.friction.engines import pushed_slider
+
+
+@pytest.mark.parametrize("at", ["60.5 deg", "-95 deg", "190 deg", "400 deg"])
+@pytest.mark.parametrize("template", ["four_bar", "rssr"])
+def test_a_drawing_at_another_value_is_of_the_pose_that_leads_there(template: str, at: str) -> None:
+    """In small steps from the file's own position, up or down, on its branch."""
+    m = TEMPLATES[template].function()
+    m = m.with_values({f"drives.{next(iter(m.drives))}.position": float(np.radians(60))})
+    way = _way(m, at)
+    assert way is not None
+    assert np.abs(np.diff(way)).max() <= 0.05 + 1e-12
+    assert (way[0], way[-1]) == pytest.approx((np.radians(60), np.radians(float(at.split()[0]))))
+    followed = da.kinematics(m.with_values({f"drives.{next(iter(m.drives))}.position": way}))
+    there = da.kinematics(_moved(m, way))
+    for link in followed.links:
+        assert there.rotation(link)[0] == pytest.approx(followed.rotation(link)[-1], abs=1e-9)
+        assert there.position(link)[0] == pytest.approx(followed.position(link)[-1], abs=1e-9)
+
+
+def test_whole_numbers_have_fifteen_digits_at_most() -> None:
+    def read(text: str) -> int:
+        return whole(1)(None, [SimpleNamespace(value=text)])
+
+    assert read("9" * 15) == 10**15 - 1
+    for text in ("9" * 16, "-1", "0", "1.0", "²"):
+        with pytest.raises(ValueError, match="is no whole number of 1 or more"):
+            read(text)
+
+
+def test_rounding_is_judged_beside_the_largest_force_and_moment() -> None:
+    result: Any = SimpleNamespace(compiled=SimpleNamespace(layout=SimpleNamespace(length=2.0)))
+    found = _rounding(result, [("force", np.array([-3.0])), ("moment", np.array([8.0, -1.0]))])
+    assert found == {"force": NOTHING * 4.0, "moment": NOTHING * 8.0}
+
+
+def test_a_long_iteration_is_shortened_in_the_middle() -> None:
+    table = da.fixed_point(da.statics(pushed_slider(0.9)))
+    lines = fixed_point_text(da.statics(pushed_slider(0.9))).splitlines()
+    first = next(k for k, line in enumerate(lines) if line.split()[:1] == ["0"])
+    steps = [line.split()[0] for line in lines[first : first + MOST_STEPS]]
+    assert len(table.rows()) > MOST_STEPS
+    assert steps[-3:] == ["...", str(table.steps - 1), str(table.steps)]
+    assert steps[:-3] == [str(k) for k in range(MOST_STEPS - 3)]

@@ -1,0 +1,49 @@
+"""Tables of the worked solution as data and as LaTeX: where a sum stands apart, how wide ones are divided."""
+
+from __future__ import annotations
+
+import pytest
+
+from dalembert.report.sections.sources import _tables
+from dalembert.report.sheet import Table
+from dalembert.report.working import working
+from dalembert.report.writers.latex_writer import _table
+from tests.methods.space_machines import solved
+
+
+def test_the_line_stands_before_the_sum() -> None:
+    lines = _table(Table(("Part", "N"), (("one", "1"), ("two", "2"), ("sum", "3")), total=True)).splitlines()
+    assert [line.split(" ")[0] for line in lines[1:9]] == [
+        r"\toprule", "Part", r"\midrule", "one", "two", r"\midrule", "sum", r"\bottomrule",
+    ]  # fmt: skip
+    plain = _table(Table(("Part", "N"), (("one", "1"), ("two", "2"))))
+    assert plain.count("midrule") == 1
+
+
+def test_every_table_that_ends_with_a_sum_sets_it_apart() -> None:
+    sheet = working(solved("rssr"), 1, ("matrix", "virtual-work", "superposition"))
+    tables = [block for block in sheet.blocks if isinstance(block, Table)]
+    summed = [t for t in tables if t.rows[-1][0] in ("sum", "Sum", "Σ")]
+    assert summed
+    assert all(t.total for t in summed)
+
+
+@pytest.mark.parametrize(
+    ("efforts", "forces", "dimension", "widths"),
+    [
+        (1, 30, 3, [7, 9, 3]),
+        (2, 30, 3, [8, 9, 3]),
+        (3, 6, 3, [9]),
+        (12, 4, 3, [12, 4]),
+        (1, 30, 2, [9]),
+        (0, 4, 2, [4]),
+    ],
+)
+def test_wide_tables_are_divided_by_whole_joints(
+    efforts: int, forces: int, dimension: int, widths: list[int]
+) -> None:
+    one, other = [("E", 0, 0)] * efforts, [("F", k, 0) for k in range(forces)]
+    found = _tables(one, other, dimension)  # type: ignore[arg-type]
+    assert [len(columns) for columns in found] == widths
+    some = [c for columns in found for c in columns]
+    assert some == [*one, *other][: len(some)]
