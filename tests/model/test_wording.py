@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.model.library import scissor, toggle_press
+from dalembert.model.json_text import read
+from dalembert.model.library import bevel_differential, scissor, toggle_press
 from dalembert.printing import rounded
 from dalembert.wording import nearest, shown
 
@@ -60,3 +62,23 @@ def test_what_is_wrong_is_said_before_what_would_be_right(made: Any, said: str) 
     with pytest.raises(da.ModelError) as error:
         made()
     assert said in str(error.value)
+
+
+def test_whole_numbers_of_many_digits_in_json() -> None:
+    """As a double from nineteen digits on, which no integer of 64 bits is sure to hold."""
+    found = read('{"a": 123456789012345678, "b": 1234567890123456789, "c": -3}')
+    assert [type(v) for v in found.values()] == [int, float, int]
+
+
+def test_gravity_is_written_as_it_was_read() -> None:
+    m = four_bar({"gravity": [0, -1.62]})
+    assert da.mechanism(m.to_tree()).gravity == m.gravity == (0.0, -1.62)
+
+
+def test_both_drives_of_a_differential_keep_their_times() -> None:
+    """A sweep that begins elsewhere than at 0 is gone through in the time of the other."""
+    m = bevel_differential(speed=20.0, sweep=(0.5, 2.5), second_sweep=(1.0, 4.0), positions=5)
+    schedule = m.schedule()
+    first, second = (np.ptp(schedule.position[:, k]) / schedule.speed[0, k] for k in (0, 1))
+    assert first == pytest.approx(second)
+    assert schedule.speed[0, 0] == pytest.approx(20.0)
