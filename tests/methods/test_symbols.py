@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.views.camera import CAMERAS
-from dalembert.views.canvas import Canvas
-from dalembert.views.glb import _material
-from dalembert.views.pair_symbols import SYMBOLS, symbol
-from dalembert.views.scene import Arrow, Line
-from dalembert.views.solids import Ball
-from dalembert.views.space_view import triad
-from dalembert.views.symbols import spring
-from dalembert.views.themes import SOLIDS
+from dalembert.views.formats.glb import _material
+from dalembert.views.formats.themes import SOLIDS
+from dalembert.views.paper.canvas import Canvas
+from dalembert.views.paper.scene import Arrow, Line
+from dalembert.views.space.camera import CAMERAS
+from dalembert.views.space.solids import Ball
+from dalembert.views.space.space_view import triad
+from dalembert.views.symbols.pair_symbols import SYMBOLS, symbol
+from dalembert.views.symbols.plane_symbols import spring
 from dalembert.wrench import Force, System
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.model.json_text import read
+from dalembert.model.files.json_text import read
 from dalembert.model.library import bevel_differential, scissor, toggle_press
 from dalembert.printing import rounded
 from dalembert.wording import nearest, shown
