@@ -5,9 +5,11 @@ from __future__ import annotations
 import pytest
 
 from dalembert.report.sections.sources import _tables
-from dalembert.report.sheet import Table
+from dalembert.report.sheet import Equations, Sheet, Table
+from dalembert.report.space_sections.space_closure import closing_lines
 from dalembert.report.working import working
 from dalembert.report.writers.latex_writer import _table
+from dalembert.views.notation import Notation, Shown
 from tests.methods.space_machines import solved
 
 
@@ -47,3 +49,10 @@ def test_wide_tables_are_divided_by_whole_joints(
     assert [len(columns) for columns in found] == widths
     some = [c for columns in found for c in columns]
     assert some == [*one, *other][: len(some)]
+
+
+@pytest.mark.parametrize(("moving", "orders"), [(False, 1), (True, 3)])
+def test_loops_close_in_lengths_and_where_it_moves_in_both_rates(moving: bool, orders: int) -> None:
+    r, sheet = solved("rssr"), Sheet("")
+    closing_lines(sheet, r, 0, Shown(r, Notation()), moving)
+    assert len([b for b in sheet.blocks if isinstance(b, Equations)]) == orders  # of one loop
