@@ -379,8 +379,9 @@ def main() -> None:
         return
     same = tomllib.loads((Path(__file__).parent / "equivalent_mutants.toml").read_text(encoding="utf-8"))
     rows = [json.loads(line) for line in VERDICTS.read_text().splitlines()] if asked.again else []
-    rows = [r for r in rows if r["verdict"] != "alive" or r["key"] in same]
-    some = [m for m in drawn(asked.count, asked.seed, asked.package) if m.key not in {r["key"] for r in rows}]
+    every = {m.key: m for m in drawn(asked.count, asked.seed, asked.package)}
+    rows = [r for r in rows if r["key"] in every and (r["verdict"] != "alive" or r["key"] in same)]
+    some = [m for key, m in every.items() if key not in {r["key"] for r in rows}]
     VERDICTS.write_text("".join(json.dumps(r) + "\n" for r in rows))
     tests = Tests()
     meets = {m.key: tests(m, asked.limit) for m in some}
