@@ -275,7 +275,9 @@ def _distinct(group: Group, which: Ints, part: Part) -> Ints:
     places = part.point[:, group.link, group.axis]
     turned = _rotation(part.turn[:, [links[0] for links in group.turning]])
     size = max(float(np.abs(places).max(initial=0.0)), 1e-300)
-    told = np.column_stack([which, turned.reshape(len(which), -1), places / size]).round(6)
+    told = np.column_stack([which, turned.reshape(len(which), 2 * len(group.turning)), places / size]).round(
+        6
+    )
     return np.sort(np.unique(told, axis=0, return_index=True)[1])
 
 
