@@ -94,7 +94,7 @@ def rubs(seed: int) -> bool:
 
 @over_seeds([seed for seed in QUICK if seed not in (42, 50)], range(150))
 def test_friction_is_mu_times_what_bears_against_the_slip(seed: int) -> None:
-    seed = seed if seed in QUICK else nth(seed, rubs)
+    seed = seed if seed in QUICK and rubs(seed) else nth(seed, rubs)
     r, d = answered(seed), drawing(seed)
     good, s = solved(r), seen(r, d)
     b = Balance(r, d, s)
