@@ -69,6 +69,26 @@ def test_a_four_bar_closes_in_both_its_ranges(seed: int) -> None:
         assert entered == (order != "one position")
 
 
+@pytest.mark.parametrize("order", ORDERS[:3])
+def test_a_range_is_found_however_few_of_the_positions_lie_in_it(order: str) -> None:
+    """One of 623, at 345 degrees."""
+    rng, once = np.random.default_rng(72), np.arange(25.0, 336.0)
+    angles = listed(rng, np.concatenate([once, [345.0], once + 360]), order, 0.0)
+    r = driven(four_bar_tree((1.0, 1.0, 1.0, 2.9), 10.0, 0.0, 1, 1.0), "O2", angles)
+    np.testing.assert_array_equal(r.ok, angles == 345.0)
+
+
+def test_a_range_is_found_in_a_list_in_no_order_without_a_closed_form() -> None:
+    """One of eight positions is in it, and none of twelve spread over the list."""
+    tree = four_bar_tree((1.0, 1.0, 1.0, 2.9), 10.0, 0.0, 1, 1.0)
+    tree["links"]["ground"]["points"]["P"] = [-0.5, 0.0]
+    tree["links"]["wheel"] = {"points": {"P": [0.0, 0.0]}}
+    teeth = {"type": "gear", "links": ["crank", "wheel"], "at": ["O2", "P"], "radii": [0.25, 0.25]}
+    tree["joints"] |= {"P": {"type": "pin", "links": ["ground", "wheel"]}, "teeth": teeth}
+    angles = np.random.default_rng(2).permutation(5.0 * np.arange(72))
+    np.testing.assert_array_equal(driven(tree, "O2", angles).ok, np.cos(np.radians(angles)) > 5.41 / 5.8)
+
+
 @pytest.mark.parametrize("side", [-1.0, 1.0])
 @pytest.mark.parametrize("order", ORDERS[1::2])
 def test_a_slider_crank_whose_rod_is_short_closes_in_both_its_ranges(order: str, side: float) -> None:

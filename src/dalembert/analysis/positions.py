@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,20 +12,22 @@ from dalembert.analysis.closure_failure import drive_text
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.compile.torsion_turns import wound
 from dalembert.analysis.degree_of_freedom import Mobility, check_drives, mobility_at
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Ints
 from dalembert.core.constraints import measure
 from dalembert.core.gear_rows import Misfit, meshed
 from dalembert.core.layout import Mesh, Pose
+from dalembert.core.position.assembly_modes import closing
+from dalembert.core.position.assur_plan import plan
 from dalembert.core.position.first_pose_plane import Guess, Modes, phase_rows
 from dalembert.core.position.first_pose_space import Drawing
-from dalembert.core.position.motion_path import Path, path
+from dalembert.core.position.motion_path import BLOCK, Path, path
 from dalembert.core.position.newton import CLOSED, closed
 from dalembert.core.position.path_parameter import Course, course
 from dalembert.core.rank import held, rank
 from dalembert.errors import ModelError
 
 SAMPLES = 12
-"""Positions at which a first pose is sought when the first of the list does not close."""
+"""Positions, spread over the course, at which a first pose is sought when the first of the list does not close."""
 
 FARTHEST = 1e4
 """Longest way between two positions that is followed, in radians or characteristic lengths."""
@@ -70,13 +73,28 @@ def positions(c: Compiled) -> Positions:
 
 
 def _first(c: Compiled) -> tuple[int, Modes] | None:
-    """The first position that closes, and its modes."""
-    count = len(c.targets)
-    for k in np.unique(np.linspace(0, count - 1, min(count, SAMPLES)).astype(int)):
+    """The first position found that closes, and its modes."""
+    for k in _asked(c):
         found = c.guess.modes(c.layout, c.targets[k])
         if found is not None:
             return int(k), found
     return None
+
+
+def _asked(c: Compiled) -> Iterator[int]:
+    """Positions at which a first pose is sought: some of all, then some of those at which groups in closed form close,
+    however few these are."""
+    yield 0
+    yield from np.setdiff1d(_spread(course(c.layout, c.targets).order), 0)
+    way = plan(c.layout)
+    if way is not None and way.closed:
+        blocks = range(0, len(c.targets), BLOCK)
+        yield from _spread(np.concatenate([k + closing(way, c.targets[k : k + BLOCK]) for k in blocks]))
+
+
+def _spread(places: Ints) -> Ints:
+    kept = np.linspace(0, len(places) - 1, min(len(places), SAMPLES)).astype(int)
+    return np.asarray(places[kept])
 
 
 def _beside(c: Compiled, along: Course, start: float, first: Modes) -> tuple[float, Modes | None]:

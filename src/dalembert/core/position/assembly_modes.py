@@ -83,6 +83,16 @@ def on_sides(layout: Layout, plan: Plan, targets: Array, like: Pose, turn: Array
         return places, posed(layout, laid)
 
 
+def closing(plan: Plan, targets: Array) -> Ints:
+    """Which of the targets (P, K + D) a linkage closes at, in whatever way, ascending."""
+    with np.errstate(all="ignore"):
+        off, laid, places = offsets(plan, targets), begun(plan, targets), np.arange(len(targets))
+        for group in plan.groups:
+            which, laid = extended(group, laid, targets[places], off[places])
+            places = places[which]
+        return np.unique(places)
+
+
 def posed(layout: Layout, laid: Laid) -> Pose:
     """Links laid down as a pose."""
     return Pose(laid.point, laid.turn, layout.algebra.rotation(laid.turn))
