@@ -15,7 +15,7 @@ from dalembert.analysis.batch.over_positions import PARTS
 from tests.friction.engines import engine, pushed_slider
 from tests.friction.rough import cycle, rough_tree
 from tests.kernel.comparing import every_number, frictional, general
-from tests.kernel.machines import KINDS, ROUGH, four_bar
+from tests.kernel.machines import KINDS, ROUGH, four_bar, four_bar_tree
 from tests.kernel.test_derivatives import WEIGHTS
 from tests.random_mechanisms import random_case, tree
 from tests.tiers import tiers
@@ -56,6 +56,13 @@ def test_slopes_with_friction(name: str, monkeypatch: pytest.MonkeyPatch) -> Non
 @pytest.mark.parametrize("reduce", [r for r in PARTS if r != "argpeak"])
 def test_slopes_of_reductions(reduce: str, monkeypatch: pytest.MonkeyPatch) -> None:
     both(four_bar(24), monkeypatch, reduce)
+
+
+def test_a_number_without_a_slope_leaves_the_others_theirs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """At rest without gravity and loads: a force of size 0 has no slope by gravity, the effort has one."""
+    made = four_bar_tree(3) | {"gravity": [0, 0], "loads": {}}
+    del made["drives"]["O2"]["speed"], made["drives"]["O2"]["acceleration"]
+    both(da.mechanism(made), monkeypatch)
 
 
 @pytest.mark.parametrize("seed", tiers([11, 42], range(50, 65)))

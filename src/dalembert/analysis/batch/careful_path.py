@@ -104,7 +104,7 @@ def slopes(
         own = max(np.nanmax(np.abs(value), initial=0.0), NOTHING * largest)
         off = np.abs(again[name].reshape(value[here].shape) - value[here]).max(axis=1)
         rates[name] = rates[name].reshape((*value[here].shape, -1))
-        rates[name][(doubt != 0) | ~(off <= AGREES * own)] = np.nan
+        rates[name][~(np.isin(doubt, NUMBERED) & (off <= AGREES * own))] = np.nan
     return dict(rates)
 
 
