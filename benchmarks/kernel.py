@@ -27,7 +27,7 @@ from benchmarks.linkages import FOUR_BAR, chain, four_bar
 from tests.kernel.machines import block_in_a_yoke, block_on_a_crank, eight_bar
 
 import dalembert as da
-from dalembert.kernel.emit.machine_code import aligned, blocked, host_lanes
+from dalembert.kernel.emit.machine_code import aligned_array, host_lanes, to_blocks
 from dalembert.kernel.emit.reductions import width
 from dalembert.kernel.parallel_runs import path_array, row_length
 
@@ -44,7 +44,10 @@ def runs(k: Any, way: str = "grid") -> tuple[Callable[[], None], int]:
     row = width(slots) if slots else len(program.outputs) * row_length(blocks, machine.lanes)
     designs = 64 if slots else max(1, int(CACHE / (8 * row)))
     values = np.ascontiguousarray(np.repeat(k.nominal[None], designs, axis=0))
-    out, code = aligned((designs * row,)), np.empty(designs * row_length(blocks, machine.lanes), np.uint8)
+    out, code = (
+        aligned_array((designs * row,)),
+        np.empty(designs * row_length(blocks, machine.lanes), np.uint8),
+    )
     counts = (values.shape[1], columns.shape[1] + weighted, designs, blocks)
     addresses = [a.ctypes.data for a in (values, data, out, code)]
 
@@ -81,10 +84,10 @@ def by_hand(k: Any, folder: str) -> Callable[[], None] | None:
     subprocess.run([compiler, *options, "-o", str(library), str(source)], check=True)
     hand = ctypes.CDLL(str(library)).hand
     q = k.trace.course.schedule.position[:, 0]
-    path = blocked(np.stack([np.cos(q), np.sin(q)], axis=1), lanes)
+    path = to_blocks(np.stack([np.cos(q), np.sin(q)], axis=1), lanes)
     designs = runs(k)[1] // len(q)
     values = np.ascontiguousarray(np.repeat(k.nominal[None], designs, axis=0))
-    out = aligned((designs, 9, len(q)))
+    out = aligned_array((designs, 9, len(q)))
     arguments = [ctypes.c_void_p(a.ctypes.data) for a in (values, path, out)]
     counts = [ctypes.c_long(designs), ctypes.c_long(len(q) // lanes)]
 

@@ -39,7 +39,7 @@ def remainder(value: float, decimals: int = 0) -> str:
     return f"{value:.{decimals}e}" if value else "0"
 
 
-def rounded(vector: Any, beside: float = 0.0) -> list[float]:
+def round_components(vector: Any, beside: float = 0.0) -> list[float]:
     """Components of a vector; what is nothing but rounding beside its largest, or beside another size, is 0.
 
     >>> rounded([1e-17, 3.0]), rounded([1e-17], 3.0)
@@ -100,7 +100,7 @@ def tables(heads: Sequence[str], rows: Iterable[Sequence[str]], left: int, width
     )
 
 
-def wrapped(sentence: str, indent: str = "") -> str:
+def wrap(sentence: str, indent: str = "") -> str:
     """A sentence over lines of 80 characters."""
     from textwrap import fill
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from dalembert.errors import ModelError
-from dalembert.wording import closest, shown
+from dalembert.wording import closest, quote_value
 
 Dimension = tuple[int, int, int, int]
 """Powers of length, mass, time and angle."""
@@ -123,10 +123,10 @@ def unit(text: str) -> Unit:
     True
     """
     if len(text) > 60:
-        raise ModelError(f"{shown(text)} is no unit", EXAMPLE)
+        raise ModelError(f"{quote_value(text)} is no unit", EXAMPLE)
     product, rest = _product(_tokens(text), text, 1)
     if rest:
-        raise ModelError(f"{shown(text)} is no unit: {rest[0]!r} is too much", EXAMPLE)
+        raise ModelError(f"{quote_value(text)} is no unit: {rest[0]!r} is too much", EXAMPLE)
     return product
 
 
@@ -139,7 +139,7 @@ def _tokens(text: str) -> list[str]:
         match = _TOKEN.match(plain, place)
         if match is None:
             raise ModelError(
-                f"{shown(text)} is no unit: {plain[place:].strip()[:1]!r} has no place in one",
+                f"{quote_value(text)} is no unit: {plain[place:].strip()[:1]!r} has no place in one",
                 EXAMPLE,
             )
         tokens.append(match[1])
@@ -162,13 +162,13 @@ def _factor(tokens: list[str], text: str, sign: int, product: Unit, depth: int) 
     if tokens[:1] == ["("] and depth < 5:
         inner, tokens = _product(tokens[1:], text, depth + 1)
         if not tokens:
-            raise ModelError(f"{shown(text)} is no unit: a bracket is not closed", EXAMPLE)
+            raise ModelError(f"{quote_value(text)} is no unit: a bracket is not closed", EXAMPLE)
         tokens = tokens[1:]
     elif tokens and (tokens[0][0].isalpha() or tokens[0] in "°%_"):
-        inner, tokens = _named(tokens[0], text), tokens[1:]
+        inner, tokens = _by_name(tokens[0], text), tokens[1:]
     else:
         found = f"{tokens[0]!r} stands" if tokens else "nothing stands"
-        raise ModelError(f"{shown(text)} is no unit: {found} where a name is needed", EXAMPLE)
+        raise ModelError(f"{quote_value(text)} is no unit: {found} where a name is needed", EXAMPLE)
     power, tokens = _exponent(tokens, text)
     return product.times(inner, sign * power), tokens
 
@@ -180,21 +180,21 @@ def _exponent(tokens: list[str], text: str) -> tuple[int, list[str]]:
     digits = tokens[1 + minus : 2 + minus]
     if not digits or not re.fullmatch(r"[1-6]", digits[0]):
         raise ModelError(
-            f"{shown(text)} is no unit: a power is a whole number from -6 to 6", "write s^2, s^-1"
+            f"{quote_value(text)} is no unit: a power is a whole number from -6 to 6", "write s^2, s^-1"
         )
     return (-1 if minus else 1) * int(digits[0]), tokens[2 + minus :]
 
 
-def _named(name: str, text: str) -> Unit:
-    known = SYMBOLS.get(name) or _asked_of_pint(name)
+def _by_name(name: str, text: str) -> Unit:
+    known = SYMBOLS.get(name) or _from_pint(name)
     if known is None:
-        whole = f" in {shown(text)}" if name != text.strip() else ""
-        raise ModelError(f"there is no unit {shown(name)}{whole}", closest(name, list(SYMBOLS), 8))
+        whole = f" in {quote_value(text)}" if name != text.strip() else ""
+        raise ModelError(f"there is no unit {quote_value(name)}{whole}", closest(name, list(SYMBOLS), 8))
     return known
 
 
 @lru_cache(maxsize=256)
-def _asked_of_pint(name: str) -> Unit | None:
+def _from_pint(name: str) -> Unit | None:
     """Any unit that pint knows and that is made of length, mass, time and angle."""
     import pint
 

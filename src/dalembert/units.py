@@ -13,7 +13,7 @@ from functools import lru_cache
 
 from dalembert.errors import ModelError
 from dalembert.unit_names import ANGLE, FORCE, LENGTH, MASS, MOMENT, NONE, ONE, TIME, Dimension, Unit, unit
-from dalembert.wording import closest, shown
+from dalembert.wording import closest, quote_value
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,7 +154,9 @@ def file_units(tree: object) -> Units:
         return tree
     names = [*BASES, *(kind for kind in KINDS if kind not in (*BASES, "number")), *ALSO_CALLED]
     if not isinstance(tree, Mapping):
-        raise ModelError(f"units are {shown(tree)}, not a mapping", "write units: {length: mm, force: N}")
+        raise ModelError(
+            f"units are {quote_value(tree)}, not a mapping", "write units: {length: mm, force: N}"
+        )
     derived: dict[str, str] = {}
     for name, text in tree.items():
         kind = ALSO_CALLED.get(str(name), str(name))
@@ -171,9 +173,11 @@ def file_units(tree: object) -> Units:
 
 def _check_file_unit(name: object, kind: str, text: object, names: list[str]) -> None:
     if name not in names:
-        raise ModelError(f"units has no key {shown(name)}", closest(str(name), names), (str(name),))
+        raise ModelError(f"units has no key {quote_value(name)}", closest(str(name), names), (str(name),))
     if not isinstance(text, str):
-        raise ModelError(f"{shown(text)} is no unit", f"write {KINDS[kind].si}, for example", (str(name),))
+        raise ModelError(
+            f"{quote_value(text)} is no unit", f"write {KINDS[kind].si}, for example", (str(name),)
+        )
     try:
         check_unit(text, kind)
     except ModelError as error:
@@ -207,7 +211,7 @@ def _split(value: object, kind: str) -> tuple[float, str]:
     if isinstance(value, str):
         return _split_text(value, kind)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise ModelError(f"{shown(value)} is not {KINDS[kind].phrase}", _write(kind))
+        raise ModelError(f"{quote_value(value)} is not {KINDS[kind].phrase}", _write(kind))
     return _float(value), ""
 
 
@@ -215,28 +219,28 @@ def _float(value: int | float | str) -> float:
     try:
         return float(value)
     except OverflowError:
-        raise ModelError(f"{shown(value)} is too large", "write a number below 1e300") from None
+        raise ModelError(f"{quote_value(value)} is too large", "write a number below 1e300") from None
 
 
 def _split_text(text: str, kind: str) -> tuple[float, str]:
     match = _QUANTITY.fullmatch(text.replace("\u2212", "-"))
     if match is None:
-        raise ModelError(f"{shown(text)} is not {KINDS[kind].phrase}", _write(kind))
+        raise ModelError(f"{quote_value(text)} is not {KINDS[kind].phrase}", _write(kind))
     number, rest = match.groups()
     if re.match(r",\s*\d", rest):
         write = f"write {text.replace(',', '.', 1)!r}"
         if re.match(r",\d{3}(?!\d)", rest):
             raise ModelError(
-                f"{shown(text)} has a comma", f"{write}, or {text.replace(',', '')!r} for thousands"
+                f"{quote_value(text)} has a comma", f"{write}, or {text.replace(',', '')!r} for thousands"
             )
-        raise ModelError(f"{shown(text)} has a decimal comma", write)
+        raise ModelError(f"{quote_value(text)} has a decimal comma", write)
     if polar := re.fullmatch(rf"(.*?)\s*(?:\bat\b|∠)\s*({NUMBER}.*)", rest):
         raise ModelError(
-            f"{shown(text)} is not one number",
+            f"{quote_value(text)} is not one number",
             f"a size and a direction are written {' '.join(filter(None, (number, polar[1])))} @ {polar[2]}",
         )
     if re.match(r"[\d/]", rest) and not re.match(r"1/[^\W\d]", rest):
-        raise ModelError(f"{shown(text)} is not one number", "write a decimal: 1.5 in for 1 1/2 in")
+        raise ModelError(f"{quote_value(text)} is not one number", "write a decimal: 1.5 in for 1 1/2 in")
     return _float(number), rest
 
 
@@ -245,14 +249,15 @@ def _bare(number: float, kind: str, units: Units | None, value: object) -> float
         return number
     if units.refuses_bare(kind):
         raise ModelError(
-            f"{shown(value)} is {KINDS[kind].phrase} without a unit", f"write which: {REFUSED_BARE[kind]}"
+            f"{quote_value(value)} is {KINDS[kind].phrase} without a unit",
+            f"write which: {REFUSED_BARE[kind]}",
         )
     return units.unit(kind).si(number)
 
 
 def _finite(number: float, value: object) -> float:
     if not math.isfinite(number):
-        raise ModelError(f"{shown(value)} is no finite number", "write a finite one")
+        raise ModelError(f"{quote_value(value)} is no finite number", "write a finite one")
     return number
 
 
@@ -276,7 +281,8 @@ def _check_dimension(unit_text: str, named: Unit, value: object, kind: str) -> N
     if kind in PER_RADIAN and given == (*wanted.dimension[:3], 0):
         return
     raise ModelError(
-        f"{shown(value)} is {_phrase(given)}, and {wanted.phrase} is needed", _remedy(unit_text, given, kind)
+        f"{quote_value(value)} is {_phrase(given)}, and {wanted.phrase} is needed",
+        _remedy(unit_text, given, kind),
     )
 
 

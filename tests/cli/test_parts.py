@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.cli.draw_command import _moved, _way
+from dalembert.cli.draw_command import _at_last_position, _way
 from dalembert.cli.method_text import MOST_STEPS, NOTHING, _rounding, fixed_point_text
 from dalembert.cli.options import whole
 from dalembert.model.library import TEMPLATES
@@ -27,7 +27,7 @@ def test_a_drawing_at_another_value_is_of_the_pose_that_leads_there(template: st
     assert np.abs(np.diff(way)).max() <= 0.05 + 1e-12
     assert (way[0], way[-1]) == pytest.approx((np.radians(60), np.radians(float(at.split()[0]))))
     followed = da.kinematics(m.with_values({f"drives.{next(iter(m.drives))}.position": way}))
-    there = da.kinematics(_moved(m, way))
+    there = da.kinematics(_at_last_position(m, way))
     for link in followed.links:
         assert there.rotation(link)[0] == pytest.approx(followed.rotation(link)[-1], abs=1e-9)
         assert there.position(link)[0] == pytest.approx(followed.position(link)[-1], abs=1e-9)

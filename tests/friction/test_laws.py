@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.friction.fixed_point import posed
+from dalembert.analysis.friction.fixed_point import contacts_at
 from dalembert.core.friction.contact_equations import Response
 from dalembert.core.friction.friction_solver import slipping
 from tests.friction.oracle import branch, compared
@@ -255,7 +255,7 @@ def test_moving_the_machine_turns_the_forces(seed: int) -> None:
 def test_no_friction_within_its_limits_leaves_what_holds(seed: int) -> None:
     """At rest, with friction anywhere within its limits in every joint, no effort is beyond what is said to hold."""
     r = da.statics(da.mechanism(still_tree(nth(seed, rests), 0.4)))
-    contacts, problem, told = posed(r, 0)
+    contacts, problem, told = contacts_at(r, 0)
     rng, count = np.random.default_rng(seed), 100
     part = rng.uniform(-1, 1, (count, contacts.count))
     part[: count // 2] = np.sign(part[: count // 2])

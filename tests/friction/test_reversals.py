@@ -15,7 +15,7 @@ from dalembert.analysis.output.export import write_csv
 from dalembert.cli import main
 from dalembert.grading.file_answers import check
 from dalembert.report.working import working
-from dalembert.views.charts import effort_chart, polar_chart, reaction_chart, stepped
+from dalembert.views.charts import effort_chart, polar_chart, reaction_chart, stepped_series
 from tests.friction import four_stroke
 from tests.friction.engines import engine
 from tests.friction.four_stroke import FILE
@@ -231,7 +231,7 @@ def test_arrays_have_low_and_high() -> None:
 def test_charts_draw_the_jump() -> None:
     """One line without a gap, through both numbers of a reversal in the order in which they are passed."""
     r = da.dynamics(four_stroke.engine())
-    torque = stepped(r, lambda side: side.effort("O"))
+    torque = stepped_series(r, lambda side: side.effort("O"))
     assert len(torque) == 152
     assert torque[:3].tolist() == [*(side.effort("O")[0] for side in r.sides), r.effort("O")[1]]
     (scene,) = effort_chart(r)
@@ -313,7 +313,7 @@ def test_a_polar_chart_has_the_forces_on_its_own_link() -> None:
     """In ground axes on j; in the axes of the link that moves where j is the ground."""
     r = da.dynamics(four_stroke.engine())
     (curve,) = [line for line in polar_chart(r, ["B"]).items if getattr(line, "role", "") == "curve-1"]
-    force = stepped(r, lambda side: side.reaction("B", on="piston"))
+    force = stepped_series(r, lambda side: side.reaction("B", on="piston"))
     drawn = np.array(curve.points[:-1])
     scale = np.linalg.norm(force[0]) / np.linalg.norm(drawn[0])
     assert np.max(np.abs(drawn * scale - force)) < 1e-9 * np.max(np.abs(force))

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.compile.compiled_mechanism import compiled
+from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
 from dalembert.core.friction.contact_equations import Response, argument, bearing
 from dalembert.kernel.graph import Graph
 from dalembert.kernel.jam_proof import jams
@@ -22,7 +22,7 @@ MANY = 400
 def some_contacts(count: int, signed: int) -> Any:
     """Contacts of which so many have a force with a sign; the proof reads nothing else of them."""
     m = cycle("four_bar", 1)
-    known = compiled(m, m.schedule()).contacts
+    known = compile_mechanism(m, m.schedule()).contacts
     assert known is not None
     return replace(known, signed=np.arange(count) < signed, joint=np.zeros(count, np.intp))
 
@@ -39,7 +39,7 @@ def proofs(contacts: Any, y: np.ndarray, h: np.ndarray, sense: np.ndarray) -> np
 
     r = Response(np.zeros(0), np.zeros(0), channels(y), channels(h))
     node = jams(graph, contacts, r, channels(sense))
-    return np.asarray(graph.evaluated([node], {})[0] < 0)
+    return np.asarray(graph.evaluate([node], {})[0] < 0)
 
 
 @pytest.mark.parametrize("signed", [0, 1])

@@ -15,10 +15,10 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis.batch.kernel_export import plain
-from dalembert.analysis.batch.over_positions import PARTS, reduced
+from dalembert.analysis.batch.over_positions import PARTS, reduce_positions
 from dalembert.kernel import parallel_runs
 from dalembert.kernel.emit import c_text, cuda, llvm_text
-from dalembert.kernel.emit.machine_code import aligned, compiled, host_lanes
+from dalembert.kernel.emit.machine_code import aligned_array, compile_module, host_lanes
 from dalembert.kernel.graph import Graph
 from dalembert.kernel.program import Program
 from tests.kernel.comparing import changed, every_number
@@ -66,7 +66,7 @@ def test_inverses_are_good_to_two_units_in_the_last_place(lanes: int) -> None:
     path, blocks = parallel_runs.path_array(given[:, None], np.zeros(0), lanes, weighted=False)
     out = np.empty((2, parallel_runs.row_length(blocks, lanes)))
     code = np.empty(out.shape[1], np.uint8)
-    compiled(llvm_text.grid(program, lanes), lanes)(np.zeros(1), path, out, code, (0, 1, 1, blocks))
+    compile_module(llvm_text.grid(program, lanes), lanes)(np.zeros(1), path, out, code, (0, 1, 1, blocks))
     found = out[:, :4000]
     with np.errstate(all="ignore"):
         expected = np.stack([1 / given, 1 / np.sqrt(given)])
@@ -81,7 +81,7 @@ def test_results_begin_at_a_line_of_the_cache(positions: int) -> None:
     program, machine, _ = k.runner.machine("grid")
     columns, common = k.runner.inputs(program, k.trace.course)
     path, _ = parallel_runs.path_array(columns[:positions], common, machine.lanes, weighted=False)
-    for a in (path, aligned((3, 5)), aligned((7,)), k(designs(k, 2)).effort("O2")):
+    for a in (path, aligned_array((3, 5)), aligned_array((7,)), k(designs(k, 2)).effort("O2")):
         assert a.__array_interface__["data"][0] % 64 == 0
 
 
@@ -104,7 +104,7 @@ def test_reductions(reduce: str) -> None:
     values = designs(k, 9)
     few, all_ = k(values), whole(values)
     for output in OUTPUTS:
-        expected = reduced(reduce, np.moveaxis(all_.value(output), 1, 0))
+        expected = reduce_positions(reduce, np.moveaxis(all_.value(output), 1, 0))
         assert few.value(output).shape == expected.shape
         assert np.allclose(few.value(output), expected, rtol=1e-12)
 
@@ -227,12 +227,14 @@ def test_c_function(tmp_path: Path) -> None:
     tree = four_bar(24)
     k = da.compile(tree, vary=VARY, outputs=OUTPUTS, derivatives=True)
     program = plain(k)
-    given = [program.graph.names[n.index] for n in program.used("channel")]
+    given = [program.graph.names[n.index] for n in program.inputs_in_use("channel")]
     assert "position O2" in given
     assert not [name for name in given if name.startswith(("cos", "sin", "loads.P"))]
     library = shared(tmp_path, k.to_c("four_bar"), "alone")
     r, q = k(), k.trace.course.schedule.position[7, 0]
-    channels = np.array([float(k.trace.inputs.found[n](k.trace.course)[7]) for n in program.used("channel")])
+    channels = np.array(
+        [float(k.trace.inputs.found[n](k.trace.course)[7]) for n in program.inputs_in_use("channel")]
+    )
     assert q in channels
     out = np.zeros(len(program.outputs))
     assert library.four_bar(pointer(k.nominal.copy()), pointer(channels), pointer(out)) == 0
@@ -245,7 +247,7 @@ def test_casadi_function() -> None:
     k = da.compile(four_bar(24), vary=VARY, outputs=["effort.O2", "reaction.A"])
     f, r = k.to_casadi(), k()
     program = plain(k)
-    channels = [float(k.trace.inputs.found[n](k.trace.course)[5]) for n in program.used("channel")]
+    channels = [float(k.trace.inputs.found[n](k.trace.course)[5]) for n in program.inputs_in_use("channel")]
     effort, reaction, mark = f(k.nominal, channels)
     assert abs(float(effort) - r.effort("O2")[0, 5]) < 1e-10
     assert np.abs(np.array(reaction).ravel() - r.reaction("A")[0, 5]).max() < 1e-9

@@ -10,7 +10,7 @@ import pytest
 
 import dalembert as da
 from dalembert.core.friction.contact_equations import Response
-from dalembert.kernel.friction_trace import slipped
+from dalembert.kernel.friction_trace import trace_slip
 from dalembert.kernel.graph import Graph, Node
 from dalembert.kernel.jam_proof import lever
 from tests.kernel.test_jamming import some_contacts
@@ -44,13 +44,13 @@ def decided(pattern: Array, y: Array, h: Array, sense: Array) -> Verdict:
         first[0, a], told[a] = channel(y[a], y[a]), channel(sense[a], sense[a])
         for b in np.flatnonzero(pattern[a]):
             couplings[0, a, b] = channel(h[a, b], 0.01 * h[a, b])
-    found = slipped(
+    found = trace_slip(
         graph, some_contacts(count, 0), Response(*(np.zeros(0),) * 2, *_nodes(graph, first, couplings)), told
     )
     groups = (list(found.z), found.doubt, found.unsure, found.sure, found.jam)
     with np.errstate(all="ignore"):
         z, *marks = (
-            np.array([np.broadcast_to(v, y.shape[1:]) for v in graph.evaluated(g, values)]) for g in groups
+            np.array([np.broadcast_to(v, y.shape[1:]) for v in graph.evaluate(g, values)]) for g in groups
         )
     doubt, unsure, single = (
         (~(m >= 0)).any(axis=0) if len(m) else np.zeros(y.shape[1], bool) for m in marks[:3]

@@ -16,8 +16,8 @@ import pytest
 import dalembert as da
 from dalembert.analysis.methods.applied_forces import state
 from dalembert.bundled import examples
-from dalembert.core.equilibrium import checked, known_sources, statement
-from dalembert.core.forcing import summed
+from dalembert.core.equilibrium import check_equilibrium, known_sources, statement
+from dalembert.core.forcing import total_wrench
 from dalembert.kernel import trace
 from tests import random_space
 from tests.random_mechanisms import random_case
@@ -49,13 +49,13 @@ def lever(space: bool) -> Any:
 def multipliers(r: Any) -> tuple[np.ndarray, Callable[[int, float], Any]]:
     """Of constraints, efforts and loads (P, K); and the balance of the result with one of them made wrong."""
     c, at = r.compiled, state(r)
-    w = summed(c.layout, *known_sources(c.layout, c.forcing, at.pose, at.moving, r.inertia).values())
+    w = total_wrench(c.layout, *known_sources(c.layout, c.forcing, at.pose, at.moving, r.inertia).values())
     s = statement(c.layout, c.known, at.pose, at.rows, at.solver, w)
     x = s.forces.forces(-s.w.reshape((len(r.status), -1)))
 
     def rechecked(k: int, amount: float) -> Any:
         wrong = x + amount * (np.arange(x.shape[-1]) == k)
-        return checked(c.layout, c.forcing, c.known, at.pose, at.moving, s, wrong, s.w)
+        return check_equilibrium(c.layout, c.forcing, c.known, at.pose, at.moving, s, wrong, s.w)
 
     return x, rechecked
 
@@ -97,7 +97,7 @@ def test_each_wrong_multiplier_of_a_mechanism_is_left_over_in_the_residual(seed:
         np.concatenate([rows.on_i * x[..., None], rows.on_j * x[..., None]], axis=1) * layout.wrench_scale
     )
     loads = known_sources(layout, r.compiled.forcing, at.pose, at.moving, True).values()
-    known = summed(layout, *loads) * layout.wrench_scale
+    known = total_wrench(layout, *loads) * layout.wrench_scale
     largest = np.maximum(np.abs(on_links).max(axis=(1, 2)), np.abs(known).max(axis=(1, 2)))
     for k in range(x.shape[1]):
         if k in idle:
@@ -150,7 +150,7 @@ def test_the_gap_of_virtual_work_is_what_its_unknown_load_is_off() -> None:
 def test_a_wrong_multiplier_shows_in_the_residual_of_the_kernel(
     monkeypatch: pytest.MonkeyPatch, sign: float
 ) -> None:
-    balanced = trace._balanced
+    balanced = trace._trace_equilibrium
 
     def wrong(p: Any, layout: Any, *rest: Any) -> Any:
         s, rub = balanced(p, layout, *rest)
@@ -160,5 +160,5 @@ def test_a_wrong_multiplier_shows_in_the_residual_of_the_kernel(
 
     asked: Any = {"outputs": ["residual", "effort.O"], "static": True}
     assert da.compile(lever(False), **asked)([]).value("residual")[0] == pytest.approx(0, abs=1e-15)
-    monkeypatch.setattr(trace, "_balanced", wrong)
+    monkeypatch.setattr(trace, "_trace_equilibrium", wrong)
     assert da.compile(lever(False), **asked)([]).value("residual")[0] == pytest.approx([0.3 / 20, 0.3 / 10])

@@ -7,7 +7,7 @@ import pytest
 from benchmarks.linkages import chain
 
 import dalembert as da
-from dalembert.analysis.compile.compiled_mechanism import Compiled, compiled
+from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.core.position.assur_plan import plan
 from tests.random_mechanisms import Drawing, pose_array, tree
 from tests.random_mechanisms.groups import driven, dyad, single, welded
@@ -38,7 +38,7 @@ def described(seed: int) -> tuple[Drawing, Compiled]:
         made = tree(d)
         del made["assembly"]
         m = da.mechanism(made)
-        c = compiled(m, m.schedule())
+        c = compile_mechanism(m, m.schedule())
         way = plan(c.layout)
         if way is not None and way.closed:
             return d, c

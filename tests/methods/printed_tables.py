@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from dalembert.report.formula import mixed, plain
+from dalembert.report.formula import plain, write_mixed
 from dalembert.report.sheet import Equations, Heading, Matrix, Paragraph, Sheet, Table
 from dalembert.report.writers.plain_writer import _equation
 from tests.methods.printed_equations import Read, Reader, size, times
@@ -25,12 +25,12 @@ def read_sheet(sheet: Sheet, figures: int = 4) -> Reader:
         if isinstance(b, Heading) and " end of " in b.text:
             reader.known.clear()  # another solution begins
         if isinstance(b, Paragraph):
-            _said(reader, "".join(mixed(b.text, plain, str)))
+            _said(reader, "".join(write_mixed(b.text, plain, str)))
         if isinstance(b, Equations):
             for w in b.lines:
                 reader.line(re.sub(r" = 0 = ", " = ", " = ".join(t.strip() for t in _equation(w)), count=1))
         if isinstance(b, Table):
-            rows = [["".join(mixed(cell, plain, str)) for cell in row] for row in (b.heads, *b.rows)]
+            rows = [["".join(write_mixed(cell, plain, str)) for cell in row] for row in (b.heads, *b.rows)]
             reader.learning = "ground axes" not in b.caption
             _table(reader, rows[0], rows[1:])
         if isinstance(b, Matrix):

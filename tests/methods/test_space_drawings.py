@@ -20,7 +20,7 @@ from dalembert.views.paper.canvas import text_over_lines, text_overlaps
 from dalembert.views.paper.scene import Line, Polygon
 from dalembert.views.space.camera import CAMERAS, Camera
 from dalembert.views.space.link_solids import link_solids, mount, pose
-from dalembert.views.space.painter import painted
+from dalembert.views.space.painter import paint
 from dalembert.views.space.solids import Ball, Cylinder, Wire, extent, helix
 from dalembert.views.space.space_mechanism import every_place, whole_sight
 from dalembert.views.symbols.pair_symbols import SYMBOLS, symbol
@@ -159,10 +159,10 @@ def test_near_things_cover_far_ones() -> None:
     x, y, z = np.eye(3)
     top = CAMERAS["top"]
     bars = [Cylinder(-20 * x + 3 * z, 20 * x + 3 * z, 1.0, "outer"), Cylinder(-20 * y, 20 * y, 1.0, "inner")]
-    roles = [i.role for i in painted(bars, top) if isinstance(i, Polygon)]
+    roles = [i.role for i in paint(bars, top) if isinstance(i, Polygon)]
     assert roles.index("inner-fill") < roles.index("outer-fill")
     balls = [Ball(k * np.array([1.0, 1.0, 1.0]), 1.0, role) for k, role in ((2, "a"), (0, "b"), (1, "c"))]
-    order = [i.role for i in painted(balls, CAMERAS["isometric"]) if "spot" not in i.role]  # type: ignore[union-attr]
+    order = [i.role for i in paint(balls, CAMERAS["isometric"]) if "spot" not in i.role]  # type: ignore[union-attr]
     assert order == ["b", "c", "a"]
 
 
@@ -172,7 +172,7 @@ def test_wires_are_cut_so_that_each_piece_has_its_own_depth() -> None:
         Wire(np.array([[0.0, -20.0, 0.0], [0.0, 20.0, 0.0]]), "outline"),
         Ball(np.zeros(3), 3.0, "link"),
     )
-    items = painted([wire, ball], CAMERAS["front"])
+    items = paint([wire, ball], CAMERAS["front"])
     lines = [k for k, item in enumerate(items) if isinstance(item, Line) and item.role == "outline"]
     assert len(lines) == 16  # of 40 mm
     covered = next(k for k, item in enumerate(items) if not isinstance(item, Line))

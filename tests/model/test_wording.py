@@ -10,15 +10,15 @@ import pytest
 import dalembert as da
 from dalembert.model.files.json_text import read
 from dalembert.model.library import bevel_differential, scissor, toggle_press
-from dalembert.printing import rounded
-from dalembert.wording import nearest, shown
+from dalembert.printing import round_components
+from dalembert.wording import nearest, quote_value
 
 
 def test_values_are_quoted_short() -> None:
-    assert shown("x" * 100) == "'" + "x" * 56 + "..."
-    assert shown("x" * 58) == "'" + "x" * 58 + "'"
-    assert shown(10**20) == shown(-(10**20)) == "a number of 20 digits"
-    assert [shown(v) for v in (10**15, -3, 2.5, True, None, [], [1], {})] == [
+    assert quote_value("x" * 100) == "'" + "x" * 56 + "..."
+    assert quote_value("x" * 58) == "'" + "x" * 58 + "'"
+    assert quote_value(10**20) == quote_value(-(10**20)) == "a number of 20 digits"
+    assert [quote_value(v) for v in (10**15, -3, 2.5, True, None, [], [1], {})] == [
         "1000000000000000", "-3", "2.5", "true", "nothing", "an empty list", "a list", "a mapping",
     ]  # fmt: skip
 
@@ -29,11 +29,11 @@ def test_of_names_that_differ_in_case_the_first_is_meant() -> None:
 
 
 def test_what_is_nothing_beside_the_largest_is_zero() -> None:
-    assert rounded([-3.0, 1e-13, -1e-13]) == [-3.0, 0.0, 0.0]
-    assert rounded([3.0, 1e-11]) == [3.0, 1e-11]
-    assert rounded([1e-13], beside=1.0) == [0.0]
-    assert rounded([float("inf"), 1e-13])[1] == 1e-13
-    assert str(rounded([-1e-13, 1.0])[0]) == "0.0"
+    assert round_components([-3.0, 1e-13, -1e-13]) == [-3.0, 0.0, 0.0]
+    assert round_components([3.0, 1e-11]) == [3.0, 1e-11]
+    assert round_components([1e-13], beside=1.0) == [0.0]
+    assert round_components([float("inf"), 1e-13])[1] == 1e-13
+    assert str(round_components([-1e-13, 1.0])[0]) == "0.0"
 
 
 def four_bar(change: dict[str, Any]) -> da.Mechanism:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from dalembert.algebra import space
-from dalembert.analysis.compile.compiled_mechanism import Compiled, compiled
+from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.arrays import Array
 from dalembert.core.layout import Pose
 from dalembert.model import Mechanism
@@ -36,7 +36,7 @@ def body_on(kind: str, rng: np.random.Generator, **keys: Any) -> Mechanism:
 
 def placed(m: Mechanism, rng: np.random.Generator) -> tuple[Compiled, Pose]:
     """The compiled mechanism and a pose (1, L+1, ...) that its joint allows."""
-    c = compiled(m, m.schedule())
+    c = compile_mechanism(m, m.schedule())
     guess: Any = c.guess
     values = rng.uniform(-1, 1, size=(1, sum(len(h.drives) for h in guess.hinges)))
     pose = guess._laid(c.layout, np.zeros(c.layout.constraints.count), values, driven=True)

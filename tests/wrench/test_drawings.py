@@ -12,7 +12,7 @@ import pytest
 import dalembert as da
 from dalembert.bundled import examples
 from dalembert.views.force_system import (
-    clipped,
+    clip_line,
     force_system_polygon_scene,
     force_system_scene,
     reduced_scene,
@@ -131,5 +131,5 @@ def test_named_views() -> None:
 
 
 def test_lines_in_a_box() -> None:
-    assert clipped((0, 20), (1, 0), (-10, 0, 10, 8)) is None
-    assert clipped((0, 0), (1, 1), (-2, -1, 2, 3)) == ((-1, -1), (2, 2))
+    assert clip_line((0, 20), (1, 0), (-10, 0, 10, 8)) is None
+    assert clip_line((0, 0), (1, 1), (-2, -1, 2, 3)) == ((-1, -1), (2, 2))

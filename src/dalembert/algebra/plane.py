@@ -100,7 +100,7 @@ def dot(a: Array, b: Array) -> Array:
 # the coordinates that a motion is interpolated in
 
 
-def turned(turn: Array, r: Array, w: Array) -> tuple[Array, Array]:
+def rotate_links(turn: Array, r: Array, w: Array) -> tuple[Array, Array]:
     """Angles (..., L+1) and rotations after the moving links' turns w (..., L, 1)."""
     turn, r = turn.copy(), r.copy()
     turn[..., :-1] += w[..., 0]
@@ -139,7 +139,7 @@ def without_ground(turn: Array) -> Array:
     return np.asarray(turn[..., :-1])
 
 
-def unturned(count: int, links: int) -> tuple[Array, Array]:
+def reference_rotation(count: int, links: int) -> tuple[Array, Array]:
     """Angles and rotations of ``count`` poses of ``links`` links that are not turned."""
     turn = np.zeros((count, links))
     return turn, rotation(turn)

@@ -208,7 +208,7 @@ def dot(a: Array, b: Array) -> Array:
 # the coordinates that a motion is interpolated in
 
 
-def turned(turn: Array, r: Array, w: Array) -> tuple[Array, Array]:
+def rotate_links(turn: Array, r: Array, w: Array) -> tuple[Array, Array]:
     """Followed angles, as they are, and rotations (..., L+1, 9) after the moving links' turns w (..., L, 3)."""
     r = r.copy()
     r[..., :-1, :] = compose(exp(w), r[..., :-1, :])
@@ -246,7 +246,7 @@ def apart(a: Array, b: Array, turn_a: Array, turn_b: Array) -> Array:
     return np.asarray(np.sqrt(((a - b) ** 2).sum(axis=-1) / 2))
 
 
-def unturned(count: int, links: int) -> tuple[Array, Array]:
+def reference_rotation(count: int, links: int) -> tuple[Array, Array]:
     """Followed angles and rotations of ``count`` poses of ``links`` links that are not turned."""
     return np.zeros((count, 0)), np.tile(IDENTITY, (count, links, 1))
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from dalembert.arrays import Array, Ints
 from dalembert.core.layout import Perpendicular, Pose
-from dalembert.core.position.newton import least_gap, moved
+from dalembert.core.position.newton import displace, least_gap
 from dalembert.units import file_units
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def _aside(c: Compiled, pose: Pose) -> Pose:
     g = c.layout.algebra
     dq = np.zeros((1, c.layout.links, g.n))
     dq[..., g.d :] = ASIDE * np.cos(np.arange(dq[..., g.d :].size)).reshape(dq[..., g.d :].shape)
-    return moved(c.layout, pose.at(None), dq).at(0)
+    return displace(c.layout, pose.at(None), dq).at(0)
 
 
 def _most(c: Compiled, open_: Array, kind: str, size: float, how: str) -> str:

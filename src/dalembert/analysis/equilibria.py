@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from dalembert.analysis.one_pass import at_schedule, sliced
+from dalembert.analysis.one_pass import at_schedule, slice_forcing
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Ints
 from dalembert.model import Mechanism, Schedule
@@ -90,16 +90,16 @@ class _Scan:
     def at(self, q: Array) -> Result:
         """The result at positions q only."""
         result, where = self.result(q)
-        return picked(result, where)
+        return select_positions(result, where)
 
 
-def picked(result: Result, where: Ints) -> Result:
+def select_positions(result: Result, where: Ints) -> Result:
     """A result at some of its positions."""
     c, s = result.compiled, result.schedule
     schedule = replace(
         s, position=s.position[where], speed=s.speed[where], acceleration=s.acceleration[where]
     )
-    forcing, known = sliced(c, where)
+    forcing, known = slice_forcing(c, where)
     counts = tuple(replace(n, margin=n.margin[where]) for n in c.counts)
     arrays: dict[str, Any] = {
         name: value[where]

@@ -219,7 +219,7 @@ class _Lift:
             ends = ((link, self._point(link, point, name, height)) for link, point in load.between)
             tree["between"] = [".".join(end) for end in ends]
         elif load.type == "torsion_spring":
-            tree["free_angle"] = load.free_angle - self._recounted(name)
+            tree["free_angle"] = load.free_angle - self._turn_offset(name)
         return tree
 
     def _assembly(self) -> dict[str, Any]:
@@ -243,7 +243,7 @@ class _Lift:
         found = np.flatnonzero(np.isfinite(result.point_array).all(axis=(1, 2)))
         return result, int(found[0]) if found.size else -1
 
-    def _recounted(self, load: str) -> float:
+    def _turn_offset(self, load: str) -> float:
         """What the plane mechanism's count of whole turns adds to the angle of a torsion spring between the links: in
         space they are counted where `assembly` has the links, as their angles are written there."""
         result, k = self._closing

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from dalembert.analysis.closure_failure import drive_text, open_sentence
-from dalembert.analysis.compile.compiled_mechanism import Compiled, compiled
+from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.degree_of_freedom import check_knowns
 from dalembert.analysis.friction.friction_equilibrium import Setting, block_size, rubbing
 from dalembert.analysis.friction.friction_status import (
@@ -18,14 +18,14 @@ from dalembert.analysis.friction.friction_status import (
     reversal_checks,
 )
 from dalembert.analysis.positions import Positions, positions
-from dalembert.analysis.result.force_arrays import Forces, joined
-from dalembert.analysis.result.overflow import fast, overflow_sentence, strong, unchecked
+from dalembert.analysis.result.force_arrays import Forces, concatenate_blocks
+from dalembert.analysis.result.overflow import fast, not_finite, overflow_sentence, strong
 from dalembert.analysis.result.reaction_axes import marks
 from dalembert.analysis.result.result import Result
-from dalembert.analysis.undefined_springs import undefined, undefined_sentence
+from dalembert.analysis.undefined_springs import find_undefined_springs, undefined_sentence
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.core.equilibrium import balance, known_sources, motion, reactions
-from dalembert.core.forcing import summed
+from dalembert.core.forcing import total_wrench
 from dalembert.core.friction.reversal import Driven
 from dalembert.core.layout import Pose
 from dalembert.core.position.motion_path import BLOCK
@@ -44,7 +44,7 @@ def at_schedule(m: Mechanism, schedule: Schedule, inertia: bool, forces: bool = 
 
 
 def _at_schedule(m: Mechanism, schedule: Schedule, inertia: bool, forces: bool) -> Result:
-    c = compiled(m, schedule)
+    c = compile_mechanism(m, schedule)
     if forces:
         check_knowns(c)
     followed = positions(c)
@@ -54,7 +54,7 @@ def _at_schedule(m: Mechanism, schedule: Schedule, inertia: bool, forces: bool) 
     size = block_size(c, BLOCK)
     parts = [_block(c, pose, slice(k, k + size), inertia, forces) for k in range(0, len(c.targets), size)]
     moved = _Moved(*(np.concatenate(column) for column in zip(*(m for m, _ in parts), strict=True)))
-    return _result(followed, moved, joined([f for _, f in parts]), inertia, forces)
+    return _result(followed, moved, concatenate_blocks([f for _, f in parts]), inertia, forces)
 
 
 class _Moved(NamedTuple):
@@ -103,9 +103,9 @@ def _forces(
     c: Compiled, pose: Pose, part: slice, moving: Any, rows: Any, solver: Any, inertia: bool
 ) -> Forces:
     layout = c.layout
-    forcing, known = sliced(c, part)
+    forcing, known = slice_forcing(c, part)
     sources = known_sources(layout, forcing, pose, moving, inertia)
-    w = summed(layout, *sources.values())
+    w = total_wrench(layout, *sources.values())
     w = np.broadcast_to(w, (len(pose.point), *w.shape[1:]))
     if c.contacts is not None:
         driven = Driven(c.targets[part], c.schedule.speed[part], c.schedule.acceleration[part])
@@ -120,7 +120,7 @@ def _forces(
     return Forces(force, moment, found.effort, found.load, *checks, *known_by[:2], unique_in=known_by.inside)
 
 
-def sliced(c: Compiled, part: Any) -> tuple[Any, Any]:
+def slice_forcing(c: Compiled, part: Any) -> tuple[Any, Any]:
     """Loads and given efforts of some positions."""
     f, k = c.forcing, c.known
     forces = replace(f.forces, value=f.forces.value[part])
@@ -183,12 +183,12 @@ def _statuses(
     checks += [("overflow", racing.any(axis=1), lambda k: overflow_sentence(c, rates, c.links, racing, k))]
     if forces:
         loaded, held = strong(f), f.rcond >= limit
-        pushing = undefined(c, path.pose)
+        pushing = find_undefined_springs(c, path.pose)
         checks += [("undefined_load", pushing.any(axis=-1), lambda k: undefined_sentence(c, pushing, k))]
         checks += [("no_balance", unheld.all(axis=0), lambda k: _no_balance_sentence(c))]
         checks += friction_checks(c, f, held)
         checks += [
-            ("overflow", unchecked(f) & held, lambda k: overflow_sentence(c, "forces", c.joints, loaded, k)),
+            ("overflow", not_finite(f) & held, lambda k: overflow_sentence(c, "forces", c.joints, loaded, k)),
             ("no_balance", unbalanced, lambda k: _no_balance_sentence(c)),
             ("redundant", np.full(len(f.rcond), partial), lambda k: _redundant_sentence(followed)),
             *reversal_checks(c, f),
@@ -246,7 +246,7 @@ def _nothing(followed: Positions, inertia: bool) -> Result:
         return np.full((count, *shape), np.nan)
 
     sentence = open_sentence(c, None, np.arange(count))
-    turn, rotation = (np.full_like(a, np.nan) for a in g.unturned(count, links))
+    turn, rotation = (np.full_like(a, np.nan) for a in g.reference_rotation(count, links))
     reactions = nan(joints, g.d), nan(joints, *_couple_shape(c))
     arrays = (nan(links, g.d), turn, rotation, nan(links, g.n), nan(links, g.n), *reactions)
     unknowns = (nan(len(c.schedule.names)), nan(len(c.unknown_loads)), nan(), nan())

@@ -14,16 +14,16 @@ from dalembert.analysis.compile.torsion_turns import wound
 from dalembert.analysis.degree_of_freedom import Mobility, check_drives, mobility_at
 from dalembert.arrays import Array, Ints
 from dalembert.core.constraints import measure
-from dalembert.core.gear_rows import Misfit, meshed
+from dalembert.core.gear_rows import Misfit, mesh_wheels
 from dalembert.core.layout import Mesh, Pose
 from dalembert.core.position.assembly_modes import closing
 from dalembert.core.position.assur_plan import plan
 from dalembert.core.position.first_pose_plane import Guess, Modes, phase_rows
 from dalembert.core.position.first_pose_space import Drawing
 from dalembert.core.position.motion_path import BLOCK, Path, path
-from dalembert.core.position.newton import CLOSED, closed
+from dalembert.core.position.newton import CLOSED, close_loops
 from dalembert.core.position.path_parameter import Course, course
-from dalembert.core.rank import held, rank
+from dalembert.core.rank import is_rigid, rank
 from dalembert.errors import ModelError
 
 SAMPLES = 12
@@ -59,7 +59,7 @@ def positions(c: Compiled) -> Positions:
     _refuse_endless(c, along)
     start = along.at(place)
     here = general = first.pose.at(0)
-    if c.schedule.names and not held(c.layout, general):
+    if c.schedule.names and not is_rigid(c.layout, general):
         ahead, beside = _beside(c, along, start, first)
         general = general if beside is None else beside.pose.at(0)
         if beside is not None and len(c.targets) > 1:
@@ -117,7 +117,7 @@ def _in_phase(c: Compiled, target: Array, near: Guess | Drawing) -> Modes | None
     found = near.modes(c.layout, target)
     if found is None or not phase_rows(c.layout.constraints).size:
         return found
-    pose, missing = closed(c.layout, found.pose.at(slice(0, 1)), target[None])
+    pose, missing = close_loops(c.layout, found.pose.at(slice(0, 1)), target[None])
     return found._replace(pose=pose) if missing[0] <= CLOSED * c.layout.length else None
 
 
@@ -127,7 +127,7 @@ def _with_phase(c: Compiled, first: Pose) -> Compiled:
     if not rows.size:
         return c
     _check_meshes(c, first)
-    layout, misfits = meshed(c.layout, first)
+    layout, misfits = mesh_wheels(c.layout, first)
     for misfit in misfits:
         _check_misfit(c, misfit)
     c = replace(c, layout=layout)
@@ -204,7 +204,7 @@ def _mode(c: Compiled, found: Modes) -> str | None:
     """Which assembly mode was taken, and the others; nothing to say where the file chose it and it is the only one."""
     if found.chosen_by in ("given", "drawn"):
         return None
-    names = _named(c, found.pose)
+    names = _mode_names(c, found.pose)
     why = "nearest to the file's assembly" if found.chosen_by == "nearest" else "found by search"
     others = (
         f"; other modes (the file's `assembly` chooses): {' | '.join(names[1:5])}" if len(names) > 1 else ""
@@ -228,7 +228,7 @@ def _ranges(c: Compiled, found: Path) -> str | None:
     )
 
 
-def _named(c: Compiled, pose: Pose) -> list[str]:
+def _mode_names(c: Compiled, pose: Pose) -> list[str]:
     """Each mode by the angles that tell it from the others: of links, in space of joints."""
     if c.geometries:
         rows = np.setdiff1d(np.flatnonzero(c.layout.freedoms.angular), c.layout.driven)

@@ -13,17 +13,17 @@ from dalembert.model import Mechanism
 
 def kinematics(m: Mechanism, positions: int | None = None, strict: bool = False) -> Result:
     """Positions, velocities and accelerations; no forces (efforts and reactions are NaN)."""
-    return _analysed(m, positions, strict, inertia=True, forces=False)
+    return _analyse(m, positions, strict, inertia=True, forces=False)
 
 
 def statics(m: Mechanism, positions: int | None = None, strict: bool = False) -> Result:
     """Joint forces and efforts without inertia; springs, weights and, at the drives' speeds, dampers act."""
-    return _analysed(m, positions, strict, inertia=False, forces=True)
+    return _analyse(m, positions, strict, inertia=False, forces=True)
 
 
 def dynamics(m: Mechanism, positions: int | None = None, strict: bool = False) -> Result:
     """Joint forces and efforts that keep the prescribed motion, by D'Alembert: A x + w - inertia = 0."""
-    return _analysed(m, positions, strict, inertia=True, forces=True)
+    return _analyse(m, positions, strict, inertia=True, forces=True)
 
 
 def solve(m: Mechanism, static: bool = False, positions: int | None = None, strict: bool = False) -> Result:
@@ -33,7 +33,7 @@ def solve(m: Mechanism, static: bool = False, positions: int | None = None, stri
     return dynamics(m, positions, strict)
 
 
-def _analysed(m: Mechanism, count: int | None, strict: bool, inertia: bool, forces: bool) -> Result:
+def _analyse(m: Mechanism, count: int | None, strict: bool, inertia: bool, forces: bool) -> Result:
     try:
         schedule = m.schedule(count)
         if schedule.unknown is not None:

@@ -9,18 +9,18 @@ import numpy as np
 from dalembert.analysis.closure_failure import quantity_text
 from dalembert.analysis.friction.friction_status import arc
 from dalembert.arrays import Flags, Ints
-from dalembert.core.forcing import away, preloaded
+from dalembert.core.forcing import away, pushes_at_zero_length
 
 if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
     from dalembert.core.layout import Pose
 
 
-def undefined(c: Compiled, pose: Pose) -> Flags:
+def find_undefined_springs(c: Compiled, pose: Pose) -> Flags:
     """Preloaded springs (P, k) whose ends coincide, so that their force has no direction."""
     springs = c.forcing.springs
     short = away(c.layout, springs, pose) <= 0
-    return np.asarray(short & preloaded(springs))
+    return np.asarray(short & pushes_at_zero_length(springs))
 
 
 def undefined_sentence(c: Compiled, found: Flags, run: Ints) -> str:

@@ -48,24 +48,26 @@ def _run(arguments: list[str]) -> int:
     from dalembert.errors import AnalysisError, DalembertError
 
     try:
-        status = app(_named(arguments), exit_on_error=False, print_error=False, result_action="return_value")
+        status = app(
+            _name_streams(arguments), exit_on_error=False, print_error=False, result_action="return_value"
+        )
     except CycloptsError as error:
-        return _refused(command_line_error(error, arguments))
+        return _refuse(command_line_error(error, arguments))
     except AnalysisError as error:
-        _refused(str(error))
+        _refuse(str(error))
         return NO_ANSWER
     except DalembertError as error:
-        return _refused(str(error))
+        return _refuse(str(error))
     except BrokenPipeError:
         raise
     except OSError as error:
         if error.filename is None:  # of a stream that is open: standard output
             raise
-        return _refused(f"{error.filename}: {(error.strerror or str(error)).lower()}")
+        return _refuse(f"{error.filename}: {(error.strerror or str(error)).lower()}")
     return int(status or 0)
 
 
-def _named(arguments: list[str]) -> list[str]:
+def _name_streams(arguments: list[str]) -> list[str]:
     """The arguments with a name for standard input and output: the parser would take a lone - for an option."""
     return [
         SCREEN.get(previous, "/dev/stdin") if argument == "-" else argument
@@ -73,7 +75,7 @@ def _named(arguments: list[str]) -> list[str]:
     ]
 
 
-def _refused(sentence: str) -> int:
+def _refuse(sentence: str) -> int:
     sys.stdout.flush()
     print(sentence, file=sys.stderr)
     return WRONG_INPUT

@@ -34,8 +34,8 @@ from dalembert.cli.options import (
     Theme,
     flag,
     output,
-    said,
     target,
+    with_help,
 )
 from dalembert.wording import closest
 
@@ -76,22 +76,23 @@ def solve(
     csv: Annotated[
         Path | None, target("Write a table, one row a position; - prints it, and nothing else.")
     ] = None,
-    xlsx: Annotated[Path | None, said("Write a workbook.")] = None,
+    xlsx: Annotated[Path | None, with_help("Write a workbook.")] = None,
     netcdf: Annotated[
-        Path | None, said("Write labelled arrays for xarray and other readers of netCDF.")
+        Path | None, with_help("Write labelled arrays for xarray and other readers of netCDF.")
     ] = None,
     method: Annotated[
         Literal["matrix", "superposition", "virtual-work", "fixed-point"],
-        said(
+        with_help(
             "How the forces are found; fixed-point shows the taught iteration of friction at the first position."
         ),
     ] = "matrix",
     units: Annotated[
         Literal["si", "file"] | None,
-        said("Units of what is printed (default: those of the file) and written (default: si)."),
+        with_help("Units of what is printed (default: those of the file) and written (default: si)."),
     ] = None,
     axes: Annotated[
-        ReactionAxes, said("Axes of the reactions: ground, the link they act on, in space the joint's own.")
+        ReactionAxes,
+        with_help("Axes of the reactions: ground, the link they act on, in space the joint's own."),
     ] = "ground",
     no_friction: NoFriction = False,
     other_solutions: Annotated[
@@ -104,10 +105,12 @@ def solve(
     force: Force = False,
 ) -> int:
     """Solve FILE and print drives, efforts, reactions and motion, in the units of the file."""
-    from dalembert.cli.solve_command import Wanted, solved
+    from dalembert.cli.solve_command import Wanted, solve_file
 
     wanted = Wanted(json, csv, xlsx, netcdf, units, axes, every, force, other_solutions)
-    return solved(file, wanted, static=static, positions=positions, method=method, friction=not no_friction)
+    return solve_file(
+        file, wanted, static=static, positions=positions, method=method, friction=not no_friction
+    )
 
 
 @app.command(
@@ -138,7 +141,7 @@ def draw(
             "animation",
             "all",
         ],
-        said(
+        with_help(
             "What to draw; motion: velocity and acceleration polygons and instant centres; charts: over a cycle; "
             "superposition: one load at a time; all (default): mechanism, free bodies, force polygons, charts."
         ),
@@ -153,9 +156,9 @@ def draw(
     force: Force = False,
 ) -> int:
     """Draw FILE to scale: the mechanism, free bodies, force polygons, charts."""
-    from dalembert.cli.draw_command import drawn
+    from dalembert.cli.draw_command import draw_file
 
-    return drawn(file, output, view, at, positions, static, theme, names, force, not no_friction, camera)
+    return draw_file(file, output, view, at, positions, static, theme, names, force, not no_friction, camera)
 
 
 @app.command(
@@ -180,14 +183,14 @@ def report(
         ),
     ] = None,
     style: Style = AS_USUAL,
-    about: Annotated[str, said("Joint to take moments about, where a link has it.")] = "",
+    about: Annotated[str, with_help("Joint to take moments about, where a link has it.")] = "",
     no_friction: NoFriction = False,
     force: Force = False,
 ) -> int:
     """Write the worked solution of FILE, step by step, with its drawings."""
-    from dalembert.cli.draw_command import reported
+    from dalembert.cli.draw_command import write_report
 
-    return reported(
+    return write_report(
         file, output, at, positions, static, method, style.notation(), about, force, not no_friction
     )
 
@@ -198,7 +201,7 @@ def report(
   dalembert check problems/ --all"""
 )
 def check(
-    *files: Annotated[Path, said("Model files, or folders of them.")],
+    *files: Annotated[Path, with_help("Model files, or folders of them.")],
     every: Annotated[
         bool,
         flag("Print every answer of many files, not only one line a file and what disagrees.", "--all"),
@@ -206,9 +209,9 @@ def check(
     no_friction: NoFriction = False,
 ) -> int:
     """Compare the answers that stand in model files with what is computed."""
-    from dalembert.cli.check_command import checked
+    from dalembert.cli.check_command import check_files
 
-    return checked(files, every=every, friction=not no_friction)
+    return check_files(files, every=every, friction=not no_friction)
 
 
 @app.command(
@@ -223,7 +226,7 @@ The file of answers, or a list as in a model file:
 )
 def check_answers(
     file: ModelFile,
-    answers: Annotated[Path | None, said("File of your figures.")] = None,
+    answers: Annotated[Path | None, with_help("File of your figures.")] = None,
     /,
     *,
     interactive: Annotated[bool, flag("Ask for them one by one.")] = False,
@@ -231,25 +234,25 @@ def check_answers(
     no_friction: NoFriction = False,
 ) -> int:
     """Compare your own figures with what is computed, and name the mistake that explains a difference."""
-    from dalembert.cli.check_answers_command import graded
+    from dalembert.cli.check_answers_command import grade_answers
 
-    return graded(file, answers, interactive, static, not no_friction)
+    return grade_answers(file, answers, interactive, static, not no_friction)
 
 
 @app.command(help_epilogue="Examples:\n  dalembert validate\n  dalembert validate > qualification.txt")
 def validate() -> int:
     """Qualify this installation: solve every bundled published problem and compare all answers."""
-    from dalembert.cli.check_command import validated
+    from dalembert.cli.check_command import validate_cases
 
-    return validated()
+    return validate_cases()
 
 
 @app.command(help_epilogue="Examples:\n  dalembert schema > dalembert.schema.json")
 def schema(*, output: NewFile = None, force: Force = False) -> int:
     """Print the JSON schema of the model file, for editors that complete and check."""
-    from dalembert.cli.describe_commands import emitted, schema_text
+    from dalembert.cli.describe_commands import schema_text, write_or_print
 
-    return emitted(schema_text(), output, force)
+    return write_or_print(schema_text(), output, force)
 
 
 @app.command(
@@ -258,16 +261,16 @@ def schema(*, output: NewFile = None, force: Force = False) -> int:
   dalembert new slider_crank -o engine.yaml"""
 )
 def new(
-    template: Annotated[str, said("Name of the template.")] = "",
+    template: Annotated[str, with_help("Name of the template.")] = "",
     /,
     *,
     output: NewFile = None,
     force: Force = False,
 ) -> int:
     """Begin a model file from a template; without a name, list the templates."""
-    from dalembert.cli.describe_commands import begun
+    from dalembert.cli.describe_commands import start_file
 
-    return begun(template, output, force)
+    return start_file(template, output, force)
 
 
 @app.command(help_epilogue="Examples:\n  dalembert convert four_bar.yaml -o four_bar.json")
@@ -279,9 +282,9 @@ def convert(
     force: Force = False,
 ) -> int:
     """Write a model file in another format: .yaml, .json or .toml."""
-    from dalembert.cli.describe_commands import converted
+    from dalembert.cli.describe_commands import convert_file
 
-    return converted(file, output, force)
+    return convert_file(file, output, force)
 
 
 @app.command(
@@ -290,7 +293,7 @@ def convert(
   dalembert examples four_bar -o four_bar.yaml"""
 )
 def examples(
-    name: Annotated[str, said("Name of the example; without one, they are listed.")] = "",
+    name: Annotated[str, with_help("Name of the example; without one, they are listed.")] = "",
     /,
     *,
     output: NewFile = None,
@@ -333,14 +336,14 @@ def command_line_error(error: CycloptsError, arguments: list[str]) -> str:
     """The sentence for a wrong command line, and where to read more."""
     asked = arguments[0] if arguments else ""
     command = f" {asked}" if asked in _commands() else ""
-    return f"dalembert: {_said(error, asked)}; see `dalembert{command} --help`"
+    return f"dalembert: {_report_error(error, asked)}; see `dalembert{command} --help`"
 
 
 def _commands() -> list[str]:
     return [name for name in app if not name.startswith("-")]
 
 
-def _said(error: CycloptsError, asked: str) -> str:
+def _report_error(error: CycloptsError, asked: str) -> str:
     if isinstance(error, UnknownCommandError):
         return f"there is no command {asked!r}; {closest(asked, _commands())}"
     if isinstance(error, UnusedCliTokensError):

@@ -12,15 +12,17 @@ if TYPE_CHECKING:
     from dalembert.grading.mistakes import Verdict
 
 
-def graded(file: Path, answers: Path | None, interactive: bool, static: bool, friction: bool = True) -> int:
+def grade_answers(
+    file: Path, answers: Path | None, interactive: bool, static: bool, friction: bool = True
+) -> int:
     """Compare figures with what is computed; 1 where one is not right."""
-    from dalembert.cli.model_argument import loaded
+    from dalembert.cli.model_argument import load_model
     from dalembert.grading.mistakes import check_answers, figures
     from dalembert.model.files.model_files import read_file
 
-    m = loaded(file, friction)
+    m = load_model(file, friction)
     if interactive:
-        tree: Any = _asked(m, static)
+        tree: Any = _ask_figures(m, static)
     elif answers is None:
         raise ModelError("check-answers needs a file of answers", "name one, or answer with --interactive")
     else:
@@ -30,7 +32,7 @@ def graded(file: Path, answers: Path | None, interactive: bool, static: bool, fr
     return 0 if all(v.right for v in found) else 1
 
 
-def _asked(m: Any, static: bool) -> dict[str, dict[str, Any]]:
+def _ask_figures(m: Any, static: bool) -> dict[str, dict[str, Any]]:
     """Ask for every effort and joint force; an empty line skips one, the end of the input all that follow."""
     from dalembert.analysis import solve
 

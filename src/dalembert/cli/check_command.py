@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from dalembert.errors import DalembertError, ModelError
-from dalembert.printing import table, wrapped
+from dalembert.printing import table, wrap
 
 if TYPE_CHECKING:
     from dalembert.grading.file_answers import Row
@@ -18,24 +18,24 @@ if TYPE_CHECKING:
 ENDINGS = (".yaml", ".yml", ".json", ".toml")
 
 
-def checked(files: Sequence[Path], every: bool, friction: bool = True) -> int:
+def check_files(files: Sequence[Path], every: bool, friction: bool = True) -> int:
     """Compare the answers of files and folders; 1 where one disagrees, 2 where a file is wrong."""
     if not files:
         raise ModelError("check needs a file or a folder", "for example: dalembert check four_bar.yaml")
     found = list(_model_files(files))
-    rows, wrong = _compared(found, friction)
+    rows, wrong = _compare(found, friction)
     if rows or not wrong:
         print(_text(rows, every or len(found) == 1))
     return 2 if wrong else 0 if all(row.ok for row in rows) else 1
 
 
-def validated() -> int:
+def validate_cases() -> int:
     """Compare the answers of every bundled case; 1 on any failure."""
     from dalembert.bundled import cases
 
     started = time.perf_counter()
     found = cases()
-    rows, wrong = _compared(list(found.values()))
+    rows, wrong = _compare(list(found.values()))
     failed = [row for row in rows if not row.ok]
     print(_text(rows, every=True))
     print(_installation())
@@ -57,9 +57,9 @@ def _model_files(named: Iterable[Path]) -> Iterator[Path]:
             yield path
 
 
-def _compared(files: Sequence[Path], friction: bool = True) -> tuple[list[Row], int]:
+def _compare(files: Sequence[Path], friction: bool = True) -> tuple[list[Row], int]:
     """Rows of all files, and how many files are wrong; what is wrong is said at once."""
-    from dalembert.cli.model_argument import loaded
+    from dalembert.cli.model_argument import load_model
     from dalembert.grading.file_answers import check
 
     rows: list[Row] = []
@@ -68,7 +68,7 @@ def _compared(files: Sequence[Path], friction: bool = True) -> tuple[list[Row], 
         for path in files:
             step(path.name)
             try:
-                rows += check(loaded(path, friction), path.stem)
+                rows += check(load_model(path, friction), path.stem)
             except DalembertError as error:
                 print(error, file=sys.stderr)
                 wrong += 1
@@ -162,7 +162,7 @@ def _failure(row: Row) -> str:
     said += f", tolerance {row.tolerance}" if row.tolerance else ""
     said += f" ({row.why})" if row.why else ""
     said += f"; exact {row.exact}" if row.exact else ""
-    return wrapped(said + (f". {row.problem}" if row.problem else ""), "  ")
+    return wrap(said + (f". {row.problem}" if row.problem else ""), "  ")
 
 
 def _installation() -> str:

@@ -14,17 +14,17 @@ from dalembert.wording import closest
 YAML = (".yaml", ".yml")
 
 
-def begun(template: str, output: Path | None, force: bool) -> int:
+def start_file(template: str, output: Path | None, force: bool) -> int:
     """A template printed or written; without a name, the list of them."""
     if not template:
-        return emitted(template_list(), output, force)
+        return write_or_print(template_list(), output, force)
     return _model_file(template_file(template), output, force)
 
 
 def example_copied(name: str, output: Path | None, force: bool) -> int:
     """An example printed or written; without a name, the list of them."""
     if not name:
-        return emitted(example_list(), output, force)
+        return write_or_print(example_list(), output, force)
     return _model_file(example_text(name), output, force)
 
 
@@ -34,14 +34,14 @@ def _model_file(text: str, output: Path | None, force: bool) -> int:
             f"{output} is not named like YAML, which this is",
             "end its name with .yaml; `dalembert convert` writes JSON and TOML",
         )
-    return emitted(text, output, force)
+    return write_or_print(text, output, force)
 
 
 def _on_screen(output: Path | None) -> bool:
     return output is None or str(output) in ("-", "/dev/stdout")
 
 
-def emitted(text: str, output: Path | None, force: bool) -> int:
+def write_or_print(text: str, output: Path | None, force: bool) -> int:
     """Text to a new file, or printed."""
     if _on_screen(output):
         print(text.rstrip("\n"))
@@ -87,7 +87,7 @@ def _title(path: Path) -> str:
     return ""
 
 
-def converted(file: Path, output: Path, force: bool) -> int:
+def convert_file(file: Path, output: Path, force: bool) -> int:
     """Write a model file in the format that the ending of the output names."""
     from dalembert.model import convert
 
@@ -117,11 +117,11 @@ JOINT_HEADS = ("joint", "turns", "slides", "reactions", "its own axes")
 def joint_rows() -> list[list[str]]:
     """Type, turns and slides of j in i, reactions, own axes of every joint in space, a row each."""
     from dalembert.analysis.compile.pair_table import PAIRS
-    from dalembert.views.symbols.pair_pictures import ordered
+    from dalembert.views.symbols.pair_pictures import sorted_kinds
 
     return [
         [kind, str(len(p.turns)), str(len(p.slides)), " ".join(p.reactions), p.local]
-        for kind, p in ((kind, PAIRS[kind]) for kind in ordered())
+        for kind, p in ((kind, PAIRS[kind]) for kind in sorted_kinds())
     ]
 
 
@@ -142,7 +142,7 @@ def joints_shown(output: Path | None, camera: str | None, theme: Any, force: boo
     from dalembert.views import draw
 
     if output is None:
-        return emitted(joint_table(), None, force)
+        return write_or_print(joint_table(), None, force)
     seen = camera_at(camera)
     if output.suffix:
         draw.joints(seen).save(output, force, theme)

@@ -20,7 +20,7 @@ MOVING = ("animation", "mechanism", "all")
 PICTURES = (".svg", ".pdf", ".png", ".dxf", ".gif", ".webp", ".glb")
 
 
-def drawn(
+def draw_file(
     file: Path,
     output: Path,
     view: Any,
@@ -34,7 +34,7 @@ def drawn(
     camera: str | None = None,
 ) -> int:
     """Draw a file; 1 where some position has a status other than ok."""
-    from dalembert.cli.model_argument import loaded
+    from dalembert.cli.model_argument import load_model
     from dalembert.views import draw
 
     if output.suffix.lower() not in PICTURES:
@@ -47,10 +47,10 @@ def drawn(
             "write .svg, .pdf or .png, or ask for --view animation",
         )
     check_new(output, force)
-    m = loaded(file, friction)
+    m = load_model(file, friction)
     if positions is None and (view == "charts" or _moves(view, output)):
         positions = _enough(m, 36 if _moves(view, output) else 72)
-    result, at = _solved(m, at, static, positions)
+    result, at = _solve_at(m, at, static, positions)
     notation = draw.Notation(links="name" if names else "number")
     if output.suffix.lower() == ".glb":
         draw.solid_model(result).save(output, force)
@@ -58,7 +58,7 @@ def drawn(
         draw.animation(result, notation, camera=camera_at(camera)).save(output, force, theme)
     else:
         draw.view(result, view, at, notation, camera_at(camera)).save(output, force, theme)
-    return _written(result, output)
+    return _announce(result, output)
 
 
 def camera_at(text: str | None) -> str | tuple[float, float] | None:
@@ -72,7 +72,7 @@ def camera_at(text: str | None) -> str | tuple[float, float] | None:
     return azimuth, elevation
 
 
-def reported(
+def write_report(
     file: Path,
     output: Path,
     at: str | None,
@@ -85,28 +85,28 @@ def reported(
     friction: bool = True,
 ) -> int:
     """Write the worked solution; 1 where some position has a status other than ok."""
-    from dalembert.cli.model_argument import loaded
+    from dalembert.cli.model_argument import load_model
     from dalembert.report import report
 
     check_new(output, force)
-    result, at = _solved(loaded(file, friction), at, static, positions)
+    result, at = _solve_at(load_model(file, friction), at, static, positions)
     report(result, at, methods, notation, about).save(output, force)
-    return _written(result, output)
+    return _announce(result, output)
 
 
-def _written(result: Result, output: Path) -> int:
+def _announce(result: Result, output: Path) -> int:
     """Say what was written, and which positions are not ok and why; the exit status."""
     from dalembert.analysis.output.summary.printed_answer import problems_text
-    from dalembert.analysis.output.summary.printed_units import printed
+    from dalembert.analysis.output.summary.printed_units import print_scale
 
     print(f"Written: {output}", file=sys.stderr)
     if result.ok.all():
         return OK
-    print(problems_text(result, printed(result, "file")), file=sys.stderr)
+    print(problems_text(result, print_scale(result, "file")), file=sys.stderr)
     return SOME_NOT_OK
 
 
-def _solved(m: Mechanism, at: str | None, static: bool, positions: int | None) -> tuple[Result, str | None]:
+def _solve_at(m: Mechanism, at: str | None, static: bool, positions: int | None) -> tuple[Result, str | None]:
     """The result and the position asked for; a drive's value that the file has not is gone to from its first one."""
     from dalembert.analysis import solve
 
@@ -115,10 +115,10 @@ def _solved(m: Mechanism, at: str | None, static: bool, positions: int | None) -
     values = _way(m, at)
     if values is None:
         return solve(m, static=static), at
-    return solve(_moved(m, values), static=static), None
+    return solve(_at_last_position(m, values), static=static), None
 
 
-def _moved(m: Mechanism, values: list[float]) -> Mechanism:
+def _at_last_position(m: Mechanism, values: list[float]) -> Mechanism:
     """The mechanism at the last of some positions of its drive, in the assembly mode that leads there."""
     from dalembert.analysis import kinematics
 

@@ -8,9 +8,9 @@ import numpy as np
 
 from dalembert.analysis.friction.joint_friction import unknown_names
 from dalembert.analysis.output.columns import UnitChoice, drive_kinds, load_kind, unknown_kinds
-from dalembert.analysis.output.summary.printed_units import Printed, printed, significant
+from dalembert.analysis.output.summary.printed_units import Printed, print_scale, significant
 from dalembert.errors import ModelError
-from dalembert.printing import number, remainder, rounded, table, tables, with_unit, wrapped
+from dalembert.printing import number, remainder, round_components, table, tables, with_unit, wrap
 from dalembert.units import KINDS
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ def superposition_text(result: Result, units: UnitChoice) -> str:
     """Every effort, unknown load and joint force by source, at the first solved position."""
     from dalembert.analysis.methods.superposition import superposition
 
-    parts, to, k = superposition(result), printed(result, units), _first(result)
+    parts, to, k = superposition(result), print_scale(result, units), _first(result)
     if not parts.sources:
         return f"Superposition\n\n{NOTHING_ACTS}: all forces are 0."
     rows = []
@@ -38,7 +38,7 @@ def superposition_text(result: Result, units: UnitChoice) -> str:
         f"Joint forces are those on j. The parts sum to the whole within {remainder(gap, 1)} of the largest."
     )
     where = f" at position {k + 1} of {len(result.status)}" if len(result.status) > 1 else ""
-    return f"Superposition{where}\n\n{_split(['source', *heads], rows)}\n\n{wrapped(words)}"
+    return f"Superposition{where}\n\n{_split(['source', *heads], rows)}\n\n{wrap(words)}"
 
 
 def _rounding(result: Result, quantities: list[tuple[str, Any]]) -> dict[str, float]:
@@ -93,7 +93,7 @@ def virtual_work_answer(result: Result, units: UnitChoice) -> tuple[Result, str]
         raise ModelError(
             "virtual work finds efforts and unknown loads, and nothing moves here", "leave --method out"
         )
-    found, to, k = virtual_work(result), printed(result, units), _first(result)
+    found, to, k = virtual_work(result), print_scale(result, units), _first(result)
     blocks = _all_powers(found, k, to)
     if result.status[k] == "at_rest":
         blocks = []
@@ -125,7 +125,7 @@ def _agreement(found: Any) -> list[str]:
             if found.independent
             else f"They agree within {gap}."
         )
-    return [wrapped(" ".join(words))] if words else []
+    return [wrap(" ".join(words))] if words else []
 
 
 def _all_powers(found: Any, k: int, to: Printed) -> list[str]:
@@ -171,7 +171,11 @@ def _powers(found: Any, drive: int, k: int, to: Printed) -> str:
     total = float(found.power[:, k, drive].sum()) * to(kind, 1.0)
     heads = HEADS if r.mechanism.dimension == 2 else SPACE_HEADS
     rows.append(
-        ["sum", *[""] * (len(heads) - 2), number(rounded([total], load * reach * length * to(kind, 1.0))[0])]
+        [
+            "sum",
+            *[""] * (len(heads) - 2),
+            number(round_components([total], load * reach * length * to(kind, 1.0))[0]),
+        ]
     )
     units = f"forces in {to.text('force')}, couples in {to.text('moment')}, moves in {to.text('length')}"
     return (
@@ -188,7 +192,7 @@ def _cells(values: Any, count: int, beside: float) -> list[list[str]]:
     """Numbers of some actions, those that are nothing but rounding beside the largest, or beside a size, as 0."""
     rows = np.reshape(values, (count, -1)).tolist()
     largest = max(_largest(values), beside)
-    return [[number(x, 5) for x in rounded(row, largest)] for row in rows]
+    return [[number(x, 5) for x in round_components(row, largest)] for row in rows]
 
 
 def _first(result: Result) -> int:
@@ -223,19 +227,19 @@ def fixed_point_text(result: Result) -> str:
         f"The taught iteration {end}; each step leaves {table.rate:.3g} of the change. Friction on j in N or N*m; "
         "solve, set friction by the reactions found, solve again."
     )
-    return f"{tables(heads, rows, 1)}\n{wrapped(words)}"
+    return f"{tables(heads, rows, 1)}\n{wrap(words)}"
 
 
 def other_solutions_text(result: Result, units: UnitChoice) -> str:
     """Solutions of friction's equations beside the physical one, where that is not proved to be the only one."""
     from dalembert.analysis.friction.other_solutions import SOUGHT, every_other_solution
 
-    found, to, kinds = every_other_solution(result), printed(result, units), unknown_kinds(result)
+    found, to, kinds = every_other_solution(result), print_scale(result, units), unknown_kinds(result)
     if not any(found.values()):
         proved = "it is proved that there are none" if not found else "none was found"
         if not any(s in SOUGHT for s in result.status):
             proved = "they are sought where the senses of friction are given, at no position here"
-        return wrapped(f"Other solutions of friction: {proved}.")
+        return wrap(f"Other solutions of friction: {proved}.")
     heads = ["other solutions\nat position", *(f"{name}\n{to.text(kind)}" for name, kind in kinds.items())]
     heads.append("determinant\nratio")
     rows = [
@@ -246,4 +250,4 @@ def other_solutions_text(result: Result, units: UnitChoice) -> str:
     words = (
         "The physical solution, above, is continued from no friction and has a positive determinant ratio."
     )
-    return f"{tables(heads, rows, 1)}\n{wrapped(words)}"
+    return f"{tables(heads, rows, 1)}\n{wrap(words)}"

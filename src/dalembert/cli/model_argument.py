@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from dalembert.model import Mechanism
 
 
-def loaded(file: Path, friction: bool) -> Mechanism:
+def load_model(file: Path, friction: bool) -> Mechanism:
     """The mechanism of a file, with its friction or without."""
     from dalembert.model import load
 

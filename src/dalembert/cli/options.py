@@ -27,7 +27,7 @@ def whole(least: int, most: int | None = None) -> Callable[..., int]:
     return read
 
 
-def said(sentence: str) -> Parameter:
+def with_help(sentence: str) -> Parameter:
     """An option with its sentence."""
     return Parameter(help=sentence)
 
@@ -47,7 +47,7 @@ def target(sentence: str) -> Parameter:
     return Parameter(allow_leading_hyphen=True, help=sentence)
 
 
-ModelFile = Annotated[Path, said("Model file: YAML, JSON or TOML; - is standard input.")]
+ModelFile = Annotated[Path, with_help("Model file: YAML, JSON or TOML; - is standard input.")]
 NewFile = Annotated[Path | None, output("Write it to this file; without it, it is printed.")]
 Positions = Annotated[
     int | None,
@@ -75,7 +75,7 @@ Seen = Annotated[
 ]
 Theme = Annotated[
     Literal["light", "dark", "print"],
-    said("Colours for light paper, for a dark screen, or black and white for print."),
+    with_help("Colours for light paper, for a dark screen, or black and white for print."),
 ]
 Figures = Annotated[int, Parameter(converter=whole(1, 15), help="Significant figures.")]
 Static = Annotated[bool, flag("Leave inertia out, even where the file has speeds.")]
@@ -89,11 +89,11 @@ Force = Annotated[bool, flag("Overwrite files that exist.")]
 class Style:
     """How a worked solution is written."""
 
-    units: Annotated[Literal["si", "file"], said("Units of the numbers: file (default) or si.")] = "file"
-    axes: Annotated[Axes, said("Axes of components: ground, or the link acted on.")] = "ground"
+    units: Annotated[Literal["si", "file"], with_help("Units of the numbers: file (default) or si.")] = "file"
+    axes: Annotated[Axes, with_help("Axes of components: ground, or the link acted on.")] = "ground"
     names: Names = False
     on_by: Annotated[bool, flag("Write F_ij for the force on i by j; without it, by i on j.")] = False
-    letter: Annotated[Literal["F", "G"], said("Letter of the joint forces: F or G.")] = "F"
+    letter: Annotated[Literal["F", "G"], with_help("Letter of the joint forces: F or G.")] = "F"
     figures: Figures = 4
     decimals: Annotated[
         int | None,

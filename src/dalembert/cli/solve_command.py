@@ -59,7 +59,7 @@ class Wanted(NamedTuple):
         return {kind: path for kind, path in named.items() if path is not None and str(path) != "-"}
 
 
-def solved(
+def solve_file(
     file: Path, wanted: Wanted, *, static: bool, positions: int | None, method: str, friction: bool
 ) -> int:
     """Analyse a file, print or write the answer; 1 where some position has a status other than ok."""
@@ -70,7 +70,7 @@ def solved(
         from dalembert.cli.method_text import other_solutions_text
 
         more = "\n\n".join(filter(None, (more, other_solutions_text(result, wanted.printed_units))))
-    _printed(shown, wanted, more)
+    _print_answer(shown, wanted, more)
     for kind, path in wanted.files.items():
         _write(shown, kind, path, wanted)
         print(f"Written: {path}", file=sys.stderr)
@@ -107,9 +107,9 @@ def _check_ending(kind: str, path: Path) -> None:
 
 def _result(file: Path, static: bool, positions: int | None, friction: bool) -> Result:
     from dalembert.analysis import solve
-    from dalembert.cli.model_argument import loaded
+    from dalembert.cli.model_argument import load_model
 
-    m = loaded(file, friction)
+    m = load_model(file, friction)
     with _waiting(f"Solving {file}"):
         return solve(m, static=static, positions=positions)
 
@@ -140,7 +140,7 @@ def _waiting(what: str) -> Iterator[None]:
         yield
 
 
-def _printed(result: Result, wanted: Wanted, more: str) -> None:
+def _print_answer(result: Result, wanted: Wanted, more: str) -> None:
     if str(wanted.json) == "-":
         from dalembert.analysis.output.json_record import write_json
 

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import Annotated, Literal
 
-from dalembert.cli.options import Figures, Force, Theme, said, target
+from dalembert.cli.options import Figures, Force, Theme, target, with_help
 
 EXAMPLES = """Examples:
   dalembert wrench plate.yaml
@@ -21,7 +21,7 @@ A file:
 
 
 def wrench(
-    file: Annotated[Path, said("File of forces and couples, in the plane or in space.")],
+    file: Annotated[Path, with_help("File of forces and couples, in the plane or in space.")],
     /,
     *,
     about: Annotated[
@@ -30,15 +30,17 @@ def wrench(
             'Point to take moments about: a name of the file\'s points, or "[x, y]" (default: the origin).'
         ),
     ] = None,
-    drawing: Annotated[Path | None, said("Draw it to this file: .svg, .pdf, .png or .dxf.")] = None,
+    drawing: Annotated[Path | None, with_help("Draw it to this file: .svg, .pdf, .png or .dxf.")] = None,
     report: Annotated[
-        Path | None, said("Write the worked solution to this file: .pdf, .html, .tex or .txt.")
+        Path | None, with_help("Write the worked solution to this file: .pdf, .html, .tex or .txt.")
     ] = None,
     view: Annotated[
-        Literal["isometric", "front", "side", "top"], said("Side from which a system in space is drawn.")
+        Literal["isometric", "front", "side", "top"], with_help("Side from which a system in space is drawn.")
     ] = "isometric",
     theme: Theme = "light",
-    units: Annotated[Literal["si", "file"], said("Units of the numbers: file (default) or si.")] = "file",
+    units: Annotated[
+        Literal["si", "file"], with_help("Units of the numbers: file (default) or si.")
+    ] = "file",
     figures: Figures = 4,
     force: Force = False,
 ) -> int:

@@ -13,7 +13,7 @@ import numpy as np
 from dalembert.arrays import Array
 
 
-def traced(*arrays: Array) -> bool:
+def any_traced(*arrays: Array) -> bool:
     """Whether some of the arrays hold traced values."""
     return any(np.asarray(a).dtype == object for a in arrays)
 
@@ -21,32 +21,32 @@ def traced(*arrays: Array) -> bool:
 def above(a: Array, b: Array | float) -> Array:
     """Where a is larger than b."""
     difference = np.subtract(a, b)
-    return np.asarray(_POSITIVE(difference) if traced(difference) else difference > 0)
+    return np.asarray(_POSITIVE(difference) if any_traced(difference) else difference > 0)
 
 
 def where(test: Array, a: Array | float, b: Array | float) -> Array:
     """a where the test holds, else b."""
-    return test * a + (1.0 - test) * b if traced(test) else np.where(test, a, b)
+    return test * a + (1.0 - test) * b if any_traced(test) else np.where(test, a, b)
 
 
 def larger(a: Array, b: Array | float) -> Array:
     """The larger of each two."""
-    return np.asarray(_LARGER(a, b) if traced(a, np.asarray(b)) else np.maximum(a, b))
+    return np.asarray(_LARGER(a, b) if any_traced(a, np.asarray(b)) else np.maximum(a, b))
 
 
 def sign(a: Array) -> Array:
     """-1, 0 or 1."""
-    return np.asarray(_SIGN(a) if traced(a) else np.sign(a))
+    return np.asarray(_SIGN(a) if any_traced(a) else np.sign(a))
 
 
 def hypot(a: Array, b: Array) -> Array:
     """Root of the sum of the squares."""
-    return np.asarray(_HYPOT(a, b) if traced(a, b) else np.hypot(a, b))
+    return np.asarray(_HYPOT(a, b) if any_traced(a, b) else np.hypot(a, b))
 
 
 def unit(a: Array, b: Array, least: Array) -> tuple[Array, Array, Array]:
     """Components of the unit vector along (a, b), shorter where the vector is below ``least``; and its length."""
-    if traced(a, b, least):
+    if any_traced(a, b, least):
         return tuple(_UNIT(a, b, least))
     length = np.hypot(a, b)
     over = 1.0 / np.maximum(length, least)
@@ -55,13 +55,13 @@ def unit(a: Array, b: Array, least: Array) -> tuple[Array, Array, Array]:
 
 def root(a: Array) -> Array:
     """Square root."""
-    return np.asarray(_ROOT(a) if traced(a) else np.sqrt(a))
+    return np.asarray(_ROOT(a) if any_traced(a) else np.sqrt(a))
 
 
 def top(a: Array, axes: int) -> Array:
     """Largest value over the last axes, and 0."""
     flat = a.reshape((*a.shape[: a.ndim - axes], -1))
-    if not traced(a):
+    if not any_traced(a):
         return np.asarray(flat.max(axis=-1, initial=0.0))
     out = np.zeros(flat.shape[:-1], object)
     for k in range(flat.shape[-1]):

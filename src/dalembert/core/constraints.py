@@ -63,7 +63,7 @@ def system(g: Any, rows: Rows, pose: Pose) -> System:
     return System(*rows.ends, rows.angular, *wrenches(g, rows, pose))
 
 
-def stacked(layout: Layout, pose: Pose) -> System:
+def stack_rows(layout: Layout, pose: Pose) -> System:
     """The constraint rows, then the drives' rows."""
     return system(layout.algebra, layout.stack, pose)
 

@@ -15,9 +15,9 @@ import numpy as np
 
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.core import forcing as fc
-from dalembert.core.constraints import drift, rates, stacked
+from dalembert.core.constraints import drift, rates, stack_rows
 from dalembert.core.factor import factor
-from dalembert.core.forcing import Forcing, Source, pair, summed
+from dalembert.core.forcing import Forcing, Source, pair, total_wrench
 from dalembert.core.geometry import arm
 from dalembert.core.layout import Gearing, Helix, Layout, Mesh, Pose, Rows, System
 from dalembert.core.linear import Factor, PseudoInverse, compliant
@@ -75,7 +75,7 @@ def with_ground(twist: Array) -> Array:
 
 def motion(layout: Layout, pose: Pose, speed: Array, acceleration: Array) -> tuple[Motion, System, Factor]:
     """Velocities and accelerations from the drives' speeds and accelerations (..., D): A^T v = rates."""
-    rows = stacked(layout, pose)
+    rows = stack_rows(layout, pose)
     solver = factor(layout, rows)
     count, lead = layout.constraints.count, pose.point.shape[:-2]
 
@@ -129,7 +129,7 @@ def statement(layout: Layout, known: Known, pose: Pose, rows: System, solver: Fa
     if known.asked.all() and not known.link.size:
         return Statement(unknown, _yielding(layout, unknown, solver), w)
     given = rows.rows(layout.constraints.count + np.flatnonzero(~known.asked))
-    w = w + summed(layout, pair(given, known.effort[..., ~known.asked]))
+    w = w + total_wrench(layout, pair(given, known.effort[..., ~known.asked]))
     return Statement(unknown, _yielding(layout, unknown, factor(layout, unknown)), w)
 
 
@@ -153,11 +153,11 @@ def balance(
 ) -> Balance:
     """Solve A x + w = 0 for total wrenches w (..., L, n)."""
     s = statement(layout, known, pose, rows, solver, w)
-    x, total = _solved(layout, forcing, pose, s.forces, s.w)
-    return checked(layout, forcing, known, pose, moving, s, x, total)
+    x, total = _solve_balance(layout, forcing, pose, s.forces, s.w)
+    return check_equilibrium(layout, forcing, known, pose, moving, s, x, total)
 
 
-def checked(
+def check_equilibrium(
     layout: Layout,
     forcing: Forcing,
     known: Known,
@@ -204,7 +204,9 @@ def load_rows(layout: Layout, known: Known, pose: Pose) -> System:
     return System(ground, known.link, known.couple, np.zeros_like(wrench), wrench)
 
 
-def _solved(layout: Layout, forcing: Forcing, pose: Pose, forces: Factor, w: Array) -> tuple[Array, Array]:
+def _solve_balance(
+    layout: Layout, forcing: Forcing, pose: Pose, forces: Factor, w: Array
+) -> tuple[Array, Array]:
     """Multipliers and total wrenches with the teeth's separation.
 
     The radial tooth force depends on the tangential one by its magnitude only; where it does no work (centres at a
@@ -215,7 +217,7 @@ def _solved(layout: Layout, forcing: Forcing, pose: Pose, forces: Factor, w: Arr
     if not tangent.size or not tangent.any():
         return x, w
     for _ in range(50):
-        total = w + summed(layout, fc.separation_wrench(layout, pose, tangent, x))
+        total = w + total_wrench(layout, fc.separation_wrench(layout, pose, tangent, x))
         new = forces.forces(-total.reshape((*total.shape[:-2], -1)))
         change = np.nan_to_num(np.abs(new - x)).max(initial=0.0)
         x = new
@@ -227,7 +229,7 @@ def _solved(layout: Layout, forcing: Forcing, pose: Pose, forces: Factor, w: Arr
 def _residual(layout: Layout, sources: list[Source], w: Array) -> tuple[Array, Array]:
     """Largest out-of-balance force or moment (over length) relative to the largest force, and that force."""
     scale = layout.wrench_scale
-    out = np.abs((summed(layout, *sources) + w) * scale).max(axis=(-2, -1), initial=0.0)
+    out = np.abs((total_wrench(layout, *sources) + w) * scale).max(axis=(-2, -1), initial=0.0)
     largest = np.abs(w * scale).max(axis=(-2, -1), initial=0.0)
     for source in sources:
         largest = np.maximum(largest, np.abs(source.wrench * scale).max(axis=(-2, -1), initial=0.0))
@@ -252,7 +254,7 @@ def _power(
     return np.asarray(np.abs(power / np.where(reference > 0, reference, 1.0)).max(axis=-1))
 
 
-def _screwed(g: Any, constraints: Rows, pose: Pose, rows: System) -> Iterator[tuple[int, Array]]:
+def _screw_rows(g: Any, constraints: Rows, pose: Pose, rows: System) -> Iterator[tuple[int, Array]]:
     """Row of each screw and the couple that its force comes with, at j's point."""
     for f in constraints.families:
         if isinstance(f, Helix):
@@ -274,7 +276,7 @@ def reactions(layout: Layout, pose: Pose, rows: System, found: Balance) -> tuple
             couple[..., max(joint, 0), :] += (joint >= 0) * multiplier * rows.on_j[..., k, g.d :]
         else:
             force[..., joint, :] += multiplier * rows.on_j[..., k, : g.d]
-    for row, part in _screwed(g, constraints, pose, rows):
+    for row, part in _screw_rows(g, constraints, pose, rows):
         couple[..., constraints.joint[row], :] += found.constraint[..., row, None] * part
     for f, pushed, _ in found.separation:
         for k, row in enumerate(f.row):
@@ -296,7 +298,7 @@ def shifts(layout: Layout, pose: Pose, rows: System, free: Array) -> tuple[Array
         if joint >= 0:
             part = slice(g.d, None) if constraints.angular[k] else slice(None, g.d)
             shift[..., joint, part, :] += rows.on_j[..., k, part, None] * free[..., k, None, :]
-    for row, couple in _screwed(g, constraints, pose, rows):
+    for row, couple in _screw_rows(g, constraints, pose, rows):
         shift[..., constraints.joint[row], g.d :, :] += couple[..., None] * free[..., row, None, :]
     others = free[..., constraints.count :, :]
     return shift, np.abs(others).max(axis=-1, initial=0.0) < UNIQUE

@@ -11,7 +11,7 @@ import numpy as np
 from dalembert.arrays import Array, Flags
 from dalembert.core.constraints import dense
 from dalembert.core.layout import Layout, System
-from dalembert.core.linear import Factor, inverse, pseudo_inverse, solved
+from dalembert.core.linear import Factor, inverse, pseudo_inverse, solve_square
 
 SPARSE = 120
 """Unknowns above which sparse elimination beats a batched dense inverse."""
@@ -41,7 +41,7 @@ def displacement(layout: Layout, rows: System, scaled_gap: Array) -> Array:
     if square and layout.unknowns <= SPARSE:
         j = dense(layout, rows)
         j *= row_scale(layout, rows.angular)[:, None]
-        dq = solved(j, scaled_gap)
+        dq = solve_square(j, scaled_gap)
     else:
         dq = factor(layout, rows).motion(scaled_gap / row_scale(layout, rows.angular))
     bad = ~np.isfinite(dq)

@@ -1,7 +1,7 @@
 """Wrenches on the links that are known once the motion is: loads, weights, springs, dampers, inertia (D'Alembert).
 
 Every function returns a ``Source``: wrenches (..., k, n) about the reference points of the links they act on, one a
-contribution, so that superposition and virtual work can take them apart; ``summed`` adds them up per link.
+contribution, so that superposition and virtual work can take them apart; ``total_wrench`` adds them up per link.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.core import gear_rows
-from dalembert.core.branchless import traced
+from dalembert.core.branchless import any_traced
 from dalembert.core.constraints import measure, rates, system
 from dalembert.core.geometry import arm, span
 from dalembert.core.layout import Gearing, Layout, Mesh, Pose, System
@@ -100,7 +100,7 @@ class Source(NamedTuple):
     wrench: Array
 
 
-def summed(layout: Layout, *sources: Source) -> Array:
+def total_wrench(layout: Layout, *sources: Source) -> Array:
     """Total wrench on each moving link (..., L, n)."""
     lead = np.broadcast_shapes(*(s.wrench.shape[:-2] for s in sources))
     out = np.zeros((*lead, layout.links + 1, layout.algebra.n), np.result_type(*(s.wrench for s in sources)))
@@ -199,24 +199,24 @@ def _direction(layout: Layout, springs: Springs, span: Array, square: Array, rat
     Where b passes a, a damper's is that of their relative motion: its force is the same just before and just after. A
     preloaded spring turns its force round there: no number. One without force at length zero needs none.
     """
-    needed = directed(springs)
-    if traced(span):  # no number at length zero, where the general executor decides
+    needed = needs_direction(springs)
+    if any_traced(span):  # no number at length zero, where the general executor decides
         return np.asarray(span / np.sqrt(square + np.where(needed, 0.0, 1e-300))[..., None])
     gone = (square == 0) | (needed & (square <= (VANISHED * layout.length) ** 2))
     speed = np.sqrt((rate * rate).sum(axis=-1))
     moving = rate / np.where(speed > 0, speed, 1.0)[..., None]
-    there = np.where(preloaded(springs)[..., None], np.nan, moving)
+    there = np.where(pushes_at_zero_length(springs)[..., None], np.nan, moving)
     return np.where(gone[..., None], there, span / np.sqrt(np.where(gone, 1.0, square))[..., None])
 
 
-def preloaded(springs: Springs) -> Flags:
+def pushes_at_zero_length(springs: Springs) -> Flags:
     """Springs (k,) that push at length zero."""
     return np.array((springs.stiffness != 0) & (springs.free_length != 0), bool)
 
 
-def directed(springs: Springs) -> Flags:
+def needs_direction(springs: Springs) -> Flags:
     """Springs and dampers (k,) whose force at length zero depends on how it is reached."""
-    return np.array(preloaded(springs) | (springs.damping != 0), bool)
+    return np.array(pushes_at_zero_length(springs) | (springs.damping != 0), bool)
 
 
 def away(layout: Layout, springs: Springs, pose: Pose) -> Array:

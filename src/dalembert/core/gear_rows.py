@@ -31,7 +31,7 @@ class _Vector(NamedTuple):
     rate: Array
 
 
-def _fixed(g: Any, pose: Pose, twist: Array, link: Any, u: Array) -> _Vector:
+def _fixed_direction(g: Any, pose: Pose, twist: Array, link: Any, u: Array) -> _Vector:
     """A direction of a link."""
     a = arm(g, pose, link, u)
     return _Vector(a, g.spin(twist[..., link, g.d :], a))
@@ -75,7 +75,7 @@ def _towards(g: Any, f: Gearing, span: _Vector, own: _Vector, other: _Vector, no
 
 def _axes(g: Any, f: Gearing, pose: Pose, twist: Array) -> tuple[_Vector, _Vector, _Vector, _Vector]:
     """Axis and e of i, axis and e of j."""
-    ai, aj = _fixed(g, pose, twist, f.i, f.ai), _fixed(g, pose, twist, f.j, f.aj)
+    ai, aj = _fixed_direction(g, pose, twist, f.i, f.ai), _fixed_direction(g, pose, twist, f.j, f.aj)
     ci, cj = _center(g, pose, twist, f.i, f.ui), _center(g, pose, twist, f.j, f.uj)
     span, normal = _Vector(cj.at - ci.at, cj.rate - ci.rate), _cross(g, ai, aj)
     return ai, _towards(g, f, span, ai, aj, normal), aj, _towards(g, f, span, aj, ai, normal)
@@ -166,7 +166,7 @@ def gearings(layout: Layout) -> list[Gearing]:
     return [f for f in layout.constraints.families if isinstance(f, Gearing)]
 
 
-def meshed(layout: Layout, pose: Pose) -> tuple[Layout, list[Misfit]]:
+def mesh_wheels(layout: Layout, pose: Pose) -> tuple[Layout, list[Misfit]]:
     """The layout with its wheels in mesh at a pose (L+1, ...), and how well they fit.
 
     The centres are moved along their axes and the radii by a common factor so that the pitch points coincide; that
@@ -175,17 +175,17 @@ def meshed(layout: Layout, pose: Pose) -> tuple[Layout, list[Misfit]]:
     found = gearings(layout)
     if not found:
         return layout, []
-    fitted = [_fitted(layout, f, pose.at(None)) for f in found]
-    families = tuple(_swapped(f, found, fitted) for f in layout.constraints.families)
+    fitted = [_fit_mesh(layout, f, pose.at(None)) for f in found]
+    families = tuple(_swap_family(f, found, fitted) for f in layout.constraints.families)
     constraints = replace(layout.constraints, families=families)
     return replace(layout, constraints=constraints), [misfit for _, misfit in fitted]
 
 
-def _swapped(f: Any, found: list[Gearing], fitted: list[tuple[Gearing, Misfit]]) -> Any:
+def _swap_family(f: Any, found: list[Gearing], fitted: list[tuple[Gearing, Misfit]]) -> Any:
     return next((new for old, (new, _) in zip(found, fitted, strict=True) if old is f), f)
 
 
-def _fitted(layout: Layout, f: Gearing, pose: Pose) -> tuple[Gearing, Misfit]:
+def _fit_mesh(layout: Layout, f: Gearing, pose: Pose) -> tuple[Gearing, Misfit]:
     g = layout.algebra
     parts = [_one(g, f, pose, k) for k in range(len(f.i))]
     changed = {name: np.array([part[name] for part, _ in parts]) for name in parts[0][0]}

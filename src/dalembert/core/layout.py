@@ -174,7 +174,7 @@ class Gearing:
     of e in the wheel from its direction b, whole turns counted at ``count``, and k = r (a x e) . n.
 
     ``outward`` is 1 where separation pushes j away from the axis of i, -1 in a ring wheel i; way, cone, outward, ki
-    and kj are those of the first pose (``core.gear_rows.meshed``).
+    and kj are those of the first pose (``core.gear_rows.mesh_wheels``).
     """
 
     row: Ints
@@ -255,7 +255,7 @@ class System(NamedTuple):
         return System(self.i[which], self.j[which], self.angular[which], on_i, on_j)
 
 
-def selected(rows: Rows, kept: Ints, first: int = 0) -> list[Family]:
+def select_rows(rows: Rows, kept: Ints, first: int = 0) -> list[Family]:
     """The families of some rows only (ascending), renumbered from ``first``."""
     out: list[Family] = []
     for f in rows.families:
@@ -266,15 +266,15 @@ def selected(rows: Rows, kept: Ints, first: int = 0) -> list[Family]:
     return out
 
 
-def _merged(families: list[Family]) -> tuple[Family, ...]:
+def _merge(families: list[Family]) -> tuple[Family, ...]:
     """Families of one kind joined into one."""
     kinds: dict[type, list[Family]] = {}
     for f in families:
         kinds.setdefault(type(f), []).append(f)
-    return tuple(_joined(kind, group) for kind, group in kinds.items())
+    return tuple(_concatenate(kind, group) for kind, group in kinds.items())
 
 
-def _joined(kind: type, group: list[Family]) -> Family:
+def _concatenate(kind: type, group: list[Family]) -> Family:
     family: Family = kind(**{name: np.concatenate([vars(f)[name] for f in group]) for name in vars(group[0])})
     return family
 
@@ -307,8 +307,10 @@ class Layout:
     def stack(self) -> Rows:
         """The constraints, then the driven freedoms: the rows of the square system."""
         count = self.constraints.count
-        driven = [selected(self.freedoms, self.driven[k : k + 1], count + k) for k in range(len(self.driven))]
-        families = _merged([*self.constraints.families, *(f for one in driven for f in one)])
+        driven = [
+            select_rows(self.freedoms, self.driven[k : k + 1], count + k) for k in range(len(self.driven))
+        ]
+        families = _merge([*self.constraints.families, *(f for one in driven for f in one)])
         return Rows(
             count + len(self.driven),
             self.links,

@@ -90,7 +90,7 @@ def generalized_inverse(matrix: Array, rcond: float = 1e-15) -> Array:
     return np.asarray(np.linalg.pinv(np.where(finite, matrix, 0.0), rcond=rcond))
 
 
-def solved(matrix: Array, right: Array) -> Array:
+def solve_square(matrix: Array, right: Array) -> Array:
     """Solution (..., m) of each square system; NaN for a singular one."""
     try:
         return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0])
@@ -98,7 +98,9 @@ def solved(matrix: Array, right: Array) -> Array:
         if len(matrix) == 1:
             return np.full_like(right, np.nan)
         half = len(matrix) // 2
-        return np.concatenate([solved(matrix[:half], right[:half]), solved(matrix[half:], right[half:])])
+        return np.concatenate(
+            [solve_square(matrix[:half], right[:half]), solve_square(matrix[half:], right[half:])]
+        )
 
 
 @dataclass(frozen=True)

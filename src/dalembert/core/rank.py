@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dalembert.arrays import Array, Flags
-from dalembert.core.constraints import dense, stacked, system
+from dalembert.core.constraints import dense, stack_rows, system
 from dalembert.core.factor import factor, row_scale
 from dalembert.core.layout import Layout, Pose
 from dalembert.core.linear import SINGULAR, pseudo_inverse
@@ -33,15 +33,15 @@ def singular_below(layout: Layout) -> float:
     return SINGULAR / max(1.0, layout.links / 10) ** 3
 
 
-def held(layout: Layout, pose: Pose) -> bool:
+def is_rigid(layout: Layout, pose: Pose) -> bool:
     """Constraints and drives leave no link free at this pose."""
-    rcond = factor(layout, stacked(layout, pose.at(None))).rcond[0]
+    rcond = factor(layout, stack_rows(layout, pose.at(None))).rcond[0]
     return bool(rcond > singular_below(layout))
 
 
 def well_driven(layout: Layout, pose: Pose) -> bool:
     """Constraints and drives fix every link once, neither more nor less: the common case, asked cheaply."""
-    return layout.stack.count == layout.unknowns and held(layout, pose)
+    return layout.stack.count == layout.unknowns and is_rigid(layout, pose)
 
 
 TOLERANCE = 1e-7
@@ -58,7 +58,7 @@ def rank(layout: Layout, pose: Pose) -> Rank:
     freedoms = layout.unknowns - int(alone.rank[0])
     redundant = layout.constraints.count - int(alone.rank[0])
     repeated = np.abs(alone.null[0]).max(axis=-1, initial=0.0) > 1e-6
-    rows = stacked(layout, pose)
+    rows = stack_rows(layout, pose)
     whole = pseudo_inverse(dense(layout, rows), row_scale(layout, rows.angular), column, TOLERANCE)
     held = whole.pinv[0] @ (dense(layout, rows) * row_scale(layout, rows.angular)[:, None] * column)[0]
     idle = (np.eye(layout.unknowns) - held).reshape(layout.links, -1, layout.unknowns)

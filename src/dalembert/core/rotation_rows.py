@@ -138,7 +138,7 @@ def idle_drift(g: Any, f: Idle, pose: Pose, twist: Array) -> Array:
     return np.zeros((*pose.point.shape[:-2], len(f.j)))
 
 
-def settled(layout: Layout, pose: Pose) -> Pose:
+def recount_turns(layout: Layout, pose: Pose) -> Pose:
     """The pose with its relative angles counted anew from near ones, and links that could spin as they are drawn."""
     g = layout.algebra
     for f in layout.constraints.families:

@@ -17,7 +17,7 @@ from dalembert.grading.quantities import QUANTITIES, WHOLE, WORDS, Series, compo
 from dalembert.grading.tolerance import Target, radians
 from dalembert.unit_names import unit
 from dalembert.units import KINDS, NUMBER, Units, file_units, quantity
-from dalembert.wording import closest, shown
+from dalembert.wording import closest, quote_value
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -79,13 +79,13 @@ def _row(result: Result, answer: Answer, number: int, case: str) -> Row:
     source = result.mechanism.source
     path = ("answers", number)
     try:
-        row = _compared(result, answer, case)
+        row = _compare(result, answer, case)
     except ModelError as error:
         raise ModelError(error.what, error.remedy, (*path, *error.path)).located(source) from None
     return row._replace(line=source.line(path) if source else 0)
 
 
-def _compared(result: Result, answer: Answer, case: str) -> Row:
+def _compare(result: Result, answer: Answer, case: str) -> Row:
     if answer.quantity in WHOLE:
         return _word(answer, case, WHOLE[answer.quantity](result), "")
     if answer.quantity in WORDS:
@@ -96,7 +96,7 @@ def _compared(result: Result, answer: Answer, case: str) -> Row:
         raise ModelError(
             f"there is no quantity {answer.quantity!r}", closest(answer.quantity, known, 40), ("quantity",)
         )
-    rows = [_measured(side, answer, read(side, answer), case) for side in sides_of(result, answer)]
+    rows = [_difference(side, answer, read(side, answer), case) for side in sides_of(result, answer)]
     return next((row for row in rows if row.ok), rows[0])
 
 
@@ -118,7 +118,7 @@ def sides_of(result: Result, answer: Answer) -> tuple[Result, ...]:
     return (result.sides[int(np.argmax(found))],)
 
 
-def named(answer: Answer) -> str:
+def describe_answer(answer: Answer) -> str:
     """The quantity in words: 'reaction of A on crank, magnitude, at 60 deg'."""
     parts = [answer.quantity.replace("_", " ")]
     parts += [f"of {answer.of}"] if answer.of else []
@@ -141,7 +141,7 @@ def _word(answer: Answer, case: str, found: str | int | None, problem: str) -> R
     computed = "-" if found is None else str(found)
     return Row(
         case,
-        named(answer),
+        describe_answer(answer),
         _plain(answer.value),
         "",
         computed,
@@ -181,7 +181,7 @@ def position_of(result: Result, answer: Answer, series: Series | None = None) ->
         if not 1 <= answer.at <= count:
             raise ModelError(f"there is no position {answer.at}", f"they are 1 to {count}", ("at",))
         return answer.at - 1
-    return _named_position(result, answer.at)
+    return _position_name(result, answer.at)
 
 
 BY: dict[str, Callable[[Array], Array]] = {"max": lambda v: v, "min": lambda v: -v, "maxabs": np.abs}
@@ -192,7 +192,7 @@ def _extreme(which: str, values: Array) -> int:
     return 0 if np.isnan(values).all() else int(np.nanargmax(BY[which](values)))
 
 
-def _named_position(result: Result, at: Any) -> int:
+def _position_name(result: Result, at: Any) -> int:
     """The position where the first drive has a value: `60 deg`."""
     if not result.drives:
         raise ModelError(
@@ -224,13 +224,13 @@ def _apart(found: Array, wanted: Any, kind: str) -> Array:
 def target(value: Any, series: Series, units: Units, key: str) -> Target:
     """A value as it stands in the file, read as the kind of the series."""
     from dalembert.model.part import Reading
-    from dalembert.model.quantities.values import at_item, listed, vector
+    from dalembert.model.quantities.values import at_item, check_vector, vector
 
     rules = Reading(units, dimension=series.values.shape[-1])
     depth = series.values.ndim - 1
     try:
         if depth == 2:
-            rows = listed(value, rules, "")
+            rows = check_vector(value, rules, "")
             read: Any = [at_item(k, vector, row, series.kind, rules) for k, row in enumerate(rows)]
         else:
             read = vector(value, series.kind, rules) if depth else quantity(value, series.kind, units)
@@ -249,7 +249,7 @@ def _unit_of(value: Any, kind: str, units: Units) -> str:
     return units.text(kind)
 
 
-def _measured(result: Result, answer: Answer, series: Series, case: str) -> Row:
+def _difference(result: Result, answer: Answer, series: Series, case: str) -> Row:
     units = file_units(result.mechanism.units)
     position = position_of(result, answer, series)
     published = target(answer.value, series, units, "value")
@@ -263,9 +263,9 @@ def _measured(result: Result, answer: Answer, series: Series, case: str) -> Row:
     problem = _reason(result, position) or ("" if met else "The exact value is missed.")
     return Row(
         case,
-        named(answer),
+        describe_answer(answer),
         value_text(answer.value),
-        "" if exact is None else _shortened(value_text(answer.exact)),
+        "" if exact is None else _shorten(value_text(answer.exact)),
         computed_text(found, published, series.kind, units, answer.value),
         said,
         _deviation(away, _size(published.value) and scale, series.kind, published.unit),
@@ -319,7 +319,9 @@ def _percent(text: str, key: str) -> float:
     try:
         return float(text.strip().removesuffix("%"))
     except ValueError:
-        raise ModelError(f"{shown(text)} is no percentage", "write one, for example 0.3 %", (key,)) from None
+        raise ModelError(
+            f"{quote_value(text)} is no percentage", "write one, for example 0.3 %", (key,)
+        ) from None
 
 
 # as text
@@ -332,7 +334,7 @@ def value_text(value: Any) -> str:
     return f"{value:.{DIGITS}g}" if isinstance(value, float) else str(value)
 
 
-def _shortened(text: str) -> str:
+def _shorten(text: str) -> str:
     """The same with no more digits than a computed value is shown with."""
     return re.sub(rf"(?<![\w.]){NUMBER}", lambda found: f"{float(found[0]):.{DIGITS}g}", text)
 
@@ -350,7 +352,7 @@ def computed_text(found: Array, published: Target, kind: str, units: Units, form
         angle = units.unit("angle").of_si(_direction(form, units, published.value) + turn)
         return f"{own(float(np.hypot(*found))):.{DIGITS}g} @ {angle:.6g}{behind}"
     clean = np.where(np.abs(found) < 1e-12 * np.abs(found).max(), 0.0, found)
-    return _bracketed(clean, own) + behind
+    return _bracket(clean, own) + behind
 
 
 def _direction(form: Any, units: Units, vector: Array) -> float:
@@ -363,9 +365,9 @@ def _direction(form: Any, units: Units, vector: Array) -> float:
     return angle + 2 * math.pi * round((written - angle) / (2 * math.pi))
 
 
-def _bracketed(values: Array, own: Any) -> str:
+def _bracket(values: Array, own: Any) -> str:
     """Numbers in brackets; of a rotation a row each in brackets of its own."""
-    inner = [f"{own(float(v)):.{DIGITS}g}" if v.ndim == 0 else _bracketed(v, own) for v in values]
+    inner = [f"{own(float(v)):.{DIGITS}g}" if v.ndim == 0 else _bracket(v, own) for v in values]
     return "[" + ", ".join(inner) + "]"
 
 

@@ -13,7 +13,14 @@ import numpy as np
 
 from dalembert.arrays import Array
 from dalembert.errors import DalembertError, ModelError
-from dalembert.grading.file_answers import computed_text, named, position_of, sides_of, target, value_text
+from dalembert.grading.file_answers import (
+    computed_text,
+    describe_answer,
+    position_of,
+    sides_of,
+    target,
+    value_text,
+)
 from dalembert.grading.quantities import QUANTITIES, Series, component
 from dalembert.grading.tolerance import Closeness, closeness
 from dalembert.grading.value_errors import Hypothesis, of_units, of_value
@@ -113,9 +120,9 @@ def _of_side(result: Result, answer: Answer, variants: Variants) -> Verdict:
     right = np.asarray(series.values[k], dtype=float)
     close = closeness(answer, given, series.kind, units)
     met = close.holds(right)
-    mistake = "" if met else _explained(variants, answer, series, k, right, close)
+    mistake = "" if met else _explain(variants, answer, series, k, right, close)
     return Verdict(
-        named(answer),
+        describe_answer(answer),
         value_text(answer.value),
         computed_text(right, given, series.kind, units, answer.value),
         close.off(right),
@@ -128,7 +135,7 @@ def _series(result: Result, answer: Answer) -> Series:
     return component(QUANTITIES[answer.quantity](result, answer), answer.component)
 
 
-def _explained(
+def _explain(
     variants: Variants, answer: Answer, series: Series, k: int, right: Array, close: Closeness
 ) -> str:
     """The likeliest mistake that gives the figure: close ones are taken in the order of likelihood.
@@ -167,7 +174,7 @@ def _hypotheses(
     for sentence, result in variants.linear():
         yield Hypothesis(sentence, _read(result, answer, k))
     yield from _others(variants.result, answer, k)
-    for sentence, make in variants.solved():
+    for sentence, make in variants.solutions():
         yield Hypothesis(sentence, _read(make(), answer, k))
     yield from of_units(series, right)
 
@@ -187,25 +194,25 @@ def _others(result: Result, answer: Answer, k: int) -> Iterator[Hypothesis]:
     if answer.quantity in ("reaction", "moment"):
         for joint in result.joints:
             if joint != answer.of:
-                yield _renamed(result, answer, k, {"of": joint, "on": None}, f"this is joint {joint}")
+                yield _rename(result, answer, k, {"of": joint, "on": None}, f"this is joint {joint}")
         for link in result.mechanism.joints[str(answer.of)].links if answer.of in result.joints else ():
             change = {"axes": "link", "on": link}
-            yield _renamed(
+            yield _rename(
                 result, answer, k, change, f"components are along and across link {link}, not ground axes"
             )
     if answer.component in ("x", "y"):
         other = "y" if answer.component == "x" else "x"
-        yield _renamed(
+        yield _rename(
             result, answer, k, {"component": other}, "the angle is counted from the other axis: x for y"
         )
-        yield _renamed(
+        yield _rename(
             result, answer, k, {"component": "magnitude"}, "this is the magnitude, not the component"
         )
     if answer.quantity in ("angle", "speed", "acceleration", "center_acceleration", "center"):
         for link in result.links:
             if link != answer.of:
-                yield _renamed(result, answer, k, {"of": link}, f"this is link {link}")
+                yield _rename(result, answer, k, {"of": link}, f"this is link {link}")
 
 
-def _renamed(result: Result, answer: Answer, k: int, change: dict[str, Any], sentence: str) -> Hypothesis:
+def _rename(result: Result, answer: Answer, k: int, change: dict[str, Any], sentence: str) -> Hypothesis:
     return Hypothesis(sentence, _read(result, answer.model_copy(update=change), k))

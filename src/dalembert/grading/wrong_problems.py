@@ -31,23 +31,23 @@ class Variants:
         """Parts of the superposition left out, reversed or scaled."""
         if self._linear is None:
             try:
-                self._linear = list(_scaled(self.result))
+                self._linear = list(_with_factor(self.result))
             except ModelError:
                 self._linear = []
         return self._linear
 
-    def solved(self) -> Iterator[tuple[str, Callable[[], Result | None]]]:
+    def solutions(self) -> Iterator[tuple[str, Callable[[], Result | None]]]:
         """Solved again with one datum changed, each when it is looked at."""
         for n, (sentence, change) in enumerate(_changes(self.result)):
-            yield sentence, partial(self._made, n, change)
+            yield sentence, partial(self._solution, n, change)
 
-    def _made(self, n: int, change: dict[str, Any]) -> Result | None:
+    def _solution(self, n: int, change: dict[str, Any]) -> Result | None:
         if n not in self._solved:
             self._solved[n] = _again(self.result, change)
         return self._solved[n]
 
 
-def _scaled(r: Result) -> Iterator[tuple[str, Result]]:
+def _with_factor(r: Result) -> Iterator[tuple[str, Result]]:
     from dalembert.analysis.methods.superposition import superposition
 
     parts = superposition(r)
@@ -149,10 +149,10 @@ def _force_changes(r: Result, name: str) -> Iterator[tuple[str, dict[str, Any]]]
     other = "link" if load.axes == "ground" else "ground"  # type: ignore[union-attr]
     yield f"the direction of {name} is counted in {other} axes", {f"loads.{name}.axes": other}
     if m.dimension == 2:
-        yield from _turned(r, name)
+        yield from _other_angle(r, name)
 
 
-def _turned(r: Result, name: str) -> Iterator[tuple[str, dict[str, Any]]]:
+def _other_angle(r: Result, name: str) -> Iterator[tuple[str, dict[str, Any]]]:
     """A force whose angle is counted from another axis or clockwise."""
     load: Any = r.mechanism.loads[name]
     a = next(a for a in actions(r) if a.of == name)

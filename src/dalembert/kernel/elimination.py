@@ -66,7 +66,7 @@ class Structural:
         c, x = list(wrench), np.full(self.size, 0.0, object)
         kept = []
         for step in self.steps:
-            y = _times(_transposed(step.inverse), [c[k] for k in step.columns])
+            y = _times(_transpose(step.inverse), [c[k] for k in step.columns])
             kept.append(y)
             for row, factor in zip(step.right, y, strict=True):
                 for k, u in row.items():
@@ -77,7 +77,7 @@ class Structural:
                     _dot([factors[k] for _, factors in step.below], [x[i] for i, _ in step.below])
                     for k in range(len(step.columns))
                 ]
-                y = [p - q for p, q in zip(y, _times(_transposed(step.inverse), sums), strict=True)]
+                y = [p - q for p, q in zip(y, _times(_transpose(step.inverse), sums), strict=True)]
             for r, value in zip(step.rows, y, strict=True):
                 x[r] = value
         return x
@@ -102,7 +102,7 @@ def _times(matrix: list[list[Any]], vector: list[Any]) -> list[Any]:
     return [_dot(row, vector) for row in matrix]
 
 
-def _transposed(matrix: list[list[Any]]) -> list[list[Any]]:
+def _transpose(matrix: list[list[Any]]) -> list[list[Any]]:
     return [list(column) for column in zip(*matrix, strict=True)]
 
 
@@ -157,7 +157,7 @@ class _Work:
             row = self.rows[i]
             factors = [row.pop(c, 0.0) for c in columns]
             below.append((i, factors))
-            scaled = _times(_transposed(inverse), factors)
+            scaled = _times(_transpose(inverse), factors)
             for u, factor in zip(right, scaled, strict=True):
                 if not is_zero(factor):
                     self.subtract(i, row, u, factor)
@@ -208,7 +208,7 @@ class _Work:
         places = [(r, c) for r in sorted(rows) for c in self.rows[r] if c in columns]
         entries = [self.rows[r][c] for r, c in places]
         nodes = [x if type(x) is Node else self.graph.constant(x) for x in entries]
-        sampled = np.broadcast_arrays(*self.graph.evaluated(nodes, {}))
+        sampled = np.broadcast_arrays(*self.graph.evaluate(nodes, {}))
         largest = {
             r: np.max([np.abs(s) for (q, _), s in zip(places, sampled, strict=True) if q == r], axis=0)
             for r in rows
@@ -239,7 +239,7 @@ def _blocks(rows: dict[int, Row]) -> list[tuple[list[int], list[int]]]:
     names, columns = sorted(rows), sorted({c for row in rows.values() for c in row})
     if len(names) != len(columns):
         raise ValueError("structurally singular")
-    match = matched({r: set(rows[r]) for r in names})
+    match = maximum_matching({r: set(rows[r]) for r in names})
     if len(match) != len(names):
         raise ValueError("structurally singular")
     owner = {c: r for r, c in match.items()}
@@ -247,7 +247,7 @@ def _blocks(rows: dict[int, Row]) -> list[tuple[list[int], list[int]]]:
     return [(sorted(group), sorted(match[r] for r in group)) for group in components(graph)]
 
 
-def matched(wants: dict[int, set[int]]) -> dict[int, int]:
+def maximum_matching(wants: dict[int, set[int]]) -> dict[int, int]:
     """A largest matching of rows to columns (augmenting paths)."""
     owner: dict[int, int] = {}
 

@@ -17,7 +17,7 @@ import numpy as np
 from dalembert.arrays import Array, Ints
 from dalembert.core.branchless import above, top
 from dalembert.core.equilibrium import Motion, Statement
-from dalembert.core.forcing import Resistances, pair, summed
+from dalembert.core.forcing import Resistances, pair, total_wrench
 from dalembert.core.friction.contact_equations import (
     Contacts,
     Response,
@@ -32,10 +32,10 @@ from dalembert.core.friction.contact_equations import (
     strong,
     under,
 )
-from dalembert.core.friction.losses import in_joints, turned, viscous
+from dalembert.core.friction.losses import in_joints, power_reversed, viscous
 from dalembert.core.layout import Layout, Pose
 from dalembert.kernel.elimination import components, structural
-from dalembert.kernel.graph import CONSTANT, Graph, Node, is_zero, traced
+from dalembert.kernel.graph import CONSTANT, Graph, Node, is_zero, trace_array
 from dalembert.kernel.jam_proof import jams, lever
 
 Nodes = Sequence[Node]
@@ -105,7 +105,7 @@ class Slipped:
     jam: list[Node]
 
 
-def rubbed(
+def trace_friction(
     graph: Graph,
     layout: Layout,
     rough: Rough,
@@ -121,40 +121,40 @@ def rubbed(
     ``slips``: z of each contact where the solution is known; then there are no verdicts, which are known too, and
     ``reversals`` has the sense of contacts that reverse there, else 0.
     """
-    contacts = _traced(graph, rough.contacts)
-    twist = traced(graph, moving.twist)  # without motion they are numbers
+    contacts = _trace_contacts(graph, rough.contacts)
+    twist = trace_array(graph, moving.twist)  # without motion they are numbers
     along, found = response(layout, contacts, pose, s.forces, s.w, twist)
-    r = Response(*(traced(graph, a) for a in found))
+    r = Response(*(trace_array(graph, a) for a in found))
     told = senses(layout, contacts, along, twist)
     if reversals is not None:
         moves = 1.0 - np.abs(reversals)
-        open_: Any = moves * traced(graph, told.open)
+        open_: Any = moves * trace_array(graph, told.open)
         told = told._replace(sense=reversals + moves * told.sense, open=open_)
-    sense, c = traced(graph, told.sense), traced(graph, strength(contacts, 1.0))
-    slip = slipped(graph, contacts, strong(r, c), sense, slips)
+    sense, c = trace_array(graph, told.sense), trace_array(graph, strength(contacts, 1.0))
+    slip = trace_slip(graph, contacts, strong(r, c), sense, slips)
     x = multiplier(r, c * slip.z)
     unknown = layout.constraints.count < len(x) and slips is None
 
     def turning(problem: Response, x: Array, w: Array) -> Node:
         bare = without(graph, contacts, problem)
-        flag: Node = -traced(graph, turned(layout, s.unknown, moving.twist, w, x, bare)).item()
+        flag: Node = -trace_array(graph, power_reversed(layout, s.unknown, moving.twist, w, x, bare)).item()
         return flag
 
     turns = turning(r, x, s.w) if unknown else graph.zero
     doubt, locked = [], turns
     if still is not None and not is_zero(turns):
         other = under(layout, contacts, pose, s.forces, still, told.rate, r)
-        other = Response(*(traced(graph, a) for a in other))
-        alone = slipped(graph, contacts, strong(other, c), sense)
+        other = Response(*(trace_array(graph, a) for a in other))
+        alone = trace_slip(graph, contacts, strong(other, c), sense)
         locked, doubt = turning(other, multiplier(other, c * alone.z), still), alone.doubt
     dry = np.where(contacts.fixed, 0.0, c * slip.z)
     force, moment = in_joints(layout, pose, along, contacts.joint, rough.link, rough.at, dry)
     damping = viscous(layout, rough.damping, pose, moving.twist, rough.link, rough.at)
-    rest, idle = _at_rest(graph, traced(graph, told.open), slip.bears, top(np.abs(r.y), 2))
+    rest, idle = _at_rest(graph, trace_array(graph, told.open), slip.bears, top(np.abs(r.y), 2))
     same = locked is turns
     return Rubbed(
         x=x,
-        total=s.w + summed(layout, pair(along, c * slip.z)),
+        total=s.w + total_wrench(layout, pair(along, c * slip.z)),
         force=force + damping[0],
         moment=moment + damping[1],
         doubt=[*slip.doubt, *idle],
@@ -162,19 +162,19 @@ def rubbed(
         unsure=slip.unsure,
         sure=slip.sure,
         jam=slip.jam,
-        turned=_used(turns),
+        turned=_nonzero(turns),
         still=[] if same else doubt,
         locked=[] if same else [locked],
     )
 
 
-def _traced(graph: Graph, contacts: Contacts) -> Contacts:
+def _trace_contacts(graph: Graph, contacts: Contacts) -> Contacts:
     names = ("tilt", "gain", "lever", "coefficient", "resting", "reach", "viscous")
-    numbers: dict[str, Any] = {name: traced(graph, getattr(contacts, name)) for name in names}
+    numbers: dict[str, Any] = {name: trace_array(graph, getattr(contacts, name)) for name in names}
     return replace(contacts, **numbers)
 
 
-def _used(*nodes: Node) -> list[Node]:
+def _nonzero(*nodes: Node) -> list[Node]:
     return [n for n in nodes if not is_zero(n)]
 
 
@@ -182,24 +182,27 @@ def without(graph: Graph, contacts: Contacts, r: Response) -> Array:
     """Multipliers without friction; the teeth's separation stays."""
     if not contacts.fixed.any():
         return r.x
-    sense = traced(graph, np.where(contacts.fixed, -1.0, 0.0))
-    c = traced(graph, strength(contacts, 0.0))
-    return multiplier(r, c * slipped(graph, contacts, strong(r, c), sense).z)
+    sense = trace_array(graph, np.where(contacts.fixed, -1.0, 0.0))
+    c = trace_array(graph, strength(contacts, 0.0))
+    return multiplier(r, c * trace_slip(graph, contacts, strong(r, c), sense).z)
 
 
 def _at_rest(graph: Graph, open_: Array, bears: Array, largest: Array) -> tuple[list[Node], list[Node]]:
     """Below zero where a contact without a rate surely carries something, and where such contacts may carry nothing."""
     carries = above(np.abs(bears), CARRIES * largest)
-    rest, idle = traced(graph, (open_ & carries).sum()).item(), traced(graph, (open_ & ~carries).sum()).item()
-    return _used(-rest), _used(-(idle & ~rest.positive()))
+    rest, idle = (
+        trace_array(graph, (open_ & carries).sum()).item(),
+        trace_array(graph, (open_ & ~carries).sum()).item(),
+    )
+    return _nonzero(-rest), _nonzero(-(idle & ~rest.positive()))
 
 
-def slipped(
+def trace_slip(
     graph: Graph, contacts: Contacts, r: Response, sense: Array, slips: Array | None = None
 ) -> Slipped:
     """Friction forces z of known senses, from the response with H after z; ``slips`` where they are known."""
-    count, largest = contacts.count, traced(graph, top(np.abs(r.y), 2))
-    z, bears = traced(graph, np.zeros(count)), traced(graph, np.zeros(count))
+    count, largest = contacts.count, trace_array(graph, top(np.abs(r.y), 2))
+    z, bears = trace_array(graph, np.zeros(count)), trace_array(graph, np.zeros(count))
     acts = [b for b in range(count) if not is_zero(sense[b])]
     needs = {a: {b for b in acts if not all(is_zero(x) for x in r.h[:, a, b])} for a in range(count)}
     doubt: list[Node] = []
@@ -231,12 +234,12 @@ def slipped(
         single.append(sure)
         stuck.append(jams(graph, part, inner, sense[k]) * known)
         right |= dict.fromkeys(block, known * last.positive() * rough.positive().larger(sure.positive()))
-    doubt, unsure, single, stuck = (_unfixed(nodes) for nodes in (doubt, unsure, single, stuck))
+    doubt, unsure, single, stuck = (_varying(nodes) for nodes in (doubt, unsure, single, stuck))
     asked = unsure and single  # in doubt, or jammed, only where both are
     return Slipped(z, bears, doubt, *((unsure, single, stuck) if asked else ([], [], [])))
 
 
-def _unfixed(nodes: list[Node]) -> list[Node]:
+def _varying(nodes: list[Node]) -> list[Node]:
     return [n for n in nodes if n.level != CONSTANT or not n.value >= 0]
 
 
@@ -251,7 +254,7 @@ def _contraction(graph: Graph, h: Array, sense: Array) -> tuple[Node, Node]:
     for _ in range(POWER):
         reached = (bound @ (moves * reached)[:, None])[:, 0]
         bounds.append(reached)
-    short, long = (1.0 - traced(graph, top(bounds[k], 1)).item() for k in (0, -1))
+    short, long = (1.0 - trace_array(graph, top(bounds[k], 1)).item() for k in (0, -1))
     return short, long
 
 
@@ -270,10 +273,10 @@ def _newton(
     contact without strength may not be known. All but the last are constants to
     derivatives: it carries them exactly.
     """
-    detached: Any = np.frompyfunc(graph.detached, 1, 1)
+    detached: Any = np.frompyfunc(graph.without_gradient, 1, 1)
     fixed, scale, z = detached(r.h), np.asarray(detached(largest)), known
     if z is None:
-        z = traced(graph, np.zeros(len(sense)))
+        z = trace_array(graph, np.zeros(len(sense)))
 
     def solve(matrix: Array, right: Array) -> Array:
         rows = [{c: x for c, x in enumerate(row) if not is_zero(x)} for row in matrix]
@@ -284,19 +287,19 @@ def _newton(
         y = argument(r, z)
         steep, bears = slope(contacts, detached(y), scale)
         off = z + sense * (steep * y).sum(axis=0)
-        step = traced(graph, correction(r._replace(h=fixed), steep, sense, off, solve))
+        step = trace_array(graph, correction(r._replace(h=fixed), steep, sense, off, solve))
         felt = step if known is None else (fixed @ step[:, None])[..., 0]
-        change = traced(graph, top(np.abs(felt), felt.ndim))
+        change = trace_array(graph, top(np.abs(felt), felt.ndim))
         if k == MOST or enough:
             break
         enough = k + 1 >= FEWEST and _small(graph, change, scale, sure)
         z = detached(z + step)
-    return z + step, bears, traced(graph, LAST * scale - change).item()
+    return z + step, bears, trace_array(graph, LAST * scale - change).item()
 
 
 def _small(graph: Graph, change: Array, scale: Array, sure: Node) -> bool:
     """Whether a change is small everywhere in the file's own motion."""
-    found = graph.evaluated([change.item(), scale.item(), sure], {})
+    found = graph.evaluate([change.item(), scale.item(), sure], {})
     size, force, single = np.broadcast_arrays(*found)
     with np.errstate(all="ignore"):
         return not bool(((size > ENOUGH * force) & (single > 0)).any())

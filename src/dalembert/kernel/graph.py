@@ -140,7 +140,7 @@ class Node:
         """Decisions of structure (which wheel is larger) are taken at the file's own numbers."""
         if self.level & POSITION:
             raise TypeError(f"a traced value that changes along the motion has no truth: {self!r}")
-        return float(self.graph.evaluated([self], {})[0])
+        return float(self.graph.evaluate([self], {})[0])
 
     def __lt__(self, other: Any) -> bool:
         return bool(self._decision() < _number(other))
@@ -286,7 +286,7 @@ class Graph:
             return a.a
         return self.make("neg", a)
 
-    def known(self, node: Any, same: Any) -> None:
+    def assume_equal(self, node: Any, same: Any) -> None:
         """From now on the operation that made ``node`` gives ``same``, which is equal to it by what is known."""
         if type(node) is Node and node.a is not None and type(same) is Node and node is not same:
             key = (node.op, node.a.index) if node.b is None else (node.op, node.a.index, node.b.index)
@@ -313,11 +313,11 @@ class Graph:
             return a
         return self.make(op, a, b)
 
-    def detached(self, a: Node) -> Node:
+    def without_gradient(self, a: Node) -> Node:
         """The same value, but a constant to derivatives."""
         return a if a.level == CONSTANT else self.make("detach", a)
 
-    def substituted(self, outputs: Iterable[Node], places: Mapping[int, Node]) -> list[Node]:
+    def substitute(self, outputs: Iterable[Node], places: Mapping[int, Node]) -> list[Node]:
         """The outputs with other nodes in the places of some (by their index)."""
         outputs = list(outputs)
         done = dict(places)
@@ -334,10 +334,10 @@ class Graph:
         if b is not None:
             two = {"add": self.add, "sub": self.sub, "mul": self.mul}
             return two[op](a, b) if op in two else self.binary(op, a, b)
-        one = {"neg": self.neg, "inv": self.inverse, "detach": self.detached}
+        one = {"neg": self.neg, "inv": self.inverse, "detach": self.without_gradient}
         return one[op](a) if op in one else self.unary(op, a)
 
-    def evaluated(self, outputs: Iterable[Node], values: Mapping[int, Any]) -> list[Any]:
+    def evaluate(self, outputs: Iterable[Node], values: Mapping[int, Any]) -> list[Any]:
         """Numbers of nodes with numpy; ``values`` (by index of the input node) replace the nominal ones."""
         outputs = list(outputs)
         done = {} if values else self.samples
@@ -388,7 +388,7 @@ def unit_value(x: Any) -> float:
     return float(x) if x in (1.0, -1.0) else 0.0
 
 
-def traced(graph: Graph, array: Any) -> Array:
+def trace_array(graph: Graph, array: Any) -> Array:
     """An array of nodes: numbers become constants."""
     source = np.asarray(array)
     out = np.empty(source.shape, object)

@@ -20,7 +20,7 @@ import numpy as np
 from dalembert.arrays import Array
 from dalembert.core.branchless import larger
 from dalembert.core.friction.contact_equations import Contacts, Response, bearing, slope
-from dalembert.kernel.graph import Graph, Node, traced
+from dalembert.kernel.graph import Graph, Node, trace_array
 
 TIMES = 3
 """Multiplications by K and by its transpose; twelve prove hardly more."""
@@ -41,22 +41,22 @@ def lever(h: Array) -> Array:
 
 def jams(graph: Graph, contacts: Contacts, r: Response, sense: Array) -> Node:
     """Below zero where a block of contacts surely has no solution; from the response with H after z."""
-    contacts, y0, k = _unsigned(graph, contacts, r.y, -r.h * sense)
-    s: Array = traced(graph, np.ones(y0.shape[1]))
+    contacts, y0, k = _without_signed(graph, contacts, r.y, -r.h * sense)
+    s: Array = trace_array(graph, np.ones(y0.shape[1]))
     for _ in range(TIMES):
         y = (k @ s[:, None])[..., 0]
         e, s = slope(contacts, y, np.asarray(graph.zero, object))
-    pull = traced(graph, (e[..., None] * k).sum(axis=0))  # e_a . K_ab
-    w = traced(graph, np.ones(len(s)))
+    pull = trace_array(graph, (e[..., None] * k).sum(axis=0))  # e_a . K_ab
+    w = trace_array(graph, np.ones(len(s)))
     for _ in range(TIMES):
-        w = traced(graph, larger(w @ pull, 0.0))
-    return _proved(graph, w, w @ pull, (e * y0).sum(axis=0), bearing(contacts, y0), lever(k))
+        w = trace_array(graph, larger(w @ pull, 0.0))
+    return _prove(graph, w, w @ pull, (e * y0).sum(axis=0), bearing(contacts, y0), lever(k))
 
 
-def _unsigned(graph: Graph, contacts: Contacts, y: Array, k: Array) -> tuple[Contacts, Array, Array]:
+def _without_signed(graph: Graph, contacts: Contacts, y: Array, k: Array) -> tuple[Contacts, Array, Array]:
     """Without the contacts whose S has a sign: S = y of them is linear, and is put in its place."""
     signed = contacts.signed
-    y, k = traced(graph, y), traced(graph, k)
+    y, k = trace_array(graph, y), trace_array(graph, k)
     for a in np.flatnonzero(signed):
         row, own = k[0, a].copy(), k[:, :, a].copy()
         over = 1.0 / (1.0 - row[a])
@@ -66,19 +66,19 @@ def _unsigned(graph: Graph, contacts: Contacts, y: Array, k: Array) -> tuple[Con
         k[:, :, a] = graph.zero
     kept = np.flatnonzero(~signed)
     contacts = replace(contacts, signed=signed[kept])
-    return contacts, traced(graph, y[:, kept]), traced(graph, k[:, kept][:, :, kept])
+    return contacts, trace_array(graph, y[:, kept]), trace_array(graph, k[:, kept][:, :, kept])
 
 
-def _proved(graph: Graph, w: Array, pulled: Array, loads: Array, size: Array, bound: Array) -> Node:
+def _prove(graph: Graph, w: Array, pulled: Array, loads: Array, size: Array, bound: Array) -> Node:
     """Below zero where the inequality of the weights has no solution. What is no number proves nothing: the larger of
     zero and that is none either."""
-    zero = traced(graph, np.zeros(len(w)))
-    d = traced(graph, pulled - (1 + MARGIN) * w)
+    zero = trace_array(graph, np.zeros(len(w)))
+    d = trace_array(graph, pulled - (1 + MARGIN) * w)
     own = np.diag(bound)
     lacking = larger(zero, -d) / larger(np.full(len(w), LEAST), 1.0 - own)
     rest = larger(d, zero) - lacking @ (bound - np.diag(own))
     sum_ = (w * loads).sum() - (lacking * size).sum() - MARGIN * (w * size).sum()
-    proved: Any = traced(graph, sum_).item().positive()
-    for x in traced(graph, rest):
+    proved: Any = trace_array(graph, sum_).item().positive()
+    for x in trace_array(graph, rest):
         proved = proved * ~((-x).positive())
     return -proved  # type: ignore[no-any-return]

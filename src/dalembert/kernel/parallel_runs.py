@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from dalembert.arrays import Array
-from dalembert.kernel.emit.machine_code import Machine, aligned, blocked
+from dalembert.kernel.emit.machine_code import Machine, aligned_array, to_blocks
 from dalembert.kernel.program import Program
 
 Progress = Callable[[int, int], object]
@@ -33,11 +33,11 @@ def path_array(columns: Array, common: Array, lanes: int, weighted: bool) -> tup
     them; and the number of blocks."""
     count = len(columns)
     blocks = -(-count // lanes)
-    out = blocked(columns, lanes).reshape(blocks, columns.shape[1], lanes)
+    out = to_blocks(columns, lanes).reshape(blocks, columns.shape[1], lanes)
     if weighted:
         weight = (np.arange(blocks * lanes) < count).astype(float).reshape(blocks, 1, lanes)
         out = np.concatenate([out, weight], axis=1)
-    whole = aligned((out.size + len(common),))
+    whole = aligned_array((out.size + len(common),))
     whole[: out.size], whole[out.size :] = out.ravel(), common
     return whole, blocks
 
@@ -88,9 +88,9 @@ def run_pairs(
     lanes = machine.lanes
 
     def part(which: slice) -> None:
-        mine = blocked(np.asarray(values[which], float), lanes)
+        mine = to_blocks(np.asarray(values[which], float), lanes)
         path, blocks = path_array(columns[which], common, lanes, weighted=False)
-        found = aligned((blocks, len(program.outputs), lanes))
+        found = aligned_array((blocks, len(program.outputs), lanes))
         marks = np.empty((blocks, lanes), np.uint8)
         counts = (values.shape[1], columns.shape[1], 0, blocks)
         machine(mine, path, found, marks, counts)

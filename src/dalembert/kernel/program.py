@@ -107,14 +107,16 @@ class Program:
         """Inputs in use."""
         return [n for n in self.order if n.op in INPUTS]
 
-    def used(self, kind: str) -> list[Node]:
+    def inputs_in_use(self, kind: str) -> list[Node]:
         """Inputs of one kind in use: channel or common."""
         return [n for n in self.inputs if n.op == kind]
 
     @cached_property
     def places(self) -> dict[int, int]:
         """Where each input stands: numbers in the order of the values, the others packed."""
-        packed = {n.index: k for kind in ("channel", "common") for k, n in enumerate(self.used(kind))}
+        packed = {
+            n.index: k for kind in ("channel", "common") for k, n in enumerate(self.inputs_in_use(kind))
+        }
         return packed | {n.index: n.value for n in self.inputs if n.op == "number"}
 
     @cached_property

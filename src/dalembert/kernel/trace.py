@@ -11,14 +11,14 @@ from dalembert.arrays import Array
 from dalembert.core import forcing as fc
 from dalembert.core.constraints import measure
 from dalembert.core.equilibrium import Balance, Known, Statement, known_sources, motion, reactions, statement
-from dalembert.core.forcing import Forcing, pair, summed
+from dalembert.core.forcing import Forcing, pair, total_wrench
 from dalembert.core.geometry import span
 from dalembert.core.layout import Layout, Pose
 from dalembert.core.position.first_pose_plane import held_wheels, phase_rows, with_rows
 from dalembert.kernel.elimination import Structural
-from dalembert.kernel.friction_trace import Rough, Rubbed, rubbed
-from dalembert.kernel.graph import CONSTANT, Graph, Node, traced
-from dalembert.kernel.position.closed_forms import positions, settled
+from dalembert.kernel.friction_trace import Rough, Rubbed, trace_friction
+from dalembert.kernel.graph import CONSTANT, Graph, Node, trace_array
+from dalembert.kernel.position.closed_forms import newton_correction, positions
 from dalembert.kernel.position.rigid_parts import Motion, Placed
 from dalembert.kernel.position.unrolled_newton import solver
 
@@ -87,10 +87,10 @@ def trace(p: Problem) -> Traced:
     """Positions, motion and equilibrium of one position of one design."""
     layout = replace(p.layout, solver=solver(p.graph))
     target, apart = _with_phase(p, layout)
-    placed = _placed(p, layout, target, p.drives, p.path)
+    placed = _trace_pose(p, layout, target, p.drives, p.path)
     pose = placed.pose
     moving, rows, factors = motion(layout, pose, p.drives.speed, p.drives.acceleration)
-    s, rub = _balanced(p, layout, pose, moving, rows, factors)
+    s, rub = _trace_equilibrium(p, layout, pose, moving, rows, factors)
     x = rub.x
     count, asked = layout.constraints.count, int(p.known.asked.sum())
     effort = p.known.effort[0].astype(object)
@@ -101,53 +101,53 @@ def trace(p: Problem) -> Traced:
     g = p.graph
     return Traced(
         pose=pose,
-        twist=traced(g, moving.twist),
-        acceleration=traced(g, moving.acceleration),
-        force=traced(g, force + rub.force),
-        moment=traced(g, couple[..., 0] + rub.moment),
-        effort=traced(g, effort),
-        load=traced(g, found.load),
-        residual=_residual(g, layout, summed(layout, pair(s.unknown, x)), rub.total),
+        twist=trace_array(g, moving.twist),
+        acceleration=trace_array(g, moving.acceleration),
+        force=trace_array(g, force + rub.force),
+        moment=trace_array(g, couple[..., 0] + rub.moment),
+        effort=trace_array(g, effort),
+        load=trace_array(g, found.load),
+        residual=_residual(g, layout, total_wrench(layout, pair(s.unknown, x)), rub.total),
         open=placed.open,
         doubt=[
             *apart,
             *placed.doubt,
             *_singular(p, factors, s.forces),
             *_short(p, layout, pose),
-            *_recounted(p, layout, pose),
+            *_turn_count_doubt(p, layout, pose),
         ],
         rubbed=rub,
         flips=placed.flips,
     )
 
 
-def _balanced(
+def _trace_equilibrium(
     p: Problem, layout: Layout, pose: Pose, moving: Any, rows: Any, factors: Any
 ) -> tuple[Statement, Rubbed]:
     """What is asked of the equilibrium, and its multipliers, with friction where there is any."""
     sources = known_sources(layout, p.forcing, pose, moving, p.inertia)
 
-    def stated(*kinds: str) -> Statement:
-        loads = summed(layout, *(sources[kind] for kind in kinds))
+    def statement_of(*kinds: str) -> Statement:
+        loads = total_wrench(layout, *(sources[kind] for kind in kinds))
         found = statement(layout, p.known, pose, rows, factors, loads)
         return found._replace(w=found.w.reshape(found.w.shape[-2:]))
 
-    s = stated(*sources)
+    s = statement_of(*sources)
     if p.rough is None:
         x, total = _multipliers(p, layout, pose, s)
         return s, Rubbed(x, total, np.zeros((layout.joints, 2)), np.zeros(layout.joints))
-    still = stated(*(kind for kind in sources if kind != "inertia")).w if p.inertia else None
-    return s, rubbed(p.graph, layout, p.rough, pose, moving, s, still, p.slips, p.reversals)
+    still = statement_of(*(kind for kind in sources if kind != "inertia")).w if p.inertia else None
+    return s, trace_friction(p.graph, layout, p.rough, pose, moving, s, still, p.slips, p.reversals)
 
 
-def _placed(p: Problem, layout: Layout, target: Array, drives: Drives, path: Any) -> Placed:
+def _trace_pose(p: Problem, layout: Layout, target: Array, drives: Drives, path: Any) -> Placed:
     """Poses at the drives' positions."""
     count = layout.constraints.count
     angular = layout.freedoms.angular[layout.driven]
     turns = {int(r): (_cos(target[r]), _sin(target[r])) for r in np.flatnonzero(layout.constraints.angular)}
     turns |= {count + int(k): (drives.cosine[k], drives.sine[k]) for k in np.flatnonzero(angular)}
-    whole = traced(p.graph, np.concatenate([target, drives.position]))
-    place = positions if p.slips is None else settled
+    whole = trace_array(p.graph, np.concatenate([target, drives.position]))
+    place = positions if p.slips is None else newton_correction
     return place(Motion(p.graph, layout, whole, turns, path, p.signs))
 
 
@@ -171,7 +171,7 @@ def _with_phase(p: Problem, layout: Layout) -> tuple[Array, list[Node]]:
     held = held_wheels(p.like, with_rows(p.like, kept, []), known, rows, p.guess)
     angles = np.nan_to_num(p.guess.turn[np.array(held, np.intp)])
     target = np.concatenate([p.target[kept], angles])
-    first = _placed(p, with_rows(layout, kept, held), target, p.first, p.first_path)
+    first = _trace_pose(p, with_rows(layout, kept, held), target, p.first, p.first_path)
     out = p.target.astype(object)
     out[rows] = measure(layout.algebra, layout.constraints, first.pose)[rows]
     return out, _apart(p, layout, first)
@@ -183,7 +183,7 @@ def _apart(p: Problem, layout: Layout, first: Placed) -> list[Node]:
     for f in fc.meshes(layout):
         line = span(layout.algebra, f, first.pose)
         for k in range(len(f.i)):
-            wanted = traced(p.graph, f.ri[k] + f.rj[k]).item()
+            wanted = trace_array(p.graph, f.ri[k] + f.rj[k]).item()
             distance = (line[k] * line[k]).sum().sqrt()
             out.append(MESH * wanted - abs(distance - wanted))
     return [n for n in out if n.level != CONSTANT]
@@ -200,9 +200,9 @@ def _multipliers(p: Problem, layout: Layout, pose: Pose, s: Statement) -> tuple[
         return x, total
     before = None
     for _ in range(PASSES):
-        total = s.w + summed(layout, fc.separation_wrench(layout, pose, tangent, x))
+        total = s.w + total_wrench(layout, fc.separation_wrench(layout, pose, tangent, x))
         x = s.forces.forces(-total.reshape(-1))
-        now = np.array(np.broadcast_arrays(*p.graph.evaluated(traced(p.graph, x), {})))
+        now = np.array(np.broadcast_arrays(*p.graph.evaluate(trace_array(p.graph, x), {})))
         if before is not None and np.nanmax(np.abs(now - before)) <= 1e-15 * np.nanmax(np.abs(now)):
             break
         before = now
@@ -212,7 +212,7 @@ def _multipliers(p: Problem, layout: Layout, pose: Pose, s: Statement) -> tuple[
 def _residual(graph: Graph, layout: Layout, reacted: Array, w: Array) -> Node:
     """Largest out-of-balance force (moment over length) over the largest load."""
     scale = layout.wrench_scale
-    out, size = traced(graph, (reacted + w) * scale), traced(graph, w * scale)
+    out, size = trace_array(graph, (reacted + w) * scale), trace_array(graph, w * scale)
     return _largest(graph, out) / (_largest(graph, size) + 1e-300)
 
 
@@ -233,14 +233,14 @@ def _singular(p: Problem, *factors: Any) -> list[Node]:
         return []
     pivots = [x for f in {id(f): f for f in factors}.values() for x in _pivots(f)]
     out = []
-    for pivot, sample in zip(pivots, p.graph.evaluated(pivots, {}), strict=True):
+    for pivot, sample in zip(pivots, p.graph.evaluate(pivots, {}), strict=True):
         usual = float(np.nanquantile(np.abs(sample), 0.75))
         if usual > 0:
             out.append(pivot * pivot * (1 / usual**2) - NEAR)
     return out
 
 
-def _recounted(p: Problem, layout: Layout, pose: Pose) -> list[Node]:
+def _turn_count_doubt(p: Problem, layout: Layout, pose: Pose) -> list[Node]:
     """Below zero where a design turns a spring so far from the known motion that its whole turns may be others."""
     if p.slips is not None:
         return []
@@ -253,7 +253,7 @@ def _recounted(p: Problem, layout: Layout, pose: Pose) -> list[Node]:
 def _short(p: Problem, layout: Layout, pose: Pose) -> list[Node]:
     """Not positive where a spring or damper whose direction matters has length zero."""
     springs = p.forcing.springs
-    nodes = traced(p.graph, fc.away(layout, springs, pose))[fc.directed(springs)]
+    nodes = trace_array(p.graph, fc.away(layout, springs, pose))[fc.needs_direction(springs)]
     return [n for n in nodes if n.level != CONSTANT]
 
 

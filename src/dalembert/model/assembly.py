@@ -16,10 +16,10 @@ from dalembert.model.quantities.values import (
     Value,
     Vector,
     at_item,
-    directed,
+    direction_vector,
+    value_text,
     vector,
     vector_schema,
-    written,
 )
 from dalembert.units import quantity
 
@@ -60,11 +60,15 @@ class PoseValue(Value):
 
     def write(self, value: Pose) -> Any:
         if isinstance(value, tuple):
-            return [written(value[0], "length"), written(value[1], "length"), written(value[2], "angle")]
+            return [
+                value_text(value[0], "length"),
+                value_text(value[1], "length"),
+                value_text(value[2], "angle"),
+            ]
         if isinstance(value, SpacePose):
-            position = [written(x, "length") for x in value.position]
-            return {"position": position, "axis": list(value.axis), "angle": written(value.angle, "angle")}
-        return written(value, "angle")
+            position = [value_text(x, "length") for x in value.position]
+            return {"position": position, "axis": list(value.axis), "angle": value_text(value.angle, "angle")}
+        return value_text(value, "angle")
 
     def json_schema(self) -> JsonSchema:
         space = {
@@ -81,7 +85,7 @@ class PoseValue(Value):
 
 
 def _axis(value: Any, rules: Any) -> Vector:
-    return directed(vector(value, "number", rules))
+    return direction_vector(vector(value, "number", rules))
 
 
 def _in_space(keys: Mapping[str, Any], rules: Any) -> SpacePose:

@@ -23,11 +23,11 @@ from dalembert.model.links.link import CENTER, GROUND, Link
 from dalembert.model.links.shapes import MassProperties
 from dalembert.model.load_types import Damper, ForceLoad, Load, Spring
 from dalembert.model.part import Part, Reading
-from dalembert.model.paths import as_in_file, fields, latest, replaced
+from dalembert.model.paths import as_in_file, fields, latest, replace_value
 from dalembert.model.quantities.values import JsonSchema, Name, Scalar, Value, Vector, at_item
 from dalembert.model.stated_answers import Answer
 from dalembert.units import ALSO_CALLED, BASES, KINDS, Units, file_units
-from dalembert.wording import shown
+from dalembert.wording import quote_value
 
 
 class UnitsValue(Value):
@@ -119,7 +119,8 @@ class Mechanism(Part):
     def _version(cls, value: Any) -> Any:
         if value != 1 or isinstance(value, bool):
             raise ModelError(
-                f"{shown(value)} is no version of the format that this program knows", "write dalembert: 1"
+                f"{quote_value(value)} is no version of the format that this program knows",
+                "write dalembert: 1",
             )
         return value
 
@@ -263,7 +264,7 @@ class Mechanism(Part):
         found, rules = self, self._later_rules()
         given = {path: as_in_file(value, path) for path, value in values.items()}
         for path, value in given.items():
-            found = replaced(found, path.split("."), value, rules)
+            found = replace_value(found, path.split("."), value, rules)
         changed = Mechanism.model_validate(fields(found), context=rules)
         changed._source, changed._changes = self._source, latest(self._changes, given)
         return changed
@@ -308,7 +309,7 @@ def mechanism(tree: Mapping[str, Any], source: Source | None = None) -> Mechanis
     """
     if not isinstance(tree, Mapping):
         raise ModelError(
-            f"{shown(tree)} stands where a mapping is needed", "write links: and joints: ..."
+            f"{quote_value(tree)} stands where a mapping is needed", "write links: and joints: ..."
         ).located(source)
     try:
         refuse_empty(tree)

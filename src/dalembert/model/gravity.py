@@ -8,8 +8,8 @@ from pydantic import ValidationInfo
 
 from dalembert.errors import ModelError
 from dalembert.model.part import reading
-from dalembert.model.quantities.values import JsonSchema, Value, Vector, vector, vector_schema, written_vector
-from dalembert.wording import closest, shown
+from dalembert.model.quantities.values import JsonSchema, Value, Vector, vector, vector_schema, vector_text
+from dalembert.wording import closest, quote_value
 
 STANDARD = 9.80665
 """Standard acceleration of gravity, m/s2."""
@@ -27,14 +27,14 @@ class GravityValue(Value):
             return "standard"
         if isinstance(value, str) and "@" not in value:
             raise ModelError(
-                f"{shown(value)} says no direction",
+                f"{quote_value(value)} says no direction",
                 closest(value, ["none", "standard"]) + "; or write a vector, gravity: [0, -9.81]",
             )
         return vector(value, "acceleration", reading(info))
 
     def write(self, value: Gravity) -> Any:
         if isinstance(value, tuple):
-            return written_vector(value, "acceleration")
+            return vector_text(value, "acceleration")
         return value or "none"
 
     def json_schema(self) -> JsonSchema:

@@ -18,17 +18,17 @@ from dalembert.model.quantities.values import (
     Value,
     Vector,
     at_item,
-    directed,
-    listed,
+    check_vector,
+    direction_vector,
     name,
     polar,
+    value_text,
     vector,
     vector_schema,
-    written,
-    written_vector,
+    vector_text,
 )
 from dalembert.model.quantities.varying import Varying, value_at, varying, varying_schema, varying_tree
-from dalembert.wording import shown
+from dalembert.wording import quote_value
 
 UNKNOWN: Literal["unknown"] = "unknown"
 
@@ -41,7 +41,7 @@ class ForceValue(Value):
         if value == UNKNOWN:
             return UNKNOWN
         if isinstance(value, (list, tuple)):
-            items = listed(value, rules, "[x, y] or polar text r @ angle")
+            items = check_vector(value, rules, "[x, y] or polar text r @ angle")
             return tuple(at_item(i, varying, item, "force", rules) for i, item in enumerate(items))
         return varying(value, "force", rules)
 
@@ -65,7 +65,7 @@ class CoupleValue(Value):
         if value == UNKNOWN:
             return UNKNOWN
         if isinstance(value, (list, tuple)):
-            items = listed(value, Reading(dimension=3), "[x, y, z]")
+            items = check_vector(value, Reading(dimension=3), "[x, y, z]")
             return tuple(at_item(i, varying, item, "moment", rules) for i, item in enumerate(items))
         return varying(value, "moment", rules)
 
@@ -84,11 +84,11 @@ class Direction(Value):
 
     def read(self, value: Any, info: ValidationInfo) -> float | Vector:
         if isinstance(value, (list, tuple)):
-            return directed(vector(value, "number", Reading(dimension=3)))
+            return direction_vector(vector(value, "number", Reading(dimension=3)))
         return Scalar("angle").read(value, info)
 
     def write(self, value: float | Vector) -> Any:
-        return list(value) if isinstance(value, tuple) else written(value, "angle")
+        return list(value) if isinstance(value, tuple) else value_text(value, "angle")
 
     def json_schema(self) -> JsonSchema:
         components = {"type": "array", "items": {"type": "number"}, "minItems": 3, "maxItems": 3}
@@ -104,7 +104,7 @@ class Spot(Value):
         return name(value)
 
     def write(self, value: str | Vector) -> Any:
-        return value if isinstance(value, str) else written_vector(value, "length")
+        return value if isinstance(value, str) else vector_text(value, "length")
 
     def json_schema(self) -> JsonSchema:
         return {"anyOf": [{"type": ["string", "integer"]}, vector_schema()]}
@@ -115,7 +115,9 @@ class Ends(Value):
 
     def read(self, value: Any, info: ValidationInfo) -> tuple[tuple[str, str], tuple[str, str]]:
         if isinstance(value, str) or not isinstance(value, (list, tuple)) or len(value) != 2:
-            raise ModelError(f"{shown(value)} stands where two ends are needed", "write [ground.A, rod.B]")
+            raise ModelError(
+                f"{quote_value(value)} stands where two ends are needed", "write [ground.A, rod.B]"
+            )
         first, second = (at_item(i, _end, item) for i, item in enumerate(value))
         return first, second
 
@@ -130,7 +132,7 @@ def _end(value: object) -> tuple[str, str]:
     if isinstance(value, tuple) and len(value) == 2:
         return name(value[0]), name(value[1])
     if not isinstance(value, str) or value.count(".") != 1:
-        raise ModelError(f"{shown(value)} is no point of a link", "write link.point, for example rod.B")
+        raise ModelError(f"{quote_value(value)} is no point of a link", "write link.point, for example rod.B")
     link, point = value.split(".")
     return name(link), name(point)
 
@@ -180,7 +182,7 @@ class ForceLoad(Directed):
         rules = reading(info)
         size, angle = at_item("value", polar, keys["value"], "force", rules)
         value = at_item("value", varying, size, "force", rules)
-        return {**keys, "value": varying_tree(value, "force"), "direction": written(angle, "angle")}
+        return {**keys, "value": varying_tree(value, "force"), "direction": value_text(angle, "angle")}
 
     @model_validator(mode="after")
     def _one_meaning(self, info: ValidationInfo) -> Self:
@@ -243,7 +245,7 @@ class Couple(Directed):
         if self.direction is not None and isinstance(self.value, tuple):
             raise ModelError("a vector needs no direction", "leave the direction out", ("direction",))
         if self.direction is not None:
-            at_item("direction", directed, self.direction)
+            at_item("direction", direction_vector, self.direction)
         return self
 
     @property

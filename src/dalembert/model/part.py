@@ -18,9 +18,9 @@ from pydantic import (
 )
 
 from dalembert.errors import ModelError
-from dalembert.model.files.messages import UnknownKey, translated
+from dalembert.model.files.messages import UnknownKey, translate
 from dalembert.units import Units
-from dalembert.wording import closest, shown
+from dalembert.wording import closest, quote_value
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ class Part(BaseModel):
                     keys, self_instance=self, context=self._rules(keys)
                 )
             except ValidationError as error:
-                raise translated(error, keys) from None
+                raise translate(error, keys) from None
 
         __init__.__pydantic_base_init__ = True
 
@@ -82,7 +82,7 @@ class Part(BaseModel):
         try:
             return super().model_validate(obj, context=context, **options)
         except ValidationError as error:
-            raise translated(error, obj) from None
+            raise translate(error, obj) from None
 
     @model_validator(mode="before")
     @classmethod
@@ -122,12 +122,12 @@ def check_keys(keys: Mapping[Any, Any], allowed: list[str]) -> None:
             if key in ("axis", "axes") and keys.get("type") in IN_SPACE:
                 kind = keys["type"]
                 remedy = f"a {kind} is for the plane and has none; in space, write type: {IN_SPACE[kind]}"
-            raise UnknownKey(f"there is no key {shown(key)}", remedy, (str(key),))
+            raise UnknownKey(f"there is no key {quote_value(key)}", remedy, (str(key),))
 
 
 def mapping(value: object, allowed: list[str], example: str) -> Mapping[str, Any]:
     """The value, if it is a mapping with allowed keys only."""
     if not isinstance(value, Mapping):
-        raise ModelError(f"{shown(value)} stands where a mapping is needed", f"write {example}")
+        raise ModelError(f"{quote_value(value)} stands where a mapping is needed", f"write {example}")
     check_keys(value, allowed)
     return value

@@ -10,22 +10,24 @@ from dalembert.model.part import Part, Reading
 from dalembert.wording import closest
 
 
-def replaced(part: Any, keys: Sequence[str], value: Any, rules: Reading, walked: tuple[str, ...] = ()) -> Any:
+def replace_value(
+    part: Any, keys: Sequence[str], value: Any, rules: Reading, walked: tuple[str, ...] = ()
+) -> Any:
     """The part with the value at the path in place of its own; raises ModelError where there is no such path."""
     key, rest = keys[0], keys[1:]
     here = (*walked, key)
     if isinstance(part, Part):
         name = _field(part, key, here)
-        inner = replaced(getattr(part, name), rest, value, rules, here) if rest else value
+        inner = replace_value(getattr(part, name), rest, value, rules, here) if rest else value
         return _rebuilt(part, name, inner, rules, here)
     if isinstance(part, Mapping):
-        _known(key, list(part), here)
-        return {**part, key: replaced(part[key], rest, value, rules, here) if rest else value}
+        _require_known(key, list(part), here)
+        return {**part, key: replace_value(part[key], rest, value, rules, here) if rest else value}
     if isinstance(part, tuple):
-        _known(key, [str(i) for i in range(len(part))], here)
+        _require_known(key, [str(i) for i in range(len(part))], here)
         items = list(part)
-        items[int(key)] = replaced(items[int(key)], rest, value, rules, here) if rest else value
-        return _mirrored(tuple(items), keys) if walked[-1:] == ("inertia",) else tuple(items)
+        items[int(key)] = replace_value(items[int(key)], rest, value, rules, here) if rest else value
+        return _mirror(tuple(items), keys) if walked[-1:] == ("inertia",) else tuple(items)
     raise ModelError(
         f"the path {'.'.join([*here, *rest])!r} goes into a single value", "leave out its end", walked
     )
@@ -58,7 +60,7 @@ def _texts(value: Any) -> Any:
     return repr(value) if number else value
 
 
-def _mirrored(rows: tuple[Any, ...], keys: Sequence[str]) -> tuple[Any, ...]:
+def _mirror(rows: tuple[Any, ...], keys: Sequence[str]) -> tuple[Any, ...]:
     """A matrix of inertia after one of its products was replaced: it stands in two places."""
     if len(keys) < 2 or keys[0] == keys[1]:
         return rows
@@ -84,11 +86,11 @@ def fields(part: Part) -> dict[str, Any]:
 
 def _field(part: Part, key: str, here: tuple[str, ...]) -> str:
     names = {field.alias or name: name for name, field in type(part).model_fields.items()}
-    _known(key, list(names), here)
+    _require_known(key, list(names), here)
     return names[key]
 
 
-def _known(key: str, choices: list[str], here: tuple[str, ...]) -> None:
+def _require_known(key: str, choices: list[str], here: tuple[str, ...]) -> None:
     if key not in choices:
         where = f" in {'.'.join(here[:-1])}" if here[:-1] else ""
         raise ModelError(
@@ -111,35 +113,35 @@ def _rebuilt(part: Part, name: str, inner: Any, rules: Reading, here: tuple[str,
         ) from None
 
 
-def found(part: Any, keys: Sequence[str], walked: tuple[str, ...] = ()) -> Any:
+def value_at(part: Any, keys: Sequence[str], walked: tuple[str, ...] = ()) -> Any:
     """The value at a path; raises ModelError where there is none."""
     if not keys:
         return part
     here = (*walked, keys[0])
     if isinstance(part, Part):
-        return found(getattr(part, _field(part, keys[0], here)), keys[1:], here)
+        return value_at(getattr(part, _field(part, keys[0], here)), keys[1:], here)
     if isinstance(part, Mapping):
-        _known(keys[0], list(part), here)
-        return found(part[keys[0]], keys[1:], here)
+        _require_known(keys[0], list(part), here)
+        return value_at(part[keys[0]], keys[1:], here)
     if isinstance(part, tuple):
-        _known(keys[0], [str(i) for i in range(len(part))], here)
-        return found(part[int(keys[0])], keys[1:], here)
+        _require_known(keys[0], [str(i) for i in range(len(part))], here)
+        return value_at(part[int(keys[0])], keys[1:], here)
     raise ModelError(
         f"the path {'.'.join([*here, *keys[1:]])!r} goes into a single value", "leave out its end", walked
     )
 
 
-def placed(part: Any, keys: Sequence[str], value: Any, walked: tuple[str, ...] = ()) -> Any:
+def set_value(part: Any, keys: Sequence[str], value: Any, walked: tuple[str, ...] = ()) -> Any:
     """The part with any value at an existing path, unchecked: also a symbol in place of a number."""
     if not keys:
         return value
     here = (*walked, keys[0])
     if isinstance(part, Part):
         name = _field(part, keys[0], here)
-        return part.model_copy(update={name: placed(getattr(part, name), keys[1:], value, here)})
+        return part.model_copy(update={name: set_value(getattr(part, name), keys[1:], value, here)})
     if isinstance(part, Mapping):
-        _known(keys[0], list(part), here)
-        return {**part, keys[0]: placed(part[keys[0]], keys[1:], value, here)}
+        _require_known(keys[0], list(part), here)
+        return {**part, keys[0]: set_value(part[keys[0]], keys[1:], value, here)}
     index = int(keys[0])
-    changed = (*part[:index], placed(part[index], keys[1:], value, here), *part[index + 1 :])
-    return _mirrored(changed, keys) if walked[-1:] == ("inertia",) else changed
+    changed = (*part[:index], set_value(part[index], keys[1:], value, here), *part[index + 1 :])
+    return _mirror(changed, keys) if walked[-1:] == ("inertia",) else changed

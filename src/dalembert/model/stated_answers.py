@@ -9,7 +9,7 @@ from pydantic import Field, ValidationInfo, field_validator
 
 from dalembert.errors import ModelError
 from dalembert.model.part import Part
-from dalembert.wording import shown
+from dalembert.wording import quote_value
 
 Quantity = Literal[
     "effort",
@@ -114,7 +114,7 @@ def _frozen(value: Any) -> Any:
 def _check_plain(item: object) -> None:
     if item is not None and (isinstance(item, bool) or not isinstance(item, (int, float, str))):
         raise ModelError(
-            f"{shown(item)} is no value", "write a number, a text with its unit, or a list of them"
+            f"{quote_value(item)} is no value", "write a number, a text with its unit, or a list of them"
         )
     if isinstance(item, float) and not math.isfinite(item):
-        raise ModelError(f"{shown(item)} is no finite number", "write a finite one, or leave it out")
+        raise ModelError(f"{quote_value(item)} is no finite number", "write a finite one, or leave it out")

@@ -53,13 +53,13 @@ _TOKEN = re.compile(r'"[^"]*"|[_^]\{[^}]*\}|frac\(|[^\W\d_]+|\d[\d.]*(?:e[−+-]
 """Names are the user's: letters of any script, and signs that mean something in a notation, are written as they are."""
 
 
-def _written(text: str, atom: Callable[[str], str], fraction: Callable[[str, str], str]) -> str:
+def _write(text: str, atom: Callable[[str], str], fraction: Callable[[str, str], str]) -> str:
     out, tokens = [], _TOKEN.findall(text)
     while tokens:
         token = tokens.pop(0)
         if token == "frac(":
             above, below = _inside(tokens)
-            out.append(fraction(_written(above, atom, fraction), _written(below, atom, fraction)))
+            out.append(fraction(_write(above, atom, fraction), _write(below, atom, fraction)))
         else:
             out.append(atom(token))
     return re.sub(r" {2,}(?! )", " ", "".join(out)).strip()
@@ -98,7 +98,7 @@ def typst(text: str) -> str:
         return _TYPST.get(token, token)
 
     loose = {sign for a, b in ("()", "[]") if text.count(a) != text.count(b) for sign in (a, b)}
-    return _written(text, atom, lambda a, b: f"frac({a}, {b})")
+    return _write(text, atom, lambda a, b: f"frac({a}, {b})")
 
 
 _TYPST = {"−": "-", "·": "dot.c"} | {sign: "\\" + sign for sign in "#/$&_^\\\"~`{}<>|'"}
@@ -126,7 +126,7 @@ def latex(text: str) -> str:
             return rf"{number} \cdot 10^{{{int(power)}}}" if power else number
         return {"·": r"\cdot ", "'": "'"}.get(token) or _latex_text(token)
 
-    return _written(text, atom, lambda a, b: rf"\frac{{{a}}}{{{b}}}")
+    return _write(text, atom, lambda a, b: rf"\frac{{{a}}}{{{b}}}")
 
 
 _LETTERS = (
@@ -208,10 +208,10 @@ def plain(text: str) -> str:
             return f"{token[0]}{token[2:-1]}" if token[0] == "_" else f"^{token[2:-1]}"
         return WORDS[token].plain if token in WORDS else token.replace("-", "−")
 
-    return _written(text, atom, lambda a, b: f"({a})/({b})")
+    return _write(text, atom, lambda a, b: f"({a})/({b})")
 
 
-def bracketed(number: str) -> str:
+def bracket_negative(number: str) -> str:
     """A number behind an operator: a negative one in brackets.
 
     >>> bracketed("−3.5"), bracketed("2")
@@ -220,7 +220,7 @@ def bracketed(number: str) -> str:
     return f"({number})" if number.startswith("−") else number
 
 
-def mixed(text: str, formula: Callable[[str], str], words: Callable[[str], str]) -> list[str]:
+def write_mixed(text: str, formula: Callable[[str], str], words: Callable[[str], str]) -> list[str]:
     """Words and the formulas between dollar signs, each written; a dollar sign without its other is a word."""
     parts = text.split("$")
     if not len(parts) % 2:

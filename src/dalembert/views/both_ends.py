@@ -12,7 +12,7 @@ import numpy as np
 from dalembert.analysis.friction.joint_friction import joints_at_limit, reversing_joints, unknown_names
 from dalembert.analysis.output.columns import unknown_kinds
 from dalembert.views.notation import Shown
-from dalembert.views.paper.scene import Scene, Text, stacked
+from dalembert.views.paper.scene import Scene, Text, stack_scenes
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -58,11 +58,11 @@ def open_at(r: Result, k: int) -> bool:
 
 
 def at_both_ends(r: Result, k: int, shown: Shown, drawn: Callable[[Result], Scene], title: str) -> Scene:
-    """What ``drawn`` makes of the result, of its ends where friction leaves it open, or of both sides of a reversal."""
+    """What ``render`` makes of the result, of its ends where friction leaves it open, or of a reversal's sides."""
     if not open_at(r, k) and not r.reverses[k]:
         return drawn(r)
     scenes = []
     for words, end, known in ends(r, k, shown) if open_at(r, k) else sides(r, k, shown):
         scenes.append(Scene((Text((0.0, 0.0), words, 3.6, "title", "start"),), words))
         scenes += [drawn(end)] if known else []
-    return stacked(scenes, title=title, width=0.0)
+    return stack_scenes(scenes, title=title, width=0.0)

@@ -106,7 +106,7 @@ def _runs(x: Array, y: Array) -> list[list[tuple[float, float]]]:
     return [run for run in out if len(run) > 1]
 
 
-def stepped(r: Result, read: Callable[[Result], Array]) -> Array:
+def stepped_series(r: Result, read: Callable[[Result], Array]) -> Array:
     """What is read of a result, position by position, twice where contacts reverse: just before and just after, in the
     order in which the list passes them."""
     values = read(r.before)
@@ -131,9 +131,13 @@ def _backwards(r: Result) -> Flags:
 def along(r: Result, shown: Shown) -> tuple[Array, str, bool]:
     """What charts are drawn against: the first drive, or the number of the position."""
     if not r.drives:
-        return stepped(r, lambda side: np.arange(1, len(side.status) + 1, dtype=float)), "position", False
+        return (
+            stepped_series(r, lambda side: np.arange(1, len(side.status) + 1, dtype=float)),
+            "position",
+            False,
+        )
     kind = drive_kinds(r, r.drives[0])["position"]
-    places = stepped(r, lambda side: side.drive_position(side.drives[0]))
+    places = stepped_series(r, lambda side: side.drive_position(side.drives[0]))
     values = np.array([shown.value(kind, v) for v in places])
     unit = shown.unit(kind)
     return values, f"{r.drives[0]} in {unit}", unit == "°"
@@ -146,7 +150,7 @@ def effort_chart(r: Result, notation: Notation | None = None) -> list[Scene]:
     out = []
     for kind in ("moment", "force"):
         names = [d for d in r.drives if drive_kinds(r, d)["effort"] == kind]
-        efforts = {d: stepped(r, methodcaller("effort", d)) for d in names}
+        efforts = {d: stepped_series(r, methodcaller("effort", d)) for d in names}
         series = {d: np.array([shown.value(kind, v) for v in values]) for d, values in efforts.items()}
         if series:
             word = "Torque" if kind == "moment" else "Force"
@@ -160,7 +164,7 @@ def reaction_chart(r: Result, notation: Notation | None = None) -> Scene:
     x, label, angle = along(r, shown)
     unit = shown.unit("force")
     size = 1 / shown.value("force", 1.0)
-    series = {n: magnitude(stepped(r, methodcaller("reaction", n))) / size for n in r.joints}
+    series = {n: magnitude(stepped_series(r, methodcaller("reaction", n))) / size for n in r.joints}
     return curves_scene(x, series, label, f"Joint force in {unit}", "Joint forces", angle)
 
 
@@ -169,7 +173,7 @@ def moment_chart(r: Result, joints: Sequence[str], notation: Notation | None = N
     shown = Shown(r, notation or Notation())
     x, label, angle = along(r, shown)
     size = shown.size("moment")
-    series = {n: magnitude(stepped(r, methodcaller("reaction_moment", n))) / size for n in joints}
+    series = {n: magnitude(stepped_series(r, methodcaller("reaction_moment", n))) / size for n in joints}
     return curves_scene(x, series, label, f"Joint moment in {shown.unit('moment')}", "Joint moments", angle)
 
 
@@ -178,7 +182,7 @@ def components_chart(r: Result, joint: str, notation: Notation | None = None) ->
     shown = Shown(r, notation or Notation())
     space = r.mechanism.dimension == 3
     axes: Axes = "joint" if space else "ground"
-    force = stepped(r, lambda side: side.reaction(joint, axes=axes)) * shown.value("force", 1.0)
+    force = stepped_series(r, lambda side: side.reaction(joint, axes=axes)) * shown.value("force", 1.0)
     on = shown.heading(r.mechanism.joints[joint].links[1])
     title = f"Joint {joint}: force on link {on}" + (", joint's axes" if space else "")
     return vector_chart(r, force, "force", title, shown)
@@ -187,13 +191,13 @@ def components_chart(r: Result, joint: str, notation: Notation | None = None) ->
 def moment_components_chart(r: Result, joint: str, notation: Notation | None = None) -> Scene:
     """In space: components and magnitude of one joint's moment over the cycle, in the joint's own axes."""
     shown = Shown(r, notation or Notation())
-    moment = stepped(r, lambda side: side.reaction_moment(joint, axes="joint")) / shown.size("moment")
+    moment = stepped_series(r, lambda side: side.reaction_moment(joint, axes="joint")) / shown.size("moment")
     on = shown.heading(r.mechanism.joints[joint].links[1])
     return vector_chart(r, moment, "moment", f"Joint {joint}: moment on link {on}, joint's axes", shown)
 
 
 def vector_chart(r: Result, vectors: Array, kind: str, title: str, shown: Shown) -> Scene:
-    """Components and magnitude of vectors, already in the reader's unit, over the cycle: ``stepped`` as they are."""
+    """Components and magnitude of vectors in the reader's unit, over the cycle: ``stepped_series`` as they are."""
     x, label, angle = along(r, shown)
     series = dict(zip("xyz", vectors.T, strict=False)) | {"magnitude": magnitude(vectors)}
     return curves_scene(x, series, label, f"{kind.capitalize()} in {shown.unit(kind)}", title, angle)
@@ -235,7 +239,7 @@ def polar_chart(
     for joint in joints:
         i, j = r.mechanism.joints[joint].links
         on = j if axes == "ground" or j != "ground" else i
-        paths[joint] = stepped(r, methodcaller("reaction", joint, on=on, axes=seen)) * unit
+        paths[joint] = stepped_series(r, methodcaller("reaction", joint, on=on, axes=seen)) * unit
     where = "ground axes" if axes == "ground" else "axes of the link"
     return polar_scene(paths, shown.unit("force"), f"Joint forces in {where}")
 
@@ -243,7 +247,7 @@ def polar_chart(
 def shaking_chart(r: Result, notation: Notation | None = None) -> Scene:
     """Hodograph of the shaking force, all that the joints exert on the ground; in space its components."""
     shown = Shown(r, notation or Notation())
-    total, title = stepped(r, shaking_force) * shown.value("force", 1.0), "Shaking force on the ground"
+    total, title = stepped_series(r, shaking_force) * shown.value("force", 1.0), "Shaking force on the ground"
     if r.mechanism.dimension == 3:
         return vector_chart(r, total, "force", title, shown)
     return polar_scene({"shaking force": total}, shown.unit("force"), title)

@@ -25,7 +25,7 @@ from dalembert.views.formats.animation import Animation, animation_scene
 from dalembert.views.formats.glb import SolidModel
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.only_in_motion import refuse_still
-from dalembert.views.paper.scene import Scene, stacked
+from dalembert.views.paper.scene import Scene, stack_scenes
 from dalembert.views.plane.displaced_inertia import displaced_inertia_scene
 from dalembert.views.plane.force_polygons import force_chain_scene, force_polygon_scene, lines_of_action_scene
 from dalembert.views.plane.free_body import components_scene, free_body_scene
@@ -61,12 +61,12 @@ def mechanism(
     """
     k, seen = position_at(r, at), _camera(r, camera)
 
-    def drawn(end: Result) -> Scene:
+    def render(end: Result) -> Scene:
         if seen is None:
             return mechanism_scene(end, k, notation, forces)
         return space_mechanism_scene(end, k, seen, notation, forces)
 
-    return _whole(r, k, notation, drawn)
+    return _whole(r, k, notation, render)
 
 
 def free_body(
@@ -75,12 +75,12 @@ def free_body(
     """One link with everything that acts on it, to scale; in space reactions are in their joints' own axes."""
     k, seen = position_at(r, at), _camera(r, camera)
 
-    def drawn(end: Result) -> Scene:
+    def render(end: Result) -> Scene:
         if seen is None:
             return free_body_scene(end, _link(r, link), k, notation)
         return space_free_body_scene(end, _link(r, link), k, seen, notation)
 
-    return _whole(r, k, notation, drawn)
+    return _whole(r, k, notation, render)
 
 
 def components(r: Result, link: str, at: Any = None, notation: Notation | None = None) -> Scene:
@@ -138,7 +138,7 @@ def instant_centers(r: Result, at: Any = None, notation: Notation | None = None)
 def charts(r: Result, notation: Notation | None = None) -> Scene:
     """Efforts, joint forces, polar diagrams and the shaking force over the cycle."""
     refuse_still(r, "a chart")
-    return stacked(_charts.chart_scenes(r, notation), title=r.mechanism.title, width=270.0)
+    return stack_scenes(_charts.chart_scenes(r, notation), title=r.mechanism.title, width=270.0)
 
 
 def free_bodies(r: Result, at: Any = None, notation: Notation | None = None, camera: Sighted = None) -> Scene:
@@ -146,12 +146,12 @@ def free_bodies(r: Result, at: Any = None, notation: Notation | None = None, cam
     k = position_at(r, at)
     title, seen = _title(r, k, "Free bodies", notation), _camera(r, camera)
 
-    def drawn(end: Result) -> Scene:
+    def render(end: Result) -> Scene:
         if seen is None:
-            return stacked([free_body_scene(end, link, k, notation) for link in r.links], title=title)
-        return stacked([space_free_body_scene(end, n, k, seen, notation) for n in r.links], title=title)
+            return stack_scenes([free_body_scene(end, link, k, notation) for link in r.links], title=title)
+        return stack_scenes([space_free_body_scene(end, n, k, seen, notation) for n in r.links], title=title)
 
-    return _whole(r, k, notation, drawn, title)
+    return _whole(r, k, notation, render, title)
 
 
 def force_polygons(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
@@ -160,16 +160,16 @@ def force_polygons(r: Result, at: Any = None, notation: Notation | None = None) 
     k = position_at(r, at)
     title = _title(r, k, "Force polygons", notation)
 
-    def drawn(end: Result) -> Scene:
+    def render(end: Result) -> Scene:
         scenes = [force_polygon_scene(end, link, k, notation) for link in r.links]
-        return stacked([*scenes, force_chain_scene(end, k, notation)], title=title)
+        return stack_scenes([*scenes, force_chain_scene(end, k, notation)], title=title)
 
-    return _whole(r, k, notation, drawn, title)
+    return _whole(r, k, notation, render, title)
 
 
 def beside(scenes: Sequence[Scene], title: str = "", width: float = 240.0) -> Scene:
     """Drawings as panels in rows no wider than ``width`` mm."""
-    return stacked(scenes, title=title, width=width)
+    return stack_scenes(scenes, title=title, width=width)
 
 
 def displaced_inertia(r: Result, link: str, at: Any = None, notation: Notation | None = None) -> Scene:
@@ -185,7 +185,7 @@ def superposition(r: Result, at: Any = None, notation: Notation | None = None) -
 
     k = position_at(r, at)
     scenes = [force_chain_scene(r, k, notation, source) for source in split(r).sources]
-    return stacked(
+    return stack_scenes(
         [*scenes, force_chain_scene(r, k, notation)], title=_title(r, k, "Superposition", notation)
     )
 
@@ -209,7 +209,9 @@ def force_system(
         scenes.append(drawn.force_system_polygon_scene(s, notation))
     if at is not None:
         scenes.append(drawn.reduced_scene(s, at, notation, seen))
-    return scenes[0] if len(scenes) == 1 else stacked(scenes, title=s.title or "Force system", width=240.0)
+    return (
+        scenes[0] if len(scenes) == 1 else stack_scenes(scenes, title=s.title or "Force system", width=240.0)
+    )
 
 
 def motion(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
@@ -223,7 +225,7 @@ def motion(r: Result, at: Any = None, notation: Notation | None = None) -> Scene
         motion_polygon_scene(r, k, "acceleration", notation),
     ]
     scenes.append(instant_centers_scene(r, k, notation))
-    return stacked(scenes, title=_title(r, k, "Motion", notation))
+    return stack_scenes(scenes, title=_title(r, k, "Motion", notation))
 
 
 def animation(
@@ -274,7 +276,7 @@ def view(
         parts.append(force_polygons(r, at, notation))
     if len(r.status) > 2 and r.drives and r.stability is None:
         parts.append(charts(r, notation))
-    return stacked(parts, title=r.mechanism.title)
+    return stack_scenes(parts, title=r.mechanism.title)
 
 
 def _camera(r: Result, camera: Sighted) -> Camera | None:

@@ -12,11 +12,11 @@ from dalembert.analysis.methods.applied_forces import Action
 from dalembert.arrays import Array
 from dalembert.views.notation import Figures, Notation, own_name, pretty
 from dalembert.views.paper.canvas import Canvas
-from dalembert.views.paper.frame import fitted, force_scale
+from dalembert.views.paper.frame import fit_frame, force_scale
 from dalembert.views.paper.lettering import text_width
 from dalembert.views.paper.scene import Arrow, Circle, Line, Point, Scene
 from dalembert.views.plane.force_polygons import LONGEST, dimension, draw_polygon
-from dalembert.views.plane.mechanism_view import role_of, stated
+from dalembert.views.plane.mechanism_view import role_of, scale_notes
 from dalembert.views.space.camera import ISOMETRIC, Camera
 from dalembert.views.symbols import plane_symbols
 from dalembert.wrench import Couple, Force, ForceCouple, System
@@ -34,7 +34,7 @@ def force_system_scene(s: System, notation: Notation | None = None, camera: Came
     d.axes()
     d.points()
     d.given()
-    notes = [d.said(), *d.resultant()]
+    notes = [d.describe_result(), *d.resultant()]
     d.couples(s.couples, [n for n, p in zip(s.names, s.parts, strict=True) if isinstance(p, Couple)])
     notes += ["Couples are free vectors: they stand below."] if s.couples else []
     return d.scene(s.title or "Force system", notes)
@@ -54,7 +54,7 @@ def reduced_scene(
     force, couple = found.parts
     d.force("R", force, "resultant-force")
     d.couple("M", couple, d.place(found.at), "resultant-force")
-    return d.scene(f"Force and couple at {d.named(found.at)}", [d.reduction(found)])
+    return d.scene(f"Force and couple at {d.place_name(found.at)}", [d.reduction(found)])
 
 
 def force_system_polygon_scene(s: System, notation: Notation | None = None) -> Scene:
@@ -74,7 +74,7 @@ def force_system_polygon_scene(s: System, notation: Notation | None = None) -> S
         canvas.add(Arrow((0.0, 0.0), head, "resultant-force", "R", "force", size))
         middle = (head[0] / 2, head[1] / 2)
         canvas.label(f"R = {shown.text('force', size)}", middle, head, size=2.8, role="resultant-force")
-    notes, scales = stated(shown, None, per_mm)
+    notes, scales = scale_notes(shown, None, per_mm)
     words = "The polygon is closed: the forces balance." if closed else "R goes from the start to the end."
     return canvas.scene(
         "Force polygon", notes=[words, *notes], scales=scales, numbers={"gap": size, "largest": largest}
@@ -106,10 +106,10 @@ class Drawing:
         if self.central is not None and self.near(self.central.axis.point) and not len(more):
             places.append(self.central.axis.point)
         self.places = np.array(places or [origin])
-        seen = [self.seen(p) for p in self.places]
+        seen = [self.project(p) for p in self.places]
         if float(np.ptp(seen, axis=0).max()) <= 1e-9 * float(np.abs(self.places).max()):
             seen = seen[:1]  # one behind the other
-        self.frame = fitted(seen, WIDTH, HEIGHT, shown.size("length"))
+        self.frame = fit_frame(seen, WIDTH, HEIGHT, shown.size("length"))
         sizes = [f.size for f in s.forces] + [math.hypot(*s.resultant)]
         self.per_mm = force_scale(sizes, 26.0, shown.size("force"))
         turning = [c.size for c in s.couples] + [abs(self.central.moment) if self.central else 0.0]
@@ -122,17 +122,17 @@ class Drawing:
         """Whether a place is near enough to be drawn."""
         return float(np.linalg.norm(p - self.s.middle)) <= NEAR * self.s.length or not self.s.forces
 
-    def seen(self, v: Array) -> Array:
+    def project(self, v: Array) -> Array:
         """A vector as it is seen, in its own unit."""
         return v if self.camera is None else self.camera(v)
 
     def place(self, p: Array) -> Point:
         """A place (m) on paper."""
-        return self.frame(self.seen(p))
+        return self.frame(self.project(p))
 
     def ahead(self, start: Point, v: Array, per_mm: float) -> Point:
         """The head of an arrow that starts at a place on paper."""
-        dx, dy = self.seen(v) / per_mm
+        dx, dy = self.project(v) / per_mm
         return (start[0] + float(dx), start[1] + float(dy))
 
     def coordinates(self, p: Array) -> str:
@@ -141,7 +141,7 @@ class Drawing:
         numbers = ", ".join(self.shown.number("length", float(x), floor) for x in p)
         return f"({numbers}) {self.shown.unit('length')}"
 
-    def named(self, p: Array) -> str:
+    def place_name(self, p: Array) -> str:
         """A place in words, by its name where it has one."""
         name = self.s.point_name(p, "")
         return f"{name} {self.coordinates(p)}".strip()
@@ -153,7 +153,7 @@ class Drawing:
         d = self.s.dimension
         if d == 3:
             self._floor()
-        low = np.array([self.frame(self.seen(p)) for p in self.places]).min(axis=0)
+        low = np.array([self.frame(self.project(p)) for p in self.places]).min(axis=0)
         corner = (float(low[0]) - 14.0, float(low[1]) - 14.0)
         start = corner if self.origin is None else self.place(self.origin)
         for k, name in enumerate("xyz"[:d]):
@@ -264,7 +264,7 @@ class Drawing:
         if not self.near(axis.point):
             return [f"Its line is off this drawing: it passes {self.coordinates(axis.point)}."]
         at, ahead = self.place(axis.point), self.ahead((0.0, 0.0), axis.direction, 1.0)
-        line = clipped(at, ahead, self._room())
+        line = clip_line(at, ahead, self._room())
         if line is not None:
             self.canvas.add(Line(line, "resultant"))
         self.force("R", Force(self.central.force, axis.point), "resultant-force")
@@ -279,7 +279,7 @@ class Drawing:
         assert self.central is not None
         along, moment = self.central.axis.direction, self.central.moment
         head = self.ahead(at, self.central.force, self.per_mm)
-        unit = self.seen(along) / max(float(np.hypot(*self.seen(along))), 1e-9)
+        unit = self.project(along) / max(float(np.hypot(*self.project(along))), 1e-9)
         start = head if moment > 0 else at
         gap = math.copysign(3.0, moment)
         tail = (start[0] + gap * float(unit[0]), start[1] + gap * float(unit[1]))
@@ -301,7 +301,7 @@ class Drawing:
 
     # what is said
 
-    def said(self) -> str:
+    def describe_result(self) -> str:
         """What the system comes to, in words."""
         text, s = self.shown.text, self.s
         if self.kind == "zero":
@@ -336,15 +336,15 @@ class Drawing:
 
     def scene(self, title: str, notes: list[str]) -> Scene:
         """The finished drawing with its scales."""
-        texts, scales = stated(self.shown, self.frame, self.per_mm if self.s.forces else None)
+        texts, scales = scale_notes(self.shown, self.frame, self.per_mm if self.s.forces else None)
         if self.camera is not None:
-            texts, scales = self._seen_scales(texts[0], scales)
+            texts, scales = self._scale_notes(texts[0], scales)
         numbers: dict[str, Any] = {"kind": self.kind, "resultant": math.hypot(*self.s.resultant)}
         if self.central is not None:
             numbers |= {"moment": self.central.moment, "pitch": self.central.pitch}
         return self.canvas.scene(title, notes=[*notes, *texts], scales=scales, numbers=numbers)
 
-    def _seen_scales(self, text: str, scales: dict[str, float]) -> tuple[list[str], dict[str, float]]:
+    def _scale_notes(self, text: str, scales: dict[str, float]) -> tuple[list[str], dict[str, float]]:
         """Scales of true sizes, and how much shorter each axis is seen."""
         assert self.camera is not None
         short = np.linalg.norm(self.camera(np.eye(3)), axis=-1)
@@ -355,7 +355,7 @@ class Drawing:
         return [f"{text}{moments}, in true size; {seen}."], out
 
 
-def clipped(at: Point, along: Point, room: tuple[float, float, float, float]) -> tuple[Point, Point] | None:
+def clip_line(at: Point, along: Point, room: tuple[float, float, float, float]) -> tuple[Point, Point] | None:
     """The part inside a box of a line through a place on paper; None where it passes by.
 
     >>> clipped((0, 5), (1, 0), (-10, 0, 10, 8))

@@ -23,7 +23,7 @@ def doubts(r: Result, k: int, joints: Iterable[str]) -> list[str]:
     return notes
 
 
-def known(r: Result, link: str, k: int) -> bool:
+def has_reactions(r: Result, link: str, k: int) -> bool:
     """Whether a link's reactions have numbers at a position, be it those of least norm."""
     return all(bool(np.isfinite(r.least_norm(n)[k]).all()) for n in on_one(r, link))
 

@@ -8,7 +8,7 @@ from dalembert.algebra.lines import meeting_point
 from dalembert.arrays import Array
 from dalembert.errors import AnalysisError
 from dalembert.wrench.forces import Axis
-from dalembert.wrench.reading import fixed
+from dalembert.wrench.reading import read_only
 from dalembert.wrench.system import EXACT, System
 
 
@@ -45,7 +45,7 @@ def concurrency(system: System, tolerance: float = EXACT) -> Array | None:
         return None
     point, away = found
     reach = max(system.length, float(np.linalg.norm(point - system.middle)))
-    return fixed(point) if away <= tolerance * reach else None
+    return read_only(point) if away <= tolerance * reach else None
 
 
 def parallel_center(system: System, tolerance: float = EXACT) -> Array:
@@ -67,7 +67,7 @@ def parallel_center(system: System, tolerance: float = EXACT) -> Array:
             "The parallel forces add to zero, so they have no centre. They are a couple or nothing."
         )
     middle = system.middle
-    return fixed(middle + signed @ np.array([f.at - middle for f in forces]) / signed.sum())
+    return read_only(middle + signed @ np.array([f.at - middle for f in forces]) / signed.sum())
 
 
 def _lines(system: System) -> list[Axis]:

@@ -10,7 +10,7 @@ import numpy as np
 from dalembert.arrays import Array
 from dalembert.units import Units
 from dalembert.wrench.forces import Couple, Force
-from dalembert.wrench.reading import fixed
+from dalembert.wrench.reading import read_only
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +53,7 @@ def balance(
         sentence = f"In equilibrium: {residual:.1g} of the largest force is left."
     else:
         sentence = f"Not in equilibrium: {_which(parts, tolerance)}. {_missing(missing, units)}"
-    return Balance(holds, residual, force, fixed(moment), at, missing, sentence)
+    return Balance(holds, residual, force, read_only(moment), at, missing, sentence)
 
 
 def _part(sum_of: Array, scale: float) -> float:
@@ -71,18 +71,18 @@ def _which(parts: tuple[float, float], tolerance: float) -> str:
 
 
 def _missing(parts: tuple[Force | Couple, ...], units: Units) -> str:
-    said = " and ".join(_said(part, units) for part in parts)
+    said = " and ".join(_describe(part, units) for part in parts)
     return f"{said[0].upper()}{said[1:]} {'is' if len(parts) == 1 else 'are'} missing."
 
 
-def _said(part: Force | Couple, units: Units) -> str:
+def _describe(part: Force | Couple, units: Units) -> str:
     if isinstance(part, Couple):
-        return f"a couple of {listed(part.vector, 'moment', units)}"
-    place = listed(part.at, "length", units)
-    return f"a force of {listed(part.vector, 'force', units)} on the line through {place}"
+        return f"a couple of {list_components(part.vector, 'moment', units)}"
+    place = list_components(part.at, "length", units)
+    return f"a force of {list_components(part.vector, 'force', units)} on the line through {place}"
 
 
-def listed(values: Array, kind: str, units: Units) -> str:
+def list_components(values: Array, kind: str, units: Units) -> str:
     """Components with their unit, five figures: `[3, 4] N`.
 
     >>> listed(np.array([3.0, 4.0]), "force", Units(force="kN"))

@@ -12,7 +12,7 @@ from dalembert.algebra import plane, space
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.wrench import reading
-from dalembert.wrench.reading import Number, UnitNames, Vector, fixed, number
+from dalembert.wrench.reading import Number, UnitNames, Vector, number, read_only
 
 ALGEBRA: dict[int, Any] = {2: plane, 3: space}
 """Components of a force -> the algebra of its vectors."""
@@ -48,7 +48,7 @@ class Axis:
     def foot(self, of: Vector) -> Array:
         """The point of the line nearest to a point."""
         arm = reading.vector(of, "length", dimension=len(self.point)) - self.point
-        return fixed(self.point + (arm @ self.direction) * self.direction)
+        return read_only(self.point + (arm @ self.direction) * self.direction)
 
     def crossing(self, **plane: Number) -> Array:
         """Where the line meets a plane x = value, y = value or z = value (m).
@@ -66,7 +66,7 @@ class Axis:
         wanted = number(value, "length")
         place = self.point + (wanted - self.point[k]) / self.direction[k] * self.direction
         place[k] = wanted
-        return fixed(place)
+        return read_only(place)
 
     def distance(self, of: Vector) -> float:
         """Distance of a point from the line, m."""
@@ -100,7 +100,7 @@ class Force:
     ) -> None:
         force = reading.vector(vector, "force", units)
         place = np.zeros(len(force)) if at is None else reading.vector(at, "length", units, len(force))
-        for key, value in (("vector", force), ("at", fixed(place)), ("name", name), ("kind", kind)):
+        for key, value in (("vector", force), ("at", read_only(place)), ("name", name), ("kind", kind)):
             object.__setattr__(self, key, value)
 
     @classmethod
@@ -188,7 +188,7 @@ class Force:
     @property
     def angles(self) -> Array:
         """Angles to the axes (radians, 0 to pi)."""
-        return fixed(np.arccos(np.clip(self.cosines, -1.0, 1.0)))
+        return read_only(np.arccos(np.clip(self.cosines, -1.0, 1.0)))
 
     @property
     def angle(self) -> float:
@@ -260,7 +260,7 @@ class Couple:
     def __init__(
         self, moment: Vector | Number, name: str = "", kind: str = "load", units: UnitNames = None
     ) -> None:
-        value = fixed(moment_components(moment, units))
+        value = read_only(moment_components(moment, units))
         for key, given in (("vector", value), ("name", name), ("kind", kind)):
             object.__setattr__(self, key, given)
 
@@ -335,4 +335,4 @@ def components(force: Vector, *axes: Vector | Number) -> Array:
             f"the force does not lie in the axes' {'plane' if len(unit) == 2 else 'line'}: {left:.4g} N are left",
             f"give {len(f)} axes",
         )
-    return fixed(found)
+    return read_only(found)

@@ -14,7 +14,7 @@ from dalembert.model.part import Reading
 from dalembert.model.quantities.figures import unit_vector
 from dalembert.model.quantities.values import vector as components_of
 from dalembert.units import Units, file_units, quantity
-from dalembert.wording import shown
+from dalembert.wording import quote_value
 
 Number = float | int | str
 Vector = Sequence[Number] | Array | str
@@ -35,7 +35,7 @@ def number(value: Any, kind: str, units: UnitNames = None) -> float:
     found = quantity(plain, kind, _rules(plain, units))
     largest = LARGEST**2 if kind == "moment" else LARGEST
     if abs(found) > largest:
-        raise ModelError(f"{shown(plain)} is too large", f"write a number below {largest:g}")
+        raise ModelError(f"{quote_value(plain)} is too large", f"write a number below {largest:g}")
     return found
 
 
@@ -47,14 +47,14 @@ def vector(value: Vector, kind: str, units: UnitNames = None, dimension: int | N
     """
     if isinstance(value, str) and "@" in value:
         found = components_of(value, kind, Reading(_rules(value, units), dimension=dimension))
-        return fixed([number(x, kind) for x in found])
+        return read_only([number(x, kind) for x in found])
     if isinstance(value, str):
         items: Sequence[Any] = _items(value)
         units = _rules(value, units)
     else:
         items = value.tolist() if isinstance(value, np.ndarray) else value
-    _counted(items, dimension)
-    return fixed([number(item, kind, units) for item in items])
+    _count(items, dimension)
+    return read_only([number(item, kind, units) for item in items])
 
 
 def direction(value: Vector | Number, dimension: int | None = None) -> Array:
@@ -67,17 +67,17 @@ def direction(value: Vector | Number, dimension: int | None = None) -> Array:
         isinstance(value, str) and "[" not in value and "@" not in value
     )
     if one and dimension in (None, 2):
-        return fixed(unit_vector(number(value, "angle")))
+        return read_only(unit_vector(number(value, "angle")))
     if one:
-        raise ModelError(f"{shown(value)} is no direction in space", "write [x, y, z]")
+        raise ModelError(f"{quote_value(value)} is no direction in space", "write [x, y, z]")
     along = vector(value, "number", dimension=dimension)  # type: ignore[arg-type]
     length = math.hypot(*along)
     if length == 0:
         raise ModelError("a vector of length 0 has no direction", "write one along the line")
-    return fixed(along / length)
+    return read_only(along / length)
 
 
-def fixed(values: Any) -> Array:
+def read_only(values: Any) -> Array:
     """An array that nobody changes, without negative zeros."""
     out = np.array(values, float) + 0.0
     out.setflags(write=False)
@@ -93,13 +93,13 @@ def _rules(value: object, units: UnitNames) -> Units | None:
 def _items(text: str) -> list[str]:
     inside = text.strip()
     if not (inside.startswith("[") and inside.endswith("]")):
-        raise ModelError(f"{shown(text)} is no vector", "write [x, y] or polar text r @ angle")
+        raise ModelError(f"{quote_value(text)} is no vector", "write [x, y] or polar text r @ angle")
     return [item.strip() for item in inside[1:-1].split(",")]
 
 
-def _counted(items: Any, dimension: int | None) -> None:
+def _count(items: Any, dimension: int | None) -> None:
     if not isinstance(items, Sequence):
-        raise ModelError(f"{shown(items)} is no vector", "write [x, y] or [x, y, z]")
+        raise ModelError(f"{quote_value(items)} is no vector", "write [x, y] or [x, y, z]")
     wanted = (2, 3) if dimension is None else (dimension,)
     if len(items) not in wanted:
         places = "2 or 3" if dimension is None else str(dimension)
@@ -115,7 +115,7 @@ def cosines(angles: Sequence[Number]) -> Array:
     >>> cosines(["60 deg", "45 deg", "120 deg"]).round(3)
     array([ 0.5  ,  0.707, -0.5  ])
     """
-    _counted(angles, 3)
+    _count(angles, 3)
     given = np.array([math.cos(number(a, "angle")) for a in angles])
     total = float(given @ given)
     if abs(total - 1.0) > 0.01:
@@ -123,4 +123,4 @@ def cosines(angles: Sequence[Number]) -> Array:
             f"the squares of the three direction cosines add to {total:.4g}, not to 1",
             "two angles leave two values for the third: check them",
         )
-    return fixed(given / math.sqrt(total))
+    return read_only(given / math.sqrt(total))

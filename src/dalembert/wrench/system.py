@@ -16,7 +16,7 @@ from dalembert.wording import closest
 from dalembert.wrench import reading
 from dalembert.wrench.balance_check import Balance, balance
 from dalembert.wrench.forces import ALGEBRA, Axis, Couple, Force, moment_about, value_of
-from dalembert.wrench.reading import UnitNames, Vector, fixed
+from dalembert.wrench.reading import UnitNames, Vector, read_only
 
 EXACT = 1e-9
 """Below this part of the largest force (of force times length) a force (a moment) counts as zero."""
@@ -44,7 +44,9 @@ class ForceCouple:
         """The same at another point B: M_B = M_A + (A - B) x F."""
         place = reading.vector(at, "length", dimension=len(self.force))
         arm = self.at - place
-        return ForceCouple(place, self.force, fixed(self.vector + ALGEBRA[len(arm)].cross(arm, self.force)))
+        return ForceCouple(
+            place, self.force, read_only(self.vector + ALGEBRA[len(arm)].cross(arm, self.force))
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,7 +153,7 @@ class System:
     def middle(self) -> Array:
         """The mean of the points of application (m)."""
         points = [f.at for f in self.forces]
-        return fixed(np.mean(points, axis=0) if points else np.zeros(self.dimension))
+        return read_only(np.mean(points, axis=0) if points else np.zeros(self.dimension))
 
     @property
     def length(self) -> float:
@@ -178,12 +180,12 @@ class System:
     @property
     def resultant(self) -> Array:
         """The sum of all forces (N)."""
-        return fixed(sum((f.vector for f in self.forces), np.zeros(self.dimension)))
+        return read_only(sum((f.vector for f in self.forces), np.zeros(self.dimension)))
 
     def point(self, at: Vector | None) -> Array:
         """A point (m): by its components, in a text in the system's units; by its name; the origin."""
         if at is None:
-            return fixed(np.zeros(self.dimension))
+            return read_only(np.zeros(self.dimension))
         if isinstance(at, str) and at in self.points:
             return self.points[at]
         if isinstance(at, str) and "[" not in at and "@" not in at:
@@ -216,7 +218,7 @@ class System:
     def reduced(self, at: Vector | None = None) -> ForceCouple:
         """The force and couple at a point (default the origin) that the system is equivalent to."""
         place = self.point(at)
-        return ForceCouple(place, self.resultant, fixed(self._moment(place)))
+        return ForceCouple(place, self.resultant, read_only(self._moment(place)))
 
     def central_axis(self, tolerance: float = EXACT, length: float | None = None) -> CentralAxis:
         """The axis on which force and couple are parallel: r = F x M / F^2 from the point of M; pitch F . M / F^2.

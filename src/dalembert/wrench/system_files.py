@@ -25,7 +25,7 @@ from dalembert.model.quantities.values import (
     vector,
 )
 from dalembert.units import Units, quantity
-from dalembert.wording import closest, shown
+from dalembert.wording import closest, quote_value
 from dalembert.wrench.forces import Couple, Force
 from dalembert.wrench.reading import cosines
 from dalembert.wrench.reading import direction as unit_along
@@ -41,7 +41,7 @@ class Along(Value):
             return tuple(unit_along(vector(value, "number", rules)))
         if rules.dimension == 3:
             raise ModelError(
-                f"{shown(value)} is no direction in space", "write [x, y, z], or angles: [a, b, c]"
+                f"{quote_value(value)} is no direction in space", "write [x, y, z], or angles: [a, b, c]"
             )
         return tuple(unit_along(quantity(value, "angle", rules.units)))
 
@@ -179,7 +179,7 @@ def loads(text: str, form: str = "yaml", name: str = "text") -> System:
 def _system(tree: Any, source: Source) -> System:
     try:
         if not isinstance(tree, Mapping):
-            raise ModelError(f"{shown(tree)} stands where a mapping is needed", "write forces: ...")
+            raise ModelError(f"{quote_value(tree)} stands where a mapping is needed", "write forces: ...")
         refuse_empty(tree)
         if "links" in tree:
             raise ModelError(

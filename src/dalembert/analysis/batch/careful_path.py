@@ -45,7 +45,7 @@ def redone(
 ) -> None:
     """Put the general executor's answer for design ``d`` in its place: where it is undecided, or all of it reduced."""
     code = found.code
-    marks, result = answered(k.mechanism, k.trace.numbers, values, course.schedule, k.trace.inertia)
+    marks, result = analyse_design(k.mechanism, k.trace.numbers, values, course.schedule, k.trace.inertia)
     here = np.ones(len(marks), bool) if k.reduce else undecided
     for rates in (found.rates, found.after_rates):
         for rate in rates.values():
@@ -60,7 +60,7 @@ def redone(
         for side, one in zip(result.sides, sides, strict=True)
     ]
     if k.reduce:
-        _reduced(k, d, sides, slopes_, found)
+        _reduction(k, d, sides, slopes_, found)
         return
     if len(sides) > 1:
         found.open_after()
@@ -72,14 +72,14 @@ def redone(
             rates[name][d, here] = rate.reshape(rates[name][d, here].shape)
 
 
-def _reduced(
+def _reduction(
     k: Kernel, d: int, sides: list[dict[str, Array]], rates: list[dict[str, Array]], found: Sides
 ) -> None:
     """Reductions over the positions, those with two numbers taken twice."""
     assert k.reduce is not None
     for name, array in found.arrays.items():
         value = np.concatenate([side[name] for side in sides])
-        reduced = over_positions.reduced(k.reduce, value)
+        reduced = over_positions.reduce_positions(k.reduce, value)
         if k.reduce == "argpeak":
             reduced = reduced % len(sides[0][name])
         array[d] = reduced.reshape(array[d].shape)
@@ -108,7 +108,7 @@ def slopes(
     return dict(rates)
 
 
-def answered(
+def analyse_design(
     m: Mechanism, numbers: Sequence[Number], values: Array, schedule: Schedule, inertia: bool
 ) -> tuple[NDArray[np.uint8], Result | None]:
     """Codes (position,) of one design, and its result; all failed, and none, where the design is refused."""

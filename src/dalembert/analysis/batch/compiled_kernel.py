@@ -16,7 +16,7 @@ from dalembert.analysis.batch.checked_input import numbers
 from dalembert.analysis.batch.kernel_inputs import Course
 from dalembert.analysis.batch.sides import Sides
 from dalembert.analysis.batch.symbolic_model import geometric
-from dalembert.analysis.batch.traced_analysis import Trace, traced
+from dalembert.analysis.batch.traced_analysis import Trace, trace_analysis
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.plane_only import refuse_space
 from dalembert.arrays import Array, Flags
@@ -63,7 +63,7 @@ def compile(  # noqa: A001
     _check_count("lanes", lanes)
     try:
         refuse_space(mechanism, "da.compile", "use da.dynamics or da.statics")
-        trace = traced(mechanism, _several(vary), mechanism.has_speeds and not static)
+        trace = trace_analysis(mechanism, _several(vary), mechanism.has_speeds and not static)
     except ModelError as error:
         raise error.located(mechanism.source) from None
     names = _several(outputs) if outputs is not None else tuple(trace.catalogue.defaults())
@@ -190,7 +190,7 @@ class Kernel:
         """The same outputs and their derivatives from solutions of the general executor; compiled when first used."""
         course = self.trace.course
         solved = at_schedule(self.mechanism, course.schedule, self.trace.inertia)
-        trace = traced(self.mechanism, self.numbers, self.trace.inertia, solved)
+        trace = trace_analysis(self.mechanism, self.numbers, self.trace.inertia, solved)
         return replace(self, trace=trace, reduce=None, derivatives=True)
 
     def warm(self) -> None:
@@ -247,11 +247,11 @@ class Kernel:
             if device == "cpu":  # of whoever watches the progress
                 raise
             raise ModelError(f"device {device!r} cannot be used: {error}", 'use device="cpu"') from None
-        code[self._flipped(given)] = CODES.index("undecided")
+        code[self._may_change_branch(given)] = CODES.index("undecided")
         if redo:
             code[(code == CODES.index("at_rest")) & _moves(course, code.ndim)] = CODES.index("undecided")
         code[~np.isfinite(given).all(axis=1)] = CODES.index("failed")
-        return self._finished(given, course, code, arrays, rates, redo)
+        return self._assemble_result(given, course, code, arrays, rates, redo)
 
     def to_c(self, name: str = "mechanism") -> str:
         """C source, needing nothing but math.h, of a function of one position: numbers, drives' quantities, outputs."""
@@ -265,7 +265,7 @@ class Kernel:
 
         return casadi_function(self, name)
 
-    def _flipped(self, values: Array) -> Flags:
+    def _may_change_branch(self, values: Array) -> Flags:
         """Designs whose motion may be another than the file's, each left to the general executor: those of another
         `assembly`, and of other geometry where the file's motion passes change points (a parallelogram passes them, its
         neighbours do not)."""
@@ -285,7 +285,7 @@ class Kernel:
             )
         return given
 
-    def _finished(
+    def _assemble_result(
         self,
         values: Array,
         course: Course,

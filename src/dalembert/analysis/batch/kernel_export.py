@@ -35,7 +35,7 @@ def plain(k: Kernel) -> Program:
             places[node.index] = graph.constant(np.ravel(inputs.found[node](k.trace.course))[0])
     program = k.program(k.flat)
     groups = [program.outputs, *(getattr(program.marks, f.name) for f in fields(Marks))]
-    found = iter(graph.substituted([n for group in groups for n in group], places))
+    found = iter(graph.substitute([n for group in groups for n in group], places))
     outputs, *marks = (tuple(next(found) for _ in group) for group in groups)
     return Program(graph, outputs, Marks(*marks))
 
@@ -79,7 +79,7 @@ def c_source(k: Kernel, name: str) -> str:
 def _comment(k: Kernel, program: Program, name: str) -> str:
     graph = program.graph
     numbers = [f"v[{i}] = {path}" for i, path in enumerate(k.numbers)]
-    inputs = [f"c[{i}] = {graph.names[n.index]}" for i, n in enumerate(program.used("channel"))]
+    inputs = [f"c[{i}] = {graph.names[n.index]}" for i, n in enumerate(program.inputs_in_use("channel"))]
     outputs = [f"out[{i}] = {what}" for i, what in enumerate(output_names(k))]
     title = k.mechanism.title or "A mechanism"
     said = f"{title}: {name}(v, c, out) at one position, SI and radians; made by dalembert."

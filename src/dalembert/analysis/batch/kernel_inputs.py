@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from dalembert.analysis.compile.compiled_mechanism import Compiled, compiled
+from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.positions import Positions, positions
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array
@@ -33,7 +33,7 @@ class Course:
 
     @cached_property
     def compiled(self) -> Compiled:
-        return compiled(self.mechanism, self.schedule)
+        return compile_mechanism(self.mechanism, self.schedule)
 
     @cached_property
     def followed(self) -> Positions:
@@ -43,7 +43,7 @@ class Course:
     def pose(self) -> Pose:
         """Its poses, NaN where it does not close."""
         if self.result is not None:
-            return _found(self.result)
+            return _poses_with_ground(self.result)
         path = self.followed.path
         assert path is not None
         lost = ~path.reached
@@ -125,7 +125,9 @@ class Inputs:
             q = self._drive(kind, name, "position", k)
             columns["q"].append(q)
             for f, ufunc in (("cos", np.cos), ("sin", np.sin)):
-                columns[f].append(self._derived(kind, f, name, k, ufunc) if angular[k] else self.graph.zero)
+                columns[f].append(
+                    self._derivative(kind, f, name, k, ufunc) if angular[k] else self.graph.zero
+                )
             for rate in ("speed", "acceleration"):
                 given = getattr(symbolic.drives[name], rate)
                 steady = np.ptp(getattr(self.course.schedule, rate)[:, k]) == 0
@@ -137,7 +139,7 @@ class Inputs:
     def _drive(self, kind: str, name: str, what: str, k: int) -> Node:
         return self.make(kind, f"{what} {name}", lambda c: _one(kind, c, getattr(c.schedule, what)[:, k]))
 
-    def _derived(self, kind: str, f: str, name: str, k: int, ufunc: Any) -> Node:
+    def _derivative(self, kind: str, f: str, name: str, k: int, ufunc: Any) -> Node:
         return self.make(kind, f"{f} {name}", lambda c: _one(kind, c, ufunc(c.schedule.position[:, k])))
 
     def load(self, name: str, varying: Any) -> Node:
@@ -151,7 +153,9 @@ class Inputs:
         """Quantities of the known motion."""
 
         def quantity(what: str, which: int) -> Node:
-            return self.make(kind, f"known {what} {which}", lambda c: _one(kind, c, _known(c, what, which)))
+            return self.make(
+                kind, f"known {what} {which}", lambda c: _one(kind, c, _known_quantity(c, what, which))
+            )
 
         return quantity
 
@@ -192,12 +196,14 @@ class Inputs:
         if (signs >= 0).all() or (signs <= 0).all():
             return 1.0 if signs.sum() >= 0 else -1.0
         name = f"way {a} {b} {len(self.named)}"
-        return self.make("channel", name, lambda c: _filled(self._signs(c, kind, plus, minus, a, b)))
+        return self.make(
+            "channel", name, lambda c: _carry_sign_forward(self._signs(c, kind, plus, minus, a, b))
+        )
 
     def _signs(self, c: Course, kind: str, plus: Any, minus: Any, a: int, b: int) -> Array:
         values = {} if c is self.course else {n.index: f(c) for n, f in self.found.items()}
         nodes = [n if isinstance(n, Node) else self.graph.constant(n) for n in (*plus, *minus)]
-        pc, ps, mc, ms = self.graph.evaluated(nodes, values)
+        pc, ps, mc, ms = self.graph.evaluate(nodes, values)
         r = c.pose.rotation
         cos = r[:, a, 0] * r[:, b, 0] + r[:, a, 1] * r[:, b, 1]
         sin = r[:, a, 0] * r[:, b, 1] - r[:, a, 1] * r[:, b, 0]
@@ -228,7 +234,7 @@ def contact_keys(c: Compiled) -> list[tuple[str, str]]:
     return [(c.joints[k], kind) for k, kind in zip(c.contacts.joint, c.contact_kinds, strict=True)]
 
 
-def _found(result: Result) -> Pose:
+def _poses_with_ground(result: Result) -> Pose:
     """Poses of a result, with those of the ground."""
     count = len(result.status)
     point, turn, rotation = (a.copy() for a in (result.point_array, result.turn_array, result.rotation_array))
@@ -243,14 +249,14 @@ def _one(kind: str, c: Course, column: Array) -> Any:
     return column if kind == "channel" else column[c.first]
 
 
-def _filled(signs: Array) -> Array:
+def _carry_sign_forward(signs: Array) -> Array:
     """Where both ways coincide, the sign before it."""
     places = np.maximum.accumulate(np.where(signs != 0, np.arange(len(signs)), -1))
     first = signs[np.argmax(signs != 0)]
     return np.where(places >= 0, signs[np.maximum(places, 0)], first)
 
 
-def _known(c: Course, what: str, which: int) -> Array:
+def _known_quantity(c: Course, what: str, which: int) -> Array:
     """One quantity of the known motion (P,)."""
     if what.startswith("line"):
         angle = _line_angle(c, which)

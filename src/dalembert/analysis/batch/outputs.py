@@ -13,7 +13,7 @@ from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.compile.load_arrays import point_of
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
-from dalembert.kernel.graph import Graph, Node, traced
+from dalembert.kernel.graph import Graph, Node, trace_array
 from dalembert.kernel.trace import Traced
 
 
@@ -31,7 +31,7 @@ class Catalogue:
         if kind not in KINDS or (kind == "residual" and of):
             there = ", ".join(k if k == "residual" else f"{k}.NAME" for k in KINDS)
             raise ModelError(f"there is no output {name!r}", f"there are: {there}")
-        return list(traced(self.graph, np.ravel(np.asarray(KINDS[kind](self, of), object))))
+        return list(trace_array(self.graph, np.ravel(np.asarray(KINDS[kind](self, of), object))))
 
     def defaults(self) -> list[str]:
         """Every effort, unknown load and reaction."""

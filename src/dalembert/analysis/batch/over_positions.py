@@ -25,12 +25,12 @@ def check(reduce: str | None) -> None:
         raise ModelError(f"there is no reduction {reduce!r}", "there are: " + ", ".join(PARTS))
 
 
-def located(reduce: str) -> tuple[str, ...]:
+def with_places(reduce: str) -> tuple[str, ...]:
     """The parts with the places where they are taken, for gradients."""
     return tuple("arg" + p if "arg" + p in PLACED else p for p in PARTS[reduce])
 
 
-def finished(reduce: str, parts: list[Array], count: int) -> Array:
+def finish_reduction(reduce: str, parts: list[Array], count: int) -> Array:
     """The reduction from its parts (design, ...); the envelope with a last axis (least, largest)."""
     if reduce == "envelope":
         return np.stack(parts, axis=-1)
@@ -43,7 +43,7 @@ def finished(reduce: str, parts: list[Array], count: int) -> Array:
     return np.asarray(parts[0])
 
 
-def reduced(reduce: str, values: Array) -> Array:
+def reduce_positions(reduce: str, values: Array) -> Array:
     """The reduction of values over their first axis."""
     size = np.abs(values)
     if reduce == "peak":
@@ -67,7 +67,7 @@ def slope(reduce: str, values: Array, rates: Array) -> Array:
         return np.asarray(rates.mean(axis=0))
     if reduce in ("rms", "norm8"):
         power = 2 if reduce == "rms" else 8
-        size = reduced(reduce, values)
+        size = reduce_positions(reduce, values)
         size[~rates.any(axis=(0, 2))] = 1.0  # always zero
         with np.errstate(all="ignore"):
             return np.asarray(((values / size)[..., None] ** (power - 1) * rates).mean(axis=0))

@@ -13,7 +13,7 @@ from dalembert.analysis.batch import over_positions
 from dalembert.analysis.batch.kernel_inputs import Course
 from dalembert.arrays import Array
 from dalembert.kernel.emit import llvm_text
-from dalembert.kernel.emit.machine_code import Machine, aligned, compiled
+from dalembert.kernel.emit.machine_code import Machine, aligned_array, compile_module
 from dalembert.kernel.emit.reductions import PLACED, SUMS, Slots, width
 from dalembert.kernel.graph import CONSTANT, Node
 from dalembert.kernel.parallel_runs import path_array, row_length, run_grid, run_pairs
@@ -42,18 +42,18 @@ class Runner:
             return self._pairs(k.program(k.flat))
         if kind == "grid":
             program = k.program(k.flat)
-            return program, compiled(llvm_text.grid(program, k.lanes), k.lanes), ()
-        nodes, slots = self._reduced()
+            return program, compile_module(llvm_text.grid(program, k.lanes), k.lanes), ()
+        nodes, slots = self._reduction_values()
         program = k.program(nodes)
-        return program, compiled(llvm_text.grid(program, k.lanes, slots), k.lanes), slots
+        return program, compile_module(llvm_text.grid(program, k.lanes, slots), k.lanes), slots
 
     def _pairs(self, program: Program) -> tuple[Program, Machine, Slots]:
-        return program, compiled(llvm_text.pairs(program, self.k.lanes), self.k.lanes), ()
+        return program, compile_module(llvm_text.pairs(program, self.k.lanes), self.k.lanes), ()
 
-    def _reduced(self) -> tuple[list[Node], Slots]:
+    def _reduction_values(self) -> tuple[list[Node], Slots]:
         """Values to be reduced, outputs first, then what the gradients of means are made of."""
         k = self.k
-        parts = over_positions.located(k.reduce) if k.derivatives else over_positions.PARTS[k.reduce]
+        parts = over_positions.with_places(k.reduce) if k.derivatives else over_positions.PARTS[k.reduce]
         nodes = [n for found in k.nodes.values() for n in found]
         slots = [(m, p) for m in range(len(nodes)) for p in parts]
         if k.derivatives and k.reduce in ("mean", "rms", "norm8"):
@@ -82,8 +82,8 @@ class Runner:
 
     def _inputs(self, program: Program, course: Course) -> tuple[Array, Array]:
         found = self.k.trace.inputs.found
-        columns = [np.asarray(found[n](course), float) for n in program.used("channel")]
-        common = np.array([float(found[n](course)) for n in program.used("common")])
+        columns = [np.asarray(found[n](course), float) for n in program.inputs_in_use("channel")]
+        common = np.array([float(found[n](course)) for n in program.inputs_in_use("common")])
         count = len(course.schedule.position)
         return np.stack(columns, axis=1) if columns else np.zeros((count, 0)), common
 
@@ -128,7 +128,7 @@ class Runner:
         path = path_array(columns, common, machine.lanes, weighted)
         count, row = len(values), row_length(path[1], machine.lanes)
         shape: tuple[int, ...] = (count, width(slots)) if slots else (count, len(program.outputs), row)
-        out, code = aligned(shape), np.empty((count,) if slots else (count, row), np.uint8)
+        out, code = aligned_array(shape), np.empty((count,) if slots else (count, row), np.uint8)
         channels = columns.shape[1] + weighted
         run_grid(machine, program, values, path, channels, out, code, threads, progress)
         if slots:
@@ -215,12 +215,12 @@ class Runner:
                 places[key] = out[:, slot + 1]
             slot += 2 if key[1] in PLACED else 1
         found, arrays, node = {}, {}, 0
-        wanted = over_positions.located(k.reduce) if k.derivatives else over_positions.PARTS[k.reduce]
+        wanted = over_positions.with_places(k.reduce) if k.derivatives else over_positions.PARTS[k.reduce]
         for name, nodes in k.nodes.items():
             each = []
             for m in range(node, node + len(nodes)):
                 source = places if k.reduce == "argpeak" else parts
-                each.append(over_positions.finished(k.reduce, [source[m, p] for p in wanted], count))
+                each.append(over_positions.finish_reduction(k.reduce, [source[m, p] for p in wanted], count))
             found[name] = range(node, node + len(nodes))
             arrays[name] = each[0].copy() if len(nodes) == 1 else np.stack(each, axis=1)
             node += len(nodes)
@@ -262,7 +262,7 @@ def _mean(reduce: str, parts: dict[tuple[int, str], Array], m: int, total: Array
     if reduce == "mean":
         return total
     part = over_positions.PARTS[reduce][0]
-    size = over_positions.finished(reduce, [parts[m, part]], count)[:, None]
+    size = over_positions.finish_reduction(reduce, [parts[m, part]], count)[:, None]
     with np.errstate(all="ignore"):
         return np.asarray(total / size if reduce == "rms" else total / size**7)
 
@@ -281,7 +281,7 @@ def _active(
     columns, common = runner.inputs(program, course)
     flat, n = sum(len(nodes) for nodes in k.nodes.values()), len(k.trace.numbers)
     sides = []
-    for part in over_positions.located(k.reduce):
+    for part in over_positions.with_places(k.reduce):
         place = places[m, part]
         place = np.where(np.isfinite(place) & (place < len(columns)), place, 0).astype(int)
         out, _ = runner.at_pairs(program, machine, values, columns[place], common, threads)

@@ -9,7 +9,7 @@ from typing import Any
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node
 from dalembert.model import Mechanism
-from dalembert.model.paths import found, placed
+from dalembert.model.paths import set_value, value_at
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ def numbers(m: Mechanism, vary: Iterable[str]) -> tuple[Number, ...]:
     """The numbers behind dotted paths, vectors as their components `.0` and `.1`."""
     out: list[Number] = []
     for path in vary:
-        value = found(m, path.split("."))
+        value = value_at(m, path.split("."))
         _refuse_law(m, path)
         out += _numbers(path, value)
     double = next((n.path for k, n in enumerate(out) if n.path in {o.path for o in out[:k]}), None)
@@ -80,7 +80,7 @@ def geometric(path: str) -> bool:
 def with_numbers(m: Mechanism, where: Iterable[Number], values: Iterable[Any]) -> Any:
     """The description with other numbers, or symbols, in their places; not checked again."""
     for number, value in zip(where, values, strict=True):
-        m = placed(m, number.keys, value)
+        m = set_value(m, number.keys, value)
     return m
 
 

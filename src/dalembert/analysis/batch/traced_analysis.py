@@ -12,7 +12,7 @@ from dalembert.analysis.batch.kernel_inputs import Course, Inputs
 from dalembert.analysis.batch.outputs import Catalogue
 from dalembert.analysis.batch.symbolic_model import Number, geometric, numbers, symbolic
 from dalembert.analysis.closure_failure import open_sentence
-from dalembert.analysis.compile.compiled_mechanism import compiled
+from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
 from dalembert.analysis.degree_of_freedom import check_knowns
 from dalembert.analysis.result.result import Result
 from dalembert.errors import ModelError
@@ -33,7 +33,7 @@ class Trace:
     inertia: bool
 
 
-def traced(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Result | None = None) -> Trace:
+def trace_analysis(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Result | None = None) -> Trace:
     """Everything an analysis computes, as nodes; raises ModelError for what the kernel leaves to the analyses.
 
     With the general executor's answer for the file's own numbers, ``solved``: from a known solution, not from nothing.
@@ -50,7 +50,7 @@ def traced(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Result | No
     description = symbolic(m, where, graph, inputs.load)
     drives = inputs.drives(description)
     like = course.followed.compiled
-    c, margins = inputs.turns(compiled(description, _symbolic(schedule, drives.position), like=like))
+    c, margins = inputs.turns(compile_mechanism(description, _symbolic(schedule, drives.position), like=like))
     problem = Problem(
         graph=graph,
         layout=c.layout,

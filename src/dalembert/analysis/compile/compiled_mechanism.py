@@ -11,7 +11,7 @@ import numpy as np
 from dalembert.algebra import plane, space
 from dalembert.analysis.compile import plane_rows as table
 from dalembert.analysis.compile.joint_rows import Jointing, PlaneJoints, SpaceJoints
-from dalembert.analysis.compile.load_arrays import Setting, forcing, joint_resistances, known
+from dalembert.analysis.compile.load_arrays import Setting, forcing, joint_resistances, unknown_columns
 from dalembert.analysis.compile.pair_table import Geometry
 from dalembert.arrays import Array, Ints
 from dalembert.core.equilibrium import Known
@@ -108,7 +108,7 @@ def _whole_turns(positions: Array, layout: Layout) -> Array | None:
     return np.where(turns, np.sign(closing) * 2 * np.pi, 0.0)
 
 
-def compiled(
+def compile_mechanism(
     m: Mechanism, schedule: Schedule, redundant: bool = False, like: Compiled | None = None
 ) -> Compiled:
     """The mechanism at the positions of a schedule.
@@ -151,7 +151,7 @@ def compiled(
         target=table.numbers(jointing.constraints.targets),
         guess=jointing.guess() if like is None else like.guess,
         forcing=forcing(setting),
-        known=known(setting, schedule, unknown),
+        known=unknown_columns(setting, schedule, unknown),
         joint_at=table.numbers([uj for _, uj in jointing.arms]).reshape(-1, g.d),
         damping=joint_resistances(m, names),
         contacts=touching,

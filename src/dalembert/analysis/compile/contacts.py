@@ -85,10 +85,10 @@ def contacts(
             arms: dict[str, Any] = {} if kind is Turn else {"ui": points[k][0], "uj": points[k][1]}
             rows.add(kind, k, ends[k], **arms, **numbers)
             found.append((k, contact, mu, resting))
-    return _stacked(rows.rows(), found), tuple(contact.kind for _, contact, _, _ in found)
+    return _stack(rows.rows(), found), tuple(contact.kind for _, contact, _, _ in found)
 
 
-def _stacked(rows: Rows, found: list[tuple[int, Contact, Any, Any]]) -> Contacts:
+def _stack(rows: Rows, found: list[tuple[int, Contact, Any, Any]]) -> Contacts:
     def column(name: str, kind: type) -> Array:
         values = [getattr(c, name) for _, c, _, _ in found]
         return table.numbers(values) if kind is float else np.array(values, kind)

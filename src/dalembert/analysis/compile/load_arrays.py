@@ -142,15 +142,15 @@ def _resistances(s: Setting, loads: dict[str, Any]) -> Resistances:
                     getattr(load, "damping", 0.0) or 0.0,
                 )
             )
-    return _in_freedoms([*rows, *_damped(s.m, s.freedoms)])
+    return _in_freedoms([*rows, *_damper_rows(s.m, s.freedoms)])
 
 
 def joint_resistances(m: Mechanism, freedoms: list[tuple[str, str]]) -> Resistances:
     """The joints' own damping."""
-    return _in_freedoms(_damped(m, freedoms))
+    return _in_freedoms(_damper_rows(m, freedoms))
 
 
-def _damped(m: Mechanism, freedoms: list[tuple[str, str]]) -> list[tuple[int, float, float, float]]:
+def _damper_rows(m: Mechanism, freedoms: list[tuple[str, str]]) -> list[tuple[int, float, float, float]]:
     """Row, no spring, and coefficient of each freedom that its joint damps."""
     return [
         (freedoms.index((name, freedom)), 0.0, 0.0, damping)
@@ -185,7 +185,7 @@ def _effort(s: Setting, name: str, schedule: Schedule) -> Array:
     return np.broadcast_to(given.at(s.drives) if hasattr(given, "at") else given, (s.count,))
 
 
-def known(s: Setting, schedule: Schedule, unknown: tuple[str, ...]) -> Known:
+def unknown_columns(s: Setting, schedule: Schedule, unknown: tuple[str, ...]) -> Known:
     """What is given of the efforts, and what is asked of the loads."""
     g = s.g
     effort = [_effort(s, name, schedule) for name in schedule.names]

@@ -141,7 +141,7 @@ def reaction_rows(joint: Any, first: int) -> dict[str, int]:
 
 
 def add_gear(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], at: Geometry) -> None:
-    """The row of a mesh; directions, signs and cones are those of the first pose (``core.gear_rows.meshed``)."""
+    """The row of a mesh; directions, signs and cones are those of the first pose (``core.gear_rows.mesh_wheels``)."""
     ri, rj = signed_radii(joint)
     axes: dict[str, Any] = {"ai": at.on_i[2], "aj": at.on_j[2], "bi": at.on_i[0], "bj": at.on_j[0]}
     count = (rows.followed(), rows.followed())

@@ -69,10 +69,10 @@ def space_contacts(
         for part, sums in enumerate(bearing.read):
             for name, factor in sums.items():
                 read[part, e, place[name]] += factor
-    return _stacked(rows.rows(), found, read), tuple(bearing.kind for _, bearing, _, _ in found)
+    return _stack(rows.rows(), found, read), tuple(bearing.kind for _, bearing, _, _ in found)
 
 
-def _stacked(rows: Rows, found: list[tuple[int, Bearing, float, float]], read: Array) -> Contacts:
+def _stack(rows: Rows, found: list[tuple[int, Bearing, float, float]], read: Array) -> Contacts:
     count = len(found)
     none, no, zero = np.full(count, -1, np.intp), np.zeros(count, bool), np.zeros(count)
     bearings = [b for _, b, _, _ in found]

@@ -23,7 +23,7 @@ from dalembert.core.layout import Angle, Pose
 from dalembert.core.position.first_pose_plane import Guess
 from dalembert.core.position.first_pose_space import ALONG, Drawing
 from dalembert.core.position.motion_path import Path
-from dalembert.core.position.whole_turns import Way, phased, turned_together, way, whole_turns
+from dalembert.core.position.whole_turns import Way, phase_freedoms, rigid_turns, way, whole_turns
 from dalembert.errors import ModelError
 
 FARTHEST = 1e4
@@ -62,7 +62,7 @@ def _open(c: Compiled, row: int) -> bool:
     if row in c.layout.driven:
         return False
     i, j = (int(end[row]) for end in c.layout.freedoms.ends)
-    together = turned_together(c.layout)
+    together = rigid_turns(c.layout)
     return bool(together[i] != together[j])
 
 
@@ -72,10 +72,10 @@ class _Counting:
     def __init__(self, c: Compiled, first: tuple[int, Pose], found: Path) -> None:
         self.c, self.found, (self.place, self.first) = c, found, first
         g, self.freedoms = c.layout.algebra, c.layout.freedoms
-        self.given = _given(c)
+        self.given = _stated_pose(c)
         stated = measure(g, self.freedoms, self.given)[c.layout.driven]
         self.wanted = np.where(np.isfinite(stated), stated, 0.0)
-        self.phased = phased(c.layout, self.first)
+        self.phased = phase_freedoms(c.layout, self.first)
         self.ways: dict[int, Way] = {}
         self.pieces = self._pieces()
 
@@ -140,7 +140,7 @@ class _Counting:
         g, turn = c.layout.algebra, actual.turn
         rotation = np.where(np.isfinite(given.rotation), given.rotation, actual.rotation)
         if g.d == 2:  # a link that is not named, nor settled by drives, is within half a turn of 0
-            together = turned_together(c.layout)
+            together = rigid_turns(c.layout)
             free = together != together[-1]
             turn = turn - 2 * np.pi * np.where(free, whole_turns(turn, np.array(0.0)), 0.0)
             mixed = Pose(actual.point, np.where(np.isfinite(given.turn), given.turn, turn), rotation)
@@ -149,7 +149,7 @@ class _Counting:
         return float(measure(g, self.freedoms, mixed)[row]), True
 
 
-def _given(c: Compiled) -> Pose:
+def _stated_pose(c: Compiled) -> Pose:
     """The poses (L+1, ...) that `assembly` states, NaN where it states none; angles as written."""
     g, guess = c.layout.algebra, c.guess
     point = guess.point.copy()
@@ -199,7 +199,7 @@ def _drives(c: Compiled, at: Array) -> str:
     return " and ".join(f"{n} = {quantity_text(c, kind, round(float(q), 12) + 0.0)}" for n, kind, q in parts)
 
 
-def counted_turns(c: Compiled, pose: Pose) -> dict[str, Array]:
+def count_turns(c: Compiled, pose: Pose) -> dict[str, Array]:
     """Turn (P,) of each torsion spring that counts whole turns."""
     values = measure(c.layout.algebra, c.layout.freedoms, pose) if c.counts else np.zeros(0)
     own = c.forcing.resistances
@@ -208,7 +208,7 @@ def counted_turns(c: Compiled, pose: Pose) -> dict[str, Array]:
 
 def count_notes(c: Compiled, pose: Pose) -> dict[str, str]:
     """How each of these turns was counted, and where another whole turn could be meant."""
-    turns = counted_turns(c, pose)
+    turns = count_turns(c, pose)
     return {
         _heading(c, n): _note(c, n, turns[n.spring]) for n in c.counts if np.isfinite(turns[n.spring]).any()
     }

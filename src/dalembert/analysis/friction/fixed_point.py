@@ -10,7 +10,7 @@ import numpy as np
 from dalembert.analysis.friction.joint_friction import friction_of
 from dalembert.arrays import Array
 from dalembert.core.equilibrium import known_sources, motion, statement
-from dalembert.core.forcing import summed
+from dalembert.core.forcing import total_wrench
 from dalembert.core.friction.contact_equations import (
     Senses,
     argument,
@@ -58,7 +58,7 @@ def fixed_point(r: Result, position: int = 0, most: int = 1000, tolerance: float
     It gets slower with mu r / l and may diverge where there is a solution: it is for reading, not how the answer was
     found.
     """
-    contacts, problem, sense = stated(r, position)
+    contacts, problem, sense = contacts_in_motion(r, position)
     c = strength(contacts, 1.0, sense=sense)
     z = np.where(contacts.fixed, -sense * bearing(contacts, problem.y), 0.0)
     x, forces, change = [problem.x[0]], [(c * z)[0]], [np.nan]
@@ -84,27 +84,27 @@ def _rate(change: Array) -> float:
     return float((last[-1] / last[0]) ** (1 / (len(last) - 1))) if len(last) > 1 and last[0] > 0 else 0.0
 
 
-def stated(r: Result, position: int) -> tuple[Contacts, Response, Array]:
+def contacts_in_motion(r: Result, position: int) -> tuple[Contacts, Response, Array]:
     """Contacts, their response and senses (1, E) at one position; refused at rest."""
-    contacts, problem, told = posed(r, position)
+    contacts, problem, told = contacts_at(r, position)
     if told.open.any():
         what = "the machine is at rest here: the senses of friction are not given"
         raise ModelError(what, "give the drive a speed")
     return contacts, problem, told.sense
 
 
-def posed(r: Result, position: int) -> tuple[Contacts, Response, Senses]:
+def contacts_at(r: Result, position: int) -> tuple[Contacts, Response, Senses]:
     """The same, at rest too."""
-    from dalembert.analysis.one_pass import sliced
+    from dalembert.analysis.one_pass import slice_forcing
     from dalembert.analysis.result.joint_freedoms import whole_pose
 
     f, contacts = friction_of(r)
     c, part = r.compiled, slice(position, position + 1)
     pose = whole_pose(r, part)
-    forcing, known = sliced(c, part)
+    forcing, known = slice_forcing(c, part)
     moving, rows, solver = motion(c.layout, pose, r.schedule.speed[part], r.schedule.acceleration[part])
     sources = known_sources(c.layout, forcing, pose, moving, r.inertia)
-    w = summed(c.layout, *sources.values())
+    w = total_wrench(c.layout, *sources.values())
     w = np.broadcast_to(w, (1, *w.shape[1:]))
     stated = statement(c.layout, known, pose, rows, solver, w)
     _, problem = response(c.layout, contacts, pose, stated.forces, stated.w, moving.twist)

@@ -15,11 +15,11 @@ from dalembert.core.equilibrium import (
     Known,
     Motion,
     Statement,
-    checked,
+    check_equilibrium,
     reactions,
     statement,
 )
-from dalembert.core.forcing import Forcing, Source, pair, summed
+from dalembert.core.forcing import Forcing, Source, pair, total_wrench
 from dalembert.core.friction.contact_equations import (
     Contacts,
     Response,
@@ -35,9 +35,9 @@ from dalembert.core.friction.contact_equations import (
 from dalembert.core.friction.friction_solver import Slip, slipping, without_friction
 from dalembert.core.friction.holding_range import holding
 from dalembert.core.friction.impending_motion import extreme
-from dalembert.core.friction.losses import by_joint, in_joints, turned, viscous
+from dalembert.core.friction.losses import by_joint, in_joints, power_reversed, viscous
 from dalembert.core.friction.reversal import Driven, Sides, sides
-from dalembert.core.friction.rod_spin import Spins, raised, rods, settled, spun
+from dalembert.core.friction.rod_spin import Spins, follow_branch_with_spin, rods, solve_spins, with_spin
 from dalembert.core.layout import Pose, System
 from dalembert.core.linear import Factor, PseudoInverse
 
@@ -70,23 +70,23 @@ def rubbing(s: Setting, w: Array) -> Forces:
     layout, contacts = s.c.layout, s.contacts
     stated = statement(layout, s.known, s.pose, s.rows, s.solver, w)
     along, r = response(layout, contacts, s.pose, stated.forces, stated.w, s.moving.twist)
-    blocked = _blocked(contacts, stated)
+    blocked = _undetermined(contacts, stated)
     r = r._replace(y=np.where(blocked[:, None, None], np.nan, r.y))
     r = Response(*(a if len(a) == len(w) else np.repeat(a, len(w), axis=0) for a in r))
-    told, spins, slip = _slipped(s, along, r)
+    told, spins, slip = _solve_slip(s, along, r)
     made = _Made(s, stated, along, r, blocked, without_friction(contacts, r))
     open_ = told.open.any(axis=-1)
     slip.x[open_], slip.z[open_], slip.critical[open_] = np.nan, np.nan, np.nan
-    found = Solved(slip, told, made.locked(slip))
+    found = Solved(slip, told, made.find_self_locking(slip))
     return made.forces(found) if not open_.any() else _open(made, found, np.flatnonzero(open_), spins)
 
 
-def _slipped(
+def _solve_slip(
     s: Setting, along: System, r: Response, side: Side | None = None
 ) -> tuple[Senses, Spins | None, Slip]:
     """Senses and friction; with rods that spin the branch is followed with them where it ends or leaves a moment."""
     contacts = s.contacts
-    told, spins = _told(s, along, r, side)
+    told, spins = _contact_senses(s, along, r, side)
     slip = slipping(contacts, r, told.sense, told.open)
     if spins is None:
         return told, None, slip
@@ -95,7 +95,7 @@ def _slipped(
     if not some.size:
         return told, spins, slip
     here = Response(*(np.broadcast_to(a, (len(told.sense), *a.shape[1:]))[some] for a in r))
-    found = raised(contacts, here, told.open[some], spins.at(some))
+    found = follow_branch_with_spin(contacts, here, told.open[some], spins.at(some))
     new, on = found.scale > 0, some[found.scale > 0]
     told = Senses(*(_with(a, on, b[new]) for a, b in zip(told, spins.at(some).told(found.phi), strict=True)))
     z = np.where(found.scale < 1, np.nan, found.z.T).T[new]
@@ -130,30 +130,30 @@ class Side(NamedTuple):
         return Senses(sense, told.open & ~self.known, told.rate)
 
 
-def _told(s: Setting, along: System, r: Response, side: Side | None) -> tuple[Senses, Spins | None]:
+def _contact_senses(s: Setting, along: System, r: Response, side: Side | None) -> tuple[Senses, Spins | None]:
     """Senses of the contacts; rods between balls spin as the balls' friction lets them."""
     layout, contacts = s.c.layout, s.contacts
 
-    def sensed(twist: Array) -> Senses:
+    def senses_of(twist: Array) -> Senses:
         told = senses(layout, contacts, along, twist)
         return told if side is None else side.of(told)
 
-    told = sensed(s.moving.twist)
+    told = senses_of(s.moving.twist)
     found = rods(layout, contacts, s.pose, along, told.rate) if s.c.passive else None
     if found is None:
         return told, None
 
-    def told_at(phi: Array) -> Senses:
-        return sensed(spun(s.moving.twist, found, phi))
+    def senses_at(phi: Array) -> Senses:
+        return senses_of(with_spin(s.moving.twist, found, phi))
 
     def moment(phi: Array) -> Array:
-        now = told_at(phi)
+        now = senses_at(phi)
         return np.nan_to_num(slipping(contacts, r, now.sense, now.open).x[..., found.row])
 
-    return told_at(settled(found.rate.shape, moment)), Spins(found, told_at)
+    return senses_at(solve_spins(found.rate.shape, moment)), Spins(found, senses_at)
 
 
-def _blocked(contacts: Contacts, stated: Statement) -> Flags:
+def _undetermined(contacts: Contacts, stated: Statement) -> Flags:
     """Positions where a reaction that friction follows is not unique."""
     count = stated.w.shape[0]
     if not isinstance(stated.forces, PseudoInverse):
@@ -185,7 +185,7 @@ def _open(made: _Made, found: Solved, open_: Ints, spins: Spins | None) -> Force
     if turn.size:
         before, behind = both
         found = before
-        known = _filled(np.zeros_like(told.open), turn, at_side.known[turns])
+        known = _scatter_field(np.zeros_like(told.open), turn, at_side.known[turns])
         same = _idle(made.s.contacts, made.r, before.slip, known)[:, None]
         reversing = known & (before.told.sense != behind.told.sense) & ~same
         after = made.forces(behind, reversing) if reversing.any() else None
@@ -200,7 +200,7 @@ def _both_sides(made: _Made, found: Solved, turn: Ints, at_side: Sides, rest: Fl
     told, known = found.told, np.zeros_like(found.told.open)
     known[turn] = at_side.known | rest
     senses_ = (np.where(rest, 0.0, sense) for sense in (at_side.before, at_side.after))
-    sides_ = (Side(_filled(told.sense, turn, sense), known) for sense in senses_)
+    sides_ = (Side(_scatter_field(told.sense, turn, sense), known) for sense in senses_)
     return [made.on_side(found.slip, told, turn, side) for side in sides_]
 
 
@@ -239,13 +239,15 @@ def _with_ends(
     if not ends:
         return made.forces(found, reversing)
     one = _idle(contacts, part, ends[0].slip, known.open)
-    told = found.told._replace(open=_filled(found.told.open, open_[one], np.zeros_like(known.open[one])))
-    main = Solved(_put(found.slip, open_[one], ends[0].slip, one), told, found.locked)
+    told = found.told._replace(
+        open=_scatter_field(found.told.open, open_[one], np.zeros_like(known.open[one]))
+    )
+    main = Solved(_scatter(found.slip, open_[one], ends[0].slip, one), told, found.locked)
     whole = [
         made.forces(
             Solved(
-                _put(found.slip, open_, end.slip, slice(None)),
-                told._replace(sense=_filled(told.sense, open_, end.sense)),
+                _scatter(found.slip, open_, end.slip, slice(None)),
+                told._replace(sense=_scatter_field(told.sense, open_, end.sense)),
                 found.locked,
             ),
             reversing,
@@ -269,11 +271,11 @@ def _idle(contacts: Contacts, r: Response, slip: Slip, open_: Flags) -> Flags:
     return np.asarray(carried <= SAME * np.abs(y).max(axis=(-2, -1), initial=0.0))
 
 
-def _put(whole: Slip, where: Ints, part: Slip, which: Any) -> Slip:
-    return Slip(*(_filled(a, where, b[which]) for a, b in zip(whole, part, strict=True)))
+def _scatter(whole: Slip, where: Ints, part: Slip, which: Any) -> Slip:
+    return Slip(*(_scatter_field(a, where, b[which]) for a, b in zip(whole, part, strict=True)))
 
 
-def _filled(whole: Array, where: Ints, part: Array) -> Array:
+def _scatter_field(whole: Array, where: Ints, part: Array) -> Array:
     out = np.array(whole)
     out[where] = part
     return out
@@ -302,34 +304,34 @@ class _Made(NamedTuple):
         s = self.s
         here = s._replace(pose=s.pose.at(turn), moving=Motion(*(a[turn] for a in s.moving)))
         r, own = Response(*(a[turn] for a in self.r)), Side(*(a[turn] for a in side))
-        found, _, part = _slipped(here, _at(self.along, turn), r, own)
-        slip = _put(slip, turn, part, slice(None))
-        told = Senses(*(_filled(a, turn, b) for a, b in zip(told, found, strict=True)))
-        return Solved(slip, told, self.locked(slip, side))
+        found, _, part = _solve_slip(here, _at(self.along, turn), r, own)
+        slip = _scatter(slip, turn, part, slice(None))
+        told = Senses(*(_scatter_field(a, turn, b) for a, b in zip(told, found, strict=True)))
+        return Solved(slip, told, self.find_self_locking(slip, side))
 
-    def locked(self, slip: Slip, side: Side | None = None) -> Flags:
+    def find_self_locking(self, slip: Slip, side: Side | None = None) -> Flags:
         """Where friction turns the power of the unknowns round, also without inertia."""
         s = self.s
-        locked = self._turned(self.stated, self.r, slip)
+        locked = self._power_reversed(self.stated, self.r, slip)
         if "inertia" not in s.sources or not locked.any():
             return locked
-        w = summed(s.c.layout, *(source for kind, source in s.sources.items() if kind != "inertia"))
+        w = total_wrench(s.c.layout, *(source for kind, source in s.sources.items() if kind != "inertia"))
         w = np.broadcast_to(w, self.stated.w.shape)
         still = statement(s.c.layout, s.known, s.pose, s.rows, s.solver, w)
         rate = rates(self.along, s.moving.twist)
         r = under(s.c.layout, s.contacts, s.pose, still.forces, still.w, rate, self.r)
-        return locked & self._turned(still, r, _slipped(s, self.along, r, side)[2])
+        return locked & self._power_reversed(still, r, _solve_slip(s, self.along, r, side)[2])
 
-    def _turned(self, stated: Statement, r: Response, slip: Slip) -> Flags:
+    def _power_reversed(self, stated: Statement, r: Response, slip: Slip) -> Flags:
         s, bare = self.s, without_friction(self.s.contacts, r)
-        return np.asarray(turned(s.c.layout, stated.unknown, s.moving.twist, stated.w, slip.x, bare))
+        return np.asarray(power_reversed(s.c.layout, stated.unknown, s.moving.twist, stated.w, slip.x, bare))
 
     def forces(self, found: Solved, reversing: Flags | None = None) -> Forces:
         """Reactions, efforts and what friction does, of one solution."""
         s, layout, slip = self.s, self.s.c.layout, found.slip
         cz = slip.c * slip.z
-        total = self.stated.w + summed(layout, pair(self.along, cz))
-        whole = checked(layout, s.forcing, s.known, s.pose, s.moving, self.stated, slip.x, total)
+        total = self.stated.w + total_wrench(layout, pair(self.along, cz))
+        whole = check_equilibrium(layout, s.forcing, s.known, s.pose, s.moving, self.stated, slip.x, total)
         force, couple = reactions(layout, s.pose, s.rows, whole)
         friction = self._friction(found, cz, reversing)
         known_by = marks(s.c, s.pose, s.rows, whole.free)
@@ -349,7 +351,7 @@ class _Made(NamedTuple):
 
     def _friction(self, found: Solved, cz: Array, reversing: Flags | None) -> Friction:
         s, contacts, slip, told = self.s, self.s.contacts, found.slip, found.told
-        bare = checked(
+        bare = check_equilibrium(
             s.c.layout, s.forcing, s.known, s.pose, s.moving, self.stated, self.bare, self.stated.w
         )
         dry = np.where(contacts.fixed, 0.0, cz)

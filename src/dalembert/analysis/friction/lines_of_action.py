@@ -76,13 +76,13 @@ def _acting(r: Result, a: Action, k: int) -> list[Action]:
         return [part for part in joint_actions(r) if (part.of, part.link) == (a.of, a.link)]
     if friction_circle_radius(r, a.of):
         at = friction_circles(r, a.of).taken.point
-        return [_moved(a, at)]
+        return [_shift(a, at)]
     if r.mechanism.joints[a.of].type != "slider":
         return [a]
     sign = 1.0 if a.link == r.mechanism.joints[a.of].links[1] else -1.0
     faces = bearing_faces(r, a.of, k) if bears_on_faces(r, a.of) else _plain(r, a.of)
     if len(faces) == 1:
-        return [_moved(a, faces[0].at) if close_by(r, faces[0], k) else a]
+        return [_shift(a, faces[0].at) if close_by(r, faces[0], k) else a]
     corners = [
         Action(a.of, "joint", "", a.link, a.by, f.at, sign * (f.normal + f.friction), 0 * a.couple, f.part)
         for f in faces
@@ -105,7 +105,7 @@ def close_by(r: Result, face: FaceForce, k: int) -> bool:
     return abs(float(face.along[k])) <= r.compiled.layout.length
 
 
-def _moved(a: Action, at: Array) -> Action:
+def _shift(a: Action, at: Array) -> Action:
     """The same force at another place, with what is left of its couple; what is rounding of it counts as nothing."""
     turned = replace(a, at=at, couple=np.zeros_like(a.couple)).moment(a.at)
     left = a.couple - turned

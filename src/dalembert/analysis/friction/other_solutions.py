@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.friction.fixed_point import stated
+from dalembert.analysis.friction.fixed_point import contacts_in_motion
 from dalembert.arrays import Array
 from dalembert.core.friction.contact_equations import Response
 from dalembert.core.friction.friction_solver import roots
@@ -41,7 +41,7 @@ def other_solutions(r: Result, position: int = 0) -> list[Solution]:
     """
     if r.friction is not None and bool(r.friction.single[position]):
         return []
-    contacts, problem, sense = stated(r, position)
+    contacts, problem, sense = contacts_in_motion(r, position)
     rng = np.random.default_rng(0)
     size = np.abs(problem.y).max() * 10 ** rng.uniform(-1, 4, (STARTS, 1))
     starts = size * rng.uniform(-1, 1, (STARTS, contacts.count))

@@ -62,9 +62,10 @@ class Member:
     def sentence(self) -> str:
         """Why it has this class."""
         if self.kind == ZERO:
-            return f"{self.link}: {self.kind} member (nothing in {_listed(self.forces) or 'no joint'}; no couple)"
-        what = _listed(self.forces) or "no force"
-        couples = f"; couples: {_listed(self.couples)}" if self.couples else "; no couple"
+            nowhere = _enumerate_names(self.forces) or "no joint"
+            return f"{self.link}: {self.kind} member (nothing in {nowhere}; no couple)"
+        what = _enumerate_names(self.forces) or "no force"
+        couples = f"; couples: {_enumerate_names(self.couples)}" if self.couples else "; no couple"
         words = f"{self.link}: {self.kind} member (forces: {what}{couples})"
         return f"{words}; {self.touching}" if self.circles else words
 
@@ -73,7 +74,7 @@ class Member:
         """Where friction puts the lines of the reactions; empty without friction circles."""
         if not self.circles:
             return ""
-        at = f"the friction circle{'s' if len(self.circles) > 1 else ''} at {_listed(self.circles)}"
+        at = f"the friction circle{'s' if len(self.circles) > 1 else ''} at {_enumerate_names(self.circles)}"
         if self.kind == "two-force" and len(self.circles) > 1:
             return f"both forces lie on one common tangent of {at}"
         if self.kind == "two-force":
@@ -186,7 +187,7 @@ def _tension(two: Sequence[Action]) -> Array:
     return np.asarray(magnitude(two[1].force) * np.sign(along))
 
 
-def _listed(names: Sequence[str]) -> str:
+def _enumerate_names(names: Sequence[str]) -> str:
     return ", ".join(names)
 
 
@@ -288,7 +289,7 @@ class _Unknowns:
         links = " and ".join(group) + (" together" if len(group) > 1 else "")
         noun = "unknown" if unknowns == 1 else "unknowns"
         zero = ", all zero" if self.idle >= set(group) else ""
-        why = f"{links}: {equations} equations, {unknowns} {noun} in {_listed(finds)}{zero}"
+        why = f"{links}: {equations} equations, {unknowns} {noun} in {_enumerate_names(finds)}{zero}"
         return Step(tuple(group), tuple(finds), equations, why)
 
 

@@ -15,7 +15,7 @@ from dalembert.analysis.methods.applied_forces import Action, State, known_actio
 from dalembert.analysis.output.columns import force_and_moment
 from dalembert.arrays import Array
 from dalembert.core.equilibrium import balance, reactions
-from dalembert.core.forcing import Source, summed
+from dalembert.core.forcing import Source, total_wrench
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
@@ -108,11 +108,11 @@ def superposition(r: Result) -> Superposition:
     at = state(r)
     known = known_actions(r, at)
     sources = tuple(dict.fromkeys(a.source for a in known))
-    parts = [_answered(r, at, _total(r, [a for a in known if a.source == s])) for s in sources]
+    parts = [_solve_under(r, at, _total(r, [a for a in known if a.source == s])) for s in sources]
     for k, drive in enumerate(r.drives):
         if not r.compiled.known.asked[k]:
             sources = (*sources, f"effort of {drive}")
-            parts.append(_answered(r, at, _total(r, []), given=k))
+            parts.append(_solve_under(r, at, _total(r, []), given=k))
     if not parts:
         return _nothing(r)
     return Superposition(r, sources, *(np.stack(p) for p in zip(*parts, strict=True)))
@@ -142,10 +142,12 @@ def _total(r: Result, some: list[Action]) -> Array:
         about = np.zeros(g.d) if link == len(r.links) else r.point_array[:, link, :]
         wrenches[:, k, : g.d] = a.force
         wrenches[:, k, g.d :] = a.moment(about + r.compiled.origin).reshape((count, g.n - g.d))
-    return summed(r.compiled.layout, Source(np.array([index[a.link] for a in some], np.intp), wrenches))
+    return total_wrench(r.compiled.layout, Source(np.array([index[a.link] for a in some], np.intp), wrenches))
 
 
-def _answered(r: Result, at: State, w: Array, given: int | None = None) -> tuple[Array, Array, Array, Array]:
+def _solve_under(
+    r: Result, at: State, w: Array, given: int | None = None
+) -> tuple[Array, Array, Array, Array]:
     """Forces, moments, efforts and unknown loads for wrenches w alone, or for one given effort alone."""
     c = r.compiled
     effort = np.where(c.known.asked, np.nan, 0.0) * np.ones_like(c.known.effort)

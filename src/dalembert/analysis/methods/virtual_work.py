@@ -108,7 +108,7 @@ def virtual_work(r: Result) -> VirtualWork:
     power = np.zeros(shape)
     for k, (a, (v, w)) in enumerate(zip(known, motions, strict=True)):
         power[k] = np.moveaxis(a.power(np.moveaxis(v, 1, 0), np.moveaxis(w, 1, 0)), 0, 1)
-    effort, load = _balanced(r, at, power.sum(axis=0))
+    effort, load = _solve_power_balance(r, at, power.sum(axis=0))
     return VirtualWork(r, known, velocity, spin, power, effort, load)
 
 
@@ -127,7 +127,7 @@ def _relative(r: Result, at: State, a: Action) -> tuple[Array, Array]:
     return own[0] - other[0], own[1] - other[1]
 
 
-def _balanced(r: Result, at: State, power: Array) -> tuple[Array, Array]:
+def _solve_power_balance(r: Result, at: State, power: Array) -> tuple[Array, Array]:
     """Solve power + given efforts + C x = 0 for the efforts and loads asked for, x."""
     c = r.compiled
     asked = c.known.asked
@@ -139,9 +139,9 @@ def _balanced(r: Result, at: State, power: Array) -> tuple[Array, Array]:
         if not r.unknown_loads:
             x = right
         else:
-            from dalembert.core.linear import solved
+            from dalembert.core.linear import solve_square
 
-            x = solved(matrix, right)
+            x = solve_square(matrix, right)
     effort[:, asked] = x[:, : int(asked.sum())]
     return effort, x[:, int(asked.sum()) :]
 

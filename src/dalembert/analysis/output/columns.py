@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
-from dalembert.analysis.result.reaction_axes import Axes, turned
+from dalembert.analysis.result.reaction_axes import Axes, to_axes
 from dalembert.arrays import Array
 from dalembert.units import KINDS, file_units
 
@@ -217,7 +217,7 @@ def friction_in(result: Result, joint: str, axes: Axes) -> tuple[Array, Array]:
     """Dry friction's force and moment in a joint, on j, in the axes of the reactions."""
     force, moment = result.friction_force(joint), result.friction_moment(joint)
     whole = np.concatenate([force, moment.reshape((len(moment), -1))], axis=-1)
-    return force_and_moment(turned(result, joint, None, axes, whole))
+    return force_and_moment(to_axes(result, joint, None, axes, whole))
 
 
 def _friction_columns(result: Result, joint: str, axes: Axes) -> Iterator[Column]:

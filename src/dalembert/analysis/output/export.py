@@ -23,7 +23,7 @@ from dalembert.analysis.output.columns import (
     scale,
     unknown_kinds,
 )
-from dalembert.analysis.output.json_record import BLOCK, nulled, to_dict, to_json, write_json
+from dalembert.analysis.output.json_record import BLOCK, nan_to_none, to_dict, to_json, write_json
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
@@ -71,7 +71,7 @@ def rows(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Ite
     names, arrays = headings(result, units, axes)
     yield ["position", "status", *names, "reason"]
     for start in range(0, len(result.status), BLOCK):
-        lists = [nulled(values[start : start + BLOCK]) for values in arrays]
+        lists = [nan_to_none(values[start : start + BLOCK]) for values in arrays]
         for k, numbers in enumerate(zip(*lists, strict=True), start):
             yield [k + 1, result.status[k], *numbers, result.reasons[k]]
 
@@ -154,7 +154,7 @@ def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -
     to = scale(result, units)
     data: dict[str, Any] = {"status": ("position", np.array(result.status, dtype=str))}
     data |= _drive_arrays(result, to) | _link_arrays(result, to) | _force_arrays(result, to, axes)
-    data |= _joined(result, axes) | _ends(result, to)
+    data |= _reaction_links(result, axes) | _ends(result, to)
     if result.after is not None:
         data |= _spans(result, to, axes)
     data["residual"] = ("position", result.residual, {"units": "1"})
@@ -226,7 +226,7 @@ def _joint_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
     }
 
 
-def _joined(result: Result, axes: Axes) -> dict[str, Any]:
+def _reaction_links(result: Result, axes: Axes) -> dict[str, Any]:
     """The link that each joint's reaction is on, and the one it is by."""
     found = list(reactions(result, axes))
     if not found:

@@ -9,7 +9,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.compile.torsion_turns import counted_turns, two_ways
+from dalembert.analysis.compile.torsion_turns import count_turns, two_ways
 from dalembert.analysis.friction.joint_friction import bears_on_faces, guide_contact, joints_at_limit
 from dalembert.analysis.output.columns import (
     DRIVE_NUMBERS,
@@ -73,7 +73,7 @@ def head(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> dic
 
 def _counts(result: Result, to: Scale) -> dict[str, Any]:
     """How the turns of torsion springs were counted, where there are any that whole turns make different."""
-    c, turns = result.compiled, counted_turns(result.compiled, whole_pose(result))
+    c, turns = result.compiled, count_turns(result.compiled, whole_pose(result))
     found = {
         n.spring: {
             "joint": c.freedoms[c.forcing.resistances.row[n.place]][0],
@@ -97,7 +97,7 @@ def position_records(
         part = slice(start, start + BLOCK)
         yield from (
             _with_others(_record(result, start + k, group), sought.get(start + k))
-            for k, group in enumerate(_transposed({name: lists(part) for name, lists in fields.items()}))
+            for k, group in enumerate(_transpose({name: lists(part) for name, lists in fields.items()}))
         )
 
 
@@ -129,7 +129,7 @@ def _fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], List
     for link in result.links:
         for name, (kind, read) in {**LINK_VECTORS, **link_turning(result)}.items():
             out["links", link, name] = numbers(kind, read(result, link))
-    for spring, turn in counted_turns(result.compiled, whole_pose(result)).items():
+    for spring, turn in count_turns(result.compiled, whole_pose(result)).items():
         out["spring_turns", spring] = numbers("angle", turn)
     out["residual",] = numbers("number", result.residual)
     out["power_balance",] = numbers("number", result.power_balance)
@@ -211,7 +211,7 @@ def _numbers(to: Scale) -> Callable[[str, Array], Lists]:
 
     def numbers(kind: str, values: Array) -> Lists:
         scaled = to(kind, values)
-        return lambda part: nulled(scaled[part])
+        return lambda part: nan_to_none(scaled[part])
 
     return numbers
 
@@ -241,7 +241,7 @@ def _sought(ends: Lists, values: Array) -> Lists:
     return lambda part: [None if no else both for both, no in zip(ends(part), unsought[part], strict=True)]
 
 
-def nulled(values: Array) -> list[Any]:
+def nan_to_none(values: Array) -> list[Any]:
     """A list with None for NaN and infinity."""
     finite = np.isfinite(values)
     if finite.all():
@@ -251,7 +251,7 @@ def nulled(values: Array) -> list[Any]:
     return list(out.tolist())
 
 
-def _transposed(lists: dict[tuple[str, ...], list[Any]]) -> Iterator[dict[tuple[str, ...], Any]]:
+def _transpose(lists: dict[tuple[str, ...], list[Any]]) -> Iterator[dict[tuple[str, ...], Any]]:
     for row in zip(*lists.values(), strict=True):
         yield dict(zip(lists, row, strict=True))
 
@@ -292,7 +292,7 @@ def _solution(result: Result, position: int) -> dict[str, Any]:
     """How sure the branch is: det(A + J) / det(A), whether no other exists, and the scale at which it jams."""
     f = result.friction
     assert f is not None
-    determinant, critical = nulled(np.array([f.determinant[position], f.critical[position]]))
+    determinant, critical = nan_to_none(np.array([f.determinant[position], f.critical[position]]))
     if result.status[position] == "at_rest":
         determinant = None
     return {

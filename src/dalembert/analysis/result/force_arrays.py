@@ -69,16 +69,16 @@ class Forces(NamedTuple):
     after: Forces | None = None
 
 
-def joined(parts: list[Forces]) -> Forces:
+def concatenate_blocks(parts: list[Forces]) -> Forces:
     """Blocks of positions one after the other."""
     if len(parts) == 1:
         return parts[0]
     count = max(len(p.ends) for p in parts)
-    ends = tuple(joined([p.ends[k] if p.ends else p for p in parts]) for k in range(count))
+    ends = tuple(concatenate_blocks([p.ends[k] if p.ends else p for p in parts]) for k in range(count))
     friction = [p.friction for p in parts if p.friction is not None]
     whole = Friction(*(np.concatenate(a) for a in zip(*friction, strict=True))) if friction else None
     arrays = (None if a[0] is None else np.concatenate(a) for a in zip(*(p[:9] for p in parts), strict=True))
     inside = [p.unique_in for p in parts if p.unique_in is not None]
     made: Any = Forces._make([*arrays, whole, ends, np.concatenate(inside) if inside else None, None])
     some = any(p.after is not None for p in parts)
-    return made._replace(after=joined([p.after or p for p in parts]) if some else None)  # type: ignore[no-any-return]
+    return made._replace(after=concatenate_blocks([p.after or p for p in parts]) if some else None)  # type: ignore[no-any-return]

@@ -25,7 +25,7 @@ def strong(f: Forces) -> Flags:
     return np.asarray(~(np.isfinite(f.force).all(axis=-1) & np.isfinite(moment).all(axis=-1)))
 
 
-def unchecked(f: Forces) -> Flags:
+def not_finite(f: Forces) -> Flags:
     """Positions (P,) where a reaction, an effort, a load or what checks them is no number."""
     single = (f.effort, f.load, f.residual[:, None], f.power_balance[:, None])
     return np.asarray(strong(f).any(axis=1) | ~np.isfinite(np.concatenate(single, axis=1)).all(axis=1))

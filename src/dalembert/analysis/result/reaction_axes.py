@@ -102,8 +102,8 @@ def wrench(result: Result, joint: str, on: str | None, axes: Axes, least: bool =
     whole = (-1.0 if on == by else 1.0) * np.concatenate([result.force_array[..., k, :], moment], axis=-1)
     if g.d == 2:
         kept = whole if least else np.where(result.unique(joint), whole, np.nan)
-        return turned(result, joint, on, axes, kept)
-    whole = turned(result, joint, on, axes, whole)
+        return to_axes(result, joint, on, axes, kept)
+    whole = to_axes(result, joint, on, axes, whole)
     return whole if least else np.where(unique_in(result, joint, _place(axes, by, on or to)), whole, np.nan)
 
 
@@ -112,14 +112,14 @@ def _place(axes: Axes, by: str, on: str) -> str:
     return axes if axes != "link" else "i" if on == by else "j"
 
 
-def turned(result: Result, joint: str, on: str | None, axes: Axes, whole: Array) -> Array:
+def to_axes(result: Result, joint: str, on: str | None, axes: Axes, whole: Array) -> Array:
     """A force (P, d) or wrench (P, n) of a joint on one of its links, default on j, from ground axes to others."""
     by, to = result.mechanism.joints[joint].links
     place = _place(axes, by, on or to)
     if place == "ground":
         return whole
     if result.compiled.layout.algebra.d == 2:
-        return _turned(result, on or to, whole) if place != "joint" else axes_of(result, joint, place)
+        return _link_rotation(result, on or to, whole) if place != "joint" else axes_of(result, joint, place)
     parts = np.split(whole, whole.shape[-1] // 3, axis=-1)
     turns = [axes_of(result, joint, place, bool(moment)) for moment in range(len(parts))]
     turned = [(turn @ part[..., None])[..., 0] for turn, part in zip(turns, parts, strict=True)]
@@ -136,7 +136,7 @@ def unique_in(result: Result, joint: str, place: str) -> Flags:
     return np.asarray(result.unique_in[..., k, PLACES.index(place), :])
 
 
-def _turned(result: Result, link: str, whole: Array) -> Array:
+def _link_rotation(result: Result, link: str, whole: Array) -> Array:
     if link == "ground":
         return whole
     force = plane.unrotate(plane.rotation(result.angle(link)), whole[..., :2])

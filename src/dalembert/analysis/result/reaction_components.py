@@ -76,7 +76,7 @@ def components(r: Result, a: Action, k: int, axes: Array) -> tuple[Component, ..
     return tuple(out)
 
 
-def left_over(a: Action, k: int, some: tuple[Component, ...]) -> tuple[Array, Array]:
+def remainder(a: Action, k: int, some: tuple[Component, ...]) -> tuple[Array, Array]:
     """Force and couple (3,) of a joint's action that no unknown component makes: damping within the reaction."""
     force = a.force[k] - sum((c.value * c.force for c in some), np.zeros(3))
     couple = a.couple[k] - sum((c.value * c.couple for c in some), np.zeros(3))

@@ -23,7 +23,7 @@ from dalembert.arrays import Array, Flags, Ints
 from dalembert.core import branchless
 from dalembert.core.branchless import above, hypot, larger, root, top, unit, where
 from dalembert.core.constraints import drift, measure, rates, system
-from dalembert.core.forcing import Source, summed
+from dalembert.core.forcing import Source, total_wrench
 from dalembert.core.layout import Layout, Pose, Rows, System
 from dalembert.core.linear import Factor
 
@@ -149,13 +149,13 @@ def _senses(contacts: Contacts, rate: Array, still: Flags) -> Senses:
     """Senses of rates (..., E) of the contacts, some of which are ``still``."""
     holds = above(strength(contacts, 1.0, True), 0.0)
     if contacts.group is not None:
-        part, still = _directed(contacts, rate, still)
+        part, still = _along_slip(contacts, rate, still)
         return Senses(part, still & holds, rate)
     sense = np.where(contacts.fixed, -1.0, where(still, 0.0, branchless.sign(rate)[..., contacts.led]))
     return Senses(sense, still & holds, rate)
 
 
-def _directed(contacts: Contacts, rate: Array, still: Flags) -> tuple[Array, Flags]:
+def _along_slip(contacts: Contacts, rate: Array, still: Flags) -> tuple[Array, Flags]:
     """Part of each contact in the direction of its group's slip, and the groups that do not slip at all."""
     assert contacts.reckoned is not None
     part = sign(contacts, rate * contacts.reckoned, still)
@@ -194,7 +194,7 @@ def impending(contacts: Contacts, g: Array, moves: Flags) -> Array:
     """Part of each contact (..., E) in the impending slip of rates -g."""
     if contacts.group is None:
         return np.where(moves, -np.sign(g)[..., contacts.led], 0.0)
-    return _directed(contacts, -g, ~moves)[0]
+    return _along_slip(contacts, -g, ~moves)[0]
 
 
 def strength(
@@ -228,7 +228,7 @@ def response(
     for e, slide in _carrying(contacts):
         h[..., 1, e, slide] += 1.0
     x = _multipliers(forces, w)
-    y = _loaded(contacts, x, near, rates(along, twist))
+    y = _bearing(contacts, x, near, rates(along, twist))
     return along, Response(x, np.swapaxes(by_contact, -1, -2), y, h)
 
 
@@ -237,10 +237,10 @@ def under(
 ) -> Response:
     """The response under other wrenches w (..., L, n), at rates (..., E) of the contacts."""
     x = _multipliers(forces, w)
-    return like._replace(x=x, y=_loaded(contacts, x, _near(layout, contacts, pose), rate))
+    return like._replace(x=x, y=_bearing(contacts, x, _near(layout, contacts, pose), rate))
 
 
-def _loaded(contacts: Contacts, x: Array, near: Array, rate: Array) -> Array:
+def _bearing(contacts: Contacts, x: Array, near: Array, rate: Array) -> Array:
     """y of multipliers x, with the viscous forces at rates (..., E) of the contacts."""
     y = np.stack(_arguments(contacts, x, near), axis=-2)
     for e, slide in _carrying(contacts):
@@ -271,7 +271,9 @@ def _near(layout: Layout, contacts: Contacts, pose: Pose) -> Array:
 def _unit(layout: Layout, along: System, e: int) -> Array:
     """Wrenches on the links of a unit of contact e."""
     link = np.array([along.i[e], along.j[e]])
-    return summed(layout, Source(link, np.stack([along.on_i[..., e, :], along.on_j[..., e, :]], axis=-2)))
+    return total_wrench(
+        layout, Source(link, np.stack([along.on_i[..., e, :], along.on_j[..., e, :]], axis=-2))
+    )
 
 
 def _arguments(contacts: Contacts, x: Array, near: Array) -> list[Array]:

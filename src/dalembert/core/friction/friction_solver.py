@@ -25,7 +25,7 @@ from dalembert.core.friction.contact_equations import (
     strength,
     strong,
 )
-from dalembert.core.linear import solved
+from dalembert.core.linear import solve_square
 
 NEWTON = 25
 """Steps after which Newton has not arrived."""
@@ -97,7 +97,7 @@ def slipping(contacts: Contacts, r: Response, sense: Array, resting: Array) -> S
     finite = np.isfinite(r.y).all(axis=(-2, -1))
     rest = np.flatnonzero(~(first.arrived & single) & finite)
     if rest.size:
-        part, scale = _continued(contacts, at(r, rest), sense[rest], resting[rest])
+        part, scale = _follow_branch(contacts, at(r, rest), sense[rest], resting[rest])
         z[rest], determinant[rest], count[rest] = part.z, part.determinant, part.iterations
         critical[rest] = np.where(part.arrived, np.nan, scale)
         z[rest[~part.arrived]] = np.nan
@@ -140,7 +140,7 @@ def newton(
         steep, _ = slope(contacts, at, _largest(at))
         if k == 0 and before is not None:
             ahead = np.linalg.det(np.nan_to_num(jacobian(r, steep, sense)))
-        step = correction(r, steep, sense, z + sense * (steep * y).sum(axis=-2), solved)
+        step = correction(r, steep, sense, z + sense * (steep * y).sum(axis=-2), solve_square)
         z = np.where(arrived[:, None], z, z + step)
         landing = z if k == 0 else landing
         y = argument(r, z)
@@ -162,7 +162,7 @@ def _largest(y: Array) -> Array:
     return np.asarray(np.abs(y).max(axis=(-2, -1), initial=0.0))
 
 
-def _continued(contacts: Contacts, r: Response, sense: Array, resting: Array) -> tuple[Try, Array]:
+def _follow_branch(contacts: Contacts, r: Response, sense: Array, resting: Array) -> tuple[Try, Array]:
     """The branch from scale 0 to 1 and the scale it reaches."""
     count = len(sense)
     scale, step = np.zeros(count), np.full(count, LONGEST)

@@ -81,7 +81,7 @@ def holding(contacts: Contacts, r: Response, known: Senses, ends: Array) -> Arra
         return np.full(ends.shape, np.nan)
     free = np.asarray((known.open | ~own).all(axis=-1) & np.isfinite(r.y).all(axis=(-2, -1)))
     out = np.where(free[:, None, None], ends, np.nan)
-    rest = _scaled(contacts, r)
+    rest = _scale(contacts, r)
     gains = rest.r.change[:, -ends.shape[1] :, :]
     open_ = np.flatnonzero(free & ~_monotonic(rest, gains))
     outward, n = _outward(rest), len(rest.own)
@@ -118,7 +118,9 @@ def _monotonic(rest: _Rest, gains: Array) -> Flags:
 def _best(rest: _Rest, ends: Array, outward: Array) -> Array:
     """The largest q . t (P, Q) of the states found, of the gains q (P, Q, E)."""
     count, many = ends.shape[:2]
-    seen = _seen(rest, np.concatenate([np.broadcast_to(outward, (count, *outward.shape)), ends], axis=1))
+    seen = _extreme_states(
+        rest, np.concatenate([np.broadcast_to(outward, (count, *outward.shape)), ends], axis=1)
+    )
     starts = seen.shape[1]
     every = np.repeat(np.arange(count), starts * many)
     q = np.repeat(ends[:, None], starts, axis=1).reshape(len(every), -1)
@@ -127,7 +129,7 @@ def _best(rest: _Rest, ends: Array, outward: Array) -> Array:
     return np.asarray(value.reshape(count, starts, many).max(axis=1))
 
 
-def _scaled(contacts: Contacts, r: Response) -> _Rest:
+def _scale(contacts: Contacts, r: Response) -> _Rest:
     """t by the strength of each contact and the largest force."""
     c = strength(contacts, 1.0, True)
     size = np.abs(r.y).max(axis=(-2, -1), initial=0.0)
@@ -157,7 +159,7 @@ def _outward(rest: _Rest) -> Array:
     return np.concatenate([unit, -unit])
 
 
-def _seen(rest: _Rest, q: Array) -> Array:
+def _extreme_states(rest: _Rest, q: Array) -> Array:
     """States (P, K + 1, E): without friction, and the furthest from there of gains q (P, K, E)."""
     bare = _bare(rest)
     every = np.repeat(np.arange(len(bare)), q.shape[1])

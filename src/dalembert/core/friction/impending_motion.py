@@ -28,8 +28,8 @@ from dalembert.core.friction.contact_equations import (
     strong,
 )
 from dalembert.core.friction.friction_solver import Slip, slipping
-from dalembert.core.friction.rod_spin import Spins, settled
-from dalembert.core.linear import solved
+from dalembert.core.friction.rod_spin import Spins, solve_spins
+from dalembert.core.linear import solve_square
 
 ROUNDS = 12
 """Changes of the senses of contacts without impending motion after which the last is taken."""
@@ -56,9 +56,9 @@ def extreme(
     row = np.zeros(0, np.intp) if spins is None else spins.rods.row
     held = np.zeros(known.sense.shape)
 
-    def told(phi: Array) -> tuple[Array, Flags]:
+    def senses_at(phi: Array) -> tuple[Array, Flags]:
         """Senses where the rods spin at phi, and the contacts that do not move."""
-        rate = g if spins is None else g + spins.added(r, g, phi)
+        rate = g if spins is None else g + spins.spin_rates(r, g, phi)
         size = np.abs(rate) * np.where(contacts.rows.angular, layout.length, 1.0)
         moves = (size > STILL * size.max(axis=-1, keepdims=True, initial=0.0))[..., contacts.led]
         still = known.open & ~moving_together(contacts, moves)
@@ -68,10 +68,10 @@ def extreme(
         return np.where(still, held, sense), still
 
     def moment(phi: Array) -> Array:
-        return np.nan_to_num(slipping(contacts, r, told(phi)[0], known.open).x[..., row])
+        return np.nan_to_num(slipping(contacts, r, senses_at(phi)[0], known.open).x[..., row])
 
     for _ in range(ROUNDS):
-        sense, idle = told(settled((len(g), len(row)), moment))
+        sense, idle = senses_at(solve_spins((len(g), len(row)), moment))
         found = slipping(contacts, r, sense, known.open)
         if not idle.any():
             break
@@ -87,6 +87,6 @@ def _influence(contacts: Contacts, r: Response, found: Slip, sense: Array, g: Ar
     y = argument(r, found.c * np.nan_to_num(found.z))
     largest = np.abs(y).max(axis=(-2, -1), initial=0.0)
     j = jacobian(strong(r, found.c), slope(contacts, y, largest)[0], sense)
-    a = solved(np.swapaxes(j, -1, -2), found.c * g)
+    a = solve_square(np.swapaxes(j, -1, -2), found.c * g)
     negligible = np.abs(a) <= STILL * np.abs(a).max(axis=-1, keepdims=True, initial=0.0)
     return sign(contacts, np.nan_to_num(a), negligible)

@@ -54,7 +54,7 @@ def viscous(
     return force, moment, by_joint(joint, layout.joints, own.damping * rate * rate)
 
 
-def turned(layout: Layout, unknown: System, twist: Array, w: Array, x: Array, bare: Array) -> Array:
+def power_reversed(layout: Layout, unknown: System, twist: Array, w: Array, x: Array, bare: Array) -> Array:
     """Where the power (...) of the unknown efforts and loads has another sign with friction than without.
 
     x, bare: multipliers with and without friction; w (..., L, n) what loads the links; ``unknown`` the rows of x.

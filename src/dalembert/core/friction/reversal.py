@@ -16,7 +16,7 @@ from dalembert.core.constraints import system
 from dalembert.core.equilibrium import Motion, motion
 from dalembert.core.friction.contact_equations import Contacts, Senses, next_senses, passing, senses, sign
 from dalembert.core.layout import Layout, Pose, System
-from dalembert.core.position.newton import CLOSED, closed, moved
+from dalembert.core.position.newton import CLOSED, close_loops, displace
 
 ASIDE = 0.01
 """How far before and after: radians, or characteristic lengths, of the fastest link."""
@@ -88,7 +88,7 @@ def _aside(
     target = driven.target.copy()
     target[:, layout.constraints.count :] += ahead * driven.speed + bent * driven.acceleration
     step = ahead[..., None] * moving.twist + bent[..., None] * moving.acceleration
-    there, missing = closed(layout, moved(layout, pose, step[:, :-1]), target)
+    there, missing = close_loops(layout, displace(layout, pose, step[:, :-1]), target)
     twist = motion(layout, there, driven.speed + ahead * driven.acceleration, driven.acceleration)[0].twist
     found = senses(layout, contacts, system(layout.algebra, contacts.rows, there), twist)
     return found._replace(open=found.open | (missing > CLOSED * layout.length)[:, None])

@@ -20,7 +20,7 @@ from dalembert.core.friction.contact_equations import Contacts, Response, Senses
 from dalembert.core.friction.friction_solver import LONGEST, Try, newton
 from dalembert.core.geometry import arm
 from dalembert.core.layout import Idle, Layout, Pose, System
-from dalembert.core.linear import solved
+from dalembert.core.linear import solve_square
 
 STEPS = 60
 """Halvings and secants after which the last spin is taken."""
@@ -70,14 +70,14 @@ class Spins(NamedTuple):
     def at(self, some: Ints) -> Spins:
         """Of some positions."""
 
-        def told(phi: Array) -> Senses:
+        def senses_at(phi: Array) -> Senses:
             every = np.zeros(self.rods.rate.shape)
             every[some] = phi
             return Senses(*(a[some] for a in self.told(every)))
 
-        return Spins(self.rods, told)
+        return Spins(self.rods, senses_at)
 
-    def added(self, r: Response, rate: Array, phi: Array) -> Array:
+    def spin_rates(self, r: Response, rate: Array, phi: Array) -> Array:
         """What spins at phi add to the rates (P, E) of an impending motion: a unit of spin turns each contact as far
         as the contact's couple turns the rod."""
         unit = r.change[..., self.rods.row, :]
@@ -97,19 +97,19 @@ def rods(layout: Layout, contacts: Contacts, pose: Pose, along: System, rate: Ar
     return None
 
 
-def spun(twist: Array, found: Rods, phi: Array) -> Array:
+def with_spin(twist: Array, found: Rods, phi: Array) -> Array:
     """The twists (P, L+1, 6) with the rods spinning at phi (P, k)."""
     out = twist.copy()
     out[..., found.link, 3:] += (found.rate * np.tan(phi))[..., None] * found.line
     return out
 
 
-def settled(shape: tuple[int, ...], moment: Callable[[Array], Array]) -> Array:
+def solve_spins(shape: tuple[int, ...], moment: Callable[[Array], Array]) -> Array:
     """phi (P, k) of a shape at which the moments (P, k) about the lines vanish: rod after rod, then all together."""
     phi: Array = np.zeros(shape)
     for _ in range(SWEEPS if phi.shape[-1] > 1 else 1):
         for n in range(phi.shape[-1]):
-            phi[..., n] = _bracketed(_of_one(moment, phi, n), phi[..., n].shape)
+            phi[..., n] = _bracket_root(_of_one(moment, phi, n), phi[..., n].shape)
         if phi.shape[-1] > 1:
             phi, arrived = _together(moment, phi)
             if arrived.all():
@@ -143,7 +143,7 @@ def _of_one(moment: Callable[[Array], Array], phi: Array, n: int) -> Callable[[A
     return own
 
 
-def _bracketed(moment: Callable[[Array], Array], shape: tuple[int, ...]) -> Array:
+def _bracket_root(moment: Callable[[Array], Array], shape: tuple[int, ...]) -> Array:
     """phi at which a moment vanishes, by secants and halvings of a bracket; 0 where it does not change its sign."""
     low, high = np.full(shape, -STEEPEST), np.full(shape, STEEPEST)
     at_low, at_high = moment(low), moment(high)
@@ -172,18 +172,20 @@ class Raised(NamedTuple):
     scale: Array
 
 
-def raised(contacts: Contacts, r: Response, resting: Flags, spins: Spins) -> Raised:
+def follow_branch_with_spin(contacts: Contacts, r: Response, resting: Flags, spins: Spins) -> Raised:
     """The branch from no friction, the rods spinning all along as the balls let them.
 
     It is followed as that of ``slip``: where no step of the scale of friction goes further it ends.
     """
     z, count = np.zeros(resting.shape), len(resting)
     row, least = spins.rods.row, np.full(count, FIRST)
-    phi = settled((count, len(row)), lambda phi: _moment(contacts, r, resting, spins, _Aim(least, z, phi))[1])
+    phi = solve_spins(
+        (count, len(row)), lambda phi: _moment(contacts, r, resting, spins, _Aim(least, z, phi))[1]
+    )
     scale, step, sign, determinant = np.zeros(count), least, np.zeros(count), np.ones(count)
     while ((scale < 1) & (step > ENDED)).any():
         aim = np.where(step > ENDED, np.minimum(scale + step, 1.0), scale)
-        new, turned, there = _spun_newton(contacts, r, resting, spins, _Aim(aim, z, phi))
+        new, turned, there = _nested_newton(contacts, r, resting, spins, _Aim(aim, z, phi))
         near = (np.abs(turned - phi) < FAR).all(axis=-1)
         good = new.arrived & near & (new.determinant > 0) & (there * sign >= 0) & (aim > scale)
         phi = np.where(good[:, None], turned, phi)
@@ -209,7 +211,7 @@ def _moment(contacts: Contacts, r: Response, resting: Flags, spins: Spins, aim: 
     return found, np.nan_to_num(multiplier(r, c * found.z)[..., spins.rods.row])
 
 
-def _spun_newton(
+def _nested_newton(
     contacts: Contacts, r: Response, resting: Flags, spins: Spins, aim: _Aim
 ) -> tuple[Try, Array, Array]:
     """Newton on friction within Newton on the spins, whose derivatives are differences; sign of their determinant."""
@@ -221,7 +223,7 @@ def _spun_newton(
     for _ in range(SPUN):
         _, here = moment(phi)
         steep = np.stack([(moment(phi + CLOSE * e)[1] - here) / CLOSE for e in unit], axis=-1)
-        change = np.nan_to_num(solved(steep, -here))
+        change = np.nan_to_num(solve_square(steep, -here))
         phi = phi + np.clip(change, -FAR, FAR)
         if (np.abs(change) < SETTLED).all():
             break

@@ -14,7 +14,7 @@ from dalembert.arrays import Array, Ints
 from dalembert.core.constraints import measure
 from dalembert.core.layout import Layout, Meet, Pose, Rows, Turn
 from dalembert.core.position.assur_plan import Plan
-from dalembert.core.position.dyads import Laid, begun, extended, offsets, sides
+from dalembert.core.position.dyads import Laid, offsets, place_ground, place_group, sides
 
 MOST = 64
 """Ways that are kept while links are laid down: all there are of six groups, of more the first in order."""
@@ -44,23 +44,25 @@ class Wanted(NamedTuple):
         return bool(np.isfinite(self.turn[:-1]).any())
 
 
-def enumerated(layout: Layout, plan: Plan, target: Array, wanted: Wanted) -> Pose:
+def enumerate_modes(layout: Layout, plan: Plan, target: Array, wanted: Wanted) -> Pose:
     """The ways (M, L+1, ...) that a linkage closes at a target (K + D,), group by group, the first one first."""
     with np.errstate(all="ignore"):
-        return _enumerated(layout, plan, target, wanted)
+        return _enumerate_modes(layout, plan, target, wanted)
 
 
-def _enumerated(layout: Layout, plan: Plan, target: Array, wanted: Wanted) -> Pose:
+def _enumerate_modes(layout: Layout, plan: Plan, target: Array, wanted: Wanted) -> Pose:
     stated = stated_sides(layout, plan, target, wanted)
-    laid, off = begun(plan, target[None]), offsets(plan, target[None])
+    laid, off = place_ground(plan, target[None]), offsets(plan, target[None])
     for group in plan.groups:
-        laid = extended(group, laid, *(np.repeat(a, len(laid.turn), axis=0) for a in (target[None], off)))[1]
+        laid = place_group(group, laid, *(np.repeat(a, len(laid.turn), axis=0) for a in (target[None], off)))[
+            1
+        ]
         for links in group.turning:
             _wind(laid.turn, group.links[links], wanted.turn)
         if len(laid.turn) > MOST:
             laid = laid.at(_order(layout, laid, stated, wanted)[:MOST])
     order = _order(layout, laid, stated, wanted)
-    return posed(layout, laid.at(order))
+    return to_pose(layout, laid.at(order))
 
 
 def on_sides(layout: Layout, plan: Plan, targets: Array, like: Pose, turn: Array) -> tuple[Ints, Pose]:
@@ -72,28 +74,28 @@ def on_sides(layout: Layout, plan: Plan, targets: Array, like: Pose, turn: Array
     with np.errstate(all="ignore"):
         here = np.full((1, targets.shape[1]), np.nan)
         side = sides(plan, like.turn[None], like.point[None], here)[0]
-        off, laid, places = offsets(plan, targets), begun(plan, targets), np.arange(len(targets))
+        off, laid, places = offsets(plan, targets), place_ground(plan, targets), np.arange(len(targets))
         for k, group in enumerate(plan.groups):
-            which, laid = extended(group, laid, targets[places], off[places])
+            which, laid = place_group(group, laid, targets[places], off[places])
             same = laid.side[:, k] * side[k] >= 0
             once = same & (np.bincount(which[same], minlength=len(places))[which] == 1)
             laid, places = laid.at(once), places[which[once]]
             for links in group.turning:
                 _wind(laid.turn, group.links[links], turn)
-        return places, posed(layout, laid)
+        return places, to_pose(layout, laid)
 
 
 def closing(plan: Plan, targets: Array) -> Ints:
     """Which of the targets (P, K + D) a linkage closes at, in whatever way, ascending."""
     with np.errstate(all="ignore"):
-        off, laid, places = offsets(plan, targets), begun(plan, targets), np.arange(len(targets))
+        off, laid, places = offsets(plan, targets), place_ground(plan, targets), np.arange(len(targets))
         for group in plan.groups:
-            which, laid = extended(group, laid, targets[places], off[places])
+            which, laid = place_group(group, laid, targets[places], off[places])
             places = places[which]
         return np.unique(places)
 
 
-def posed(layout: Layout, laid: Laid) -> Pose:
+def to_pose(layout: Layout, laid: Laid) -> Pose:
     """Links laid down as a pose."""
     return Pose(laid.point, laid.turn, layout.algebra.rotation(laid.turn))
 
@@ -133,32 +135,32 @@ def stated_sides(layout: Layout, plan: Plan, target: Array, wanted: Wanted) -> A
 def _order(layout: Layout, laid: Laid, stated: Array, wanted: Wanted) -> Ints:
     """The order in which ways are taken, which may be laid down in part."""
     wrong = (laid.side * stated[: laid.side.shape[1]] < 0).sum(axis=1)
-    off = np.nansum(turned(laid.turn - wanted.turn)[:, :-1] ** 2, axis=1)
+    off = np.nansum(wrap_angle(laid.turn - wanted.turn)[:, :-1] ** 2, axis=1)
     shift = np.nansum((laid.point - wanted.point)[:, :-1] ** 2, axis=(1, 2)) / layout.length**2
-    along, height = measures(layout, posed(layout, laid))
+    along, height = measures(layout, to_pose(layout, laid))
     keys = [wrong, off, shift, -along, -height]
     if wanted.start is not None:
-        away = np.nansum(turned(laid.turn - wanted.start.turn) ** 2, axis=1)
+        away = np.nansum(wrap_angle(laid.turn - wanted.start.turn) ** 2, axis=1)
         apart = np.nansum((laid.point - wanted.start.point) ** 2, axis=(1, 2)) / layout.length**2
         keys.insert(3 if wanted.given else 5, away + apart)
     return np.lexsort([key.round(9) for key in reversed(keys)])
 
 
-def turned(angle: Array) -> Array:
+def wrap_angle(angle: Array) -> Array:
     """Angles reduced to (-pi, pi]."""
     return np.asarray(angle - 2 * np.pi * np.ceil(angle / (2 * np.pi) - 0.5))
 
 
-def reduced(layout: Layout, pose: Pose) -> Pose:
+def remove_whole_turns(layout: Layout, pose: Pose) -> Pose:
     """Whole turns taken off links whose angle no row of the system counts."""
-    counted = {int(k) for rows in (layout.constraints, layout.freedoms) for k in _counted(layout, rows)}
+    counted = {int(k) for rows in (layout.constraints, layout.freedoms) for k in _counted_links(layout, rows)}
     turn = pose.turn.copy()
     free = [k for k in range(layout.links) if k not in counted]
-    turn[..., free] = turned(turn[..., free])
+    turn[..., free] = wrap_angle(turn[..., free])
     return Pose(pose.point, turn, pose.rotation)
 
 
-def _counted(layout: Layout, rows: Rows) -> list[int]:
+def _counted_links(layout: Layout, rows: Rows) -> list[int]:
     driven = set(layout.driven.tolist()) if rows is layout.freedoms else None
     out: list[int] = []
     for f in rows.families:
@@ -174,16 +176,16 @@ def distinct(layout: Layout, pose: Pose) -> Pose:
     for k in range(len(pose.turn)):
         others = np.array(kept, np.intp)
         shift = np.abs(pose.point[others] - pose.point[k]).max(axis=(1, 2), initial=0.0) / layout.length
-        turn = np.abs(turned(pose.turn[others] - pose.turn[k])).max(axis=1, initial=0.0)
+        turn = np.abs(wrap_angle(pose.turn[others] - pose.turn[k])).max(axis=1, initial=0.0)
         if (np.maximum(shift, turn) > SAME).all():
             kept.append(k)
     return pose.at(np.array(kept, np.intp))
 
 
-def ordered(layout: Layout, pose: Pose, wanted: Wanted) -> Ints:
+def sort_modes(layout: Layout, pose: Pose, wanted: Wanted) -> Ints:
     """The order of ways whose groups are not known: the nearest to given angles, else as they are preferred."""
     if wanted.given:
-        off = np.nansum(turned(pose.turn - wanted.turn)[:, :-1] ** 2, axis=1).round(9)
+        off = np.nansum(wrap_angle(pose.turn - wanted.turn)[:, :-1] ** 2, axis=1).round(9)
         return np.argsort(off, kind="stable")
     along, height = measures(layout, pose)
     return np.lexsort((-height, -along))

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dalembert.arrays import Array, Ints
-from dalembert.core.constraints import dense, stacked
+from dalembert.core.constraints import dense, stack_rows
 from dalembert.core.factor import row_scale
 from dalembert.core.layout import Layout, Pose, System
 from dalembert.core.linear import Inverse, inverse
@@ -49,7 +49,7 @@ def groups(layout: Layout, pose: Pose) -> list[Group]:
     """
     if layout.stack.count < layout.unknowns or layout.unknowns > LARGEST:
         return []
-    j = _scaled(layout, pose)
+    j = _scaled_jacobian(layout, pose)
     filled = np.abs(j).max(axis=0)
     filled = filled > NOTHING * filled.max()
     every = np.arange(layout.stack.count)
@@ -87,7 +87,7 @@ def on_independent_rows(layout: Layout, pose: Pose) -> Layout:
     """
     if layout.square:
         return layout
-    kept = _independent(_scaled(layout, pose.at(None))[0], np.arange(layout.stack.count))
+    kept = _independent(_scaled_jacobian(layout, pose.at(None))[0], np.arange(layout.stack.count))
 
     def solver(at: Layout, rows: System) -> Chosen:
         some = rows.rows(kept)
@@ -111,13 +111,13 @@ def _independent(j: Array, order: Ints) -> Ints:
 
 def senses(layout: Layout, found: list[Group], pose: Pose) -> Array:
     """Signs (P, G) of the groups' determinants: each tells the two sides of a dead centre of its group apart."""
-    j = _scaled(layout, pose)
+    j = _scaled_jacobian(layout, pose)
     return np.stack([np.linalg.slogdet(j[:, g.row[:, None], g.column])[0] for g in found], axis=1)
 
 
-def _scaled(layout: Layout, pose: Pose) -> Array:
+def _scaled_jacobian(layout: Layout, pose: Pose) -> Array:
     """J (P, K + D, n L) without dimensions."""
-    return dense(layout, stacked(layout, pose)) * layout.row_scale[:, None] * layout.column_scale
+    return dense(layout, stack_rows(layout, pose)) * layout.row_scale[:, None] * layout.column_scale
 
 
 def block_triangular(rows: list[list[int]], columns: int) -> list[tuple[list[int], list[int]]] | None:
@@ -129,7 +129,7 @@ def block_triangular(rows: list[list[int]], columns: int) -> list[tuple[list[int
     >>> block_triangular([[0], [0, 1, 2], [1, 2]], 3)
     [([0], [0]), ([1, 2], [1, 2])]
     """
-    own = _paired(rows) if len(rows) == columns else None
+    own = _match_columns(rows) if len(rows) == columns else None
     if own is None:
         return None
     owner = {column: row for row, column in enumerate(own)}
@@ -137,7 +137,7 @@ def block_triangular(rows: list[list[int]], columns: int) -> list[tuple[list[int
     return [(block, sorted(own[row] for row in block)) for block in _together(needed)]
 
 
-def _paired(rows: list[list[int]]) -> list[int] | None:
+def _match_columns(rows: list[list[int]]) -> list[int] | None:
     """A column of its own for each row, by augmenting paths; None where there are not enough."""
     own: list[int] = [-1] * len(rows)
     owner: dict[int, int] = {}

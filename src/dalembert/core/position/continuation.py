@@ -16,13 +16,13 @@ from typing import NamedTuple
 import numpy as np
 
 from dalembert.arrays import Array, Flags
-from dalembert.core.constraints import stacked
+from dalembert.core.constraints import stack_rows
 from dalembert.core.factor import displacements
 from dalembert.core.layout import Idle, Layout, Pose
 from dalembert.core.linear import RANK, generalized_inverse
-from dalembert.core.position.newton import closed, distance, gap, largest, moved
+from dalembert.core.position.newton import close_loops, displace, distance, gap, largest
 from dalembert.core.position.path_parameter import Course
-from dalembert.core.rotation_rows import settled
+from dalembert.core.rotation_rows import recount_turns
 
 STRIDE = 0.43
 """Radians of a drive (or slide over characteristic length) between stations; no divisor of a quarter turn."""
@@ -95,7 +95,7 @@ class Station(NamedTuple):
     side: float
 
 
-def interpolated(layout: Layout, s: Array, nodes: Nodes) -> Pose:
+def interpolate(layout: Layout, s: Array, nodes: Nodes) -> Pose:
     """Poses at s (P,) by Hermite polynomials through up to ``NODES`` stations around each."""
     interval = np.clip(np.searchsorted(nodes.s, s) - 1, 0, max(len(nodes.s) - 2, 0))
     around = [_around(nodes.s, k) for k in range(max(len(nodes.s) - 1, 1))]
@@ -138,7 +138,7 @@ def _through(layout: Layout, s: Array, nodes: Nodes, index: Array) -> Pose:
     q = np.concatenate([q[index], rate[index]], axis=1)
     q = (weights[:, None] @ q.reshape((*q.shape[:2], -1))).reshape((len(s), *q.shape[2:]))
     nearest = index[np.arange(len(s)), np.abs(s[:, None] - nodes.s[index]).argmin(axis=1)]
-    return settled(layout, Pose(*g.from_coordinates(q, nodes.pose.turn[nearest])))
+    return recount_turns(layout, Pose(*g.from_coordinates(q, nodes.pose.turn[nearest])))
 
 
 def _hermite(s: Array, nodes: Array) -> tuple[Array, Array]:
@@ -236,7 +236,7 @@ def _standing(at: _Setting, s: float, pose: Pose, sign: float, before: Station |
 
 def _exact(at: _Setting, old: Station, sign: float) -> Station:
     """The same station corrected to rounding; the sign of ``clear`` stays."""
-    pose = closed(at.layout, old.pose.at(None), at.along.target(old.s))[0].at(0)
+    pose = close_loops(at.layout, old.pose.at(None), at.along.target(old.s))[0].at(0)
     new = _standing(at, old.s, pose, sign, old)
     return new._replace(clear=np.copysign(new.clear, old.clear))
 
@@ -244,7 +244,7 @@ def _exact(at: _Setting, old: Station, sign: float) -> Station:
 def _rates(at: _Setting, pose: Pose, right: Array) -> tuple[Array, float, Array | None]:
     """Solutions (R, L+1, n) of J dq = right (R, K + D) at a single pose, how clear of singular J is, J itself."""
     with np.errstate(all="ignore"):
-        rows = stacked(at.layout, pose)
+        rows = stack_rows(at.layout, pose)
         every, matrix = displacements(at.layout, rows, np.concatenate([right, at.probes]))
     found = twists(at.layout, every)
     clear = 1 / max(largest(at.layout, found[-2:, :-1]).max(), 1e-300)
@@ -279,25 +279,25 @@ def _station(at: _Setting, recent: list[Station], ahead: float) -> Station | Non
     """
     layout, along, last = at.layout, at.along, recent[-1]
     there, slope = along.target(ahead), along.slope(ahead, last.s - ahead) * layout.row_scale
-    guess = pose = _predicted(layout, recent, ahead)
+    guess = pose = _predict(layout, recent, ahead)
     for _ in range(STEPS):
         (dq, rate), clear, matrix = _rates(at, pose, np.concatenate([gap(layout, pose, there), slope]))
-        pose = moved(layout, pose, dq[None, :-1])
+        pose = displace(layout, pose, dq[None, :-1])
         travel = distance(layout, pose, last.pose.at(None))[0]
         if not distance(layout, pose, guess)[0] <= POOR * travel + 1e-9 or _is_far(
             layout, last.pose, pose.at(0)
         ):
             return None
         if largest(layout, dq[None])[0] <= CLOSE * min(travel, clear) + 1e-12:
-            pose = settled(layout, pose)
+            pose = recount_turns(layout, pose)
             if not layout.square and np.abs(gap(layout, pose, there)).max() > CLOSE * travel * layout.length:
                 return None  # more constraints than unknowns, and no pose meets them all
             side = _side(layout, matrix, last)
-            return _continued(at, recent, Station(ahead, pose.at(0), rate, clear, matrix, side))
+            return _next_station(at, recent, Station(ahead, pose.at(0), rate, clear, matrix, side))
     return None
 
 
-def _continued(at: _Setting, recent: list[Station], new: Station) -> Station | None:
+def _next_station(at: _Setting, recent: list[Station], new: Station) -> Station | None:
     """The new station as the next one of the march; None where it seems to be on another branch."""
     last, step = recent[-1], abs(new.s - recent[-1].s)
     changed = last.side * new.side < 0
@@ -338,7 +338,7 @@ def _is_far(layout: Layout, before: Pose, after: Pose) -> bool:
     return bool(max(shift, turned) > FAR)
 
 
-def _predicted(layout: Layout, recent: list[Station], ahead: float) -> Pose:
+def _predict(layout: Layout, recent: list[Station], ahead: float) -> Pose:
     """Hermite polynomial through the last stations."""
     order = sorted(recent, key=lambda station: station.s)
     s, poses, rates, *_ = zip(*order, strict=True)

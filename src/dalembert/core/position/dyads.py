@@ -17,7 +17,7 @@ import numpy as np
 
 from dalembert.algebra import plane
 from dalembert.arrays import Array, Flags, Ints
-from dalembert.core.linear import apply, generalized_inverse, solved
+from dalembert.core.linear import apply, generalized_inverse, solve_square
 from dalembert.core.position.assur_plan import Conditions, Group, Plan
 from dalembert.core.position.newton import LONGEST_TURN
 
@@ -58,7 +58,7 @@ class Part(NamedTuple):
         return Part(*(part[index] for part in self))
 
 
-def begun(p: Plan, target: Array) -> Laid:
+def place_ground(p: Plan, target: Array) -> Laid:
     """Ground, and the links whose angles follow from its own, at targets (S, K + D)."""
     count = len(target)
     turn = np.full((count, p.links + 1), np.nan)
@@ -77,14 +77,14 @@ def offsets(p: Plan, target: Array) -> Array:
     return off
 
 
-def extended(group: Group, laid: Laid, target: Array, off: Array) -> tuple[Ints, Laid]:
+def place_group(group: Group, laid: Laid, target: Array, off: Array) -> tuple[Ints, Laid]:
     """All ways to lay a group down: which of the poses (S,) each starts from, and what has become of it."""
     part = _part(group, laid, target, off)
     found = _ways(group, part)
     which, way = np.nonzero(np.isfinite(found).all(axis=-1))
     part = part.at(which)
     _turn(group, part, found[which, way])
-    _put(group, part, _places(group, part))
+    _place_links(group, part, _places(group, part))
     if group.closed:
         side = np.sign(np.linalg.det(jacobian(group, part)))
     else:
@@ -188,7 +188,7 @@ def _turn(group: Group, part: Part, angle: Array) -> None:
         part.turn[:, links] = angle[:, k, None] + part.off[:, links]
 
 
-def _put(group: Group, part: Part, places: Array) -> None:
+def _place_links(group: Group, part: Part, places: Array) -> None:
     part.point[:, group.link, group.axis] = places
 
 
@@ -226,7 +226,7 @@ def _places(group: Group, part: Part) -> Array:
     if near.sum() < len(group.link):
         return -apply(generalized_inverse(matrix[:, near]), constant[:, near])
     q, r = np.linalg.qr(matrix[:, near])
-    return solved(r, -np.einsum("skp,sk->sp", q, constant[:, near]))
+    return solve_square(r, -np.einsum("skp,sk->sp", q, constant[:, near]))
 
 
 def _lines(group: Group, part: Part) -> tuple[Array, Array, Array, Array]:
@@ -256,10 +256,10 @@ def _newton(group: Group, part: Part) -> Flags:
     """Newton for a group without a closed form; which of the poses (S,), changed in place, close."""
     count, heads = len(group.turning), [links[0] for links in group.turning]
     for _ in range(STEPS):
-        step = np.nan_to_num(-solved(jacobian(group, part), _gap(group, part)))
+        step = np.nan_to_num(-solve_square(jacobian(group, part), _gap(group, part)))
         step /= np.maximum(1.0, np.abs(step[:, :count]).max(axis=-1, initial=0.0) / LONGEST_TURN)[:, None]
         _turn(group, part, part.turn[:, heads] - part.off[:, heads] + step[:, :count])
-        _put(group, part, part.point[:, group.link, group.axis] + step[:, count:])
+        _place_links(group, part, part.point[:, group.link, group.axis] + step[:, count:])
     size = np.abs(_lines(group, part)[-1]).max(axis=(1, 2)) + np.abs(part.target).max(axis=1)
     return np.asarray(np.abs(_gap(group, part)).max(axis=-1) <= CLOSE * size)
 
@@ -292,7 +292,7 @@ def sides(p: Plan, turn: Array, point: Array, target: Array) -> Array:
     for k, group in enumerate(p.groups):
         part = _part(group, Laid(point, turn, found), target, turn)
         given = part.point[:, group.link, group.axis]
-        _put(group, part, np.where(np.isnan(given), _places(group, part), given))
+        _place_links(group, part, np.where(np.isnan(given), _places(group, part), given))
         point[:, group.links] = part.point
         if group.closed:
             found[:, k] = np.nan_to_num(np.sign(np.linalg.det(jacobian(group, part))))

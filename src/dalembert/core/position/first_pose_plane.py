@@ -13,21 +13,21 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from dalembert.arrays import Array, Ints
-from dalembert.core.constraints import dense, measure, stacked
-from dalembert.core.layout import Along, Distance, Gearing, Layout, Meet, Mesh, Pose, Rows, Turn, selected
+from dalembert.core.constraints import dense, measure, stack_rows
+from dalembert.core.layout import Along, Distance, Gearing, Layout, Meet, Mesh, Pose, Rows, Turn, select_rows
 from dalembert.core.linear import generalized_inverse
 from dalembert.core.position.assembly_modes import (
     NEAR,
     SAME,
     Wanted,
     distinct,
-    enumerated,
-    ordered,
-    reduced,
-    turned,
+    enumerate_modes,
+    remove_whole_turns,
+    sort_modes,
+    wrap_angle,
 )
 from dalembert.core.position.assur_plan import plan
-from dalembert.core.position.newton import CLOSED, closed, distance
+from dalembert.core.position.newton import CLOSED, close_loops, distance
 
 STARTS = 64
 FEW = 40
@@ -50,7 +50,7 @@ class Guess:
 
     def every(self, layout: Layout, target: Array) -> Modes | None:
         """All the ways found, of a layout without phases."""
-        return _searched(layout, layout, target, Wanted(self.turn, self.point, None), self)
+        return _search_modes(layout, layout, target, Wanted(self.turn, self.point, None), self)
 
     @property
     def stated(self) -> Array:
@@ -59,7 +59,7 @@ class Guess:
 
     def start(self, layout: Layout, target: Array) -> Pose:
         """The links laid down joint by joint (L+1, ...): before any correction."""
-        return drawn(layout, target, self)
+        return tree_pose(layout, target, self)
 
     def near(self, pose: Pose) -> Guess:
         """The guess with what it leaves open taken from a pose (L+1, ...), and no points."""
@@ -88,23 +88,27 @@ def modes(layout: Layout, target: Array, guess: Guess) -> Modes | None:
 
 def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes | None:
     rows = free.constraints.count
-    drawn = _laid(free, target, guess, np.zeros((1, layout.links + 1)), np.full((1, rows), layout.length))
-    pose, missing = closed(free, drawn, target[None])
+    drawn = _starting_poses(
+        free, target, guess, np.zeros((1, layout.links + 1)), np.full((1, rows), layout.length)
+    )
+    pose, missing = close_loops(free, drawn, target[None])
     given = np.isfinite(guess.turn[:-1])
     if missing[0] <= CLOSED * layout.length:
-        off = np.abs(turned(pose.turn[0, :-1] - guess.turn[:-1])[given]).max(initial=0.0)
+        off = np.abs(wrap_angle(pose.turn[0, :-1] - guess.turn[:-1])[given]).max(initial=0.0)
         if given.any() and off < NEAR:
-            return Modes(reduced(layout, pose), "given")
+            return Modes(remove_whole_turns(layout, pose), "given")
         if not given.any() and distance(layout, pose, drawn)[0] < SAME:
-            return Modes(reduced(layout, pose), "drawn")
+            return Modes(remove_whole_turns(layout, pose), "drawn")
     start = pose.at(0) if missing[0] <= CLOSED * layout.length else None
-    return _searched(layout, free, target, Wanted(guess.turn, guess.point, start), guess)
+    return _search_modes(layout, free, target, Wanted(guess.turn, guess.point, start), guess)
 
 
-def drawn(layout: Layout, target: Array, guess: Guess) -> Pose:
+def tree_pose(layout: Layout, target: Array, guess: Guess) -> Pose:
     """The links laid down joint by joint (L+1, ...): the first start, before any correction."""
     one = np.zeros((1, layout.links + 1))
-    return _laid(layout, target, guess, one, np.full((1, layout.constraints.count), layout.length)).at(0)
+    return _starting_poses(
+        layout, target, guess, one, np.full((1, layout.constraints.count), layout.length)
+    ).at(0)
 
 
 def phase_rows(rows: Rows) -> Ints:
@@ -134,7 +138,7 @@ def with_rows(layout: Layout, kept: Ints, held: list[int]) -> Layout:
     """The layout with some of its constraints, and rows that hold the angles of some links."""
     rows, count = layout.constraints, len(kept) + len(held)
     place, ground = np.arange(len(kept), count), np.full(len(held), layout.links)
-    families = selected(rows, kept)
+    families = select_rows(rows, kept)
     if held:
         families.append(Turn(place, ground, np.array(held, np.intp)))
     angular = np.concatenate([rows.angular[kept], np.ones(len(held), bool)])
@@ -145,8 +149,8 @@ def with_rows(layout: Layout, kept: Ints, held: list[int]) -> Layout:
 def held_wheels(layout: Layout, free: Layout, target: Array, phased: Ints, guess: Guess) -> list[int]:
     """A link for each phase row that still turns where it is laid down: j, else i, else any; given angles first."""
     one = np.zeros((1, layout.links + 1))
-    pose = _laid(free, target, guess, one, np.full((1, free.constraints.count), layout.length))
-    rows = stacked(free, pose)
+    pose = _starting_poses(free, target, guess, one, np.full((1, free.constraints.count), layout.length))
+    rows = stack_rows(free, pose)
     scaled = dense(free, rows)[0] * free.row_scale[:, None] * free.column_scale
     idle = np.eye(layout.unknowns) - generalized_inverse(scaled, rcond=1e-7) @ np.nan_to_num(scaled)
     turn = np.arange(layout.links) * layout.algebra.n + layout.algebra.d
@@ -166,26 +170,26 @@ def held_wheels(layout: Layout, free: Layout, target: Array, phased: Ints, guess
     return held
 
 
-def _searched(layout: Layout, free: Layout, target: Array, wanted: Wanted, guess: Guess) -> Modes | None:
+def _search_modes(layout: Layout, free: Layout, target: Array, wanted: Wanted, guess: Guess) -> Modes | None:
     """Every mode, in the order of ``assembly_modes``: group by group in closed form, else as many as starts find."""
     way, starts = plan(free), STARTS if layout.links <= FEW else 8
     by = "nearest" if wanted.given else "search"
     if way is None or not way.closed:
         angles, slides = _spread(starts, layout.links + 1, free.constraints.count)
-        found = _closing(free, _laid(free, target, guess, angles, slides * layout.length), target)
+        found = _closing(free, _starting_poses(free, target, guess, angles, slides * layout.length), target)
         if found is not None:
-            found = distinct(layout, reduced(layout, found))
-            return Modes(found.at(ordered(layout, found, wanted)), by)
+            found = distinct(layout, remove_whole_turns(layout, found))
+            return Modes(found.at(sort_modes(layout, found, wanted)), by)
     if way is None:
         return None
-    found = _closing(free, enumerated(free, way, target, wanted).at(slice(starts)), target)
-    return None if found is None else Modes(distinct(layout, reduced(layout, found)), by)
+    found = _closing(free, enumerate_modes(free, way, target, wanted).at(slice(starts)), target)
+    return None if found is None else Modes(distinct(layout, remove_whole_turns(layout, found)), by)
 
 
 def _closing(layout: Layout, start: Pose, target: Array) -> Pose | None:
     """Starts (S, ...) corrected, those that close; None where none does."""
     wanted = np.broadcast_to(target, (len(start.turn), len(target))).copy()
-    pose, missing = closed(layout, start, wanted, iterations=60)
+    pose, missing = close_loops(layout, start, wanted, iterations=60)
     good = np.flatnonzero(missing <= CLOSED * layout.length)
     return pose.at(good) if good.size else None
 
@@ -198,7 +202,7 @@ def _spread(starts: int, links: int, rows: int) -> tuple[Array, Array]:
     return 2 * np.pi * unit[:, :links] - np.pi, 5 * unit[:, links:] - 2
 
 
-def _laid(layout: Layout, target: Array, guess: Guess, angles: Array, slides: Array) -> Pose:
+def _starting_poses(layout: Layout, target: Array, guess: Guess, angles: Array, slides: Array) -> Pose:
     """Starting poses (S, L+1, ...): links laid joint by joint from the ground."""
     g = layout.algebra
     edges = _edges(layout)
@@ -210,24 +214,26 @@ def _laid(layout: Layout, target: Array, guess: Guess, angles: Array, slides: Ar
     point[:, given] = guess.point[given]
     placed = set(np.flatnonzero(given).tolist()) | {layout.links}
     while len(placed) <= layout.links:
-        if _grown(placed, edges.pins, lambda e: _place(g, e, target, point, rotation, slides)):
+        if _extend_tree(placed, edges.pins, lambda e: _place(g, e, target, point, rotation, slides)):
             continue
-        if _grown(placed, edges.others, lambda e: _place(g, e, target, point, rotation, slides), one=True):
+        if _extend_tree(
+            placed, edges.others, lambda e: _place(g, e, target, point, rotation, slides), one=True
+        ):
             continue
         lone = min(set(range(layout.links)) - placed)
         point[:, lone] = 0.0
         placed.add(lone)
-    return _settled(layout, target, Pose(point, turn, rotation))
+    return _fit_translations(layout, target, Pose(point, turn, rotation))
 
 
-def _settled(layout: Layout, target: Array, pose: Pose) -> Pose:
+def _fit_translations(layout: Layout, target: Array, pose: Pose) -> Pose:
     """Links shifted, not turned, to where their points and slides fit best: at given angles that is linear."""
     linear = [f.row.ravel() for f in layout.stack.families if isinstance(f, Meet | Along)]
     if not linear or layout.links > FEW:
         return pose
     kept = np.sort(np.concatenate(linear))
     g = layout.algebra
-    rows = stacked(layout, pose).rows(kept)
+    rows = stack_rows(layout, pose).rows(kept)
     j = dense(layout, rows).reshape(len(pose.turn), len(kept), layout.links, g.n)[..., : g.d]
     missing = (target - measure(g, layout.stack, pose))[:, kept]
     shift = generalized_inverse(j.reshape(len(pose.turn), len(kept), -1)) @ missing[..., None]
@@ -236,7 +242,7 @@ def _settled(layout: Layout, target: Array, pose: Pose) -> Pose:
     return pose._replace(point=point)
 
 
-def _grown(
+def _extend_tree(
     placed: set[int], edges: list[_PointEdge], place: Callable[[_PointEdge], None], one: bool = False
 ) -> bool:
     """Lay links across edges that have one end placed; whether there was any."""

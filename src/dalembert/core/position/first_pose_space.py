@@ -14,12 +14,12 @@ import numpy as np
 
 from dalembert.arrays import Array, Flags
 from dalembert.core.constraints import measure
-from dalembert.core.gear_rows import meshed
+from dalembert.core.gear_rows import mesh_wheels
 from dalembert.core.layout import Angle, Helix, Layout, Pose
 from dalembert.core.position.assembly_modes import SAME
 from dalembert.core.position.first_pose_plane import STARTS, Modes, phase_rows, with_rows
 from dalembert.core.position.motion_path import path
-from dalembert.core.position.newton import CLOSED, closed, distance
+from dalembert.core.position.newton import CLOSED, close_loops, distance
 from dalembert.core.position.path_parameter import course
 from dalembert.core.rotation_rows import along_axis
 
@@ -73,12 +73,14 @@ class Drawing:
     def modes(self, layout: Layout, target: Array) -> Modes | None:
         """The way the linkage closes at a target (K + D,); None if no start closes."""
         if self.given.any():
-            return self._near(layout, target) or self._searched(layout, target)
-        return self._as_drawn(layout, target) or self._near(layout, target) or self._searched(layout, target)
+            return self._near(layout, target) or self._search_modes(layout, target)
+        return (
+            self._as_drawn(layout, target) or self._near(layout, target) or self._search_modes(layout, target)
+        )
 
     def every(self, layout: Layout, target: Array) -> Modes | None:
         """The ways found from a few random starts."""
-        return self._searched(layout, target, FEW)
+        return self._search_modes(layout, target, FEW)
 
     @property
     def stated(self) -> None:
@@ -87,7 +89,9 @@ class Drawing:
 
     def start(self, layout: Layout, target: Array) -> Pose:
         """The links laid down as drawn, given or driven (L+1, ...): before any correction."""
-        return self._laid(layout, target, np.zeros((1, self._values)), driven=bool(self.given.any())).at(0)
+        return self._starting_poses(
+            layout, target, np.zeros((1, self._values)), driven=bool(self.given.any())
+        ).at(0)
 
     def near(self, pose: Pose) -> Drawing:
         """The drawing with every link given at a pose (L+1, ...)."""
@@ -101,11 +105,13 @@ class Drawing:
         """From the drawing at drives 0 to the target."""
         zero = target.copy()
         zero[layout.constraints.count :] = 0.0
-        pose = self._closed(layout, self._laid(layout, zero, np.zeros((1, self._values)), driven=False), zero)
+        pose = self._close_starts(
+            layout, self._starting_poses(layout, zero, np.zeros((1, self._values)), driven=False), zero
+        )
         if pose is None:
             return None
         if np.any(zero != target):
-            layout = meshed(layout, pose.at(0))[0]
+            layout = mesh_wheels(layout, pose.at(0))[0]
             phased = phase_rows(layout.constraints)
             ends = np.stack([zero, target])
             ends[:, phased] = measure(layout.algebra, layout.constraints, pose.at(0))[phased]
@@ -117,20 +123,20 @@ class Drawing:
         return Modes(pose, "drawn")
 
     def _near(self, layout: Layout, target: Array) -> Modes | None:
-        pose = self._closed(
-            layout, self._laid(layout, target, np.zeros((1, self._values)), driven=True), target
+        pose = self._close_starts(
+            layout, self._starting_poses(layout, target, np.zeros((1, self._values)), driven=True), target
         )
         return None if pose is None else Modes(pose, "given" if self.given.any() else "drawn")
 
-    def _closed(self, layout: Layout, start: Pose, target: Array) -> Pose | None:
+    def _close_starts(self, layout: Layout, start: Pose, target: Array) -> Pose | None:
         """Starts (S, ...) corrected; those that close with parallel axes parallel, None where none does."""
         layout, target = _without_phase(layout, target)
         wanted = np.broadcast_to(target, (len(start.point), len(target))).copy()
-        pose, missing = closed(layout, start, wanted, iterations=60)
+        pose, missing = close_loops(layout, start, wanted, iterations=60)
         good = (missing <= CLOSED * layout.length) & self._upright(layout, pose)
         return pose.at(np.flatnonzero(good)) if good.any() else None
 
-    def _searched(self, layout: Layout, target: Array, starts: int = STARTS) -> Modes | None:
+    def _search_modes(self, layout: Layout, target: Array, starts: int = STARTS) -> Modes | None:
         """Every mode that random starts find, the one that is turned least from the drawn or given poses first."""
         steps = np.modf(np.sqrt(np.arange(2, 2 + self._values) + 0.5) * 1.6180339887)[0]
         values = np.modf(0.5 + np.arange(starts)[:, None] * steps)[0] * 2 * np.pi - np.pi
@@ -138,7 +144,7 @@ class Drawing:
             self, point=np.full_like(self.point, np.nan), rotation=np.full_like(self.rotation, np.nan)
         )
         start = free if self.given[:-1].all() else self  # where all are given, values would lay none
-        pose = self._closed(layout, start._laid(layout, target, values, driven=True), target)
+        pose = self._close_starts(layout, start._starting_poses(layout, target, values, driven=True), target)
         if pose is None:
             return None
         drawn = self.start(layout, target)
@@ -162,11 +168,13 @@ class Drawing:
                 good &= g.dot(on_i, on_j) > 0.5
         return good
 
-    def _laid(self, layout: Layout, target: Array, values: Array, driven: bool) -> Pose:
+    def _starting_poses(self, layout: Layout, target: Array, values: Array, driven: bool) -> Pose:
         """Starting poses (S, L+1, ...) by values (S, V) of the joints' freedoms, or of the drives where ``driven``."""
         g, count = layout.algebra, len(values)
         drives = target[layout.constraints.count :]
-        pose = Pose(np.full((count, layout.links + 1, 3), np.nan), *g.unturned(count, layout.links + 1))
+        pose = Pose(
+            np.full((count, layout.links + 1, 3), np.nan), *g.reference_rotation(count, layout.links + 1)
+        )
         turn = _counters(layout, count, drives if driven else np.zeros_like(drives))
         pose.point[:, -1] = 0.0
         given = self.given

@@ -15,15 +15,15 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from dalembert.arrays import Array, Flags, Ints
-from dalembert.core.constraints import stacked
+from dalembert.core.constraints import stack_rows
 from dalembert.core.factor import displacement
 from dalembert.core.layout import Angle, Layout, Mesh, Pose, Turn
 from dalembert.core.position.assembly_modes import on_sides
 from dalembert.core.position.assur_groups import Group, groups, on_independent_rows, senses
 from dalembert.core.position.assur_plan import Plan, plan
-from dalembert.core.position.continuation import POOR, March, Nodes, interpolated, march, twists
+from dalembert.core.position.continuation import POOR, March, Nodes, interpolate, march, twists
 from dalembert.core.position.first_pose_plane import phase_rows
-from dalembert.core.position.newton import CLOSED, closed, distance, gap
+from dalembert.core.position.newton import CLOSED, close_loops, distance, gap
 from dalembert.core.position.path_parameter import Course, course
 
 BLOCK = 2048
@@ -86,7 +86,7 @@ def path(
     if period is not None and result.reached.any():
         result = _around(layout, along, period, result)
     known = result.reached
-    return result if known.all() or not known.any() else _reentered(layout, first, along, result, ways)
+    return result if known.all() or not known.any() else _enter_behind_gap(layout, first, along, result, ways)
 
 
 def _both_ways(layout: Layout, first: Pose, along: Course, start: float, count: int) -> Path:
@@ -94,22 +94,24 @@ def _both_ways(layout: Layout, first: Pose, along: Course, start: float, count: 
 
     Positions passed but not trusted, near dead centres, are marched to once more, each made a station of its own.
     """
-    result, passed = _marched(layout, first, along, start, count)
+    result, passed = _march_both_ways(layout, first, along, start, count)
     lost = passed & (along.order < count)
     lost[lost] = ~result.reached[along.order[lost]]
     if not lost.any():
         return result
     landing = replace(along, breaks=np.union1d(along.breaks, along.s[lost]))
-    return _joined(result, _marched(layout, first, landing, start, count)[0])
+    return _first_reached(result, _march_both_ways(layout, first, landing, start, count)[0])
 
 
-def _marched(layout: Layout, first: Pose, along: Course, start: float, count: int) -> tuple[Path, Flags]:
+def _march_both_ways(
+    layout: Layout, first: Pose, along: Course, start: float, count: int
+) -> tuple[Path, Flags]:
     """Positions reached by marching both ways, and which places of the course the marches passed."""
     ways = [False] * (start < along.end or start <= 0) + [True] * (start > 0)
     pieces = [march(layout, first, along, start, back) for back in ways]
-    found = [_filled(layout, along, piece, count) for piece in pieces]
+    found = [_interpolate_list(layout, along, piece, count) for piece in pieces]
     passed = np.any([(along.s >= p.s[0]) & (along.s <= p.s[-1]) for p in pieces], axis=0)
-    return (found[0] if len(found) == 1 else _joined(*found)), passed
+    return (found[0] if len(found) == 1 else _first_reached(*found)), passed
 
 
 def _around(layout: Layout, along: Course, period: Array, known: Path) -> Path:
@@ -120,15 +122,15 @@ def _around(layout: Layout, along: Course, period: Array, known: Path) -> Path:
         if known.reached[place] and not known.reached.all():
             cycle = course(layout, np.concatenate([listed + sign * period, listed[place : place + 1]]))
             found = _both_ways(layout, known.pose.at(place), cycle, cycle.at(count), count)
-            known = _joined(known, _apart(_same(layout, found, listed, -sign * period), known))
+            known = _first_reached(known, _apart(_same(layout, found, listed, -sign * period), known))
     return known
 
 
 def _same(layout: Layout, found: Path, targets: Array, more: Array) -> Path:
     """What was reached a cycle away, as poses of this cycle; not where wheels stand in another phase there."""
     there = np.flatnonzero(found.reached)
-    counted = _counted(layout, found.pose.at(there), more)
-    pose, missing = closed(layout, Pose(*(part.copy() for part in counted)), targets[there])
+    counted = _add_turns(layout, found.pose.at(there), more)
+    pose, missing = close_loops(layout, Pose(*(part.copy() for part in counted)), targets[there])
     off = [np.abs(a - b).max(axis=(-2, -1)) for a, b in zip(pose[::2], counted[::2], strict=True)]
     same = (missing <= CLOSED * layout.length) & (off[0] <= SAME * layout.length) & (off[1] <= SAME)
     reached = found.reached.copy()
@@ -138,7 +140,7 @@ def _same(layout: Layout, found: Path, targets: Array, more: Array) -> Path:
     return found._replace(reached=reached)
 
 
-def _counted(layout: Layout, pose: Pose, more: Array) -> Pose:
+def _add_turns(layout: Layout, pose: Pose, more: Array) -> Pose:
     """The pose with its whole turns counted further by ``more`` (K + D) in the relative turns that have a target.
 
     Wheels that mesh with a link so turned are turned back by the ratio of their radii, where that is whole turns.
@@ -169,7 +171,7 @@ def _counted(layout: Layout, pose: Pose, more: Array) -> Pose:
     return pose._replace(turn=turn)
 
 
-def _filled(layout: Layout, along: Course, piece: March, count: int) -> Path:
+def _interpolate_list(layout: Layout, along: Course, piece: March, count: int) -> Path:
     """The first ``count`` positions of the list, where they lie within a march, by interpolation and correction."""
     inside = (along.s >= piece.s[0] - 1e-12) & (along.s <= piece.s[-1] + 1e-12) & (along.order < count)
     nowhere = Pose(*(np.full((count, *part.shape[1:]), np.nan) for part in piece.pose))
@@ -178,25 +180,25 @@ def _filled(layout: Layout, along: Course, piece: March, count: int) -> Path:
         which = np.flatnonzero((piece.s >= low - 1e-12) & (piece.s <= high + 1e-12))
         places = np.flatnonzero(inside & (along.s >= low - 1e-12) & (along.s <= high + 1e-12))
         if which.size and places.size:
-            nodes = _polished(layout, along, piece.s[which], piece.pose.at(which), (low + high) / 2)
+            nodes = _correct_stations(layout, along, piece.s[which], piece.pose.at(which), (low + high) / 2)
             for block in np.split(places, range(BLOCK, len(places), BLOCK)):
                 _fill(layout, along, nodes, block, found)
     return found
 
 
-def _polished(layout: Layout, along: Course, s: Array, pose: Pose, inside: float) -> Nodes:
+def _correct_stations(layout: Layout, along: Course, s: Array, pose: Pose, inside: float) -> Nodes:
     """Stations of one smooth piece corrected together, with their rates."""
     targets = np.concatenate([along.target(x) for x in s])
-    pose, _ = closed(layout, pose, targets)
+    pose, _ = close_loops(layout, pose, targets)
     slopes = np.concatenate([along.slope(x, inside - x) for x in s]) * layout.row_scale
     with np.errstate(all="ignore"):
-        return Nodes(s, pose, twists(layout, displacement(layout, stacked(layout, pose), slopes)))
+        return Nodes(s, pose, twists(layout, displacement(layout, stack_rows(layout, pose), slopes)))
 
 
 def _fill(layout: Layout, along: Course, nodes: Nodes, places: Ints, found: Path) -> None:
     """Put corrected poses at some places of the course into the list."""
-    guess = interpolated(layout, along.s[places], nodes)
-    part, missing = closed(layout, guess, along.targets[places])
+    guess = interpolate(layout, along.s[places], nodes)
+    part, missing = close_loops(layout, guess, along.targets[places])
     near = distance(layout, part, guess) <= TRUSTED + POOR * _travel(layout, along.s[places], nodes)
     listed = along.order[places]
     for whole, new in zip(found.pose, part, strict=True):
@@ -212,7 +214,7 @@ def _travel(layout: Layout, s: Array, nodes: Nodes) -> Array:
     return np.asarray(between[np.clip(np.searchsorted(nodes.s, s) - 1, 0, len(between) - 1)])
 
 
-def _joined(a: Path, b: Path) -> Path:
+def _first_reached(a: Path, b: Path) -> Path:
     """The first where it reached, else the second."""
     if a.reached.all():
         return a
@@ -230,14 +232,14 @@ def _over(mask: Flags, array: Array) -> Flags:
     return mask.reshape(mask.shape + (1,) * (array.ndim - 1))
 
 
-def _reentered(layout: Layout, first: Pose, along: Course, known: Path, ways: Ways | None) -> Path:
+def _enter_behind_gap(layout: Layout, first: Pose, along: Course, known: Path, ways: Ways | None) -> Path:
     """Positions behind a gap: entered at some of them, on the first one's side of every group, then followed both ways.
 
     Where no sides tell the branches apart there, what lies behind a gap counts as not reached.
     """
     way, entered = plan(layout), []
     if way is not None and way.closed:
-        entries = _laid_down(layout, way, first, along, known, ways)
+        entries = _closed_form_entries(layout, way, first, along, known, ways)
     else:
         entries = _sought(layout, first, along, lambda: known, ways)
     for place, entry in entries:
@@ -246,13 +248,13 @@ def _reentered(layout: Layout, first: Pose, along: Course, known: Path, ways: Wa
         more = _both_ways(layout, entry, along, along.at(place), len(known.reached))
         if (more.reached & ~known.reached).any():
             entered.append(place)
-        known = _joined(known, _apart(more, known))
+        known = _first_reached(known, _apart(more, known))
         if known.reached.all() or len(entered) == MOST_GAPS:
             break
     return known._replace(entered=tuple(entered))
 
 
-def _laid_down(
+def _closed_form_entries(
     layout: Layout, way: Plan, first: Pose, along: Course, known: Path, ways: Ways | None
 ) -> Iterator[tuple[int, Pose]]:
     """Where groups in closed form close on the first pose's sides: the middle of each range that nothing has reached.
@@ -319,7 +321,7 @@ def _entry(layout: Layout, fast: Fast, target: Array, known: Path, ways: Ways | 
     """A pose at one target with the groups' given senses: from the nearest of the known poses that leads there, else
     the only one of the ways that a search finds."""
     guess = _some(known)
-    pose, _ = closed(fast.layout, guess, np.broadcast_to(target, (len(guess.point), len(target))).copy())
+    pose, _ = close_loops(fast.layout, guess, np.broadcast_to(target, (len(guess.point), len(target))).copy())
     fits = _fitting(layout, fast, pose, target, 0.0)
     if fits.any():
         return pose.at(np.flatnonzero(fits)[np.argmin(distance(layout, pose, guess)[fits])])

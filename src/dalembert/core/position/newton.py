@@ -9,10 +9,10 @@ from __future__ import annotations
 import numpy as np
 
 from dalembert.arrays import Array, Ints
-from dalembert.core.constraints import dense, measure, stacked
+from dalembert.core.constraints import dense, measure, stack_rows
 from dalembert.core.factor import displacement
 from dalembert.core.layout import Layout, Mesh, Pose
-from dalembert.core.rotation_rows import settled
+from dalembert.core.rotation_rows import recount_turns
 
 CLOSED = 1e-9
 """Gap over characteristic length above which a pose does not close."""
@@ -43,7 +43,7 @@ def gap(layout: Layout, pose: Pose, target: Array) -> Array:
 def step(layout: Layout, pose: Pose, scaled_gap: Array) -> tuple[Array, Array]:
     """Newton step (..., L, n), shortened where it is long, and its size before that (...)."""
     with np.errstate(all="ignore"):
-        dq = displacement(layout, stacked(layout, pose), scaled_gap)
+        dq = displacement(layout, stack_rows(layout, pose), scaled_gap)
     dq = dq.reshape((*dq.shape[:-1], layout.links, layout.algebra.n))
     size = largest(layout, dq)
     if size.max(initial=0.0) > LONGEST_TURN:
@@ -57,12 +57,12 @@ def largest(layout: Layout, dq: Array) -> Array:
     return np.asarray(scaled.max(axis=(-2, -1), initial=0.0))
 
 
-def moved(layout: Layout, pose: Pose, dq: Array) -> Pose:
+def displace(layout: Layout, pose: Pose, dq: Array) -> Pose:
     """The pose after a small displacement of the moving links (..., L, n)."""
     g = layout.algebra
     point = pose.point.copy()
     point[..., :-1, :] += dq[..., : g.d]
-    return Pose(point, *g.turned(pose.turn, pose.rotation, dq[..., g.d :]))
+    return Pose(point, *g.rotate_links(pose.turn, pose.rotation, dq[..., g.d :]))
 
 
 def distance(layout: Layout, a: Pose, b: Pose) -> Array:
@@ -72,7 +72,7 @@ def distance(layout: Layout, a: Pose, b: Pose) -> Array:
     return np.asarray(np.maximum(shift, turned))
 
 
-def closed(
+def close_loops(
     layout: Layout, guess: Pose, target: Array, iterations: int = 40, polish: bool = True
 ) -> tuple[Pose, Array]:
     """Poses (P, L+1, ...) that reach the targets (P, K + D) from the guesses, and their remaining gaps (P,).
@@ -81,10 +81,12 @@ def closed(
     ``polish`` that is where an element stops, with it a last step follows, to rounding.
     """
     with np.errstate(all="ignore"):
-        return _closed(layout, guess, target, iterations, polish)
+        return _close_loops(layout, guess, target, iterations, polish)
 
 
-def _closed(layout: Layout, pose: Pose, target: Array, iterations: int, polish: bool) -> tuple[Pose, Array]:
+def _close_loops(
+    layout: Layout, pose: Pose, target: Array, iterations: int, polish: bool
+) -> tuple[Pose, Array]:
     missing = gap(layout, pose, target)
     size = np.abs(missing).max(axis=-1, initial=0.0)
     active = np.arange(len(size))
@@ -95,21 +97,21 @@ def _closed(layout: Layout, pose: Pose, target: Array, iterations: int, polish: 
         )
         dq, length = step(layout, part, open_)
         last = (size[active] <= 100 * CLOSED * layout.length) & (length <= FINE)
-        part = moved(layout, part, dq)
+        part = displace(layout, part, dq)
         open_ = gap(layout, part, wanted)
         left = np.abs(open_).max(axis=-1, initial=0.0)
         if every:
             pose, missing, size = part, open_, left
         else:
-            _put(pose, active, part)
+            _replace_poses(pose, active, part)
             missing[active], size[active] = open_, left
         active = active[~last if polish else left > CLOSED * layout.length]
         if not active.size:
             break
-    return settled(layout, pose), size
+    return recount_turns(layout, pose), size
 
 
-def _put(pose: Pose, where: Ints, part: Pose) -> None:
+def _replace_poses(pose: Pose, where: Ints, part: Pose) -> None:
     for whole, new in zip(pose, part, strict=True):
         whole[where] = new
 
@@ -124,13 +126,13 @@ def least_gap(layout: Layout, start: Pose, target: Array, steps: int = 200) -> A
     pose, best, damping = start.at(None), gap(layout, start.at(None), target[None])[0], 1.0
     for _ in range(steps):
         j = (
-            dense(layout, stacked(layout, pose))[0]
+            dense(layout, stack_rows(layout, pose))[0]
             * (layout.row_scale * stiff)[:, None]
             * layout.column_scale
         )
         normal = j.T @ j + damping * np.eye(j.shape[1])
         dq = np.linalg.solve(normal, j.T @ (best * stiff)) * layout.column_scale
-        trial = moved(layout, pose, dq.reshape(1, layout.links, -1))
+        trial = displace(layout, pose, dq.reshape(1, layout.links, -1))
         new = gap(layout, trial, target[None])[0]
         if np.linalg.norm(new * stiff) < np.linalg.norm(best * stiff):
             pose, best, damping = trial, new, max(damping / 3, LEAST)

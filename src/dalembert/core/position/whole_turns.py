@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dalembert.arrays import Array, Flags, Ints
-from dalembert.core.constraints import measure, rates, stacked, system
+from dalembert.core.constraints import measure, rates, stack_rows, system
 from dalembert.core.factor import displacements
 from dalembert.core.layout import Layout, Pose, Turn
 from dalembert.core.position.continuation import march, twists
@@ -55,7 +55,7 @@ def way(layout: Layout, pose: Pose, here: Array, there: Array) -> Way:
     return Way(found.pose.at(-1), end, found.whole)
 
 
-def turned_together(layout: Layout) -> Ints:
+def rigid_turns(layout: Layout) -> Ints:
     """A number of each link (L+1,), the same for links whose relative angle constraints and drives give."""
     group = np.arange(layout.links + 1)
     for family in layout.stack.families:
@@ -65,13 +65,13 @@ def turned_together(layout: Layout) -> Ints:
     return group
 
 
-def phased(layout: Layout, pose: Pose) -> Flags:
+def phase_freedoms(layout: Layout, pose: Pose) -> Flags:
     """Freedoms (F,) that the phases of meshing or rolling wheels turn."""
     rows = phase_rows(layout.constraints)
     if not rows.size:
         return np.zeros(layout.freedoms.count, bool)
     with np.errstate(all="ignore"):
         one = np.eye(layout.stack.count)[rows] * layout.row_scale[rows, None]
-        moved = twists(layout, displacements(layout, stacked(layout, pose.at(None)), one)[0])
+        moved = twists(layout, displacements(layout, stack_rows(layout, pose.at(None)), one)[0])
         turns = rates(system(layout.algebra, layout.freedoms, pose), moved) * layout.length
     return np.asarray((np.abs(turns) > MOVES).any(axis=0) & layout.freedoms.angular)

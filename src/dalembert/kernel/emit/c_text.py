@@ -147,8 +147,8 @@ ENTRY void grid({ARGUMENTS})
     )
 
 
-def reduced(program: Program, slots: Slots) -> str:
-    """Entry ``reduced``: one design after the other, out (design, slot) as in ``emit_reduce``."""
+def emit_reduced(program: Program, slots: Slots) -> str:
+    """Entry ``reduced`` of the C text: one design after the other, out (design, slot) as in ``emit_reduce``."""
     name = names(program)
     starts, updates, stores, slot = [], [], [], 0
     for s, (k, p) in enumerate(slots):

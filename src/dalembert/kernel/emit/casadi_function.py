@@ -12,7 +12,7 @@ def function(program: Program, name: str, numbers: int, outputs: list[tuple[str,
     """Function of (values, inputs) to the named outputs and ``mark`` (0, or one of ``CODES``)."""
     import casadi as ca
 
-    v, c = ca.SX.sym("values", numbers), ca.SX.sym("inputs", len(program.used("channel")))
+    v, c = ca.SX.sym("values", numbers), ca.SX.sym("inputs", len(program.inputs_in_use("channel")))
     done: dict[int, Any] = {}
     for node in program.order:
         done[node.index] = _value(ca, node, program, v, c, done)

@@ -35,7 +35,7 @@ def card() -> Any:
 
 def source(program: Program, slots: Slots) -> str:
     """The text that is compiled for the card."""
-    return c_text.reduced(program, slots) if slots else c_text.grid(program)
+    return c_text.emit_reduced(program, slots) if slots else c_text.grid(program)
 
 
 def run(

@@ -53,11 +53,15 @@ def elementary(lanes: int, used: set[str]) -> list[str]:
     lines += _angle(lanes) if "atan2" in used else []
     inverses = [name for op, name in (("inv", "reciprocal"), ("rsqrt", "inverse_root")) if op in used]
     for name in inverses:
-        lines += _estimated(lanes, name) if lanes in (8, 16) and host_lanes() == 8 else _divided(lanes, name)
+        lines += (
+            _emit_estimate(lanes, name)
+            if lanes in (8, 16) and host_lanes() == 8
+            else _emit_division(lanes, name)
+        )
     return lines
 
 
-def _divided(lanes: int, name: str) -> list[str]:
+def _emit_division(lanes: int, name: str) -> list[str]:
     """1/x or 1/sqrt(x) as the processor divides."""
     t = Text(lanes)
     t.lines.append(f"define internal {t.kind} @{name}({t.kind} %x) alwaysinline {{")
@@ -66,7 +70,7 @@ def _divided(lanes: int, name: str) -> list[str]:
     return [*t.lines, f"  ret {t.kind} {value}", "}"]
 
 
-def _estimated(lanes: int, name: str) -> list[str]:
+def _emit_estimate(lanes: int, name: str) -> list[str]:
     """1/x or 1/sqrt(x) from an estimate y: with e = 1 - x y, or 1 - x y^2, the series of y/(1 - e), y/sqrt(1 - e)."""
     t, kind = Text(lanes), "rcp14" if name == "reciprocal" else "rsqrt14"
     declared = f"declare <8 x double> @{_ESTIMATE}{kind}.pd.512(<8 x double>, <8 x double>, i8)"

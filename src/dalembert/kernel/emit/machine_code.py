@@ -61,7 +61,7 @@ class Machine:
         return ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4, *[ctypes.c_int64] * 4)(self.address)
 
 
-def aligned(shape: tuple[int, ...]) -> Array:
+def aligned_array(shape: tuple[int, ...]) -> Array:
     """An empty array that begins at a line of the cache: a register's worth stored across two lines takes twice as
     long."""
     count = math.prod(shape)
@@ -74,7 +74,7 @@ LINE = 64
 """Bytes of a line of the cache."""
 
 
-def compiled(text: str, lanes: int) -> Machine:
+def compile_module(text: str, lanes: int) -> Machine:
     """Machine code of one module. A target machine passes into its engine and dies with it, so each has its own."""
     llvm = _binding()
     module = llvm.parse_assembly(text)
@@ -98,7 +98,7 @@ def compiled(text: str, lanes: int) -> Machine:
     return Machine(lanes, engine.get_function_address("run"), engine, text)
 
 
-def blocked(array: Array, lanes: int) -> Array:
+def to_blocks(array: Array, lanes: int) -> Array:
     """(count, quantity) as (block, quantity, lane); the last block filled up with the last row."""
     count = len(array)
     blocks = -(-count // lanes)

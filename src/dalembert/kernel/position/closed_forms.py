@@ -10,7 +10,7 @@ from __future__ import annotations
 from itertools import combinations
 from typing import Any
 
-from dalembert.kernel.elimination import components, matched
+from dalembert.kernel.elimination import components, maximum_matching
 from dalembert.kernel.position import plane_vectors as v
 from dalembert.kernel.position.plane_vectors import Pair
 from dalembert.kernel.position.relations import Relation
@@ -55,7 +55,7 @@ class Groups(Parts):
         """A part pinned to another, and a point of one on a line of the other."""
         (lx, ux), (ly, uy) = self.ends(pin, y)
         px, py = self.point(lx, ux), self.point(ly, uy)
-        axis = v.turned(self.part[self.owner[slot.i]][slot.i][0], slot.axis)
+        axis = v.rotate(self.part[self.owner[slot.i]][slot.i][0], slot.axis)
         pi, pj = self.point(slot.i, slot.ui), self.point(slot.j, slot.uj)
         on_y = self.owner[slot.j] == y
 
@@ -72,10 +72,10 @@ class Groups(Parts):
             d2 = v.dot(d, d)
             h = self.root(d2 - k * k, d2)
             e = v.times(1.0 / d2, v.plus(v.times(k, d), v.times(sign * h, v.across(d))))
-            return v.unturned(axis, e)
+            return v.rotate_back(axis, e)
 
-        r = self.chosen(rotation, x, y)
-        return r, v.minus(px, v.turned(r, py))
+        r = self.choose_rotation(rotation, x, y)
+        return r, v.minus(px, v.rotate(r, py))
 
     def wheel(self, y: int, pin: Relation, mesh: Relation) -> Place | None:
         """A wheel pinned at its centre, in mesh with one whose angle is known (ground axes)."""
@@ -93,8 +93,8 @@ class Groups(Parts):
         phi = self.near(line, "line", mesh.rows[0])
         theta = (mesh.target + (ri + rj) * phi - ri * self.turn_of(other)) / rj
         self.turn[wheel] = theta
-        r = v.unturned(self.part[y][wheel][0], (theta.cos(), theta.sin()))
-        return r, v.minus(px, v.turned(r, self.point(ly, uy)))
+        r = v.rotate_back(self.part[y][wheel][0], (theta.cos(), theta.sin()))
+        return r, v.minus(px, v.rotate(r, self.point(ly, uy)))
 
     def triples(self) -> bool:
         found = self.between()
@@ -130,7 +130,7 @@ class Groups(Parts):
             return
         foot = 0.5 * d2 + 0.5 * (p2 - q2)
         area = self.root(p2 * d2 - foot * foot, p2 * d2)  # twice that of the triangle of d, p and q
-        self.doubted(
+        self.add_doubt(
             area * area - DEAD * p2 * q2
         )  # of a short d neither angle at its ends is that between p and q
         over = 1.0 / d2
@@ -144,10 +144,10 @@ class Groups(Parts):
             e, s = legs(sign)
             return self.onto(p, p2, e), self.onto(q, q2, s)
 
-        self.chosen(lambda sign: sides(sign)[0], x, y)
-        self.crossed(*legs(self.sign), self.sign * area)
+        self.choose_rotation(lambda sign: sides(sign)[0], x, y)
+        self.set_cross_product(*legs(self.sign), self.sign * area)
         ry, rz = sides(self.sign)
-        self.join(x, (y, (ry, v.minus(a, v.turned(ry, ya)))), (z, (rz, v.minus(b, v.turned(rz, zb)))))
+        self.join(x, (y, (ry, v.minus(a, v.rotate(ry, ya)))), (z, (rz, v.minus(b, v.rotate(rz, zb)))))
 
     def one_slide(self, slide: tuple[int, int], y: int, found: dict[tuple[int, int], list[Relation]]) -> None:
         """Parts x and z slide on each other; y has a pin on each."""
@@ -158,7 +158,7 @@ class Groups(Parts):
         n, c = self.line(along, z, rz)
         (a, ya), (b, yb) = self.pins(x, y, found), self.pins(z, y, found)
         p = v.minus(yb, ya)
-        k = c + v.dot(n, v.minus(v.turned(rz, b), a))
+        k = c + v.dot(n, v.minus(v.rotate(rz, b), a))
         p2 = v.dot(p, p)
         h = self.root(p2 - k * k, p2)
 
@@ -168,9 +168,9 @@ class Groups(Parts):
         def rotation(sign: Any) -> Pair:
             return self.onto(p, p2, side(sign))
 
-        ry = self.chosen(rotation, x, y)
+        ry = self.choose_rotation(rotation, x, y)
         at = v.plus(a, side(self.sign))
-        self.join(x, (z, (rz, v.minus(at, v.turned(rz, b)))), (y, (ry, v.minus(a, v.turned(ry, ya)))))
+        self.join(x, (z, (rz, v.minus(at, v.rotate(rz, b)))), (y, (ry, v.minus(a, v.rotate(ry, ya)))))
 
     def two_slides(
         self,
@@ -187,13 +187,13 @@ class Groups(Parts):
             lines.append(self.line(next(r for r in found[pair] if r.kind == "along"), k, rotations[-1]))
         yc, zc = self.pins(y, z, found)
         (n1, c1), (n2, c2) = lines  # of the translations; of the common pin:
-        c1 = c1 + v.dot(n1, v.turned(rotations[0], yc))
-        c2 = c2 + v.dot(n2, v.turned(rotations[1], zc))
+        c1 = c1 + v.dot(n1, v.rotate(rotations[0], yc))
+        c2 = c2 + v.dot(n2, v.rotate(rotations[1], zc))
         det = v.cross(n1, n2)
         self.regular(det)
         at = (c1 * n2[1] - c2 * n1[1]) / det, (n1[0] * c2 - n2[0] * c1) / det
-        first = rotations[0], v.minus(at, v.turned(rotations[0], yc))
-        second = rotations[1], v.minus(at, v.turned(rotations[1], zc))
+        first = rotations[0], v.minus(at, v.rotate(rotations[0], yc))
+        second = rotations[1], v.minus(at, v.rotate(rotations[1], zc))
         self.join(x, (y, first), (z, second))
 
     def general(self) -> None:
@@ -220,7 +220,7 @@ class Groups(Parts):
             if self.owner[r.i] != self.owner[r.j]:
                 for row in r.rows:
                     wants[row] = {3 * p + k for p in parts for k in range(3)}
-        match = matched(wants)
+        match = maximum_matching(wants)
         if len(match) < 3 * (len(self.part) - 1):
             raise ValueError("the positions are not determined by the drives")
         needs: dict[int, set[int]] = {p: set() for p in self.part if p != ground}
@@ -243,7 +243,7 @@ def positions(motion: Motion) -> Placed:
     return Groups(motion).grow()
 
 
-def settled(motion: Motion) -> Placed:
+def newton_correction(motion: Motion) -> Placed:
     """Poses of all links where the known motion is the solution: a last step of Newton carries the derivatives."""
     parts = Parts(motion)
     motion.placed = {parts.ground}

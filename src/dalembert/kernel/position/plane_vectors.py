@@ -31,11 +31,11 @@ def across(a: Pair) -> Pair:
     return -a[1], a[0]
 
 
-def turned(r: Pair, u: Pair) -> Pair:
+def rotate(r: Pair, u: Pair) -> Pair:
     """u turned by r; the product of two rotations."""
     return r[0] * u[0] - r[1] * u[1], r[1] * u[0] + r[0] * u[1]
 
 
-def unturned(r: Pair, u: Pair) -> Pair:
+def rotate_back(r: Pair, u: Pair) -> Pair:
     """u turned back by r."""
     return r[0] * u[0] + r[1] * u[1], r[0] * u[1] - r[1] * u[0]

@@ -77,7 +77,7 @@ class Parts:
     def point(self, link: int, u: Pair) -> Pair:
         """A point of a link in the axes of its part."""
         rotation, point = self.part[self.owner[link]][link]
-        return v.plus(point, v.turned(rotation, u))
+        return v.plus(point, v.rotate(rotation, u))
 
     def base(self, *parts: int) -> list[int]:
         """Ground first, else the largest part."""
@@ -86,7 +86,7 @@ class Parts:
     def merge(self, x: int, y: int, pose: Place) -> None:
         """Part y becomes part of x, at a pose in its axes."""
         for link, (rotation, point) in self.part.pop(y).items():
-            self.part[x][link] = (v.turned(pose[0], rotation), v.plus(pose[1], v.turned(pose[0], point)))
+            self.part[x][link] = (v.rotate(pose[0], rotation), v.plus(pose[1], v.rotate(pose[0], point)))
             self.owner[link] = x
 
     def join(self, x: int, *others: tuple[int, Place]) -> None:
@@ -97,20 +97,20 @@ class Parts:
             for part, pose in others:
                 self.merge(x, part, pose)
             return
-        back = _inverted(at)
+        back = _inverse(at)
         self.merge(ground, x, back)
         for part, pose in others:
             if part != ground:
-                self.merge(ground, part, _composed(back, pose))
+                self.merge(ground, part, _compose(back, pose))
 
     def rotation(self, r: Relation, y: int) -> Pair:
         """Rotation of part y in the axes of the other, from a fixed relative turn."""
         i, j = self.part[self.owner[r.i]][r.i][0], self.part[self.owner[r.j]][r.j][0]
         if self.owner[r.j] == y:
             self.follow(r, r.i, r.j, 1.0)
-            return v.unturned(j, v.turned(i, r.turn))
+            return v.rotate_back(j, v.rotate(i, r.turn))
         self.follow(r, r.j, r.i, -1.0)
-        return v.unturned(i, v.unturned(r.turn, j))
+        return v.rotate_back(i, v.rotate_back(r.turn, j))
 
     def follow(self, r: Relation, known: int, new: int, sign: float) -> None:
         if known in self.turn:
@@ -120,7 +120,7 @@ class Parts:
         if meets:
             r = meets[0]
             (lx, ux), (ly, uy) = self.ends(r, y)
-            return v.minus(self.point(lx, ux), v.turned(rotation, self.point(ly, uy)))
+            return v.minus(self.point(lx, ux), v.rotate(rotation, self.point(ly, uy)))
         (n1, c1), (n2, c2) = (self.line(r, y, rotation) for r in along[:2])
         det = v.cross(n1, n2)
         self.regular(det)
@@ -132,12 +132,12 @@ class Parts:
 
     def line(self, r: Relation, y: int, rotation: Pair) -> tuple[Pair, Any]:
         """A slide's condition n . T = c on the translation T of part y, whose rotation is known."""
-        axis = v.turned(self.part[self.owner[r.i]][r.i][0], r.axis)
+        axis = v.rotate(self.part[self.owner[r.i]][r.i][0], r.axis)
         pi, pj = self.point(r.i, r.ui), self.point(r.j, r.uj)
         if self.owner[r.j] == y:
-            return axis, r.target - v.dot(axis, v.minus(v.turned(rotation, pj), pi))
-        e = v.turned(rotation, axis)
-        return e, v.dot(e, v.minus(pj, v.turned(rotation, pi))) - r.target
+            return axis, r.target - v.dot(axis, v.minus(v.rotate(rotation, pj), pi))
+        e = v.rotate(rotation, axis)
+        return e, v.dot(e, v.minus(pj, v.rotate(rotation, pi))) - r.target
 
     def pins(self, x: int, y: int, found: dict[tuple[int, int], list[Relation]]) -> tuple[Pair, Pair]:
         """The common pin's place on x and on y."""
@@ -148,9 +148,9 @@ class Parts:
 
     def onto(self, u: Pair, length2: Any, w: Pair) -> Pair:
         """The rotation that turns a vector u, of known square, into w of the same length."""
-        r = v.unturned(v.times(1.0 / length2, u), w)
-        for node, same in zip(v.turned(r, u), w, strict=True):
-            self.graph.known(node, same)
+        r = v.rotate_back(v.times(1.0 / length2, u), w)
+        for node, same in zip(v.rotate(r, u), w, strict=True):
+            self.graph.assume_equal(node, same)
         return r
 
     def root(self, square: Any, scale: Any) -> Any:
@@ -164,19 +164,19 @@ class Parts:
         self.out.doubt.append(square - small)
         inverse = self.graph.unary("rsqrt", square)
         root = square * inverse
-        self.graph.known(root * root, square)
-        self.graph.known(1.0 / root, inverse)
+        self.graph.assume_equal(root * root, square)
+        self.graph.assume_equal(1.0 / root, inverse)
         return root
 
-    def doubted(self, margin: Any) -> None:
+    def add_doubt(self, margin: Any) -> None:
         """Below zero the general executor must look."""
         if isinstance(margin, Node) and margin.level != CONSTANT:
             self.out.doubt.append(margin)
 
-    def crossed(self, a: Pair, b: Pair, product: Any) -> None:
+    def set_cross_product(self, a: Pair, b: Pair, product: Any) -> None:
         """What the products a x b and b x a are: determinants of the group, which need not be computed again."""
-        self.graph.known(v.cross(a, b), product)
-        self.graph.known(v.cross(b, a), -product)
+        self.graph.assume_equal(v.cross(a, b), product)
+        self.graph.assume_equal(v.cross(b, a), -product)
 
     def longer(self, a: Any, b: Any) -> bool:
         """Whether one square is larger than another at the file's numbers; no, where they change along the motion."""
@@ -184,15 +184,15 @@ class Parts:
         return not moving and bool(a > b)
 
     def regular(self, det: Any) -> None:
-        self.doubted(det * det - DEAD)
+        self.add_doubt(det * det - DEAD)
 
-    def chosen(self, rotation: Callable[[Any], Pair], x: int, y: int) -> Pair:
+    def choose_rotation(self, rotation: Callable[[Any], Pair], x: int, y: int) -> Pair:
         """The rotation of y in x of the two, that the known motion has; ``sign`` is kept for the other parts."""
         lx = self.ground if self.ground in self.part[x] else min(self.part[x])
         ly = min(self.part[y])
         rx, ry = self.part[x][lx][0], self.part[y][ly][0]
         before = len(self.out.open), len(self.out.doubt)
-        ways = [v.unturned(rx, v.turned(rotation(s), ry)) for s in (1.0, -1.0)]
+        ways = [v.rotate_back(rx, v.rotate(rotation(s), ry)) for s in (1.0, -1.0)]
         del self.out.open[before[0] :], self.out.doubt[before[1] :]
         self.sign: Any = self.m.signs(ways[0], ways[1], lx, ly)
         if isinstance(self.sign, Node):
@@ -236,11 +236,11 @@ def _node(graph: Graph, x: Any) -> Node:
     return x if type(x) is Node else graph.constant(x)
 
 
-def _inverted(pose: Place) -> Place:
+def _inverse(pose: Place) -> Place:
     r, t = pose
     back = (r[0], -r[1])
-    return back, v.times(-1.0, v.turned(back, t))
+    return back, v.times(-1.0, v.rotate(back, t))
 
 
-def _composed(a: Place, b: Place) -> Place:
-    return v.turned(a[0], b[0]), v.plus(a[1], v.turned(a[0], b[1]))
+def _compose(a: Place, b: Place) -> Place:
+    return v.rotate(a[0], b[0]), v.plus(a[1], v.rotate(a[0], b[1]))

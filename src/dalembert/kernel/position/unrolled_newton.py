@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.core.constraints import stacked
+from dalembert.core.constraints import stack_rows
 from dalembert.core.layout import Layout, Pose, System
-from dalembert.core.position.newton import gap, moved
+from dalembert.core.position.newton import displace, gap
 from dalembert.kernel.elimination import Row, Structural, structural
 from dalembert.kernel.graph import Graph, Node, is_zero
 
@@ -39,10 +39,10 @@ def newton(m: Motion, guess: Pose, links: list[int], steps: int = STEPS) -> Foun
     """Place some links in so many steps and one; all others stand where the guess has them."""
     pose = guess
     for _ in range(steps):
-        pose = _moved(m, pose, _step(m, pose, links), links)
-    still = _detached(m.graph, pose, links)
+        pose = _displace(m, pose, _step(m, pose, links), links)
+    still = _detach(m.graph, pose, links)
     dq = _step(m, still, links)
-    pose = _moved(m, still, dq, links)
+    pose = _displace(m, still, dq, links)
     last = _size(m.layout, [dq[k] for k in links])
     far = _size(m.layout, [_difference(pose, guess, k) for k in links])
     return Found(pose, [LAST**2 - last, FAR**2 - far])
@@ -51,7 +51,7 @@ def newton(m: Motion, guess: Pose, links: list[int], steps: int = STEPS) -> Foun
 def _step(m: Motion, pose: Pose, links: list[int]) -> dict[int, list[Any]]:
     """Newton step of some links."""
     layout = m.layout
-    rows = stacked(layout, pose)
+    rows = stack_rows(layout, pose)
     missing = gap(layout, pose, m.target) / layout.row_scale
     moving = set(links)
     kept = [
@@ -59,7 +59,7 @@ def _step(m: Motion, pose: Pose, links: list[int]) -> dict[int, list[Any]]:
         for k in range(len(rows.i))
         if moving & {int(rows.i[k]), int(rows.j[k])} and _inside(m, rows, k, moving)
     ]
-    factors = factored(m.graph, rows, kept, links)
+    factors = factor_rows(m.graph, rows, kept, links)
     solution = factors.motion(np.array([missing[k] for k in kept], object))
     return {link: list(solution[3 * n : 3 * n + 3]) for n, link in enumerate(links)}
 
@@ -69,7 +69,7 @@ def _inside(m: Motion, rows: System, k: int, moving: set[int]) -> bool:
     return all(int(e) in moving or int(e) in m.placed for e in (rows.i[k], rows.j[k]))
 
 
-def factored(graph: Graph, rows: System, kept: list[int], links: list[int]) -> Structural:
+def factor_rows(graph: Graph, rows: System, kept: list[int], links: list[int]) -> Structural:
     """Factors of some rows for the displacements of some links."""
     place = {link: 3 * n for n, link in enumerate(links)}
     out: list[Row] = []
@@ -86,28 +86,28 @@ def solver(graph: Graph) -> Any:
     """What the core factors its systems with while it is traced."""
 
     def factor(layout: Layout, rows: System) -> Structural:
-        return factored(graph, rows, list(range(len(rows.i))), list(range(layout.links)))
+        return factor_rows(graph, rows, list(range(len(rows.i))), list(range(layout.links)))
 
     return factor
 
 
-def _moved(m: Motion, pose: Pose, dq: dict[int, list[Any]], links: list[int]) -> Pose:
+def _displace(m: Motion, pose: Pose, dq: dict[int, list[Any]], links: list[int]) -> Pose:
     step = np.full((m.layout.links, 3), 0.0, object)
     for link in links:
         step[link] = dq[link]
-    after = moved(m.layout, pose, step)
+    after = displace(m.layout, pose, step)
     others = [k for k in range(len(pose.turn)) if k not in links]
     after.rotation[others] = pose.rotation[others]
     return after
 
 
-def _detached(graph: Graph, pose: Pose, links: list[int]) -> Pose:
+def _detach(graph: Graph, pose: Pose, links: list[int]) -> Pose:
     """The links' poses as constants to derivatives: the last step carries the derivative exactly."""
     point, turn = pose.point.copy(), pose.turn.copy()
     rotation = pose.rotation.copy()
     for k in links:
-        point[k] = [graph.detached(x) for x in point[k]]
-        turn[k] = graph.detached(turn[k])
+        point[k] = [graph.without_gradient(x) for x in point[k]]
+        turn[k] = graph.without_gradient(turn[k])
         rotation[k] = [turn[k].cos(), turn[k].sin()]
     return Pose(point, turn, rotation)
 

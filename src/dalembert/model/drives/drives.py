@@ -21,9 +21,9 @@ from dalembert.model.quantities.values import (
     Value,
     Vector,
     at_item,
-    directed,
+    direction_vector,
     numbers,
-    written,
+    value_text,
 )
 from dalembert.model.quantities.varying import Varying, varying, varying_schema, varying_tree
 from dalembert.units import NUMBER, quantity
@@ -265,7 +265,7 @@ class Drive(Part):
             )
         self._check_counts()
         if self.axis is not None:
-            at_item("axis", directed, self.axis)
+            at_item("axis", direction_vector, self.axis)
         return self
 
     def _refuse(self, reason: str, *keys: str) -> None:
@@ -307,7 +307,7 @@ class Drive(Part):
         }
 
     @field_serializer("position", "speed", "acceleration", "law", "effort", "range", when_used="json")
-    def _written(self, value: Any, info: FieldSerializationInfo) -> Any:
+    def _serialize(self, value: Any, info: FieldSerializationInfo) -> Any:
         what = info.field_name if info.field_name in TURN else ""
         with in_units(info.context):
             return _tree(value, kind_of(self.freedom, str(what)))
@@ -319,9 +319,13 @@ def _nonzero(rate: Rates) -> bool:
 
 def _tree(value: Any, kind: str) -> Any:
     if isinstance(value, tuple):
-        return [written(number, kind) for number in value]
+        return [value_text(number, kind) for number in value]
     if isinstance(value, Range):
-        return {"from": written(value.start, kind), "to": written(value.stop, kind), "count": value.count}
+        return {
+            "from": value_text(value.start, kind),
+            "to": value_text(value.stop, kind),
+            "count": value.count,
+        }
     if isinstance(value, (Rise, TimeTable)):
         return value.tree(kind)
     return value if value is None or value == UNKNOWN else varying_tree(value, kind)

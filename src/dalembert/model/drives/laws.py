@@ -10,9 +10,16 @@ from typing import Any
 
 from dalembert.errors import ModelError
 from dalembert.model.part import Reading, mapping
-from dalembert.model.quantities.values import NUMBER_OR_TEXT, JsonSchema, at_item, numbers, signed, written
+from dalembert.model.quantities.values import (
+    NUMBER_OR_TEXT,
+    JsonSchema,
+    at_item,
+    check_sign,
+    numbers,
+    value_text,
+)
 from dalembert.units import quantity
-from dalembert.wording import closest, shown
+from dalembert.wording import closest, quote_value
 
 RISES = ("harmonic", "cycloidal", "polynomial345")
 TYPES = (*RISES, "table")
@@ -52,9 +59,9 @@ class Rise:
         """As a file says it."""
         return {
             "type": self.type,
-            "from": written(self.start, kind),
-            "to": written(self.stop, kind),
-            "duration": written(self.duration, "time"),
+            "from": value_text(self.start, kind),
+            "to": value_text(self.stop, kind),
+            "duration": value_text(self.duration, "time"),
             "count": self.count,
         }
 
@@ -103,8 +110,8 @@ class TimeTable:
         """As a file says it."""
         tree: dict[str, Any] = {
             "type": "table",
-            "time": [written(t, "time") for t in self.time],
-            "position": [written(x, kind) for x in self.position],
+            "time": [value_text(t, "time") for t in self.time],
+            "position": [value_text(x, kind) for x in self.position],
             "count": self.count,
         }
         return tree | ({"periodic": True} if self.periodic else {})
@@ -118,31 +125,32 @@ def law(value: object, kind: str, rules: Reading) -> Law:
     if isinstance(value, (Rise, TimeTable)):
         return value
     if not isinstance(value, Mapping):
-        raise ModelError(f"{shown(value)} is no law", f"write {EXAMPLES['rise']}")
+        raise ModelError(f"{quote_value(value)} is no law", f"write {EXAMPLES['rise']}")
     form = value.get("type")
     if form not in TYPES:
-        found = "the key 'type' is missing" if form is None else f"there is no law {shown(form)}"
+        found = "the key 'type' is missing" if form is None else f"there is no law {quote_value(form)}"
         raise ModelError(found, closest(str(form), list(TYPES)), () if form is None else ("type",))
     return _table(value, kind, rules) if form == "table" else _rise(value, kind, rules)
 
 
 def _rise(value: Mapping[str, Any], kind: str, rules: Reading) -> Rise:
-    _needed(value, ["type", "from", "to", "duration", "count"], EXAMPLES["rise"])
+    _require(value, ["type", "from", "to", "duration", "count"], EXAMPLES["rise"])
     start, stop = (at_item(key, quantity, value[key], kind, rules.units) for key in ("from", "to"))
     duration = at_item("duration", quantity, value["duration"], "time", rules.units)
-    at_item("duration", signed, duration, value["duration"], "positive")
+    at_item("duration", check_sign, duration, value["duration"], "positive")
     return Rise(value["type"], start, stop, duration, at_item("count", count, value["count"], 2))
 
 
 def _table(value: Mapping[str, Any], kind: str, rules: Reading) -> TimeTable:
     if value.get("interpolate", "cubic") != "cubic":
         raise ModelError(
-            f"a law of motion is not interpolated {shown(value['interpolate'])}: its accelerations would be infinite",
+            f"a law of motion is not interpolated {quote_value(value['interpolate'])}: "
+            "its accelerations would be infinite",
             "write interpolate: cubic, or leave it out",
             ("interpolate",),
         )
     keys = {key: item for key, item in value.items() if key not in ("interpolate", "periodic")}
-    _needed(keys, ["type", "time", "position", "count"], EXAMPLES["table"])
+    _require(keys, ["type", "time", "position", "count"], EXAMPLES["table"])
     time = at_item("time", numbers, value["time"], "time", rules)
     position = at_item("position", numbers, value["position"], kind, rules)
     periodic = value.get("periodic", False)
@@ -161,7 +169,7 @@ def _check_table(time: tuple[float, ...], position: tuple[float, ...], periodic:
         raise ModelError("its times do not increase", "sort the points", ("time",))
     if not isinstance(periodic, bool):
         raise ModelError(
-            f"{shown(periodic)} is neither true nor false", "write periodic: true", ("periodic",)
+            f"{quote_value(periodic)} is neither true nor false", "write periodic: true", ("periodic",)
         )
     if periodic and abs(position[-1] - position[0]) > 1e-9 * max(map(abs, position)):
         raise ModelError(
@@ -169,7 +177,7 @@ def _check_table(time: tuple[float, ...], position: tuple[float, ...], periodic:
         )
 
 
-def _needed(value: Mapping[str, Any], keys: list[str], example: str) -> None:
+def _require(value: Mapping[str, Any], keys: list[str], example: str) -> None:
     mapping(value, keys, example)
     for key in keys:
         if key not in value:
@@ -180,7 +188,7 @@ def count(value: object, least: int = 1) -> int:
     """A number of positions."""
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= MOST:
         raise ModelError(
-            f"{shown(value)} is no number of positions", f"write a whole number from {least} to {MOST}"
+            f"{quote_value(value)} is no number of positions", f"write a whole number from {least} to {MOST}"
         )
     return value
 

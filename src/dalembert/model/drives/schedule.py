@@ -54,7 +54,7 @@ def schedule(drives: Mapping[str, Drive], positions: int | None = None) -> Sched
     import numpy as np
 
     if positions is not None:
-        drives = _stepped(drives, positions)
+        drives = _step_full_turn(drives, positions)
     size = _count(drives, positions)
     columns = {name: _motion(drive, size) for name, drive in drives.items()}
     shape = (size, len(drives))
@@ -67,7 +67,7 @@ def schedule(drives: Mapping[str, Drive], positions: int | None = None) -> Sched
     return Schedule(tuple(drives), position, speed, acceleration, _time(columns), unknown, span)
 
 
-def _stepped(drives: Mapping[str, Drive], positions: int) -> Mapping[str, Drive]:
+def _step_full_turn(drives: Mapping[str, Drive], positions: int) -> Mapping[str, Drive]:
     """The drives, a lone turn of one value stepped round a full turn."""
     if isinstance(positions, bool) or not isinstance(positions, int) or not 1 <= positions <= MOST:
         raise ModelError(f"{positions} positions are asked for", f"ask for 1 to {MOST}")

@@ -8,7 +8,7 @@ from typing import Any
 
 from dalembert.model.files.source import Path
 from dalembert.model.files.yaml_text import DEEPEST, at_line
-from dalembert.wording import shown
+from dalembert.wording import quote_value
 
 
 def read(text: str) -> Any:
@@ -22,7 +22,9 @@ def read(text: str) -> Any:
         ) from None
     except _TwiceError as twice:
         line = _second(text, str(twice))
-        raise at_line(f"the key {shown(str(twice))} stands twice", "leave one of them out", line) from None
+        raise at_line(
+            f"the key {quote_value(str(twice))} stands twice", "leave one of them out", line
+        ) from None
 
 
 class _TwiceError(ValueError):

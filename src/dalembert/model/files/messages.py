@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from dalembert.errors import Locator, ModelError
-from dalembert.wording import closest, shown
+from dalembert.wording import closest, quote_value
 
 Path = tuple[str | int, ...]
 
@@ -93,14 +93,14 @@ def place(path: Sequence[str | int]) -> str:
     return " of ".join(reversed(words))
 
 
-def translated(error: ValidationError, tree: object) -> ModelError:
+def translate(error: ValidationError, tree: object) -> ModelError:
     """pydantic's findings about a tree as one ModelError, with paths down that tree."""
-    found = [_translated(dict(one), tree) for one in error.errors(include_url=False)]
+    found = [_translate_one(dict(one), tree) for one in error.errors(include_url=False)]
     ranked = sorted(enumerate(found), key=lambda pair: (pair[1][0], pair[0]))
     return together([one for _, (_, one) in ranked])
 
 
-def _translated(one: dict[str, Any], tree: object) -> tuple[int, ModelError]:
+def _translate_one(one: dict[str, Any], tree: object) -> tuple[int, ModelError]:
     path = _path(one["loc"], tree, one["type"] == "missing")
     inner = one.get("ctx", {}).get("error")
     if isinstance(inner, ModelError):
@@ -152,24 +152,24 @@ def _missing(path: Path) -> ModelError:
 def _sentence(one: Mapping[str, Any]) -> tuple[str, str]:
     kind, given, ctx = one["type"], one.get("input"), one.get("ctx", {})
     if kind == "union_tag_invalid":
-        word, choices = str(ctx["tag"]), _quoted(ctx["expected_tags"])
+        word, choices = str(ctx["tag"]), _quote(ctx["expected_tags"])
         meant = [name for name in MEANT.get(word.lower().replace(" ", "_"), ()) if name in choices]
         remedy = f"write {' in the plane, '.join(meant)}" + (" in space" if len(meant) > 1 else "")
-        return f"there is no type {shown(word)}", remedy if meant else closest(word, choices, 30)
+        return f"there is no type {quote_value(word)}", remedy if meant else closest(word, choices, 30)
     if kind == "union_tag_not_found":
         return "the key 'type' is missing", HINTS["type"]
     if kind == "literal_error":
-        choices = _quoted(ctx["expected"])
-        return f"{shown(given)} has no meaning here", closest(str(given), choices)
+        choices = _quote(ctx["expected"])
+        return f"{quote_value(given)} has no meaning here", closest(str(given), choices)
     if kind in ("model_type", "model_attributes_type", "dict_type", "mapping_type"):
-        return f"{shown(given)} stands where a mapping is needed", "write {key: value, ...}"
+        return f"{quote_value(given)} stands where a mapping is needed", "write {key: value, ...}"
     if kind in ("tuple_type", "list_type"):
-        return f"{shown(given)} stands where a list is needed", "write [..., ...]"
+        return f"{quote_value(given)} stands where a list is needed", "write [..., ...]"
     if kind in ("bool_type", "bool_parsing"):
-        return f"{shown(given)} is neither true nor false", "write true or false"
+        return f"{quote_value(given)} is neither true nor false", "write true or false"
     if kind == "string_type":
-        return f"{shown(given)} is no text", "put it in quotes"
-    return f"{shown(given)}: {one['msg'].lower()}", ""
+        return f"{quote_value(given)} is no text", "put it in quotes"
+    return f"{quote_value(given)}: {one['msg'].lower()}", ""
 
 
 MEANT: dict[str, tuple[str, ...]] = {
@@ -184,5 +184,5 @@ MEANT: dict[str, tuple[str, ...]] = {
 """What other programs and books call the types: in the plane, in space."""
 
 
-def _quoted(choices: str) -> list[str]:
+def _quote(choices: str) -> list[str]:
     return re.findall(r"'([^']*)'", choices)

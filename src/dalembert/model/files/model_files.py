@@ -41,7 +41,7 @@ def loads(text: str, form: str = "yaml", name: str = "text") -> Mechanism:
 def read_file(path: FilePath) -> tuple[Any, Source]:
     """The tree of a file as it is written, and where it came from; `-` is standard input."""
     name = STANDARD_INPUT[-1] if os.fspath(path) in STANDARD_INPUT[:2] else os.fspath(path)
-    text = _decoded(_content(Path(path), name), name)
+    text = _decode(_content(Path(path), name), name)
     return read_text(text, _form_of_stream(path, text) if is_stream(path) else format_of(path), name)
 
 
@@ -169,7 +169,7 @@ def _neighbour(path: Path) -> str:
     return f"did you mean {named[near]!r}?" if near else "check the name and the folder"
 
 
-def _decoded(content: bytes, name: str) -> str:
+def _decode(content: bytes, name: str) -> str:
     try:
         return content.decode("utf-8")
     except UnicodeDecodeError as error:
@@ -231,9 +231,9 @@ def tree_text(tree: Mapping[str, Any], form: str = "yaml") -> str:
       bar: {points: {A: [0, 1 m]}}
     """
     if form == "yaml":
-        from dalembert.model.files.yaml_writing import written
+        from dalembert.model.files.yaml_writing import to_yaml
 
-        return written(tree)
+        return to_yaml(tree)
     if form == "json":
         return json.dumps(tree, indent=2, ensure_ascii=False) + "\n"
     return _toml_text(tree)

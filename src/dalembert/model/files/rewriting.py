@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from dalembert.model.files.source import Path, Source
-from dalembert.model.files.splicing import REMOVED, Renamed, spliced
+from dalembert.model.files.splicing import REMOVED, Renamed, splice
 from dalembert.model.files.yaml_text import scalar
 from dalembert.model.quantities.figures import (
     SHORT,
@@ -62,13 +62,13 @@ def _own_text(m: Mechanism, source: Source) -> str | None:
     values = dict(_values(m, tree))
     for _ in range(ROUNDS):
         try:
-            changed = spliced(text, source.form, values)
+            changed = splice(text, source.form, values)
             read = mechanism(*read_text(changed, source.form, source.name))
         except (ValueError, LookupError, AssertionError):
             return None
         if read == m:
             return mark + changed
-        values |= dict(_missed(m, read, tree))
+        values |= dict(_differences(m, read, tree))
     return None
 
 
@@ -79,7 +79,7 @@ def _values(m: Mechanism, tree: Mapping[str, Any]) -> Iterator[tuple[Path, Any]]
         yield from _value(m, tree, dumped, path.split("."), given)
 
 
-def _missed(m: Mechanism, read: Mechanism, tree: Mapping[str, Any]) -> Iterator[tuple[Path, Any]]:
+def _differences(m: Mechanism, read: Mechanism, tree: Mapping[str, Any]) -> Iterator[tuple[Path, Any]]:
     """What a text says otherwise than the mechanism, leaf by leaf."""
     wanted = m.to_tree()
     for path in _differing(wanted, read.to_tree(), ()):
@@ -101,7 +101,7 @@ def _value(
     m: Mechanism, tree: Any, dumped: Any, keys: list[str], given: Any, said: bool = True
 ) -> Iterator[tuple[Path, Any]]:
     """A change as paths and values of the tree; `said`: a text given is written as it is."""
-    path, old = _typed(tree, keys)
+    path, old = _path_to_text(tree, keys)
     while keys[len(path) - 1].isdigit() and _at(dumped, path, REMOVED) is REMOVED:  # it is written otherwise
         path, old = path[:-1], _at(tree, path[:-1], None)
     text = given if said and len(path) == len(keys) else None
@@ -114,16 +114,16 @@ def _value(
     if given is None or given is REMOVED:
         yield path, REMOVED
     elif keys[0] == "links" and _at(tree, beside, None) is not None:
-        yield beside, Renamed(keys[-1], _worded(m, text, _at(dumped, path, given), None))
+        yield beside, Renamed(keys[-1], _value_text(m, text, _at(dumped, path, given), None))
     else:
-        value = _worded(m, text, _at(dumped, path, given), old)
+        value = _value_text(m, text, _at(dumped, path, given), old)
         yield from _items(path, value, old) if said else [(path, value)]
         if "inertia" in keys and len(path) == 5:  # a product of inertia stands in two places
             other = (*path[:3], path[4], path[3])
-            yield other, _worded(m, text, _at(dumped, other, given), _at(tree, other, None))
+            yield other, _value_text(m, text, _at(dumped, other, given), _at(tree, other, None))
 
 
-def _typed(tree: Any, keys: list[str]) -> tuple[Path, Any]:
+def _path_to_text(tree: Any, keys: list[str]) -> tuple[Path, Any]:
     """The path down the tree, as far as it goes before a value that is one text, and what stands there."""
     path: Path = ()
     for key in keys:
@@ -158,7 +158,7 @@ def _items(path: Path, value: Any, old: Any) -> Iterator[tuple[Path, Any]]:
         yield path, value
 
 
-def _worded(m: Mechanism, given: Any, si: Any, old: Any) -> Any:
+def _value_text(m: Mechanism, given: Any, si: Any, old: Any) -> Any:
     """A value in the words of the one it replaces: as given where it is text, else its number in the same unit."""
     if isinstance(given, str):
         return scalar(given) if re.fullmatch(NUMBER, given) else given
@@ -168,14 +168,14 @@ def _worded(m: Mechanism, given: Any, si: Any, old: Any) -> Any:
     if isinstance(si, list):
         olds = old if isinstance(old, list) and len(old) == len(si) else [None] * len(si)
         items = given if isinstance(given, (list, tuple)) and len(given) == len(si) else [None] * len(si)
-        return [_worded(m, g, s, o) for g, s, o in zip(items, si, olds, strict=True)]
+        return [_value_text(m, g, s, o) for g, s, o in zip(items, si, olds, strict=True)]
     if isinstance(given, Mapping):
         return {
-            key: _worded(m, item, _at(si, (key,), item), _at(old, (key,), None))
+            key: _value_text(m, item, _at(si, (key,), item), _at(old, (key,), None))
             for key, item in given.items()
         }
     if isinstance(si, dict):
-        return {key: _worded(m, None, value, _at(old, (key,), None)) for key, value in si.items()}
+        return {key: _value_text(m, None, value, _at(old, (key,), None)) for key, value in si.items()}
     found = si_quantity(si)
     if found:
         return _number(*found, old, m.units)
@@ -213,7 +213,7 @@ def _of_load(m: Mechanism, tree: Any, name: str, given: Any) -> Iterator[tuple[P
     value, direction = getattr(load, "value", None), getattr(load, "direction", None)
     if isinstance(value, tuple) and was.get("direction") is not None:
         yield ("loads", name, "direction"), REMOVED
-        yield path, _worded(m, given, m.to_tree()["loads"][name]["value"], None)
+        yield path, _value_text(m, given, m.to_tree()["loads"][name]["value"], None)
     elif isinstance(given, str) and "@" in given:
         yield path, given
         if was.get("direction") is not None:
@@ -224,15 +224,15 @@ def _of_load(m: Mechanism, tree: Any, name: str, given: Any) -> Iterator[tuple[P
         size, angle = own_polar(old, "force", m.units)
         said = m.to_tree()["loads"][name]["value"]
         quantity = si_quantity(said)
-        if quantity and (found := _sized(quantity[0], direction, size, angle, m.units)):
+        if quantity and (found := _polar_text(quantity[0], direction, size, angle, m.units)):
             yield path, found
             return
         for key, si in m.to_tree()["loads"][name].items():
             if key in ("value", "direction"):
-                yield ("loads", name, key), _worded(m, given if key == "value" else None, si, None)
+                yield ("loads", name, key), _value_text(m, given if key == "value" else None, si, None)
 
 
-def _sized(size: float, angle: float, size_unit: str, angle_unit: str, units: Units) -> str | None:
+def _polar_text(size: float, angle: float, size_unit: str, angle_unit: str, units: Units) -> str | None:
     r = in_own_unit(size, "force", size_unit, units)
     turn = in_own_unit(angle, "angle", angle_unit, units)
     return None if r is None or turn is None else f"{r} @ {turn}"

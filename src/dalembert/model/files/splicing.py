@@ -33,7 +33,7 @@ class Change(NamedTuple):
     text: str
 
 
-def spliced(text: str, form: str, values: Mapping[Path, Any]) -> str:
+def splice(text: str, form: str, values: Mapping[Path, Any]) -> str:
     """The text with values of its tree replaced, added or (REMOVED) taken out; those that overlap one by one."""
     waiting = dict(values)
     while waiting:
@@ -66,10 +66,10 @@ def _change(text: str, form: str, found: Places, path: Path, value: Any) -> Chan
         return _addition(text, form, found, path, value)
     if place.form in ("block", "dotted"):
         return _block(text, form, found, path, value)
-    return Change(place.start, place.end, said(value, form, text[place.start : place.end]))
+    return Change(place.start, place.end, value_text(value, form, text[place.start : place.end]))
 
 
-def said(value: Any, form: str, old: str = "") -> str:
+def value_text(value: Any, form: str, old: str = "") -> str:
     """A value as the format writes it on one line; a text keeps the quotes that the old one stood in."""
     if form == "json":
         return json.dumps(value, ensure_ascii=False)
@@ -79,9 +79,9 @@ def said(value: Any, form: str, old: str = "") -> str:
         plain = isinstance(value, str) and not re.search(r"[\\\"'\n]", value)
         return f"{old[0]}{value}{old[0]}" if plain and old[:1] in ("'", '"') else flow(value)
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{_toml_key(k)} = {said(v, form)}" for k, v in value.items()) + "}"
+        return "{" + ", ".join(f"{_toml_key(k)} = {value_text(v, form)}" for k, v in value.items()) + "}"
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(said(item, form) for item in value) + "]"
+        return "[" + ", ".join(value_text(item, form) for item in value) + "]"
     if isinstance(value, str):
         plain = not re.search(r"[\\'\n]", value)
         return f"'{value}'" if plain and old[:1] == "'" else json.dumps(value, ensure_ascii=False)
@@ -94,12 +94,12 @@ def _toml_key(key: str) -> str:
 
 def _pair(key: Any, value: Any, form: str) -> str:
     if form == "toml":
-        return f"{_toml_key(str(key))} = {said(value, form)}"
+        return f"{_toml_key(str(key))} = {value_text(value, form)}"
     if form == "json":
-        return f"{json.dumps(key, ensure_ascii=False)}: {said(value, form)}"
+        return f"{json.dumps(key, ensure_ascii=False)}: {value_text(value, form)}"
     from dalembert.model.files.yaml_writing import word
 
-    return f"{word(str(key))}: {said(value, form)}"
+    return f"{word(str(key))}: {value_text(value, form)}"
 
 
 def _removal(text: str, found: Places, path: Path) -> Change:
@@ -131,7 +131,7 @@ def _addition(text: str, form: str, found: Places, path: Path, value: Any) -> Ch
     if path[: depth + 1] in found:  # blank, or one text
         blank = found[path[: depth + 1]]
         space = " " if text[blank.start - 1 : blank.start] == ":" else ""
-        return Change(blank.start, blank.end, space + said(value, form))
+        return Change(blank.start, blank.end, space + value_text(value, form))
     place, siblings = found[path[:depth]], inside(found, path[:depth])
     pair = _pair(path[depth], value, form)
     if place.form == "alias":
@@ -158,4 +158,4 @@ def _block(text: str, form: str, found: Places, path: Path, value: Any) -> Chang
     place = found[path]
     assert place.key is not None, path
     colon = text.index(":", place.key[1])
-    return Change(colon + 1, place.end, " " + said(value, form))
+    return Change(colon + 1, place.end, " " + value_text(value, form))

@@ -11,7 +11,7 @@ from typing import Any
 
 from dalembert.errors import ModelError
 from dalembert.model.files.source import Path
-from dalembert.wording import shown
+from dalembert.wording import quote_value
 
 DEEPEST, MOST = 30, 50_000
 """Levels of nesting and values of one file."""
@@ -63,7 +63,7 @@ def _check_properties(text: str) -> None:
     if match:
         line = text.count("\n", 0, match.start()) + 1
         raise at_line(
-            f"{shown(match[0])} is longer than any word of a model file", "put text in quotes", line
+            f"{quote_value(match[0])} is longer than any word of a model file", "put text in quotes", line
         )
 
 
@@ -115,9 +115,9 @@ class _Builder:
         elif kind == "AliasEvent":
             self.alias(event.anchor, line)
         elif kind in ("MappingStartEvent", "SequenceStartEvent"):
-            self.opened(event, {} if kind == "MappingStartEvent" else [], line)
+            self.open_node(event, {} if kind == "MappingStartEvent" else [], line)
         elif kind in ("MappingEndEvent", "SequenceEndEvent"):
-            self.closed()
+            self.close_node()
 
     def document(self, line: int) -> None:
         self.documents += 1
@@ -128,28 +128,34 @@ class _Builder:
 
     def scalar(self, event: Any, line: int) -> None:
         if event.tag is not None:
-            raise at_line(f"a tag {shown(str(event.tag))} has no place in a model file", "leave it out", line)
+            raise at_line(
+                f"a tag {quote_value(str(event.tag))} has no place in a model file", "leave it out", line
+            )
         if self.stack and self.stack[-1].wants_key:
             self.stack[-1].merges |= event.value == MERGE and event.implicit[0]
             self.key(event.value, line)
             return
         value = scalar(event.value) if event.implicit[0] else event.value
         self.add(value, line)
-        self.anchored(event.anchor, value, 1)
+        self.add_anchor(event.anchor, value, 1)
 
     def key(self, key: str, line: int) -> None:
         top = self.stack[-1]
         if key in top.value:
             first = self.lines.get((*top.path, key), line)
             raise at_line(
-                f"the key {shown(key)} stands twice, first in line {first}", "leave one of them out", line
+                f"the key {quote_value(key)} stands twice, first in line {first}",
+                "leave one of them out",
+                line,
             )
         top.key, top.wants_key = key, False
         self.lines[(*top.path, key)] = line
 
-    def opened(self, event: Any, value: Any, line: int) -> None:
+    def open_node(self, event: Any, value: Any, line: int) -> None:
         if event.tag is not None:
-            raise at_line(f"a tag {shown(str(event.tag))} has no place in a model file", "leave it out", line)
+            raise at_line(
+                f"a tag {quote_value(str(event.tag))} has no place in a model file", "leave it out", line
+            )
         if self.stack and self.stack[-1].wants_key:
             raise at_line("a list or mapping stands where a key is needed", "write key: value", line)
         if len(self.stack) >= DEEPEST:
@@ -159,11 +165,11 @@ class _Builder:
         path = self.add(value, line)
         self.stack.append(_Open(value, path, event.anchor, self.size))
 
-    def closed(self) -> None:
+    def close_node(self) -> None:
         top = self.stack.pop()
         if top.merges:
             self.merge(top)
-        self.anchored(top.anchor, top.value, self.size - top.start)
+        self.add_anchor(top.anchor, top.value, self.size - top.start)
 
     def merge(self, top: _Open) -> None:
         """Take in what `<<: *name` names; keys that stand in the mapping itself, and earlier ones, go first."""
@@ -173,7 +179,7 @@ class _Builder:
         for other in reversed(given if isinstance(given, list) else [given]):
             if not isinstance(other, dict):
                 raise at_line(
-                    f"{shown(other)} stands where {MERGE} takes in a mapping",
+                    f"{quote_value(other)} stands where {MERGE} takes in a mapping",
                     f"write {MERGE}: *name, after &name {{...}}",
                     line,
                 )
@@ -183,14 +189,14 @@ class _Builder:
         top.value.update(merged | own)
         self.lines |= {(*top.path, key): line for key in merged if key not in own}
 
-    def anchored(self, anchor: str | None, value: Any, size: int) -> None:
+    def add_anchor(self, anchor: str | None, value: Any, size: int) -> None:
         if anchor:
             self.anchors[anchor] = value, size
 
     def alias(self, anchor: str, line: int) -> None:
         if anchor not in self.anchors:
             raise at_line(
-                f"there is no anchor {shown(anchor)}", f"write &{anchor} before a complete value", line
+                f"there is no anchor {quote_value(anchor)}", f"write &{anchor} before a complete value", line
             )
         if self.stack and self.stack[-1].wants_key:
             raise at_line("an alias stands where a key is needed", "write the key", line)

@@ -13,7 +13,7 @@ _SPECIAL = re.compile(r"[\x7f-\x9f\u2028\u2029\ufeff\ufffe\uffff\ud800-\udfff]")
 _PLAIN = re.compile(r"[^\W\d_][\w./*^() +@-]*|[-+]?\.?[0-9][\w./*^() +@-]*")
 
 
-def written(tree: Mapping[str, Any]) -> str:
+def to_yaml(tree: Mapping[str, Any]) -> str:
     """The tree as YAML text that reads back equal."""
     return "".join(line + "\n" for key, value in tree.items() for line in _entry(word(key), value, 0))
 
@@ -23,7 +23,11 @@ def _entry(head: str, value: Any, indent: int) -> list[str]:
     space = " " * indent
     on_one_line = flow(value)
     short = len(space) + len(head) + 2 + len(on_one_line) <= WIDTH
-    if not isinstance(value, (Mapping, list, tuple)) or not value or (short and not _opened(value, indent)):
+    if (
+        not isinstance(value, (Mapping, list, tuple))
+        or not value
+        or (short and not _open_value(value, indent))
+    ):
         return [f"{space}{head}: {on_one_line}"]
     lines = [f"{space}{head}:"]
     if isinstance(value, Mapping):
@@ -33,7 +37,7 @@ def _entry(head: str, value: Any, indent: int) -> list[str]:
     return [f"{space}{head}: {on_one_line}"]
 
 
-def _opened(value: Any, indent: int) -> bool:
+def _open_value(value: Any, indent: int) -> bool:
     inner = value.values() if isinstance(value, Mapping) else value
     return indent == 0 and any(isinstance(item, (Mapping, list, tuple)) for item in inner)
 
@@ -54,18 +58,18 @@ def flow(value: Any) -> str:
 def word(text: str) -> str:
     """A text, in quotes where YAML would read something else."""
     plain = _PLAIN.fullmatch(text) and scalar(text) == text and not text.endswith(" ")
-    return text if plain else _quoted(text)
+    return text if plain else _quote(text)
 
 
-def _quoted(text: str) -> str:
+def _quote(text: str) -> str:
     import json
 
     return re.sub(
         r"[\x7f-\x9f\u2028\u2029\ufeff\ufffe\uffff\ud800-\udfff]",
-        _escaped,
+        _escape,
         json.dumps(text, ensure_ascii=False),
     )
 
 
-def _escaped(match: re.Match[str]) -> str:
+def _escape(match: re.Match[str]) -> str:
     return f"\\u{ord(match[0]):04x}"

@@ -13,9 +13,9 @@ from dalembert.model.quantities.values import (
     JsonSchema,
     Scalar,
     Value,
+    check_sign,
     numbers,
-    signed,
-    written,
+    value_text,
 )
 
 Coefficient = Annotated[float, Scalar("number", "not negative")]
@@ -27,14 +27,14 @@ class Guide(Value):
 
     def read(self, value: Any, info: ValidationInfo) -> tuple[float, float]:
         lengths = numbers(value, "length", reading(info))
-        if len(lengths) != 2 or not sum(signed(length, length, "not negative") for length in lengths) > 0:
+        if len(lengths) != 2 or not sum(check_sign(length, length, "not negative") for length in lengths) > 0:
             raise ModelError(
                 "a guide is two lengths, behind and ahead of the point", "write guide: [0.02, 0.03]"
             )
         return lengths[0], lengths[1]
 
     def write(self, value: tuple[float, float]) -> Any:
-        return [written(length, "length") for length in value]
+        return [value_text(length, "length") for length in value]
 
     def json_schema(self) -> JsonSchema:
         return {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 2, "maxItems": 2}

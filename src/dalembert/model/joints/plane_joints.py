@@ -20,9 +20,9 @@ from dalembert.model.quantities.values import (
     Value,
     Vector,
     at_item,
+    check_sign,
     numbers,
-    signed,
-    written,
+    value_text,
 )
 from dalembert.units import quantity
 
@@ -38,11 +38,11 @@ class Pair(Value):
         if len(found) != 2:
             raise ModelError(f"a list of {len(found)} stands where two are needed", "write [of i, of j]")
         for i, number in enumerate(found):
-            at_item(i, signed, number, value[i], "positive")
+            at_item(i, check_sign, number, value[i], "positive")
         return found[0], found[1]
 
     def write(self, value: tuple[float, float]) -> Any:
-        return [written(number, self.kind) for number in value]
+        return [value_text(number, self.kind) for number in value]
 
     def json_schema(self) -> JsonSchema:
         return {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 2, "maxItems": 2}
@@ -61,11 +61,11 @@ class SlotDamping(Value):
             at_item(key, quantity, keys.get(key, 0.0), kind, rules.units)
             for key, kind in (("slide", "damping"), ("turn", "torsion_damping"))
         )
-        slide, turn = (signed(number, number, "not negative") for number in found)
+        slide, turn = (check_sign(number, number, "not negative") for number in found)
         return slide, turn
 
     def write(self, value: tuple[float, float]) -> Any:
-        return {"slide": written(value[0], "damping"), "turn": written(value[1], "torsion_damping")}
+        return {"slide": value_text(value[0], "damping"), "turn": value_text(value[1], "torsion_damping")}
 
     def json_schema(self) -> JsonSchema:
         both = {

@@ -19,9 +19,9 @@ from dalembert.model.quantities.values import (
     Value,
     Vector,
     at_item,
-    directed,
-    signed,
-    written,
+    check_sign,
+    direction_vector,
+    value_text,
 )
 from dalembert.units import quantity
 
@@ -43,7 +43,7 @@ class Frame(Part):
         for key in ("x", "z"):
             vector = getattr(self, key)
             if vector is not None:
-                at_item(key, directed, vector)
+                at_item(key, direction_vector, vector)
         if self.x is not None and self.z is not None and abs(_dot(_unit(self.x), _unit(self.z))) > RIGHT:
             raise ModelError("x and z are not at a right angle", "turn one of them, or leave it out")
         return self
@@ -70,13 +70,13 @@ class Dampings(Value):
         mapping(keys, list(freedoms), f"{{{freedoms[0]}: 0.2}}")
         kinds = {key: "damping" if key.startswith("slide") else "torsion_damping" for key in keys}
         return {
-            key: signed(at_item(key, quantity, item, kinds[key], rules.units), item, "not negative")
+            key: check_sign(at_item(key, quantity, item, kinds[key], rules.units), item, "not negative")
             for key, item in keys.items()
         }
 
     def write(self, value: dict[str, float]) -> Any:
         kinds = {key: "damping" if key.startswith("slide") else "torsion_damping" for key in value}
-        return {key: written(item, kinds[key]) for key, item in value.items()}
+        return {key: value_text(item, kinds[key]) for key, item in value.items()}
 
     def json_schema(self) -> JsonSchema:
         names = sorted({name for freedoms in SPACE_FREEDOMS.values() for name in freedoms})
@@ -206,7 +206,7 @@ class SpaceJoint(JointPart):
                 f"a {self.type} joint has no blocked turn to choose", "leave it out", ("blocked",)
             )
         if self.axis is not None:
-            at_item("axis", directed, self.axis)
+            at_item("axis", direction_vector, self.axis)
             if self.axes is not None:
                 raise ModelError("both axis and axes are given", "leave one of them out", ("axis",))
         self._check_axes()

@@ -13,9 +13,9 @@ from dalembert.model.quantities.values import (
     JsonSchema,
     Value,
     at_item,
+    check_sign,
     numbers,
-    signed,
-    written,
+    value_text,
 )
 from dalembert.units import quantity
 
@@ -31,17 +31,17 @@ class Stiffnesses(Value):
     def read(self, value: Any, info: ValidationInfo) -> float | tuple[float, ...]:
         rules = reading(info)
         if not isinstance(value, (list, tuple)):
-            return signed(quantity(value, self.kind, rules.units), value, "positive")
+            return check_sign(quantity(value, self.kind, rules.units), value, "positive")
         if rules.dimension == 2 or len(value) != 3:
             what = f"a list of {len(value)} is no stiffness"
             raise ModelError(what, "write one number" + ("" if rules.dimension == 2 else AXES))
         found = numbers(value, self.kind, rules)
-        return tuple(at_item(k, signed, x, value[k], "positive") for k, x in enumerate(found))
+        return tuple(at_item(k, check_sign, x, value[k], "positive") for k, x in enumerate(found))
 
     def write(self, value: float | tuple[float, ...]) -> Any:
         if isinstance(value, tuple):
-            return [written(x, self.kind) for x in value]
-        return written(value, self.kind)
+            return [value_text(x, self.kind) for x in value]
+        return value_text(value, self.kind)
 
     def json_schema(self) -> JsonSchema:
         return {

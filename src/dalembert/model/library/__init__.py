@@ -105,7 +105,7 @@ def template(name: str) -> Mechanism:
     >>> template("four_bar").joints["A"].links
     ('crank', 'coupler')
     """
-    return _known(name).function()
+    return _require_known(name).function()
 
 
 def template_text(name: str) -> str:
@@ -117,11 +117,11 @@ def template_text(name: str) -> str:
     """
     from importlib.resources import files
 
-    _known(name)
+    _require_known(name)
     return (files(__package__) / "files" / f"{name}.yaml").read_text(encoding="utf-8")
 
 
-def _known(name: str) -> Template:
+def _require_known(name: str) -> Template:
     if name not in TEMPLATES:
         from difflib import get_close_matches
 

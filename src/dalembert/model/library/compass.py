@@ -1,6 +1,6 @@
 """Closing a linkage by compass and ruler: points of the plane as complex numbers, x + iy in metres.
 
-Every template places its points for one value of the drive; :func:`closed` tries that all along the sweep
+Every template places its points for one value of the drive; :func:`start_points` tries that all along the sweep
 and says where it fails, and with which two links.
 """
 
@@ -29,7 +29,7 @@ class GapError(Exception):
         super().__init__(what)
 
 
-def turned(length: float, angle: float) -> complex:
+def vector_at(length: float, angle: float) -> complex:
     """The vector of that length in that direction.
 
     >>> turned(2.0, 0.0)
@@ -74,7 +74,7 @@ def reach(a: complex, link: Side, line: complex, direction: float = 0.0, forward
     return line + unit * (local.real + (step if forward else -step))
 
 
-def closed(
+def start_points(
     template: str,
     place: Callable[[float], Points],
     sweep: tuple[float, float],

@@ -7,7 +7,7 @@ from math import asin, degrees, pi
 from typing import TYPE_CHECKING
 
 from dalembert.errors import ModelError
-from dalembert.model.library.compass import FULL_TURN, Points, angle, closed, meet, reach, turned
+from dalembert.model.library.compass import FULL_TURN, Points, angle, meet, reach, start_points, vector_at
 from dalembert.model.library.tree_parts import (
     block,
     built,
@@ -59,10 +59,10 @@ def four_bar(
     positive("four_bar", "kg/m", mass_per_length=mass_per_length)
 
     def place(turn: float) -> Points:
-        a = turned(crank, turn)
+        a = vector_at(crank, turn)
         return {"A": a, "B": meet(a, ("coupler", coupler), ground, ("rocker", rocker)), "O4": complex(ground)}
 
-    at = closed("four_bar", place, sweep)
+    at = start_points("four_bar", place, sweep)
     return built(
         "Four-bar linkage",
         links={
@@ -117,10 +117,10 @@ def slider_crank(
     positive("slider_crank", "kg", mass_per_length=mass_per_length, piston_mass=piston_mass)
 
     def place(turn: float) -> Points:
-        a = turned(crank, turn)
+        a = vector_at(crank, turn)
         return {"A": a, "B": reach(a, ("rod", rod), 1j * offset)}
 
-    at = closed("slider_crank", place, sweep)
+    at = start_points("slider_crank", place, sweep)
     return built(
         "Slider-crank",
         links={
@@ -181,7 +181,7 @@ def inverted_slider_crank(
             "let ground and crank differ by more, or take a smaller offset",
         )
     _on_the_arm(name, "rocker", rocker, ground + crank)
-    lever = turned(crank, sweep[0]) - ground
+    lever = vector_at(crank, sweep[0]) - ground
     return built(
         "Inverted slider-crank",
         links={
@@ -231,7 +231,7 @@ def scotch_yoke(
     """
     positive("scotch_yoke", crank=crank)
     positive("scotch_yoke", "kg", mass_per_length=mass_per_length, yoke_mass=yoke_mass)
-    closed("scotch_yoke", lambda turn: {"A": turned(crank, turn)}, sweep)
+    start_points("scotch_yoke", lambda turn: {"A": vector_at(crank, turn)}, sweep)
     return built(
         "Scotch yoke",
         links={

@@ -6,7 +6,7 @@ from math import acos, atan2, degrees, pi, sqrt
 from typing import TYPE_CHECKING
 
 from dalembert.errors import ModelError
-from dalembert.model.library.compass import FULL_TURN, Points, angle, closed, meet, reach, turned
+from dalembert.model.library.compass import FULL_TURN, Points, angle, meet, reach, start_points, vector_at
 from dalembert.model.library.tree_parts import (
     Point,
     Tree,
@@ -65,11 +65,11 @@ def toggle_press(
     o2 = points_of("toggle_press", center=center)["center"]
 
     def place(turn: float) -> Points:
-        a = o2 + turned(crank, turn)
+        a = o2 + vector_at(crank, turn)
         k = meet(a, ("rod", rod), 0, ("upper", upper))
         return {"O4": 0j, "A": a, "K": k, "D": reach(k, ("lower", lower), 0, -pi / 2)}
 
-    at = closed("toggle_press", place, sweep)
+    at = start_points("toggle_press", place, sweep)
     return built(
         "Toggle press",
         gravity="standard",
@@ -141,11 +141,11 @@ def five_bar(
     ratio = (second_sweep[1] - second_sweep[0]) / (sweep[1] - sweep[0])
 
     def place(turn: float) -> Points:
-        a = turned(crank, turn)
-        b = ground + turned(second_crank, second_sweep[0] + ratio * (turn - sweep[0]))
+        a = vector_at(crank, turn)
+        b = ground + vector_at(second_crank, second_sweep[0] + ratio * (turn - sweep[0]))
         return {"A": a, "B": b, "C": meet(a, ("coupler", coupler), b, ("second coupler", second_coupler))}
 
-    at = closed("five_bar", place, sweep)
+    at = start_points("five_bar", place, sweep)
     return built(
         "Five-bar linkage with two drives",
         links={
@@ -271,7 +271,7 @@ def bucket(
         h = meet(j, ("coupler", coupler), 0, ("ear of the bucket", size))
         return {"P": 0j, "Q": q, "R": r, "J": j, "H": h, "T": reach_to_tip * h / local["ear"]}
 
-    at = closed("bucket", place, strokes, "cylinder", turn=False)
+    at = start_points("bucket", place, strokes, "cylinder", turn=False)
     solid = plate(2 * bucket_mass / (reach_to_tip * abs(ear[1])), P=(0.0, 0.0), T=(reach_to_tip, 0.0), H=ear)
     length = min(strokes)
     return built(

@@ -6,7 +6,7 @@ from math import asin, degrees, pi
 from typing import TYPE_CHECKING
 
 from dalembert.errors import ModelError
-from dalembert.model.library.compass import FULL_TURN, Points, angle, closed, reach, turned
+from dalembert.model.library.compass import FULL_TURN, Points, angle, reach, start_points, vector_at
 from dalembert.model.library.tree_parts import (
     Tree,
     block,
@@ -71,11 +71,11 @@ def whitworth(
     _slot_holds("whitworth", "slot", slot, ground + crank)
 
     def place(turn: float) -> Points:
-        a, o4 = turned(crank, turn), -1j * ground
+        a, o4 = vector_at(crank, turn), -1j * ground
         c = o4 - throw * (a - o4) / abs(a - o4)
         return {"A": a, "O4": o4, "C": c, "D": reach(c, ("rod", rod), o4)}
 
-    at = closed("whitworth", place, sweep)
+    at = start_points("whitworth", place, sweep)
     early = degrees(asin(ground / crank))
     return built(
         "Whitworth quick return",
@@ -142,11 +142,11 @@ def crank_shaper(
     _slot_holds("crank_shaper", "lever", lever, ground + crank)
 
     def place(turn: float) -> Points:
-        a, o4 = turned(crank, turn), -1j * ground
+        a, o4 = vector_at(crank, turn), -1j * ground
         c = o4 + lever * (a - o4) / abs(a - o4)
         return {"A": a, "O4": o4, "C": c, "D": reach(c, ("rod", rod), o4 + 1j * height, forward=False)}
 
-    at = closed("crank_shaper", place, sweep)
+    at = start_points("crank_shaper", place, sweep)
     early = degrees(asin(crank / ground))
     return built(
         "Crank shaper quick return",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dalembert.model.library.compass import Points, angle, meet, turned
+from dalembert.model.library.compass import Points, angle, meet, vector_at
 from dalembert.model.library.tree_parts import Point, Tree, pin, positive
 
 
@@ -13,7 +13,7 @@ def check_six_bar(template: str, mass_per_length: float, mass_per_area: float, *
 
 
 def four_bar_points(turn: float, ground: float, crank: float, coupler: float, rocker: float) -> Points:
-    a, o4 = turned(crank, turn), complex(ground)
+    a, o4 = vector_at(crank, turn), complex(ground)
     return {"A": a, "B": meet(a, ("coupler", coupler), o4, ("rocker", rocker)), "O2": 0j, "O4": o4}
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from math import pi
 from typing import TYPE_CHECKING
 
-from dalembert.model.library.compass import FULL_TURN, GapError, Points, closed, meet, turned
+from dalembert.model.library.compass import FULL_TURN, GapError, Points, meet, start_points, vector_at
 from dalembert.model.library.six_bars import (
     angles,
     check_six_bar,
@@ -82,7 +82,7 @@ def stephenson_1(
         e = meet(c, ("upper coupler", upper_coupler), d, ("upper rocker", upper_rocker))
         return at | {"C": c, "D": d, "E": e}
 
-    at = closed(name, place, sweep)
+    at = start_points(name, place, sweep)
     return built(
         "Stephenson I six-bar",
         links={
@@ -147,8 +147,8 @@ def stephenson_2(
     ends = (("first coupler", first_coupler), ("second coupler", second_coupler), ("plate", plate_length))
 
     def dyad(turn: float, lean: float) -> Points:
-        a, b = turned(crank, turn), turned(1.0, turn) * local["crank_point"]
-        c = a + turned(first_coupler, lean)
+        a, b = vector_at(crank, turn), vector_at(1.0, turn) * local["crank_point"]
+        c = a + vector_at(first_coupler, lean)
         d = meet(c, ends[2], b, ends[1])
         return {
             "A": a,
@@ -159,7 +159,7 @@ def stephenson_2(
             "O4": complex(ground),
         }
 
-    at = closed(name, _follow(dyad, ("rocker", rocker)), sweep)
+    at = start_points(name, _follow(dyad, ("rocker", rocker)), sweep)
     return built(
         "Stephenson II six-bar",
         links={
@@ -234,7 +234,7 @@ def stephenson_3(
         d = meet(c, ("second coupler", second_coupler), local["second_ground"], ("output", output))
         return at | {"C": c, "D": d, "O6": local["second_ground"]}
 
-    at = closed(name, place, sweep)
+    at = start_points(name, place, sweep)
     return built(
         "Stephenson III six-bar",
         links={

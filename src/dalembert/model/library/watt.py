@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import pi
 from typing import TYPE_CHECKING
 
-from dalembert.model.library.compass import FULL_TURN, Points, closed, meet
+from dalembert.model.library.compass import FULL_TURN, Points, meet, start_points
 from dalembert.model.library.six_bars import (
     angles,
     check_six_bar,
@@ -82,7 +82,7 @@ def watt_1(
         e = meet(d, ("upper rocker", upper_rocker), c, ("upper coupler", upper_coupler))
         return at | {"C": c, "D": d, "E": e}
 
-    at = closed(name, place, sweep)
+    at = start_points(name, place, sweep)
     return built(
         "Watt I six-bar",
         links={
@@ -151,7 +151,7 @@ def watt_2(
         d = meet(c, ("second coupler", second_coupler), local["second_ground"], ("output", output))
         return at | {"C": c, "D": d, "O6": local["second_ground"]}
 
-    at = closed(name, place, sweep)
+    at = start_points(name, place, sweep)
     return built(
         "Watt II six-bar",
         links={

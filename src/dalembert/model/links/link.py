@@ -27,16 +27,16 @@ from dalembert.model.quantities.values import (
     Value,
     Vector,
     at_item,
+    check_sign,
     name,
     numbers,
-    signed,
+    value_text,
     vector,
     vector_schema,
-    written,
-    written_vector,
+    vector_text,
 )
 from dalembert.units import quantity
-from dalembert.wording import closest, shown
+from dalembert.wording import closest, quote_value
 
 CENTER = "center"
 """The name of the mass centre where a point is asked for."""
@@ -73,8 +73,8 @@ class Place(Value):
 
     def write(self, value: Vector | Offset) -> Any:
         if isinstance(value, Offset):
-            return {"from": value.start, "at": written_vector(value.at, "length")}
-        return written_vector(value, "length")
+            return {"from": value.start, "at": vector_text(value.at, "length")}
+        return vector_text(value, "length")
 
     def json_schema(self) -> JsonSchema:
         relative = {
@@ -95,10 +95,10 @@ class InertiaValue(Value):
     def read(self, value: Any, info: ValidationInfo) -> Inertia:
         rules = reading(info)
         if not isinstance(value, (list, tuple)):
-            return signed(quantity(value, "inertia", rules.units), value, "not negative")
+            return check_sign(quantity(value, "inertia", rules.units), value, "not negative")
         if rules.dimension == 2:
             remedy = "in the plane, write inertia: 0.02; in space, space: space at the top"
-            raise ModelError(f"{shown(value)} stands where one number is needed", remedy)
+            raise ModelError(f"{quote_value(value)} stands where one number is needed", remedy)
         if len(value) != 3:
             raise ModelError(
                 f"a list of {len(value)} is no inertia", "write 3 principal values, or the 3 rows of a matrix"
@@ -108,12 +108,12 @@ class InertiaValue(Value):
                 tuple(at_item(i, numbers, row, "inertia", rules) for i, row in enumerate(value))
             )
         found = numbers(value, "inertia", rules)
-        return tuple(at_item(i, signed, x, value[i], "not negative") for i, x in enumerate(found))
+        return tuple(at_item(i, check_sign, x, value[i], "not negative") for i, x in enumerate(found))
 
     def write(self, value: Inertia) -> Any:
         if isinstance(value, tuple):
             return [self.write(item) for item in value]
-        return written(value, "inertia")
+        return value_text(value, "inertia")
 
     def json_schema(self) -> JsonSchema:
         rows = {

@@ -23,9 +23,9 @@ from dalembert.model.quantities.values import (
     Value,
     Vector,
     at_item,
+    check_sign,
     numbers,
-    signed,
-    written,
+    value_text,
 )
 
 Points = Callable[[str], Vector]
@@ -57,10 +57,10 @@ class Lengths(Value):
         found = numbers(value, "length", reading(info))
         if len(found) != self.count:
             raise ModelError(f"a list of {len(found)} stands where {self.count} are needed", self.example)
-        return tuple(at_item(i, signed, x, value[i], "positive") for i, x in enumerate(found))
+        return tuple(at_item(i, check_sign, x, value[i], "positive") for i, x in enumerate(found))
 
     def write(self, value: Vector) -> Any:
-        return [written(x, "length") for x in value]
+        return [value_text(x, "length") for x in value]
 
     def json_schema(self) -> JsonSchema:
         return {"type": "array", "items": NUMBER_OR_TEXT, "minItems": self.count, "maxItems": self.count}
@@ -248,7 +248,7 @@ class StlMesh(ShapePart):
         return Solid(volume * s**3, center * s, inertia * s**5)
 
     @model_validator(mode="after")
-    def _closed(self) -> Self:
+    def _close(self) -> Self:
         at_item("file", mesh_solid, self.file)
         return self
 

@@ -14,11 +14,11 @@ from pydantic import ValidationInfo
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model.part import reading
-from dalembert.model.quantities.values import NUMBER_OR_TEXT, JsonSchema, Value, signed, written
+from dalembert.model.quantities.values import NUMBER_OR_TEXT, JsonSchema, Value, check_sign, value_text
 from dalembert.saving import check_installed
 from dalembert.unit_names import unit
 from dalembert.units import KINDS, quantity
-from dalembert.wording import shown
+from dalembert.wording import quote_value
 
 LARGEST = 50_000_000
 """Bytes of a mesh."""
@@ -44,7 +44,7 @@ class MeshFileValue(Value):
         if isinstance(value, MeshFile):
             return value
         if not isinstance(value, str) or not value.lower().endswith(".stl"):
-            raise ModelError(f"{shown(value)} is no STL file", "name one, for example file: rod.stl")
+            raise ModelError(f"{quote_value(value)} is no STL file", "name one, for example file: rod.stl")
         return MeshFile(value, reading(info).folder)
 
     def write(self, value: MeshFile) -> Any:
@@ -67,10 +67,10 @@ class MeshUnit(Value):
             and unit(value).dimension == KINDS["length"].dimension
         ):
             value = f"1 {value}"
-        return signed(quantity(value, "length", units), value, "positive")
+        return check_sign(quantity(value, "length", units), value, "positive")
 
     def write(self, value: float) -> Any:
-        return written(value, "length")
+        return value_text(value, "length")
 
     def json_schema(self) -> JsonSchema:
         return NUMBER_OR_TEXT

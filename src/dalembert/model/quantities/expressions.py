@@ -18,7 +18,7 @@ from typing import Any
 
 from dalembert.errors import ModelError
 from dalembert.unit_names import unit
-from dalembert.wording import closest, shown
+from dalembert.wording import closest, quote_value
 
 GRAMMAR = (
     "an expression is made of numbers, drives' names, pi, + - * / ^, brackets and sin cos tan asin acos atan "
@@ -81,9 +81,11 @@ class Expression:
     tree: Tree = field(init=False, compare=False, repr=False)
 
     def __post_init__(self) -> None:
-        tree, rest = parsed(self.text)
+        tree, rest = parse_expression(self.text)
         if rest:
-            raise ModelError(f"{shown(self.text)} ends with {shown(rest)}, which has no place there", GRAMMAR)
+            raise ModelError(
+                f"{quote_value(self.text)} ends with {quote_value(rest)}, which has no place there", GRAMMAR
+            )
         object.__setattr__(self, "tree", tree)
 
     @property
@@ -99,17 +101,17 @@ class Expression:
     def at(self, drives: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]] | None = None) -> Any:
         """The SI value at the drives' positions; `functions` replaces numpy's, for values of another kind."""
         scale = unit(self.unit) if self.unit else None
-        value = evaluated(self.tree, drives, functions) if functions else self._of_numbers(drives)
+        value = evaluate(self.tree, drives, functions) if functions else self._of_numbers(drives)
         return value if scale is None else scale.si(value)
 
     def _of_numbers(self, drives: Mapping[str, Any]) -> Any:
         import numpy as np
 
         with np.errstate(all="ignore"):
-            value = np.asarray(evaluated(self.tree, drives, numpy_functions()), float)
+            value = np.asarray(evaluate(self.tree, drives, numpy_functions()), float)
         if not np.isfinite(value).all():
             raise ModelError(
-                f"the expression {shown(self.text)} has no finite value {self._where(drives, value)}",
+                f"the expression {quote_value(self.text)} has no finite value {self._where(drives, value)}",
                 "change it, or the range of the drive",
             )
         return value[()]
@@ -135,7 +137,7 @@ def numpy_functions() -> dict[str, Callable[..., Any]]:
     return {name: other.get(name) or getattr(np, name) for name in ARGUMENTS}
 
 
-def evaluated(tree: Tree, drives: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]]) -> Any:
+def evaluate(tree: Tree, drives: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]]) -> Any:
     """The value of a tree over anything that has operators, functions from the table given."""
     if isinstance(tree, Number):
         return tree.value
@@ -145,13 +147,13 @@ def evaluated(tree: Tree, drives: Mapping[str, Any], functions: Mapping[str, Cal
                 f"an expression uses {tree.name!r}, which is no drive", closest(tree.name, list(drives))
             )
         return drives[tree.name]
-    values = [evaluated(argument, drives, functions) for argument in tree.arguments]
+    values = [evaluate(argument, drives, functions) for argument in tree.arguments]
     if tree.function in OPERATORS:
-        return -values[0] if len(values) == 1 else _applied(tree.function, *values)
+        return -values[0] if len(values) == 1 else _apply(tree.function, *values)
     return functions[tree.function](*values)
 
 
-def _applied(sign: str, a: Any, b: Any) -> Any:
+def _apply(sign: str, a: Any, b: Any) -> Any:
     if isinstance(a, float) and isinstance(b, float):
         import numpy as np
 
@@ -167,7 +169,7 @@ def nodes(tree: Tree) -> Iterator[Tree]:
             yield from nodes(argument)
 
 
-def written(tree: Tree, rank: int = 0) -> str:
+def expression_text(tree: Tree, rank: int = 0) -> str:
     """The tree as text that parses to the same tree.
 
     >>> written(parsed("2*( (O2) + 1)^2")[0])
@@ -182,17 +184,16 @@ def written(tree: Tree, rank: int = 0) -> str:
     if isinstance(tree, Name):
         return tree.name
     if tree.function not in OPERATORS:
-        return f"{tree.function}({', '.join(written(argument) for argument in tree.arguments)})"
+        return f"{tree.function}({', '.join(expression_text(argument) for argument in tree.arguments)})"
     own = RANKS[tree.function]
     if len(tree.arguments) == 1:
-        own, said = 3, "-" + written(tree.arguments[0], 3)
+        own, said = 3, "-" + expression_text(tree.arguments[0], 3)
     else:
         left, right = tree.arguments
         space = " " if own == 1 else ""
         base = own + 1 if own == 4 else own
-        said = (
-            f"{written(left, base)}{space}{tree.function}{space}{written(right, 3 if own == 4 else own + 1)}"
-        )
+        last = expression_text(right, 3 if own == 4 else own + 1)
+        said = f"{expression_text(left, base)}{space}{tree.function}{space}{last}"
     return f"({said})" if own < rank else said
 
 
@@ -201,7 +202,7 @@ _TOKEN = re.compile(
 )
 
 
-def parsed(text: str) -> tuple[Tree, str]:
+def parse_expression(text: str) -> tuple[Tree, str]:
     """The tree of the longest expression that the text begins with, and the text left over."""
     if len(text) > LONGEST:
         raise ModelError(
@@ -231,7 +232,8 @@ class _Parser:
     def sum(self, depth: int) -> Tree:
         if depth > DEEPEST:
             raise ModelError(
-                f"the expression {shown(self.text)} is nested deeper than {DEEPEST}", "use fewer brackets"
+                f"the expression {quote_value(self.text)} is nested deeper than {DEEPEST}",
+                "use fewer brackets",
             )
         return self.chain(("+", "-"), self.product, depth)
 
@@ -245,7 +247,7 @@ class _Parser:
             self.operations += 1
             if self.operations > MOST:
                 raise ModelError(
-                    f"the expression {shown(self.text)} has more than {MOST} operations",
+                    f"the expression {quote_value(self.text)} has more than {MOST} operations",
                     "use a table instead",
                 )
         return tree
@@ -253,7 +255,7 @@ class _Parser:
     def sign(self, depth: int) -> Tree:
         if depth > DEEPEST:
             raise ModelError(
-                f"the expression {shown(self.text)} is nested deeper than {DEEPEST}", "use fewer signs"
+                f"the expression {quote_value(self.text)} is nested deeper than {DEEPEST}", "use fewer signs"
             )
         found = self.sign_among(("+", "-"))
         if found is None:
@@ -269,7 +271,8 @@ class _Parser:
         value = _constant(exponent)
         if value is None or abs(value) > EXPONENT:
             raise ModelError(
-                f"the expression {shown(self.text)} has an exponent that is no number from -{EXPONENT} to {EXPONENT}",
+                f"the expression {quote_value(self.text)} has an exponent that is no number "
+                f"from -{EXPONENT} to {EXPONENT}",
                 GRAMMAR,
             )
         return Apply("^", (base, exponent))
@@ -282,15 +285,15 @@ class _Parser:
         if match["number"]:
             return Number(_finite(match["number"]))
         if match["sign"]:
-            return self.closed(self.sum(depth + 1))
-        return self.named(match["name"], depth)
+            return self.close_bracket(self.sum(depth + 1))
+        return self.parse_name(match["name"], depth)
 
-    def named(self, name: str, depth: int) -> Tree:
+    def parse_name(self, name: str, depth: int) -> Tree:
         call = self.sign_among(("(",))
         if call and name not in ARGUMENTS:
-            raise ModelError(f"there is no function {shown(name)} in an expression", GRAMMAR)
+            raise ModelError(f"there is no function {quote_value(name)} in an expression", GRAMMAR)
         if call:
-            return self.called(name, depth)
+            return self.parse_call(name, depth)
         if name in CONSTANTS:
             return Number(CONSTANTS[name])
         if name in ARGUMENTS:
@@ -299,33 +302,33 @@ class _Parser:
             raise self.refusal(name)
         return Name(name)
 
-    def called(self, name: str, depth: int) -> Tree:
+    def parse_call(self, name: str, depth: int) -> Tree:
         arguments = [self.sum(depth + 1)]
         while self.sign_among((",",)):
             arguments.append(self.sum(depth + 1))
-        tree = self.closed(Apply(name, tuple(arguments)))
+        tree = self.close_bracket(Apply(name, tuple(arguments)))
         if len(arguments) != ARGUMENTS[name]:
             raise ModelError(
-                f"{name} is given {len(arguments)} arguments in {shown(self.text)}",
+                f"{name} is given {len(arguments)} arguments in {quote_value(self.text)}",
                 f"it takes {ARGUMENTS[name]}",
             )
         return tree
 
-    def closed(self, tree: Tree) -> Tree:
+    def close_bracket(self, tree: Tree) -> Tree:
         if not self.sign_among((")",)):
             raise self.refusal("", "a bracket is not closed")
         return tree
 
     def refusal(self, found: str = "", why: str = "") -> ModelError:
         rest = found or self.text[self.place :].strip()
-        why = why or (f"{shown(rest[:20])} has no place there" if rest else "it stops in the middle")
-        return ModelError(f"{shown(self.text)} is no expression: {why}", GRAMMAR)
+        why = why or (f"{quote_value(rest[:20])} has no place there" if rest else "it stops in the middle")
+        return ModelError(f"{quote_value(self.text)} is no expression: {why}", GRAMMAR)
 
 
 def _finite(digits: str) -> float:
     value = float(digits)
     if not math.isfinite(value):
-        raise ModelError(f"{shown(digits)} is no finite number", "write a finite one")
+        raise ModelError(f"{quote_value(digits)} is no finite number", "write a finite one")
     return value
 
 
@@ -335,5 +338,5 @@ def _constant(tree: Tree) -> float | None:
     import numpy as np
 
     with np.errstate(all="ignore"):
-        value = float(evaluated(tree, {}, numpy_functions()))
+        value = float(evaluate(tree, {}, numpy_functions()))
     return value if math.isfinite(value) else None

@@ -85,13 +85,13 @@ class Table:
         outside = (position < low - slack) | (position > high + slack)
         if outside.any():
             raise ModelError(
-                f"a table goes from {self._said(low)} to {self._said(high)} of the drive {self.against!r}, "
-                f"which is at {self._said(position[outside].ravel()[0])}",
+                f"a table goes from {self._describe(low)} to {self._describe(high)} of the drive {self.against!r}, "
+                f"which is at {self._describe(position[outside].ravel()[0])}",
                 "give the table more points, make it periodic, or give the drive a smaller range",
             )
         return np.clip(position, low, high)
 
-    def _said(self, position: float) -> str:
+    def _describe(self, position: float) -> str:
         import math
 
         return f"{math.degrees(position):.6g} deg" if self.along == "angle" else f"{position:.6g} m"
@@ -124,7 +124,7 @@ def _check_period(table: Table) -> None:
     span = table.x[-1] - table.x[0]
     if not table.period > 0 or span > table.period * (1 + SLACK):
         raise ModelError(
-            f"a periodic table goes over {table._said(span)} and repeats after {table._said(table.period)}",
+            f"a periodic table goes over {table._describe(span)} and repeats after {table._describe(table.period)}",
             "leave out the points beyond one period, or give a longer one, as in `periodic: 20 mm` or `720 deg`",
             ("periodic",),
         )

@@ -11,11 +11,11 @@ from pydantic_core import CoreSchema, core_schema
 
 from dalembert.errors import ModelError
 from dalembert.model.part import Reading, reading
-from dalembert.model.quantities.expressions import parsed
+from dalembert.model.quantities.expressions import parse_expression
 from dalembert.model.quantities.figures import FILE_UNITS, in_units, plain, plain_vector, unit_vector, whole
 from dalembert.unit_names import unit
 from dalembert.units import KINDS, NUMBER, quantity, text
-from dalembert.wording import shown
+from dalembert.wording import quote_value
 
 Vector = tuple[float, ...]
 
@@ -35,7 +35,7 @@ class Value:
     def json_schema(self) -> JsonSchema:
         raise NotImplementedError
 
-    def _serialized(self, value: Any, info: SerializationInfo) -> Any:
+    def _serialize(self, value: Any, info: SerializationInfo) -> Any:
         with in_units(info.context):
             return self.write(value)
 
@@ -43,7 +43,7 @@ class Value:
         return core_schema.with_info_plain_validator_function(
             self.read,
             serialization=core_schema.plain_serializer_function_ser_schema(
-                self._serialized, info_arg=True, when_used="json"
+                self._serialize, info_arg=True, when_used="json"
             ),
         )
 
@@ -58,27 +58,27 @@ class Scalar(Value):
         self.kind, self.sign = kind, sign
 
     def read(self, value: Any, info: ValidationInfo) -> float:
-        return signed(quantity(value, self.kind, reading(info).units), value, self.sign)
+        return check_sign(quantity(value, self.kind, reading(info).units), value, self.sign)
 
     def write(self, value: float) -> Any:
-        return written(value, self.kind)
+        return value_text(value, self.kind)
 
     def json_schema(self) -> JsonSchema:
         return NUMBER_OR_TEXT | {"description": f"{KINDS[self.kind].phrase}, SI unit {KINDS[self.kind].si}"}
 
 
-def signed(number: float, value: object, sign: str) -> float:
+def check_sign(number: float, value: object, sign: str) -> float:
     """The number, if it has the sign wanted: `positive`, `not negative` or any."""
     if (sign == "positive" and not number > 0) or (sign == "not negative" and number < 0):
         positive = sign == "positive"
         raise ModelError(
-            f"{shown(value)} is {'not positive' if positive else 'negative'}",
+            f"{quote_value(value)} is {'not positive' if positive else 'negative'}",
             "write a positive one" if positive else "write a positive one, or 0",
         )
     return number
 
 
-def written(number: float, kind: str) -> Any:
+def value_text(number: float, kind: str) -> Any:
     """The number with its SI unit as text, or as a file in the units of the moment has it; a plain number as it is."""
     units = FILE_UNITS.get()
     if units is None:
@@ -86,10 +86,10 @@ def written(number: float, kind: str) -> Any:
     return plain(number, kind, units) if KINDS[kind].si else whole(number)
 
 
-def written_vector(vector: Vector, kind: str) -> Any:
-    """The components, or polar text, as `written` has them."""
+def vector_text(vector: Vector, kind: str) -> Any:
+    """The components, or polar text, as `value_text` has them."""
     units = FILE_UNITS.get()
-    return [written(x, kind) for x in vector] if units is None else plain_vector(vector, kind, units)
+    return [value_text(x, kind) for x in vector] if units is None else plain_vector(vector, kind, units)
 
 
 class Components(Value):
@@ -102,13 +102,13 @@ class Components(Value):
         return vector(value, self.kind, reading(info))
 
     def write(self, value: Vector) -> Any:
-        return written_vector(value, self.kind)
+        return vector_text(value, self.kind)
 
     def json_schema(self) -> JsonSchema:
         return vector_schema()
 
 
-def directed(direction: Vector) -> Vector:
+def direction_vector(direction: Vector) -> Vector:
     """The components of a direction in space, if they say one."""
     if len(direction) != 3:
         raise ModelError(f"a direction in space has {len(direction)} components", "write [x, y, z]")
@@ -135,7 +135,7 @@ def vector(value: object, kind: str, rules: Reading) -> Vector:
         x, y = unit_vector(angle)
         size = quantity(radius, kind, rules.units)
         return size * x, size * y
-    items = listed(value, rules, "[x, y] or polar text r @ angle")
+    items = check_vector(value, rules, "[x, y] or polar text r @ angle")
     return tuple(at_item(i, quantity, item, kind, rules.units) for i, item in enumerate(items))
 
 
@@ -147,12 +147,12 @@ def at_item(index: int | str, function: Callable[..., Any], *arguments: Any) -> 
         raise type(error)(error.what, error.remedy, (index, *error.path)) from None
 
 
-def listed(value: object, rules: Reading, example: str) -> Sequence[object]:
+def check_vector(value: object, rules: Reading, example: str) -> Sequence[object]:
     """The components of a vector, counted."""
     if rules.dimension == 3:
         example = "[x, y, z]"
     if isinstance(value, str) or not isinstance(value, Sequence):
-        raise ModelError(f"{shown(value)} is no vector", f"write {example}")
+        raise ModelError(f"{quote_value(value)} is no vector", f"write {example}")
     wanted = (rules.dimension,) if rules.dimension else (2, 3)
     if len(value) not in wanted:
         if rules.dimension == 2 and len(value) == 3:
@@ -167,15 +167,18 @@ def listed(value: object, rules: Reading, example: str) -> Sequence[object]:
 def polar(value: str, kind: str, rules: Reading) -> tuple[str, float]:
     """The radius as text and the angle in radians of `r @ angle`; a unit behind belongs where its dimension fits."""
     if rules.dimension == 3:
-        raise ModelError(f"{shown(value)} is polar, which is for the plane", "write [x, y, z]")
+        raise ModelError(f"{quote_value(value)} is polar, which is for the plane", "write [x, y, z]")
     radius, angle = (side.strip() for side in value.split("@", 1))
     if "@" in angle or not radius or not angle:
-        raise ModelError(f"{shown(value)} is no polar vector", "write r @ angle, for example 3 @ 30 deg")
+        raise ModelError(
+            f"{quote_value(value)} is no polar vector", "write r @ angle, for example 3 @ 30 deg"
+        )
     match = re.fullmatch(rf"({NUMBER})\s*(.*)", angle.replace("\u2212", "-"))
     if match and match[2] and unit(match[2]).dimension == KINDS[kind].dimension:
-        if not re.fullmatch(NUMBER, radius) and parsed(radius)[1]:
+        if not re.fullmatch(NUMBER, radius) and parse_expression(radius)[1]:
             raise ModelError(
-                f"{shown(value)} has two units of {KINDS[kind].phrase[2:].strip()}", "leave one of them out"
+                f"{quote_value(value)} has two units of {KINDS[kind].phrase[2:].strip()}",
+                "leave one of them out",
             )
         return f"{radius} {match[2]}", quantity(match[1], "angle", rules.units)
     try:
@@ -184,7 +187,7 @@ def polar(value: str, kind: str, rules: Reading) -> tuple[str, float]:
         if match is None:
             raise
         raise ModelError(
-            f"{shown(value)} ends with a unit that is neither of {KINDS[kind].phrase} nor of an angle",
+            f"{quote_value(value)} ends with a unit that is neither of {KINDS[kind].phrase} nor of an angle",
             f"write for example 3 {KINDS[kind].example.split(' ')[-1]} @ 30 deg",
         ) from None
 
@@ -192,7 +195,7 @@ def polar(value: str, kind: str, rules: Reading) -> tuple[str, float]:
 def numbers(value: object, kind: str, rules: Reading) -> tuple[float, ...]:
     """The SI values of a list of quantities."""
     if isinstance(value, str) or not isinstance(value, Sequence):
-        raise ModelError(f"{shown(value)} stands where a list is needed", "write [..., ...]")
+        raise ModelError(f"{quote_value(value)} stands where a list is needed", "write [..., ...]")
     if not value:
         raise ModelError("an empty list stands where values are needed", "write [..., ...]")
     return tuple(at_item(i, quantity, item, kind, rules.units) for i, item in enumerate(value))
@@ -203,10 +206,10 @@ def name(value: object) -> str:
     if isinstance(value, int) and not isinstance(value, bool):
         return str(value)
     if not isinstance(value, str):
-        raise ModelError(f"{shown(value)} is no name", "write a name as text")
+        raise ModelError(f"{quote_value(value)} is no name", "write a name as text")
     if not value.strip() or value != value.strip() or not value.isprintable() or re.search(r"[.@]", value):
         raise ModelError(
-            f"{shown(value)} cannot be a name", "a name is text without '.', '@' and spaces at its ends"
+            f"{quote_value(value)} cannot be a name", "a name is text without '.', '@' and spaces at its ends"
         )
     return value
 
@@ -236,7 +239,7 @@ class PairOfNames(Value):
 
 def pair_of_names(value: object) -> tuple[str, str]:
     if isinstance(value, str) or not isinstance(value, Sequence) or len(value) != 2:
-        found = f"a list of {len(value)}" if isinstance(value, (list, tuple)) else shown(value)
+        found = f"a list of {len(value)}" if isinstance(value, (list, tuple)) else quote_value(value)
         raise ModelError(f"{found} stands where two names are needed", "write [ground, crank]")
     first, second = (at_item(i, name, item) for i, item in enumerate(value))
     return first, second

@@ -11,7 +11,7 @@ from pydantic import ValidationInfo
 
 from dalembert.errors import ModelError
 from dalembert.model.part import Reading, mapping, reading
-from dalembert.model.quantities.expressions import Expression, parsed
+from dalembert.model.quantities.expressions import Expression, parse_expression
 from dalembert.model.quantities.figures import FILE_UNITS
 from dalembert.model.quantities.tables import SLACK, Table
 from dalembert.model.quantities.values import (
@@ -21,10 +21,10 @@ from dalembert.model.quantities.values import (
     at_item,
     name,
     numbers,
-    written,
+    value_text,
 )
 from dalembert.units import KINDS, NUMBER, check_unit, quantity
-from dalembert.wording import shown
+from dalembert.wording import quote_value
 
 Varying = float | Expression | Table
 """A quantity that may change along the motion, in SI."""
@@ -89,7 +89,7 @@ def varying(value: object, kind: str, rules: Reading) -> Varying:
     if isinstance(value, (Expression, Table)):
         return value
     if isinstance(value, Mapping):
-        return _mapped(value, kind, rules)
+        return _map_values(value, kind, rules)
     if isinstance(value, str) and _is_expression(value):
         return expression(value, kind, rules)
     return quantity(value, kind, rules.units)
@@ -107,8 +107,10 @@ def _is_expression(value: str) -> bool:
 def expression(value: object, kind: str, rules: Reading, unit_text: str = "") -> Expression:
     """An expression, with a unit behind it or the file's."""
     if not isinstance(value, str):
-        raise ModelError(f"{shown(value)} is no expression", "write it as text, for example 500*sin(O2)")
-    rest = parsed(value)[1]
+        raise ModelError(
+            f"{quote_value(value)} is no expression", "write it as text, for example 500*sin(O2)"
+        )
+    rest = parse_expression(value)[1]
     if rest and not re.match(r"[^\W\d]", rest):
         Expression(value)
     if rest:
@@ -119,13 +121,13 @@ def expression(value: object, kind: str, rules: Reading, unit_text: str = "") ->
     return Expression(value, unit_text or default)
 
 
-def _mapped(value: Mapping[str, Any], kind: str, rules: Reading) -> Varying:
+def _map_values(value: Mapping[str, Any], kind: str, rules: Reading) -> Varying:
     if "expression" in value:
         keys = mapping(value, ["expression", "unit"], "")
         unit_text = keys.get("unit", "")
         if not isinstance(unit_text, str):
             raise ModelError(
-                f"{shown(unit_text)} is no unit", f"write {KINDS[kind].si}, for example", ("unit",)
+                f"{quote_value(unit_text)} is no unit", f"write {KINDS[kind].si}, for example", ("unit",)
             )
         return at_item("expression", expression, keys["expression"], kind, rules, unit_text)  # type: ignore[no-any-return]
     return _table(value, kind, rules)
@@ -184,15 +186,15 @@ def varying_tree(value: Varying, kind: str) -> Any:
     if isinstance(value, Table):
         tree: dict[str, Any] = {
             "against": value.against,
-            "x": [written(x, value.along) for x in value.x],
-            "y": [written(y, kind) for y in value.y],
+            "x": [value_text(x, value.along) for x in value.x],
+            "y": [value_text(y, kind) for y in value.y],
         }
         if value.interpolate != "linear":
             tree["interpolate"] = value.interpolate
         if value.period is not None:
-            tree["periodic"] = written(value.period, value.along)
+            tree["periodic"] = value_text(value.period, value.along)
         return tree
-    return written(value, kind)
+    return value_text(value, kind)
 
 
 def value_at(value: Varying, drives: Mapping[str, Any], functions: Mapping[str, Any] | None = None) -> Any:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from dalembert.analysis.methods.applied_forces import actions, joint_place, on_link
 from dalembert.analysis.result.reaction_components import table_row
-from dalembert.report.sections.terms import AXES, About, Piece, setting, signed, terms
+from dalembert.report.sections.terms import AXES, About, Piece, join_signed, setting, terms
 from dalembert.report.sections.terms import about as at
 from dalembert.report.sheet import Working
 from dalembert.views.notation import Shown
@@ -57,5 +57,5 @@ def _line(left: str, pieces: list[Piece], shown: Shown, kind: str) -> Working:
     total = math.fsum(p.value for p in pieces)
     largest = max((abs(p.value) for p in pieces), default=0.0)
     shown_total = shown.notation.number(0.0 if abs(total) < 1e-9 * largest else total)
-    letters, numbers = signed([p.letters for p in pieces]), signed([p.numbers for p in pieces])
+    letters, numbers = join_signed([p.letters for p in pieces]), join_signed([p.numbers for p in pieces])
     return Working(f"{left}: quad {letters} = 0", f'{numbers} = {shown_total} "{shown.unit(kind)}"')

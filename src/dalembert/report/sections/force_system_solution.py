@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from dalembert.arrays import Array
-from dalembert.report.formula import bracketed
+from dalembert.report.formula import bracket_negative
 from dalembert.report.report_context import as_formula
 from dalembert.report.sheet import Sheet, Working
 from dalembert.views import draw
@@ -125,7 +125,7 @@ class _Work:
         self.sheet.heading("Resultant")
         lines = []
         for k, axis in enumerate(self.axes):
-            terms = _joined([self.force(f.vector[k]) for f in self.s.forces])
+            terms = _join_signed([self.force(f.vector[k]) for f in self.s.forces])
             total = f"{self.force(self.s.resultant[k])} {self.unit('force')}"
             lines.append(Working(f"R_{{{axis}}} = sum F_{{{axis}}}", terms, total))
         r = Force(self.s.resultant)
@@ -221,16 +221,16 @@ class _Work:
             Working(f"x R_{{y}} − y R_{{x}} = {self.about}: quad {self._equation(r, m)}"),
         ]
         self.sheet.equations(lines)
-        cuts = [self._cut(found, name) for name in ("y", "x")]
+        cuts = [self._intercepts(found, name) for name in ("y", "x")]
         self.sheet.text(
             f"Looking along R, the line passes {self.name} at the distance d, to the right where d is positive. "
             f"Measured from {self.name} it {' and '.join(c for c in cuts if c)}."
         )
 
     def _equation(self, r: Array, m: float) -> str:
-        return f"{self.force(r[1])} x − {bracketed(self.force(r[0]))} y = {self.moment(m)}"
+        return f"{self.force(r[1])} x − {bracket_negative(self.force(r[0]))} y = {self.moment(m)}"
 
-    def _cut(self, axis: Any, name: str) -> str:
+    def _intercepts(self, axis: Any, name: str) -> str:
         """Where a line crosses the axes or planes through the point."""
         k = self.axes.index(name)
         if abs(axis.direction[k]) < 1e-9:
@@ -246,8 +246,8 @@ class _Work:
         r, m = self.s.resultant, self.reduced.vector
         size, found = math.hypot(*r), self.s.central_axis()
         moment, force, length = self.unit("moment"), self.unit("force"), self.length_unit
-        product = _joined(
-            [f"{self.force(a)} cdot {bracketed(self.moment(b))}" for a, b in zip(r, m, strict=True)]
+        product = _join_signed(
+            [f"{self.force(a)} cdot {bracket_negative(self.moment(b))}" for a, b in zip(r, m, strict=True)]
         )
         value = self.shown.value("force", 1.0) * self.shown.value("moment", float(r @ m))
         foot = np.cross(r / size, m) / size
@@ -267,7 +267,7 @@ class _Work:
         }
         self.sheet.text(words[kind])
         self.sheet.equations(lines)
-        cuts = [c for c in (self._cut(found.axis, name) for name in "xyz") if c]
+        cuts = [c for c in (self._intercepts(found.axis, name) for name in "xyz") if c]
         self.sheet.text(
             f"r is the point of the axis nearest to {self.name}. "
             f"Measured from {self.name} the axis {'; it '.join(cuts)}."
@@ -289,16 +289,16 @@ def _sign(name: str) -> str:
 
 def _formulas(heads: list[str]) -> list[str]:
     """Heads of columns with their indices lowered."""
-    return [f"${_lowered(h)}$" if "_" in h or h in ("x", "y", "z", "M") else h for h in heads]
+    return [f"${_lower_case(h)}$" if "_" in h or h in ("x", "y", "z", "M") else h for h in heads]
 
 
-def _lowered(head: str) -> str:
+def _lower_case(head: str) -> str:
     for axis in "xyz":
         head = head.replace(f"_{axis}", f"_{{{axis}}}")
     return head
 
 
-def _joined(numbers: list[str]) -> str:
+def _join_signed(numbers: list[str]) -> str:
     """Numbers with their signs between them."""
     out = ""
     for text in numbers:

@@ -9,8 +9,8 @@ import numpy as np
 
 from dalembert.analysis.compile.plane_rows import signed_radii
 from dalembert.analysis.methods.applied_forces import link_place, link_speed
-from dalembert.report.formula import bracketed
-from dalembert.report.sections.kinematics import GROUND, closed
+from dalembert.report.formula import bracket_negative
+from dalembert.report.sections.kinematics import GROUND, zero_sum
 from dalembert.report.sheet import Working
 from dalembert.views.notation import Shown
 
@@ -32,17 +32,17 @@ def mesh(r: Result, k: int, joint: str, shown: Shown) -> tuple[str, list[Working
         letters, numbers, values = [], [], []
         for link, radius in wheels:
             rate, sign = float(of(r, link)[k]), f"{letter}_{{{shown.link(link)}}}"
-            figure, size = shown.number(kind, rate), bracketed(shown.number("length", radius))
+            figure, size = shown.number(kind, rate), bracket_negative(shown.number("length", radius))
             if turning:
                 sign = f"({sign} − {letter}_{{c}})"
-                figure = f"({figure} − {bracketed(shown.number(kind, turning))})"
+                figure = f"({figure} − {bracket_negative(shown.number(kind, turning))})"
             letters.append(f"r_{{{shown.link(link)}}} {sign}")
-            numbers.append(f"{size} cdot {figure if turning else bracketed(figure)}")
+            numbers.append(f"{size} cdot {figure if turning else bracket_negative(figure)}")
             values.append(radius * (rate - turning))
         largest = max(map(abs, values))
         if largest:
             sums = " + ".join(letters), " + ".join(numbers), math.fsum(values), largest
-            out.append(closed(*sums, shown, "length", "/s" if letter == "omega" else "/s²"))
+            out.append(zero_sum(*sums, shown, "length", "/s" if letter == "omega" else "/s²"))
     words = f"Mesh {joint}: the pitch circles roll on each other"
     if line.speed or line.acceleration:
         parts = [f"${letter}_{{c}}$ = {shown.text(kind, rate)}" for letter, kind, rate, _ in rates if rate]

@@ -101,14 +101,14 @@ def joint_axes(sheet: Sheet, c: Chosen) -> None:
             [
                 joint,
                 *(f"({', '.join(_cosine(float(x), c.notation.figures) for x in e)})" for e in axes),
-                _primed(local_words(described)),
+                _add_primes(local_words(described)),
             ]
         )
     heads = ["Joint", "x'", "y'", "z'", "What they are"]
     sheet.table(heads, rows, "The joints' own axes, marked by a prime, at this position in ground axes")
 
 
-def _primed(words: str) -> str:
+def _add_primes(words: str) -> str:
     """The letters of a joint's own axes with their prime."""
     return re.sub(r"\b([xyz])\b", r"\1'", words)
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import link_angle, link_place, link_speed, slide_direction
-from dalembert.report.sections.terms import Signed, signed
+from dalembert.report.sections.terms import Signed, join_signed
 from dalembert.report.sheet import Working
 from dalembert.views.notation import Shown
 
@@ -127,10 +127,10 @@ def position_lines(loop: Loop, shown: Shown) -> list[Working]:
     """Sum of r cos theta and of r sin theta."""
     out = []
     for function, turn in (("cos", math.cos), ("sin", math.sin)):
-        letters = signed([(False, f"r_{{{s.name}}} {function} theta_{{{s.name}}}") for s in loop.sides])
-        numbers = signed([_side_numbers(s, function, shown) for s in loop.sides])
+        letters = join_signed([(False, f"r_{{{s.name}}} {function} theta_{{{s.name}}}") for s in loop.sides])
+        numbers = join_signed([_side_numbers(s, function, shown) for s in loop.sides])
         total = math.fsum(s.length * turn(s.angle) for s in loop.sides)
-        out.append(closed(letters, numbers, total, max(abs(s.length) for s in loop.sides), shown, "length"))
+        out.append(zero_sum(letters, numbers, total, max(abs(s.length) for s in loop.sides), shown, "length"))
     return out
 
 
@@ -156,13 +156,13 @@ def velocity_lines(loop: Loop, shown: Shown) -> list[Working]:
                 along = (c if axis == 0 else n) * s.slide[0]
                 found.append(((False, f"v_{{{s.name}}} {g} theta_{{{s.name}}}"), along))
         out.append(found)
-    return _summed(out, shown, "speed")
+    return _sum_rows(out, shown, "speed")
 
 
 def acceleration_lines(loop: Loop, shown: Shown) -> list[Working]:
     """Second derivative of the position's sums."""
     out = [[term for s in _moving(loop) for term in _accelerations(s, axis)] for axis in (0, 1)]
-    return _summed(out, shown, "acceleration")
+    return _sum_rows(out, shown, "acceleration")
 
 
 def _accelerations(s: Vector, axis: int) -> list[tuple[Signed, float]]:
@@ -190,15 +190,17 @@ def _moving(loop: Loop) -> list[Vector]:
     return [s for s in loop.sides if s.speed or s.acceleration or s.slide is not None]
 
 
-def _summed(axes: list[list[tuple[Signed, float]]], shown: Shown, kind: str) -> list[Working]:
+def _sum_rows(axes: list[list[tuple[Signed, float]]], shown: Shown, kind: str) -> list[Working]:
     """Terms in letters and their values along both axes, and the sums; rounding noise is 0."""
     largest = max((abs(v) for terms in axes for _, v in terms), default=0.0)
     out = []
     for terms in axes:
         texts = [shown.number(kind, value) for _, value in terms]
-        numbers = signed([(text.startswith("−"), text.removeprefix("−")) for text in texts])
+        numbers = join_signed([(text.startswith("−"), text.removeprefix("−")) for text in texts])
         total = math.fsum(v for _, v in terms)
-        out.append(closed(signed([letters for letters, _ in terms]), numbers, total, largest, shown, kind))
+        out.append(
+            zero_sum(join_signed([letters for letters, _ in terms]), numbers, total, largest, shown, kind)
+        )
     return out
 
 
@@ -207,7 +209,7 @@ def _degrees(angle: float, shown: Shown) -> str:
     return f"({text})" if text.startswith("−") else text
 
 
-def closed(
+def zero_sum(
     letters: str, numbers: str, total: float, largest: float, shown: Shown, kind: str, per: str = ""
 ) -> Working:
     """A sum that is zero; what rounding leaves of it is 0. ``per`` goes on behind the unit."""

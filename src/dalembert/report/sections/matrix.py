@@ -73,7 +73,7 @@ def matrix_equation(
     rows, right = [], []
     for link in links:
         about = moment_point(r, link, k, wanted)
-        known = _known(everything, found, link, k, about)
+        known = _known_actions(everything, found, link, k, about)
         columns = [_column(u, link, about) for u in found]
         for axis in range(n):
             if axis >= 3 and axis - 3 == following.get(link):
@@ -90,7 +90,7 @@ def matrix_equation(
     return Matrix(tuple(rows), tuple(u.sign for u in found), tuple(right), values)
 
 
-def _known(
+def _known_actions(
     everything: tuple[Action, ...], some: list[Unknown], link: str, k: int, about: About
 ) -> list[float]:
     """Forces and moments on a link of what is not among the unknowns."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from dalembert.analysis.methods.members import displaced_inertia, inertia_shares
 from dalembert.analysis.output.rounding import PART
-from dalembert.report.formula import bracketed
+from dalembert.report.formula import bracket_negative
 from dalembert.report.report_context import Chosen
 from dalembert.report.sections import kinematics
 from dalembert.report.sections.gear_motion import mesh
@@ -132,7 +132,9 @@ def _inertia_lines(c: Chosen, link: str) -> list[Working]:
     if not inertia or abs(alpha) <= shown.least["angular_acceleration"]:
         return out
     minus = "−" if c.notation.torque > 0 else ""
-    product = f"{minus}{number('inertia', inertia)} cdot {bracketed(number('angular_acceleration', alpha))}"
+    product = (
+        f"{minus}{number('inertia', inertia)} cdot {bracket_negative(number('angular_acceleration', alpha))}"
+    )
     couple = number("moment", float(found.couple[k]))
     out.append(
         Working(

@@ -138,10 +138,10 @@ def virtual_work(sheet: Sheet, c: Chosen) -> None:
                 continue
             force = bool(np.nan_to_num(a.force).any())
             acts = [_vector_of(shown, "force", a.force[k])] if force else []
-            moves = [_moved(shown, v[k, n], move, reach * r.compiled.layout.length)] if force else []
+            moves = [_displacement(shown, v[k, n], move, reach * r.compiled.layout.length)] if force else []
             if np.abs(a.couple[k]).max() > least[1] or not force:
                 acts.append(_vector_of(shown, "moment", a.couple[k]))
-                moves.append(_moved(shown, w[k, n], turn * c.notation.torque, reach))
+                moves.append(_displacement(shown, w[k, n], turn * c.notation.torque, reach))
             work = shown.number(kind, float(p[k, n]), floor)
             rows.append([source_sign(c, a.source), " and ".join(acts), " and ".join(moves), work])
         total = float(found.power[:, k, n].sum())
@@ -201,7 +201,7 @@ def _vector_of(shown: Shown, kind: str, v: Any) -> str:
     return f"({', '.join(numbers)})" if np.ndim(v) else numbers[0]
 
 
-def _moved(shown: Shown, v: Any, factor: float, size: float) -> str:
+def _displacement(shown: Shown, v: Any, factor: float, size: float) -> str:
     """A displacement or turn for a unit of the drive, in the reader's units; beside a size rounding is 0."""
     numbers = [
         shown.notation.number(float(x) * factor if abs(float(x)) > PART * size else 0.0)

@@ -13,7 +13,7 @@ import numpy as np
 from dalembert.analysis.methods.applied_forces import Action, drive_wrench, unit_load
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.rounding import least
-from dalembert.analysis.result.reaction_components import Component, components, left_over
+from dalembert.analysis.result.reaction_components import Component, components, remainder
 from dalembert.arrays import Array
 from dalembert.views.notation import Shown, along, own_name
 
@@ -75,7 +75,7 @@ class Term(Protocol):
     def moment(self, axis: int) -> list[Piece]: ...
 
 
-def signed(parts: list[Signed]) -> str:
+def join_signed(parts: list[Signed]) -> str:
     """Terms with their signs between them."""
     out = ""
     for n, (minus, text) in enumerate(parts):
@@ -123,7 +123,7 @@ def _in_space(s: Setting, a: Action) -> list[Term]:
 def _reaction(s: Setting, a: Action) -> list[Term]:
     """A joint's reaction: three components along the axes as one vector, the others one by one."""
     some, out = components(s.r, a, s.k, s.axes), list[Term]()
-    rest = left_over(a, s.k, some)
+    rest = remainder(a, s.k, some)
     for turning in (False, True):
         mine = [c for c in some if c.turning is turning]
         out += [_line(s, a, c) for c in mine if c.own]
@@ -214,9 +214,9 @@ class Line:
         self.s, self.sign, self.action = s, sign, a
         floor = s.floors[0 if kind == "force" else 1]
         self.value = s.shown.value(kind, value if abs(value) > floor else 0.0)
-        self.cosines = _cleaned(s.axes @ force)
+        self.cosines = _remove_noise(s.axes @ force)
         self.arm = s.arm(a.at[s.k])
-        turning = _cleaned(s.axes @ couple)
+        turning = _remove_noise(s.axes @ couple)
         arm = s.shown.arm if kind == "force" else 1.0
         self.turning = [t / arm for t in turning]
 
@@ -256,7 +256,7 @@ class Line:
         return [Piece((factor < 0, letters), (factor < 0, numbers), factor * self.value)]
 
 
-def _cleaned(v: Array) -> list[float]:
+def _remove_noise(v: Array) -> list[float]:
     """Direction cosines, or components in metres a unit, without rounding."""
     out = [0.0 if abs(x) < PARALLEL else float(x) for x in v]
     return [float(np.sign(x)) if abs(abs(x) - 1) < PARALLEL else x for x in out]

@@ -10,7 +10,7 @@ import numpy as np
 from dalembert.analysis.compile.pair_table import AXES, PAIRS, pair_of
 from dalembert.arrays import Array
 from dalembert.report.sections.kinematics import GROUND, Ring, joint_end, rings
-from dalembert.report.sections.terms import Signed, signed
+from dalembert.report.sections.terms import Signed, join_signed
 from dalembert.report.sheet import Sheet, Working
 from dalembert.views.notation import Shown
 
@@ -95,12 +95,12 @@ def _lines(sides: list[Side], kind: str, order: int, shown: Shown) -> list[Worki
     some = [s for s in sides if order == 0 or np.abs(s.vectors[order]).max() > least]
     if not some:
         return []
-    lines = [Working(f"{signed([_letters(s, order, shown) for s in some])} = 0")]
+    lines = [Working(f"{join_signed([_letters(s, order, shown) for s in some])} = 0")]
     largest = max(float(np.abs(s.vectors[order]).max()) for s in some)
     for axis, letter in enumerate(AXES):
         values = [float(s.vectors[order][axis]) for s in some]
         total = math.fsum(values)
-        numbers = signed([(v < -least, shown.number(kind, abs(v))) for v in values])
+        numbers = join_signed([(v < -least, shown.number(kind, abs(v))) for v in values])
         total_shown = shown.number(kind, total, 1e-9 * largest)
         lines.append(Working(f'{letter}: quad {numbers} = {total_shown} "{shown.unit(kind)}"'))
     return lines

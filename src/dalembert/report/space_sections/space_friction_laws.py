@@ -155,7 +155,7 @@ class _Joint:
             factor, figure = f"k_{{{name}}}", self._figure(rub.strength)
             out.append(Working(letters, f"frac({self._given(rub)}; {below})", figure))
         out.append(
-            self._shared(
+            self._share(
                 "force", f"{factor} |p_{{x'}}|", f"{figure} cdot {self._figure(abs(rub.part))}", guides
             )
         )
@@ -165,13 +165,13 @@ class _Joint:
                 self._figure(abs(pins[0].part)),
             )
             out.append(
-                self._shared(
+                self._share(
                     "moment", f"{factor} R_{{{name}}} |p_{{t}}|", f"{figure} cdot {arm} cdot {part}", pins
                 )
             )
         return out
 
-    def _shared(self, kind: str, factor: str, figure: str, rubs: list[Rub]) -> Working:
+    def _share(self, kind: str, factor: str, figure: str, rubs: list[Rub]) -> Working:
         """The part of the friction along x', or around it."""
         parts = [self._product(factor, figure, rub, n, len(rubs)) for n, rub in enumerate(rubs)]
         sign = along(self.couple_sign if kind == "moment" else self.force_sign, "x'")
@@ -231,7 +231,7 @@ class _Joint:
                 self._text("force", abs(rub)),
             ),
         ]
-        force, couple = (float(v @ self._axis()) for v in self._made())
+        force, couple = (float(v @ self._axis()) for v in self._law())
         size, minus = self._number("force", abs(rub)), "−" if force < 0 else ""
         turned = "−" if couple < 0 else ""
         return [
@@ -251,6 +251,6 @@ class _Joint:
     def _axis(self) -> Array:
         return np.asarray(self.c.r.joint_axes(self.joint)[self.c.k, 0])
 
-    def _made(self) -> tuple[Array, Array]:
+    def _law(self) -> tuple[Array, Array]:
         r, k = self.c.r, self.c.k
         return r.friction_force(self.joint)[k], r.friction_moment(self.joint)[k]

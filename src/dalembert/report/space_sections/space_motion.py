@@ -44,7 +44,7 @@ def space_motion(sheet: Sheet, c: Chosen) -> None:
     unit = c.shown.unit("length")
     places = [[j, *_vector(c, "length", joint_place(r, j)[k])] for j in r.joints]
     sheet.table(["Joint", *(f"{a} ({unit})" for a in AXES)], places, "Places of the joints, ground axes")
-    _turned(sheet, c)
+    _orientations(sheet, c)
     if _moves(c):
         _rates(sheet, c)
 
@@ -75,7 +75,7 @@ def _vector(c: Chosen, kind: str, v: Array) -> list[str]:
     return [c.shown.number(kind, float(x)) for x in v]
 
 
-def _turned(sheet: Sheet, c: Chosen) -> None:
+def _orientations(sheet: Sheet, c: Chosen) -> None:
     """How each link stands: turned from ground's axes about an axis, and its mass centre."""
     r, rows = c.r, []
     for link in r.links:

@@ -32,7 +32,7 @@ def order_and_solution(sheet: Sheet, c: Chosen) -> None:
     if r.mobility is not None and r.mobility.redundant:
         _together(sheet, c, every, r.mobility.redundant)
         return
-    found = {link: _taken(c, member) for link, member in members(r).items()}
+    found = {link: _two_force_step(c, member) for link, member in members(r).items()}
     rods = [link for link in found if _between_balls(c, link) and found[link].kind in ("two-force", ZERO)]
     for link in rods:
         _rod(sheet, c, link, found[link])
@@ -45,7 +45,7 @@ def order_and_solution(sheet: Sheet, c: Chosen) -> None:
         _step(sheet, c, step, [*pulled, *(u for u in every if _sought(u, step))])
 
 
-def _taken(c: Chosen, member: Member) -> Member:
+def _two_force_step(c: Chosen, member: Member) -> Member:
     """A two-force member as such where that is seen before the solution."""
     if member.kind != "two-force" or _between_balls(c, member.link):
         return member
@@ -109,7 +109,7 @@ def _step(sheet: Sheet, c: Chosen, step: Step, some: list[Unknown]) -> None:
     spinning = {link: _along(c, link) for link in c.r.compiled.passive if link in step.links}
     matrix = matrix_equation(c.r, c.k, c.shown, c.about, step.links, some, spinning)
     if matrix is None:
-        _listed(sheet, c, f"Link{'s' if len(step.links) > 1 else ''} {links}", step.equations, some)
+        _system_size(sheet, c, f"Link{'s' if len(step.links) > 1 else ''} {links}", step.equations, some)
         return
     spins = "".join(
         f" The moments of {c.shown.heading(link)} about {'xyz'[axis]} follow from its others: nothing holds its spin."
@@ -135,10 +135,10 @@ def _together(sheet: Sheet, c: Chosen, every: list[Unknown], redundant: int) -> 
         f"With {redundant} redundant constraint{'' if redundant == 1 else 's'} the links cannot be solved one after "
         f"the other: all equations are solved together, {how}."
     )
-    _listed(sheet, c, "All links", 6 * len(c.r.links), every)
+    _system_size(sheet, c, "All links", 6 * len(c.r.links), every)
 
 
-def _listed(sheet: Sheet, c: Chosen, links: str, equations: int, some: list[Unknown]) -> None:
+def _system_size(sheet: Sheet, c: Chosen, links: str, equations: int, some: list[Unknown]) -> None:
     """The size of a system that is not printed, and its solution."""
     sheet.text(
         f"{links}: {equations} equations with {len(some)} unknowns, assembled from those above and solved as one, "

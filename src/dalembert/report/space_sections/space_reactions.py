@@ -16,7 +16,7 @@ from dalembert.report.sheet import Sheet
 
 def reaction_tables(sheet: Sheet, c: Chosen) -> None:
     """Forces and moments of all joints by components and sizes; what is not unique in brackets."""
-    r, on = c.r, {joint: _acted(c, joint) for joint in c.r.joints}
+    r, on = c.r, {joint: _acting_link(c, joint) for joint in c.r.joints}
     least = floors(r, c.k)
     for axes, words, prime in (("ground", "ground axes", ""), ("joint", "each joint's own axes", "'")):
         heads = ["Joint", "Force", *(f"{a}{prime}" for a in AXES), "size"]
@@ -30,7 +30,7 @@ def reaction_tables(sheet: Sheet, c: Chosen) -> None:
     sheet.text(uniqueness(c))
 
 
-def _acted(c: Chosen, joint: str) -> str:
+def _acting_link(c: Chosen, joint: str) -> str:
     """j of a joint, or i where j is the ground."""
     i, j = c.r.mechanism.joints[joint].links
     return j if j != "ground" else i
@@ -46,7 +46,7 @@ def _row(c: Chosen, joint: str, on: str, axes: Any, least: tuple[float, ...]) ->
         part, known = whole[3 * n : 3 * n + 3], np.isfinite(exact[3 * n : 3 * n + 3])
         if n and not table_row(r.mechanism.joints[joint]).moments and not (np.abs(part) > least[1]).any():
             return [*row, *["–"] * 5]
-        carried = _carried(c, joint, n) if axes == "joint" else (True,) * 3
+        carried = _carried_components(c, joint, n) if axes == "joint" else (True,) * 3
         row.append(as_formula(sign(joint, on)))
         for value, is_known, is_carried in zip(map(float, part), known, carried, strict=True):
             text = shown.number(kind, value, least[n])
@@ -58,7 +58,7 @@ def _row(c: Chosen, joint: str, on: str, axes: Any, least: tuple[float, ...]) ->
     return row
 
 
-def _carried(c: Chosen, joint: str, moments: int) -> tuple[bool, ...]:
+def _carried_components(c: Chosen, joint: str, moments: int) -> tuple[bool, ...]:
     """Which components along its own axes a joint carries; of a gear any."""
     described = c.r.mechanism.joints[joint]
     pair = table_row(described)
@@ -75,7 +75,7 @@ def uniqueness(c: Chosen) -> str:
         free = [
             f"${'FM'[n // 3]}_{{{AXES[n % 3]}'}}$"
             for n in range(6)
-            if not np.isfinite(exact[n]) and _carried(c, joint, n // 3)[n % 3]
+            if not np.isfinite(exact[n]) and _carried_components(c, joint, n // 3)[n % 3]
         ]
         if free:
             found.append(f"{joint} ({', '.join(free)})")

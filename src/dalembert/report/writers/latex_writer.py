@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dalembert.report.formula import LATEX_SIGNS, latex, mixed
+from dalembert.report.formula import LATEX_SIGNS, latex, write_mixed
 from dalembert.report.sheet import Block, Equations, Figure, Heading, Matrix, Paragraph, Sheet, Table, Working
 from dalembert.views.paper.lettering import plain as plain_sign
 
@@ -36,7 +36,7 @@ def _words(text: str) -> str:
 
 
 def _rich(text: str) -> str:
-    return "".join(mixed(text, lambda f: f"${latex(f)}$", _words))
+    return "".join(write_mixed(text, lambda f: f"${latex(f)}$", _words))
 
 
 def _block(b: Block) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import textwrap
 
-from dalembert.report.formula import mixed, plain
+from dalembert.report.formula import plain, write_mixed
 from dalembert.report.sheet import Block, Equations, Figure, Heading, Matrix, Paragraph, Sheet, Table, Working
 from dalembert.views.paper.lettering import plain as plain_sign
 
@@ -24,7 +24,7 @@ def plain_text(sheet: Sheet) -> str:
 
 
 def _rich(text: str) -> str:
-    return "".join(mixed(text, plain, str))
+    return "".join(write_mixed(text, plain, str))
 
 
 def _block(b: Block) -> str:

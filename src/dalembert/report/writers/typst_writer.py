@@ -7,7 +7,7 @@ from importlib import import_module
 from importlib.resources import files
 from typing import Any
 
-from dalembert.report.formula import mixed, typst
+from dalembert.report.formula import typst, write_mixed
 from dalembert.report.sheet import Block, Equations, Figure, Heading, Matrix, Paragraph, Sheet, Table
 from dalembert.views.formats.svg import MARGIN
 from dalembert.views.paper.scene import Scene
@@ -61,7 +61,7 @@ def _block(b: Block, pictures: dict[str, bytes]) -> dict[str, Any]:
 
 
 def _rich(text: str) -> list[str]:
-    return mixed(text, typst, str)
+    return write_mixed(text, typst, str)
 
 
 def _pictures(scenes: tuple[Scene, ...], pictures: dict[str, bytes]) -> list[dict[str, Any]]:

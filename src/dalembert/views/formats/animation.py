@@ -26,7 +26,7 @@ from dalembert.views.plane.mechanism_view import (
     draw_force,
     draw_links,
     draw_traces,
-    stated,
+    scale_notes,
     unit_size,
     whole_frame,
 )
@@ -63,14 +63,15 @@ class Animation:
         """SVG that plays in a browser, without a script."""
         from dalembert.views.formats.svg import page
 
-        return page(self.bounds, self.title, theme, self._drawn)
+        return page(self.bounds, self.title, theme, self._draw_frames)
 
-    def _drawn(self, writer: Any) -> str:
+    def _draw_frames(self, writer: Any) -> str:
         count = len(self.frames)
         out = "".join(writer.item(item) for item in self.still)
         for n, scene in enumerate(self.frames):
             items = "".join(writer.item(item) for item in scene.items)
-            out += f'<g visibility="{"visible" if n == 0 else "hidden"}">{_shown(n, count, self.seconds)}{items}</g>'
+            shown, timing = "visible" if n == 0 else "hidden", _frame_timing(n, count, self.seconds)
+            out += f'<g visibility="{shown}">{timing}{items}</g>'
         return out
 
     def save(self, path: str | Path, overwrite: bool = False, theme: str = "light") -> None:
@@ -112,7 +113,7 @@ class Animation:
         return self.to_svg()
 
 
-def _shown(n: int, count: int, seconds: float) -> str:
+def _frame_timing(n: int, count: int, seconds: float) -> str:
     """The element that shows a frame in its part of the time."""
     start, end = n / count, (n + 1) / count
     values, times = ["hidden", "visible", "hidden"], [0.0, start, end]
@@ -158,7 +159,7 @@ def animation_scene(
     film = _in_space(r, which, some, shown, camera) if camera else _in_plane(r, which, some, shown)
     bounds = Animation(tuple(film.still.items), tuple(s for _, s in film.frames)).bounds
     fixed = _fixed_texts(r, bounds, film.notes)
-    lettered = tuple(_lettered(r, k, scene, bounds, shown) for k, scene in film.frames)
+    lettered = tuple(_frame_heading(r, k, scene, bounds, shown) for k, scene in film.frames)
     return Animation((*film.still.items, *fixed), lettered, seconds, r.mechanism.title, film.scales)
 
 
@@ -178,7 +179,7 @@ def _in_plane(r: Result, which: Array, some: list[Action], shown: Shown) -> _Fil
             if abs(float(a.couple[k])) > 0 and a.kind != "joint":
                 draw_couple(canvas, r, a, k, frame, shown, values=None)
         frames.append((k, canvas.scene(heading=False)))
-    return _Film(still, frames, *stated(shown, frame, per_mm))
+    return _Film(still, frames, *scale_notes(shown, frame, per_mm))
 
 
 def _in_space(r: Result, which: Array, some: list[Action], shown: Shown, camera: Camera) -> _Film:
@@ -196,7 +197,7 @@ def _in_space(r: Result, which: Array, some: list[Action], shown: Shown, camera:
     left, bottom, _, _ = Animation(tuple(still.items), tuple(scene for _, scene in frames)).bounds
     triad(still, camera, (left - 12.0, bottom))
     still.scene(heading=False)
-    return _Film(still, frames, *arrows.stated(everything=True))
+    return _Film(still, frames, *arrows.scale_notes(everything=True))
 
 
 def _fixed_texts(r: Result, bounds: Box, notes: Sequence[str]) -> list[Item]:
@@ -208,7 +209,7 @@ def _fixed_texts(r: Result, bounds: Box, notes: Sequence[str]) -> list[Item]:
     ]
 
 
-def _lettered(r: Result, k: int, scene: Scene, bounds: Box, shown: Shown) -> Scene:
+def _frame_heading(r: Result, k: int, scene: Scene, bounds: Box, shown: Shown) -> Scene:
     """The position and the efforts of a frame, in words above it."""
     found = all(np.isfinite(r.least_norm(joint)[k]).all() for joint in r.joints)
     said = "not unique: those of least norm" if found else "not known: left out"

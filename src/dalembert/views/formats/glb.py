@@ -20,7 +20,7 @@ from dalembert.errors import ModelError
 from dalembert.saving import new_file
 from dalembert.views.formats.themes import SOLIDS
 from dalembert.views.space.link_solids import GROUND, ROD, link_solids, nodes, pose, shape_solids
-from dalembert.views.space.triangles import Mesh, joined, mesh
+from dalembert.views.space.triangles import Mesh, join_meshes, mesh
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -89,7 +89,7 @@ def solid_model(r: Result) -> SolidModel:
         }
         if by_role:
             node["mesh"] = len(meshes)
-            parts = [w.primitive(joined(some), materials[role]) for role, some in by_role.items()]
+            parts = [w.primitive(join_meshes(some), materials[role]) for role, some in by_role.items()]
             meshes.append({"name": link, "primitives": parts})
         document_nodes.append(node)
     root: dict[str, Any] = {"name": r.mechanism.title or "mechanism", "children": list(range(len(links)))}

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from dalembert.arrays import Array, Flags
-from dalembert.views.paper.lettering import BOLD, broken, text_width
+from dalembert.views.paper.lettering import BOLD, break_lines, text_width
 from dalembert.views.paper.scene import (
     Arc,
     Arrow,
@@ -77,22 +77,22 @@ class Canvas:
         placer = _Placer(self.items)
         left_over = []
         for label in self._labels:
-            items = placer.placed(label)
+            items = placer.place_text(label)
             self.items += items
             left_over += [] if items else [label.text]
         self._labels = []
         if left_over:
             notes = [*notes, f"Without room for a label: {', '.join(left_over)}"]
         if heading:
-            self._headed(title, notes)
+            self._draw_heading(title, notes)
         return Scene(tuple(self.items), title, **given)
 
-    def _headed(self, title: str, notes: Sequence[str]) -> None:
+    def _draw_heading(self, title: str, notes: Sequence[str]) -> None:
         left, bottom, right, top = Scene(tuple(self.items)).bounds
         width = max(right - left, 80.0)
-        for k, line in enumerate(reversed(broken(title, 3.6 * BOLD, width))):
+        for k, line in enumerate(reversed(break_lines(title, 3.6 * BOLD, width))):
             self.add(Text((left, top + 4.5 + 4.8 * k), line, 3.6, "title", "start"))
-        lines = [line for note in notes for line in broken(note, 2.6, width)]
+        lines = [line for note in notes for line in break_lines(note, 2.6, width)]
         for k, line in enumerate(lines):
             self.add(Text((left, bottom - 4.0 - 4.0 * k), line, 2.6, "note", "start"))
 
@@ -119,7 +119,7 @@ def _outline(item: Item) -> Sequence[Point]:
     return item.points  # type: ignore[union-attr]
 
 
-def crossed(box: Array, pieces: Array) -> Flags:
+def crossings(box: Array, pieces: Array) -> Flags:
     """Which straight pieces (S, 2, 2) touch each of some boxes (B, 4): (B, S), by separating axes."""
     middle, half = (box[:, None, :2] + box[:, None, 2:]) / 2, (box[:, None, 2:] - box[:, None, :2]) / 2
     c, d = pieces.mean(axis=1) - middle, (pieces[:, 1] - pieces[:, 0]) / 2
@@ -153,7 +153,7 @@ class _Placer:
         self.strokes = segments(items)
         self.boxes = np.array([item_box(i) for i in items if isinstance(i, Text)], float).reshape(-1, 4)
 
-    def placed(self, label: Label) -> list[Item]:
+    def place_text(self, label: Label) -> list[Item]:
         """The text at its best place, with a leader where that is far; nothing where every place is taken."""
         bold = BOLD if label.role == "title" else 1.0
         room = (bold * text_width(label.text, label.size) / 2 + 0.25, 0.65 * label.size + 0.25)
@@ -178,10 +178,10 @@ class _Placer:
         at, near, gap = _candidates(label, room[0] - 0.25, room[1] - 0.25, gaps)
         box = np.concatenate([at - room, at + room], axis=1)
         cost = gap + self._preference(label, at, near)
-        cost += np.where(crossed(box, self._close(box)).any(axis=1), TAKEN, 0.0)
+        cost += np.where(crossings(box, self._close(box)).any(axis=1), TAKEN, 0.0)
         cost += np.where(overlapping(box, self.boxes).any(axis=1), TAKEN, 0.0)
         if label.leads and gaps[-1] >= LEADER:
-            cost += np.where((gap >= LEADER) & self._blocked(near, box), TAKEN, 0.0)
+            cost += np.where((gap >= LEADER) & self._is_blocked(near, box), TAKEN, 0.0)
         k = int(cost.argmin())
         return _Place(float(cost[k]), at[k], box[k], near[k], float(gap[k]))
 
@@ -192,12 +192,12 @@ class _Placer:
         kept = (ends.max(axis=1) >= low).all(axis=1) & (ends.min(axis=1) <= high).all(axis=1)
         return np.asarray(ends[kept])
 
-    def _blocked(self, near: Array, box: Array) -> Flags:
+    def _is_blocked(self, near: Array, box: Array) -> Flags:
         """Whether the straight way to a candidate crosses a text."""
         if not len(self.boxes):
             return np.zeros(len(box), bool)
         edge = np.clip(near, box[:, :2], box[:, 2:])
-        return np.asarray(crossed(self.boxes, np.stack([near, edge], axis=1)).any(axis=0))
+        return np.asarray(crossings(self.boxes, np.stack([near, edge], axis=1)).any(axis=0))
 
     def _preference(self, label: Label, at: Array, near: Array) -> Array:
         if label.prefer is None:
@@ -244,4 +244,4 @@ def text_over_lines(scene: Scene) -> list[str]:
     strokes = segments([i for i in scene.flat() if not isinstance(i, Text)])
     if not len(strokes) or not len(boxes):
         return []
-    return [texts[k].text for k in np.flatnonzero(crossed(boxes, strokes).any(axis=1))]
+    return [texts[k].text for k in np.flatnonzero(crossings(boxes, strokes).any(axis=1))]

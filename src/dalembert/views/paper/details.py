@@ -10,9 +10,9 @@ import numpy as np
 from dalembert.analysis.friction.friction_circles import friction_circles, two_pins
 from dalembert.views.notation import Shown
 from dalembert.views.paper.frame import Frame
-from dalembert.views.paper.scene import Scene, stacked
-from dalembert.views.plane.circle_details import SEEN, circled, pin_detail
-from dalembert.views.plane.guide_details import guide_detail, guided
+from dalembert.views.paper.scene import Scene, stack_scenes
+from dalembert.views.plane.circle_details import SEEN, pin_detail, with_friction_circle
+from dalembert.views.plane.guide_details import guide_detail, with_rough_guide
 from dalembert.views.plane.outline import GROUND
 
 if TYPE_CHECKING:
@@ -31,11 +31,13 @@ def detail_scenes(
     """
     joints = [n for n in r.joints if link is None or link in r.mechanism.joints[n].links]
     out = []
-    for name in circled(r, joints):
+    for name in with_friction_circle(r, joints):
         small = frame is None or frame.length(float(friction_circles(r, name).radii[k])) < SEEN
         if (small or words) and np.isfinite(r.reaction(name)[k]).all():
             out.append(pin_detail(r, name, k, shown, link or _own(r, name), words))
-    return out + [guide_detail(r, n, k, shown, link or _own(r, n), words) for n in guided(r, joints)]
+    return out + [
+        guide_detail(r, n, k, shown, link or _own(r, n), words) for n in with_rough_guide(r, joints)
+    ]
 
 
 def _own(r: Result, joint: str) -> str:
@@ -49,7 +51,7 @@ def with_details(main: Scene, details: Sequence[Scene]) -> Scene:
     """A drawing and its details as one: beside it where there is room, else below."""
     if not details:
         return main
-    whole = stacked([main, stacked(details, width=ROW)], width=ROW, title=main.title)
+    whole = stack_scenes([main, stack_scenes(details, width=ROW)], width=ROW, title=main.title)
     scales = dict(main.scales)
     for scene in details:
         scales |= scene.scales

@@ -78,7 +78,7 @@ def text_box(at: tuple[float, float], text: str, size: float, anchor: str, bold:
     return (left, at[1] - size * (0.66 if lowered else 0.56), left + width, at[1] + 0.52 * size)
 
 
-def broken(text: str, size: float, width: float) -> list[str]:
+def break_lines(text: str, size: float, width: float) -> list[str]:
     """A text in lines no wider than a width in mm."""
     lines: list[str] = []
     for word in text.split():

@@ -130,7 +130,7 @@ class Scene:
 
     def flat(self) -> Iterator[Item]:
         """All primitives, groups opened."""
-        yield from _opened(self.items)
+        yield from _flatten(self.items)
 
     def texts(self) -> list[Text]:
         """All texts."""
@@ -151,7 +151,7 @@ class Scene:
 
     def moved(self, dx: float, dy: float) -> Scene:
         """The same elsewhere on the paper."""
-        return replace(self, items=tuple(moved(item, dx, dy) for item in self.items))
+        return replace(self, items=tuple(shift_item(item, dx, dy) for item in self.items))
 
     def to_dict(self) -> dict[str, Any]:
         """The data form: every primitive with its kind, role and numbers."""
@@ -178,10 +178,10 @@ class Scene:
         return self.to_svg()
 
 
-def _opened(items: Sequence[Item]) -> Iterator[Item]:
+def _flatten(items: Sequence[Item]) -> Iterator[Item]:
     for item in items:
         if isinstance(item, Group):
-            yield from _opened(item.items)
+            yield from _flatten(item.items)
         else:
             yield item
 
@@ -198,14 +198,14 @@ def item_box(item: Item) -> Box:
     return (min(across), min(up), max(across), max(up))
 
 
-def moved(item: Item, dx: float, dy: float) -> Item:
+def shift_item(item: Item, dx: float, dy: float) -> Item:
     """A primitive elsewhere."""
 
     def to(p: Point) -> Point:
         return (p[0] + dx, p[1] + dy)
 
     if isinstance(item, Group):
-        return replace(item, items=tuple(moved(one, dx, dy) for one in item.items))
+        return replace(item, items=tuple(shift_item(one, dx, dy) for one in item.items))
     if isinstance(item, (Line, Polygon)):
         return replace(item, points=tuple(to(p) for p in item.points))
     if isinstance(item, Arrow):
@@ -222,7 +222,7 @@ def _tree(item: Item) -> dict[str, Any]:
     return tree | {f.name: getattr(item, f.name) for f in fields(item)}
 
 
-def stacked(scenes: Sequence[Scene], gap: float = 8.0, width: float = 180.0, title: str = "") -> Scene:
+def stack_scenes(scenes: Sequence[Scene], gap: float = 8.0, width: float = 180.0, title: str = "") -> Scene:
     """Several drawings as panels in rows no wider than ``width``, each under its title."""
     items: list[Item] = []
     x, top, row_bottom = 0.0, 0.0, 0.0

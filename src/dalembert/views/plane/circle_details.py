@@ -40,7 +40,7 @@ WINDOW = 15.0
 """Radius in mm of what a detail of a pin shows."""
 
 
-def circled(r: Result, joints: Sequence[str]) -> list[str]:
+def with_friction_circle(r: Result, joints: Sequence[str]) -> list[str]:
     """Those of some joints that have a friction circle."""
     return [n for n in joints if friction_circle_radius(r, n)]
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from dalembert.analysis.methods.members import displaced_inertia
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.canvas import Canvas
-from dalembert.views.paper.frame import Frame, fitted, force_scale
+from dalembert.views.paper.frame import Frame, fit_frame, force_scale
 from dalembert.views.paper.scene import Arrow, Line, Point, Scene
 from dalembert.views.plane.force_polygons import dimension
-from dalembert.views.plane.mechanism_view import place_title, stated, unit_size
+from dalembert.views.plane.mechanism_view import place_title, scale_notes, unit_size
 from dalembert.views.plane.outline import link_points, link_shape
 from dalembert.views.symbols import plane_symbols
 
@@ -27,9 +27,9 @@ def displaced_inertia_scene(r: Result, link: str, k: int, notation: Notation | N
     places = [
         *link_points(r, link, k).values(),
         tuple(g),
-        *([tuple(at)] if _accelerated(r, link, k, shown) else []),
+        *([tuple(at)] if _has_acceleration(r, link, k, shown) else []),
     ]
-    frame = fitted(places, 46.0, 40.0, unit_size(r, "length", shown.notation))
+    frame = fit_frame(places, 46.0, 40.0, unit_size(r, "length", shown.notation))
     canvas = Canvas()
     canvas.add(*link_shape(r, link, k, frame))
     for name, place in link_points(r, link, k).items():
@@ -39,7 +39,7 @@ def displaced_inertia_scene(r: Result, link: str, k: int, notation: Notation | N
     canvas.label("G", frame(g), size=3.0, role="title", leads=False)
     scales = _arrows(canvas, r, link, k, frame, shown)
     per_mm = scales["force"]
-    notes, lengths = stated(shown, frame, per_mm)
+    notes, lengths = scale_notes(shown, frame, per_mm)
     notes[0] += f"; accelerations: 1 mm = {shown.plain('acceleration', scales['acceleration'])}"
     title = place_title(r, k, f"Inertia force of link {shown.heading(link)}", shown)
     return canvas.scene(title, notes=notes, scales=lengths | scales)
@@ -50,16 +50,16 @@ def _arrows(canvas: Canvas, r: Result, link: str, k: int, frame: Frame, shown: S
     g, at = frame(found.center[k]), frame(found.at[k])
     a, f = r.center_acceleration(link)[k], found.force[k]
     size, pull = math.hypot(*map(float, a)), math.hypot(*map(float, f))
-    if not _accelerated(r, link, k, shown):
+    if not _has_acceleration(r, link, k, shown):
         canvas.label(f"a_{{G{n}}} = 0", g, size=2.8, role="acceleration")
         return {kind: unit_size(r, kind, shown.notation) for kind in ("force", "acceleration")}
     slow = force_scale([size], 20.0, unit_size(r, "acceleration", shown.notation))
     per_mm = force_scale([pull], 20.0, unit_size(r, "force", shown.notation))
-    head = _moved(g, a, slow)
+    head = _arrow_head(g, a, slow)
     canvas.add(Arrow(g, head, "acceleration", link, "acceleration", size))
     canvas.label(f"a_{{G{n}}} = {shown.text('acceleration', size)}", head, size=2.8, role="acceleration")
-    tip = _moved(at, f, per_mm)
-    canvas.add(Line((_moved(at, f, -per_mm), tip), "construction"))
+    tip = _arrow_head(at, f, per_mm)
+    canvas.add(Line((_arrow_head(at, f, -per_mm), tip), "construction"))
     canvas.add(Arrow(at, tip, "inertia", link, "force", pull))
     canvas.label(f"F_{{I{n}}} = {shown.text('force', pull)}", tip, size=2.8, role="inertia")
     if math.dist(g, at) > 1.0:
@@ -67,11 +67,11 @@ def _arrows(canvas: Canvas, r: Result, link: str, k: int, frame: Frame, shown: S
     return {"force": per_mm, "acceleration": slow}
 
 
-def _accelerated(r: Result, link: str, k: int, shown: Shown) -> bool:
+def _has_acceleration(r: Result, link: str, k: int, shown: Shown) -> bool:
     """Whether the mass centre has an acceleration that is more than rounding."""
     return math.hypot(*map(float, r.center_acceleration(link)[k])) > shown.least["acceleration"]
 
 
-def _moved(p: Point, v: object, per_mm: float) -> Point:
+def _arrow_head(p: Point, v: object, per_mm: float) -> Point:
     x, y = (float(c) for c in v)  # type: ignore[attr-defined]
     return (p[0] + x / per_mm, p[1] + y / per_mm)

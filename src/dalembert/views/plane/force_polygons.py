@@ -25,16 +25,16 @@ from dalembert.views.notation import Figures, Notation, Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import Frame, force_scale
 from dalembert.views.paper.scene import Arrow, Circle, Line, Point, Polygon, Scene
-from dalembert.views.plane.circle_details import circled, draw_circle
+from dalembert.views.plane.circle_details import draw_circle, with_friction_circle
 from dalembert.views.plane.mechanism_view import (
     draw_actions,
     draw_links,
     role_of,
-    stated,
+    scale_notes,
     unit_size,
     whole_frame,
 )
-from dalembert.views.unknown_forces import doubts, known, on_one
+from dalembert.views.unknown_forces import doubts, has_reactions, on_one
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -70,7 +70,7 @@ def force_polygon_scene(
 ) -> Scene:
     """The forces on a link head to tail; the gap between end and start is the residual."""
     shown = Shown(r, notation or Notation(), k)
-    found = known(r, link, k)
+    found = has_reactions(r, link, k)
     mine = forces_of(case_actions(r, case), link, k) if found else []
     per_mm = force_scale(
         [float(np.hypot(*a.force[k])) for a in mine], LONGEST, unit_size(r, "force", shown.notation)
@@ -80,7 +80,7 @@ def force_polygon_scene(
     heading = f"Force polygon of link {shown.heading(link)}" + (f": {case} alone" if case else "")
     if not mine:
         canvas.label("no forces" if found else "forces not known", (0.0, 0.0))
-    notes, scales = stated(shown, None, per_mm)
+    notes, scales = scale_notes(shown, None, per_mm)
     return canvas.scene(
         heading,
         notes=[f"{notes[0]}; {_gap_text(gap, mine, k)}", *doubts(r, k, on_one(r, link))],
@@ -163,7 +163,7 @@ def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case:
     worst, bottom = 0.0, 0.0
     everything: list[Action] = []
     for link in _order(r):
-        mine = forces_of(some, link, k) if known(r, link, k) else []
+        mine = forces_of(some, link, k) if has_reactions(r, link, k) else []
         shared = next((a for a in mine if a.kind == "joint" and a.of in placed), None)
         if shared is not None:
             head = placed[shared.of][1]
@@ -176,7 +176,7 @@ def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case:
             )
         placed |= {name: edge for name, edge in edges.items() if name not in placed}
         worst, everything = max(worst, gap), [*everything, *mine]
-    notes, scales = stated(shown, None, per_mm)
+    notes, scales = scale_notes(shown, None, per_mm)
     order = " → ".join(shown.heading(link) for link in _order(r))
     text = f"Order of solution: {order}. A force shared by two polygons is drawn once."
     return canvas.scene(
@@ -212,7 +212,7 @@ def lines_of_action_scene(
     frame = whole_frame(r, k, 90.0, 70.0)
     canvas = Canvas()
     draw_links(canvas, r, k, frame)
-    for name in circled(r, [a.of for a in mine if a.kind == "joint"]):
+    for name in with_friction_circle(r, [a.of for a in mine if a.kind == "joint"]):
         draw_circle(canvas, friction_circles(r, name), k, frame)
     span = Scene(tuple(canvas.items)).bounds
     notes = _meeting(canvas, mine, k, frame, span, shown)
@@ -220,7 +220,7 @@ def lines_of_action_scene(
         canvas.add(Line(_through(frame(a.at[k]), a.force[k], span), "construction"))
     flat = [replace(a, couple=np.zeros_like(a.couple)) for a in mine]
     per_mm = draw_actions(canvas, r, flat, k, frame, shown, 24.0)
-    texts, scales = stated(shown, frame, per_mm)
+    texts, scales = scale_notes(shown, frame, per_mm)
     heading = f"Lines of action on link {shown.heading(link)}" + (f": {case} alone" if case else "")
     return canvas.scene(heading, notes=[*notes, *texts, *doubts(r, k, on_one(r, link))], scales=scales)
 

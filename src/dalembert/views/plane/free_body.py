@@ -14,11 +14,11 @@ from dalembert.analysis.methods.members import components_along, members
 from dalembert.views.notation import Notation, Shown, own_name
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.details import detail_scenes, with_details
-from dalembert.views.paper.frame import Frame, fitted, force_scale
+from dalembert.views.paper.frame import Frame, fit_frame, force_scale
 from dalembert.views.paper.scene import Arrow, Line, Point, Scene
-from dalembert.views.plane.circle_details import circled, draw_circles
-from dalembert.views.plane.guide_details import guide_block, guide_corners, guided
-from dalembert.views.plane.mechanism_view import draw_actions, role_of, stated, unit_size
+from dalembert.views.plane.circle_details import draw_circles, with_friction_circle
+from dalembert.views.plane.guide_details import guide_block, guide_corners, with_rough_guide
+from dalembert.views.plane.mechanism_view import draw_actions, role_of, scale_notes, unit_size
 from dalembert.views.plane.outline import link_points, link_shape, wheels
 from dalembert.views.symbols import plane_symbols
 from dalembert.views.unknown_forces import doubts, on_one
@@ -40,10 +40,10 @@ def free_body_scene(
     canvas = Canvas()
     _draw_link(canvas, r, link, k, frame, shown)
     joints = on_one(r, link)
-    draw_circles(canvas, r, k, frame, circled(r, joints), link)
+    draw_circles(canvas, r, k, frame, with_friction_circle(r, joints), link)
     mine = list(on_link(everything, link))
     per_mm = draw_actions(canvas, r, mine, k, frame, shown, LONGEST, common_scale(r, everything, k, shown))
-    notes, scales = stated(shown, frame, per_mm)
+    notes, scales = scale_notes(shown, frame, per_mm)
     member = members(r)[link]
     kind = " ".join(
         part for part in (member.kind, "member", member.state(k) and f"in {member.state(k)}") if part
@@ -72,12 +72,12 @@ def _frame(r: Result, link: str, k: int, shown: Shown, some: tuple[Action, ...])
     for center, radius in _own_wheels(r, link, k):
         places += [(center[0] - radius, center[1] - radius), (center[0] + radius, center[1] + radius)]
     places += [tuple(a.at[k]) for a in on_link(some, link) if a.kind == "joint"]
-    for name in circled(r, [n for n in r.joints if link in r.mechanism.joints[n].links]):
+    for name in with_friction_circle(r, [n for n in r.joints if link in r.mechanism.joints[n].links]):
         (x, y), radius = friction_circles(r, name).center[k], friction_circles(r, name).radii[k]
         places += [(x - radius, y - radius), (x + radius, y + radius)]
-    for name in guided(r, [n for n in r.joints if r.mechanism.joints[n].links[1] == link]):
+    for name in with_rough_guide(r, [n for n in r.joints if r.mechanism.joints[n].links[1] == link]):
         places += guide_corners(r, name, k)
-    return fitted(places, 46.0, 40.0, unit_size(r, "length", shown.notation))
+    return fit_frame(places, 46.0, 40.0, unit_size(r, "length", shown.notation))
 
 
 def _own_wheels(r: Result, link: str, k: int) -> list[tuple[tuple[float, float], float]]:
@@ -98,7 +98,7 @@ def _draw_link(canvas: Canvas, r: Result, link: str, k: int, frame: Frame, shown
         if link not in joint.links:
             continue
         end, at = joint.links.index(link), frame(joint_place(r, name)[k])
-        if name in guided(r, [name]) and end == 1:
+        if name in with_rough_guide(r, [name]) and end == 1:
             canvas.add(guide_block(r, name, k, frame))
         elif joint.type == "slider" and end == 1:
             angle = float(r.angle(link)[k]) - float(getattr(joint, "angle", 0.0) or 0.0)
@@ -155,13 +155,13 @@ def components_scene(r: Result, link: str, k: int, notation: Notation | None = N
     along, across = (math.cos(angle), math.sin(angle)), (-math.sin(angle), math.cos(angle))
     for a in on_link(everything, link):
         if a.kind == "joint":
-            _resolved(canvas, a, k, frame, shown, per_mm, components_along(r, a, k), along, across)
-    notes, scales = stated(shown, frame, per_mm)
+            _draw_components(canvas, a, k, frame, shown, per_mm, components_along(r, a, k), along, across)
+    notes, scales = scale_notes(shown, frame, per_mm)
     notes += doubts(r, k, on_one(r, link))
     return canvas.scene(f"Link {shown.heading(link)}: along and across", notes=notes, scales=scales)
 
 
-def _resolved(
+def _draw_components(
     canvas: Canvas,
     a: Action,
     k: int,

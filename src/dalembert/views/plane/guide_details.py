@@ -25,7 +25,7 @@ from dalembert.views.plane.outline import GROUND
 from dalembert.views.space.space_guides import (
     ends_on_paper,
     ends_words,
-    laid_out,
+    guide_layout,
     slide_on_paper,
     sliding_contact,
 )
@@ -41,7 +41,7 @@ HALF = 3.2
 """Half the height of a block whose faces have no distance given, mm."""
 
 
-def guided(r: Result, joints: Sequence[str]) -> list[str]:
+def with_rough_guide(r: Result, joints: Sequence[str]) -> list[str]:
     """Those of some joints that slide with dry friction."""
     m = r.mechanism.joints
     some = [n for n in joints if m[n].type in ("slider", "slot", "prismatic", "cylindrical", "screw")]
@@ -71,7 +71,7 @@ def guide_detail(r: Result, joint: str, k: int, shown: Shown, on: str, words: bo
     if not sketch.height and bears_on_faces(r, joint):
         notes[0] += "; faces drawn apart, with no half_height given"
     if r.mechanism.dimension == 3:
-        notes[0] += f"; {laid_out(r, joint)}"
+        notes[0] += f"; {guide_layout(r, joint)}"
     if words:
         notes = [*guide_words(r, joint, k, shown, on), *notes]
     scene = sketch.canvas.scene(f"Joint {joint}: angle of friction", notes=notes)

@@ -12,10 +12,10 @@ from dalembert.analysis.methods.applied_forces import Action, actions, link_plac
 from dalembert.views.notation import Figures, Notation, Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.details import detail_scenes, with_details
-from dalembert.views.paper.frame import Frame, fitted, force_scale
+from dalembert.views.paper.frame import Frame, fit_frame, force_scale
 from dalembert.views.paper.scene import Arrow, Line, Point, Scene
-from dalembert.views.plane.circle_details import circled, draw_circles
-from dalembert.views.plane.guide_details import guided
+from dalembert.views.plane.circle_details import draw_circles, with_friction_circle
+from dalembert.views.plane.guide_details import with_rough_guide
 from dalembert.views.plane.outline import (
     GROUND,
     draw_joint,
@@ -67,27 +67,29 @@ def mechanism_scene(
     draw_links(canvas, r, k, frame)
     rubs = friction and r.friction is not None
     if rubs:
-        draw_circles(canvas, r, k, frame, circled(r, r.joints))
+        draw_circles(canvas, r, k, frame, with_friction_circle(r, r.joints))
     canvas_names(canvas, r, k, frame, shown)
     kinds = ("load", "spring", "effort", "weight", "inertia", "damper") if forces else ("load", "effort")
-    some = [a for a in actions(r) if a.kind in kinds and drawn_once(r, a)]
+    some = [a for a in actions(r) if a.kind in kinds and is_drawn(r, a)]
     per_mm = draw_actions(canvas, r, some, k, frame, shown, 22.0)
-    notes, scales = stated(shown, frame, per_mm)
+    notes, scales = scale_notes(shown, frame, per_mm)
     heading = title if title is not None else r.mechanism.title or "Mechanism"
-    if rubs and circled(r, r.joints):
-        notes = [TAKEN if any(two_pins(r, n) for n in circled(r, r.joints)) else OWN, *notes]
+    if rubs and with_friction_circle(r, r.joints):
+        notes = [TAKEN if any(two_pins(r, n) for n in with_friction_circle(r, r.joints)) else OWN, *notes]
     scene = canvas.scene(place_title(r, k, heading, shown), notes=notes, scales=scales)
     return with_details(scene, detail_scenes(r, k, frame, shown) if rubs and details else [])
 
 
-def drawn_once(r: Result, a: Action) -> bool:
+def is_drawn(r: Result, a: Action) -> bool:
     """Whether an action is drawn in the whole mechanism: not on the ground, an effort on one of its links."""
     if a.kind != "effort" or a.by == GROUND:
         return a.link != GROUND
     return a.link != GROUND and a.link == r.mechanism.joints[r.mechanism.drives[a.of].joint or a.of].links[1]
 
 
-def stated(shown: Figures, frame: Frame | None, per_mm: float | None) -> tuple[list[str], dict[str, float]]:
+def scale_notes(
+    shown: Figures, frame: Frame | None, per_mm: float | None
+) -> tuple[list[str], dict[str, float]]:
     """The scales as a note and as numbers."""
     notes, scales = [], {}
     if frame is not None:
@@ -124,7 +126,7 @@ def whole_frame(r: Result, k: int, width: float, height: float) -> Frame:
     if len(r.status) > 2:
         some = np.unique(np.linspace(0, len(r.status) - 1, 24).astype(int))
         places += [p for n in some if r.ok[n] for p in every_place(r, int(n))]
-    return fitted(places, width, height, unit_size(r, "length"))
+    return fit_frame(places, width, height, unit_size(r, "length"))
 
 
 def draw_traces(canvas: Canvas, r: Result, frame: Frame) -> None:
@@ -249,7 +251,7 @@ def draw_force(
 
 def _pushes(r: Result, a: Action, k: int) -> bool:
     """Whether a force points from its place towards the middle of its link; what bears on a guide always pushes."""
-    if a.kind == "joint" and guided(r, [a.of]):
+    if a.kind == "joint" and with_rough_guide(r, [a.of]):
         return True
     places = list(link_points(r, a.link, k).values())
     if len(places) < 2:

@@ -78,7 +78,7 @@ def wheels(r: Result, name: str, joint: Any, k: int) -> list[tuple[tuple[float, 
 
 def link_shape(r: Result, link: str, k: int, frame: Frame) -> list[Item]:
     """A bar, or an area with its outline for more than two points; the block of a slider is a symbol."""
-    places = list(dict.fromkeys(_rounded(frame(p)) for p in link_points(r, link, k).values()))
+    places = list(dict.fromkeys(_round(frame(p)) for p in link_points(r, link, k).values()))
     if len(places) == 1 and r.mechanism.mass(link):
         center = frame(r.center(link)[k])
         return [Line((places[0], center), "link")] if math.dist(places[0], center) > 0.5 else []
@@ -88,7 +88,7 @@ def link_shape(r: Result, link: str, k: int, frame: Frame) -> list[Item]:
     return [Line(tuple(hull), "link")] if len(hull) == 2 else []
 
 
-def _rounded(p: Point) -> Point:
+def _round(p: Point) -> Point:
     return (round(p[0], 3), round(p[1], 3))
 
 

@@ -16,7 +16,7 @@ from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import force_scale
 from dalembert.views.paper.scene import Arrow, Circle, Line, Point, Polygon, Scene
-from dalembert.views.plane.mechanism_view import canvas_names, draw_links, stated, unit_size, whole_frame
+from dalembert.views.plane.mechanism_view import canvas_names, draw_links, scale_notes, unit_size, whole_frame
 from dalembert.views.plane.outline import convex
 
 if TYPE_CHECKING:
@@ -152,7 +152,7 @@ def instant_centers_scene(r: Result, k: int, notation: Notation | None = None) -
         canvas.add(Circle(p, 0.8, "mark"))
         canvas.label(", ".join(names), p, size=3.0, role="velocity")
     far = [_sign(shown, a, b) for (a, b) in centers if (a, b) not in near]
-    notes, scales = stated(shown, frame, None)
+    notes, scales = scale_notes(shown, frame, None)
     if far:
         notes.append(f"Outside the drawing or at infinity: {', '.join(far)}.")
     return canvas.scene("Instant centres", notes=notes, scales=scales)

@@ -13,7 +13,7 @@ from dalembert.analysis.methods.applied_forces import joint_place
 from dalembert.arrays import Array
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.scene import Arrow, Line, Scene
-from dalembert.views.plane.guide_details import guide_detail, guided
+from dalembert.views.plane.guide_details import guide_detail, with_rough_guide
 from dalembert.views.plane.outline import GROUND
 from dalembert.views.space.journal_details import circle_radius, journal_detail, journals
 from dalembert.views.space.space_arrows import Arrows
@@ -47,7 +47,7 @@ def draw_friction(arrows: Arrows, joint: str, link: str, k: int) -> None:
             arrows.vector(at, v, "friction", joint, text, bool(turning))
     if journals(r, k, [joint]):
         draw_circle(arrows.canvas, r, arrows.s, joint, k)
-    if guided(r, [joint]) and r.mechanism.joints[joint].type != "screw":
+    if with_rough_guide(r, [joint]) and r.mechanism.joints[joint].type != "screw":
         _slide(arrows, joint, link, k)
 
 
@@ -83,7 +83,7 @@ def _slide(arrows: Arrows, joint: str, link: str, k: int) -> None:
 def friction_details(r: Result, k: int, shown: Shown, link: str | None = None) -> list[Scene]:
     """Journals seen along their axes, guides from the side, threads unrolled; of one link, or of all with words."""
     joints = [n for n in r.joints if link is None or link in r.mechanism.joints[n].links]
-    known = [n for n in guided(r, joints) if np.isfinite(r.reaction(n)[k]).all()]
+    known = [n for n in with_rough_guide(r, joints) if np.isfinite(r.reaction(n)[k]).all()]
     some = [(n, journal_detail) for n in journals(r, k, joints)] + [(n, guide_detail) for n in known]
     return [detail(r, n, k, shown, link or _own(r, n), link is None) for n, detail in some]
 

@@ -32,7 +32,7 @@ class Piece:
     items: tuple[Item, ...]
 
 
-def painted(solids: Iterable[Solid], camera: Camera) -> list[Item]:
+def paint(solids: Iterable[Solid], camera: Camera) -> list[Item]:
     """Solids in mm as items on paper, the farthest first."""
     pieces = [piece for solid in solids for piece in _pieces(solid, camera)]
     return [item for piece in sorted(pieces, key=lambda p: p.depth) for item in piece.items]
@@ -245,4 +245,4 @@ def _tube(s: Tube, camera: Camera) -> Iterator[Piece]:
             yield from _wire(np.array([s.start + sign * side, s.end + sign * side]), s.role, camera)
 
 
-__all__ = ["Piece", "painted"]
+__all__ = ["Piece", "paint"]

@@ -110,7 +110,7 @@ DIRECTIONS = ("axes", "axis")
 SIZES = ("radius", "half", "thickness", "thread")
 
 
-def placed(solid: Solid, turn: Rotation, at: Array, scale: float = 1.0) -> Solid:
+def place_solid(solid: Solid, turn: Rotation, at: Array, scale: float = 1.0) -> Solid:
     """A solid enlarged, turned by a matrix (3, 3) and moved.
 
     >>> ball = placed(Ball(np.array([1.0, 0, 0]), 2.0), np.eye(3), np.array([0, 0, 5.0]), scale=3.0)
@@ -131,7 +131,7 @@ def placed(solid: Solid, turn: Rotation, at: Array, scale: float = 1.0) -> Solid
 
 def all_placed(solids: Sequence[Solid], turn: Rotation, at: Array, scale: float = 1.0) -> list[Solid]:
     """Solids enlarged, turned and moved together."""
-    return [placed(s, turn, at, scale) for s in solids]
+    return [place_solid(s, turn, at, scale) for s in solids]
 
 
 def extent(solid: Solid) -> Array:

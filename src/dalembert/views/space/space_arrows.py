@@ -15,7 +15,7 @@ from dalembert.views.paper.frame import force_scale
 from dalembert.views.paper.scene import Point
 from dalembert.views.plane.mechanism_view import ring, role_of, unit_size
 from dalembert.views.space.link_solids import GROUND, nodes
-from dalembert.views.space.space_view import NOTHING, Sight, end_on, seen_scales
+from dalembert.views.space.space_view import NOTHING, Sight, end_on, scale_notes
 from dalembert.views.symbols import plane_symbols
 
 if TYPE_CHECKING:
@@ -100,14 +100,14 @@ class Arrows:
         spots = [(at[0] + t * side[0], at[1] + t * side[1]) for t in (1.0, 0.8, 0.6)]
         self.canvas.label(text, *spots, prefer=math.atan2(side[1], side[0]), size=2.6, role=role)
 
-    def stated(self, everything: bool = False) -> tuple[list[str], dict[str, float]]:
+    def scale_notes(self, everything: bool = False) -> tuple[list[str], dict[str, float]]:
         """The scales of what was drawn, or of all that there is, as notes and as numbers."""
         force, moment = (
             [size > least for size, least in zip(self.sizes, self.floor, strict=True)]
             if everything
             else self.drawn
         )
-        return seen_scales(
+        return scale_notes(
             self.shown, self.s, self.per_mm if force else None, self.moment_per_mm if moment else None
         )
 

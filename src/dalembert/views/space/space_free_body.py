@@ -42,7 +42,7 @@ def space_free_body_scene(
     shown = Shown(r, notation or Notation(), k)
     s = _sight(r, link, k, camera)
     canvas = Canvas()
-    canvas.add(*s.painted(standing(r, k, s.frame.per_mm, [link])))
+    canvas.add(*s.paint(standing(r, k, s.frame.per_mm, [link])))
     if r.mechanism.mass(link):
         at = s(r.center(link)[k])
         mark_center(canvas, at, [s(link_place(r, link, u)[k]) for u in nodes(r, link).values()])
@@ -64,13 +64,13 @@ def space_free_body_scene(
             arrows.action(a, k)
     left, bottom, _, _ = Scene(tuple(canvas.items)).bounds
     triad(canvas, camera, (left - 12.0, bottom))
-    notes, scales = arrows.stated()
+    notes, scales = arrows.scale_notes()
     drawn = canvas.scene(heading=False, scales=scales)
     _, low, right, top = drawn.bounds
     items = [*drawn.items, *_table(rows, shown, arrows.floor, (right + 6.0, max(top, low + 24.0)))]
     whole = Canvas()
     whole.add(*items)
-    words = [_said(rows), *notes]
+    words = [_describe_rows(rows), *notes]
     scene = whole.scene(f"Link {shown.heading(link)}", notes=[w for w in words if w], scales=scales)
     return with_details(scene, friction_details(r, k, shown, link))
 
@@ -130,7 +130,7 @@ def _components(arrows: Arrows, at: Point, link: str, name: str, axes: list[Arra
                 arrows.vector(at, float(value) * e, "joint-force", name, sign, turning)
 
 
-def _said(rows: list[Reaction]) -> str:
+def _describe_rows(rows: list[Reaction]) -> str:
     free = [row.joint for row in rows if not row.unique[row.carried].all()]
     text = "Reactions on this link, along the axes x', y', z' of each joint"
     if any(row.joint == FRICTION for row in rows):

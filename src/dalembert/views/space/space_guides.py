@@ -32,7 +32,7 @@ def slide_on_paper(r: Result, joint: str, k: int) -> Array:
     return np.array([math.copysign(math.cos(climb), climb), abs(math.sin(climb))])
 
 
-def laid_out(r: Result, joint: str) -> str:
+def guide_layout(r: Result, joint: str) -> str:
     """How a guide of space is laid on paper."""
     if r.mechanism.joints[joint].type == "screw":
         return "the thread unrolled at its mean radius, the axis upward"

@@ -14,7 +14,7 @@ from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.details import with_details
 from dalembert.views.paper.scene import Line, Point, Scene
-from dalembert.views.plane.mechanism_view import drawn_once, place_title, ring, unit_size
+from dalembert.views.plane.mechanism_view import is_drawn, place_title, ring, unit_size
 from dalembert.views.plane.outline import unbroken
 from dalembert.views.space.camera import Camera
 from dalembert.views.space.friction_arrows import draw_circle, friction_details
@@ -51,7 +51,7 @@ def space_mechanism_scene(
     draw_machine(canvas, r, k, s)
     draw_names(canvas, r, k, s, shown)
     kinds = ("load", "spring", "effort", "weight", "inertia", "damper") if forces else ("load", "effort")
-    some = [a for a in actions(r) if a.kind in kinds and drawn_once(r, a)]
+    some = [a for a in actions(r) if a.kind in kinds and is_drawn(r, a)]
     arrows = Arrows(canvas, r, s, shown, some, k)
     for a in some:
         arrows.action(a, k)
@@ -59,7 +59,7 @@ def space_mechanism_scene(
     triad(canvas, camera, (left - 12.0, bottom))
     for joint in journals(r, k, r.joints) if friction else ():
         draw_circle(canvas, r, s, joint, k)
-    notes, scales = arrows.stated()
+    notes, scales = arrows.scale_notes()
     title = place_title(r, k, r.mechanism.title or "Mechanism", shown)
     scene = canvas.scene(title, notes=notes, scales=scales)
     return with_details(scene, friction_details(r, k, shown) if friction else [])
@@ -108,7 +108,7 @@ def draw_traces(canvas: Canvas, r: Result, s: Sight) -> None:
 
 def draw_machine(canvas: Canvas, r: Result, k: int, s: Sight) -> None:
     """Links with their joints, the ground, springs, mass centres."""
-    canvas.add(*s.painted(standing(r, k, s.frame.per_mm)))
+    canvas.add(*s.paint(standing(r, k, s.frame.per_mm)))
     m = r.mechanism
     for name, load in m.loads.items():
         if load.type in ("spring", "damper"):

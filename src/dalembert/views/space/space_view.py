@@ -12,12 +12,12 @@ import numpy as np
 from dalembert.errors import ModelError
 from dalembert.views.notation import Figures
 from dalembert.views.paper.canvas import Canvas
-from dalembert.views.paper.frame import Frame, fitted
+from dalembert.views.paper.frame import Frame, fit_frame
 from dalembert.views.paper.scene import Arrow, Circle, Item, Line, Point
 from dalembert.views.space.camera import CAMERAS, ISOMETRIC, Camera
 from dalembert.views.space.link_solids import link_solids, pose
-from dalembert.views.space.painter import painted
-from dalembert.views.space.solids import Solid, placed
+from dalembert.views.space.painter import paint
+from dalembert.views.space.solids import Solid, place_solid
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
@@ -60,18 +60,18 @@ class Sight:
         dx, dy = self.camera(v) / per_mm
         return start[0] + float(dx), start[1] + float(dy)
 
-    def painted(self, solids: Iterable[Solid]) -> list[Item]:
+    def paint(self, solids: Iterable[Solid]) -> list[Item]:
         """Solids in ground axes and metres, on paper."""
         x, y = self.frame.middle
         middle = x * self.camera.right + y * self.camera.up
         scale = 1 / self.frame.per_mm
-        return painted((placed(s, np.eye(3), -scale * middle, scale) for s in solids), self.camera)
+        return paint((place_solid(s, np.eye(3), -scale * middle, scale) for s in solids), self.camera)
 
 
 def sight(camera: Camera, places: Iterable[Any], width: float, height: float, factor: float) -> Sight:
     """A camera that shows all places in a space on paper; ``factor`` is the size of the reader's unit in metres."""
     seen = camera(np.array([p for p in places if np.isfinite(p).all()]).reshape(-1, 3))
-    return Sight(camera, fitted([tuple(p) for p in seen], width, height, factor))
+    return Sight(camera, fit_frame([tuple(p) for p in seen], width, height, factor))
 
 
 def standing(r: Result, k: int, size: float, links: Iterable[str] | None = None) -> list[Solid]:
@@ -81,7 +81,7 @@ def standing(r: Result, k: int, size: float, links: Iterable[str] | None = None)
     for link in found if links is None else links:
         turn, at = pose(r, link, k)
         if np.isfinite(turn).all():
-            out += [placed(s, turn, at) for s in found[link]]
+            out += [place_solid(s, turn, at) for s in found[link]]
     return out
 
 
@@ -104,13 +104,13 @@ def end_on(at: Point, towards: bool, role: str) -> list[Item]:
     return [*ring, *(Line(ends, role) for ends in cross)]
 
 
-def foreshortened(camera: Camera) -> str:
+def foreshortening_note(camera: Camera) -> str:
     """How much shorter the axes are seen, in words."""
     short = np.linalg.norm(camera(np.eye(3)), axis=-1)
     return f"along x, y and z they are seen {', '.join(f'{x:.3f}' for x in short)} of it"
 
 
-def seen_scales(
+def scale_notes(
     shown: Figures, s: Sight, force: float | None, moment: float | None = None
 ) -> tuple[list[str], dict[str, float]]:
     """The scales as a note and as numbers: lengths across the view are to scale, others shorter by their slope."""
@@ -123,4 +123,4 @@ def seen_scales(
         parts.append(f"moments, with two heads: 1 mm = {shown.plain('moment', moment)}")
         scales["moment-seen"] = moment
     text = "; ".join(parts)
-    return [f"{text[:1].upper()}{text[1:]}.", f"Parallel view; {foreshortened(s.camera)}."], scales
+    return [f"{text[:1].upper()}{text[1:]}.", f"Parallel view; {foreshortening_note(s.camera)}."], scales

@@ -39,7 +39,7 @@ class Mesh(NamedTuple):
     triangles: Array
 
 
-def joined(meshes: Iterable[Mesh]) -> Mesh:
+def join_meshes(meshes: Iterable[Mesh]) -> Mesh:
     """Several as one."""
     points, normals, triangles, count = [], [], [], 0
     for mesh in meshes:
@@ -56,7 +56,7 @@ def mesh(solid: Solid, rod: float) -> Mesh:
         whole = _cylinder(solid)
         if not solid.thread:
             return whole
-        return joined([whole, _wire(helix(solid, AROUND), 1.5 * WIRE * rod)])
+        return join_meshes([whole, _wire(helix(solid, AROUND), 1.5 * WIRE * rod)])
     if isinstance(solid, Ball):
         return _ball(solid)
     if isinstance(solid, Block):
@@ -97,7 +97,7 @@ def _cylinder(s: Cylinder, count: int = AROUND) -> Mesh:
     along = s.end - s.start
     e = along / np.linalg.norm(along)
     ring = circle(s.start, e, s.radius, count)
-    return joined([_side(ring, along), _disc(ring[-2::-1], -e), _disc(ring[:-1] + along, e)])
+    return join_meshes([_side(ring, along), _disc(ring[-2::-1], -e), _disc(ring[:-1] + along, e)])
 
 
 def _ball(s: Ball) -> Mesh:
@@ -141,7 +141,7 @@ def _block(s: Block) -> Mesh:
             middle = s.center + sign * s.half[k] * s.axes[k]
             corners = np.array([middle + u + v, middle - u + v, middle - u - v, middle + u - v])
             out.append(_disc(corners if sign > 0 else corners[::-1], sign * s.axes[k]))
-    return joined(out)
+    return join_meshes(out)
 
 
 def _plate(corners: Array, thickness: float) -> Mesh:
@@ -153,13 +153,13 @@ def _plate(corners: Array, thickness: float) -> Mesh:
     for a, b in pairwise([*corners, corners[0]]):
         aside = np.cross(b - a, normal)
         out.append(_disc(np.array([a - up, b - up, b + up, a + up]), aside / np.linalg.norm(aside)))
-    return joined(out)
+    return join_meshes(out)
 
 
 def _wire(points: Array, radius: float) -> Mesh:
-    return joined(
+    return join_meshes(
         _cylinder(Cylinder(a, b, radius), 5) for a, b in pairwise(points) if np.linalg.norm(b - a) > 0
     )
 
 
-__all__ = ["Mesh", "Wire", "joined", "mesh"]
+__all__ = ["Mesh", "Wire", "join_meshes", "mesh"]

@@ -7,9 +7,9 @@ import numpy as np
 from dalembert.analysis.compile.pair_table import AXES, PAIRS
 from dalembert.errors import ModelError
 from dalembert.views.paper.canvas import Canvas
-from dalembert.views.paper.scene import Arrow, Line, Point, Scene, stacked
+from dalembert.views.paper.scene import Arrow, Line, Point, Scene, stack_scenes
 from dalembert.views.space.camera import Camera
-from dalembert.views.space.painter import painted
+from dalembert.views.space.painter import paint
 from dalembert.views.space.solids import all_placed
 from dalembert.views.symbols import plane_symbols
 from dalembert.views.symbols.pair_symbols import symbol
@@ -34,7 +34,7 @@ def pair_scene(kind: str, camera: Camera) -> Scene:
         if float(np.hypot(*seen[axis])) > 0.05:
             canvas.add(Line((at(axis, 0.0), at(axis, END)), "construction"))
     solids = all_placed([*found.on_i, *found.on_j], np.eye(3), np.zeros(3), LARGER)
-    canvas.add(*painted(solids, camera))
+    canvas.add(*paint(solids, camera))
     for axis in AXES:
         if float(np.hypot(*seen[axis])) <= 0.05:
             continue
@@ -46,15 +46,17 @@ def pair_scene(kind: str, camera: Camera) -> Scene:
             canvas.add(*plane_symbols.two_heads(*ends, "effort", f"M{axis}", "", None))
             canvas.label(f"M_{{{axis}}}", at(axis, MOMENT[1] - 2.0), size=2.8, role="effort", leads=False)
         canvas.label(axis, at(axis, END), size=2.8, role="note", leads=False)
-    return canvas.scene(words(kind), notes=[said(kind), f"Axes: {pair.local}."])
+    return canvas.scene(words(kind), notes=[describe_kind(kind), f"Axes: {pair.local}."])
 
 
 def pairs_scene(camera: Camera) -> Scene:
     """All joints, those that carry least first."""
-    return stacked([pair_scene(kind, camera) for kind in ordered()], width=270.0, title="Joints in space")
+    return stack_scenes(
+        [pair_scene(kind, camera) for kind in sorted_kinds()], width=270.0, title="Joints in space"
+    )
 
 
-def ordered() -> list[str]:
+def sorted_kinds() -> list[str]:
     """Kinds of joints, those that carry least first."""
     return sorted(PAIRS, key=lambda kind: len(PAIRS[kind].reactions))
 
@@ -68,7 +70,7 @@ def words(kind: str) -> str:
     return kind.replace("_", " ").capitalize()
 
 
-def said(kind: str) -> str:
+def describe_kind(kind: str) -> str:
     """What a joint leaves free and what it carries.
 
     >>> said("cylindrical")

@@ -10,7 +10,7 @@ PIN = 1.1
 BLOCK = (6.4, 4.0)
 
 
-def _turned(points: list[Point], at: Point, angle: float) -> tuple[Point, ...]:
+def _rotate(points: list[Point], at: Point, angle: float) -> tuple[Point, ...]:
     c, s = math.cos(angle), math.sin(angle)
     return tuple((at[0] + c * x - s * y, at[1] + s * x + c * y) for x, y in points)
 
@@ -23,38 +23,38 @@ def pin(at: Point) -> list[Item]:
 def fixed_pin(at: Point, down: float = -math.pi / 2) -> list[Item]:
     """A revolute joint on the ground: triangle with hatching towards ``down``."""
     angle = down + math.pi / 2
-    triangle = _turned([(0, 0), (-2.6, -4.2), (2.6, -4.2)], at, angle)
-    base = _turned([(0.0, -4.2)], at, angle)[0]
+    triangle = _rotate([(0, 0), (-2.6, -4.2), (2.6, -4.2)], at, angle)
+    base = _rotate([(0.0, -4.2)], at, angle)[0]
     return [Polygon(triangle, "support"), *hatch(base, angle, 8.4), *pin(at)]
 
 
 def hatch(at: Point, angle: float, width: float) -> list[Item]:
     """A line of ground with its strokes below."""
     half = width / 2
-    out: list[Item] = [Line(_turned([(-half, 0), (half, 0)], at, angle), "ground")]
+    out: list[Item] = [Line(_rotate([(-half, 0), (half, 0)], at, angle), "ground")]
     count = max(3, round(width / 1.5))
     for k in range(count):
         x = -half + (k + 0.75) * width / count
-        out.append(Line(_turned([(x, 0), (x - 1.2, -1.4)], at, angle), "hatch"))
+        out.append(Line(_rotate([(x, 0), (x - 1.2, -1.4)], at, angle), "hatch"))
     return out
 
 
 def slider(at: Point, angle: float) -> list[Item]:
     """A block along its direction."""
     w, h = BLOCK[0] / 2, BLOCK[1] / 2
-    return [Polygon(_turned([(-w, -h), (w, -h), (w, h), (-w, h)], at, angle), "block")]
+    return [Polygon(_rotate([(-w, -h), (w, -h), (w, h), (-w, h)], at, angle), "block")]
 
 
 def guide(at: Point, angle: float, width: float, side: float = -1.0) -> list[Item]:
     """The ground under a slider."""
-    place = _turned([(0.0, side * (BLOCK[1] / 2 + 0.25))], at, angle)[0]
+    place = _rotate([(0.0, side * (BLOCK[1] / 2 + 0.25))], at, angle)[0]
     return hatch(place, angle if side < 0 else angle + math.pi, width)
 
 
 def slot(middle: Point, angle: float, length: float) -> list[Item]:
     """A slot of a link, round at its ends."""
     half, r = length / 2, PIN + 0.5
-    a, b = _turned([(-half, 0), (half, 0)], middle, angle)
+    a, b = _rotate([(-half, 0), (half, 0)], middle, angle)
     up, down = angle + math.pi / 2, angle - math.pi / 2
     left = Arc(a, r, up, up + math.pi).points
     right = Arc(b, r, down, down + math.pi).points
@@ -72,12 +72,12 @@ def mass_center(at: Point, size: float = 1.15) -> list[Item]:
 
 def weld(at: Point) -> list[Item]:
     """A filled square."""
-    return [Polygon(_turned([(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)], at, 0.0), "weld")]
+    return [Polygon(_rotate([(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)], at, 0.0), "weld")]
 
 
 def wheel(at: Point, radius: float, angle: float) -> list[Item]:
     """A pitch circle with a spoke that shows its turn."""
-    spoke = _turned([(0.0, 0.0), (radius, 0.0)], at, angle)
+    spoke = _rotate([(0.0, 0.0), (radius, 0.0)], at, angle)
     return [Circle(at, radius, "pitch"), Line(spoke, "construction")]
 
 
@@ -90,7 +90,7 @@ def spring(a: Point, b: Point, turns: int = 6) -> list[Item]:
     points: list[Point] = [(0, 0), (lead, 0)]
     points += [(lead + (k + 0.5) * step, wide if k % 2 == 0 else -wide) for k in range(2 * turns)]
     points += [(length - lead, 0), (length, 0)]
-    return [Line(_turned(points, a, angle), "spring")]
+    return [Line(_rotate(points, a, angle), "spring")]
 
 
 def damper(a: Point, b: Point) -> list[Item]:
@@ -106,7 +106,7 @@ def damper(a: Point, b: Point) -> list[Item]:
         [(middle, h * 0.8), (middle, -h * 0.8)],
         [(middle, 0.0), (length, 0.0)],
     ]
-    return [Line(_turned(list(p), a, angle), "spring") for p in parts]
+    return [Line(_rotate(list(p), a, angle), "spring") for p in parts]
 
 
 def couple(

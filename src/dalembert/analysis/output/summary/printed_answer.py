@@ -31,12 +31,12 @@ from dalembert.analysis.output.summary.printed_series import position_tables, wh
 from dalembert.analysis.output.summary.printed_units import (
     Printed,
     motion_only,
-    printed,
+    print_scale,
     significant,
     without_reactions,
 )
 from dalembert.analysis.result.reaction_axes import Axes
-from dalembert.printing import number, remainder, rounded, table, tables, with_unit, wrapped
+from dalembert.printing import number, remainder, round_components, table, tables, with_unit, wrap
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -46,14 +46,14 @@ def answer_text(
     result: Result, units: UnitChoice = "file", axes: Axes = "ground", every: bool = False
 ) -> str:
     """The whole answer as text."""
-    to = printed(result, units)
+    to = print_scale(result, units)
     parts = [heading(result)]
     if len(result.status) == 1:
         parts += _one(result, to, axes)
     else:
         parts += position_tables(result, to, axes, every)
     parts += [reversals_text(result, to), problems_text(result, to)]
-    parts += [wrapped(branch_note(result)), checks_text(result)]
+    parts += [wrap(branch_note(result)), checks_text(result)]
     return "\n\n".join(part for part in parts if part)
 
 
@@ -66,7 +66,7 @@ def heading(result: Result) -> str:
         lines.append(_sentence(result.mobility.sentence))
     if result.mode:
         lines.append(_sentence(result.mode))
-    return "\n".join(wrapped(line, "  ") for line in lines if line)
+    return "\n".join(wrap(line, "  ") for line in lines if line)
 
 
 def _sentence(text: str) -> str:
@@ -94,7 +94,7 @@ def _one(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
             if rubbed:
                 yield friction_table(side, to)
     if status != "at_rest" and rubbed:
-        yield wrapped(efficiency_note(result))
+        yield wrap(efficiency_note(result))
     if result.links:
         yield (_link_tables if in_plane(result) else space_link_tables)(result, to)
 
@@ -172,7 +172,7 @@ def _reaction_table(result: Result, to: Printed, axes: Axes) -> str:
             least.append([r.joint, r.by, r.on, *_wrench(r.least_norm[0, :2], r.least_norm[0, 2], to)])
     where = "ground axes" if axes == "ground" else "the axes of link j"
     note = f"F_ij is the force by link i on link j, in {where}; moments about j's point of the joint."
-    shown = f"{tables(heads, rows, 3)}\n{wrapped(note)}"
+    shown = f"{tables(heads, rows, 3)}\n{wrap(note)}"
     if least:
         shown += f"\n\n{NOT_UNIQUE}\n\n" + tables(heads, least, 3)
     return shown
@@ -180,7 +180,7 @@ def _reaction_table(result: Result, to: Printed, axes: Axes) -> str:
 
 def _wrench(force: Any, moment: float, to: Printed) -> list[str]:
     """x, y, magnitude, direction, moment as text."""
-    x, y = rounded(to("force", force))
+    x, y = round_components(to("force", force))
     size = float(np.hypot(x, y))
     direction = float(to("angle", np.arctan2(y, x))) if size else 0.0
     return [number(v) for v in (x, y, size, direction, float(to("moment", moment)))]
@@ -206,7 +206,7 @@ def _link_tables(result: Result, to: Printed) -> str:
         heads += [f"{name}\n{to.text(kind)}" for name in names]
         size = 1.0 if kind == "angle" else _largest(values)
         for row, vector in zip(cells, values, strict=True):
-            row += [number(float(v), 5) for v in to(kind, np.array(rounded(vector, size)))]
+            row += [number(float(v), 5) for v in to(kind, np.array(round_components(vector, size)))]
     return tables(heads, cells, 1)
 
 
@@ -220,7 +220,7 @@ def problems_text(result: Result, to: Printed) -> str:
         said = any(f"{text} {d}" in sentence for d in result.drives for text in ("of", "at"))
         at = "" if said else _range(result, to, which)
         place = "" if len(result.status) == 1 else f" position{'s' if '-' in which else ''} {which}{at}:"
-        lines.append(wrapped(f"{status}:{place} {sentence}", "  "))
+        lines.append(wrap(f"{status}:{place} {sentence}", "  "))
     return "\n".join(lines)
 
 
@@ -267,7 +267,7 @@ def checks_text(result: Result) -> str:
     )
     count = _count(result)
     between = "; " if ";" in count else ", "
-    return wrapped(_sentence(between.join(filter(None, (count, shown)))) + ".") if count or shown else ""
+    return wrap(_sentence(between.join(filter(None, (count, shown)))) + ".") if count or shown else ""
 
 
 MOST_NAMED = 8
@@ -278,7 +278,7 @@ def reversals_text(result: Result, to: Printed) -> str:
     """Which contacts reverse where, and how that is shown; the sentence itself of a single position."""
     places = np.flatnonzero(result.reverses)
     if not places.size or len(result.status) == 1:
-        return wrapped(result.reasons[0] or "", "  ") if places.size and result.ok[0] else ""
+        return wrap(result.reasons[0] or "", "  ") if places.size and result.ok[0] else ""
     by_joints: dict[str, list[str]] = {}
     for k in places:
         by_joints.setdefault(", ".join(reversing_joints(result, int(k))), []).append(
@@ -292,4 +292,4 @@ def reversals_text(result: Result, to: Printed) -> str:
     words = (
         "friction there changes its sense; given are the numbers just before, and under them those just after"
     )
-    return wrapped(f"Reversal of {'; '.join(parts)}: {words}.", "  ")
+    return wrap(f"Reversal of {'; '.join(parts)}: {words}.", "  ")

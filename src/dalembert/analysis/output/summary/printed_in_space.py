@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.algebra.space import angle_and_axis
-from dalembert.printing import number, rounded, tables, wrapped
+from dalembert.printing import number, round_components, tables, wrap
 
 if TYPE_CHECKING:
     from dalembert.analysis.output.columns import Reaction
@@ -28,7 +28,7 @@ AXES: dict[Axes, str] = {
 def space_reaction_tables(reactions: Sequence[Reaction], to: Any, axes: Axes) -> str:
     """Forces, then moments, of reactions at one position (3,); what is not unique also with the least norm."""
     note = f"F_ij and M_ij are by link i on link j, in {AXES[axes]}; moments about j's point of the joint."
-    shown = f"{_tables(reactions, to)}\n{wrapped(note)}"
+    shown = f"{_tables(reactions, to)}\n{wrap(note)}"
     least = [
         r._replace(force=r.least_norm[0, :3], moment=r.least_norm[0, 3:])
         for r in reactions
@@ -44,14 +44,14 @@ def _tables(reactions: Sequence[Reaction], to: Any) -> str:
             f"{head}\n{to.text(kind)}"
             for head in (*(f"{letter}_ij {axis}" for axis in "xyz"), f"|{letter}_ij|")
         ]
-        rows = [[r.joint, r.by, r.on, *_sized(to(kind, getattr(r, kind)))] for r in reactions]
+        rows = [[r.joint, r.by, r.on, *_components_and_size(to(kind, getattr(r, kind)))] for r in reactions]
         parts.append(tables(["joint", "by i", "on j", *heads], rows, 3))
     return "\n\n".join(parts)
 
 
-def _sized(vector: Any) -> list[str]:
+def _components_and_size(vector: Any) -> list[str]:
     """Components and size."""
-    components = rounded(vector)
+    components = round_components(vector)
     return [number(v) for v in (*components, math.hypot(*components))]
 
 
@@ -73,14 +73,16 @@ def space_link_tables(result: Result, to: Any) -> str:
     largest[3] = max(largest[3], float(to("acceleration", fast * result.compiled.layout.length)))
     for n, link in enumerate(result.links):
         angle, axis = angle_and_axis(result.rotation(link)[0])
-        place, speed, rate, moved = (rounded(of[n], size) for of, size in zip(vectors, largest, strict=True))
-        parts = ([float(to("angle", angle)), *rounded(axis), *place], [*speed, *rate], moved)
+        place, speed, rate, moved = (
+            round_components(of[n], size) for of, size in zip(vectors, largest, strict=True)
+        )
+        parts = ([float(to("angle", angle)), *round_components(axis), *place], [*speed, *rate], moved)
         for row, part in zip(rows, parts, strict=True):
             row.append([link, *(number(v, 5) for v in part)])
     heads = (turned, turning, _heads("acc. of center", to.text("acceleration")))
     shown = [tables(["link", *head], part, 1) for head, part in zip(heads, rows, strict=True)]
     note = "Links are turned from ground's axes about the axis shown; vectors are in ground axes."
-    return "\n\n".join(shown) + f"\n{wrapped(note)}"
+    return "\n\n".join(shown) + f"\n{wrap(note)}"
 
 
 def _heads(name: str, unit: str) -> list[str]:

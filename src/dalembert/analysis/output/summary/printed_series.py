@@ -117,15 +117,15 @@ def _peak_table(result: Result, to: Printed, axes: Axes) -> str:
         if np.isfinite(low).any():
             name, unit = head.split("\n")
             least, most = int(np.nanargmin(low)), int(np.nanargmax(high))
-            cells = [number(float(high[most])), _marked(result, to, most), number(float(low[least]))]
-            rows.append([name, unit, *cells, _marked(result, to, least)])
+            cells = [number(float(high[most])), _place_text(result, to, most), number(float(low[least]))]
+            rows.append([name, unit, *cells, _place_text(result, to, least)])
     shown = tables(["over the positions", "unit", "largest", "at", "smallest", "at"], rows, 2) if rows else ""
     return shown + (
         "\n* one side of a reversal" if any("*" in cell for row in rows for cell in row[3::2]) else ""
     )
 
 
-def _marked(result: Result, to: Printed, position: int) -> str:
+def _place_text(result: Result, to: Printed, position: int) -> str:
     """Where, and whether it is one side of a reversal."""
     return where(result, to, position) + (" *" if result.reverses[position] else "")
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.output.columns import Scale, UnitChoice, drive_kinds
-from dalembert.analysis.output.rounding import PART, kept, largest, sizes
+from dalembert.analysis.output.rounding import PART, cached, largest, sizes
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -26,7 +26,7 @@ class Printed(Scale):
 RADIANS = {"angular_speed": "rad/s", "angular_acceleration": "rad/s^2"}
 
 
-def printed(result: Result, units: UnitChoice) -> Printed:
+def print_scale(result: Result, units: UnitChoice) -> Printed:
     """The scale of a printed answer."""
     return Printed(None if units == "SI" else result.mechanism.units)
 
@@ -49,7 +49,7 @@ def significant(result: Result, kind: str, values: Any) -> Any:
     >>> significant(statics(four_bar()), "force", np.array([1e-30, 5.0]))
     array([0., 5.])
     """
-    small: Any = PART * kept(result, _largest).get(kind, np.zeros(len(result.status)))
+    small: Any = PART * cached(result, _largest).get(kind, np.zeros(len(result.status)))
     shape = np.shape(values)
     small = small.reshape(-1, *[1] * (len(shape) - 1)) if shape[:1] == small.shape else small[0]
     return np.where(np.abs(values) < small, 0.0, values)
