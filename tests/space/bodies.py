@@ -39,7 +39,7 @@ def placed(m: Mechanism, rng: np.random.Generator) -> tuple[Compiled, Pose]:
     c = compile_mechanism(m, m.schedule())
     guess: Any = c.guess
     values = rng.uniform(-1, 1, size=(1, sum(len(h.drives) for h in guess.hinges)))
-    pose = guess._laid(c.layout, np.zeros(c.layout.constraints.count), values, driven=True)
+    pose = guess._starting_poses(c.layout, np.zeros(c.layout.constraints.count), values, driven=True)
     return c, pose
 
 
