@@ -22,11 +22,11 @@ QUICK = [
     "rssr",
     "seed-001-eb-block-sliding",
     "seed-002-7d-engine-at-rest",
-    "seed-f-2b-rod-at-45-deg-09",
+    "seed-f-2d-rod-at-45-deg-12",
     "st-08-two-levers",
     "toggle_press",
 ]
-"""With friction at rest and in motion, with forces asked for, and one of each that is refused."""
+"""With friction at rest, in motion and jammed, with forces asked for, and one of each that is refused."""
 
 REFUSALS = (
     "is for mechanisms of the plane",

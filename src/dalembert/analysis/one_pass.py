@@ -139,7 +139,8 @@ def _result(followed: Positions, moved: _Moved, f: Forces, inertia: bool, forces
     c = followed.compiled
     assert followed.path is not None
     status, reasons = _statuses(followed, moved, f, forces)
-    lost, undirected = np.array([(s not in KEPT, s == "undefined_load") for s in status]).T
+    kinds = [(s not in KEPT, s == "undefined_load", s in ("jammed", "redundant")) for s in status]
+    lost, undirected, unsolved = np.array(kinds).T
     open_ = ~followed.path.reached
     _blank(open_, moved.point, moved.turn, moved.rotation)
     _blank(lost, moved.twist, moved.acceleration)
@@ -147,6 +148,7 @@ def _result(followed: Positions, moved: _Moved, f: Forces, inertia: bool, forces
     for part in (f, *others):
         none = lost | undirected | (part.residual > UNBALANCED)
         _blank(none, *part[:6], *(a for a in part.friction or () if a.dtype.kind == "f"))
+        _blank(unsolved & np.isnan(part.residual), part.effort)  # those given in the file too
         if part.friction is not None:
             part.friction.reversing[lost | undirected] = False
     made = (c, inertia, followed.mobility, followed.mode, status, reasons, *moved[:5])
