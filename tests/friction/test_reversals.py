@@ -319,9 +319,9 @@ def test_a_polar_chart_has_the_forces_on_its_own_link() -> None:
     assert np.max(np.abs(drawn * scale - force)) < 1e-9 * np.max(np.abs(force))
 
 
-def with_bar(couple: float) -> Any:
-    """The classic engine at a dead centre, beside it a bar that stays at rest on a pin with friction."""
-    tree = engine(position=0).to_tree()
+def with_bar(couple: float, position: Any = 0) -> Any:
+    """The classic engine, beside it a bar that stays at rest on a pin with friction."""
+    tree = engine(position=position).to_tree()
     tree["links"]["ground"]["points"] |= {"P": [0.5, 0.5], "Q": [0.8, 0.5]}
     tree["links"]["bar"] = {"points": {"P": [0, 0], "Q": [0.3, 0]}}
     tree["loads"]["on bar"] = {"type": "couple", "on": "bar", "value": couple}
@@ -338,6 +338,15 @@ def test_a_contact_that_stays_at_rest_counts_where_it_carries_something() -> Non
     for side, same in zip(idle.sides, plain.sides, strict=True):
         assert side.effort("O")[0] == pytest.approx(same.effort("O")[0], rel=1e-12)
     assert "No relative motion in" in loaded.reasons[0]
+
+
+def test_both_sides_are_one_where_nothing_reverses() -> None:
+    """A contact that stays at rest and carries nothing leaves them their numbers."""
+    r = with_bar(0.0, [50, 0, 60])
+    assert r.status == ("ok", "reversal", "ok")
+    assert np.isfinite(r.effort("O")).all()
+    assert np.array_equal(r.after.effort("O")[::2], r.effort("O")[::2])
+    assert np.array_equal(r.after.force_array[::2], r.force_array[::2])
 
 
 def test_a_drive_that_turns_back_reverses_everything_and_one_that_stands_does_not() -> None:

@@ -97,25 +97,20 @@ def _solve_slip(
     here = Response(*(np.broadcast_to(a, (len(told.sense), *a.shape[1:]))[some] for a in r))
     found = follow_branch_with_spin(contacts, here, told.open[some], spins.at(some))
     new, on = found.scale > 0, some[found.scale > 0]
-    told = Senses(*(_with(a, on, b[new]) for a, b in zip(told, spins.at(some).told(found.phi), strict=True)))
+    told = Senses(
+        *(_scatter_field(a, on, b[new]) for a, b in zip(told, spins.at(some).told(found.phi), strict=True))
+    )
     z = np.where(found.scale < 1, np.nan, found.z.T).T[new]
     c = strength(contacts, 1.0, told.open[on], told.sense[on])
     slip = slip._replace(
-        z=_with(slip.z, on, z),
-        c=_with(slip.c, on, c),
-        x=_with(slip.x, on, multiplier(Response(*(a[new] for a in here)), c * z)),
-        determinant=_with(slip.determinant, on, found.determinant[new]),
-        critical=_with(slip.critical, on, np.where(found.scale < 1, found.scale, np.nan)[new]),
-        single=_with(slip.single, on, False),
+        z=_scatter_field(slip.z, on, z),
+        c=_scatter_field(slip.c, on, c),
+        x=_scatter_field(slip.x, on, multiplier(Response(*(a[new] for a in here)), c * z)),
+        determinant=_scatter_field(slip.determinant, on, found.determinant[new]),
+        critical=_scatter_field(slip.critical, on, np.where(found.scale < 1, found.scale, np.nan)[new]),
+        single=_scatter_field(slip.single, on, False),
     )
     return told, spins, slip
-
-
-def _with(whole: Array, on: Ints, part: Any) -> Array:
-    """A copy with other values at some positions."""
-    out = np.array(whole)
-    out[on] = part
-    return out
 
 
 class Side(NamedTuple):
@@ -181,16 +176,26 @@ def _open(made: _Made, found: Solved, open_: Ints, spins: Spins | None) -> Force
         turns[turns] = np.all(idle, axis=0)
         both = _both_sides(made, found, open_[turns], at_side.at(turns), rest[turns])
     turn, stay = open_[turns], open_[~turns]
-    after, reversing = None, None
+    reversing = None
     if turn.size:
         before, behind = both
         found = before
         known = _scatter_field(np.zeros_like(told.open), turn, at_side.known[turns])
         same = _idle(made.s.contacts, made.r, before.slip, known)[:, None]
         reversing = known & (before.told.sense != behind.told.sense) & ~same
-        after = made.forces(behind, reversing) if reversing.any() else None
     whole = _with_ends(made, found, stay, spins, reversing) if stay.size else made.forces(found, reversing)
-    return whole._replace(after=after)
+    if reversing is None or not reversing.any():
+        return whole
+    return whole._replace(after=_scatter_forces(whole, turn, made.forces(behind, reversing)))
+
+
+def _scatter_forces(whole: Forces, where: Ints, part: Forces) -> Forces:
+    """Forces and friction of another solution at some positions; elsewhere they stay, found at rest or not."""
+    assert whole.friction is not None
+    assert part.friction is not None
+    pairs = zip((*whole[:7], *whole.friction), (*part[:7], *part.friction), strict=True)
+    made: Any = [_scatter_field(a, where, b[where]) for a, b in pairs]
+    return Forces._make([*made[:7], *part[7:9], Friction(*made[7:]), (), part.unique_in, None])
 
 
 def _both_sides(made: _Made, found: Solved, turn: Ints, at_side: Sides, rest: Flags) -> list[Solved]:
@@ -275,7 +280,8 @@ def _scatter(whole: Slip, where: Ints, part: Slip, which: Any) -> Slip:
     return Slip(*(_scatter_field(a, where, b[which]) for a, b in zip(whole, part, strict=True)))
 
 
-def _scatter_field(whole: Array, where: Ints, part: Array) -> Array:
+def _scatter_field(whole: Array, where: Ints, part: Any) -> Array:
+    """A copy with other values at some positions."""
     out = np.array(whole)
     out[where] = part
     return out
