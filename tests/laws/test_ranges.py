@@ -151,7 +151,7 @@ def test_the_second_group_of_a_six_bar_closes_in_two_ranges(seed: int) -> None:
     assert np.abs(off)[r.ok].max() < 1e-6
 
 
-@over(1, 60)
+@over(1, 25)
 def test_an_rssr_closes_in_both_its_ranges(seed: int) -> None:
     """The end of the rocker is where its circle cuts the sphere about the crank's end."""
     rng, turn = np.random.default_rng(seed), 2 * pi * np.arange(72) / 72
@@ -205,7 +205,7 @@ def rssr_tree(
     }
 
 
-@over(1, 40)
+@over(1, 15)
 def test_a_lifted_four_bar_closes_where_the_plane_one_does(seed: int) -> None:
     """Its constraints repeat each other: independent ones are chosen, which tell the sides."""
     rng = np.random.default_rng(seed)
