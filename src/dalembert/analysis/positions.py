@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from dalembert.analysis.closure_failure import drive_text
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.compile.torsion_turns import wound
 from dalembert.analysis.degree_of_freedom import Mobility, check_drives, mobility_at
+from dalembert.analysis.status.closure_failure import drive_text
 from dalembert.arrays import Array, Ints
 from dalembert.core.constraints import measure
 from dalembert.core.gear_rows import Misfit, mesh_wheels

@@ -11,10 +11,10 @@ import numpy as np
 from dalembert.analysis.batch.kernel_inputs import Course, Inputs
 from dalembert.analysis.batch.outputs import Catalogue
 from dalembert.analysis.batch.symbolic_model import Number, geometric, numbers, symbolic
-from dalembert.analysis.closure_failure import open_sentence
 from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
 from dalembert.analysis.degree_of_freedom import check_knowns
 from dalembert.analysis.result.result import Result
+from dalembert.analysis.status.closure_failure import open_sentence
 from dalembert.errors import ModelError
 from dalembert.kernel.friction_trace import Rough
 from dalembert.kernel.graph import Graph

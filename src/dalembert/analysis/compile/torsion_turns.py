@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from dalembert.algebra import space
-from dalembert.analysis.closure_failure import quantity_text
 from dalembert.analysis.compile.compiled_mechanism import Compiled, Count
+from dalembert.analysis.status.closure_failure import quantity_text
 from dalembert.arrays import Array, Ints
 from dalembert.core.constraints import measure
 from dalembert.core.geometry import arm

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.closure_failure import drive_text, quantity_text
 from dalembert.analysis.compile.contacts import friction_on
 from dalembert.analysis.friction.joint_friction import holds_beyond
+from dalembert.analysis.status.closure_failure import drive_text, quantity_text
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.errors import ModelError
 

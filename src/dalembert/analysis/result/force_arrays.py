@@ -69,16 +69,26 @@ class Forces(NamedTuple):
     after: Forces | None = None
 
 
+ARRAYS = tuple(name for name in Forces._fields if name not in ("friction", "ends", "after"))
+"""Fields with an array over the positions, or none."""
+
+
 def concatenate_blocks(parts: list[Forces]) -> Forces:
     """Blocks of positions one after the other."""
     if len(parts) == 1:
         return parts[0]
     count = max(len(p.ends) for p in parts)
-    ends = tuple(concatenate_blocks([p.ends[k] if p.ends else p for p in parts]) for k in range(count))
     friction = [p.friction for p in parts if p.friction is not None]
-    whole = Friction(*(np.concatenate(a) for a in zip(*friction, strict=True))) if friction else None
-    arrays = (None if a[0] is None else np.concatenate(a) for a in zip(*(p[:9] for p in parts), strict=True))
-    inside = [p.unique_in for p in parts if p.unique_in is not None]
-    made: Any = Forces._make([*arrays, whole, ends, np.concatenate(inside) if inside else None, None])
+    made: dict[str, Any] = {name: _concatenate([getattr(p, name) for p in parts]) for name in ARRAYS}
+    whole = Forces(
+        **made,
+        friction=Friction(*(np.concatenate(a) for a in zip(*friction, strict=True))) if friction else None,
+        ends=tuple(concatenate_blocks([p.ends[k] if p.ends else p for p in parts]) for k in range(count)),
+    )
     some = any(p.after is not None for p in parts)
-    return made._replace(after=concatenate_blocks([p.after or p for p in parts]) if some else None)  # type: ignore[no-any-return]
+    return whole._replace(after=concatenate_blocks([p.after or p for p in parts]) if some else None)
+
+
+def _concatenate(arrays: list[Array | None]) -> Array | None:
+    some = [a for a in arrays if a is not None]
+    return np.concatenate(some) if some else None

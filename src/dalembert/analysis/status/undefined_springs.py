@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.closure_failure import quantity_text
 from dalembert.analysis.friction.friction_status import arc
+from dalembert.analysis.status.closure_failure import quantity_text
 from dalembert.arrays import Flags, Ints
 from dalembert.core.forcing import away, pushes_at_zero_length
 

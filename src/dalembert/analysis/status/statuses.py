@@ -1,0 +1,100 @@
+"""Status and sentence of every position of an analysis: of all that can be wrong, the first that applies."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.analysis.friction.friction_status import alone, friction_checks, reversal_checks
+from dalembert.analysis.status.closure_failure import drive_text, open_sentence
+from dalembert.analysis.status.overflow import fast, not_finite, overflow_sentence, strong
+from dalembert.analysis.status.undefined_springs import find_undefined_springs, undefined_sentence
+from dalembert.arrays import Array, Ints
+from dalembert.core.rank import singular_below
+from dalembert.errors import NUMBERED
+
+if TYPE_CHECKING:
+    from dalembert.analysis.compile.compiled_mechanism import Compiled
+    from dalembert.analysis.positions import Positions
+    from dalembert.analysis.result.force_arrays import Forces
+
+UNBALANCED = 1e-6
+"""Residual above which a position has no equilibrium."""
+
+KEPT = (*NUMBERED, "redundant", "jammed", "at_rest", "undefined_load")
+"""Statuses whose motion stands, and what numbers there are of the forces."""
+
+
+def statuses(
+    followed: Positions, twist: Array, acceleration: Array, rcond: Array, f: Forces, forces: bool
+) -> tuple[tuple[str, ...], tuple[str | None, ...]]:
+    """Status and sentence of each position; ``rcond`` is that of the closure equations, ``forces`` asked for or not."""
+    c, path = followed.compiled, followed.path
+    assert path is not None
+    limit = singular_below(c.layout)
+    unbalanced = (f.rcond < limit) | ~(f.residual <= UNBALANCED)
+    unheld = np.array([e.residual for e in f.ends] or [np.zeros(len(f.rcond))]) > UNBALANCED
+    partial = f.unique is not None and not f.unique.all()
+    checks: list[tuple[str, Any, Callable[[Any], str]]] = [
+        ("not_assembled", ~path.reached, lambda k: open_sentence(c, path, k)),
+        ("singular", ~(rcond >= limit), lambda k: _singular_sentence(c, k)),
+    ]
+    racing = fast(twist, acceleration)
+    rates = "rates or accelerations"
+    checks += [("overflow", racing.any(axis=1), lambda k: overflow_sentence(c, rates, c.links, racing, k))]
+    if forces:
+        loaded, held = strong(f), f.rcond >= limit
+        pushing = find_undefined_springs(c, path.pose)
+        checks += [("undefined_load", pushing.any(axis=-1), lambda k: undefined_sentence(c, pushing, k))]
+        checks += [("no_balance", unheld.all(axis=0), lambda k: _no_balance_sentence(c))]
+        checks += friction_checks(c, f, held)
+        checks += [
+            ("overflow", not_finite(f) & held, lambda k: overflow_sentence(c, "forces", c.joints, loaded, k)),
+            ("no_balance", unbalanced, lambda k: _no_balance_sentence(c)),
+            ("redundant", np.full(len(f.rcond), partial), lambda k: _redundant_sentence(followed)),
+            *reversal_checks(c, f),
+        ]
+    status = np.full(len(rcond), "ok", dtype=object)
+    reasons = np.full(len(rcond), None, dtype=object)
+    single = alone(f)
+    for code, mask, sentence in checks:
+        where = np.flatnonzero(mask & (status == "ok"))
+        status[where] = code
+        apart = (np.diff(where) > 1) | single[where[1:]] | single[where[:-1]]
+        for run in np.split(where, np.flatnonzero(apart) + 1):
+            if run.size:
+                reasons[run] = sentence(run)
+    return tuple(status), tuple(reasons)
+
+
+def _singular_sentence(c: Compiled, where: Ints) -> str:
+    at = [f"{n} = {drive_text(c, int(where[0]), k)}" for k, n in enumerate(c.schedule.names)]
+    here = f" at {' and '.join(at)}" if at else ""
+    return f"Dead centre or change point{here}: drive another joint, or step over this position."
+
+
+def _no_balance_sentence(c: Compiled) -> str:
+    given = ", ".join(n for n, asked in zip(c.schedule.names, c.known.asked, strict=True) if not asked)
+    unknown = ", ".join(c.unknown_loads)
+    if c.passive:
+        links = " or ".join(c.passive)
+        holds = "which nothing holds" if c.contacts is None else "more than friction holds"
+        return (
+            f"The loads have no equilibrium here: they turn {links} about the line of two ball joints, {holds}. "
+            "Put a universal joint in place of one of them, or bring the mass centre onto the line."
+        )
+    if unknown:
+        return f"The unknown {unknown} cannot balance the given effort of {given}: it has no power here."
+    return "The loads have no equilibrium here."
+
+
+def _redundant_sentence(followed: Positions) -> str:
+    m = followed.mobility
+    assert m is not None
+    many = "constraints are" if m.redundant > 1 else "constraint is"
+    return (
+        f"{m.redundant} {many} redundant among joints {', '.join(m.redundant_joints)}: "
+        "reactions that are not unique are left out, their least-norm values given beside."
+    )
