@@ -18,7 +18,7 @@ PACKAGES = {
     "units": "units.py printing.py unit_names.py wording.py",
     **{
         p: f"{p}/"
-        for p in ("algebra", "core", "analysis", "kernel", "model", "wrench", "views", "report", "cli")
+        for p in ("algebra", "core", "analysis", "kernel", "model", "wrench", "views", "reports", "cli")
     },
 }
 """Where each package's files are; a file belongs to the first package that names it."""

@@ -110,7 +110,7 @@ if TYPE_CHECKING:
         watt_2,
         whitworth,
     )
-    from dalembert.report import report
+    from dalembert.reports import report
     from dalembert.views import draw
     from dalembert.views.notation import Notation
     from dalembert.views.paper.scene import Scene
@@ -191,7 +191,7 @@ _HOME = {
     "order_of_solution": "analysis.methods.members",
     "other_solutions": "analysis.friction.other_solutions",
     "rccc": "model.library",
-    "report": "report",
+    "report": "reports",
     "rotating_shaft": "model.library",
     "rssp": "model.library",
     "rssr": "model.library",

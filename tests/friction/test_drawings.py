@@ -12,11 +12,11 @@ import dalembert as da
 from dalembert.analysis.friction.lines_of_action import acting_lines
 from dalembert.analysis.methods.applied_forces import magnitude, on_link
 from dalembert.bundled import cases
-from dalembert.views.paper.canvas import text_over_lines, text_overlaps
 from dalembert.views.paper.scene import Circle, Line, Scene
 from tests.friction.engines import collar, engine, engine_by_hand, guided
 from tests.friction.rough import rough
 from tests.friction.test_laws import solved
+from tests.methods.readable import text_over_lines, text_overlaps
 from tests.tiers import over
 
 RUBBING = [name for name, path in cases().items() if "friction:" in path.read_text(encoding="utf-8")]

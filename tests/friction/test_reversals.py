@@ -14,7 +14,7 @@ import dalembert as da
 from dalembert.analysis.output.export import write_csv
 from dalembert.cli import main
 from dalembert.grading.file_answers import check
-from dalembert.report.working import working
+from dalembert.reports.working import working
 from dalembert.views.charts import effort_chart, polar_chart, reaction_chart, stepped_series
 from tests.friction import four_stroke
 from tests.friction.engines import engine

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from dalembert.report.formula import plain, write_mixed
-from dalembert.report.sheet import Equations, Heading, Matrix, Paragraph, Sheet, Table
-from dalembert.report.writers.plain_writer import _equation
+from dalembert.reports.formula import plain, write_mixed
+from dalembert.reports.sheet import Equations, Heading, Matrix, Paragraph, Sheet, Table
+from dalembert.reports.writers.plain_writer import _equation
 from tests.methods.printed_equations import Read, Reader, size, times
 
 Cells = list[list[str]]

@@ -14,9 +14,9 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.views.charts import chart_scenes
-from dalembert.views.paper.canvas import text_over_lines, text_overlaps
 from dalembert.views.paper.scene import Line, Text
 from dalembert.views.plane.force_polygons import forces_of
+from tests.methods.readable import text_over_lines, text_overlaps
 
 SHOWN = [
     "seed-000-a-four-bar-loaded-rocker",

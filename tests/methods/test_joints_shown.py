@@ -11,7 +11,7 @@ import pytest
 import dalembert as da
 from dalembert.analysis.compile.pair_table import PAIRS
 from dalembert.cli import main
-from dalembert.views.paper.canvas import text_over_lines, text_overlaps
+from tests.methods.readable import text_over_lines, text_overlaps
 from tests.space.test_pairs import TABLE
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -98,7 +98,7 @@ def test_names_may_have_any_sign_in_html(signs: str) -> None:
 
 
 def test_numbers_with_powers_of_ten() -> None:
-    from dalembert.report.formula import latex
+    from dalembert.reports.formula import latex
 
     assert latex("F = −1.234e−14 + 1.000e+07") == r"F = -1.234 \cdot 10^{-14} + 1.000 \cdot 10^{7}"
 

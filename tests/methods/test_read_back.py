@@ -12,10 +12,10 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli.method_text import superposition_text, virtual_work_answer
-from dalembert.report.sections import friction, given
-from dalembert.report.sections.force_system_solution import force_system_sheet
-from dalembert.report.sheet import Equations, Matrix, Sheet, Table
-from dalembert.report.working import working
+from dalembert.reports.sections import friction, given
+from dalembert.reports.sections.force_system_solution import force_system_sheet
+from dalembert.reports.sheet import Equations, Matrix, Sheet, Table
+from dalembert.reports.working import working
 from dalembert.units import Units
 from dalembert.views import draw
 from dalembert.views.notation import Notation

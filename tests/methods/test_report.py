@@ -11,9 +11,9 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
-from dalembert.report.sheet import Equations, Figure, Matrix, Sheet, Table
-from dalembert.report.working import working
-from dalembert.views.paper.canvas import text_over_lines, text_overlaps
+from dalembert.reports.sheet import Equations, Figure, Matrix, Sheet, Table
+from dalembert.reports.working import working
+from tests.methods.readable import text_over_lines, text_overlaps
 
 GALLERY = [*sorted(name for name in cases() if name.startswith("seed-")), *sorted(examples())]
 
@@ -139,7 +139,7 @@ def test_the_motion_of_wheels_in_mesh() -> None:
 
 
 def test_rates_of_the_line_of_centres_are_those_of_the_carrier() -> None:
-    from dalembert.report.sections.gear_motion import _Line
+    from dalembert.reports.sections.gear_motion import _Line
 
     r = da.dynamics(da.load(examples()["gear_train"]).with_values({"drives.sun_bearing.acceleration": 70.0}))
     for joint in ("sun_mesh", "ring_mesh"):

@@ -15,15 +15,27 @@ import pytest
 import dalembert as da
 from dalembert.algebra import space
 from dalembert.analysis.compile.pair_table import PAIRS
+from dalembert.arrays import Array
 from dalembert.views.charts import shaking_force
-from dalembert.views.paper.canvas import text_over_lines, text_overlaps
 from dalembert.views.paper.scene import Line, Polygon
 from dalembert.views.space.camera import CAMERAS, Camera
 from dalembert.views.space.link_solids import link_solids, mount, pose
 from dalembert.views.space.painter import paint
-from dalembert.views.space.solids import Ball, Cylinder, Wire, extent, helix
+from dalembert.views.space.solids import (
+    Ball,
+    Block,
+    Cylinder,
+    Pane,
+    Plate,
+    Solid,
+    Tube,
+    Wire,
+    block_corners,
+    helix,
+)
 from dalembert.views.space.space_mechanism import every_place, whole_sight
 from dalembert.views.symbols.pair_symbols import SYMBOLS, symbol
+from tests.methods.readable import text_over_lines, text_overlaps
 from tests.methods.space_machines import MACHINES, solved
 from tests.oracles.space import random_drawn
 from tests.tiers import tiers
@@ -85,6 +97,19 @@ def test_both_parts_of_a_joint_meet(name: str) -> None:
             if len(pair.turns) == 2:
                 first, second = ("xyz".index(a) for a in pair.turns)
                 assert float(on_i[first] @ on_j[second]) == pytest.approx(0.0, abs=1e-9)
+
+
+def extent(solid: Solid) -> Array:
+    """Points (n, 3) that a solid reaches, as far as a box around it needs them."""
+    if isinstance(solid, (Plate, Pane)):
+        return solid.corners
+    if isinstance(solid, Wire):
+        return solid.points
+    if isinstance(solid, Block):
+        return block_corners(solid)
+    reach = solid.radius + getattr(solid, "thickness", 0.0)
+    ends = [solid.start, solid.end] if isinstance(solid, (Cylinder, Tube)) else [solid.center]
+    return np.array([p + reach * e for p in ends for e in (*np.eye(3), *-np.eye(3))])
 
 
 @each

@@ -13,12 +13,12 @@ import pytest
 import dalembert as da
 from dalembert.analysis.friction.bearing_ends import bearing_axis, bearing_ends, thread
 from dalembert.views.notation import Notation, Shown
-from dalembert.views.paper.canvas import text_over_lines, text_overlaps
 from dalembert.views.paper.scene import Arc, Circle
 from dalembert.views.plane.guide_details import guide_detail
 from dalembert.views.space.camera import CAMERAS
 from dalembert.views.space.journal_details import along_axis, journal_detail
 from dalembert.views.space.space_guides import slide_on_paper
+from tests.methods.readable import text_over_lines, text_overlaps
 from tests.oracles.space import rough_machines
 
 MACHINES = ("rssp", "press", *(pytest.param(name, marks=pytest.mark.long) for name in ("rssr", "rccc")))

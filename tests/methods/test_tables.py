@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from dalembert.report.sections.sources import _tables
-from dalembert.report.sheet import Equations, Sheet, Table
-from dalembert.report.space_sections.space_closure import closing_lines
-from dalembert.report.working import working
-from dalembert.report.writers.latex_writer import _table
+from dalembert.reports.sections.sources import _tables
+from dalembert.reports.sheet import Equations, Sheet, Table
+from dalembert.reports.space_sections.space_closure import closing_lines
+from dalembert.reports.working import working
+from dalembert.reports.writers.latex_writer import _table
 from dalembert.views.notation import Notation, Shown
 from tests.methods.space_machines import solved
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
-from dalembert.report.sheet import Equations, Paragraph, Sheet, Table, Working
+from dalembert.reports.sheet import Equations, Paragraph, Sheet, Table, Working
 
 
 def blocks(sheet: Sheet, kind: type) -> list[Any]:

@@ -13,17 +13,17 @@ from dalembert.analysis.compile.pair_table import pair_of
 from dalembert.analysis.methods.applied_forces import actions
 from dalembert.bundled import cases
 from dalembert.model import library
-from dalembert.report.report_context import Chosen
-from dalembert.report.sections.equilibrium_equations import link_equations
-from dalembert.report.sections.sources import virtual_work
-from dalembert.report.sheet import Figure, Heading, Matrix, Sheet, Table
-from dalembert.report.space_sections.space_mobility import degrees_of_freedom
-from dalembert.report.space_sections.space_motion import space_inertia, space_motion
-from dalembert.report.space_sections.space_order import order_and_solution
-from dalembert.report.space_sections.space_reactions import reaction_tables
-from dalembert.report.working import working
+from dalembert.reports.report_context import Chosen
+from dalembert.reports.sections.equilibrium_equations import link_equations
+from dalembert.reports.sections.sources import virtual_work
+from dalembert.reports.sheet import Figure, Heading, Matrix, Sheet, Table
+from dalembert.reports.space_sections.space_mobility import degrees_of_freedom
+from dalembert.reports.space_sections.space_motion import space_inertia, space_motion
+from dalembert.reports.space_sections.space_order import order_and_solution
+from dalembert.reports.space_sections.space_reactions import reaction_tables
+from dalembert.reports.working import working
 from dalembert.views.notation import Notation, Shown
-from dalembert.views.paper.canvas import text_over_lines, text_overlaps
+from tests.methods.readable import text_over_lines, text_overlaps
 from tests.methods.space_machines import solved
 from tests.random_space import random_case
 from tests.space.machines import oracle

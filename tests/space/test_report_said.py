@@ -12,8 +12,8 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.model import library
-from dalembert.report.sheet import Matrix
-from dalembert.report.working import working
+from dalembert.reports.sheet import Matrix
+from dalembert.reports.working import working
 from dalembert.views.notation import Notation
 from tests.methods.space_machines import solved
 from tests.space.machines import rssr

@@ -17,9 +17,9 @@ from dalembert.views.force_system import (
     force_system_scene,
     reduced_scene,
 )
-from dalembert.views.paper.canvas import text_over_lines, text_overlaps
 from dalembert.views.space.camera import CAMERAS, Camera
 from dalembert.wrench import Couple, Force, System
+from tests.methods.readable import text_over_lines, text_overlaps
 from tests.wrench.random_systems import DIMENSIONS, SEEDS, random_system
 
 both = pytest.mark.parametrize("d", DIMENSIONS)

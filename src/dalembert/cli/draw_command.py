@@ -86,7 +86,7 @@ def write_report(
 ) -> int:
     """Write the worked solution; 1 where some position has a status other than ok."""
     from dalembert.cli.model_argument import load_model
-    from dalembert.report import report
+    from dalembert.reports import report
 
     check_new(output, force)
     result, at = _solve_at(load_model(file, friction), at, static, positions)

@@ -45,7 +45,7 @@ def wrench(
     force: Force = False,
 ) -> int:
     """Reduce the force system of FILE: resultant, moments, central axis, equilibrium."""
-    from dalembert.report import report as worked_out
+    from dalembert.reports import report as worked_out
     from dalembert.saving import check_new
     from dalembert.views import draw
     from dalembert.wrench import load

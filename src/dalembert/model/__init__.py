@@ -23,7 +23,7 @@ from dalembert.model.joints.friction_keys import (
 )
 from dalembert.model.joints.plane_joints import Gear, Joint, Pin, Rolling, Slider, Slot, Weld
 from dalembert.model.joints.space_joints import SpaceJoint
-from dalembert.model.links.link import Link, Offset
+from dalembert.model.links.link import GROUND, Link, Offset
 from dalembert.model.links.shapes import Box, Cylinder, SlenderBar, Sphere, StlMesh, Tube
 from dalembert.model.load_types import Couple, Damper, ForceLoad, Load, Spring, TorsionDamper, TorsionSpring
 from dalembert.model.quantities.expressions import Expression
@@ -32,6 +32,7 @@ from dalembert.model.quantities.varying import Varying, value_at
 from dalembert.model.stated_answers import Answer
 
 __all__ = [
+    "GROUND",
     "Answer",
     "Box",
     "Couple",

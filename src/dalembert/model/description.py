@@ -21,7 +21,7 @@ from dalembert.model.joints.friction_keys import FrictionDefaults
 from dalembert.model.joints.plane_joints import Joint, refuse_unfinished
 from dalembert.model.links.link import CENTER, GROUND, Link
 from dalembert.model.links.shapes import MassProperties
-from dalembert.model.load_types import Damper, ForceLoad, Load, Spring
+from dalembert.model.load_types import Damper, Load, Spring
 from dalembert.model.part import Part, Reading
 from dalembert.model.paths import as_in_file, fields, latest, replace_value
 from dalembert.model.quantities.values import JsonSchema, Name, Scalar, Value, Vector, at_item
@@ -235,12 +235,6 @@ class Mechanism(Part):
         assert isinstance(part, (Spring, Damper))
         (a, first), (b, second) = part.between
         return (a, self.point(a, first)), (b, self.point(b, second))
-
-    def load_point(self, load: str) -> Vector:
-        """The point a force acts at, in its link's axes, metres."""
-        part = self.loads[load]
-        assert isinstance(part, ForceLoad)
-        return part.at if isinstance(part.at, tuple) else self.point(part.on, part.at)
 
     def drive_joint(self, drive: str) -> str:
         """The joint a drive prescribes a freedom of."""

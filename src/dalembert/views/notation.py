@@ -14,12 +14,12 @@ import numpy as np
 from dalembert import unit_names
 from dalembert.analysis.output.columns import Scale, drive_kinds
 from dalembert.analysis.output.rounding import least
+from dalembert.model import GROUND
 
 if TYPE_CHECKING:
     from dalembert.analysis.methods.applied_forces import Action
     from dalembert.analysis.result.result import Result
 
-GROUND = "ground"
 RADIANS = {"angular_speed": "rad/s", "angular_acceleration": "rad/s^2"}
 """Angular rates have no bare unit in a file; they are shown in radians."""
 

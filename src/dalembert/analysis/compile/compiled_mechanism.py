@@ -21,9 +21,7 @@ from dalembert.core.layout import Layout
 from dalembert.core.position.first_pose_plane import Guess
 from dalembert.core.position.first_pose_space import Drawing
 from dalembert.errors import ModelError
-from dalembert.model import Mechanism, Schedule
-
-GROUND = "ground"
+from dalembert.model import GROUND, Mechanism, Schedule
 
 
 @dataclass(frozen=True)

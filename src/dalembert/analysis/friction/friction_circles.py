@@ -15,11 +15,11 @@ from dalembert.analysis.friction.joint_friction import (
 )
 from dalembert.analysis.plane_only import refuse_space
 from dalembert.arrays import Array
+from dalembert.model import GROUND
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
-GROUND = "ground"
 NOTHING = 1e-9
 """A force below this part of the largest on the mechanism does not count."""
 

@@ -19,12 +19,12 @@ from dalembert.core.gear_rows import gearings, separation
 from dalembert.core.geometry import arm
 from dalembert.core.layout import Pose, System
 from dalembert.core.linear import Factor
+from dalembert.model import GROUND
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 Kind = Literal["joint", "friction", "effort", "load", "weight", "spring", "damper", "inertia"]
-GROUND = "ground"
 
 
 @dataclass(frozen=True)

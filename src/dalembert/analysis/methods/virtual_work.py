@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import (
-    GROUND,
     Action,
     State,
     friction_actions,
@@ -25,6 +24,7 @@ from dalembert.arrays import Array
 from dalembert.core.constraints import rates
 from dalembert.core.equilibrium import load_rows
 from dalembert.core.layout import System
+from dalembert.model import GROUND
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result

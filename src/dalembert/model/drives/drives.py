@@ -235,11 +235,6 @@ class Drive(Part):
         """Whether its freedom is an angle."""
         return not slides(self.freedom)
 
-    @property
-    def effort_unit(self) -> str:
-        """`moment` or `force`: the kind of its effort."""
-        return kind_of(self.freedom, "effort")
-
     @model_validator(mode="before")
     @classmethod
     def _freedom_of_units(cls, keys: Any) -> Any:

@@ -7,17 +7,14 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from pydantic import ValidationInfo
-
 from dalembert.errors import ModelError
-from dalembert.model.part import Reading, mapping, reading
+from dalembert.model.part import Reading, mapping
 from dalembert.model.quantities.expressions import Expression, parse_expression
 from dalembert.model.quantities.figures import FILE_UNITS
 from dalembert.model.quantities.tables import SLACK, Table
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
     JsonSchema,
-    Value,
     at_item,
     name,
     numbers,
@@ -28,22 +25,6 @@ from dalembert.wording import quote_value
 
 Varying = float | Expression | Table
 """A quantity that may change along the motion, in SI."""
-
-
-class Changing(Value):
-    """A quantity that may change along the motion: number, text with unit, expression, table."""
-
-    def __init__(self, kind: str) -> None:
-        self.kind = kind
-
-    def read(self, value: Any, info: ValidationInfo) -> Varying:
-        return varying(value, self.kind, reading(info))
-
-    def write(self, value: Varying) -> Any:
-        return varying_tree(value, self.kind)
-
-    def json_schema(self) -> JsonSchema:
-        return varying_schema()
 
 
 def varying_schema() -> JsonSchema:

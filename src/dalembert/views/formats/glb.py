@@ -17,9 +17,10 @@ import numpy as np
 from dalembert.algebra import space
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
+from dalembert.model import GROUND
 from dalembert.saving import new_file
 from dalembert.views.formats.themes import SOLIDS
-from dalembert.views.space.link_solids import GROUND, ROD, link_solids, nodes, pose, shape_solids
+from dalembert.views.space.link_solids import ROD, link_solids, nodes, pose, shape_solids
 from dalembert.views.space.triangles import Mesh, join_meshes, mesh
 
 if TYPE_CHECKING:

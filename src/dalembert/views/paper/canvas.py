@@ -227,21 +227,3 @@ def _leader(near: Array, box: Array) -> Line:
     """From the nearest point of the box to the place."""
     edge = np.clip(near, box[:2], box[2:])
     return Line(((float(edge[0]), float(edge[1])), (float(near[0]), float(near[1]))), "leader")
-
-
-def text_overlaps(scene: Scene) -> list[tuple[str, str]]:
-    """Pairs of texts that overlap; none in a good drawing."""
-    texts = scene.texts()
-    boxes = np.array([t.box for t in texts], float).reshape(-1, 4)
-    pairs = np.argwhere(np.triu(overlapping(boxes, boxes), 1))
-    return [(texts[a].text, texts[b].text) for a, b in pairs]
-
-
-def text_over_lines(scene: Scene) -> list[str]:
-    """Texts that a stroke crosses; none in a good drawing."""
-    texts = scene.texts()
-    boxes = np.array([t.box for t in texts], float).reshape(-1, 4)
-    strokes = segments([i for i in scene.flat() if not isinstance(i, Text)])
-    if not len(strokes) or not len(boxes):
-        return []
-    return [texts[k].text for k in np.flatnonzero(crossings(boxes, strokes).any(axis=1))]

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.friction.friction_circles import friction_circles, two_pins
+from dalembert.model import GROUND
 from dalembert.views.notation import Shown
 from dalembert.views.paper.frame import Frame
 from dalembert.views.paper.scene import Scene, stack_scenes
 from dalembert.views.plane.circle_details import SEEN, pin_detail, with_friction_circle
 from dalembert.views.plane.guide_details import guide_detail, with_rough_guide
-from dalembert.views.plane.outline import GROUND
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result

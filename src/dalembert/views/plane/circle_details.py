@@ -21,11 +21,12 @@ from dalembert.analysis.friction.joint_friction import (
     friction_coefficient,
     friction_sense,
 )
+from dalembert.model import GROUND
 from dalembert.views.notation import Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import Frame, round_up
 from dalembert.views.paper.scene import Arc, Arrow, Circle, Line, Point, Scene
-from dalembert.views.plane.outline import GROUND, link_points
+from dalembert.views.plane.outline import link_points
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result

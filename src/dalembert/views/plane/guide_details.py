@@ -17,11 +17,11 @@ from dalembert.analysis.friction.joint_friction import (
 )
 from dalembert.analysis.friction.lines_of_action import FaceForce, bearing_faces, close_by, slot_face
 from dalembert.analysis.methods.applied_forces import joint_place, slide_direction
+from dalembert.model import GROUND
 from dalembert.views.notation import Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import Frame, force_scale, round_up
 from dalembert.views.paper.scene import Arc, Arrow, Circle, Line, Point, Polygon, Scene
-from dalembert.views.plane.outline import GROUND
 from dalembert.views.space.space_guides import (
     ends_on_paper,
     ends_words,

@@ -9,6 +9,7 @@ import numpy as np
 
 from dalembert.analysis.friction.friction_circles import two_pins
 from dalembert.analysis.methods.applied_forces import Action, actions, link_place
+from dalembert.model import GROUND
 from dalembert.views.notation import Figures, Notation, Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.details import detail_scenes, with_details
@@ -17,7 +18,6 @@ from dalembert.views.paper.scene import Arrow, Line, Point, Scene
 from dalembert.views.plane.circle_details import draw_circles, with_friction_circle
 from dalembert.views.plane.guide_details import with_rough_guide
 from dalembert.views.plane.outline import (
-    GROUND,
     draw_joint,
     every_place,
     link_points,

@@ -9,6 +9,7 @@ import numpy as np
 
 from dalembert.analysis.methods.applied_forces import joint_place, link_angle, link_place, slide_direction
 from dalembert.arrays import Array
+from dalembert.model import GROUND
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import Frame
 from dalembert.views.paper.scene import Item, Line, Point, Polygon
@@ -16,8 +17,6 @@ from dalembert.views.symbols import plane_symbols
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
-
-GROUND = "ground"
 
 
 def link_points(r: Result, link: str, k: int) -> dict[str, tuple[float, float]]:

@@ -11,10 +11,10 @@ from dalembert.analysis.friction.bearing_ends import bearing_axis
 from dalembert.analysis.friction.joint_friction import friction_sense
 from dalembert.analysis.methods.applied_forces import joint_place
 from dalembert.arrays import Array
+from dalembert.model import GROUND
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.scene import Arrow, Line, Scene
 from dalembert.views.plane.guide_details import guide_detail, with_rough_guide
-from dalembert.views.plane.outline import GROUND
 from dalembert.views.space.journal_details import circle_radius, journal_detail, journals
 from dalembert.views.space.space_arrows import Arrows
 from dalembert.views.space.space_view import Sight

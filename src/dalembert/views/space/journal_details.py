@@ -13,12 +13,12 @@ from dalembert.analysis.friction.bearing_ends import BearingEnd, bearing_axis, b
 from dalembert.analysis.friction.joint_friction import at_rest, friction_coefficient, friction_sense
 from dalembert.analysis.methods.applied_forces import joint_place, link_place
 from dalembert.arrays import Array
+from dalembert.model import GROUND
 from dalembert.views.notation import Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import round_up
 from dalembert.views.paper.scene import Arc, Arrow, Circle, Line, Point, Scene
 from dalembert.views.plane.circle_details import WINDOW, chord, onward
-from dalembert.views.plane.outline import GROUND
 from dalembert.views.space.camera import Camera
 from dalembert.views.space.link_solids import nodes
 from dalembert.views.space.space_view import triad

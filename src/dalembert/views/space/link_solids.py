@@ -13,6 +13,7 @@ import numpy as np
 from dalembert.analysis.compile.load_arrays import point_of
 from dalembert.analysis.compile.pair_table import AXES, pair_of
 from dalembert.arrays import Array
+from dalembert.model import GROUND
 from dalembert.model.links.shapes import Box, Sphere
 from dalembert.model.links.shapes import Cylinder as Round
 from dalembert.model.links.shapes import Tube as Hollow
@@ -34,7 +35,6 @@ from dalembert.views.symbols.pair_symbols import Setting, Symbol, symbol
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
-GROUND = "ground"
 ROD = 0.8
 """Radius of a link's bars, mm."""
 

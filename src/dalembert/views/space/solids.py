@@ -134,19 +134,6 @@ def all_placed(solids: Sequence[Solid], turn: Rotation, at: Array, scale: float 
     return [place_solid(s, turn, at, scale) for s in solids]
 
 
-def extent(solid: Solid) -> Array:
-    """Points (n, 3) that a solid reaches, as far as a box around it needs them."""
-    if isinstance(solid, (Plate, Pane)):
-        return solid.corners
-    if isinstance(solid, Wire):
-        return solid.points
-    if isinstance(solid, Block):
-        return block_corners(solid)
-    reach = solid.radius + getattr(solid, "thickness", 0.0)
-    ends = [solid.start, solid.end] if isinstance(solid, (Cylinder, Tube)) else [solid.center]
-    return np.array([p + reach * e for p in ends for e in (*np.eye(3), *-np.eye(3))])
-
-
 def block_corners(block: Block) -> Array:
     """The eight corners (8, 3), x slowest."""
     signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)

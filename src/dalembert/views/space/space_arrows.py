@@ -9,12 +9,13 @@ import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action, link_place
 from dalembert.arrays import Array
+from dalembert.model import GROUND
 from dalembert.views.notation import Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import force_scale
 from dalembert.views.paper.scene import Point
 from dalembert.views.plane.mechanism_view import ring, role_of, unit_size
-from dalembert.views.space.link_solids import GROUND, nodes
+from dalembert.views.space.link_solids import nodes
 from dalembert.views.space.space_view import NOTHING, Sight, end_on, scale_notes
 from dalembert.views.symbols import plane_symbols
 

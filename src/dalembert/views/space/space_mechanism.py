@@ -10,6 +10,7 @@ import numpy as np
 
 from dalembert.analysis.methods.applied_forces import actions, joint_place, link_place
 from dalembert.arrays import Array
+from dalembert.model import GROUND
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.details import with_details
@@ -19,7 +20,7 @@ from dalembert.views.plane.outline import unbroken
 from dalembert.views.space.camera import Camera
 from dalembert.views.space.friction_arrows import draw_circle, friction_details
 from dalembert.views.space.journal_details import journals
-from dalembert.views.space.link_solids import GROUND, nodes, pose, wheels
+from dalembert.views.space.link_solids import nodes, pose, wheels
 from dalembert.views.space.solids import across
 from dalembert.views.space.space_arrows import Arrows
 from dalembert.views.space.space_view import Sight, sight, standing, triad

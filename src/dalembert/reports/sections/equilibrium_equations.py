@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from dalembert.analysis.methods.applied_forces import actions, joint_place, on_link
 from dalembert.analysis.result.reaction_components import table_row
-from dalembert.report.sections.terms import AXES, About, Piece, join_signed, setting, terms
-from dalembert.report.sections.terms import about as at
-from dalembert.report.sheet import Working
+from dalembert.reports.sections.terms import AXES, About, Piece, join_signed, setting, terms
+from dalembert.reports.sections.terms import about as at
+from dalembert.reports.sheet import Working
 from dalembert.views.notation import Shown
 
 if TYPE_CHECKING:

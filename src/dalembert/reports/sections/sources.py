@@ -6,15 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.methods.applied_forces import GROUND, Action, actions
+from dalembert.analysis.methods.applied_forces import Action, actions
 from dalembert.analysis.output.columns import drive_kinds, load_kind
 from dalembert.analysis.output.rounding import PART
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
+from dalembert.model import GROUND
 from dalembert.printing import remainder
-from dalembert.report.report_context import Chosen, as_formula, in_ground
-from dalembert.report.sections.terms import floors
-from dalembert.report.sheet import Sheet, Working
+from dalembert.reports.report_context import Chosen, as_formula, in_ground
+from dalembert.reports.sections.terms import floors
+from dalembert.reports.sheet import Sheet, Working
 from dalembert.views import draw
 from dalembert.views.notation import Shown, along, own_name
 

@@ -13,10 +13,10 @@ from dalembert.analysis.output.rounding import PART
 from dalembert.analysis.result.closure_residual import closure_gap
 from dalembert.arrays import Array
 from dalembert.printing import remainder
-from dalembert.report.report_context import Chosen
-from dalembert.report.sections.motion import shares, units_of_inertia
-from dalembert.report.sheet import Sheet, Working
-from dalembert.report.space_sections.space_closure import closing_lines
+from dalembert.reports.report_context import Chosen
+from dalembert.reports.sections.motion import shares, units_of_inertia
+from dalembert.reports.sheet import Sheet, Working
+from dalembert.reports.space_sections.space_closure import closing_lines
 
 AXES = "xyz"
 

@@ -7,8 +7,8 @@ from importlib import import_module
 from importlib.resources import files
 from typing import Any
 
-from dalembert.report.formula import typst, write_mixed
-from dalembert.report.sheet import Block, Equations, Figure, Heading, Matrix, Paragraph, Sheet, Table
+from dalembert.reports.formula import typst, write_mixed
+from dalembert.reports.sheet import Block, Equations, Figure, Heading, Matrix, Paragraph, Sheet, Table
 from dalembert.views.formats.svg import MARGIN
 from dalembert.views.paper.scene import Scene
 
@@ -26,8 +26,8 @@ def typst_bytes(sheet: Sheet, kind: str) -> bytes:
         "subtitle": sheet.subtitle,
         "blocks": [_block(b, pictures) for b in sheet.blocks],
     }
-    template = files("dalembert.report").joinpath("template.typ").read_text(encoding="utf-8")
-    tree["style"] = files("dalembert.report").joinpath("page.css").read_text(encoding="utf-8")
+    template = files("dalembert.reports").joinpath("template.typ").read_text(encoding="utf-8")
+    tree["style"] = files("dalembert.reports").joinpath("page.css").read_text(encoding="utf-8")
     out = engine.compile(
         {"main": template.encode(), "sheet.json": json.dumps(tree).encode(), **pictures},
         format=kind,

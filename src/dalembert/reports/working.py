@@ -13,18 +13,18 @@ from dalembert.analysis.methods.members import components_along
 from dalembert.analysis.output.columns import drive_kinds, load_kind
 from dalembert.analysis.result.position_lookup import position_at
 from dalembert.errors import NUMBERED, ModelError
-from dalembert.report.report_context import METHODS, Chosen, Method, as_formula, in_ground
-from dalembert.report.sections import equilibrium_equations, friction, matrix
-from dalembert.report.sections.given import knowns
-from dalembert.report.sections.methods import checks, cycle, graphical
-from dalembert.report.sections.motion import inertia, motion
-from dalembert.report.sections.sources import superposition, virtual_work
-from dalembert.report.sheet import Sheet, Working
-from dalembert.report.space_sections.space_friction_laws import space_friction
-from dalembert.report.space_sections.space_mobility import degrees_of_freedom
-from dalembert.report.space_sections.space_motion import space_inertia, space_motion
-from dalembert.report.space_sections.space_order import order_and_solution
-from dalembert.report.space_sections.space_reactions import reaction_tables
+from dalembert.reports.report_context import METHODS, Chosen, Method, as_formula, in_ground
+from dalembert.reports.sections import equilibrium_equations, friction, matrix
+from dalembert.reports.sections.given import knowns
+from dalembert.reports.sections.methods import checks, cycle, graphical
+from dalembert.reports.sections.motion import inertia, motion
+from dalembert.reports.sections.sources import superposition, virtual_work
+from dalembert.reports.sheet import Sheet, Working
+from dalembert.reports.space_sections.space_friction_laws import space_friction
+from dalembert.reports.space_sections.space_mobility import degrees_of_freedom
+from dalembert.reports.space_sections.space_motion import space_inertia, space_motion
+from dalembert.reports.space_sections.space_order import order_and_solution
+from dalembert.reports.space_sections.space_reactions import reaction_tables
 from dalembert.views import both_ends, draw
 from dalembert.views.notation import Notation, Shown, own_name
 

@@ -9,9 +9,10 @@ import numpy as np
 
 from dalembert.analysis.compile.pair_table import AXES, PAIRS, pair_of
 from dalembert.arrays import Array
-from dalembert.report.sections.kinematics import GROUND, Ring, joint_end, rings
-from dalembert.report.sections.terms import Signed, join_signed
-from dalembert.report.sheet import Sheet, Working
+from dalembert.model import GROUND
+from dalembert.reports.sections.kinematics import Ring, joint_end, rings
+from dalembert.reports.sections.terms import Signed, join_signed
+from dalembert.reports.sheet import Sheet, Working
 from dalembert.views.notation import Shown
 
 if TYPE_CHECKING:

@@ -9,9 +9,10 @@ import numpy as np
 
 from dalembert.analysis.compile.plane_rows import signed_radii
 from dalembert.analysis.methods.applied_forces import link_place, link_speed
-from dalembert.report.formula import bracket_negative
-from dalembert.report.sections.kinematics import GROUND, zero_sum
-from dalembert.report.sheet import Working
+from dalembert.model import GROUND
+from dalembert.reports.formula import bracket_negative
+from dalembert.reports.sections.kinematics import zero_sum
+from dalembert.reports.sheet import Working
 from dalembert.views.notation import Shown
 
 if TYPE_CHECKING:

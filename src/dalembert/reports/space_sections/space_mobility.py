@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dalembert.analysis.degree_of_freedom import Mobility
 from dalembert.analysis.result.reaction_components import table_row, unknown_count
-from dalembert.report.report_context import Chosen
-from dalembert.report.sheet import Sheet, Working
+from dalembert.reports.report_context import Chosen
+from dalembert.reports.sheet import Sheet, Working
 
 
 def degrees_of_freedom(sheet: Sheet, c: Chosen) -> None:

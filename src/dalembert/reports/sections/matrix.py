@@ -20,9 +20,9 @@ from dalembert.analysis.methods.applied_forces import (
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.result.reaction_components import components
 from dalembert.arrays import Array
-from dalembert.report.sections.equilibrium_equations import moment_point
-from dalembert.report.sections.terms import About, floors
-from dalembert.report.sheet import Matrix
+from dalembert.reports.sections.equilibrium_equations import moment_point
+from dalembert.reports.sections.terms import About, floors
+from dalembert.reports.sheet import Matrix
 from dalembert.views.notation import Shown, along, own_name
 
 if TYPE_CHECKING:

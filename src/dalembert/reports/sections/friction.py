@@ -26,12 +26,11 @@ from dalembert.analysis.friction.joint_friction import (
     unknown_names,
 )
 from dalembert.analysis.output.columns import rubbing_joints, unknown_kinds
-from dalembert.report.pictures import rubbing_pictures
-from dalembert.report.report_context import Chosen
-from dalembert.report.sheet import Sheet, Working
+from dalembert.model import GROUND
+from dalembert.reports.pictures import rubbing_pictures
+from dalembert.reports.report_context import Chosen
+from dalembert.reports.sheet import Sheet, Working
 from dalembert.views import both_ends
-
-GROUND = "ground"
 
 
 def friction(sheet: Sheet, c: Chosen) -> None:

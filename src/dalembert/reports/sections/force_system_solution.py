@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from dalembert.arrays import Array
-from dalembert.report.formula import bracket_negative
-from dalembert.report.report_context import as_formula
-from dalembert.report.sheet import Sheet, Working
+from dalembert.reports.formula import bracket_negative
+from dalembert.reports.report_context import as_formula
+from dalembert.reports.sheet import Sheet, Working
 from dalembert.views import draw
 from dalembert.views.notation import Figures, Notation, own_name, pretty
 from dalembert.wrench import Couple, Force, System

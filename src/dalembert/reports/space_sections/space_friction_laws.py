@@ -11,9 +11,9 @@ from dalembert.analysis.compile.contacts import circle as circle_kind
 from dalembert.analysis.friction.joint_friction import Rub, rubs_of
 from dalembert.analysis.output.rounding import PART
 from dalembert.arrays import Array
-from dalembert.report.report_context import Chosen
-from dalembert.report.sections.friction import cost
-from dalembert.report.sheet import Sheet, Working
+from dalembert.reports.report_context import Chosen
+from dalembert.reports.sections.friction import cost
+from dalembert.reports.sheet import Sheet, Working
 from dalembert.views.notation import along
 
 LAWS = {

@@ -8,9 +8,9 @@ from dalembert.analysis.methods.applied_forces import actions, magnitude, on_lin
 from dalembert.analysis.methods.members import ZERO, members, order_of_solution
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.printing import remainder
-from dalembert.report.report_context import Chosen
-from dalembert.report.sections.terms import floors
-from dalembert.report.sheet import Sheet
+from dalembert.reports.report_context import Chosen
+from dalembert.reports.sections.terms import floors
+from dalembert.reports.sheet import Sheet
 from dalembert.views import draw
 
 

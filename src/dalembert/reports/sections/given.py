@@ -10,14 +10,15 @@ import numpy as np
 
 from dalembert.analysis.compile.contacts import coefficient, resting_coefficient
 from dalembert.analysis.compile.pair_table import AXES
-from dalembert.analysis.methods.applied_forces import GROUND, actions
+from dalembert.analysis.methods.applied_forces import actions
 from dalembert.analysis.methods.inertia_couples import inertia_matrix
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.rounding import PART
 from dalembert.analysis.result.reaction_components import local_words
-from dalembert.report.pictures import given_picture
-from dalembert.report.report_context import Chosen, as_formula
-from dalembert.report.sheet import Sheet
+from dalembert.model import GROUND
+from dalembert.reports.pictures import given_picture
+from dalembert.reports.report_context import Chosen, as_formula
+from dalembert.reports.sheet import Sheet
 from dalembert.views.notation import Shown, own_name
 
 

@@ -6,9 +6,7 @@ In: a ``Result``, or a force system. Out: a ``Report``: ``da.report(r).save("eng
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -28,16 +26,16 @@ class Report:
     def to_bytes(self, kind: str) -> bytes:
         """The report as `pdf`, `html`, `tex` or `txt`."""
         if kind in ("pdf", "html"):
-            from dalembert.report.writers.typst_writer import typst_bytes
+            from dalembert.reports.writers.typst_writer import typst_bytes
             from dalembert.saving import check_installed
 
             check_installed("typst", f"writing {kind.upper()}", "report")
             return typst_bytes(self.sheet, kind)
         if kind == "tex":
-            from dalembert.report.writers.latex_writer import latex_text
+            from dalembert.reports.writers.latex_writer import latex_text
 
             return latex_text(self.sheet).encode()
-        from dalembert.report.writers.plain_writer import plain_text
+        from dalembert.reports.writers.plain_writer import plain_text
 
         return plain_text(self.sheet).encode()
 
@@ -78,24 +76,14 @@ def report(
     from dalembert.wrench import System
 
     if isinstance(r, System):
-        from dalembert.report.sections.force_system_solution import force_system_sheet
+        from dalembert.reports.sections.force_system_solution import force_system_sheet
 
         return Report(force_system_sheet(r, at, notation))
     from dalembert.errors import ModelError
-    from dalembert.report.report_context import METHODS
-    from dalembert.report.working import working
+    from dalembert.reports.report_context import METHODS
+    from dalembert.reports.working import working
     from dalembert.wording import closest
 
     if about and about not in r.joints:
         raise ModelError(f"there is no joint {about!r} to take moments about", closest(about, list(r.joints)))
     return Report(working(r, at, tuple(methods or METHODS), notation, about))
-
-
-class _Callable(ModuleType):
-    """The package `dalembert.report` shares its name with the function: calling it calls that."""
-
-    def __call__(self, *given: Any, **named: Any) -> Report:
-        return report(*given, **named)
-
-
-sys.modules[__name__].__class__ = _Callable

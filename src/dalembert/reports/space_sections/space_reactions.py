@@ -9,9 +9,9 @@ import numpy as np
 
 from dalembert.analysis.compile.pair_table import AXES
 from dalembert.analysis.result.reaction_components import table_row
-from dalembert.report.report_context import Chosen, as_formula
-from dalembert.report.sections.terms import floors
-from dalembert.report.sheet import Sheet
+from dalembert.reports.report_context import Chosen, as_formula
+from dalembert.reports.sections.terms import floors
+from dalembert.reports.sheet import Sheet
 
 
 def reaction_tables(sheet: Sheet, c: Chosen) -> None:

@@ -9,10 +9,10 @@ import numpy as np
 from dalembert.analysis.methods.applied_forces import joint_place
 from dalembert.analysis.methods.members import ZERO, Member, Step, members, order_of_solution
 from dalembert.arrays import Array
-from dalembert.report.report_context import Chosen, in_ground
-from dalembert.report.sections.matrix import Unknown, matrix_equation, unknowns
-from dalembert.report.sections.terms import floors
-from dalembert.report.sheet import Sheet, Working
+from dalembert.reports.report_context import Chosen, in_ground
+from dalembert.reports.sections.matrix import Unknown, matrix_equation, unknowns
+from dalembert.reports.sections.terms import floors
+from dalembert.reports.sheet import Sheet, Working
 
 ABREAST = 3
 """Unknowns side by side in a list."""

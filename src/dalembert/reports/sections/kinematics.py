@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import link_angle, link_place, link_speed, slide_direction
-from dalembert.report.sections.terms import Signed, join_signed
-from dalembert.report.sheet import Working
+from dalembert.model import GROUND
+from dalembert.reports.sections.terms import Signed, join_signed
+from dalembert.reports.sheet import Working
 from dalembert.views.notation import Shown
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
-GROUND = "ground"
 CLOSING = ("pin", "slider", "slot", "weld")
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dalembert.report.report_context import Chosen
+from dalembert.reports.report_context import Chosen
 from dalembert.views import draw
 from dalembert.views.paper.details import detail_scenes
 from dalembert.views.paper.scene import Scene

@@ -2,8 +2,18 @@
 
 from __future__ import annotations
 
-from dalembert.report.formula import LATEX_SIGNS, latex, write_mixed
-from dalembert.report.sheet import Block, Equations, Figure, Heading, Matrix, Paragraph, Sheet, Table, Working
+from dalembert.reports.formula import LATEX_SIGNS, latex, write_mixed
+from dalembert.reports.sheet import (
+    Block,
+    Equations,
+    Figure,
+    Heading,
+    Matrix,
+    Paragraph,
+    Sheet,
+    Table,
+    Working,
+)
 from dalembert.views.paper.lettering import plain as plain_sign
 
 HEAD = r"""\documentclass[a4paper,10pt]{article}

@@ -8,11 +8,11 @@ import numpy as np
 
 from dalembert.analysis.methods.members import displaced_inertia, inertia_shares
 from dalembert.analysis.output.rounding import PART
-from dalembert.report.formula import bracket_negative
-from dalembert.report.report_context import Chosen
-from dalembert.report.sections import kinematics
-from dalembert.report.sections.gear_motion import mesh
-from dalembert.report.sheet import Sheet, Working
+from dalembert.reports.formula import bracket_negative
+from dalembert.reports.report_context import Chosen
+from dalembert.reports.sections import kinematics
+from dalembert.reports.sections.gear_motion import mesh
+from dalembert.reports.sheet import Sheet, Working
 from dalembert.views import draw
 from dalembert.views.notation import Notation
 

@@ -4,8 +4,18 @@ from __future__ import annotations
 
 import textwrap
 
-from dalembert.report.formula import plain, write_mixed
-from dalembert.report.sheet import Block, Equations, Figure, Heading, Matrix, Paragraph, Sheet, Table, Working
+from dalembert.reports.formula import plain, write_mixed
+from dalembert.reports.sheet import (
+    Block,
+    Equations,
+    Figure,
+    Heading,
+    Matrix,
+    Paragraph,
+    Sheet,
+    Table,
+    Working,
+)
 from dalembert.views.paper.lettering import plain as plain_sign
 
 WIDTH = 100
