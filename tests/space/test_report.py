@@ -13,7 +13,7 @@ from dalembert.analysis.compile.pair_table import pair_of
 from dalembert.analysis.methods.applied_forces import actions
 from dalembert.bundled import cases
 from dalembert.model import library
-from dalembert.reports.report_context import Chosen
+from dalembert.reports.report_context import ReportContext
 from dalembert.reports.sections.equilibrium_equations import link_equations
 from dalembert.reports.sections.sources import virtual_work
 from dalembert.reports.sheet import Figure, Heading, Matrix, Sheet, Table
@@ -75,7 +75,7 @@ def without_drawings(r: Any, k: int) -> Sheet:
     """The sections with figures of their own."""
     notation = Notation()
     sheet, shown = Sheet(""), Shown(r, notation, k)
-    c = Chosen(r, k, shown, notation=notation)
+    c = ReportContext(r, k, shown, notation=notation)
     for section in (degrees_of_freedom, space_motion, space_inertia):
         section(sheet, c)
     for link in r.links:
@@ -244,7 +244,7 @@ def test_inertia_couples_are_the_sum_of_their_parts(name: str) -> None:
 def test_the_matrices_hold(name: str) -> None:
     r, k, _ = made(name)
     sheet, notation = Sheet(""), Notation(figures=13)
-    order_and_solution(sheet, Chosen(r, k, Shown(r, notation, k), notation=notation))
+    order_and_solution(sheet, ReportContext(r, k, Shown(r, notation, k), notation=notation))
     for matrix in blocks(sheet, Matrix):
         rows = np.array([[value(c) for c in row] for row in matrix.rows])
         x, b = (np.array([value(c) for c in column]) for column in (matrix.values, matrix.right))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dalembert.reports.report_context import Chosen
+from dalembert.reports.report_context import ReportContext
 from dalembert.views import draw
 from dalembert.views.paper.details import detail_scenes
 from dalembert.views.paper.scene import Scene
@@ -11,14 +11,14 @@ from dalembert.views.space.camera import ISOMETRIC
 from dalembert.views.space.space_mechanism import space_mechanism_scene
 
 
-def given_picture(c: Chosen) -> Scene:
+def given_picture(c: ReportContext) -> Scene:
     """The mechanism with its loads, without friction."""
     if c.r.mechanism.dimension == 3:
         return space_mechanism_scene(c.r, c.k, ISOMETRIC, c.notation, friction=False)
     return mechanism_scene(c.r, c.k, c.notation, friction=False)
 
 
-def rubbing_pictures(c: Chosen) -> list[Scene]:
+def rubbing_pictures(c: ReportContext) -> list[Scene]:
     """The mechanism with its friction circles, then its pins and guides at a larger scale; in space its free bodies."""
     if c.r.mechanism.dimension == 3:
         return [draw.free_body(c.r, link, c.k + 1, c.notation) for link in c.r.links]

@@ -15,7 +15,7 @@ METHODS: tuple[Method, ...] = ("matrix", "graphical", "superposition", "virtual-
 
 
 @dataclass(frozen=True)
-class Chosen:
+class ReportContext:
     """What a report is about: the result, the position, the reader's notation, and the methods shown."""
 
     r: Result
@@ -31,6 +31,6 @@ def as_formula(sign: str) -> str:
     return f"${sign}$" if "_{" in sign or len(sign) == 1 else sign
 
 
-def in_ground(c: Chosen) -> str:
+def in_ground(c: ReportContext) -> str:
     """What a table in ground axes says of them where the equations are in the links' own."""
     return ", in ground axes" if c.notation.axes == "link" else ""

@@ -13,7 +13,7 @@ from dalembert.analysis.methods.members import components_along
 from dalembert.analysis.output.columns import drive_kinds, load_kind
 from dalembert.analysis.result.position_lookup import position_at
 from dalembert.errors import NUMBERED, ModelError
-from dalembert.reports.report_context import METHODS, Chosen, Method, as_formula, in_ground
+from dalembert.reports.report_context import METHODS, Method, ReportContext, as_formula, in_ground
 from dalembert.reports.sections import equilibrium_equations, friction, matrix
 from dalembert.reports.sections.given import knowns
 from dalembert.reports.sections.methods import checks, cycle, graphical
@@ -50,7 +50,7 @@ def working(
             "moments cannot be counted clockwise in space",
             "leave it out: they are positive by the right hand",
         )
-    c = Chosen(r, position_at(r, at), Shown(r, notation, position_at(r, at)), methods, about, notation)
+    c = ReportContext(r, position_at(r, at), Shown(r, notation, position_at(r, at)), methods, about, notation)
     m = r.mechanism
     sheet = Sheet(m.title or "Force analysis", m.source_text, _where(c))
     knowns(sheet, c)
@@ -84,7 +84,7 @@ def working(
     return sheet
 
 
-def _just_after(sheet: Sheet, c: Chosen) -> None:
+def _just_after(sheet: Sheet, c: ReportContext) -> None:
     """What is another number just after contacts have reversed; all before it in the sheet is just before."""
     sheet.heading("Just after the reversal")
     sheet.text("The motion and the loads are the same, the friction of what reversed has its other sense.")
@@ -93,7 +93,7 @@ def _just_after(sheet: Sheet, c: Chosen) -> None:
     _answers(sheet, c)
 
 
-def _where(c: Chosen) -> str:
+def _where(c: ReportContext) -> str:
     parts = []
     for d in c.r.drives:
         kinds = drive_kinds(c.r, d)
@@ -102,7 +102,7 @@ def _where(c: Chosen) -> str:
     return (f"Position {', '.join(parts)}" if parts else "Structure") + many
 
 
-def _bodies(sheet: Sheet, c: Chosen) -> None:
+def _bodies(sheet: Sheet, c: ReportContext) -> None:
     r, shown = c.r, c.shown
     sheet.heading("Free bodies and their equations")
     sheet.figure(*(draw.free_body(r, link, c.k + 1, c.notation) for link in r.links))
@@ -137,12 +137,12 @@ def _bodies(sheet: Sheet, c: Chosen) -> None:
         sheet.blocks.append(replace(found, caption=words))
 
 
-def _answers(sheet: Sheet, c: Chosen) -> None:
+def _answers(sheet: Sheet, c: ReportContext) -> None:
     sheet.heading("Joint forces and efforts" if c.r.mechanism.dimension == 2 else "Reactions and efforts")
     _joint_forces(sheet, c)
 
 
-def _joint_forces(sheet: Sheet, c: Chosen) -> None:
+def _joint_forces(sheet: Sheet, c: ReportContext) -> None:
     """Table of the joint forces, then the efforts and unknown loads."""
     if c.r.mechanism.dimension == 3:
         reaction_tables(sheet, c)
@@ -157,7 +157,7 @@ def _joint_forces(sheet: Sheet, c: Chosen) -> None:
     sheet.equations(_efforts(c))
 
 
-def _force_row(c: Chosen, joint: str) -> list[Any]:
+def _force_row(c: ReportContext, joint: str) -> list[Any]:
     """One joint's force on its j, or on its i where j is ground."""
     r, shown, k = c.r, c.shown, c.k
     i, j = r.mechanism.joints[joint].links
@@ -178,7 +178,7 @@ def _force_row(c: Chosen, joint: str) -> list[Any]:
     ]
 
 
-def _efforts(c: Chosen) -> list[Working]:
+def _efforts(c: ReportContext) -> list[Working]:
     """Efforts and unknown loads with their values."""
     r, k = c.r, c.k
 

@@ -1,10 +1,11 @@
-"""Stations of a motion, followed from its first pose step by step, on one branch.
+"""Predictor-corrector continuation of the closure equations along the course of the drives, on one branch.
 
-A predictor through the last stations is corrected by Newton; a step is halved where the corrector moves far, or where
-the rates at its two ends do not fit the way between them. Where J tends to become singular ahead, branches may cross
-there or only come near: the march closes in on the place, so that near branches are told apart at their own scale,
-and goes straight through only where J is singular as far as ``THROUGH`` can tell. Where no step is small enough it
-has come to a dead centre, and ends.
+After Allgower and Georg, Numerical Continuation Methods (1990): a Hermite predictor through the last stations, a Newton
+corrector, and step halving where the corrector moves far or the rates at the two ends of a step do not fit the way
+between them. Singular poses (dead centres, change points) show by the sign of det J and by its least singular value.
+Where J tends to become singular ahead, branches may cross there or only come near: the steps close in on the place, so
+that near branches are told apart at their own scale, and go straight through only where J is singular as far as
+``through_singular`` can tell. Where no step is small enough it has come to a dead centre, and ends.
 
 s  parameter of the course
 """
@@ -24,42 +25,46 @@ from dalembert.core.position.newton import close_loops, displace, distance, gap,
 from dalembert.core.position.path_parameter import Course
 from dalembert.core.rotation_rows import recount_turns
 
-STRIDE = 0.43
-"""Radians of a drive (or slide over characteristic length) between stations; no divisor of a quarter turn."""
 
-NODES = 5
-"""Stations in an interpolation, each with pose and rate."""
+class StepControl(NamedTuple):
+    """Limits of the continuation. Lengths are in radians of a drive, or slides over the characteristic length."""
 
-CROWDED = 0.3
-"""Interpolation in an interval reaches no farther than to stations nearer to each other than this part of it."""
+    step: float = 0.43
+    """Between stations; no divisor of a quarter turn, so that stations miss the dead centres of round angles."""
+    min_step: float = 2.0**-20
+    """Part of ``step`` at which the continuation gives up: a dead centre lies within."""
+    short_step: float = 1e-3
+    """Part of ``step`` that counts as short."""
+    max_short_steps: int = 500
+    """Short steps that may follow each other: a sharp turn takes some fifty."""
+    predictor_stations: int = 3
+    """Stations that the predictor extrapolates from."""
+    max_corrections: int = 5
+    """Steps of the corrector."""
+    corrected: float = 0.01
+    """Newton's step over the travel at which the corrector may stop."""
+    max_correction: float = 0.1
+    """Whole correction over the travel that refuses a step."""
+    max_direction_change: float = 0.15
+    """Difference of the way between two stations from the mean of their rates, over it, that refuses a step: a branch
+    that crosses has another direction, however near it is."""
+    max_travel: float = 4 * 0.43
+    """Longest travel of a link between stations: radians, or lengths over the machine's reach."""
+    towards_singular: float = 0.75
+    """Part of the way to a singular pose ahead that a step may take."""
+    away_from_singular: float = 3.0
+    """Step over the way since a singular pose behind."""
+    through_singular: float = 1e-5
+    """Way to a singular pose from which a step goes through it: branches nearer to each other count as crossing."""
+    singular_log_determinant: float = -25.0
+    """Logarithm of the determinant between two stations below which J is singular at both: its sign says nothing."""
+    interpolation_stations: int = 5
+    """Stations in an interpolation, each with pose and rate."""
+    crowded: float = 0.3
+    """Interpolation in an interval reaches no farther than to stations nearer to each other than this part of it."""
 
-RECENT = 3
-"""Stations in an extrapolation."""
 
-CLOSE, POOR, STEPS = 0.01, 0.1, 5
-"""Newton's step over the travel at which it may stop, the whole correction that is refused, most steps."""
-
-BENT = 0.15
-"""Difference of the way between two stations from the mean of their rates, over it, that is refused: a branch that
-crosses has another direction, however near it is."""
-
-NEARER, AWAY = 0.75, 3.0
-"""Part of the way to a singular pose ahead that a step may take; step over the way since one behind."""
-
-THROUGH = 1e-5
-"""Way to a singular pose, in s, from which a step goes through it: branches nearer to each other count as crossing."""
-
-LOST = -25.0
-"""Logarithm of the determinant between two stations below which J is singular at both: its sign says nothing."""
-
-FAR = 4 * STRIDE
-"""Longest travel of a link between stations: radians, or lengths over the machine's reach."""
-
-SHORTEST = 2.0**-20
-"""Part of a stride at which the march gives up: a dead centre lies within."""
-
-SHORT, MOST_SHORT = 1e-3, 500
-"""Part of a stride that is a short step, and how many may follow each other: a sharp turn takes some fifty."""
+STEP = StepControl()
 
 
 class March(NamedTuple):
@@ -96,7 +101,7 @@ class Station(NamedTuple):
 
 
 def interpolate(layout: Layout, s: Array, nodes: Nodes) -> Pose:
-    """Poses at s (P,) by Hermite polynomials through up to ``NODES`` stations around each."""
+    """Poses at s (P,) by Hermite polynomials through up to ``STEP.interpolation_stations`` stations around each."""
     interval = np.clip(np.searchsorted(nodes.s, s) - 1, 0, max(len(nodes.s) - 2, 0))
     around = [_around(nodes.s, k) for k in range(max(len(nodes.s) - 1, 1))]
     counts = np.array([len(index) for index in around])[interval]
@@ -112,14 +117,14 @@ def interpolate(layout: Layout, s: Array, nodes: Nodes) -> Pose:
 
 
 def _around(s: Array, k: int) -> list[int]:
-    """Up to ``NODES`` stations around the interval from s[k] to s[k + 1], the nearest first, to where they crowd.
+    """Stations around the interval from s[k] to s[k + 1], the nearest first, to where they crowd.
 
     They crowd where the motion bends sharply: a polynomial that reaches over such a place is of no use here.
     """
     if len(s) == 1:
         return [0]
-    low, high, spaced = k, k + 1, CROWDED * (s[k + 1] - s[k])
-    while high - low + 1 < NODES:
+    low, high, spaced = k, k + 1, STEP.crowded * (s[k + 1] - s[k])
+    while high - low + 1 < STEP.interpolation_stations:
         down = s[low] - s[low - 1] if low > 0 else 0.0
         up = s[high + 1] - s[high] if high + 1 < len(s) else 0.0
         if max(down, up) < max(spaced, 1e-300):
@@ -161,22 +166,22 @@ def march(layout: Layout, first: Pose, along: Course, start: float, backward: bo
         return March(np.array([start]), stack([first]), True)
     at = _setting(layout, along)
     found, size, smooth, exact, short = [_standing(at, start, first, sign)], 1.0, 0, True, 0
-    while sign * (end - found[-1].s) > 0 and short < MOST_SHORT:
-        last, recent = found[-1], found[max(smooth, len(found) - RECENT) :]
+    while sign * (end - found[-1].s) > 0 and short < STEP.max_short_steps:
+        last, recent = found[-1], found[max(smooth, len(found) - STEP.predictor_stations) :]
         ahead = abs(along.limit(last.s, sign) - last.s)
-        step = min(size * STRIDE, _safe(recent), ahead)
+        step = min(size * STEP.step, _safe(recent), ahead)
         new = _station(at, recent, last.s + sign * step)
         if new is None:
             if not exact:  # what the corrector left of this station may be large beside a shorter step
                 found[-1] = _exact(at, last, sign)
                 exact = True
-            size = step / STRIDE / 2
-            if size < SHORTEST:
+            size = step / STEP.step / 2
+            if size < STEP.min_step:
                 break
             continue
         found.append(new)
-        short = short + 1 if step < min(SHORT * STRIDE, ahead) else 0
-        size, exact = min(2 * max(size, step / STRIDE), 1.0), False
+        short = short + 1 if step < min(STEP.short_step * STEP.step, ahead) else 0
+        size, exact = min(2 * max(size, step / STEP.step), 1.0), False
         if np.abs(along.breaks - new.s).min() < 1e-12:
             smooth = len(found) - 1
             found[-1] = new._replace(rate=_standing(at, new.s, new.pose, sign).rate)
@@ -193,11 +198,11 @@ def _safe(recent: list[Station]) -> float:
     way, was, now = abs(last.s - before.s), before.clear, last.clear
     if was * now <= 0 or abs(now) > abs(was):
         since = way * abs(now) / max(abs(now - was), 1e-300)
-        return max(AWAY * since, THROUGH)
+        return max(STEP.away_from_singular * since, STEP.through_singular)
     if abs(was) == abs(now):
         return np.inf
     left = way * now / (was - now)
-    return NEARER * left if left > THROUGH else left + THROUGH
+    return STEP.towards_singular * left if left > STEP.through_singular else left + STEP.through_singular
 
 
 def stack(poses: list[Pose]) -> Pose:
@@ -262,7 +267,7 @@ def _side(layout: Layout, matrix: Array | None, before: Station | None) -> float
     scale = layout.column_scale
     back = generalized_inverse(before.matrix * scale, RANK)
     sign, size = np.linalg.slogdet(back @ (matrix * scale))
-    return float(sign) * before.side if size > LOST else 0.0
+    return float(sign) * before.side if size > STEP.singular_log_determinant else 0.0
 
 
 def twists(layout: Layout, dq: Array) -> Array:
@@ -280,17 +285,20 @@ def _station(at: _Setting, recent: list[Station], ahead: float) -> Station | Non
     layout, along, last = at.layout, at.along, recent[-1]
     there, slope = along.target(ahead), along.slope(ahead, last.s - ahead) * layout.row_scale
     guess = pose = _predict(layout, recent, ahead)
-    for _ in range(STEPS):
+    for _ in range(STEP.max_corrections):
         (dq, rate), clear, matrix = _rates(at, pose, np.concatenate([gap(layout, pose, there), slope]))
         pose = displace(layout, pose, dq[None, :-1])
         travel = distance(layout, pose, last.pose.at(None))[0]
-        if not distance(layout, pose, guess)[0] <= POOR * travel + 1e-9 or _is_far(
+        if not distance(layout, pose, guess)[0] <= STEP.max_correction * travel + 1e-9 or _is_far(
             layout, last.pose, pose.at(0)
         ):
             return None
-        if largest(layout, dq[None])[0] <= CLOSE * min(travel, clear) + 1e-12:
+        if largest(layout, dq[None])[0] <= STEP.corrected * min(travel, clear) + 1e-12:
             pose = recount_turns(layout, pose)
-            if not layout.square and np.abs(gap(layout, pose, there)).max() > CLOSE * travel * layout.length:
+            if (
+                not layout.square
+                and np.abs(gap(layout, pose, there)).max() > STEP.corrected * travel * layout.length
+            ):
                 return None  # more constraints than unknowns, and no pose meets them all
             side = _side(layout, matrix, last)
             return _next_station(at, recent, Station(ahead, pose.at(0), rate, clear, matrix, side))
@@ -301,7 +309,7 @@ def _next_station(at: _Setting, recent: list[Station], new: Station) -> Station 
     """The new station as the next one of the march; None where it seems to be on another branch."""
     last, step = recent[-1], abs(new.s - recent[-1].s)
     changed = last.side * new.side < 0
-    if (changed and step > 4 * THROUGH) or _bend(at, last, new) > BENT:
+    if (changed and step > 4 * STEP.through_singular) or _bend(at, last, new) > STEP.max_direction_change:
         return None
     through = changed or (len(recent) > 1 and _passes(recent[-2:], step))
     return new._replace(clear=np.copysign(new.clear, -last.clear if through else last.clear))
@@ -335,7 +343,7 @@ def _is_far(layout: Layout, before: Pose, after: Pose) -> bool:
     reach = max(np.ptp(before.point[:-1], axis=0).max(initial=0.0), layout.length)
     shift = np.abs(after.point - before.point).max() / reach
     turned = layout.algebra.apart(after.rotation, before.rotation, after.turn, before.turn).max()
-    return bool(max(shift, turned) > FAR)
+    return bool(max(shift, turned) > STEP.max_travel)
 
 
 def _predict(layout: Layout, recent: list[Station], ahead: float) -> Pose:

@@ -21,7 +21,7 @@ from dalembert.core.layout import Angle, Layout, Mesh, Pose, Turn
 from dalembert.core.position.assembly_modes import on_sides
 from dalembert.core.position.assur_groups import Group, groups, on_independent_rows, senses
 from dalembert.core.position.assur_plan import Plan, plan
-from dalembert.core.position.continuation import POOR, March, Nodes, interpolate, march, twists
+from dalembert.core.position.continuation import STEP, March, Nodes, interpolate, march, twists
 from dalembert.core.position.first_pose_plane import phase_rows
 from dalembert.core.position.newton import CLOSED, close_loops, distance, gap
 from dalembert.core.position.path_parameter import Course, course
@@ -199,7 +199,9 @@ def _fill(layout: Layout, along: Course, nodes: Nodes, places: Ints, found: Path
     """Put corrected poses at some places of the course into the list."""
     guess = interpolate(layout, along.s[places], nodes)
     part, missing = close_loops(layout, guess, along.targets[places])
-    near = distance(layout, part, guess) <= TRUSTED + POOR * _travel(layout, along.s[places], nodes)
+    near = distance(layout, part, guess) <= TRUSTED + STEP.max_correction * _travel(
+        layout, along.s[places], nodes
+    )
     listed = along.order[places]
     for whole, new in zip(found.pose, part, strict=True):
         whole[listed] = new

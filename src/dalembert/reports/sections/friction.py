@@ -28,12 +28,12 @@ from dalembert.analysis.friction.joint_friction import (
 from dalembert.analysis.output.columns import rubbing_joints, unknown_kinds
 from dalembert.model import GROUND
 from dalembert.reports.pictures import rubbing_pictures
-from dalembert.reports.report_context import Chosen
+from dalembert.reports.report_context import ReportContext
 from dalembert.reports.sheet import Sheet, Working
 from dalembert.views import both_ends
 
 
-def friction(sheet: Sheet, c: Chosen) -> None:
+def friction(sheet: Sheet, c: ReportContext) -> None:
     """The section on friction of a solved position; none without friction."""
     if c.r.friction is None or not c.r.friction.known(c.k):
         return
@@ -54,7 +54,7 @@ def friction(sheet: Sheet, c: Chosen) -> None:
     cost(sheet, c)
 
 
-def pin_lines(c: Chosen, joint: str) -> list[Working]:
+def pin_lines(c: ReportContext, joint: str) -> list[Working]:
     """Radius of the friction circle and the couple of friction about the pin's centre."""
     r, shown, k = c.r, c.shown, c.k
     described: Any = r.mechanism.joints[joint]
@@ -85,7 +85,7 @@ def pin_lines(c: Chosen, joint: str) -> list[Working]:
     ]
 
 
-def _two_force_links(c: Chosen) -> list[TwoPins]:
+def _two_force_links(c: ReportContext) -> list[TwoPins]:
     """Links that two pins alone load, with a friction circle in one at least."""
     found: dict[str, TwoPins] = {}
     for joint in (n for n in c.r.joints if friction_circle_radius(c.r, n)):
@@ -95,7 +95,7 @@ def _two_force_links(c: Chosen) -> list[TwoPins]:
     return list(found.values())
 
 
-def tangent_lines(c: Chosen, two: TwoPins) -> tuple[str, list[Working]]:
+def tangent_lines(c: ReportContext, two: TwoPins) -> tuple[str, list[Working]]:
     """Which common tangent of its circles a two-force link's reactions take, and the direction of that line."""
     r, shown, k = c.r, c.shown, c.k
     a, b = two.joints
@@ -132,7 +132,7 @@ def tangent_lines(c: Chosen, two: TwoPins) -> tuple[str, list[Working]]:
     ]
 
 
-def guide_lines(c: Chosen, joint: str) -> list[Working]:
+def guide_lines(c: ReportContext, joint: str) -> list[Working]:
     """Sum of the contact forces of a guide, its corner loads, and the friction they make."""
     r, shown, k = c.r, c.shown, c.k
     contact = guide_contact(r, joint)
@@ -178,7 +178,7 @@ def guide_lines(c: Chosen, joint: str) -> list[Working]:
     return out
 
 
-def cost(sheet: Sheet, c: Chosen) -> None:
+def cost(sheet: Sheet, c: ReportContext) -> None:
     """Power that each joint loses and its share; the efficiency in both senses."""
     r, shown, k = c.r, c.shown, c.k
     lost = {n: float(r.power_lost(n)[k]) for n in rubbing_joints(r)}
@@ -214,7 +214,7 @@ def cost(sheet: Sheet, c: Chosen) -> None:
         sheet.text(f"Efficiency, without inertia: {'; '.join(parts)}.")
 
 
-def at_rest(sheet: Sheet, c: Chosen, answers: Any) -> None:
+def at_rest(sheet: Sheet, c: ReportContext, answers: Any) -> None:
     """Both ends of every effort or load that friction leaves open: drawing and joint forces of each."""
     r, shown, k = c.r, c.shown, c.k
     sheet.heading("At rest: what friction can hold")
@@ -228,7 +228,7 @@ def at_rest(sheet: Sheet, c: Chosen, answers: Any) -> None:
             answers(sheet, there)
 
 
-def intervals(c: Chosen) -> list[Working]:
+def intervals(c: ReportContext) -> list[Working]:
     """What friction leaves open: every effort or unknown load between the two impending motions, and beyond them."""
     r, shown, out = c.r, c.shown, []
     for name in unknown_names(r):

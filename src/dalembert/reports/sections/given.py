@@ -17,12 +17,12 @@ from dalembert.analysis.output.rounding import PART
 from dalembert.analysis.result.reaction_components import local_words
 from dalembert.model import GROUND
 from dalembert.reports.pictures import given_picture
-from dalembert.reports.report_context import Chosen, as_formula
+from dalembert.reports.report_context import ReportContext, as_formula
 from dalembert.reports.sheet import Sheet
 from dalembert.views.notation import Shown, own_name
 
 
-def knowns(sheet: Sheet, c: Chosen) -> None:
+def knowns(sheet: Sheet, c: ReportContext) -> None:
     """Tables of what the file says; of its numbers none is rounding, however small."""
     c = replace(c, shown=Shown(c.r, c.notation))
     r, shown, m = c.r, c.shown, c.r.mechanism
@@ -50,7 +50,7 @@ def knowns(sheet: Sheet, c: Chosen) -> None:
     sheet.figure(given_picture(c))
 
 
-def _links(sheet: Sheet, c: Chosen) -> None:
+def _links(sheet: Sheet, c: ReportContext) -> None:
     """Points, mass and mass centre of each link; its inertia, in space as a table of its own."""
     r, shown, m = c.r, c.shown, c.r.mechanism
     rows = []
@@ -74,7 +74,7 @@ def _links(sheet: Sheet, c: Chosen) -> None:
         _inertias(sheet, c)
 
 
-def _inertias(sheet: Sheet, c: Chosen) -> None:
+def _inertias(sheet: Sheet, c: ReportContext) -> None:
     """Matrices J of inertia about the mass centres; off its diagonal stand the products with their minus."""
     r, shown = c.r, c.shown
     found = {link: inertia_matrix(r, link) for link in r.links}
@@ -92,7 +92,7 @@ def _inertias(sheet: Sheet, c: Chosen) -> None:
     )
 
 
-def joint_axes(sheet: Sheet, c: Chosen) -> None:
+def joint_axes(sheet: Sheet, c: ReportContext) -> None:
     """Each joint's own axes at this position, in ground axes."""
     rows = []
     for joint in c.r.joints:
@@ -145,7 +145,7 @@ OWN_MEASURES = (
 """Keys of joints, what they are called and of which kind."""
 
 
-def _rubbing(c: Chosen, joint: Any) -> str:
+def _rubbing(c: ReportContext, joint: Any) -> str:
     """The friction of a joint as it was given: '; μ = 0.4, R = 0.07 m'."""
     f, shown = getattr(joint, "friction", None), c.shown
     if f is None or c.r.friction is None:
@@ -161,7 +161,7 @@ def _rubbing(c: Chosen, joint: Any) -> str:
     return f"; {', '.join(p for p in parts if p)}"
 
 
-def _convention(c: Chosen) -> str:
+def _convention(c: ReportContext) -> str:
     n = c.notation
     space = c.r.mechanism.dimension == 3
     first = "by link i on link j" if n.order == "by-on" else "on link i by link j"
@@ -181,7 +181,7 @@ def _pair(shown: Shown, p: Any) -> str:
     return ", ".join(shown.number("length", float(x), least) for x in p)
 
 
-def _drive_row(c: Chosen, d: str) -> list[str]:
+def _drive_row(c: ReportContext, d: str) -> list[str]:
     r, shown, kinds = c.r, c.shown, drive_kinds(c.r, d)
     motion = ", ".join(
         shown.text(kinds[name], float(values[c.k]))
@@ -194,7 +194,7 @@ def _drive_row(c: Chosen, d: str) -> list[str]:
     return [motion, ""]
 
 
-def _load_text(c: Chosen, name: str) -> str:
+def _load_text(c: ReportContext, name: str) -> str:
     load: Any = c.r.mechanism.loads[name]
     if getattr(load, "unknown", False):
         return "unknown"
@@ -217,7 +217,7 @@ def _load_text(c: Chosen, name: str) -> str:
     return f"{_vector_text(c, 'moment', a.couple[c.k])} on {c.shown.heading(a.link)}"
 
 
-def _vector_text(c: Chosen, kind: str, v: Any) -> str:
+def _vector_text(c: ReportContext, kind: str, v: Any) -> str:
     """A force or couple as the reader writes it: in the plane by size and angle, in space by components."""
     if np.ndim(v) == 0:
         return c.shown.text(kind, float(v))

@@ -8,13 +8,13 @@ from dalembert.analysis.methods.applied_forces import actions, magnitude, on_lin
 from dalembert.analysis.methods.members import ZERO, members, order_of_solution
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.printing import remainder
-from dalembert.reports.report_context import Chosen
+from dalembert.reports.report_context import ReportContext
 from dalembert.reports.sections.terms import floors
 from dalembert.reports.sheet import Sheet
 from dalembert.views import draw
 
 
-def graphical(sheet: Sheet, c: Chosen) -> None:
+def graphical(sheet: Sheet, c: ReportContext) -> None:
     r, shown = c.r, c.shown
     sheet.heading("Graphical solution")
     found = members(r)
@@ -34,7 +34,7 @@ def graphical(sheet: Sheet, c: Chosen) -> None:
     sheet.figure(*lines, *polygons, *([draw.force_chain(r, at, c.notation)] if len(r.links) > 1 else []))
 
 
-def cycle(sheet: Sheet, c: Chosen) -> None:
+def cycle(sheet: Sheet, c: ReportContext) -> None:
     from dalembert.views import charts
 
     r = c.r
@@ -57,7 +57,7 @@ def cycle(sheet: Sheet, c: Chosen) -> None:
     sheet.table(["Largest", "Value", "Position"], rows)
 
 
-def checks(sheet: Sheet, c: Chosen) -> None:
+def checks(sheet: Sheet, c: ReportContext) -> None:
     r, k = c.r, c.k
     sheet.heading("Checks")
     links = []

@@ -9,7 +9,7 @@ import numpy as np
 from dalembert.analysis.methods.members import displaced_inertia, inertia_shares
 from dalembert.analysis.output.rounding import PART
 from dalembert.reports.formula import bracket_negative
-from dalembert.reports.report_context import Chosen
+from dalembert.reports.report_context import ReportContext
 from dalembert.reports.sections import kinematics
 from dalembert.reports.sections.gear_motion import mesh
 from dalembert.reports.sheet import Sheet, Working
@@ -17,7 +17,7 @@ from dalembert.views import draw
 from dalembert.views.notation import Notation
 
 
-def motion(sheet: Sheet, c: Chosen) -> None:
+def motion(sheet: Sheet, c: ReportContext) -> None:
     r, shown = c.r, c.shown
     if not r.drives:
         return
@@ -43,7 +43,7 @@ def motion(sheet: Sheet, c: Chosen) -> None:
         )
 
 
-def _motion_table(c: Chosen, moving: bool) -> tuple[list[str], list[list[str]]]:
+def _motion_table(c: ReportContext, moving: bool) -> tuple[list[str], list[list[str]]]:
     r, shown, k = c.r, c.shown, c.k
     heads = ["Link", "$theta$ (°)"]
     if moving:
@@ -61,7 +61,7 @@ def _motion_table(c: Chosen, moving: bool) -> tuple[list[str], list[list[str]]]:
     return heads, rows
 
 
-def inertia(sheet: Sheet, c: Chosen) -> None:
+def inertia(sheet: Sheet, c: ReportContext) -> None:
     r = c.r
     heavy = [link for link in r.links if r.mechanism.mass(link)]
     if not r.inertia or not heavy:
@@ -76,7 +76,7 @@ def inertia(sheet: Sheet, c: Chosen) -> None:
     shares(sheet, c)
 
 
-def units_of_inertia(sheet: Sheet, c: Chosen) -> None:
+def units_of_inertia(sheet: Sheet, c: ReportContext) -> None:
     """Where a mass times an acceleration is no force in the reader's units: the factor between them."""
     shown, said = c.shown, []
     for words, kind, of in (
@@ -96,7 +96,7 @@ def units_of_inertia(sheet: Sheet, c: Chosen) -> None:
     sheet.text(" ".join(said[:1] if same else said))
 
 
-def shares(sheet: Sheet, c: Chosen) -> None:
+def shares(sheet: Sheet, c: ReportContext) -> None:
     """Whether inertia could be left out."""
     found = inertia_shares(c.r)
     if found:
@@ -109,7 +109,7 @@ def shares(sheet: Sheet, c: Chosen) -> None:
         )
 
 
-def _inertia_lines(c: Chosen, link: str) -> list[Working]:
+def _inertia_lines(c: ReportContext, link: str) -> list[Working]:
     """F_I = -m a_G with its size and direction, T_I = -I alpha, and the offset of the force that makes both."""
     r, shown, k = c.r, c.shown, c.k
     n, m, inertia = shown.link(link), r.mechanism.mass(link), r.mechanism.inertia(link)

@@ -13,7 +13,7 @@ from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model import GROUND
 from dalembert.printing import remainder
-from dalembert.reports.report_context import Chosen, as_formula, in_ground
+from dalembert.reports.report_context import ReportContext, as_formula, in_ground
 from dalembert.reports.sections.terms import floors
 from dalembert.reports.sheet import Sheet, Working
 from dalembert.views import draw
@@ -27,7 +27,7 @@ Column = tuple[str, Array, str]
 """Sign, parts by source (S,), and kind of one number."""
 
 
-def superposition(sheet: Sheet, c: Chosen) -> None:
+def superposition(sheet: Sheet, c: ReportContext) -> None:
     """Tables of the efforts and joint forces by source; in the plane the chain's polygon for each load."""
     from dalembert.analysis.methods.superposition import superposition as split
 
@@ -73,7 +73,7 @@ def _tables(efforts: list[Column], forces: list[Column], dimension: int) -> list
     return [*out, *(forces[n : min(n + 9, 18)] for n in range(first, min(len(forces), 18), 9))]
 
 
-def _rows(c: Chosen, sources: tuple[str, ...], columns: list[Column]) -> list[list[str]]:
+def _rows(c: ReportContext, sources: tuple[str, ...], columns: list[Column]) -> list[list[str]]:
     """A row a source and the sum; rounding is 0."""
     rows = [
         [source_sign(c, s), *(c.shown.number(kind, float(v[n])) for _, v, kind in columns)]
@@ -84,13 +84,13 @@ def _rows(c: Chosen, sources: tuple[str, ...], columns: list[Column]) -> list[li
     return [*rows, ["sum", *(c.shown.number(kind, float(v.sum())) for _, v, kind in columns)]]
 
 
-def shown_name(c: Chosen, kind: str, of: str) -> str:
+def shown_name(c: ReportContext, kind: str, of: str) -> str:
     """The sign of a drive's effort."""
     a = next(a for a in actions(c.r) if a.kind == kind and a.of == of)
     return c.shown.effort(a) if kind == "effort" else c.shown.symbol(a)
 
 
-def source_sign(c: Chosen, source: str) -> str:
+def source_sign(c: ReportContext, source: str) -> str:
     """A contribution as the reader writes it."""
     if source in c.r.mechanism.loads:
         return as_formula(own_name(source))
@@ -104,7 +104,7 @@ def source_sign(c: Chosen, source: str) -> str:
     return source
 
 
-def virtual_work(sheet: Sheet, c: Chosen) -> None:
+def virtual_work(sheet: Sheet, c: ReportContext) -> None:
     from dalembert.analysis.methods.virtual_work import virtual_work as by_virtual_work
 
     r, shown, k = c.r, c.shown, c.k
@@ -159,7 +159,7 @@ def virtual_work(sheet: Sheet, c: Chosen) -> None:
         _powers(sheet, c, found)
 
 
-def _powers(sheet: Sheet, c: Chosen, found: VirtualWork) -> None:
+def _powers(sheet: Sheet, c: ReportContext, found: VirtualWork) -> None:
     """Power of the drives, loads, inertia and friction at the speeds of this position: their sum is zero."""
     r, k = c.r, c.k
     speed = r.schedule.speed[k]

@@ -11,7 +11,7 @@ from dalembert.analysis.compile.contacts import circle as circle_kind
 from dalembert.analysis.friction.joint_friction import Rub, rubs_of
 from dalembert.analysis.output.rounding import PART
 from dalembert.arrays import Array
-from dalembert.reports.report_context import Chosen
+from dalembert.reports.report_context import ReportContext
 from dalembert.reports.sections.friction import cost
 from dalembert.reports.sheet import Sheet, Working
 from dalembert.views.notation import along
@@ -30,7 +30,7 @@ LAWS = {
 """What makes the friction of a joint, by its type."""
 
 
-def space_friction(sheet: Sheet, c: Chosen) -> None:
+def space_friction(sheet: Sheet, c: ReportContext) -> None:
     """The section on friction of a solved position; none without friction."""
     if c.r.friction is None or not c.r.friction.known(c.k):
         return
@@ -51,7 +51,7 @@ def space_friction(sheet: Sheet, c: Chosen) -> None:
 class _Joint:
     """The lines of one joint."""
 
-    def __init__(self, c: Chosen, joint: str, rubs: tuple[Rub, ...]) -> None:
+    def __init__(self, c: ReportContext, joint: str, rubs: tuple[Rub, ...]) -> None:
         self.c, self.joint, self.rubs = c, joint, rubs
         self.described: Any = c.r.mechanism.joints[joint]
         self.j = self.described.links[1]

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dalembert.analysis.degree_of_freedom import Mobility
 from dalembert.analysis.result.reaction_components import table_row, unknown_count
-from dalembert.reports.report_context import Chosen
+from dalembert.reports.report_context import ReportContext
 from dalembert.reports.sheet import Sheet, Working
 
 
-def degrees_of_freedom(sheet: Sheet, c: Chosen) -> None:
+def degrees_of_freedom(sheet: Sheet, c: ReportContext) -> None:
     """Each joint with what it carries, their sum, and what the rank says of it."""
     r, found = c.r, c.r.mobility
     if found is None:
@@ -30,7 +30,7 @@ def degrees_of_freedom(sheet: Sheet, c: Chosen) -> None:
     sheet.text(" ".join(_words(found, n, constraints)))
 
 
-def _row(c: Chosen, joint: str) -> list[str]:
+def _row(c: ReportContext, joint: str) -> list[str]:
     described = c.r.mechanism.joints[joint]
     carried = ", ".join(f"${name[0]}_{{{name[1]}'}}$" for name in table_row(described).reactions)
     if described.type == "screw":

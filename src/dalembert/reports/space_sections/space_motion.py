@@ -13,7 +13,7 @@ from dalembert.analysis.output.rounding import PART
 from dalembert.analysis.result.closure_residual import closure_gap
 from dalembert.arrays import Array
 from dalembert.printing import remainder
-from dalembert.reports.report_context import Chosen
+from dalembert.reports.report_context import ReportContext
 from dalembert.reports.sections.motion import shares, units_of_inertia
 from dalembert.reports.sheet import Sheet, Working
 from dalembert.reports.space_sections.space_closure import closing_lines
@@ -21,7 +21,7 @@ from dalembert.reports.space_sections.space_closure import closing_lines
 AXES = "xyz"
 
 
-def space_motion(sheet: Sheet, c: Chosen) -> None:
+def space_motion(sheet: Sheet, c: ReportContext) -> None:
     """How the position was found, the loops in figures, joint values, places, and the motion of the links."""
     r, k = c.r, c.k
     sheet.heading("Position and motion" if _moves(c) else "Position")
@@ -49,11 +49,11 @@ def space_motion(sheet: Sheet, c: Chosen) -> None:
         _rates(sheet, c)
 
 
-def _moves(c: Chosen) -> bool:
+def _moves(c: ReportContext) -> bool:
     return any(np.any(c.r.speed(n)[c.k]) or np.any(c.r.acceleration(n)[c.k]) for n in c.r.links)
 
 
-def joint_values(sheet: Sheet, c: Chosen) -> None:
+def joint_values(sheet: Sheet, c: ReportContext) -> None:
     """Turns and slides of the joints, with their rates."""
     rows = []
     for joint, freedom in c.r.compiled.freedoms:
@@ -70,12 +70,12 @@ def joint_values(sheet: Sheet, c: Chosen) -> None:
     sheet.table(heads, rows, "Zero where the joint's axes, or its points, agree")
 
 
-def _vector(c: Chosen, kind: str, v: Array) -> list[str]:
+def _vector(c: ReportContext, kind: str, v: Array) -> list[str]:
     """Components; rounding is 0."""
     return [c.shown.number(kind, float(x)) for x in v]
 
 
-def _orientations(sheet: Sheet, c: Chosen) -> None:
+def _orientations(sheet: Sheet, c: ReportContext) -> None:
     """How each link stands: turned from ground's axes about an axis, and its mass centre."""
     r, rows = c.r, []
     for link in r.links:
@@ -94,7 +94,7 @@ def _orientations(sheet: Sheet, c: Chosen) -> None:
     )
 
 
-def _rates(sheet: Sheet, c: Chosen) -> None:
+def _rates(sheet: Sheet, c: ReportContext) -> None:
     """omega and alpha of the links, velocity and acceleration of their mass centres."""
     r, k = c.r, c.k
     for letters, kinds, reads in (
@@ -113,7 +113,7 @@ def _rates(sheet: Sheet, c: Chosen) -> None:
         sheet.table(heads, rows, "Ground axes")
 
 
-def space_inertia(sheet: Sheet, c: Chosen) -> None:
+def space_inertia(sheet: Sheet, c: ReportContext) -> None:
     """F_I = -m a_G and T_I = -(J alpha + omega x J omega) of every link that has them."""
     r = c.r
     heavy = [n for n in r.links if r.mechanism.mass(n) or np.any(turning(r, n).inertia)]
@@ -133,7 +133,7 @@ def space_inertia(sheet: Sheet, c: Chosen) -> None:
     shares(sheet, c)
 
 
-def _force(c: Chosen, link: str) -> list[Working]:
+def _force(c: ReportContext, link: str) -> list[Working]:
     r, n, mass = c.r, c.shown.link(link), c.r.mechanism.mass(link)
     a = r.center_acceleration(link)[c.k]
     if not mass or not (np.abs(a) > c.shown.least["acceleration"]).any():
@@ -151,7 +151,7 @@ def _force(c: Chosen, link: str) -> list[Working]:
     ]
 
 
-def _couple(c: Chosen, link: str) -> list[Working]:
+def _couple(c: ReportContext, link: str) -> list[Working]:
     """J alpha and omega x J omega in link axes, their sum reversed, and the same in ground axes."""
     t, n, k, unit = turning(c.r, link), c.shown.link(link), c.k, c.shown.unit("moment")
     couple = -(t.rate + t.gyroscopic)[k]

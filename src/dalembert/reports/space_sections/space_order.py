@@ -9,7 +9,7 @@ import numpy as np
 from dalembert.analysis.methods.applied_forces import joint_place
 from dalembert.analysis.methods.members import ZERO, Member, Step, members, order_of_solution
 from dalembert.arrays import Array
-from dalembert.reports.report_context import Chosen, in_ground
+from dalembert.reports.report_context import ReportContext, in_ground
 from dalembert.reports.sections.matrix import Unknown, matrix_equation, unknowns
 from dalembert.reports.sections.terms import floors
 from dalembert.reports.sheet import Sheet, Working
@@ -18,7 +18,7 @@ ABREAST = 3
 """Unknowns side by side in a list."""
 
 
-def order_and_solution(sheet: Sheet, c: Chosen) -> None:
+def order_and_solution(sheet: Sheet, c: ReportContext) -> None:
     """Which links are two-force members, then the steps with their matrices, or the whole system with its size."""
     r = c.r
     sheet.heading("Order of solution")
@@ -45,20 +45,20 @@ def order_and_solution(sheet: Sheet, c: Chosen) -> None:
         _step(sheet, c, step, [*pulled, *(u for u in every if _sought(u, step))])
 
 
-def _two_force_step(c: Chosen, member: Member) -> Member:
+def _two_force_step(c: ReportContext, member: Member) -> Member:
     """A two-force member as such where that is seen before the solution."""
     if member.kind != "two-force" or _between_balls(c, member.link):
         return member
     return replace(member, kind="general")
 
 
-def _between_balls(c: Chosen, link: str) -> bool:
+def _between_balls(c: ReportContext, link: str) -> bool:
     """Whether a link has two ball joints and no other."""
     joints = [d for d in c.r.mechanism.joints.values() if link in d.links]
     return len(joints) == 2 and all(d.type == "spherical" for d in joints)
 
 
-def _ends(c: Chosen, link: str) -> tuple[tuple[str, Array], tuple[str, Array]]:
+def _ends(c: ReportContext, link: str) -> tuple[tuple[str, Array], tuple[str, Array]]:
     """The two joints of a two-force link, and the unit vector from each to the other."""
     a, b = (n for n in c.r.joints if link in c.r.mechanism.joints[n].links)
     span = joint_place(c.r, b)[c.k] - joint_place(c.r, a)[c.k]
@@ -66,7 +66,7 @@ def _ends(c: Chosen, link: str) -> tuple[tuple[str, Array], tuple[str, Array]]:
     return (a, e), (b, -e)
 
 
-def _rod(sheet: Sheet, c: Chosen, link: str, member: Member) -> None:
+def _rod(sheet: Sheet, c: ReportContext, link: str, member: Member) -> None:
     """A two-force link: its direction and what it pulls or pushes."""
     (a, e), (b, _) = _ends(c, link)
     n, state = c.shown.link(link), member.state(c.k)
@@ -80,7 +80,7 @@ def _rod(sheet: Sheet, c: Chosen, link: str, member: Member) -> None:
     sheet.equations([Working(f"e_{{{n}}}", "", f"({numbers})")])
 
 
-def _tension(c: Chosen, link: str, member: Member) -> Unknown:
+def _tension(c: ReportContext, link: str, member: Member) -> Unknown:
     """The tension of a two-force link as an unknown of its neighbours, which it pulls towards its other end."""
     ends, on = _ends(c, link), dict[str, tuple[Array, Array]]()
     place = joint_place(c.r, ends[0][0])[c.k]
@@ -103,7 +103,7 @@ def _sought(u: Unknown, step: Step) -> bool:
     )
 
 
-def _step(sheet: Sheet, c: Chosen, step: Step, some: list[Unknown]) -> None:
+def _step(sheet: Sheet, c: ReportContext, step: Step, some: list[Unknown]) -> None:
     """The equations of the links of one step as one, or their number where they are too many to print."""
     links = " and ".join(c.shown.heading(link) for link in step.links)
     spinning = {link: _along(c, link) for link in c.r.compiled.passive if link in step.links}
@@ -123,13 +123,13 @@ def _step(sheet: Sheet, c: Chosen, step: Step, some: list[Unknown]) -> None:
     sheet.blocks.append(replace(matrix, caption=words))
 
 
-def _along(c: Chosen, link: str) -> int:
+def _along(c: ReportContext, link: str) -> int:
     """The axis nearest to the line of a link that could spin about it."""
     (_, e), _ = _ends(c, link)
     return int(np.abs(e).argmax())
 
 
-def _together(sheet: Sheet, c: Chosen, every: list[Unknown], redundant: int) -> None:
+def _together(sheet: Sheet, c: ReportContext, every: list[Unknown], redundant: int) -> None:
     how = "with the joints' stiffness" if "redundant reactions" in c.r.assumptions else "by least squares"
     sheet.text(
         f"With {redundant} redundant constraint{'' if redundant == 1 else 's'} the links cannot be solved one after "
@@ -138,7 +138,7 @@ def _together(sheet: Sheet, c: Chosen, every: list[Unknown], redundant: int) -> 
     _system_size(sheet, c, "All links", 6 * len(c.r.links), every)
 
 
-def _system_size(sheet: Sheet, c: Chosen, links: str, equations: int, some: list[Unknown]) -> None:
+def _system_size(sheet: Sheet, c: ReportContext, links: str, equations: int, some: list[Unknown]) -> None:
     """The size of a system that is not printed, and its solution."""
     sheet.text(
         f"{links}: {equations} equations with {len(some)} unknowns, assembled from those above and solved as one, "
@@ -152,6 +152,6 @@ def _system_size(sheet: Sheet, c: Chosen, links: str, equations: int, some: list
     sheet.table(["Unknown", "Value"] * ABREAST, rows)
 
 
-def _least(c: Chosen) -> dict[str, float]:
+def _least(c: ReportContext) -> dict[str, float]:
     """Below these an unknown is rounding."""
     return dict(zip(("force", "moment"), floors(c.r, c.k), strict=False))

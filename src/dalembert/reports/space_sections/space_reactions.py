@@ -9,12 +9,12 @@ import numpy as np
 
 from dalembert.analysis.compile.pair_table import AXES
 from dalembert.analysis.result.reaction_components import table_row
-from dalembert.reports.report_context import Chosen, as_formula
+from dalembert.reports.report_context import ReportContext, as_formula
 from dalembert.reports.sections.terms import floors
 from dalembert.reports.sheet import Sheet
 
 
-def reaction_tables(sheet: Sheet, c: Chosen) -> None:
+def reaction_tables(sheet: Sheet, c: ReportContext) -> None:
     """Forces and moments of all joints by components and sizes; what is not unique in brackets."""
     r, on = c.r, {joint: _acting_link(c, joint) for joint in c.r.joints}
     least = floors(r, c.k)
@@ -30,13 +30,13 @@ def reaction_tables(sheet: Sheet, c: Chosen) -> None:
     sheet.text(uniqueness(c))
 
 
-def _acting_link(c: Chosen, joint: str) -> str:
+def _acting_link(c: ReportContext, joint: str) -> str:
     """j of a joint, or i where j is the ground."""
     i, j = c.r.mechanism.joints[joint].links
     return j if j != "ground" else i
 
 
-def _row(c: Chosen, joint: str, on: str, axes: Any, least: tuple[float, ...]) -> list[str]:
+def _row(c: ReportContext, joint: str, on: str, axes: Any, least: tuple[float, ...]) -> list[str]:
     """One joint's force and moment; a stroke where it cannot carry a component along its own axes."""
     r, k, shown = c.r, c.k, c.shown
     exact = np.concatenate([f(joint, on, axes)[k] for f in (r.reaction, r.reaction_moment)])
@@ -58,7 +58,7 @@ def _row(c: Chosen, joint: str, on: str, axes: Any, least: tuple[float, ...]) ->
     return row
 
 
-def _carried_components(c: Chosen, joint: str, moments: int) -> tuple[bool, ...]:
+def _carried_components(c: ReportContext, joint: str, moments: int) -> tuple[bool, ...]:
     """Which components along its own axes a joint carries; of a gear any."""
     described = c.r.mechanism.joints[joint]
     pair = table_row(described)
@@ -67,7 +67,7 @@ def _carried_components(c: Chosen, joint: str, moments: int) -> tuple[bool, ...]
     return tuple(described.type == "gear" or a in letters or (screw and a == "x") for a in AXES)
 
 
-def uniqueness(c: Chosen) -> str:
+def uniqueness(c: ReportContext) -> str:
     """Which reactions equilibrium alone does not settle, in the joints' own axes."""
     r, found = c.r, []
     for joint in r.joints:
