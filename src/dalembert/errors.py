@@ -37,7 +37,7 @@ class ModelError(DalembertError, ValueError):
         where = f"{self.file}:{self.line}: " if self.file else ""
         return where + (f"{self.what}; {self.remedy}" if self.remedy else self.what)
 
-    def located(self, source: Locator | None) -> ModelError:
+    def at_source(self, source: Locator | None) -> ModelError:
         """The same error with file and line, if the description came from a file."""
         if source is None or self.file:
             return self

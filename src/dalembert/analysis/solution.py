@@ -42,7 +42,7 @@ def _analyse(m: Mechanism, count: int | None, strict: bool, inertia: bool, force
         else:
             result = at_schedule(m, schedule, inertia, forces)
     except ModelError as error:
-        raise error.located(m.source) from None
+        raise error.at_source(m.source) from None
     if strict and not result.ok.all():
         raise AnalysisError("; ".join(f"position {which}: {text}" for which, _, text in result.problems()))
     return result
@@ -59,5 +59,5 @@ def mobility(m: Mechanism) -> Mobility:
     """
     result = kinematics(m)
     if result.mobility is None:
-        raise ModelError(str(result.reasons[0]), "", ("assembly",)).located(m.source)
+        raise ModelError(str(result.reasons[0]), "", ("assembly",)).at_source(m.source)
     return result.mobility

@@ -81,7 +81,7 @@ def _row(result: Result, answer: Answer, number: int, case: str) -> Row:
     try:
         row = _compare(result, answer, case)
     except ModelError as error:
-        raise ModelError(error.what, error.remedy, (*path, *error.path)).located(source) from None
+        raise ModelError(error.what, error.remedy, (*path, *error.path)).at_source(source) from None
     return row._replace(line=source.line(path) if source else 0)
 
 

@@ -304,7 +304,7 @@ def mechanism(tree: Mapping[str, Any], source: Source | None = None) -> Mechanis
     if not isinstance(tree, Mapping):
         raise ModelError(
             f"{quote_value(tree)} stands where a mapping is needed", "write links: and joints: ..."
-        ).located(source)
+        ).at_source(source)
     try:
         refuse_empty(tree)
         if "links" not in tree and ("forces" in tree or "couples" in tree):
@@ -314,7 +314,7 @@ def mechanism(tree: Mapping[str, Any], source: Source | None = None) -> Mechanis
         folder = source.folder if source else ""
         found = Mechanism.model_validate(tree, context=file_rules(tree, folder))
     except ModelError as error:
-        raise error.located(source) from None
+        raise error.at_source(source) from None
     found._source = source
     return found
 

@@ -187,4 +187,4 @@ def _system(tree: Any, source: Source) -> System:
             )
         return GivenSystem.model_validate(tree, context=file_rules(tree)).system()
     except ModelError as error:
-        raise error.located(source) from None
+        raise error.at_source(source) from None

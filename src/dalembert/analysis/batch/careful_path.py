@@ -93,12 +93,12 @@ def slopes(
     k: Kernel, values: Array, course: Course, found: dict[str, Array], here: Flags
 ) -> dict[str, Array]:
     """Derivatives (position, component, number) at some positions of a course that has been solved; NaN in doubt."""
-    runner = k.settled.runner
+    runner = k.general_program.runner
     program, machine, _ = runner.machine("pairs")
     columns, common = runner.inputs(program, course)
     many = np.repeat(values[None], here.sum(), axis=0)
     out, doubt = runner.at_pairs(program, machine, many, columns[here], common, 1)
-    _, again, rates = runner.named(out.T[None], doubt[None])
+    _, again, rates = runner.by_output(out.T[None], doubt[None])
     largest = max(np.nanmax(np.abs(value), initial=0.0) for value in found.values())
     for name, value in found.items():
         own = max(np.nanmax(np.abs(value), initial=0.0), NOTHING * largest)

@@ -65,7 +65,7 @@ def compile(  # noqa: A001
         refuse_space(mechanism, "da.compile", "use da.dynamics or da.statics")
         trace = trace_analysis(mechanism, _several(vary), mechanism.has_speeds and not static)
     except ModelError as error:
-        raise error.located(mechanism.source) from None
+        raise error.at_source(mechanism.source) from None
     names = _several(outputs) if outputs is not None else tuple(trace.catalogue.defaults())
     if derivatives and reduce == "argpeak":
         raise ModelError(
@@ -186,7 +186,7 @@ class Kernel:
         return Runner(self)
 
     @cached_property
-    def settled(self) -> Kernel:
+    def general_program(self) -> Kernel:
         """The same outputs and their derivatives from solutions of the general executor; compiled when first used."""
         course = self.trace.course
         solved = at_schedule(self.mechanism, course.schedule, self.trace.inertia)

@@ -110,7 +110,7 @@ class Runner:
             out, code = self._run_grid(values, program, machine, slots, columns, common, threads, progress)
         if way == "reduce":
             return self._reduced_result(values, course, slots, out, code, len(columns), threads)
-        return self.named(out, code)
+        return self.by_output(out, code)
 
     def _run_grid(
         self,
@@ -180,7 +180,7 @@ class Runner:
         run_pairs(machine, program, values, columns, common, out, code, threads)
         return out, code
 
-    def named(self, out: Array, code: NDArray[np.uint8]) -> Found:
+    def by_output(self, out: Array, code: NDArray[np.uint8]) -> Found:
         """Arrays by output: (design, position[, component]) and gradients behind them."""
         k, arrays, rates, place = self.k, {}, {}, 0
         for name, nodes in k.nodes.items():

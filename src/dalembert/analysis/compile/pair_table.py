@@ -121,7 +121,9 @@ def add_constraints(
             rows.add(Along, index, ends, ui=at.ui, uj=at.uj, axis=at.on_i[axis], pitch=0.0)
         about = _about(at, 0)
         pitch = -joint.lead / (2 * np.pi)
-        rows.add(Helix, index, ends, ui=at.ui, uj=at.uj, pitch=pitch, count=rows.followed(), **about)
+        rows.add(
+            Helix, index, ends, ui=at.ui, uj=at.uj, pitch=pitch, count=rows.next_counted_angle(), **about
+        )
     elif pair.forces == AXES and not split:
         rows.add(Meet, index, ends, ui=at.ui, uj=at.uj)
     else:
@@ -144,7 +146,7 @@ def add_gear(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], at
     """The row of a mesh; directions, signs and cones are those of the first pose (``core.gear_rows.mesh_wheels``)."""
     ri, rj = signed_radii(joint)
     axes: dict[str, Any] = {"ai": at.on_i[2], "aj": at.on_j[2], "bi": at.on_i[0], "bj": at.on_j[0]}
-    count = (rows.followed(), rows.followed())
+    count = (rows.next_counted_angle(), rows.next_counted_angle())
     unknown: dict[str, Any] = {"way": np.zeros(3), "cone": np.array([1.0, 0.0]), "ki": np.nan, "kj": np.nan}
     sizes: dict[str, Any] = {"ri": ri, "rj": rj, "helix": joint.helix_angle, "outward": 1.0}
     rows.add(Gearing, index, ends, ui=at.ui, uj=at.uj, count=count, **axes, **sizes, **unknown)
@@ -183,18 +185,26 @@ def add_freedom(
         elif joint.type in BALLS:
             if axis is None:
                 continue
-            rows.add(Angle, index, ends, count=rows.followed(), **_about_vector(np.asarray(axis, float), at))
+            rows.add(
+                Angle,
+                index,
+                ends,
+                count=rows.next_counted_angle(),
+                **_about_vector(np.asarray(axis, float), at),
+            )
         elif name == "turn2":
             first, second = (AXES.index(k) for k in pair.turns)
             # seen from j, i's first axis turns the other way about j's second one
             a, p = -at.on_j[second], at.on_i[first]
-            rows.add(Angle, index, ends[::-1], count=rows.followed(), a=a, b=at.on_j[first], p=p)
+            rows.add(Angle, index, ends[::-1], count=rows.next_counted_angle(), a=a, b=at.on_j[first], p=p)
         elif name == "turn1":
             first, second = (AXES.index(k) for k in pair.turns)
             a, p = at.on_i[first], at.on_j[second]
-            rows.add(Angle, index, ends, count=rows.followed(), a=a, b=at.on_i[second], p=p)
+            rows.add(Angle, index, ends, count=rows.next_counted_angle(), a=a, b=at.on_i[second], p=p)
         else:
-            rows.add(Angle, index, ends, count=rows.followed(), **_about(at, AXES.index(pair.turns)))
+            rows.add(
+                Angle, index, ends, count=rows.next_counted_angle(), **_about(at, AXES.index(pair.turns))
+            )
         names.append(name)
     return names
 

@@ -63,7 +63,7 @@ class RowBuilder:
         self._families.setdefault(kind, []).append({"row": row, "i": ends[0], "j": ends[1], **numbers})
         return first
 
-    def followed(self) -> int:
+    def next_counted_angle(self) -> int:
         """The place of another relative angle whose whole turns are counted."""
         self.counted += 1
         return self.counted - 1

@@ -51,7 +51,7 @@ def wound(c: Compiled, first: tuple[int, Pose], found: Path) -> Compiled:
     turns = np.zeros((len(found.reached), len(rows)))
     counts = []
     for k in asked:
-        turns[:, k], count = counting.counted(names[k], k, int(rows[k]))
+        turns[:, k], count = counting.offset_and_count(names[k], k, int(rows[k]))
         counts.append(count)
     resistances = replace(c.forcing.resistances, turns=turns)
     return replace(c, forcing=replace(c.forcing, resistances=resistances), counts=tuple(counts))
@@ -88,7 +88,7 @@ class _Counting:
         numbers = np.unique(found.stretch[found.reached])
         return [np.flatnonzero(found.reached & (found.stretch == n)) for n in numbers]
 
-    def counted(self, spring: str, k: int, row: int) -> tuple[Array, Count]:
+    def offset_and_count(self, spring: str, k: int, row: int) -> tuple[Array, Count]:
         """What the count adds to the turn at each position (P,), and how it was made."""
         found, with_phase = self.found, bool(self.phased[row])
         turns, margin = np.zeros((2, len(found.reached)))

@@ -54,16 +54,16 @@ class DriveValue(Value):
 
     def read(self, value: Any, info: ValidationInfo) -> Any:
         freedom = info.data.get("freedom")
-        return self.parsed(value, kind_of(freedom, self.what), reading(info))
+        return self.parse(value, kind_of(freedom, self.what), reading(info))
 
-    def parsed(self, value: Any, kind: str, rules: Reading) -> Any:
+    def parse(self, value: Any, kind: str, rules: Reading) -> Any:
         raise NotImplementedError
 
 
 class PositionValue(DriveValue):
     """One value, a list, a range, or unknown."""
 
-    def parsed(self, value: Any, kind: str, rules: Reading) -> Positions:
+    def parse(self, value: Any, kind: str, rules: Reading) -> Positions:
         if value == UNKNOWN:
             return UNKNOWN
         if isinstance(value, Range):
@@ -103,7 +103,7 @@ class RateValue(DriveValue):
     def __init__(self, what: str) -> None:
         self.what = what
 
-    def parsed(self, value: Any, kind: str, rules: Reading) -> Rates:
+    def parse(self, value: Any, kind: str, rules: Reading) -> Rates:
         if value == 0 and not isinstance(value, (str, bool)):
             return 0.0
         if isinstance(value, (list, tuple)):
@@ -117,7 +117,7 @@ class RateValue(DriveValue):
 class LawValue(DriveValue):
     """A law of motion."""
 
-    def parsed(self, value: Any, kind: str, rules: Reading) -> Law:
+    def parse(self, value: Any, kind: str, rules: Reading) -> Law:
         return law(value, kind, rules)
 
     def json_schema(self) -> JsonSchema:
@@ -129,7 +129,7 @@ class EffortValue(DriveValue):
 
     what = "effort"
 
-    def parsed(self, value: Any, kind: str, rules: Reading) -> Varying:
+    def parse(self, value: Any, kind: str, rules: Reading) -> Varying:
         if value == UNKNOWN:
             raise ModelError("an effort is unknown unless it is given", "leave it out")
         return varying(value, kind, rules)
@@ -141,7 +141,7 @@ class EffortValue(DriveValue):
 class Interval(DriveValue):
     """`[a, b]`."""
 
-    def parsed(self, value: Any, kind: str, rules: Reading) -> tuple[float, float]:
+    def parse(self, value: Any, kind: str, rules: Reading) -> tuple[float, float]:
         found = numbers(value, kind, rules)
         if len(found) != 2 or not found[0] < found[1]:
             raise ModelError("a range is two increasing positions", "write range: [0 deg, 180 deg]")

@@ -61,8 +61,8 @@ class ModelErrors(ModelError):  # noqa: N818
         rest = [f"and {more} more"] if more > 0 else []
         return "\n".join([*map(str, self.errors[:MOST]), *rest])
 
-    def located(self, source: Locator | None) -> ModelError:
-        return ModelErrors([error.located(source) for error in self.errors])
+    def at_source(self, source: Locator | None) -> ModelError:
+        return ModelErrors([error.at_source(source) for error in self.errors])
 
 
 def together(errors: Sequence[ModelError]) -> ModelError:

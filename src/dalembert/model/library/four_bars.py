@@ -10,7 +10,7 @@ from dalembert.errors import ModelError
 from dalembert.model.library.compass import FULL_TURN, Points, angle, meet, reach, start_points, vector_at
 from dalembert.model.library.tree_parts import (
     block,
-    built,
+    build_mechanism,
     couple,
     force,
     pin,
@@ -63,7 +63,7 @@ def four_bar(
         return {"A": a, "B": meet(a, ("coupler", coupler), ground, ("rocker", rocker)), "O4": complex(ground)}
 
     at = start_points("four_bar", place, sweep)
-    return built(
+    return build_mechanism(
         "Four-bar linkage",
         links={
             "ground": {"points": {"O2": [0.0, 0.0], "O4": [ground, 0.0]}},
@@ -121,7 +121,7 @@ def slider_crank(
         return {"A": a, "B": reach(a, ("rod", rod), 1j * offset)}
 
     at = start_points("slider_crank", place, sweep)
-    return built(
+    return build_mechanism(
         "Slider-crank",
         links={
             "ground": {"points": {"O2": [0.0, 0.0], "C": [0.0, offset]}},
@@ -182,7 +182,7 @@ def inverted_slider_crank(
         )
     _on_the_arm(name, "rocker", rocker, ground + crank)
     lever = vector_at(crank, sweep[0]) - ground
-    return built(
+    return build_mechanism(
         "Inverted slider-crank",
         links={
             "ground": {"points": {"O2": [0.0, 0.0], "O4": [ground, 0.0]}},
@@ -232,7 +232,7 @@ def scotch_yoke(
     positive("scotch_yoke", crank=crank)
     positive("scotch_yoke", "kg", mass_per_length=mass_per_length, yoke_mass=yoke_mass)
     start_points("scotch_yoke", lambda turn: {"A": vector_at(crank, turn)}, sweep)
-    return built(
+    return build_mechanism(
         "Scotch yoke",
         links={
             "ground": {"points": {"O2": [0.0, 0.0]}},

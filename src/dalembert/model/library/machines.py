@@ -10,7 +10,7 @@ from dalembert.model.library.compass import FULL_TURN, Points, angle, meet, reac
 from dalembert.model.library.tree_parts import (
     Point,
     Tree,
-    built,
+    build_mechanism,
     force,
     pin,
     plate,
@@ -70,7 +70,7 @@ def toggle_press(
         return {"O4": 0j, "A": a, "K": k, "D": reach(k, ("lower", lower), 0, -pi / 2)}
 
     at = start_points("toggle_press", place, sweep)
-    return built(
+    return build_mechanism(
         "Toggle press",
         gravity="standard",
         links={
@@ -146,7 +146,7 @@ def five_bar(
         return {"A": a, "B": b, "C": meet(a, ("coupler", coupler), b, ("second coupler", second_coupler))}
 
     at = start_points("five_bar", place, sweep)
-    return built(
+    return build_mechanism(
         "Five-bar linkage with two drives",
         links={
             "ground": {"points": {"O2": [0.0, 0.0], "O5": [ground, 0.0]}},
@@ -213,7 +213,7 @@ def scissor(
     links["platform"] = slender(platform_mass / link, P=0.0, M=link / 2, end=link)
     leaning = {"left": rise, "right": 180.0 - rise}
     turns = (acos(widths[0] / link), acos(widths[1] / link))
-    return built(
+    return build_mechanism(
         f"Scissor lift of {stages} stage{'s' if stages > 1 else ''}",
         gravity="standard",
         links=links,
@@ -274,7 +274,7 @@ def bucket(
     at = start_points("bucket", place, strokes, "cylinder", turn=False)
     solid = plate(2 * bucket_mass / (reach_to_tip * abs(ear[1])), P=(0.0, 0.0), T=(reach_to_tip, 0.0), H=ear)
     length = min(strokes)
-    return built(
+    return build_mechanism(
         "Excavator bucket with hydraulic cylinder",
         gravity="standard",
         links={

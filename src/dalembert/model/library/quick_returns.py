@@ -10,7 +10,7 @@ from dalembert.model.library.compass import FULL_TURN, Points, angle, reach, sta
 from dalembert.model.library.tree_parts import (
     Tree,
     block,
-    built,
+    build_mechanism,
     force,
     pin,
     positive,
@@ -77,7 +77,7 @@ def whitworth(
 
     at = start_points("whitworth", place, sweep)
     early = degrees(asin(ground / crank))
-    return built(
+    return build_mechanism(
         "Whitworth quick return",
         links=_links(ground, crank, -ground, mass_per_length, ram_mass, block_mass)
         | {
@@ -148,7 +148,7 @@ def crank_shaper(
 
     at = start_points("crank_shaper", place, sweep)
     early = degrees(asin(crank / ground))
-    return built(
+    return build_mechanism(
         "Crank shaper quick return",
         links=_links(ground, crank, height - ground, mass_per_length, ram_mass, block_mass)
         | {

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from dalembert.errors import ModelError
 from dalembert.model.library.compass import FULL_TURN
-from dalembert.model.library.tree_parts import Tree, built, positive, turning
+from dalembert.model.library.tree_parts import Tree, build_mechanism, positive, turning
 from dalembert.model.library.vectors import Vector
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ def hooke_joint(
     _slanted("hooke_joint", angle)
     e = _slant(angle)
     ends = arm * e[0], arm * e[1], arm * e[2]
-    return built(
+    return build_mechanism(
         "Hooke's joint",
         gravity="standard",
         space="space",
@@ -108,7 +108,7 @@ def double_cardan(
     e = _slant(angle)
     b = length * e[0], length * e[1], length * e[2]
     end = (b[0] + arm, b[1], b[2])
-    return built(
+    return build_mechanism(
         "Double Cardan shaft",
         gravity="standard",
         space="space",
@@ -180,7 +180,7 @@ def rotating_shaft(
         links["shaft"]["points"][name] = list(spot)
         links[name] = {"points": {name: list(spot)}, "mass": mass, "center": list(spot)}
         joints[name] = {"type": "weld", "links": ["shaft", name]}
-    return built(
+    return build_mechanism(
         "Rotating shaft with masses off its axis",
         gravity="none",
         space="space",
@@ -237,7 +237,7 @@ def bevel_differential(
     }
     ring = [carrier_mass * size / 2, carrier_mass * size / 2, carrier_mass * size]
     other = speed * (second_sweep[1] - second_sweep[0]) / (sweep[1] - sweep[0])
-    return built(
+    return build_mechanism(
         "Bevel differential",
         gravity="standard",
         space="space",

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from dalembert.errors import ModelError
 from dalembert.model.library.compass import FULL_TURN
-from dalembert.model.library.tree_parts import Tree, built, force, positive, turning
+from dalembert.model.library.tree_parts import Tree, build_mechanism, force, positive, turning
 from dalembert.model.library.vectors import Vector, cross, dot, less, plus, times
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ def rssr(
         return plus(c, times(rocker * cosine, x), times(rocker * sqrt(1 - cosine**2), y))
 
     a, b = (crank, 0.0, 0.0), _closing("rssr", ball, sweep, "the rod or the rocker")
-    return built(
+    return build_mechanism(
         "Spatial four-bar RSSR",
         gravity="standard",
         space="space",
@@ -130,7 +130,7 @@ def rssp(
 
     a, b = (crank, 0.0, 0.0), _closing("rssp", ball, sweep, "the rod")
     slider = {"points": {"B": list(b)}, "mass": slider_mass, "center": list(b)}
-    return built(
+    return build_mechanism(
         "Spatial slider-crank RSSP",
         gravity="standard",
         space="space",
@@ -179,7 +179,7 @@ def rccc(
     b = plus(a, times(offsets[1], _unit("rccc", "axes", cross(u[1], u[2]))))
     c = plus(b, times(offsets[2], _unit("rccc", "axes", cross(u[2], u[3]))))
     c = plus(c, times(offsets[3] / 2, u[3]))
-    return built(
+    return build_mechanism(
         "Spatial four-bar RCCC",
         gravity="standard",
         space="space",
@@ -225,7 +225,7 @@ def spherical_four_bar(
     u = _cone_axes("spherical_four_bar", arcs, sweep)
     o, a, b, c = (times(radius, axis) for axis in u)
     loop = _four_links("Spherical four-bar", (o, a, b, c), mass_per_length, _loop(u, determinate))
-    return built(**loop, drives={"O": turning(sweep, positions, speed)})
+    return build_mechanism(**loop, drives={"O": turning(sweep, positions, speed)})
 
 
 def bennett(
@@ -270,7 +270,7 @@ def bennett(
         axes.append(plus(times(cos(twist), z), times(sin(twist), cross(x, z))))
     o, a, b, c = points
     loop = _four_links("Bennett's linkage", (o, a, b, c), mass_per_length, _loop(axes, determinate))
-    return built(**loop, drives={"O": turning(sweep, positions, speed)})
+    return build_mechanism(**loop, drives={"O": turning(sweep, positions, speed)})
 
 
 def slim(mass_per_length: float, **ends: Vector) -> Tree:

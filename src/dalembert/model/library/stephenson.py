@@ -18,7 +18,7 @@ from dalembert.model.library.six_bars import (
 )
 from dalembert.model.library.tree_parts import (
     Point,
-    built,
+    build_mechanism,
     couple,
     force,
     pin,
@@ -83,7 +83,7 @@ def stephenson_1(
         return at | {"C": c, "D": d, "E": e}
 
     at = start_points(name, place, sweep)
-    return built(
+    return build_mechanism(
         "Stephenson I six-bar",
         links={
             "ground": ground_link(O4=(ground, 0.0)),
@@ -160,7 +160,7 @@ def stephenson_2(
         }
 
     at = start_points(name, _follow(dyad, ("rocker", rocker)), sweep)
-    return built(
+    return build_mechanism(
         "Stephenson II six-bar",
         links={
             "ground": ground_link(O4=(ground, 0.0)),
@@ -235,7 +235,7 @@ def stephenson_3(
         return at | {"C": c, "D": d, "O6": local["second_ground"]}
 
     at = start_points(name, place, sweep)
-    return built(
+    return build_mechanism(
         "Stephenson III six-bar",
         links={
             "ground": ground_link(O4=(ground, 0.0), O6=second_ground),

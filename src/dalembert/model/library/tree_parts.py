@@ -103,7 +103,7 @@ def couple(on: str, value: float) -> Tree:
     return {"type": "couple", "on": on, "value": value}
 
 
-def built(title: str, **sections: Any) -> Mechanism:
+def build_mechanism(title: str, **sections: Any) -> Mechanism:
     """The mechanism of a whole tree, through the public constructor with all its checks."""
     from dalembert.model import mechanism
 

@@ -17,7 +17,7 @@ from dalembert.model.library.six_bars import (
 )
 from dalembert.model.library.tree_parts import (
     Point,
-    built,
+    build_mechanism,
     couple,
     force,
     pin,
@@ -83,7 +83,7 @@ def watt_1(
         return at | {"C": c, "D": d, "E": e}
 
     at = start_points(name, place, sweep)
-    return built(
+    return build_mechanism(
         "Watt I six-bar",
         links={
             "ground": ground_link(O4=(ground, 0.0)),
@@ -152,7 +152,7 @@ def watt_2(
         return at | {"C": c, "D": d, "O6": local["second_ground"]}
 
     at = start_points(name, place, sweep)
-    return built(
+    return build_mechanism(
         "Watt II six-bar",
         links={
             "ground": ground_link(O4=(ground, 0.0), O6=second_ground),
