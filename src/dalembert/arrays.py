@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,3 +15,27 @@ Ints = NDArray[np.intp]
 
 Flags = NDArray[np.bool_]
 """Yes or no."""
+
+Arrays = TypeVar("Arrays")
+"""An array, or a NamedTuple of arrays and of such records over the same positions."""
+
+
+def at(whole: Arrays, where: Any) -> Arrays:
+    """An array, or a record of arrays, at some positions."""
+    record: Any = whole
+    make: Any = type(whole)
+    found: Arrays = make(*(at(a, where) for a in record)) if isinstance(record, tuple) else record[where]
+    return found
+
+
+def put(whole: Arrays, where: Any, part: Arrays) -> Arrays:
+    """A copy of an array, or of a record of arrays, with other values at some positions."""
+    record: Any = whole
+    make: Any = type(whole)
+    values: Any = part
+    if isinstance(record, tuple):
+        found: Arrays = make(*(put(a, where, b) for a, b in zip(record, values, strict=True)))
+        return found
+    out: Any = np.array(record)
+    out[where] = values
+    return out  # type: ignore[no-any-return]

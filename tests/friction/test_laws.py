@@ -12,7 +12,6 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis.friction.fixed_point import contacts_at
-from dalembert.core.friction.contact_equations import Response
 from dalembert.core.friction.friction_solver import slipping
 from tests.friction.oracle import branch, compared
 from tests.friction.rough import CYCLES, cycle, rough, rough_tree, still_tree, unlawful
@@ -260,8 +259,7 @@ def test_no_friction_within_its_limits_leaves_what_holds(seed: int) -> None:
     part = rng.uniform(-1, 1, (count, contacts.count))
     part[: count // 2] = np.sign(part[: count // 2])
     part = np.where(contacts.fixed, -1.0, part[:, contacts.led])
-    many = Response(*(np.broadcast_to(a, (count, *a.shape[1:])) for a in problem))
-    x = slipping(contacts, many, part, np.broadcast_to(told.open, part.shape)).x
+    x = slipping(contacts, problem, told._replace(sense=part, open=np.broadcast_to(told.open, part.shape))).x
     x = x[np.isfinite(x).all(axis=1)]
     assert len(x) >= 10
     first = r.compiled.layout.constraints.count

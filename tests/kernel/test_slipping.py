@@ -44,10 +44,11 @@ def decided(pattern: Array, y: Array, h: Array, sense: Array) -> Verdict:
         first[0, a], told[a] = channel(y[a], y[a]), channel(sense[a], sense[a])
         for b in np.flatnonzero(pattern[a]):
             couplings[0, a, b] = channel(h[a, b], 0.01 * h[a, b])
-    found = trace_slip(
+    traced = trace_slip(
         graph, some_contacts(count, 0), Response(*(np.zeros(0),) * 2, *_nodes(graph, first, couplings)), told
     )
-    groups = (list(found.z), found.doubt, found.unsure, found.sure, found.jam)
+    found, _, known = traced
+    groups = (list(found), known.slips, known.unsure, known.sure, known.jam)
     with np.errstate(all="ignore"):
         z, *marks = (
             np.array([np.broadcast_to(v, y.shape[1:]) for v in graph.evaluate(g, values)]) for g in groups

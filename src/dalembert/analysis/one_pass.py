@@ -9,7 +9,7 @@ import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.degree_of_freedom import check_knowns
-from dalembert.analysis.friction.friction_equilibrium import Setting, block_size, rubbing
+from dalembert.analysis.friction.friction_equilibrium import FrictionProblem, block_size, friction_equilibrium
 from dalembert.analysis.positions import Positions, positions
 from dalembert.analysis.result.force_arrays import Forces, concatenate_blocks
 from dalembert.analysis.result.reaction_axes import marks
@@ -19,7 +19,6 @@ from dalembert.analysis.status.statuses import KEPT, UNBALANCED, statuses
 from dalembert.arrays import Array, Flags
 from dalembert.core.equilibrium import balance, known_sources, motion, reactions
 from dalembert.core.forcing import total_wrench
-from dalembert.core.friction.reversal import Driven
 from dalembert.core.layout import Pose
 from dalembert.core.position.motion_path import BLOCK
 from dalembert.model import Mechanism, Schedule
@@ -75,13 +74,11 @@ def _block(c: Compiled, whole: Pose, part: slice, inertia: bool, forces: bool) -
         return moved, _no_forces(c, len(pose.point))
     forcing, known = slice_forcing(c, part)
     sources = known_sources(layout, forcing, pose, moving, inertia)
+    if c.contacts is not None:
+        p = FrictionProblem(c, c.contacts, part, forcing, known, pose, moving, rows, solver, sources)
+        return moved, friction_equilibrium(p)
     w = total_wrench(layout, *sources.values())
     w = np.broadcast_to(w, (len(pose.point), *w.shape[1:]))
-    if c.contacts is not None:
-        driven = Driven(c.targets[part], schedule.speed[part], schedule.acceleration[part])
-        moves = schedule.moves[part]
-        setting = (c, c.contacts, forcing, known, pose, moving, rows, solver, sources, driven, moves)
-        return moved, rubbing(Setting(*setting), w)
     found = balance(layout, forcing, known, pose, moving, rows, solver, w)
     force, couple = reactions(layout, pose, rows, found)
     unique = marks(c, pose, rows, found.free)

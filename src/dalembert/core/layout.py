@@ -249,6 +249,10 @@ class System(NamedTuple):
             np.concatenate(wide[2:], axis=-2),
         )
 
+    def at(self, where: Any) -> System:
+        """The rows at some positions."""
+        return self._replace(on_i=self.on_i[where], on_j=self.on_j[where])
+
     def rows(self, which: Any) -> System:
         """Some of the rows."""
         on_i, on_j = self.on_i[..., which, :], self.on_j[..., which, :]

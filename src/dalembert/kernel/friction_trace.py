@@ -8,16 +8,15 @@ first. What the unrolled steps cannot be sure of is in doubt: a block whose fixe
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from dalembert.arrays import Array, Ints
+from dalembert.arrays import Array
 from dalembert.core.branchless import above, top
 from dalembert.core.equilibrium import Motion, Statement
-from dalembert.core.forcing import Resistances, pair, total_wrench
+from dalembert.core.forcing import pair, total_wrench
 from dalembert.core.friction.contact_equations import (
     Contacts,
     Response,
@@ -32,13 +31,12 @@ from dalembert.core.friction.contact_equations import (
     strong,
     under,
 )
-from dalembert.core.friction.losses import in_joints, power_reversed, viscous
+from dalembert.core.friction.losses import dry, power_reversed, viscous
 from dalembert.core.layout import Layout, Pose
 from dalembert.kernel.elimination import components, structural
 from dalembert.kernel.graph import CONSTANT, Graph, Node, is_zero, trace_array
 from dalembert.kernel.jam_proof import jams, lever
-
-Nodes = Sequence[Node]
+from dalembert.kernel.program import Marks
 
 FEWEST, MOST = 3, 7
 """Newton's steps."""
@@ -59,80 +57,45 @@ POWER = 12
 
 
 @dataclass(frozen=True)
-class Rough:
-    """A mechanism's contacts and its joints' own damping; link j (joints,) of each joint and its point there."""
-
-    contacts: Contacts
-    damping: Resistances
-    link: Ints
-    at: Array
-
-
-@dataclass(frozen=True)
-class Rubbed:
-    """Multipliers x, total wrenches w, and friction's and damping's force (joints, 2) and moment (joints,) on j.
-
-    rest: below zero where a contact that carries something has no rate to tell its sense. doubt: below zero where the
-    general executor decides elsewhere, so where both ``unsure`` and ``sure`` are, but for ``jam``: surely a jam.
-    turned, locked: below zero where friction turns the power of the unknowns round, with inertia and without;
-    ``locked`` and ``still`` (its doubt) are asked only where it is turned, ``jam`` where it is unsure and not sure.
-    """
+class FrictionTrace:
+    """Multipliers x, total wrenches w, friction's and damping's force (joints, 2) and moment (joints,) on j; and where
+    they are in doubt, at rest, jammed, or turn the power of the unknowns round."""
 
     x: Array
     total: Array
     force: Array
     moment: Array
-    doubt: Nodes = ()
-    rest: Nodes = ()
-    unsure: Nodes = ()
-    sure: Nodes = ()
-    jam: Nodes = ()
-    turned: Nodes = ()
-    still: Nodes = ()
-    locked: Nodes = ()
-
-
-@dataclass(frozen=True)
-class Slipped:
-    """z and S of each contact (E,), and what is below zero, or no number, where they are in doubt: so where both
-    ``unsure`` and ``sure`` are; and what is below zero where they jam."""
-
-    z: Array
-    bears: Array
-    doubt: list[Node]
-    unsure: list[Node]
-    sure: list[Node]
-    jam: list[Node]
+    marks: Marks
 
 
 def trace_friction(
     graph: Graph,
     layout: Layout,
-    rough: Rough,
+    contacts: Contacts,
     pose: Pose,
     moving: Motion,
     s: Statement,
     still: Array | None,
     slips: Array | None = None,
     reversals: Array | None = None,
-) -> Rubbed:
+) -> FrictionTrace:
     """Multipliers with friction; ``still``: what loads the links beside inertia, None where there is none.
 
     ``slips``: z of each contact where the solution is known; then there are no verdicts, which are known too, and
     ``reversals`` has the sense of contacts that reverse there, else 0.
     """
-    contacts = _trace_contacts(graph, rough.contacts)
+    contacts = _trace_contacts(graph, contacts)
     twist = trace_array(graph, moving.twist)  # without motion they are numbers
     along, found = response(layout, contacts, pose, s.forces, s.w, twist)
     r = Response(*(trace_array(graph, a) for a in found))
-    told = senses(layout, contacts, along, twist)
+    state = senses(layout, contacts, along, twist)
     if reversals is not None:
         moves = 1.0 - np.abs(reversals)
-        open_: Any = moves * trace_array(graph, told.open)
-        told = told._replace(sense=reversals + moves * told.sense, open=open_)
-    sense, c = trace_array(graph, told.sense), trace_array(graph, strength(contacts, 1.0))
-    slip = trace_slip(graph, contacts, strong(r, c), sense, slips)
-    x = multiplier(r, c * slip.z)
+        open_: Any = moves * trace_array(graph, state.open)
+        state = state._replace(sense=reversals + moves * state.sense, open=open_)
+    sense, c = trace_array(graph, state.sense), trace_array(graph, strength(contacts, 1.0))
+    z, bears, marks = trace_slip(graph, contacts, strong(r, c), sense, slips)
+    x = multiplier(r, c * z)
     unknown = layout.constraints.count < len(x) and slips is None
 
     def turning(problem: Response, x: Array, w: Array) -> Node:
@@ -141,41 +104,32 @@ def trace_friction(
         return flag
 
     turns = turning(r, x, s.w) if unknown else graph.zero
-    doubt, locked = [], turns
     if still is not None and not is_zero(turns):
-        other = under(layout, contacts, pose, s.forces, still, told.rate, r)
+        other = under(layout, contacts, pose, s.forces, still, state.rate, r)
         other = Response(*(trace_array(graph, a) for a in other))
-        alone = trace_slip(graph, contacts, strong(other, c), sense)
-        locked, doubt = turning(other, multiplier(other, c * alone.z), still), alone.doubt
-    dry = np.where(contacts.fixed, 0.0, c * slip.z)
-    force, moment = in_joints(layout, pose, along, contacts.joint, rough.link, rough.at, dry)
-    damping = viscous(layout, rough.damping, pose, moving.twist, rough.link, rough.at)
-    rest, idle = _at_rest(graph, trace_array(graph, told.open), slip.bears, top(np.abs(r.y), 2))
-    same = locked is turns
-    return Rubbed(
+        alone, _, doubt = trace_slip(graph, contacts, strong(other, c), sense)
+        locked = turning(other, multiplier(other, c * alone), still)
+        marks = marks if locked is turns else replace(marks, still=doubt.slips, locked=(locked,))
+    force, moment = dry(layout, contacts, pose, along, np.where(contacts.fixed, 0.0, c * z))
+    viscous_force, viscous_moment, _ = viscous(layout, contacts, pose, moving.twist)
+    rest, idle = _at_rest(graph, trace_array(graph, state.open), bears, top(np.abs(r.y), 2))
+    return FrictionTrace(
         x=x,
-        total=s.w + total_wrench(layout, pair(along, c * slip.z)),
-        force=force + damping[0],
-        moment=moment + damping[1],
-        doubt=[*slip.doubt, *idle],
-        rest=rest,
-        unsure=slip.unsure,
-        sure=slip.sure,
-        jam=slip.jam,
-        turned=_nonzero(turns),
-        still=[] if same else doubt,
-        locked=[] if same else [locked],
+        total=s.w + total_wrench(layout, pair(along, c * z)),
+        force=force + viscous_force,
+        moment=moment + viscous_moment,
+        marks=replace(marks, slips=(*marks.slips, *idle), rest=rest, turned=_nonzero(turns)),
     )
 
 
 def _trace_contacts(graph: Graph, contacts: Contacts) -> Contacts:
-    names = ("tilt", "gain", "lever", "coefficient", "resting", "reach", "viscous")
+    names = ("read", "lever", "coefficient", "resting", "reach", "viscous")
     numbers: dict[str, Any] = {name: trace_array(graph, getattr(contacts, name)) for name in names}
     return replace(contacts, **numbers)
 
 
-def _nonzero(*nodes: Node) -> list[Node]:
-    return [n for n in nodes if not is_zero(n)]
+def _nonzero(*nodes: Node) -> tuple[Node, ...]:
+    return tuple(n for n in nodes if not is_zero(n))
 
 
 def without(graph: Graph, contacts: Contacts, r: Response) -> Array:
@@ -184,10 +138,10 @@ def without(graph: Graph, contacts: Contacts, r: Response) -> Array:
         return r.x
     sense = trace_array(graph, np.where(contacts.fixed, -1.0, 0.0))
     c = trace_array(graph, strength(contacts, 0.0))
-    return multiplier(r, c * trace_slip(graph, contacts, strong(r, c), sense).z)
+    return multiplier(r, c * trace_slip(graph, contacts, strong(r, c), sense)[0])
 
 
-def _at_rest(graph: Graph, open_: Array, bears: Array, largest: Array) -> tuple[list[Node], list[Node]]:
+def _at_rest(graph: Graph, open_: Array, bears: Array, largest: Array) -> tuple[tuple[Node, ...], ...]:
     """Below zero where a contact without a rate surely carries something, and where such contacts may carry nothing."""
     carries = above(np.abs(bears), CARRIES * largest)
     rest, idle = (
@@ -199,8 +153,9 @@ def _at_rest(graph: Graph, open_: Array, bears: Array, largest: Array) -> tuple[
 
 def trace_slip(
     graph: Graph, contacts: Contacts, r: Response, sense: Array, slips: Array | None = None
-) -> Slipped:
-    """Friction forces z of known senses, from the response with H after z; ``slips`` where they are known."""
+) -> tuple[Array, Array, Marks]:
+    """z and S of each contact (E,) for known senses, from the response with H after z, and where they are in doubt or
+    jam; ``slips`` are z where it is known."""
     count, largest = contacts.count, trace_array(graph, top(np.abs(r.y), 2))
     z, bears = trace_array(graph, np.zeros(count)), trace_array(graph, np.zeros(count))
     acts = [b for b in range(count) if not is_zero(sense[b])]
@@ -234,13 +189,14 @@ def trace_slip(
         single.append(sure)
         stuck.append(jams(graph, part, inner, sense[k]) * known)
         right |= dict.fromkeys(block, known * last.positive() * rough.positive().larger(sure.positive()))
-    doubt, unsure, single, stuck = (_varying(nodes) for nodes in (doubt, unsure, single, stuck))
-    asked = unsure and single  # in doubt, or jammed, only where both are
-    return Slipped(z, bears, doubt, *((unsure, single, stuck) if asked else ([], [], [])))
+    marks = Marks(slips=_varying(doubt), unsure=_varying(unsure), sure=_varying(single), jam=_varying(stuck))
+    if not (marks.unsure and marks.sure):  # in doubt, or jammed, only where both are
+        marks = Marks(slips=marks.slips)
+    return z, bears, marks
 
 
-def _varying(nodes: list[Node]) -> list[Node]:
-    return [n for n in nodes if n.level != CONSTANT or not n.value >= 0]
+def _varying(nodes: list[Node]) -> tuple[Node, ...]:
+    return tuple(n for n in nodes if n.level != CONSTANT or not n.value >= 0)
 
 
 def _contraction(graph: Graph, h: Array, sense: Array) -> tuple[Node, Node]:

@@ -12,15 +12,17 @@ from dalembert.core import forcing as fc
 from dalembert.core.constraints import measure
 from dalembert.core.equilibrium import Balance, Known, Statement, known_sources, motion, reactions, statement
 from dalembert.core.forcing import Forcing, pair, total_wrench
+from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.geometry import span
 from dalembert.core.layout import Layout, Pose
 from dalembert.core.position.first_pose_plane import held_wheels, phase_rows, with_rows
 from dalembert.kernel.elimination import Structural
-from dalembert.kernel.friction_trace import Rough, Rubbed, trace_friction
+from dalembert.kernel.friction_trace import FrictionTrace, trace_friction
 from dalembert.kernel.graph import CONSTANT, Graph, Node, trace_array
 from dalembert.kernel.position.closed_forms import newton_correction, positions
 from dalembert.kernel.position.rigid_parts import Motion, Placed
 from dalembert.kernel.position.unrolled_newton import solver
+from dalembert.kernel.program import Marks
 
 PASSES = 40
 """Most repetitions for tooth forces that push centres which may move."""
@@ -59,7 +61,7 @@ class Problem:
     path: Any
     first_path: Any
     signs: Any
-    rough: Rough | None
+    contacts: Contacts | None
     slips: Array | None
     reversals: Array | None
     margins: dict[int, Node]
@@ -79,7 +81,7 @@ class Traced:
     residual: Node
     open: list[Node]
     doubt: list[Node]
-    rubbed: Rubbed
+    friction: FrictionTrace
     flips: bool
 
 
@@ -90,8 +92,8 @@ def trace(p: Problem) -> Traced:
     placed = _trace_pose(p, layout, target, p.drives, p.path)
     pose = placed.pose
     moving, rows, factors = motion(layout, pose, p.drives.speed, p.drives.acceleration)
-    s, rub = _trace_equilibrium(p, layout, pose, moving, rows, factors)
-    x = rub.x
+    s, friction = _trace_equilibrium(p, layout, pose, moving, rows, factors)
+    x = friction.x
     count, asked = layout.constraints.count, int(p.known.asked.sum())
     effort = p.known.effort[0].astype(object)
     effort[p.known.asked] = x[count : count + asked]
@@ -103,11 +105,11 @@ def trace(p: Problem) -> Traced:
         pose=pose,
         twist=trace_array(g, moving.twist),
         acceleration=trace_array(g, moving.acceleration),
-        force=trace_array(g, force + rub.force),
-        moment=trace_array(g, couple[..., 0] + rub.moment),
+        force=trace_array(g, force + friction.force),
+        moment=trace_array(g, couple[..., 0] + friction.moment),
         effort=trace_array(g, effort),
         load=trace_array(g, found.load),
-        residual=_residual(g, layout, total_wrench(layout, pair(s.unknown, x)), rub.total),
+        residual=_residual(g, layout, total_wrench(layout, pair(s.unknown, x)), friction.total),
         open=placed.open,
         doubt=[
             *apart,
@@ -116,14 +118,14 @@ def trace(p: Problem) -> Traced:
             *_short(p, layout, pose),
             *_turn_count_doubt(p, layout, pose),
         ],
-        rubbed=rub,
+        friction=friction,
         flips=placed.flips,
     )
 
 
 def _trace_equilibrium(
     p: Problem, layout: Layout, pose: Pose, moving: Any, rows: Any, factors: Any
-) -> tuple[Statement, Rubbed]:
+) -> tuple[Statement, FrictionTrace]:
     """What is asked of the equilibrium, and its multipliers, with friction where there is any."""
     sources = known_sources(layout, p.forcing, pose, moving, p.inertia)
 
@@ -133,11 +135,11 @@ def _trace_equilibrium(
         return found._replace(w=found.w.reshape(found.w.shape[-2:]))
 
     s = statement_of(*sources)
-    if p.rough is None:
+    if p.contacts is None:
         x, total = _multipliers(p, layout, pose, s)
-        return s, Rubbed(x, total, np.zeros((layout.joints, 2)), np.zeros(layout.joints))
+        return s, FrictionTrace(x, total, np.zeros((layout.joints, 2)), np.zeros(layout.joints), Marks())
     still = statement_of(*(kind for kind in sources if kind != "inertia")).w if p.inertia else None
-    return s, trace_friction(p.graph, layout, p.rough, pose, moving, s, still, p.slips, p.reversals)
+    return s, trace_friction(p.graph, layout, p.contacts, pose, moving, s, still, p.slips, p.reversals)
 
 
 def _trace_pose(p: Problem, layout: Layout, target: Array, drives: Drives, path: Any) -> Placed:

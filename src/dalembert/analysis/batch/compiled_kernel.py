@@ -23,7 +23,7 @@ from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.graph import CONSTANT, Node
-from dalembert.kernel.program import Marks, Program
+from dalembert.kernel.program import Program
 from dalembert.model import Mechanism
 
 LARGEST = float(np.finfo(float).max)
@@ -153,16 +153,13 @@ class Kernel:
 
     def program(self, nodes: Sequence[Node]) -> Program:
         found = self.trace.catalogue.traced
-        rub = found.rubbed
-        rubbing = (rub.rest, rub.doubt, rub.unsure, rub.sure, rub.jam, rub.turned, rub.still, rub.locked)
-        marks = (tuple(m) for m in (found.open, found.doubt, *rubbing))
-        told = Marks(*marks)
+        marks = replace(found.friction.marks, open=tuple(found.open), doubt=tuple(found.doubt))
         values = sum(len(of) for of in self.nodes.values())
         slope = [] if self.reduce else nodes[values:]
         known = self.trace.course.result is not None
         finite = () if known else self._finite([n * n for n in nodes[:values]])  # shorter than abs(n)
-        told = replace(told, slips=(*told.slips, *finite), slope=self._finite([abs(n) for n in slope]))
-        return Program(self.trace.catalogue.graph, tuple(nodes), told)
+        marks = replace(marks, slips=(*marks.slips, *finite), slope=self._finite([abs(n) for n in slope]))
+        return Program(self.trace.catalogue.graph, tuple(nodes), marks)
 
     def _finite(self, nodes: Sequence[Node]) -> tuple[Node, ...]:
         """Below zero, or no number, where some node, none of them negative, is not finite."""

@@ -231,7 +231,7 @@ def contact_keys(c: Compiled) -> list[tuple[str, str]]:
     """Joint and kind of each contact."""
     if c.contacts is None:
         return []
-    return [(c.joints[k], kind) for k, kind in zip(c.contacts.joint, c.contact_kinds, strict=True)]
+    return [(c.joints[k], kind) for k, kind in zip(c.contacts.joint, c.contacts.kind, strict=True)]
 
 
 def _poses_with_ground(result: Result) -> Pose:

@@ -16,7 +16,6 @@ from dalembert.analysis.degree_of_freedom import check_knowns
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.closure_failure import open_sentence
 from dalembert.errors import ModelError
-from dalembert.kernel.friction_trace import Rough
 from dalembert.kernel.graph import Graph
 from dalembert.kernel.trace import Problem, trace
 from dalembert.model import Mechanism, Schedule
@@ -69,7 +68,7 @@ def trace_analysis(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Res
         slips=None if solved is None else inputs.slips(c),
         reversals=None if solved is None else inputs.reversals(c),
         margins=margins if any(geometric(n.path) for n in where) else {},
-        rough=None if c.contacts is None else Rough(c.contacts, c.damping, c.second, c.joint_at),
+        contacts=c.contacts,
     )
     return Trace(course, inputs, where, Catalogue(graph, c, _run(problem)), inertia)
 

@@ -11,11 +11,11 @@ import numpy as np
 from dalembert.algebra import plane, space
 from dalembert.analysis.compile import plane_rows as table
 from dalembert.analysis.compile.joint_rows import Jointing, PlaneJoints, SpaceJoints
-from dalembert.analysis.compile.load_arrays import Setting, forcing, joint_resistances, unknown_columns
+from dalembert.analysis.compile.load_arrays import Setting, forcing, unknown_columns
 from dalembert.analysis.compile.pair_table import Geometry
-from dalembert.arrays import Array, Ints
+from dalembert.arrays import Array
 from dalembert.core.equilibrium import Known
-from dalembert.core.forcing import Forcing, Resistances
+from dalembert.core.forcing import Forcing
 from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.layout import Layout
 from dalembert.core.position.first_pose_plane import Guess
@@ -61,10 +61,7 @@ class Compiled:
     guess: Guess | Drawing
     forcing: Forcing
     known: Known
-    joint_at: Array  # (joints, d) arm of j's point
-    damping: Resistances  # of the joints themselves, which the forcing has too
     contacts: Contacts | None  # of the joints with friction; None without
-    contact_kinds: tuple[str, ...]
     geometries: tuple[Geometry, ...] = ()  # of the joints, in space
     passive: tuple[str, ...] = ()  # links whose spin moves nothing else, set to none
     counts: tuple[Count, ...] = ()  # of the whole turns of torsion springs, once the motion is known
@@ -76,12 +73,6 @@ class Compiled:
         return np.concatenate(
             [np.broadcast_to(self.target, (len(positions), len(self.target))), positions], axis=1
         )
-
-    @cached_property
-    def second(self) -> Ints:
-        """Link j of each joint (joints,)."""
-        index = {name: k for k, name in enumerate(self.links)} | {GROUND: self.layout.links}
-        return np.array([index[self.mechanism.joints[name].links[1]] for name in self.joints], np.intp)
 
     @property
     def origin(self) -> Array:
@@ -122,7 +113,6 @@ def compile_mechanism(
     fixed, freedoms = jointing.constraints.rows(), jointing.freedoms.rows()
     names = jointing.names
     driven = np.array([names.index(_driven_freedom(m, d)) for d in schedule.names], np.intp)
-    touching, kinds = jointing.contacts(fixed) or (None, ())
     layout = Layout(
         algebra=g,
         links=len(links),
@@ -150,10 +140,7 @@ def compile_mechanism(
         guess=jointing.guess() if like is None else like.guess,
         forcing=forcing(setting),
         known=unknown_columns(setting, schedule, unknown),
-        joint_at=table.numbers([uj for _, uj in jointing.arms]).reshape(-1, g.d),
-        damping=joint_resistances(m, names),
-        contacts=touching,
-        contact_kinds=kinds,
+        contacts=jointing.contacts(fixed),
         geometries=jointing.geometries,
         passive=jointing.passive,
     )

@@ -1,44 +1,59 @@
-"""The joints' friction as contacts for the core: which multipliers each reads, along which row it acts."""
+"""The joints' friction as contacts for the core: which multipliers each reads, along which row it acts.
+
+To give a kind of joint friction, add the contacts it has to ``KINDS``, here for the plane, in ``space_contacts`` for
+space.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from dalembert.analysis.compile import plane_rows as table
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Ints
+from dalembert.core.forcing import Resistances
 from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.layout import Along, Distance, Rows, Turn
 from dalembert.model import Mechanism
+
+Row = tuple[type, dict[str, Any]]
+"""Kind of a row and its numbers."""
+
+Read = Mapping[Any, Any]
+"""A sum of reactions of the joint: factor by the name of each; in the plane by its place among the joint's rows."""
 
 
 @dataclass(frozen=True)
 class Contact:
     """One contact of a joint, with the keys of ``core.friction.contact_equations.Contacts``.
 
-    ``along``: kind of row and its numbers; ``led``: which contact tells its sense, 0 for itself and -1 for the one
-    before; ``viscous``: damping of the slide before it, whose force it carries, None where it carries none."""
+    ``read``: its arguments; ``led``: which contact tells its sense, 0 for itself and -1 for the one before;
+    ``group`` of the contacts of the joint that share a slip, 0 for those that do not; ``viscous``: damping of the slide
+    before it, whose force it carries, None where it carries none."""
 
     kind: str
-    along: tuple[type, dict[str, Any]]
-    first: int
-    second: int = -1
-    couple: int = -1
-    tilt: tuple[Any, Any] = (0.0, 0.0)
-    gain: Any = 1.0
+    row: Row
+    read: tuple[Read, ...]
     lever: Any = 1.0
     circle: bool = False
     signed: bool = False
+    ball: bool = False
     fixed: bool = False
     led: int = 0
     reach: Any = 0.0
+    group: int = 0
+    reckoned: Any = 1.0
+    around: bool = False
     viscous: Any = None
 
 
-TURN: tuple[type, dict[str, Any]] = (Turn, {})
+Kinds = Mapping[str, Callable[[Any, Any, bool], Iterator[Contact]]]
+"""Contacts of a joint by its type, from its description, its geometry and whether its circles are of R sin(phi)."""
+
+TURN: Row = (Turn, {})
 
 
 def friction_on(m: Mechanism) -> bool:
@@ -67,93 +82,117 @@ def resting_coefficient(m: Mechanism, joint: Any) -> Any:
 
 def circle(m: Mechanism, joint: Any) -> str:
     """Convention of a pin's friction circle: sin or tan."""
-    return str(joint.friction.circle or m.friction.circle)
+    return str(getattr(joint.friction, "circle", None) or m.friction.circle)
 
 
 def contacts(
-    m: Mechanism, constraints: Rows, ends: list[tuple[int, int]], points: list[tuple[Array, Array]]
-) -> tuple[Contacts, tuple[str, ...]] | None:
-    """All contacts and the kind of each; None without friction. ``ends``, ``points``: links and arms of the joints."""
+    m: Mechanism,
+    constraints: Rows,
+    ends: list[tuple[int, int]],
+    at: Sequence[Any],
+    arms: list[tuple[Array, Array]],
+    damping: Resistances,
+    kinds: Kinds,
+    places: Callable[[Any, int], Mapping[Any, int]],
+) -> Contacts | None:
+    """All contacts; None without friction.
+
+    ends, at, arms: links, geometry and points of the joints, with their own damping; places: row of each reaction of a
+    joint whose first row is given.
+    """
     if not friction_on(m):
         return None
-    rows = table.RowBuilder(constraints.links)
-    found: list[tuple[int, Contact, Any, Any]] = []
+    rows = table.RowBuilder(constraints.links, m.dimension)
+    found: list[tuple[int, Any, Contact]] = []
+    read: list[Array] = []
     for k, joint in enumerate(m.joints.values()):
-        first = int(np.flatnonzero(constraints.joint == k)[0])
-        for contact, mu, resting in _of(m, joint, first):
-            kind, numbers = contact.along
-            arms: dict[str, Any] = {} if kind is Turn else {"ui": points[k][0], "uj": points[k][1]}
-            rows.add(kind, k, ends[k], **arms, **numbers)
-            found.append((k, contact, mu, resting))
-    return _stack(rows.rows(), found), tuple(contact.kind for _, contact, _, _ in found)
-
-
-def _stack(rows: Rows, found: list[tuple[int, Contact, Any, Any]]) -> Contacts:
-    def column(name: str, kind: type) -> Array:
-        values = [getattr(c, name) for _, c, _, _ in found]
-        return table.numbers(values) if kind is float else np.array(values, kind)
-
+        if joint.type not in kinds or not (rubs(m, joint) or joint.type == "gear"):
+            continue
+        place = places(joint, int(np.flatnonzero(constraints.joint == k)[0]))
+        for contact in kinds[joint.type](joint, at[k], rubs(m, joint) and circle(m, joint) == "sin"):
+            kind, given = contact.row
+            rows.add(kind, k, ends[k], **given)
+            found.append((k, joint, contact))
+            read.append(np.zeros((3, constraints.count), object))
+            for part, sums in enumerate(contact.read):
+                for name, factor in sums.items():
+                    read[-1][part, place[name]] += factor
+    numbers = table.numbers(np.array(read).reshape(-1, 3, constraints.count).swapaxes(0, 1).tolist())
     return Contacts(
-        rows=rows,
-        joint=np.array([k for k, _, _, _ in found], np.intp),
-        first=column("first", np.intp),
-        second=column("second", np.intp),
-        couple=column("couple", np.intp),
-        tilt=column("tilt", float),
-        gain=column("gain", float),
-        lever=column("lever", float),
-        coefficient=table.numbers([mu for _, _, mu, _ in found]),
-        resting=table.numbers([mu for _, _, _, mu in found]),
-        circle=column("circle", bool),
-        signed=column("signed", bool),
-        fixed=column("fixed", bool),
-        led=np.arange(len(found)) + column("led", np.intp),
-        reach=column("reach", float),
-        carried=np.array(
-            [e - 1 if c.viscous is not None else -1 for e, (_, c, _, _) in enumerate(found)], np.intp
-        ),
-        viscous=table.numbers([0.0 if c.viscous is None else c.viscous for _, c, _, _ in found]),
+        rows=rows.rows(),
+        joint=np.array([k for k, _, _ in found], np.intp),
+        read=numbers.reshape(3, len(found), -1),
+        link=np.array(ends, np.intp)[:, 1],
+        at=table.numbers([uj for _, uj in arms]),
+        damping=damping,
+        **_columns(m, found),
     )
 
 
-def _of(m: Mechanism, joint: Any, first: int) -> Iterator[tuple[Contact, float, float]]:
-    """Contacts of one joint with their coefficients; ``first`` is the joint's first constraint row."""
-    if joint.type == "gear" and joint.pressure_angle:
-        yield _separation(joint, first), 0.0, 0.0
-    if getattr(joint, "friction", None) is None:
-        return
-    mu, resting = coefficient(m, joint), resting_coefficient(m, joint)
-    for contact in KINDS[joint.type](joint, first, circle(m, joint) if joint.type in ROUND else "tan", mu):
-        yield contact, mu, resting
+def _columns(m: Mechanism, found: list[tuple[int, Any, Contact]]) -> dict[str, Any]:
+    """What contacts are by themselves."""
+    of = [c for _, _, c in found]
+
+    def coefficients(mu: Callable[[Mechanism, Any], Any]) -> Array:
+        return table.numbers([0.0 if c.fixed else mu(m, joint) for _, joint, c in found])
+
+    return {
+        "kind": tuple(c.kind for c in of),
+        "coefficient": coefficients(coefficient),
+        "resting": coefficients(resting_coefficient),
+        "led": np.array([e + c.led for e, c in enumerate(of)], np.intp),
+        "group": _groups(found),
+        "carried": np.array([-1 if c.viscous is None else e - 1 for e, c in enumerate(of)], np.intp),
+        "viscous": table.numbers([0.0 if c.viscous is None else c.viscous for c in of]),
+        **{name: table.numbers([getattr(c, name) for c in of]) for name in ("lever", "reach", "reckoned")},
+        **{name: np.array([getattr(c, name) for c in of], bool) for name in FLAGS},
+    }
 
 
-def _pin(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:
-    yield Contact("pin", TURN, first, first + 1, lever=joint.friction.radius, circle=circle == "sin")
+FLAGS = ("circle", "signed", "ball", "fixed", "around")
 
 
-def _slider(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:
-    f = joint.friction
-    slide = (Along, {"axis": table.direction(joint), "pitch": 0.0})
-    couple, tilt = -1, (0.0, 0.0)
+def _groups(found: list[tuple[int, Any, Contact]]) -> Ints:
+    """One number for contacts of one joint and group; contacts of group 0 stand alone."""
+    keys = [(k, c.group, 0 if c.group else n) for n, (k, _, c) in enumerate(found)]
+    return np.array([keys.index(key) for key in keys], np.intp)
+
+
+def _pin(joint: Any, at: tuple[Array, Array], sine: bool) -> Iterator[Contact]:
+    yield Contact("pin", TURN, ({0: 1.0}, {1: 1.0}), joint.friction.radius, sine)
+
+
+def _slide(joint: Any, at: tuple[Array, Array]) -> Row:
+    return Along, {"ui": at[0], "uj": at[1], "axis": table.direction(joint), "pitch": 0.0}
+
+
+def _slider(joint: Any, at: tuple[Array, Array], sine: bool) -> Iterator[Contact]:
+    f, tilting = joint.friction, {}
     if f.guide is not None:
         behind, ahead = f.guide
-        couple, tilt = first + 1, (2 / (behind + ahead), -(ahead - behind) / (behind + ahead))
-    yield Contact("guide", slide, first, couple=couple, tilt=tilt)
+        tilting = {0: -(ahead - behind) / (behind + ahead), 1: 2 / (behind + ahead)}
+    yield Contact("guide", _slide(joint, at), ({0: 1.0}, {}, tilting))
     if f.half_height:
-        yield Contact("faces", TURN, first, lever=f.half_height, signed=True, led=-1)
+        yield Contact("faces", TURN, ({0: 1.0},), f.half_height, signed=True, led=-1)
 
 
-def _slot(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:
+def _slot(joint: Any, at: tuple[Array, Array], sine: bool) -> Iterator[Contact]:
     """The pin turns in a block that slides: its circle feels the normal force and what resists the slide together."""
-    f = joint.friction
-    yield Contact("guide", (Along, {"axis": table.direction(joint), "pitch": 0.0}), first)
-    if f.radius:
+    yield Contact("guide", _slide(joint, at), ({0: 1.0},))
+    if joint.friction.radius:
         slide, _ = joint.damping
-        yield Contact("pin", TURN, first, lever=f.radius, circle=circle == "sin", viscous=slide)
+        yield Contact("pin", TURN, ({0: 1.0},), joint.friction.radius, sine, viscous=slide)
 
 
-def _gear(joint: Any, first: int, circle: str, mu: float) -> Iterator[Contact]:
-    yield Contact("mesh", TURN, first, gain=1 / np.cos(joint.pressure_angle), lever=contact_arm(joint))
+def _gear(joint: Any, at: tuple[Array, Array], sine: bool) -> Iterator[Contact]:
+    """The normal force of teeth, and with or without friction what of it pushes the wheels apart."""
+    if joint.pressure_angle:
+        ri, rj = table.signed_radii(joint)
+        lever = np.tan(joint.pressure_angle) * (1.0 if ri * rj > 0 else -1.0)
+        row = (Distance, {"ui": at[0], "uj": at[1]})
+        yield Contact("separation", row, ({0: 1.0},), lever, fixed=True, reach=abs(ri + rj))
+    if joint.friction is not None:
+        yield Contact("mesh", TURN, ({0: 1 / np.cos(joint.pressure_angle)},), contact_arm(joint))
 
 
 def contact_arm(joint: Any) -> Any:
@@ -177,19 +216,5 @@ def _path(radius: Any, addendum: Any, angle: Any, sign: int) -> Any:
     return abs(np.sqrt(max(outer * outer - base * base, 0.0)) - radius * np.sin(angle))
 
 
-def _separation(joint: Any, first: int) -> Contact:
-    ri, rj = table.signed_radii(joint)
-    lever = np.tan(joint.pressure_angle) * (1.0 if ri * rj > 0 else -1.0)
-    return Contact("separation", (Distance, {}), first, lever=lever, fixed=True, reach=abs(ri + rj))
-
-
-KINDS: dict[str, Callable[[Any, int, str, float], Iterator[Contact]]] = {
-    "pin": _pin,
-    "slider": _slider,
-    "slot": _slot,
-    "gear": _gear,
-}
-"""Joints that can have friction."""
-
-ROUND = ("pin", "slot")
-"""Joints with a friction circle."""
+KINDS: Kinds = {"pin": _pin, "slider": _slider, "slot": _slot, "gear": _gear}
+"""Joints of the plane that can have friction."""

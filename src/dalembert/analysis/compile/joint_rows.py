@@ -10,8 +10,10 @@ import numpy as np
 from dalembert.algebra import plane, space
 from dalembert.analysis.compile import pair_table
 from dalembert.analysis.compile import plane_rows as table
-from dalembert.analysis.compile.contacts import contacts, rubs
-from dalembert.analysis.compile.space_contacts import space_contacts
+from dalembert.analysis.compile.contacts import KINDS as PLANE_FRICTION
+from dalembert.analysis.compile.contacts import Kinds, contacts, rubs
+from dalembert.analysis.compile.load_arrays import joint_resistances
+from dalembert.analysis.compile.space_contacts import KINDS as SPACE_FRICTION
 from dalembert.arrays import Array, Ints
 from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.layout import Idle, Rows
@@ -24,16 +26,15 @@ from dalembert.model.joints.space_joints import BALLS
 
 
 class Jointing(Protocol):
-    """Rows and names of all joints; arms (ui, uj) of each from its links' reference points."""
+    """Rows and names of all joints."""
 
     constraints: table.RowBuilder
     freedoms: table.RowBuilder
     names: list[tuple[str, str]]
-    arms: list[tuple[Array, Array]]
     geometries: tuple[pair_table.Geometry, ...]
     passive: tuple[str, ...]
 
-    def contacts(self, fixed: Rows) -> tuple[Contacts, tuple[str, ...]] | None: ...
+    def contacts(self, fixed: Rows) -> Contacts | None: ...
 
     def compliance(self, fixed: Rows) -> Array | None: ...
 
@@ -82,6 +83,11 @@ class _Joints:
         for row in rows:
             yield int(row), "moment" if fixed.angular[row] else "force", 0, 1.0
 
+    def contacts_of(self, fixed: Rows, at: Any, kinds: Kinds, places: Any) -> Contacts | None:
+        """The contacts of the joints with friction, of a table of those that can have it."""
+        damping = joint_resistances(self.m, self.names)
+        return contacts(self.m, fixed, self.ends, at, self.arms, damping, kinds, places)
+
     def add_passive(self) -> tuple[str, ...]:
         """Rows that hold freedoms which move nothing else; the names of their links."""
         return ()
@@ -99,9 +105,9 @@ class PlaneJoints(_Joints):
         table.add_freedom(self.freedoms, k, joint, self.ends[k], *self.arms[k])
         self.names += [(name, freedom) for freedom in table.FREEDOMS[joint.type]]
 
-    def contacts(self, fixed: Rows) -> tuple[Contacts, tuple[str, ...]] | None:
+    def contacts(self, fixed: Rows) -> Contacts | None:
         """The contacts of the joints with friction."""
-        return contacts(self.m, fixed, self.ends, self.arms)
+        return self.contacts_of(fixed, self.arms, PLANE_FRICTION, lambda _, first: {0: first, 1: first + 1})
 
     def guess(self) -> Guess:
         """Angles and places of the links that the file gives."""
@@ -192,13 +198,13 @@ class SpaceJoints(_Joints):
             ):  # the thread's couple goes with its force
                 yield row, "moment", 0, joint.lead / (2 * np.pi)
 
-    def contacts(self, fixed: Rows) -> tuple[Contacts, tuple[str, ...]] | None:
+    def contacts(self, fixed: Rows) -> Contacts | None:
         """The contacts of the joints with friction."""
         for name, joint in self.m.joints.items():
             if joint.type == "gear" and rubs(self.m, joint):
                 what = f"gear {name!r}: friction of teeth is not analysed in space"
                 raise ModelError(what, "leave it out", ("joints", name, "friction"))
-        return space_contacts(self.m, fixed, self.ends, self.geometries)
+        return self.contacts_of(fixed, self.geometries, SPACE_FRICTION, pair_table.reaction_rows)
 
     def guess(self) -> Drawing:
         """Poses of the links that the file gives, and how the joints let the others be laid."""

@@ -57,9 +57,7 @@ def bearing_ends(r: Result, joint: str, kind: str) -> list[BearingEnd]:
         return []
     f, contacts = friction_of(r)
     mine = [
-        e
-        for e, found in enumerate(r.compiled.contact_kinds)
-        if r.joints[contacts.joint[e]] == joint and found == kind
+        e for e, found in enumerate(contacts.kind) if r.joints[contacts.joint[e]] == joint and found == kind
     ]
     axes, first = axes_of(r, joint, "joint"), AXIS[described.type] + 1
     u, v = axes[:, first % 3], axes[:, (first + 1) % 3]
@@ -95,7 +93,7 @@ def thread(r: Result, joint: str) -> Thread:
     f, contacts = friction_of(r)
     mine = np.flatnonzero(contacts.joint == r.joints.index(joint))
     climb = math.atan2(screw.lead / (2 * math.pi), screw.friction.radius)
-    by_kind = {r.compiled.contact_kinds[e]: e for e in mine}
+    by_kind = {contacts.kind[e]: e for e in mine}
     normal = f.argument[:, 0, by_kind["thread"]] * math.cos(screw.friction.thread_angle or 0.0)
     across = np.hypot(f.argument[:, 0, by_kind["pin"]], f.argument[:, 1, by_kind["pin"]])
     return Thread(climb, normal, f.cz[:, mine].sum(axis=-1) / abs(math.sin(climb)), across)

@@ -12,7 +12,7 @@ from dalembert.arrays import Array
 from dalembert.core.equilibrium import known_sources, motion, statement
 from dalembert.core.forcing import total_wrench
 from dalembert.core.friction.contact_equations import (
-    Senses,
+    SlipState,
     argument,
     bearing,
     multiplier,
@@ -93,7 +93,7 @@ def contacts_in_motion(r: Result, position: int) -> tuple[Contacts, Response, Ar
     return contacts, problem, told.sense
 
 
-def contacts_at(r: Result, position: int) -> tuple[Contacts, Response, Senses]:
+def contacts_at(r: Result, position: int) -> tuple[Contacts, Response, SlipState]:
     """The same, at rest too."""
     from dalembert.analysis.one_pass import slice_forcing
     from dalembert.analysis.result.joint_freedoms import whole_pose
@@ -108,7 +108,7 @@ def contacts_at(r: Result, position: int) -> tuple[Contacts, Response, Senses]:
     w = np.broadcast_to(w, (1, *w.shape[1:]))
     stated = statement(c.layout, known, pose, rows, solver, w)
     _, problem = response(c.layout, contacts, pose, stated.forces, stated.w, moving.twist)
-    return contacts, problem, Senses(f.sense[part], f.open[part], f.rate[part])
+    return contacts, problem, SlipState(f.sense[part], f.open[part], f.rate[part])
 
 
 def _unknowns(r: Result, x: Array) -> dict[str, Array]:
@@ -118,6 +118,5 @@ def _unknowns(r: Result, x: Array) -> dict[str, Array]:
 
 
 def _forces(r: Result, contacts: Contacts, cz: Array) -> dict[str, Array]:
-    kinds = r.compiled.contact_kinds
-    names = [f"{r.joints[k]} {kind}" for k, kind in zip(contacts.joint, kinds, strict=True)]
+    names = [f"{r.joints[k]} {kind}" for k, kind in zip(contacts.joint, contacts.kind, strict=True)]
     return {name: cz[:, e] for e, name in enumerate(names) if not contacts.fixed[e]}

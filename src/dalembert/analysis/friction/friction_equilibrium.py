@@ -1,17 +1,25 @@
-"""Equilibrium with friction at a block of positions: senses, the friction forces, what they cost, the ends at rest."""
+"""Equilibrium with dry friction at a block of positions: senses of slip, the friction forces, what they cost, rest.
+
+Where all contacts slip their senses follow from the motion, and friction is the solution of one system of equations a
+position. Where a rate is zero for an instant only (a dead centre) there are two solutions, just before and just after.
+Where a contact stays at rest every unknown lies in an interval; at its ends motion impends.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from dalembert.analysis.result.force_arrays import Forces, Friction
 from dalembert.analysis.result.reaction_axes import marks
-from dalembert.arrays import Array, Flags, Ints
+from dalembert.arrays import Array, Flags, Ints, at, put
 from dalembert.core.constraints import rates
 from dalembert.core.equilibrium import (
     UNIQUE,
+    Balance,
     Known,
     Motion,
     Statement,
@@ -23,21 +31,20 @@ from dalembert.core.forcing import Forcing, Source, pair, total_wrench
 from dalembert.core.friction.contact_equations import (
     Contacts,
     Response,
-    Senses,
+    SlipState,
     argument,
     bearing,
-    multiplier,
+    repeat,
     response,
     senses,
-    strength,
     under,
 )
-from dalembert.core.friction.friction_solver import Slip, slipping, without_friction
+from dalembert.core.friction.friction_solver import FrictionSolution, slipping, without_friction
 from dalembert.core.friction.holding_range import holding
 from dalembert.core.friction.impending_motion import extreme
-from dalembert.core.friction.losses import by_joint, in_joints, power_reversed, viscous
-from dalembert.core.friction.reversal import Driven, Sides, sides
-from dalembert.core.friction.rod_spin import Spins, follow_branch_with_spin, rods, solve_spins, with_spin
+from dalembert.core.friction.losses import by_joint, dry, power_reversed, viscous
+from dalembert.core.friction.reversal import Driven, sides
+from dalembert.core.friction.rod_spin import SpinningRods, follow_branch_with_spin, solve_spins, spinning_rods
 from dalembert.core.layout import Pose, System
 from dalembert.core.linear import Factor, PseudoInverse
 
@@ -48,12 +55,16 @@ if TYPE_CHECKING:
 SAME = 1e-11
 """A contact that carries less than this part of the largest force carries nothing."""
 
+EVERY = slice(None)
 
-class Setting(NamedTuple):
-    """A block of positions before its friction is known, what loads it by kind, what drives it, and where it moves."""
+
+@dataclass(frozen=True)
+class FrictionProblem:
+    """A block of positions (a ``part`` of all) before its friction is known, and what loads it by kind."""
 
     c: Compiled
     contacts: Contacts
+    part: slice
     forcing: Forcing
     known: Known
     pose: Pose
@@ -61,328 +72,275 @@ class Setting(NamedTuple):
     rows: System
     solver: Factor
     sources: dict[str, Source]
-    driven: Driven
-    moves: Flags
 
+    def statement(self, *left_out: str) -> Statement:
+        """What is asked of the equilibrium, under all loads but those of some kinds."""
+        layout = self.c.layout
+        w = total_wrench(layout, *(source for kind, source in self.sources.items() if kind not in left_out))
+        w = np.broadcast_to(w, (len(self.pose.point), *w.shape[1:]))
+        return statement(layout, self.known, self.pose, self.rows, self.solver, w)
 
-def rubbing(s: Setting, w: Array) -> Forces:
-    """Forces with friction under the loads w (P, L, n)."""
-    layout, contacts = s.c.layout, s.contacts
-    stated = statement(layout, s.known, s.pose, s.rows, s.solver, w)
-    along, r = response(layout, contacts, s.pose, stated.forces, stated.w, s.moving.twist)
-    blocked = _undetermined(contacts, stated)
-    r = r._replace(y=np.where(blocked[:, None, None], np.nan, r.y))
-    r = Response(*(a if len(a) == len(w) else np.repeat(a, len(w), axis=0) for a in r))
-    told, spins, slip = _solve_slip(s, along, r)
-    made = _Made(s, stated, along, r, blocked, without_friction(contacts, r))
-    open_ = told.open.any(axis=-1)
-    slip.x[open_], slip.z[open_], slip.critical[open_] = np.nan, np.nan, np.nan
-    found = Solved(slip, told, made.find_self_locking(slip))
-    return made.forces(found) if not open_.any() else _open(made, found, np.flatnonzero(open_), spins)
+    @cached_property
+    def stated(self) -> Statement:
+        """Under all loads."""
+        return self.statement()
 
+    @cached_property
+    def _response(self) -> tuple[System, Response]:
+        s = self.stated
+        return response(self.c.layout, self.contacts, self.pose, s.forces, s.w, self.moving.twist)
 
-def _solve_slip(
-    s: Setting, along: System, r: Response, side: Side | None = None
-) -> tuple[Senses, Spins | None, Slip]:
-    """Senses and friction; with rods that spin the branch is followed with them where it ends or leaves a moment."""
-    contacts = s.contacts
-    told, spins = _contact_senses(s, along, r, side)
-    slip = slipping(contacts, r, told.sense, told.open)
-    if spins is None:
-        return told, None, slip
-    left = np.abs(slip.x[..., spins.rods.row]).max(axis=-1) > SAME * np.abs(slip.x).max(axis=-1)
-    some = np.flatnonzero(~told.open.any(axis=-1) & (np.isfinite(slip.critical) | left))
-    if not some.size:
-        return told, spins, slip
-    here = Response(*(np.broadcast_to(a, (len(told.sense), *a.shape[1:]))[some] for a in r))
-    found = follow_branch_with_spin(contacts, here, told.open[some], spins.at(some))
-    new, on = found.scale > 0, some[found.scale > 0]
-    told = Senses(
-        *(_scatter_field(a, on, b[new]) for a, b in zip(told, spins.at(some).told(found.phi), strict=True))
-    )
-    z = np.where(found.scale < 1, np.nan, found.z.T).T[new]
-    c = strength(contacts, 1.0, told.open[on], told.sense[on])
-    slip = slip._replace(
-        z=_scatter_field(slip.z, on, z),
-        c=_scatter_field(slip.c, on, c),
-        x=_scatter_field(slip.x, on, multiplier(Response(*(a[new] for a in here)), c * z)),
-        determinant=_scatter_field(slip.determinant, on, found.determinant[new]),
-        critical=_scatter_field(slip.critical, on, np.where(found.scale < 1, found.scale, np.nan)[new]),
-        single=_scatter_field(slip.single, on, False),
-    )
-    return told, spins, slip
+    @property
+    def along(self) -> System:
+        """What the contacts act along."""
+        return self._response[0]
 
+    @cached_property
+    def r(self) -> Response:
+        """Response of reactions and arguments to friction at each position; none where it is not unique."""
+        r = self._response[1]
+        r = r._replace(y=np.where(self.blocked[:, None, None], np.nan, r.y))
+        return repeat(r, len(self.stated.w))
 
-class Side(NamedTuple):
-    """One side of the positions: the senses (P, E) there of contacts whose rates do not tell, and which those are."""
+    @cached_property
+    def blocked(self) -> Flags:
+        """Positions where a reaction that friction follows is not unique."""
+        forces, read = self.stated.forces, np.abs(self.contacts.read).max(axis=(0, 1), initial=0.0)
+        if not isinstance(forces, PseudoInverse):
+            return np.zeros(len(self.stated.w), bool)
+        free = np.abs(forces.null[..., np.flatnonzero(read), :])
+        return np.asarray(free.max(axis=(-2, -1), initial=0.0) > UNIQUE)
 
-    sense: Array
-    known: Flags
+    @cached_property
+    def bare(self) -> Array:
+        """Multipliers without friction."""
+        return without_friction(self.contacts, self.r)
 
-    def of(self, told: Senses) -> Senses:
-        """The senses that rates tell, and these where they do not."""
-        sense = np.where(self.known, self.sense, told.sense)
-        return Senses(sense, told.open & ~self.known, told.rate)
+    @cached_property
+    def bare_balance(self) -> Balance:
+        """Equilibrium without friction."""
+        return self._check(self.bare, self.stated.w)
 
+    def _check(self, x: Array, w: Array) -> Balance:
+        c, given = self.c.layout, (self.forcing, self.known, self.pose, self.moving, self.stated)
+        return check_equilibrium(c, *given, x, w)
 
-def _contact_senses(s: Setting, along: System, r: Response, side: Side | None) -> tuple[Senses, Spins | None]:
-    """Senses of the contacts; rods between balls spin as the balls' friction lets them."""
-    layout, contacts = s.c.layout, s.contacts
+    def solution(
+        self, r: Response, side: SlipState | None = None, where: Any = EVERY
+    ) -> tuple[FrictionSolution, SpinningRods | None]:
+        """Friction from the response at some positions, on one ``side`` of them; with rods that spin the branch is
+        followed with them where it ends or leaves a moment."""
+        contacts = self.contacts
+        state, rods = self._state(r, side, where)
+        found = slipping(contacts, r, state)
+        if rods is None:
+            return found, None
+        left = np.abs(found.x[..., rods.row]).max(axis=-1) > SAME * np.abs(found.x).max(axis=-1)
+        some = np.flatnonzero(~state.open.any(axis=-1) & (np.isfinite(found.critical) | left))
+        if some.size:
+            here = at(repeat(r, len(state.open)), some)
+            branch = follow_branch_with_spin(contacts, here, state.open[some], rods.at(some))
+            on = branch.critical != 0
+            found = put(found, some[on], at(branch, on))._replace(iterations=found.iterations)
+        return found, rods
 
-    def senses_of(twist: Array) -> Senses:
-        told = senses(layout, contacts, along, twist)
-        return told if side is None else side.of(told)
+    def _state(
+        self, r: Response, side: SlipState | None, where: Any
+    ) -> tuple[SlipState, SpinningRods | None]:
+        """Senses of the contacts; rods between balls spin as the balls' friction lets them."""
+        layout, contacts, pose = self.c.layout, self.contacts, self.pose.at(where)
+        along, twist = self.along.at(where), self.moving.twist[where]
 
-    told = senses_of(s.moving.twist)
-    found = rods(layout, contacts, s.pose, along, told.rate) if s.c.passive else None
-    if found is None:
-        return told, None
+        def state(twist: Array) -> SlipState:
+            found = senses(layout, contacts, along, twist)
+            if side is None:
+                return found
+            sense = np.where(side.open, found.sense, side.sense)
+            return found._replace(sense=sense, open=found.open & side.open)
 
-    def senses_at(phi: Array) -> Senses:
-        return senses_of(with_spin(s.moving.twist, found, phi))
+        rods = spinning_rods(layout, pose, along, twist, state) if self.c.passive else None
+        if rods is None:
+            return state(twist), None
 
-    def moment(phi: Array) -> Array:
-        now = senses_at(phi)
-        return np.nan_to_num(slipping(contacts, r, now.sense, now.open).x[..., found.row])
+        def moment(phi: Array) -> Array:
+            return np.nan_to_num(slipping(contacts, r, rods.senses(phi)).x[..., rods.row])
 
-    return senses_at(solve_spins(found.rate.shape, moment)), Spins(found, senses_at)
+        return rods.senses(solve_spins(rods.rate.shape, moment)), rods
 
+    def with_self_locking(self, found: FrictionSolution, side: SlipState | None = None) -> FrictionSolution:
+        """The solution, with where friction turns the power of the unknowns round, also without inertia."""
+        locked = self._power_reversed(self.stated, self.bare, found)
+        if "inertia" in self.sources and locked.any():
+            still, rate = self.statement("inertia"), rates(self.along, self.moving.twist)
+            r = under(self.c.layout, self.contacts, self.pose, still.forces, still.w, rate, self.r)
+            bare = without_friction(self.contacts, r)
+            locked = locked & self._power_reversed(still, bare, self.solution(r, side)[0])
+        return found._replace(locked=locked)
 
-def _undetermined(contacts: Contacts, stated: Statement) -> Flags:
-    """Positions where a reaction that friction follows is not unique."""
-    count = stated.w.shape[0]
-    if not isinstance(stated.forces, PseudoInverse):
-        return np.zeros(count, bool)
-    if contacts.read is not None:
-        read = np.flatnonzero(np.abs(contacts.read).max(axis=(0, 1), initial=0.0))
-    else:
-        read = np.concatenate([contacts.first, contacts.second, contacts.couple])
-        read = np.unique(read[read >= 0])
-    return np.asarray(np.abs(stated.forces.null[..., read, :]).max(axis=(-2, -1), initial=0.0) > UNIQUE)
+    def _power_reversed(self, stated: Statement, bare: Array, found: FrictionSolution) -> Flags:
+        twist = self.moving.twist
+        return np.asarray(power_reversed(self.c.layout, stated.unknown, twist, stated.w, found.x, bare))
 
-
-def _open(made: _Made, found: Solved, open_: Ints, spins: Spins | None) -> Forces:
-    """Both sides of the positions where the machine moves and contacts only reverse; both ends of every unknown where
-    contacts stay at rest."""
-    told = found.told
-    at_side = _sides(made, told, open_, spins)
-    rest = told.open[open_] & ~at_side.known
-    turns: Flags = np.asarray(at_side.known.any(axis=-1))
-    both = _both_sides(made, found, open_[turns], at_side.at(turns), rest[turns])
-    if rest[turns].any():
-        loaded = np.zeros_like(told.open)
-        loaded[open_[turns]] = rest[turns]
-        idle = [_idle(made.s.contacts, made.r, side.slip, loaded)[open_[turns]] for side in both]
-        turns[turns] = np.all(idle, axis=0)
-        both = _both_sides(made, found, open_[turns], at_side.at(turns), rest[turns])
-    turn, stay = open_[turns], open_[~turns]
-    reversing = None
-    if turn.size:
-        before, behind = both
-        found = before
-        known = _scatter_field(np.zeros_like(told.open), turn, at_side.known[turns])
-        same = _idle(made.s.contacts, made.r, before.slip, known)[:, None]
-        reversing = known & (before.told.sense != behind.told.sense) & ~same
-    whole = _with_ends(made, found, stay, spins, reversing) if stay.size else made.forces(found, reversing)
-    if reversing is None or not reversing.any():
-        return whole
-    return whole._replace(after=_scatter_forces(whole, turn, made.forces(behind, reversing)))
-
-
-def _scatter_forces(whole: Forces, where: Ints, part: Forces) -> Forces:
-    """Forces and friction of another solution at some positions; elsewhere they stay, found at rest or not."""
-    assert whole.friction is not None
-    assert part.friction is not None
-    pairs = zip((*whole[:7], *whole.friction), (*part[:7], *part.friction), strict=True)
-    made: Any = [_scatter_field(a, where, b[where]) for a, b in pairs]
-    return Forces._make([*made[:7], *part[7:9], Friction(*made[7:]), (), part.unique_in, None])
-
-
-def _both_sides(made: _Made, found: Solved, turn: Ints, at_side: Sides, rest: Flags) -> list[Solved]:
-    """Friction just before and just after some positions; contacts that stay at ``rest`` there carry nothing."""
-    if not turn.size:
-        return []
-    told, known = found.told, np.zeros_like(found.told.open)
-    known[turn] = at_side.known | rest
-    senses_ = (np.where(rest, 0.0, sense) for sense in (at_side.before, at_side.after))
-    sides_ = (Side(_scatter_field(told.sense, turn, sense), known) for sense in senses_)
-    return [made.on_side(found.slip, told, turn, side) for side in sides_]
-
-
-def _sides(made: _Made, told: Senses, open_: Ints, spins: Spins | None) -> Sides:
-    """Senses of the open contacts before and after; none is known where the machine does not move."""
-    s = made.s
-    moving = Motion(*(a[open_] for a in s.moving))
-    driven = Driven(*(a[open_] for a in s.driven))
-    known = Senses(*(a[open_] for a in told))
-    spun_: Flags = np.zeros(s.contacts.count, bool)
-    if spins is not None:
-        spun_ = np.asarray(spins.rods.touched.any(axis=0))
-    here = _at(made.along, open_), s.pose.at(open_), moving, driven
-    found = sides(s.c.layout, s.contacts, *here, known, spun_)
-    return found._replace(known=found.known & s.moves[open_][:, None])
-
-
-def _at(along: System, where: Ints) -> System:
-    """The rows at some positions."""
-    return along._replace(on_i=along.on_i[where], on_j=along.on_j[where])
-
-
-def _with_ends(
-    made: _Made, found: Solved, open_: Ints, spins: Spins | None, reversing: Flags | None
-) -> Forces:
-    """Both ends of every unknown at the open positions; where all are one, the number itself."""
-    s, contacts = made.s, made.s.contacts
-    unknowns = range(s.c.layout.constraints.count, made.r.x.shape[-1])
-    part = Response(*(a[open_] for a in made.r))
-    known = Senses(*(a[open_] for a in found.told))
-    ends = [
-        extreme(s.c.layout, contacts, part, known, unknown, end, spins and spins.at(open_))
-        for unknown in unknowns
-        for end in (-1.0, 1.0)
-    ]
-    if not ends:
-        return made.forces(found, reversing)
-    one = _idle(contacts, part, ends[0].slip, known.open)
-    told = found.told._replace(
-        open=_scatter_field(found.told.open, open_[one], np.zeros_like(known.open[one]))
-    )
-    main = Solved(_scatter(found.slip, open_[one], ends[0].slip, one), told, found.locked)
-    whole = [
-        made.forces(
-            Solved(
-                _scatter(found.slip, open_, end.slip, slice(None)),
-                told._replace(sense=_scatter_field(told.sense, open_, end.sense)),
-                found.locked,
-            ),
-            reversing,
-        )
-        for end in ends
-    ]
-    solved = made.forces(main, reversing)
-    assert solved.friction is not None
-    if spins is None:
-        values = np.stack(
-            [end.slip.x[:, k] for end, k in zip(ends, np.repeat(unknowns, 2), strict=True)], axis=-1
-        )
-        solved.friction.holding[open_] = holding(contacts, part, known, values.reshape((len(values), -1, 2)))
-    return solved._replace(ends=tuple(whole))
-
-
-def _idle(contacts: Contacts, r: Response, slip: Slip, open_: Flags) -> Flags:
-    """Where contacts of unknown sense carry nothing, so that it does not matter."""
-    y = argument(r, slip.c * np.nan_to_num(slip.z))
-    carried = np.where(open_ & (slip.c != 0), np.abs(bearing(contacts, y)), 0.0).max(axis=-1, initial=0.0)
-    return np.asarray(carried <= SAME * np.abs(y).max(axis=(-2, -1), initial=0.0))
-
-
-def _scatter(whole: Slip, where: Ints, part: Slip, which: Any) -> Slip:
-    return Slip(*(_scatter_field(a, where, b[which]) for a, b in zip(whole, part, strict=True)))
-
-
-def _scatter_field(whole: Array, where: Ints, part: Any) -> Array:
-    """A copy with other values at some positions."""
-    out = np.array(whole)
-    out[where] = part
-    return out
-
-
-class Solved(NamedTuple):
-    """Friction under some senses of the contacts; ``locked`` (P,) as in ``Friction``."""
-
-    slip: Slip
-    told: Senses
-    locked: Flags
-
-
-class _Made(NamedTuple):
-    """What does not depend on the senses taken."""
-
-    s: Setting
-    stated: Statement
-    along: System
-    r: Response
-    blocked: Flags
-    bare: Array
-
-    def on_side(self, slip: Slip, told: Senses, turn: Ints, side: Side) -> Solved:
-        """Friction with the senses of a side at the positions ``turn``, as it is elsewhere."""
-        s = self.s
-        here = s._replace(pose=s.pose.at(turn), moving=Motion(*(a[turn] for a in s.moving)))
-        r, own = Response(*(a[turn] for a in self.r)), Side(*(a[turn] for a in side))
-        found, _, part = _solve_slip(here, _at(self.along, turn), r, own)
-        slip = _scatter(slip, turn, part, slice(None))
-        told = Senses(*(_scatter_field(a, turn, b) for a, b in zip(told, found, strict=True)))
-        return Solved(slip, told, self.find_self_locking(slip, side))
-
-    def find_self_locking(self, slip: Slip, side: Side | None = None) -> Flags:
-        """Where friction turns the power of the unknowns round, also without inertia."""
-        s = self.s
-        locked = self._power_reversed(self.stated, self.r, slip)
-        if "inertia" not in s.sources or not locked.any():
-            return locked
-        w = total_wrench(s.c.layout, *(source for kind, source in s.sources.items() if kind != "inertia"))
-        w = np.broadcast_to(w, self.stated.w.shape)
-        still = statement(s.c.layout, s.known, s.pose, s.rows, s.solver, w)
-        rate = rates(self.along, s.moving.twist)
-        r = under(s.c.layout, s.contacts, s.pose, still.forces, still.w, rate, self.r)
-        return locked & self._power_reversed(still, r, _solve_slip(s, self.along, r, side)[2])
-
-    def _power_reversed(self, stated: Statement, r: Response, slip: Slip) -> Flags:
-        s, bare = self.s, without_friction(self.s.contacts, r)
-        return np.asarray(power_reversed(s.c.layout, stated.unknown, s.moving.twist, stated.w, slip.x, bare))
-
-    def forces(self, found: Solved, reversing: Flags | None = None) -> Forces:
+    def forces(self, found: FrictionSolution, reversing: Flags | None = None) -> Forces:
         """Reactions, efforts and what friction does, of one solution."""
-        s, layout, slip = self.s, self.s.c.layout, found.slip
-        cz = slip.c * slip.z
-        total = self.stated.w + total_wrench(layout, pair(self.along, cz))
-        whole = check_equilibrium(layout, s.forcing, s.known, s.pose, s.moving, self.stated, slip.x, total)
-        force, couple = reactions(layout, s.pose, s.rows, whole)
+        layout, cz = self.c.layout, found.c * found.z
+        whole = self._check(found.x, self.stated.w + total_wrench(layout, pair(self.along, cz)))
+        force, couple = reactions(layout, self.pose, self.rows, whole)
+        known_by = marks(self.c, self.pose, self.rows, whole.free)
         friction = self._friction(found, cz, reversing)
-        known_by = marks(s.c, s.pose, s.rows, whole.free)
-        force = force + friction.force + friction.viscous_force
-        moment = couple.reshape(friction.moment.shape) + friction.moment + friction.viscous_moment
-        checks = (whole.residual, whole.power_balance, whole.rcond)
         return Forces(
-            force,
-            moment,
-            whole.effort,
-            whole.load,
-            *checks,
-            *known_by[:2],
-            friction,
+            force=force + friction.force + friction.viscous_force,
+            moment=couple.reshape(friction.moment.shape) + friction.moment + friction.viscous_moment,
+            effort=whole.effort,
+            load=whole.load,
+            residual=whole.residual,
+            power_balance=whole.power_balance,
+            rcond=whole.rcond,
+            unique=known_by.reactions,
+            unique_unknowns=known_by.others,
+            friction=friction,
             unique_in=known_by.inside,
         )
 
-    def _friction(self, found: Solved, cz: Array, reversing: Flags | None) -> Friction:
-        s, contacts, slip, told = self.s, self.s.contacts, found.slip, found.told
-        bare = check_equilibrium(
-            s.c.layout, s.forcing, s.known, s.pose, s.moving, self.stated, self.bare, self.stated.w
-        )
-        dry = np.where(contacts.fixed, 0.0, cz)
-        joints, link = s.c.layout.joints, s.c.second
-        force, moment = in_joints(s.c.layout, s.pose, self.along, contacts.joint, link, s.c.joint_at, dry)
-        own = viscous(s.c.layout, s.c.damping, s.pose, s.moving.twist, link, s.c.joint_at)
+    def _friction(self, found: FrictionSolution, cz: Array, reversing: Flags | None) -> Friction:
+        layout, contacts, state = self.c.layout, self.contacts, found.state
+        rubbing = np.where(contacts.fixed, 0.0, cz)
+        force, moment = dry(layout, contacts, self.pose, self.along, rubbing)
+        viscous_force, viscous_moment, viscous_loss = viscous(layout, contacts, self.pose, self.moving.twist)
         return Friction(
-            force,
-            moment,
-            *own[:2],
-            by_joint(contacts.joint, joints, -dry * told.rate),
-            own[2],
-            dry,
-            told.sense,
-            told.rate,
-            argument(self.r, cz),
-            *(slip.determinant, slip.critical, slip.iterations, slip.single),
-            told.open,
-            np.zeros_like(told.open) if reversing is None else reversing,
-            self.blocked,
-            found.locked,
-            bare.effort,
-            bare.load,
-            np.full((len(cz), slip.x.shape[-1] - s.c.layout.constraints.count, 2), np.nan),
+            force=force,
+            moment=moment,
+            viscous_force=viscous_force,
+            viscous_moment=viscous_moment,
+            dry_loss=by_joint(contacts.joint, layout.joints, -rubbing * state.rate),
+            viscous_loss=viscous_loss,
+            cz=rubbing,
+            sense=state.sense,
+            rate=state.rate,
+            argument=argument(self.r, cz),
+            determinant=found.determinant,
+            critical=found.critical,
+            iterations=found.iterations,
+            single=found.single,
+            open=state.open,
+            reversing=np.zeros_like(state.open) if reversing is None else reversing,
+            blocked=self.blocked,
+            locked=found.locked,
+            bare_effort=self.bare_balance.effort.copy(),
+            bare_load=self.bare_balance.load.copy(),
+            holding=np.full((len(cz), len(self.unknowns), 2), np.nan),
         )
+
+    @property
+    def unknowns(self) -> range:
+        """Multipliers of the efforts and loads that are asked for."""
+        return range(self.c.layout.constraints.count, self.bare.shape[-1])
+
+
+def friction_equilibrium(p: FrictionProblem) -> Forces:
+    """Forces with friction; with both sides of reversals and both ends of what friction leaves open."""
+    found, rods = p.solution(p.r)
+    open_ = found.state.open.any(axis=-1)
+    found.x[open_], found.z[open_], found.critical[open_] = np.nan, np.nan, np.nan
+    found = p.with_self_locking(found)
+    return _open(p, found, np.flatnonzero(open_), rods) if open_.any() else p.forces(found)
+
+
+def _open(p: FrictionProblem, found: FrictionSolution, open_: Ints, rods: SpinningRods | None) -> Forces:
+    """Both sides of the positions where the machine moves and contacts only reverse; both ends of every unknown where
+    contacts stay at rest."""
+    before, after = _sides(p, found, open_, rods)
+    rest = found.state.open[open_] & before.open
+    turns: Flags = np.asarray(~before.open.all(axis=-1))
+    both = _both_sides(p, found, open_, (before, after), turns)
+    if rest[turns].any():
+        loaded = put(np.zeros_like(found.state.open), open_[turns], rest[turns])
+        idle = [_idle(p.contacts, p.r, side, loaded)[open_[turns]] for side in both]
+        turns[turns] = np.all(idle, axis=0)
+        both = _both_sides(p, found, open_, (before, after), turns)
+    turn, stay = open_[turns], open_[~turns]
+    reversing = None
+    if turn.size:
+        found, behind = both
+        known = put(np.zeros_like(found.state.open), turn, ~before.open[turns])
+        same = _idle(p.contacts, p.r, found, known)[:, None]
+        reversing = known & (found.state.sense != behind.state.sense) & ~same
+    whole = _with_ends(p, found, stay, rods, reversing) if stay.size else p.forces(found, reversing)
+    if reversing is None or not reversing.any():
+        return whole
+    return whole._replace(after=_after(whole, p.forces(behind, reversing), turn))
+
+
+def _after(whole: Forces, behind: Forces, turn: Ints) -> Forces:
+    """Forces and friction just after reversals; at other positions they stay, found at rest or not."""
+    names = ["force", "moment", "effort", "load", "residual", "power_balance", "rcond", "friction"]
+    numbers: Any = {n: put(getattr(whole, n), turn, at(getattr(behind, n), turn)) for n in names}
+    return behind._replace(**numbers)
+
+
+def _both_sides(
+    p: FrictionProblem, found: FrictionSolution, open_: Ints, both: tuple[SlipState, SlipState], turns: Flags
+) -> list[FrictionSolution]:
+    """Friction just before and just after some of the open positions; contacts that stay at rest there carry
+    nothing."""
+    turn, out = open_[turns], []
+    for side in (at(side, turns) for side in both) if turn.size else ():
+        rest = found.state.open[turn] & side.open
+        known = side._replace(sense=np.where(rest, 0.0, side.sense), open=side.open & ~rest)
+        there, _ = p.solution(at(p.r, turn), known, turn)
+        everywhere = found.state._replace(open=np.ones_like(found.state.open))
+        out.append(p.with_self_locking(put(found, turn, there), put(everywhere, turn, known)))
+    return out
+
+
+def _sides(
+    p: FrictionProblem, found: FrictionSolution, open_: Ints, rods: SpinningRods | None
+) -> tuple[SlipState, SlipState]:
+    """Senses of the open contacts before and after; all are open where the machine does not move."""
+    c, part = p.c, p.part
+    spun = np.zeros(p.contacts.count, bool) if rods is None else np.asarray(rods.touched.any(axis=0))
+    driven = Driven(c.targets[part], c.schedule.speed[part], c.schedule.acceleration[part])
+    here = p.along.at(open_), p.pose.at(open_), at(p.moving, open_), at(driven, open_)
+    still = ~c.schedule.moves[part][open_][:, None]
+    both = sides(c.layout, p.contacts, *here, at(found.state, open_), spun)
+    before, after = (side._replace(open=side.open | still) for side in both)
+    return before, after
+
+
+def _with_ends(
+    p: FrictionProblem,
+    found: FrictionSolution,
+    open_: Ints,
+    rods: SpinningRods | None,
+    reversing: Flags | None,
+) -> Forces:
+    """Both ends of every unknown at the open positions; where all are one, the number itself."""
+    contacts, part, known = p.contacts, at(p.r, open_), at(found.state, open_)
+    spinning = None if rods is None else rods.at(open_)
+    ends = [
+        extreme(p.c.layout, contacts, part, known, unknown, end, spinning)
+        for unknown in p.unknowns
+        for end in (-1.0, 1.0)
+    ]
+    if not ends:
+        return p.forces(found, reversing)
+    one = _idle(contacts, part, ends[0], known.open)
+    at_rest = known._replace(open=known.open & ~one[:, None])
+    number = at(ends[0]._replace(state=at_rest), one)
+    whole = [put(found, open_, end._replace(state=at_rest._replace(sense=end.state.sense))) for end in ends]
+    solved = p.forces(put(found, open_[one], number), reversing)
+    assert solved.friction is not None
+    if rods is None:
+        x = np.stack([end.x[:, k] for end, k in zip(ends, np.repeat(p.unknowns, 2), strict=True)], axis=-1)
+        solved.friction.holding[open_] = holding(contacts, part, known, x.reshape((len(x), -1, 2)))
+    return solved._replace(ends=tuple(p.forces(end, reversing) for end in whole))
+
+
+def _idle(contacts: Contacts, r: Response, found: FrictionSolution, open_: Flags) -> Flags:
+    """Where contacts of unknown sense carry nothing, so that it does not matter."""
+    y = argument(r, found.c * np.nan_to_num(found.z))
+    carried = np.where(open_ & (found.c != 0), np.abs(bearing(contacts, y)), 0.0).max(axis=-1, initial=0.0)
+    return np.asarray(carried <= SAME * np.abs(y).max(axis=(-2, -1), initial=0.0))
 
 
 def block_size(c: Compiled, most: int) -> int:

@@ -110,7 +110,7 @@ def power_lost(result: Result, joint: str, kind: Loss = "all") -> Array:
 def bearing_contact(result: Result, joint: str, kind: str) -> int:
     """Index of a joint's contact of a kind."""
     _, contacts = friction_of(result)
-    for e, found in enumerate(result.compiled.contact_kinds):
+    for e, found in enumerate(contacts.kind):
         if result.joints[contacts.joint[e]] == joint and found == kind:
             return e
     raise ModelError(
@@ -227,7 +227,7 @@ def rubs_of(result: Result, joint: str, position: int) -> tuple[Rub, ...]:
     strong = strength(contacts, 1.0, f.open[position], f.sense[position])
     for e in (e for e in range(contacts.count) if contacts.joint[e] == k and not contacts.fixed[e]):
         mu = (contacts.resting if f.open[position, e] else contacts.coefficient)[e]
-        part, kind = float(f.sense[position, e]), result.compiled.contact_kinds[e]
+        part, kind = float(f.sense[position, e]), contacts.kind[e]
         numbers = (float(size[e]), part, float(strong[e]), float(f.cz[position, e]))
         out.append(Rub(kind, float(mu), *numbers))
     return tuple(out)

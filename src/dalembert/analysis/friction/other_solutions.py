@@ -9,7 +9,7 @@ import numpy as np
 
 from dalembert.analysis.friction.fixed_point import contacts_in_motion
 from dalembert.arrays import Array
-from dalembert.core.friction.contact_equations import Response
+from dalembert.core.friction.contact_equations import repeat
 from dalembert.core.friction.friction_solver import roots
 from dalembert.errors import NUMBERED, ModelError
 
@@ -45,8 +45,7 @@ def other_solutions(r: Result, position: int = 0) -> list[Solution]:
     rng = np.random.default_rng(0)
     size = np.abs(problem.y).max() * 10 ** rng.uniform(-1, 4, (STARTS, 1))
     starts = size * rng.uniform(-1, 1, (STARTS, contacts.count))
-    many = Response(*(np.broadcast_to(a, (STARTS, *a.shape[1:])) for a in problem))
-    z, x, determinant = roots(contacts, many, np.broadcast_to(sense, starts.shape), starts)
+    z, x, determinant = roots(contacts, repeat(problem, STARTS), np.broadcast_to(sense, starts.shape), starts)
     z = np.where(contacts.fixed, 0.0, z)
     count, asked = r.compiled.layout.constraints.count, r.compiled.known.asked
     names = [*(d for d, a in zip(r.drives, asked, strict=True) if a), *r.unknown_loads]

@@ -1,6 +1,9 @@
-"""Wrenches that follow the joints' own reactions: dry friction, and the separation of teeth beside it.
+"""Dry friction by Coulomb's law as one more load on the linear system of equilibrium: the equations of its contacts.
 
-Mechanics: docs/theory.md 6 and 5.4.
+The friction of a contact is its strength (a coefficient, or the radius of a friction circle) times its bearing force,
+against the slip. The bearing force is a piecewise smooth function of the reactions, which depend on friction in turn.
+Elimination of everything else leaves one equation a contact, for semi-smooth Newton (Qi and Sun, 1993). Besides,
+the separating force of gear teeth is such a contact, with a fixed sense. Mechanics: docs/theory.md 6 and 5.4.
 
 A contact e acts along one row with c z, so that  A x + w + B c z = 0  and  z = -s S(y),  y = Y x.  With A factored
 once, x = x0 - A^-1 B c z leaves a small system in z at every position, solved for all of them at once.
@@ -15,6 +18,7 @@ H   change of y with c z (..., 3, E, E): -Y A^-1 B
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,7 +27,7 @@ from dalembert.arrays import Array, Flags, Ints
 from dalembert.core import branchless
 from dalembert.core.branchless import above, hypot, larger, root, top, unit, where
 from dalembert.core.constraints import drift, measure, rates, system
-from dalembert.core.forcing import Source, total_wrench
+from dalembert.core.forcing import Resistances, Source, total_wrench
 from dalembert.core.layout import Layout, Pose, Rows, System
 from dalembert.core.linear import Factor
 
@@ -40,59 +44,63 @@ TINY = 1e-150
 
 @dataclass(frozen=True)
 class Contacts:
-    """The contacts of a mechanism, E of them.
+    """The contacts of a mechanism of the plane or in space, E of them.
 
     rows        what each acts along: a turn, a slide, the line of centres of two wheels
+    kind (E,)   pin, guide, faces, mesh, separation, collar, ball, thread
     joint (E,)  the joint it belongs to
-    first, second, couple (E,)  multipliers its arguments are read from; -1 where it has none
-    tilt (E, 2) parts of the couple and of the first force in the tilting force
-    gain (E,)   factor on its forces
+    read (3, E, K)  Y: its arguments of the constraints' multipliers
     lever (E,)  strength at a coefficient of one; radius of a pin
     coefficient, resting (E,)  of friction in motion and at rest
     circle (E,) strength lever sin(atan(mu)), else lever mu
     signed (E,) S is the first force with its sign: the couple of the two faces of a guide
+    ball (E,)   its three arguments are the components of one force
     fixed (E,)  not friction: strength is the lever whatever the scale, sense -1
     led (E,)    contact whose rate tells its sense: itself, or the slide to which a couple of faces belongs
-    reach (E,)  where positive: its forces hold at this distance of the centres and fall as it grows
-    read (3, E, K)  in space, in place of first to gain: its arguments of the constraints' multipliers
-    ball (E,)   its three arguments are the components of one force
+    reach (E,)  where positive: its first force holds at this distance of the centres and falls as it grows
     group (E,)  contacts of one number share a slip: each has its part of the direction of it, by ``reckoned`` (E,),
                 the length that turns its rate into a speed
     around (E,) it is of a group that goes along and around an axis with friction circles of R sin(phi)
     carried (E,)  contact whose friction it carries too, as its second force: the slide of a block on a pin; -1 none
     viscous (E,)  damping of that slide, whose force it carries with it
+    link, at (joints,), (joints, d)  link j of each joint of the mechanism, and the arm of the joint's point on it
+    damping     viscous friction of the joints beside
     """
 
     rows: Rows
+    kind: tuple[str, ...]
     joint: Ints
-    first: Ints
-    second: Ints
-    couple: Ints
-    tilt: Array
-    gain: Array
+    read: Array
     lever: Array
     coefficient: Array
     resting: Array
     circle: Flags
     signed: Flags
+    ball: Flags
     fixed: Flags
     led: Ints
     reach: Array
-    read: Array | None = None
-    ball: Flags | None = None
-    group: Ints | None = None
-    reckoned: Array | None = None
-    around: Flags | None = None
-    carried: Ints | None = None
-    viscous: Array | None = None
+    group: Ints
+    reckoned: Array
+    around: Flags
+    carried: Ints
+    viscous: Array
+    link: Ints
+    at: Array
+    damping: Resistances
 
     @property
     def count(self) -> int:
         """E."""
         return len(self.joint)
 
+    @cached_property
+    def grouped(self) -> bool:
+        """Whether some contacts share a slip."""
+        return len(np.unique(self.group)) < self.count
 
-class Senses(NamedTuple):
+
+class SlipState(NamedTuple):
     """Sense of each contact, 0 where ``open``: there is no relative rate to tell it; rate (..., E) of each."""
 
     sense: Array
@@ -109,7 +117,7 @@ class Response(NamedTuple):
     h: Array
 
 
-def senses(layout: Layout, contacts: Contacts, along: System, twist: Array) -> Senses:
+def senses(layout: Layout, contacts: Contacts, along: System, twist: Array) -> SlipState:
     """Senses of the contacts from the twists of all links (..., L+1, n)."""
     rate = rates(along, twist)
     return _senses(contacts, rate, _below(layout, contacts, rate, STILL * fastest(layout, twist)))
@@ -117,7 +125,7 @@ def senses(layout: Layout, contacts: Contacts, along: System, twist: Array) -> S
 
 def next_senses(
     layout: Layout, contacts: Contacts, along: System, pose: Pose, twist: Array, acceleration: Array
-) -> Senses:
+) -> SlipState:
     """Senses of the second rates: those just behind a place where the first are zero, and the opposite just before."""
     second = rates(along, acceleration) + drift(layout.algebra, contacts.rows, pose, twist)
     speed = fastest(layout, twist)
@@ -129,9 +137,9 @@ def passing(layout: Layout, contacts: Contacts, twist: Array, rate: Array, secon
     """Contacts (..., E) whose rate passes through zero here: within ``STILL`` of the time in which the fastest link
     moves by the characteristic length."""
     speed, size = fastest(layout, twist) / (STILL * layout.length), np.abs(second)
-    if contacts.group is None:
-        return np.asarray((~above(speed * np.abs(rate), size) & ~contacts.fixed)[..., contacts.led])
-    return ~above(speed * _slip(contacts, rate), _slip(contacts, second))
+    if contacts.grouped:
+        return ~above(speed * _slip(contacts, rate), _slip(contacts, second))
+    return np.asarray((~above(speed * np.abs(rate), size) & ~contacts.fixed)[..., contacts.led])
 
 
 def fastest(layout: Layout, twist: Array) -> Array:
@@ -145,19 +153,18 @@ def _below(layout: Layout, contacts: Contacts, rate: Array, least: Array) -> Fla
     return np.asarray((above(least + TINY, scaled) & ~contacts.fixed)[..., contacts.led])
 
 
-def _senses(contacts: Contacts, rate: Array, still: Flags) -> Senses:
+def _senses(contacts: Contacts, rate: Array, still: Flags) -> SlipState:
     """Senses of rates (..., E) of the contacts, some of which are ``still``."""
     holds = above(strength(contacts, 1.0, True), 0.0)
-    if contacts.group is not None:
+    if contacts.grouped:
         part, still = _along_slip(contacts, rate, still)
-        return Senses(part, still & holds, rate)
+        return SlipState(part, still & holds, rate)
     sense = np.where(contacts.fixed, -1.0, where(still, 0.0, branchless.sign(rate)[..., contacts.led]))
-    return Senses(sense, still & holds, rate)
+    return SlipState(sense, still & holds, rate)
 
 
 def _along_slip(contacts: Contacts, rate: Array, still: Flags) -> tuple[Array, Flags]:
     """Part of each contact in the direction of its group's slip, and the groups that do not slip at all."""
-    assert contacts.reckoned is not None
     part = sign(contacts, rate * contacts.reckoned, still)
     return part, ~moving_together(contacts, ~still)
 
@@ -171,7 +178,7 @@ def _slip(contacts: Contacts, rate: Array) -> Array:
 def sign(contacts: Contacts, value: Array, none: Flags) -> Array:
     """Sign of each value (..., E), 0 where ``none``; of a group of contacts its direction, a unit vector."""
     value = np.where(none, 0.0, value)
-    if contacts.group is None:
+    if not contacts.grouped:
         return np.sign(value)
     size = np.sqrt((value * value) @ _together(contacts))
     return np.asarray(value / np.where(size > 0, size, 1.0))
@@ -179,20 +186,19 @@ def sign(contacts: Contacts, value: Array, none: Flags) -> Array:
 
 def moving_together(contacts: Contacts, moves: Flags) -> Flags:
     """Whether a contact (..., E), or another of its group, moves."""
-    if contacts.group is None:
+    if not contacts.grouped:
         return moves
     return np.asarray(moves.astype(float) @ _together(contacts) > 0)
 
 
 def _together(contacts: Contacts) -> Array:
     """1 where two contacts (E, E) are of one group."""
-    assert contacts.group is not None
     return np.asarray((contacts.group[:, None] == contacts.group).astype(float))
 
 
 def impending(contacts: Contacts, g: Array, moves: Flags) -> Array:
     """Part of each contact (..., E) in the impending slip of rates -g."""
-    if contacts.group is None:
+    if not contacts.grouped:
         return np.where(moves, -np.sign(g)[..., contacts.led], 0.0)
     return _along_slip(contacts, -g, ~moves)[0]
 
@@ -207,7 +213,7 @@ def strength(
     """
     mu = scale * np.where(resting, contacts.resting, contacts.coefficient)
     friction = np.where(contacts.circle, mu / root(1 + mu * mu), mu)
-    if sense is not None and contacts.around is not None and contacts.around.any():
+    if sense is not None and contacts.around.any():
         turning = (mu * sense * (contacts.around & contacts.rows.angular)) ** 2 @ _together(contacts)
         friction = friction / np.sqrt(1 + turning)
     return np.asarray(contacts.lever * np.where(contacts.fixed, 1.0, friction))
@@ -224,11 +230,12 @@ def response(
     change = [_multipliers(forces, _unit(layout, along, e)) for e in range(contacts.count)]
     by_contact = np.stack(np.broadcast_arrays(*change), axis=-2)  # (..., E, X)
     near = _near(layout, contacts, pose)
-    h = np.swapaxes(np.stack(_arguments(contacts, by_contact, near[..., None, :]), axis=-3), -1, -2)
+    read = np.swapaxes(_read_arguments(contacts, by_contact, near[..., None, :]), -2, -3)
+    h = np.swapaxes(np.ascontiguousarray(read), -1, -2)
     for e, slide in _carrying(contacts):
         h[..., 1, e, slide] += 1.0
     x = _multipliers(forces, w)
-    y = _bearing(contacts, x, near, rates(along, twist))
+    y = _read(contacts, x, near, rates(along, twist))
     return along, Response(x, np.swapaxes(by_contact, -1, -2), y, h)
 
 
@@ -237,22 +244,24 @@ def under(
 ) -> Response:
     """The response under other wrenches w (..., L, n), at rates (..., E) of the contacts."""
     x = _multipliers(forces, w)
-    return like._replace(x=x, y=_bearing(contacts, x, _near(layout, contacts, pose), rate))
+    return like._replace(x=x, y=_read(contacts, x, _near(layout, contacts, pose), rate))
 
 
-def _bearing(contacts: Contacts, x: Array, near: Array, rate: Array) -> Array:
+def repeat(r: Response, count: int) -> Response:
+    """The response at so many positions, of one given for all of them."""
+    return Response(*(np.broadcast_to(a, (count, *a.shape[1:])) for a in r))
+
+
+def _read(contacts: Contacts, x: Array, near: Array, rate: Array) -> Array:
     """y of multipliers x, with the viscous forces at rates (..., E) of the contacts."""
-    y = np.stack(_arguments(contacts, x, near), axis=-2)
+    y = _read_arguments(contacts, x, near)
     for e, slide in _carrying(contacts):
-        assert contacts.viscous is not None
         y[..., 1, e] = y[..., 1, e] - contacts.viscous[e] * rate[..., slide]
     return y
 
 
 def _carrying(contacts: Contacts) -> list[tuple[int, int]]:
     """Contacts that carry the force of another one, with that one."""
-    if contacts.carried is None:
-        return []
     return [(e, int(slide)) for e, slide in enumerate(contacts.carried) if slide >= 0]
 
 
@@ -276,25 +285,20 @@ def _unit(layout: Layout, along: System, e: int) -> Array:
     )
 
 
-def _arguments(contacts: Contacts, x: Array, near: Array) -> list[Array]:
-    """y of multipliers x (..., X), each part (..., E)."""
-
-    def read(which: Ints) -> Array:
-        return np.where(which >= 0, x[..., which], 0.0)
-
-    if contacts.read is not None:
-        parts = np.einsum("aek,...k->...ae", contacts.read, x[..., : contacts.read.shape[-1]])
-        return [parts[..., k, :] for k in range(3)]
-    first = read(contacts.first) * contacts.gain * near
-    second = read(contacts.second) * contacts.gain
-    tilting = contacts.tilt[:, 0] * read(contacts.couple) + contacts.tilt[:, 1] * first
-    return [first, second, tilting]
+def _read_arguments(contacts: Contacts, x: Array, near: Array) -> Array:
+    """y (..., 3, E) of multipliers x (..., X)."""
+    count = contacts.read.shape[-1]
+    y = (x[..., :count] @ contacts.read.reshape(-1, count).T).reshape(
+        *x.shape[:-1], *contacts.read.shape[:-1]
+    )
+    y[..., 0, :] = y[..., 0, :] * near
+    return np.asarray(y)
 
 
 def bearing(contacts: Contacts, y: Array) -> Array:
     """S (..., E) of arguments (..., 3, E)."""
     force = hypot(y[..., 0, :], y[..., 1, :])
-    if contacts.ball is not None:
+    if contacts.ball.any():
         return np.where(contacts.ball, hypot(force, y[..., 2, :]), force)
     return np.where(contacts.signed, y[..., 0, :], larger(force, np.abs(y[..., 2, :])))
 
@@ -305,7 +309,7 @@ def slope(contacts: Contacts, y: Array, largest: Array) -> tuple[Array, Array]:
     Almost 0 where a contact carries nothing beside the ``largest`` (...) of all arguments.
     """
     least = NOTHING * largest[..., None] + TINY
-    if contacts.ball is not None:
+    if contacts.ball.any():
         return _round_slope(contacts, y, least)
     first, second, force = unit(y[..., 0, :], y[..., 1, :], least)
     tilt, _, tilting = unit(y[..., 2, :], np.zeros_like(y[..., 2, :]), least)
@@ -317,7 +321,6 @@ def slope(contacts: Contacts, y: Array, largest: Array) -> tuple[Array, Array]:
 
 def _round_slope(contacts: Contacts, y: Array, least: Array) -> tuple[Array, Array]:
     """Derivative of the size of a force of two or three components, and the size."""
-    assert contacts.ball is not None
     y = y * np.where(np.arange(3)[:, None] < 2, True, contacts.ball)
     size = np.sqrt((y * y).sum(axis=-2))
     return y / np.maximum(size, least)[..., None, :], size
@@ -353,7 +356,7 @@ def correction(r: Response, steep: Array, sense: Array, off: Array, solve: Any) 
 def levers(contacts: Contacts, h: Array) -> Array:
     """Bounds (..., E, E) of the change of S with what H (..., 3, E, E) is after."""
     lever = np.maximum(np.hypot(h[..., 0, :, :], h[..., 1, :, :]), np.abs(h[..., 2, :, :]))
-    if contacts.ball is not None:
+    if contacts.ball.any():
         lever = np.where(contacts.ball[:, None], np.sqrt((h * h).sum(axis=-3)), lever)
     return np.where(contacts.signed[:, None], np.abs(h[..., 0, :, :]), lever)
 

@@ -7,19 +7,21 @@ stays on the physical branch, and ends where it ends: at the critical scale the 
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from dalembert.arrays import Array, Flags, Ints
+from dalembert.arrays import Array, Flags, Ints, at
 from dalembert.core.friction.contact_equations import (
     Contacts,
     Response,
+    SlipState,
     argument,
     bearing,
     correction,
     jacobian,
     multiplier,
+    repeat,
     slope,
     spread,
     strength,
@@ -50,13 +52,14 @@ SMALLEST = 1e-10
 """Step of the friction scale below which the branch has ended."""
 
 
-class Slip(NamedTuple):
-    """z (P, E), c (P, E), the multipliers x (P, X), what came of it.
+class FrictionSolution(NamedTuple):
+    """Friction in one state of the contacts: z (P, E), c (P, E), the multipliers x (P, X), what came of it.
 
     determinant: det(A + J) / det(A); iterations of Newton; critical: friction scale where the branch ends, NaN where
-    it does not before 1; single: proved to be the only solution.
+    it does not before 1; single: proved to be the only solution; locked: it turns the power of the unknowns round.
     """
 
+    state: SlipState
     z: Array
     c: Array
     x: Array
@@ -64,17 +67,17 @@ class Slip(NamedTuple):
     iterations: Ints
     critical: Array
     single: Flags
+    locked: Flags
 
 
-class Try(NamedTuple):
-    """Newton's answer; ``landing``, where its first step led; ``ahead``, the determinant of that step."""
+class NewtonResult(NamedTuple):
+    """Newton's answer; near: it ended almost where its first step led, and that step passed no singular point."""
 
     z: Array
     arrived: Flags
     determinant: Array
     iterations: Ints
-    landing: Array
-    ahead: Array
+    near: Flags
 
 
 def without_friction(contacts: Contacts, r: Response) -> Array:
@@ -86,9 +89,10 @@ def without_friction(contacts: Contacts, r: Response) -> Array:
     return multiplier(r, c * newton(contacts, r, sense, c, np.zeros_like(sense)).z)
 
 
-def slipping(contacts: Contacts, r: Response, sense: Array, resting: Array) -> Slip:
-    """Friction at each position; sense (P, E), where ``resting`` (P, E) with the coefficients at rest."""
-    r = Response(*(np.broadcast_to(a, (len(sense), *a.shape[1:])) for a in r))
+def slipping(contacts: Contacts, r: Response, state: SlipState) -> FrictionSolution:
+    """Friction at each position of known senses; contacts of the ``state`` that are open have coefficients at rest."""
+    sense, resting = state.sense, state.open
+    r = repeat(r, len(sense))
     c = np.broadcast_to(strength(contacts, 1.0, resting, sense), sense.shape)
     first = newton(contacts, r, sense, c, np.zeros_like(sense))
     single = spread(contacts, strong(r, c * np.abs(sense))) < 1
@@ -101,7 +105,8 @@ def slipping(contacts: Contacts, r: Response, sense: Array, resting: Array) -> S
         z[rest], determinant[rest], count[rest] = part.z, part.determinant, part.iterations
         critical[rest] = np.where(part.arrived, np.nan, scale)
         z[rest[~part.arrived]] = np.nan
-    return Slip(z, c, multiplier(r, c * z), determinant, count, critical, single)
+    x, locked = multiplier(r, c * z), np.zeros(len(sense), bool)
+    return FrictionSolution(state, z, c, x, determinant, count, critical, single, locked)
 
 
 def roots(contacts: Contacts, r: Response, sense: Array, starts: Array) -> tuple[Array, Array, Array]:
@@ -112,11 +117,6 @@ def roots(contacts: Contacts, r: Response, sense: Array, starts: Array) -> tuple
     return cz, multiplier(at(r, found.arrived), cz), found.determinant[found.arrived]
 
 
-def at(r: Response, where: Any) -> Response:
-    """Of some positions."""
-    return Response(*(a[where] for a in r))
-
-
 def newton(
     contacts: Contacts,
     r: Response,
@@ -125,7 +125,7 @@ def newton(
     z: Array,
     before: Array | None = None,
     most: int = NEWTON,
-) -> Try:
+) -> NewtonResult:
     """Newton on z + s S(y0 + H c z) = 0 from z, all positions together.
 
     S is homogeneous: S = slope . y. The first step takes the slope at ``before``, the arguments of a solution close
@@ -134,10 +134,10 @@ def newton(
     count = np.zeros(len(sense), np.intp)
     arrived = np.zeros(len(sense), bool)
     r = strong(r, c)
-    y, landing, ahead = argument(r, z), z, np.ones(len(sense))
+    start, landing, y, ahead = z, z, argument(r, z), np.ones(len(sense))
     for k in range(most):
-        at = y if k or before is None else before
-        steep, _ = slope(contacts, at, _largest(at))
+        kink = y if k or before is None else before
+        steep, _ = slope(contacts, kink, _largest(kink))
         if k == 0 and before is not None:
             ahead = np.linalg.det(np.nan_to_num(jacobian(r, steep, sense)))
         step = correction(r, steep, sense, z + sense * (steep * y).sum(axis=-2), solve_square)
@@ -155,14 +155,17 @@ def newton(
             break
     steep, _ = slope(contacts, y, _largest(y))
     determinant = np.linalg.det(np.nan_to_num(jacobian(r, steep, sense)))
-    return Try(np.where(arrived[:, None], z, np.nan), arrived, determinant, count, landing, ahead)
+    near = arrived if before is None else arrived & (ahead > 0) & _goes_on(start, landing, z)
+    return NewtonResult(np.where(arrived[:, None], z, np.nan), arrived, determinant, count, near)
 
 
 def _largest(y: Array) -> Array:
     return np.asarray(np.abs(y).max(axis=(-2, -1), initial=0.0))
 
 
-def _follow_branch(contacts: Contacts, r: Response, sense: Array, resting: Array) -> tuple[Try, Array]:
+def _follow_branch(
+    contacts: Contacts, r: Response, sense: Array, resting: Array
+) -> tuple[NewtonResult, Array]:
     """The branch from scale 0 to 1 and the scale it reaches."""
     count = len(sense)
     scale, step = np.zeros(count), np.full(count, LONGEST)
@@ -177,21 +180,16 @@ def _follow_branch(contacts: Contacts, r: Response, sense: Array, resting: Array
         part, raised = at(r, on), strength(contacts, aim[:, None], resting[on], sense[on])
         before = argument(part, c[on] * z[on])
         new = newton(contacts, part, sense[on], raised, z[on], before, 10)
-        good = new.arrived & (new.determinant > 0) & _same_branch(z[on], new)
+        good = new.near & (new.determinant > 0)
         iterations[on] += new.iterations
         kept = on[good]
         z[kept], determinant[kept] = new.z[good], new.determinant[good]
         scale[kept], c[kept] = aim[good], raised[good]
         step[on] = np.where(good, np.minimum(2 * step[on], LONGEST), step[on] / 2)
-    return Try(z, scale >= 1, determinant, iterations, z, determinant), scale
+    return NewtonResult(z, scale >= 1, determinant, iterations, scale >= 1), scale
 
 
-def _same_branch(start: Array, new: Try) -> Flags:
-    """Whether Newton went almost where its first step led, or went hardly anywhere.
-
-    A first step whose determinant is not positive leads past where forces go beyond all bounds.
-    """
-    first, more, size = (
-        np.abs(a).max(axis=-1, initial=0.0) for a in (new.landing - start, new.z - new.landing, new.z)
-    )
-    return np.asarray((new.ahead > 0) & ((more <= BENT * first) | (first + more <= SHORT * size)))
+def _goes_on(start: Array, landing: Array, end: Array) -> Flags:
+    """Whether Newton went almost where its first step led, or went hardly anywhere."""
+    first, more, size = (np.abs(a).max(axis=-1, initial=0.0) for a in (landing - start, end - landing, end))
+    return np.asarray((more <= BENT * first) | (first + more <= SHORT * size))

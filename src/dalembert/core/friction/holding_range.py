@@ -15,11 +15,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from dalembert.arrays import Array, Flags, Ints
+from dalembert.arrays import Array, Flags, Ints, at
 from dalembert.core.friction.contact_equations import (
     Contacts,
     Response,
-    Senses,
+    SlipState,
     argument,
     bearing,
     levers,
@@ -50,13 +50,6 @@ MOST = 10**6
 """Numbers in the tables of the positions at once."""
 
 
-class State(NamedTuple):
-    """Friction t (B, E) of a batch of states; open (B,): that there is no furthest one."""
-
-    t: Array
-    open: Flags
-
-
 class _Rest(NamedTuple):
     """The contacts and a response whose t are of numbers around one; c (E,) in the same; the contacts of their own
     friction (F,)."""
@@ -67,17 +60,17 @@ class _Rest(NamedTuple):
     own: Ints
 
     def at(self, which: Any) -> _Rest:
-        return self._replace(r=Response(*(a[which] for a in self.r)))
+        return self._replace(r=at(self.r, which))
 
 
-def holding(contacts: Contacts, r: Response, known: Senses, ends: Array) -> Array:
+def holding(contacts: Contacts, r: Response, known: SlipState, ends: Array) -> Array:
     """Low and high (P, U, 2) of the last U multipliers, whose ``ends`` (P, U, 2) at impending motion are known.
 
     Infinite where there is no bound. NaN where a contact moves: its friction is at its limit, whatever its history; and
     where friction of one contact has several directions.
     """
     own = np.asarray(~contacts.fixed & (strength(contacts, 1.0, True) > 0))
-    if contacts.group is not None and len(np.unique(contacts.group[own])) < own.sum():
+    if len(np.unique(contacts.group[own])) < own.sum():
         return np.full(ends.shape, np.nan)
     free = np.asarray((known.open | ~own).all(axis=-1) & np.isfinite(r.y).all(axis=(-2, -1)))
     out = np.where(free[:, None, None], ends, np.nan)
@@ -124,8 +117,8 @@ def _best(rest: _Rest, ends: Array, outward: Array) -> Array:
     starts = seen.shape[1]
     every = np.repeat(np.arange(count), starts * many)
     q = np.repeat(ends[:, None], starts, axis=1).reshape(len(every), -1)
-    found = _furthest(rest.at(every), q, np.repeat(seen.reshape(count * starts, -1), many, axis=0))
-    value = np.where(found.open, np.inf, (q * found.t).sum(axis=-1))
+    t, unbounded = _furthest(rest.at(every), q, np.repeat(seen.reshape(count * starts, -1), many, axis=0))
+    value = np.where(unbounded, np.inf, (q * t).sum(axis=-1))
     return np.asarray(value.reshape(count, starts, many).max(axis=1))
 
 
@@ -163,29 +156,21 @@ def _extreme_states(rest: _Rest, q: Array) -> Array:
     """States (P, K + 1, E): without friction, and the furthest from there of gains q (P, K, E)."""
     bare = _bare(rest)
     every = np.repeat(np.arange(len(bare)), q.shape[1])
-    found = _furthest(rest.at(every), q.reshape(len(every), -1), bare[every])
-    return np.concatenate([bare[:, None], found.t.reshape(q.shape)], axis=1)
+    t, _ = _furthest(rest.at(every), q.reshape(len(every), -1), bare[every])
+    return np.concatenate([bare[:, None], t.reshape(q.shape)], axis=1)
 
 
-class _Limits(NamedTuple):
-    """Ways (B, E, F) of t with those of the own contacts; g (B, M, F) times a change of these is at most h (B, M)."""
-
-    ways: Array
-    g: Array
-    h: Array
-
-
-def _furthest(rest: _Rest, q: Array, t: Array) -> State:
-    """The states with the largest q . t that are reached from t (B, E)."""
+def _furthest(rest: _Rest, q: Array, t: Array) -> tuple[Array, Flags]:
+    """The states with the largest q . t that are reached from t (B, E), and where there is no furthest one (B,)."""
     t, open_ = t.copy(), np.zeros(len(t), bool)
     on, idle, sides = np.arange(len(t)), np.zeros(len(t), int), None
     size = np.abs(q).sum(axis=-1)
     for _ in range(ROUNDS):
         part = rest.at(on)
         sides = _slopes(part, t[on], sides)
-        limits = _limits(part, t[on], sides)
-        way, unbounded = furthest(limits.g, limits.h, (q[on, None, :] @ limits.ways)[:, 0])
-        new = _exact(part, t[on] + (limits.ways @ way[..., None])[..., 0])
+        ways, g, h = _limits(part, t[on], sides)
+        way, unbounded = furthest(g, h, (q[on, None, :] @ ways)[:, 0])
+        new = _exact(part, t[on] + (ways @ way[..., None])[..., 0])
         gain = ((new - t[on]) * q[on]).sum(axis=-1)
         gained = gain > GAIN * size[on]
         t[on] = np.where((gained | unbounded)[:, None], new, t[on])
@@ -195,7 +180,7 @@ def _furthest(rest: _Rest, q: Array, t: Array) -> State:
         on, sides = on[kept], sides[kept]
         if not on.size:
             break
-    return State(t, open_)
+    return t, open_
 
 
 def _slopes(rest: _Rest, t: Array, before: Array | None) -> Array:
@@ -221,8 +206,9 @@ def _exact(rest: _Rest, t: Array) -> Array:
     return _at_parts(rest, part, rest.c, t)[0]
 
 
-def _limits(rest: _Rest, t: Array, steep: Array) -> _Limits:
-    """What changes of t the contacts allow, their bearing forces taken along the slopes."""
+def _limits(rest: _Rest, t: Array, steep: Array) -> tuple[Array, Array, Array]:
+    """What changes of t the contacts allow, their bearing forces taken along the slopes: ways (B, E, F) of t with those
+    of the own contacts; g (B, M, F) times a change of these is at most h (B, M)."""
     contacts, own, c = rest.contacts, rest.own, rest.c
     count, each = t.shape
     bears = (steep * argument(rest.r, t)).sum(axis=-2)
@@ -240,4 +226,4 @@ def _limits(rest: _Rest, t: Array, steep: Array) -> _Limits:
     mine, turned, limit = ways[:, own], turn[:, own] @ ways, bears[:, own]
     g = np.concatenate([mine - turned, -mine - turned, -(turn[:, fixed] @ ways)], axis=1)
     h = np.concatenate([limit - t[:, own], limit + t[:, own], bears[:, fixed]], axis=1)
-    return _Limits(ways, g, np.maximum(h, 0.0))
+    return ways, g, np.maximum(h, 0.0)

@@ -7,7 +7,7 @@ import numpy as np
 from dalembert.arrays import Array, Ints
 from dalembert.core.branchless import above, top
 from dalembert.core.constraints import rates, system
-from dalembert.core.forcing import Resistances
+from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.layout import Layout, Pose, System
 
 POWERLESS = 1e-9
@@ -15,12 +15,26 @@ POWERLESS = 1e-9
 rounding."""
 
 
-def in_joints(
-    layout: Layout, pose: Pose, along: System, joint: Ints, link: Ints, at: Array, effort: Array
+def dry(layout: Layout, contacts: Contacts, pose: Pose, along: System, effort: Array) -> tuple[Array, Array]:
+    """Force (..., joints, d) and moment about j's point (..., joints; in space with 3 components) on j of the contacts'
+    efforts (..., E)."""
+    return _in_joints(layout, contacts, contacts.joint, pose, along, effort)
+
+
+def viscous(layout: Layout, contacts: Contacts, pose: Pose, twist: Array) -> tuple[Array, Array, Array]:
+    """Force, moment and lost power of the joints' own damping."""
+    own = contacts.damping
+    rows = system(layout.algebra, layout.freedoms, pose).rows(own.row)
+    joint, rate = layout.freedoms.joint[own.row], rates(rows, twist)
+    force, moment = _in_joints(layout, contacts, joint, pose, rows, -own.damping * rate)
+    return force, moment, by_joint(joint, layout.joints, own.damping * rate * rate)
+
+
+def _in_joints(
+    layout: Layout, contacts: Contacts, joint: Ints, pose: Pose, along: System, effort: Array
 ) -> tuple[Array, Array]:
-    """Force (..., joints, d) and moment about j's point (..., joints; in space with 3 components) on j of efforts
-    (..., K) along rows; ``link`` (joints,) is the link j of each joint, ``at`` (joints, d) the arm of its point."""
-    g, lead = layout.algebra, effort.shape[:-1]
+    """Forces and moments on j of efforts (..., K) along rows of some joints (K,)."""
+    g, lead, link = layout.algebra, effort.shape[:-1], contacts.link
     force = np.zeros((*lead, layout.joints, g.d), effort.dtype)
     couple = np.zeros((*lead, layout.joints, g.n - g.d), effort.dtype)
     for e, k in enumerate(joint):
@@ -30,7 +44,7 @@ def in_joints(
         if along.angular[e]:
             couple[..., k, :] += wrench[..., g.d :]
         elif g.d == 3:
-            arm = g.rotate(pose.rotation[..., link[k], :], at[k])
+            arm = g.rotate(pose.rotation[..., link[k], :], contacts.at[k])
             couple[..., k, :] += wrench[..., 3:] - g.cross(arm, wrench[..., :3])
     return force, couple[..., 0] if g.d == 2 else couple
 
@@ -41,17 +55,6 @@ def by_joint(joint: Ints, joints: int, values: Array) -> Array:
     for e, k in enumerate(joint):
         out[..., k] += values[..., e]
     return out
-
-
-def viscous(
-    layout: Layout, own: Resistances, pose: Pose, twist: Array, link: Ints, at: Array
-) -> tuple[Array, Array, Array]:
-    """Force, moment and lost power of the joints' own damping; ``link``, ``at`` as above."""
-    rows = system(layout.algebra, layout.freedoms, pose).rows(own.row)
-    joint = layout.freedoms.joint[own.row]
-    rate = rates(rows, twist)
-    force, moment = in_joints(layout, pose, rows, joint, link, at, -own.damping * rate)
-    return force, moment, by_joint(joint, layout.joints, own.damping * rate * rate)
 
 
 def power_reversed(layout: Layout, unknown: System, twist: Array, w: Array, x: Array, bare: Array) -> Array:

@@ -7,14 +7,14 @@ positions a little before and after; a contact that has none there stays at rest
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from dalembert.arrays import Array, Flags
+from dalembert.arrays import Array, Flags, at
 from dalembert.core.constraints import system
 from dalembert.core.equilibrium import Motion, motion
-from dalembert.core.friction.contact_equations import Contacts, Senses, next_senses, passing, senses, sign
+from dalembert.core.friction.contact_equations import Contacts, SlipState, next_senses, passing, senses, sign
 from dalembert.core.layout import Layout, Pose, System
 from dalembert.core.position.newton import CLOSED, close_loops, displace
 
@@ -30,18 +30,6 @@ class Driven(NamedTuple):
     acceleration: Array
 
 
-class Sides(NamedTuple):
-    """Senses (P, E) of contacts just before and just after each position, and of which contacts they are known."""
-
-    before: Array
-    after: Array
-    known: Flags
-
-    def at(self, some: Any) -> Sides:
-        """Of some positions."""
-        return Sides(*(a[some] for a in self))
-
-
 def sides(
     layout: Layout,
     contacts: Contacts,
@@ -49,39 +37,40 @@ def sides(
     pose: Pose,
     moving: Motion,
     driven: Driven,
-    told: Senses,
+    now: SlipState,
     spun: Flags,
-) -> Sides:
-    """Senses on both sides of positions where some contact is open: of it, and of all that pass through zero with it.
+) -> tuple[SlipState, SlipState]:
+    """Senses just before and just after positions where some contact is open: of it, and of all that pass through zero
+    with it; the others are open.
 
     spun (E,): contacts of rods that spin, whose second rates are not those of the motion.
     """
     turning = next_senses(layout, contacts, along, pose, moving.twist, moving.acceleration)
-    passes = passing(layout, contacts, moving.twist, told.rate, turning.rate) & ~turning.open
-    here = passes & (told.open | ~spun)
-    slow = told.open & ~here & ~turning.open  # it hardly moves, but it does, and on for a while
-    now = _sign(contacts, told.rate)
-    before, after = (np.where(slow, now, side) for side in (-turning.sense, turning.sense))
-    known, rest = here | slow, told.open & turning.open
+    passes = passing(layout, contacts, moving.twist, now.rate, turning.rate) & ~turning.open
+    here = passes & (now.open | ~spun)
+    slow = now.open & ~here & ~turning.open  # it hardly moves, but it does, and on for a while
+    slowly = _sign(contacts, now.rate)
+    before, after = (np.where(slow, slowly, side) for side in (-turning.sense, turning.sense))
+    known, rest = here | slow, now.open & turning.open
     some = np.flatnonzero(rest.any(axis=-1))
     if some.size:
-        where = pose.at(some), Motion(*(a[some] for a in moving)), Driven(*(a[some] for a in driven))
+        where = pose.at(some), at(moving, some), at(driven, some)
         last, next_ = (_aside(layout, contacts, *where, sign) for sign in (-1.0, 1.0))
         for side, found in ((before, last), (after, next_)):
             side[some] = np.where(rest[some], found.sense, side[some])
         known[some] |= rest[some] & ~last.open & ~next_.open
-    return Sides(before, after, known & ~contacts.fixed)
+    open_ = ~known | contacts.fixed
+    return SlipState(before, open_, now.rate), SlipState(after, open_, now.rate)
 
 
 def _sign(contacts: Contacts, rate: Array) -> Array:
     """Senses of rates that tell them, however small."""
-    reckoned = 1.0 if contacts.reckoned is None else contacts.reckoned
-    return sign(contacts, rate * reckoned, rate == 0)[..., contacts.led]
+    return sign(contacts, rate * contacts.reckoned, rate == 0)[..., contacts.led]
 
 
 def _aside(
     layout: Layout, contacts: Contacts, pose: Pose, moving: Motion, driven: Driven, sign: float
-) -> Senses:
+) -> SlipState:
     """Senses a little before (sign -1) or after the positions; open where the linkage does not close there."""
     dt = _moment(layout, moving)[:, None]
     ahead, bent = sign * dt, dt * dt / 2

@@ -11,13 +11,14 @@ s   spin, tan(phi) times the fastest rate of the rod's balls
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
-from dalembert.arrays import Array, Flags, Ints
-from dalembert.core.friction.contact_equations import Contacts, Response, Senses, multiplier, strength
-from dalembert.core.friction.friction_solver import LONGEST, Try, newton
+from dalembert.arrays import Array, Flags, Ints, at, put
+from dalembert.core.friction.contact_equations import Contacts, Response, SlipState, multiplier, strength
+from dalembert.core.friction.friction_solver import LONGEST, FrictionSolution, NewtonResult, newton
 from dalembert.core.geometry import arm
 from dalembert.core.layout import Idle, Layout, Pose, System
 from dalembert.core.linear import solve_square
@@ -44,64 +45,58 @@ SPUN, FAR, ALMOST, CLOSE = 8, 0.3, 1e-9, 1e-7
 """Newton's steps on the spins, their largest change, when they have arrived, and the step of their differences."""
 
 
-class Rods(NamedTuple):
-    """Rods that spin in balls with friction: rows, links, directions (P, k, 3), whose contacts (k, E), rates (P, k).
-
-    The rate is the fastest of the rod's balls.
-    """
+class SpinningRods(NamedTuple):
+    """Rods that spin in balls with friction: rows, directions (P, k, 3), whose contacts (k, E), rates (P, k) of the
+    fastest of the rod's balls, and the state of the contacts where they spin at phi (P, k)."""
 
     row: Ints
-    link: Ints
     line: Array
     touched: Flags
     rate: Array
+    senses: Callable[[Array], SlipState]
 
-    def fastest(self, rate: Array) -> Array:
-        """The fastest (..., k) of a rod's contacts, of rates (..., E)."""
-        return np.asarray(np.where(self.touched, np.abs(rate)[..., None, :], 0.0).max(axis=-1))
-
-
-class Spins(NamedTuple):
-    """Rods that spin, and the senses of the contacts where they spin at phi (P, k)."""
-
-    rods: Rods
-    told: Callable[[Array], Senses]
-
-    def at(self, some: Ints) -> Spins:
+    def at(self, some: Ints) -> SpinningRods:
         """Of some positions."""
 
-        def senses_at(phi: Array) -> Senses:
-            every = np.zeros(self.rods.rate.shape)
-            every[some] = phi
-            return Senses(*(a[some] for a in self.told(every)))
+        def senses(phi: Array) -> SlipState:
+            return at(self.senses(put(np.zeros(self.rate.shape), some, phi)), some)
 
-        return Spins(self.rods, senses_at)
+        return self._replace(line=self.line[some], rate=self.rate[some], senses=senses)
 
     def spin_rates(self, r: Response, rate: Array, phi: Array) -> Array:
         """What spins at phi add to the rates (P, E) of an impending motion: a unit of spin turns each contact as far
         as the contact's couple turns the rod."""
-        unit = r.change[..., self.rods.row, :]
-        return np.asarray(((self.rods.fastest(rate) * np.tan(phi))[..., None] * unit).sum(axis=-2))
+        unit = r.change[..., self.row, :]
+        return np.asarray(((_fastest(self.touched, rate) * np.tan(phi))[..., None] * unit).sum(axis=-2))
 
 
-def rods(layout: Layout, contacts: Contacts, pose: Pose, along: System, rate: Array) -> Rods | None:
-    """The rods whose balls rub; None without any."""
-    for f in layout.constraints.families:
-        if isinstance(f, Idle):
-            touched = (along.i == f.j[:, None]) | (along.j == f.j[:, None])
-            which = np.flatnonzero(touched.any(axis=1))
-            if which.size:
-                line = arm(layout.algebra, pose, f.j, f.p)[..., which, :]
-                found = Rods(f.row[which], f.j[which], line, touched[which], rate)
-                return found._replace(rate=found.fastest(rate))
-    return None
+def _fastest(touched: Flags, rate: Array) -> Array:
+    """The fastest (..., k) of the contacts that each rod touches (k, E), of rates (..., E)."""
+    return np.asarray(np.where(touched, np.abs(rate)[..., None, :], 0.0).max(axis=-1))
 
 
-def with_spin(twist: Array, found: Rods, phi: Array) -> Array:
-    """The twists (P, L+1, 6) with the rods spinning at phi (P, k)."""
-    out = twist.copy()
-    out[..., found.link, 3:] += (found.rate * np.tan(phi))[..., None] * found.line
-    return out
+def spinning_rods(
+    layout: Layout, pose: Pose, along: System, twist: Array, senses: Callable[[Array], SlipState]
+) -> SpinningRods | None:
+    """The rods whose balls rub; None without any. ``senses``: of the contacts at a twist of the links."""
+    idle = [f for f in layout.constraints.families if isinstance(f, Idle)]
+    if not idle:
+        return None
+    f = idle[0]
+    touched = (along.i == f.j[:, None]) | (along.j == f.j[:, None])
+    which = np.flatnonzero(touched.any(axis=1))
+    if not which.size:
+        return None
+    line = arm(layout.algebra, pose, f.j, f.p)[..., which, :]
+    rate = _fastest(touched[which], senses(twist).rate)
+
+    def spun(phi: Array) -> SlipState:
+        """Of the rods spinning at phi."""
+        turning = twist.copy()
+        turning[..., f.j[which], 3:] += (rate * np.tan(phi))[..., None] * line
+        return senses(turning)
+
+    return SpinningRods(f.row[which], line, touched[which], rate, spun)
 
 
 def solve_spins(shape: tuple[int, ...], moment: Callable[[Array], Array]) -> Array:
@@ -163,71 +158,57 @@ def _bracket_root(moment: Callable[[Array], Array], shape: tuple[int, ...]) -> A
     return np.where(none, 0.0, np.where(np.abs(at_low) < np.abs(at_high), low, high))
 
 
-class Raised(NamedTuple):
-    """Where the branch with spinning rods ends: spins phi (P, k), friction z (P, E), determinant and scale (P,)."""
-
-    phi: Array
-    z: Array
-    determinant: Array
-    scale: Array
-
-
-def follow_branch_with_spin(contacts: Contacts, r: Response, resting: Flags, spins: Spins) -> Raised:
+def follow_branch_with_spin(
+    contacts: Contacts, r: Response, resting: Flags, rods: SpinningRods
+) -> FrictionSolution:
     """The branch from no friction, the rods spinning all along as the balls let them.
 
-    It is followed as that of ``slip``: where no step of the scale of friction goes further it ends.
+    It is followed as that without spin: where no step of the scale of friction goes further it ends, at a critical
+    scale of 0 where there is none.
     """
+
+    def moment(scale: Array, z: Array, phi: Array) -> tuple[NewtonResult, Array]:
+        """Friction from z on where the rods spin at phi, and the moments (P, k) about their lines that it leaves."""
+        sense = rods.senses(phi).sense
+        c = strength(contacts, scale[:, None], resting, sense)
+        found = newton(contacts, r, sense, c, z, most=12)
+        return found, np.nan_to_num(multiplier(r, c * found.z)[..., rods.row])
+
+    largest = np.abs(r.x).max(axis=-1)
     z, count = np.zeros(resting.shape), len(resting)
-    row, least = spins.rods.row, np.full(count, FIRST)
-    phi = solve_spins(
-        (count, len(row)), lambda phi: _moment(contacts, r, resting, spins, _Aim(least, z, phi))[1]
-    )
-    scale, step, sign, determinant = np.zeros(count), least, np.zeros(count), np.ones(count)
+    step = np.full(count, FIRST)
+    phi = solve_spins((count, len(rods.row)), lambda phi: moment(step, z, phi)[1])
+    scale, sign, determinant = np.zeros(count), np.zeros(count), np.ones(count)
     while ((scale < 1) & (step > ENDED)).any():
         aim = np.where(step > ENDED, np.minimum(scale + step, 1.0), scale)
-        new, turned, there = _nested_newton(contacts, r, resting, spins, _Aim(aim, z, phi))
+        new, turned, there = _nested_newton(partial(moment, aim, z), phi, largest)
         near = (np.abs(turned - phi) < FAR).all(axis=-1)
         good = new.arrived & near & (new.determinant > 0) & (there * sign >= 0) & (aim > scale)
         phi = np.where(good[:, None], turned, phi)
         z, determinant = np.where(good[:, None], new.z, z), np.where(good, new.determinant, determinant)
         sign, scale = np.where(good, there, sign), np.where(good, aim, scale)
         step = np.where(good, np.minimum(2 * step, LONGEST), step / 2)
-    return Raised(phi, z, determinant, scale)
-
-
-class _Aim(NamedTuple):
-    """A scale of friction (P,), and friction z and spins phi to start from."""
-
-    scale: Array
-    z: Array
-    phi: Array
-
-
-def _moment(contacts: Contacts, r: Response, resting: Flags, spins: Spins, aim: _Aim) -> tuple[Try, Array]:
-    """Friction where the rods spin at phi, and the moments (P, k) about their lines that it leaves."""
-    sense = spins.told(aim.phi).sense
-    c = strength(contacts, aim.scale[:, None], resting, sense)
-    found = newton(contacts, r, sense, c, aim.z, most=12)
-    return found, np.nan_to_num(multiplier(r, c * found.z)[..., spins.rods.row])
+    ended, state = scale < 1, rods.senses(phi)
+    z, critical = np.where(ended[:, None], np.nan, z), np.where(ended, scale, np.nan)
+    c = strength(contacts, 1.0, resting, state.sense)
+    x, none = multiplier(r, c * z), np.zeros(count, np.intp)
+    return FrictionSolution(state, z, c, x, determinant, none, critical, none > 0, none > 0)
 
 
 def _nested_newton(
-    contacts: Contacts, r: Response, resting: Flags, spins: Spins, aim: _Aim
-) -> tuple[Try, Array, Array]:
+    moment: Callable[[Array], tuple[NewtonResult, Array]], phi: Array, largest: Array
+) -> tuple[NewtonResult, Array, Array]:
     """Newton on friction within Newton on the spins, whose derivatives are differences; sign of their determinant."""
-    phi, unit = aim.phi, np.eye(len(spins.rods.row))
-
-    def moment(tried: Array) -> tuple[Try, Array]:
-        return _moment(contacts, r, resting, spins, aim._replace(phi=tried))
-
     for _ in range(SPUN):
         _, here = moment(phi)
-        steep = np.stack([(moment(phi + CLOSE * e)[1] - here) / CLOSE for e in unit], axis=-1)
+        steep = np.stack(
+            [(moment(phi + CLOSE * e)[1] - here) / CLOSE for e in np.eye(phi.shape[-1])], axis=-1
+        )
         change = np.nan_to_num(solve_square(steep, -here))
         phi = phi + np.clip(change, -FAR, FAR)
         if (np.abs(change) < SETTLED).all():
             break
     found, left = moment(phi)
-    balanced = np.abs(left).max(axis=-1) <= ALMOST * np.abs(r.x).max(axis=-1)
+    balanced = np.abs(left).max(axis=-1) <= ALMOST * largest
     arrived = found.arrived & balanced & (np.abs(change).max(axis=-1) < ALMOST)
     return found._replace(arrived=arrived), phi, np.sign(np.linalg.det(steep))
