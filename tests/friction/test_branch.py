@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from dalembert.core.friction.contact_equations import Response, SlipState
-from dalembert.core.friction.friction_solver import slipping
+from dalembert.core.friction.friction_solver import solve_friction
 
 Array = Any
 
@@ -133,7 +133,7 @@ def test_the_branch_is_that_of_its_exact_pieces(
 ) -> None:
     contacts, r, sense = system(count, tilting, strong, seed)
     part = Response(*(a[which] for a in r))
-    found = slipping(contacts, part, moving(sense[which]))
+    found = solve_friction(contacts, part, moving(sense[which]))
     for k, n in enumerate(which):
         z, s = followed(r.y[n], r.h[n], sense[n])
         if z is None:
@@ -174,6 +174,6 @@ def test_the_branch_of_pins_ends_at_its_fold(n: int) -> None:
     """Two solutions meet there; beyond, and on the way back, there are others."""
     contacts, r, sense = system(2, 0.0, 1.0, 11, 1.0, 300)
     part = Response(*(a[[n]] for a in r))
-    found = slipping(contacts, part, moving(sense[[n]]))
+    found = solve_friction(contacts, part, moving(sense[[n]]))
     assert found.critical[0] == pytest.approx(climbed(r.y[n], r.h[n], sense[n]), abs=1e-6)
     assert np.isnan(found.z).all()

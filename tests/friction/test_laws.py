@@ -12,7 +12,7 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis.friction.fixed_point import contacts_at
-from dalembert.core.friction.friction_solver import slipping
+from dalembert.core.friction.friction_solver import solve_friction
 from tests.friction.oracle import branch, compared
 from tests.friction.rough import CYCLES, cycle, rough, rough_tree, still_tree, unlawful
 from tests.laws.measures import joint_wrenches, known_wrenches
@@ -259,7 +259,9 @@ def test_no_friction_within_its_limits_leaves_what_holds(seed: int) -> None:
     part = rng.uniform(-1, 1, (count, contacts.count))
     part[: count // 2] = np.sign(part[: count // 2])
     part = np.where(contacts.fixed, -1.0, part[:, contacts.led])
-    x = slipping(contacts, problem, told._replace(sense=part, open=np.broadcast_to(told.open, part.shape))).x
+    x = solve_friction(
+        contacts, problem, told._replace(sense=part, open=np.broadcast_to(told.open, part.shape))
+    ).x
     x = x[np.isfinite(x).all(axis=1)]
     assert len(x) >= 10
     first = r.compiled.layout.constraints.count

@@ -1,9 +1,11 @@
-"""Dry friction traced: the core's contact equations by unrolled Newton.
+"""Dry friction in a compiled analysis: semi-smooth Newton, unrolled to a fixed number of steps.
+
+The result is accepted where a sufficient condition for a unique solution holds (the fixed-point map is a contraction)
+and the last step is small; elsewhere it is in doubt, and the general executor decides.
 
 A contact's force changes the reactions of the links between it and the ground only, so the small system falls into
 blocks, each two-link group one of three or four contacts; each block is solved for itself, those that load others
-first. What the unrolled steps cannot be sure of is in doubt: a block whose fixed point is not surely a contraction
-(several solutions, a jam), a last step that is not small.
+first.
 """
 
 from __future__ import annotations
@@ -28,10 +30,10 @@ from dalembert.core.friction.contact_equations import (
     senses,
     slope,
     strength,
-    strong,
     under,
+    with_strength,
 )
-from dalembert.core.friction.losses import dry, power_reversed, viscous
+from dalembert.core.friction.losses import dry_wrenches, power_reversed, viscous_wrenches
 from dalembert.core.layout import Layout, Pose
 from dalembert.kernel.elimination import components, structural
 from dalembert.kernel.graph import CONSTANT, Graph, Node, is_zero, trace_array
@@ -94,7 +96,7 @@ def trace_friction(
         open_: Any = moves * trace_array(graph, state.open)
         state = state._replace(sense=reversals + moves * state.sense, open=open_)
     sense, c = trace_array(graph, state.sense), trace_array(graph, strength(contacts, 1.0))
-    z, bears, marks = trace_slip(graph, contacts, strong(r, c), sense, slips)
+    z, bears, marks = trace_slip(graph, contacts, with_strength(r, c), sense, slips)
     x = multiplier(r, c * z)
     unknown = layout.constraints.count < len(x) and slips is None
 
@@ -107,11 +109,11 @@ def trace_friction(
     if still is not None and not is_zero(turns):
         other = under(layout, contacts, pose, s.forces, still, state.rate, r)
         other = Response(*(trace_array(graph, a) for a in other))
-        alone, _, doubt = trace_slip(graph, contacts, strong(other, c), sense)
+        alone, _, doubt = trace_slip(graph, contacts, with_strength(other, c), sense)
         locked = turning(other, multiplier(other, c * alone), still)
         marks = marks if locked is turns else replace(marks, still=doubt.slips, locked=(locked,))
-    force, moment = dry(layout, contacts, pose, along, np.where(contacts.fixed, 0.0, c * z))
-    viscous_force, viscous_moment, _ = viscous(layout, contacts, pose, moving.twist)
+    force, moment = dry_wrenches(layout, contacts, pose, along, np.where(contacts.fixed, 0.0, c * z))
+    viscous_force, viscous_moment, _ = viscous_wrenches(layout, contacts, pose, moving.twist)
     rest, idle = _at_rest(graph, trace_array(graph, state.open), bears, top(np.abs(r.y), 2))
     return FrictionTrace(
         x=x,
@@ -138,7 +140,7 @@ def without(graph: Graph, contacts: Contacts, r: Response) -> Array:
         return r.x
     sense = trace_array(graph, np.where(contacts.fixed, -1.0, 0.0))
     c = trace_array(graph, strength(contacts, 0.0))
-    return multiplier(r, c * trace_slip(graph, contacts, strong(r, c), sense)[0])
+    return multiplier(r, c * trace_slip(graph, contacts, with_strength(r, c), sense)[0])
 
 
 def _at_rest(graph: Graph, open_: Array, bears: Array, largest: Array) -> tuple[tuple[Node, ...], ...]:

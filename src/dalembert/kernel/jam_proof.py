@@ -1,4 +1,4 @@
-"""Proof that friction jams, traced: that no friction forces are in equilibrium with the loads, whatever their size.
+"""A certificate that friction jams, as Farkas' lemma gives one: weights that show the equations to have no solution.
 
 Friction of known senses z = -s S has S = S(y0 + K S) >= 0 with K = -H s. S(y) >= e . y for every slope e of S, so any
 weights w >= 0 ask of a solution

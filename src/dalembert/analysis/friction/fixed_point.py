@@ -1,4 +1,4 @@
-"""The taught iteration of friction as a table: solve, set friction by the reactions found, solve again."""
+"""Fixed-point iteration of friction as a table, as it is taught: solve, set friction by the reactions, solve again."""
 
 from __future__ import annotations
 

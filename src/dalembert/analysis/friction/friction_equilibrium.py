@@ -39,10 +39,10 @@ from dalembert.core.friction.contact_equations import (
     senses,
     under,
 )
-from dalembert.core.friction.friction_solver import FrictionSolution, slipping, without_friction
+from dalembert.core.friction.friction_solver import FrictionSolution, solve_friction, without_friction
 from dalembert.core.friction.holding_range import holding
 from dalembert.core.friction.impending_motion import extreme
-from dalembert.core.friction.losses import by_joint, dry, power_reversed, viscous
+from dalembert.core.friction.losses import by_joint, dry_wrenches, power_reversed, viscous_wrenches
 from dalembert.core.friction.reversal import Driven, sides
 from dalembert.core.friction.rod_spin import SpinningRods, follow_branch_with_spin, solve_spins, spinning_rods
 from dalembert.core.layout import Pose, System
@@ -132,7 +132,7 @@ class FrictionProblem:
         followed with them where it ends or leaves a moment."""
         contacts = self.contacts
         state, rods = self._state(r, side, where)
-        found = slipping(contacts, r, state)
+        found = solve_friction(contacts, r, state)
         if rods is None:
             return found, None
         left = np.abs(found.x[..., rods.row]).max(axis=-1) > SAME * np.abs(found.x).max(axis=-1)
@@ -163,7 +163,7 @@ class FrictionProblem:
             return state(twist), None
 
         def moment(phi: Array) -> Array:
-            return np.nan_to_num(slipping(contacts, r, rods.senses(phi)).x[..., rods.row])
+            return np.nan_to_num(solve_friction(contacts, r, rods.senses(phi)).x[..., rods.row])
 
         return rods.senses(solve_spins(rods.rate.shape, moment)), rods
 
@@ -205,8 +205,10 @@ class FrictionProblem:
     def _friction(self, found: FrictionSolution, cz: Array, reversing: Flags | None) -> Friction:
         layout, contacts, state = self.c.layout, self.contacts, found.state
         rubbing = np.where(contacts.fixed, 0.0, cz)
-        force, moment = dry(layout, contacts, self.pose, self.along, rubbing)
-        viscous_force, viscous_moment, viscous_loss = viscous(layout, contacts, self.pose, self.moving.twist)
+        force, moment = dry_wrenches(layout, contacts, self.pose, self.along, rubbing)
+        viscous_force, viscous_moment, viscous_loss = viscous_wrenches(
+            layout, contacts, self.pose, self.moving.twist
+        )
         return Friction(
             force=force,
             moment=moment,

@@ -1,4 +1,4 @@
-"""Whether friction has other solutions than the physical one, and which."""
+"""Other solutions of friction's equations than the physical one: Newton from many random starts."""
 
 from __future__ import annotations
 

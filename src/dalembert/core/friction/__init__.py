@@ -1,4 +1,4 @@
-"""Dry friction around the same A: contacts, their semi-smooth equations, impending motion at rest, losses.
+"""Dry friction as a nonlinear load on the same linear system A x + w = 0: contacts, Newton, rest, losses.
 
 In: contacts, the factored A and the wrenches without friction. Out: friction forces and what is known of them.
 Imports ``algebra``, ``core``.

@@ -133,7 +133,7 @@ def next_senses(
     return _senses(contacts, second, _below(layout, contacts, second, STILL * size))
 
 
-def passing(layout: Layout, contacts: Contacts, twist: Array, rate: Array, second: Array) -> Flags:
+def zero_crossings(layout: Layout, contacts: Contacts, twist: Array, rate: Array, second: Array) -> Flags:
     """Contacts (..., E) whose rate passes through zero here: within ``STILL`` of the time in which the fastest link
     moves by the characteristic length."""
     speed, size = fastest(layout, twist) / (STILL * layout.length), np.abs(second)
@@ -166,7 +166,7 @@ def _senses(contacts: Contacts, rate: Array, still: Flags) -> SlipState:
 def _along_slip(contacts: Contacts, rate: Array, still: Flags) -> tuple[Array, Flags]:
     """Part of each contact in the direction of its group's slip, and the groups that do not slip at all."""
     part = sign(contacts, rate * contacts.reckoned, still)
-    return part, ~moving_together(contacts, ~still)
+    return part, ~group_moves(contacts, ~still)
 
 
 def _slip(contacts: Contacts, rate: Array) -> Array:
@@ -184,7 +184,7 @@ def sign(contacts: Contacts, value: Array, none: Flags) -> Array:
     return np.asarray(value / np.where(size > 0, size, 1.0))
 
 
-def moving_together(contacts: Contacts, moves: Flags) -> Flags:
+def group_moves(contacts: Contacts, moves: Flags) -> Flags:
     """Whether a contact (..., E), or another of its group, moves."""
     if not contacts.grouped:
         return moves
@@ -196,7 +196,7 @@ def _together(contacts: Contacts) -> Array:
     return np.asarray((contacts.group[:, None] == contacts.group).astype(float))
 
 
-def impending(contacts: Contacts, g: Array, moves: Flags) -> Array:
+def impending_senses(contacts: Contacts, g: Array, moves: Flags) -> Array:
     """Part of each contact (..., E) in the impending slip of rates -g."""
     if not contacts.grouped:
         return np.where(moves, -np.sign(g)[..., contacts.led], 0.0)
@@ -336,7 +336,7 @@ def multiplier(r: Response, cz: Array) -> Array:
     return np.asarray(r.x + (r.change @ cz[..., None])[..., 0])
 
 
-def strong(r: Response, c: Array) -> Response:
+def with_strength(r: Response, c: Array) -> Response:
     """The response with H after z itself, for strengths c (..., E)."""
     return r._replace(h=r.h * c[..., None, None, :])
 
@@ -361,7 +361,7 @@ def levers(contacts: Contacts, h: Array) -> Array:
     return np.where(contacts.signed[:, None], np.abs(h[..., 0, :, :]), lever)
 
 
-def spread(contacts: Contacts, r: Response) -> Array:
+def spectral_bound(contacts: Contacts, r: Response) -> Array:
     """Bound (...) of the spectral radius of the fixed point, from H after z without its sign.
 
     Below 1 there is one solution, at any smaller scale too.

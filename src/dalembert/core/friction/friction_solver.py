@@ -1,8 +1,9 @@
-"""Friction forces with known senses: semi-smooth Newton at all positions at once, continued in the friction scale.
+"""Friction forces for known senses of slip: semi-smooth Newton (Qi and Sun, 1993), all positions at once.
 
-Newton starts from no friction. Where the fixed point is a contraction (``spread`` below 1) the solution is the only
-one. Elsewhere the scale of all coefficients goes from 0 to 1 in steps, with the determinant ratio kept positive: that
-stays on the physical branch, and ends where it ends: at the critical scale the mechanism jams.
+Newton starts from no friction. Where the map from bearing forces to friction to bearing forces is a contraction
+(``spectral_bound`` below 1) there is one solution. Elsewhere there may be several; the physical one is found by
+continuation (Allgower and Georg, 1990): the scale of all coefficients goes from 0 to 1 in steps, with the determinant
+of the equations kept positive. Where that branch ends, at the critical scale, the mechanism jams.
 """
 
 from __future__ import annotations
@@ -23,9 +24,9 @@ from dalembert.core.friction.contact_equations import (
     multiplier,
     repeat,
     slope,
-    spread,
+    spectral_bound,
     strength,
-    strong,
+    with_strength,
 )
 from dalembert.core.linear import solve_square
 
@@ -89,13 +90,13 @@ def without_friction(contacts: Contacts, r: Response) -> Array:
     return multiplier(r, c * newton(contacts, r, sense, c, np.zeros_like(sense)).z)
 
 
-def slipping(contacts: Contacts, r: Response, state: SlipState) -> FrictionSolution:
+def solve_friction(contacts: Contacts, r: Response, state: SlipState) -> FrictionSolution:
     """Friction at each position of known senses; contacts of the ``state`` that are open have coefficients at rest."""
     sense, resting = state.sense, state.open
     r = repeat(r, len(sense))
     c = np.broadcast_to(strength(contacts, 1.0, resting, sense), sense.shape)
     first = newton(contacts, r, sense, c, np.zeros_like(sense))
-    single = spread(contacts, strong(r, c * np.abs(sense))) < 1
+    single = spectral_bound(contacts, with_strength(r, c * np.abs(sense))) < 1
     z, determinant, count = first.z, first.determinant, first.iterations
     critical = np.full(len(sense), np.nan)
     finite = np.isfinite(r.y).all(axis=(-2, -1))
@@ -133,7 +134,7 @@ def newton(
     """
     count = np.zeros(len(sense), np.intp)
     arrived = np.zeros(len(sense), bool)
-    r = strong(r, c)
+    r = with_strength(r, c)
     start, landing, y, ahead = z, z, argument(r, z), np.ones(len(sense))
     for k in range(most):
         kink = y if k or before is None else before

@@ -1,4 +1,8 @@
-"""What friction can hold for some history: the range of an unknown over all states with friction within its limits.
+"""The range of an effort that friction can hold at rest, whatever the history: successive linear programming.
+
+At rest friction may have any value within its limits, which follow the reactions; the efforts between them are the
+range. The limits are not convex, so each step maximizes the effort in a convex part of them about the last state
+(inner approximation: Marks and Wright, 1978).
 
 A state of rest is t = c z with |t_e| <= c_e S_e(y0 + H t) for every contact. S is convex: with its slope s at a state
 y, s . y0 + s H t is never more than S, and is S there. So |t_e| <= c_e s_e . (y0 + H t) allows only such states, the
@@ -25,7 +29,7 @@ from dalembert.core.friction.contact_equations import (
     levers,
     slope,
     strength,
-    strong,
+    with_strength,
 )
 from dalembert.core.friction.friction_solver import newton
 from dalembert.core.friction.linear_programmes import furthest
@@ -130,7 +134,7 @@ def _scale(contacts: Contacts, r: Response) -> _Rest:
     unit = np.where(c != 0, np.abs(c), 1.0)
     part = r._replace(y=r.y / size[:, None, None], change=r.change * unit * size[:, None, None])
     own = np.flatnonzero(~contacts.fixed & ~contacts.signed & (c > 0))
-    return _Rest(contacts, strong(part, np.broadcast_to(unit, (len(size), len(unit)))), c / unit, own)
+    return _Rest(contacts, with_strength(part, np.broadcast_to(unit, (len(size), len(unit)))), c / unit, own)
 
 
 def _bare(rest: _Rest) -> Array:

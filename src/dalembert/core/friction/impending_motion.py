@@ -1,8 +1,8 @@
-"""What friction can hold: the extremes of an effort where contacts have no relative rate to tell their sense.
+"""Impending motion: the lowest and the highest effort at which friction at its limit still holds a machine at rest.
 
-A contact that would move with the unknown has the sense of that impending motion; its influence on the unknown says
-which (virtual work: g = minus the relative rate per unit of the unknown's own). One that would not only loads the
-others; it takes the sense that carries the unknown furthest.
+Contacts have no relative rate to tell their sense there. One that would move with the effort has the sense of that
+motion, by virtual work: g, the change of the effort with a unit of friction, is minus the rate of the contact per unit
+of the effort's own. One that would not move only loads the others; it takes the sense that carries the effort furthest.
 
 g   change of the unknown with a unit of each contact (..., E)
 """
@@ -20,14 +20,14 @@ from dalembert.core.friction.contact_equations import (
     Response,
     SlipState,
     argument,
-    impending,
+    group_moves,
+    impending_senses,
     jacobian,
-    moving_together,
     sign,
     slope,
-    strong,
+    with_strength,
 )
-from dalembert.core.friction.friction_solver import FrictionSolution, slipping
+from dalembert.core.friction.friction_solver import FrictionSolution, solve_friction
 from dalembert.core.friction.rod_spin import SpinningRods, solve_spins
 from dalembert.core.linear import solve_square
 
@@ -55,17 +55,17 @@ def extreme(
         rate = g if rods is None else g + rods.spin_rates(r, g, phi)
         size = np.abs(rate) * np.where(contacts.rows.angular, layout.length, 1.0)
         moves = (size > STILL * size.max(axis=-1, keepdims=True, initial=0.0))[..., contacts.led]
-        still = known.open & ~moving_together(contacts, moves)
+        still = known.open & ~group_moves(contacts, moves)
         told = known.sense if rods is None else rods.senses(phi).sense
-        sense = np.where(known.open, end * impending(contacts, rate, moves), told)
+        sense = np.where(known.open, end * impending_senses(contacts, rate, moves), told)
         return known._replace(sense=np.where(still, held, sense)), still
 
     def moment(phi: Array) -> Array:
-        return np.nan_to_num(slipping(contacts, r, state(phi)[0]).x[..., row])
+        return np.nan_to_num(solve_friction(contacts, r, state(phi)[0]).x[..., row])
 
     for _ in range(ROUNDS):
         now, idle = state(solve_spins((len(g), len(row)), moment))
-        found = slipping(contacts, r, now)
+        found = solve_friction(contacts, r, now)
         if not idle.any():
             break
         new = np.where(idle, -end * _influence(contacts, r, found, g)[..., contacts.led], 0.0)
@@ -79,7 +79,7 @@ def _influence(contacts: Contacts, r: Response, found: FrictionSolution, g: Arra
     """Sign of the change of the unknown with each friction force, the other contacts following."""
     y = argument(r, found.c * np.nan_to_num(found.z))
     largest = np.abs(y).max(axis=(-2, -1), initial=0.0)
-    j = jacobian(strong(r, found.c), slope(contacts, y, largest)[0], found.state.sense)
+    j = jacobian(with_strength(r, found.c), slope(contacts, y, largest)[0], found.state.sense)
     a = solve_square(np.swapaxes(j, -1, -2), found.c * g)
     negligible = np.abs(a) <= STILL * np.abs(a).max(axis=-1, keepdims=True, initial=0.0)
     return sign(contacts, np.nan_to_num(a), negligible)

@@ -1,4 +1,4 @@
-"""What friction does in each joint: its wrench, the power it takes; whether it turns the unknowns' power round."""
+"""Wrenches and power of the joints' friction, dry and viscous; where friction turns the efforts' power round."""
 
 from __future__ import annotations
 
@@ -15,13 +15,17 @@ POWERLESS = 1e-9
 rounding."""
 
 
-def dry(layout: Layout, contacts: Contacts, pose: Pose, along: System, effort: Array) -> tuple[Array, Array]:
+def dry_wrenches(
+    layout: Layout, contacts: Contacts, pose: Pose, along: System, effort: Array
+) -> tuple[Array, Array]:
     """Force (..., joints, d) and moment about j's point (..., joints; in space with 3 components) on j of the contacts'
     efforts (..., E)."""
     return _in_joints(layout, contacts, contacts.joint, pose, along, effort)
 
 
-def viscous(layout: Layout, contacts: Contacts, pose: Pose, twist: Array) -> tuple[Array, Array, Array]:
+def viscous_wrenches(
+    layout: Layout, contacts: Contacts, pose: Pose, twist: Array
+) -> tuple[Array, Array, Array]:
     """Force, moment and lost power of the joints' own damping."""
     own = contacts.damping
     rows = system(layout.algebra, layout.freedoms, pose).rows(own.row)

@@ -1,8 +1,8 @@
-"""Contacts of a moving machine that have no rate at a position: their senses just before and just after it.
+"""Dead centres: senses of friction just before and just after a position where a contact's rate passes through zero.
 
-At a dead centre the slide of an engine stands still for an instant while the crank goes on. Its friction has one sense
-before and the other after: that of its second rate, and against it. Where that is zero too the sense is looked up at
-positions a little before and after; a contact that has none there stays at rest.
+The slide of an engine stands still for an instant while the crank goes on. Its friction has one sense before and the
+other after: that of its second rate, and against it. Where that is zero too the sense is looked up at positions a
+little before and after; a contact that has none there stays at rest.
 """
 
 from __future__ import annotations
@@ -14,7 +14,14 @@ import numpy as np
 from dalembert.arrays import Array, Flags, at
 from dalembert.core.constraints import system
 from dalembert.core.equilibrium import Motion, motion
-from dalembert.core.friction.contact_equations import Contacts, SlipState, next_senses, passing, senses, sign
+from dalembert.core.friction.contact_equations import (
+    Contacts,
+    SlipState,
+    next_senses,
+    senses,
+    sign,
+    zero_crossings,
+)
 from dalembert.core.layout import Layout, Pose, System
 from dalembert.core.position.newton import CLOSED, close_loops, displace
 
@@ -46,7 +53,7 @@ def sides(
     spun (E,): contacts of rods that spin, whose second rates are not those of the motion.
     """
     turning = next_senses(layout, contacts, along, pose, moving.twist, moving.acceleration)
-    passes = passing(layout, contacts, moving.twist, now.rate, turning.rate) & ~turning.open
+    passes = zero_crossings(layout, contacts, moving.twist, now.rate, turning.rate) & ~turning.open
     here = passes & (now.open | ~spun)
     slow = now.open & ~here & ~turning.open  # it hardly moves, but it does, and on for a while
     slowly = _sign(contacts, now.rate)

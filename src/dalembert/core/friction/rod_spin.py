@@ -1,9 +1,10 @@
-"""Rods between two balls with friction: the spin at which the balls' couples about the rod's line vanish.
+"""Spin of rods between two ball joints with friction: the root of the balls' moment about the rod's line.
 
 A rod that could spin about the line of its two ball joints is set to no spin. Friction in the balls decides it: their
 couples, against the relative angular velocities, must leave nothing about the line, which nothing else holds. That
 moment falls as the spin grows, so there is one spin, or none where the loads turn the rod more than friction holds.
-The spin's own inertia about the line is left out.
+It is found by secants and bisection, of several rods in turn and then together; where friction has several solutions,
+by continuation from no friction. The spin's own inertia about the line is left out.
 
 s   spin, tan(phi) times the fastest rate of the rod's balls
 """
