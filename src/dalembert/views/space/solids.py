@@ -134,12 +134,6 @@ def all_placed(solids: Sequence[Solid], turn: Rotation, at: Array, scale: float 
     return [place_solid(s, turn, at, scale) for s in solids]
 
 
-def block_corners(block: Block) -> Array:
-    """The eight corners (8, 3), x slowest."""
-    signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
-    return np.asarray(block.center + (signs * block.half) @ block.axes)
-
-
 def across(direction: Array) -> tuple[Array, Array]:
     """Two unit vectors at right angles to a unit vector and to each other; the three are right-handed.
 
