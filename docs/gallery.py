@@ -11,9 +11,9 @@ from html import escape
 from pathlib import Path
 
 import dalembert as da
-from dalembert.analysis.compile.pair_table import PAIRS
 from dalembert.bundled import cases, examples
 from dalembert.cli.describe_commands import JOINT_HEADS, joint_rows
+from dalembert.model.joints.pairs import PAIRS
 
 ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "build" / "gallery"

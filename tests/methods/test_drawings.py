@@ -310,6 +310,23 @@ def test_a_slot_is_named_where_its_pin_is() -> None:
     assert min(math.dist(label.at, end) for end in (force.tail, force.head)) < 6.0
 
 
+def test_a_free_body_has_the_wheel_of_its_own_link() -> None:
+    """Of a wheel on a moving rail, the wheel's has it and the rail's has none."""
+    links = {
+        "ground": {"points": {"O": [0, 0]}},
+        "rail": {"points": {"O": [0, 0], "W": [0, 0]}},
+        "wheel": {"points": {"W": [0, 0]}},
+    }
+    joints = {
+        "O": {"type": "slider", "links": ["ground", "rail"]},
+        "W": {"type": "rolling", "links": ["rail", "wheel"], "radius": 0.1},
+    }
+    drives = {"O": {"position": 0.2}, "W": {"position": 0}}
+    r = da.statics(da.mechanism({"links": links, "joints": joints, "drives": drives}))
+    bodies = (da.draw.free_body(r, link) for link in ("rail", "wheel"))
+    assert [sum(item.role == "pitch" for item in body.items) for body in bodies] == [0, 1]
+
+
 @pytest.mark.parametrize("name", ["four_bar", "rssr"])
 def test_charts_are_of_joints_that_carry_something_and_have_one_axis(name: str) -> None:
     """Components of each loaded joint, none of one without a force; only the line of zero is an axis."""

@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 
 import dalembert as da
-from dalembert.analysis.compile.pair_table import PAIRS
 from dalembert.cli import main
+from dalembert.model.joints.pairs import PAIRS
 from tests.methods.readable import text_over_lines, text_overlaps
 from tests.space.test_pairs import TABLE
 

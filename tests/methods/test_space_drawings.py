@@ -14,8 +14,8 @@ import pytest
 
 import dalembert as da
 from dalembert.algebra import space
-from dalembert.analysis.compile.pair_table import PAIRS
 from dalembert.arrays import Array
+from dalembert.model.joints.pairs import PAIRS
 from dalembert.views.charts import shaking_force
 from dalembert.views.paper.scene import Line, Polygon
 from dalembert.views.space.camera import CAMERAS, Camera

@@ -6,8 +6,7 @@ import doctest
 import re
 from pathlib import Path
 
-from dalembert.analysis.compile.pair_table import PAIRS
-from dalembert.model.joints.space_joints import SPACE_FREEDOMS
+from dalembert.model.joints.pairs import PAIRS
 
 PAGE = Path(__file__).parents[2] / "docs" / "space.md"
 
@@ -29,7 +28,7 @@ def test_its_table_is_the_programs() -> None:
         pair = PAIRS[kind]
         assert len(pair.turns) == int(turns)
         assert kind == "screw" or len(pair.slides) == int(slides)
-        assert tuple(re.findall(r"`(slide\d?|turn\d?)`", drives)) == SPACE_FREEDOMS.get(kind, ())
+        assert tuple(re.findall(r"`(slide\d?|turn\d?)`", drives)) == PAIRS[kind].freedoms
         if kind not in ("weld", "universal", "screw"):
             carried = [*(f"F{a}" for a in pair.forces), *(f"M{a}" for a in pair.moments)]
             assert re.findall(r"\b[FM][xyz]\b", reactions) == carried

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from dalembert.analysis.compile.pair_table import AXES, PAIRS, local_axes, pair_of
+from dalembert.analysis.compile.pair_table import local_axes
 from dalembert.arrays import Array
 from dalembert.core.constraints import drift, measure, system
+from dalembert.model.joints.pairs import AXES, PAIRS
 from tests.space.bodies import allowed, body_on, moved, placed
 
 KINDS = [(kind, {}) for kind in PAIRS] + [
@@ -79,7 +80,7 @@ def test_reactions_lie_in_the_joints_axes(kind: str, keys: dict[str, str], seed:
     rows = system(g, c.layout.constraints, pose).on_j[0]
     arm = g.rotate(pose.rotation[0, 0], c.geometries[0].uj)
     force, moment = rows[:, :3], rows[:, 3:] - np.cross(arm, rows[:, :3])
-    pair = pair_of(joint)
+    pair = joint.pair
     blocked = [AXES.index(a) for a in pair.forces], [AXES.index(a) for a in pair.moments]
     for part, carried, of_moment in zip((force, moment), blocked, (False, True), strict=True):
         axes = local_axes(joint, c.geometries[0], pose.rotation[0, 1], pose.rotation[0, 0], of_moment)

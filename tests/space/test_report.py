@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.compile.pair_table import pair_of
 from dalembert.analysis.methods.applied_forces import actions
 from dalembert.bundled import cases
 from dalembert.model import library
@@ -164,7 +163,7 @@ def signs(r: Any, k: int) -> dict[str, float]:
 
 def carries(joint: Any, axis: str) -> bool:
     """Whether it can carry a force along one of its own axes; teeth along any."""
-    return joint.type == "gear" or axis in pair_of(joint).forces
+    return joint.type == "gear" or axis in joint.pair.forces
 
 
 @every

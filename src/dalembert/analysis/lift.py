@@ -60,8 +60,8 @@ class _Lift:
             if name not in known:
                 raise ModelError(f"there is no link or joint {name!r} to offset", closest(name, known))
         for name, kind in become.items():
-            if name not in m.joints or m.joints[name].type != "pin":
-                pins = [n for n, joint in m.joints.items() if joint.type == "pin"]
+            if name not in m.joints or not m.joints[name].hinge:
+                pins = [n for n, joint in m.joints.items() if joint.hinge]
                 raise ModelError(f"{name!r} is no pin that could become {kind}", closest(name, pins))
             if kind not in ("cylindrical", "spherical"):
                 raise ModelError(f"a pin cannot become {kind!r}", "write cylindrical or spherical")
@@ -115,11 +115,6 @@ class _Lift:
 
     def _joint(self, name: str) -> dict[str, Any]:
         joint = self.m.joints[name]
-        if joint.type in ("slot", "gear") and joint.friction is not None and self.m.friction.enabled:
-            what = f"friction of joint {name!r}, a {joint.type}, is not lifted"
-            raise ModelError(
-                what, "leave it out, or switch it off with friction: {enabled: false}", ("joints", name)
-            )
         kinds: dict[str, Any] = {
             "pin": self._pin,
             "slider": self._slider,
@@ -127,7 +122,8 @@ class _Lift:
             "gear": self._gear,
             "weld": self._weld,
         }
-        if joint.type not in kinds:
+        made = kinds.get(joint.type)
+        if made is None:
             what = f"joint {name!r}: a {joint.type} joint has no counterpart that could be lifted"
             raise ModelError(
                 what, "lift a mechanism of pins, sliders, slots, welds and gears", ("joints", name)
@@ -138,7 +134,7 @@ class _Lift:
         ]
         yields = joint.stiffness
         stiffness = {"stiffness": yields.model_dump(mode="json", exclude_none=True)} if yields else {}
-        return {"links": list(joint.links), "at": at, **stiffness, **kinds[joint.type](name, joint)}
+        return {"links": list(joint.links), "at": at, **stiffness, **made(name, joint)}
 
     def _point(self, link: str, point: str, of: str, height: float) -> str:
         """A point of the link at the height of a joint or spring: its own, or another one beside it."""
@@ -171,10 +167,18 @@ class _Lift:
         damping = {k: v for k, v in zip(("slide", "turn"), joint.damping, strict=True) if v}
         # j's x too, so that the turn is 0 where the links' own axes agree, as in the plane
         axes = {"i": _axes(joint.direction), "j": _axes(joint.direction)}
+        self._refuse_friction(name, joint)
         return {"type": "slotted_cylinder", "axes": axes, **({"damping": damping} if damping else {})}
 
     def _weld(self, name: str, joint: Any) -> dict[str, Any]:
         return {"type": "weld", "axes": {"i": _axes(joint.angle), "j": _axes(0.0)}}
+
+    def _refuse_friction(self, name: str, joint: Any) -> None:
+        if joint.friction is not None and self.m.friction.enabled:
+            what = f"friction of joint {name!r}, a {joint.type}, is not lifted"
+            raise ModelError(
+                what, "leave it out, or switch it off with friction: {enabled: false}", ("joints", name)
+            )
 
     def _friction(self, name: str, joint: Any) -> dict[str, Any]:
         """Friction of a pin or of a guide without faces at a height, which have the same meaning in space."""
@@ -188,6 +192,7 @@ class _Lift:
         }
 
     def _gear(self, name: str, joint: Any) -> dict[str, Any]:
+        self._refuse_friction(name, joint)
         sizes = joint.model_dump(
             mode="json", include={"radii", "teeth", "module", "pressure_angle", "internal"}
         )
@@ -205,20 +210,20 @@ class _Lift:
     def _load(self, name: str) -> dict[str, Any]:
         load: Any = self.m.loads[name]
         tree = dict(load.model_dump(mode="json", by_alias=True))
-        if load.type == "force":
+        if load.ON == "point":
             if load.components is not None:
                 tree["value"] = [*tree["value"], 0.0]
             elif load.direction is not None:
                 tree["direction"] = [math.cos(load.direction), math.sin(load.direction), 0.0]
             if not isinstance(load.at, str):
                 tree["at"] = self._at(load.at, self.link[load.on])
-        elif load.type == "couple":
+        elif load.ON == "link":
             tree["direction"] = UP
-        elif load.type in ("spring", "damper"):
+        elif load.ON == "span":
             height = sum(self.link[link] for link, _ in load.between) / 2
             ends = ((link, self._point(link, point, name, height)) for link, point in load.between)
             tree["between"] = [".".join(end) for end in ends]
-        elif load.type == "torsion_spring":
+        elif load.FORCE == "spring":
             tree["free_angle"] = load.free_angle - self._turn_offset(name)
         return tree
 

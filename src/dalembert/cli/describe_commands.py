@@ -116,7 +116,7 @@ JOINT_HEADS = ("joint", "turns", "slides", "reactions", "its own axes")
 
 def joint_rows() -> list[list[str]]:
     """Type, turns and slides of j in i, reactions, own axes of every joint in space, a row each."""
-    from dalembert.analysis.compile.pair_table import PAIRS
+    from dalembert.model.joints.pairs import PAIRS
     from dalembert.views.symbols.pair_pictures import sorted_kinds
 
     return [
@@ -137,8 +137,8 @@ def joint_table() -> str:
 
 def joints_shown(output: Path | None, camera: str | None, theme: Any, force: bool) -> int:
     """The table printed; or all joints in one picture, or a picture each in a folder."""
-    from dalembert.analysis.compile.pair_table import PAIRS
     from dalembert.cli.draw_command import camera_at
+    from dalembert.model.joints.pairs import PAIRS
     from dalembert.views import draw
 
     if output is None:

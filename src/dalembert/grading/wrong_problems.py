@@ -116,8 +116,8 @@ def _changes(r: Result) -> Iterator[tuple[str, dict[str, Any]]]:
         yield "this is the other assembly mode", {"assembly": mode}
     if not any(m.gravity_vector):
         yield "gravity is counted, and the problem has none", {"gravity": "standard"}
-    for name, load in m.loads.items():
-        if load.type == "force" and not load.unknown:
+    for name, load in m.loads_on("point").items():
+        if not load.unknown:
             yield from _force_changes(r, name)
     for drive in r.drives:
         speed, acceleration = r.drive_speed(drive)[0], r.drive_acceleration(drive)[0]

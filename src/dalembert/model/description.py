@@ -21,7 +21,7 @@ from dalembert.model.joints.friction_keys import FrictionDefaults
 from dalembert.model.joints.plane_joints import Joint, refuse_unfinished
 from dalembert.model.links.link import CENTER, GROUND, Link
 from dalembert.model.links.shapes import MassProperties
-from dalembert.model.load_types import Damper, Load, Spring
+from dalembert.model.load_types import Load, SpanLoad
 from dalembert.model.part import Part, Reading
 from dalembert.model.paths import as_in_file, fields, latest, replace_value
 from dalembert.model.quantities.values import JsonSchema, Name, Scalar, Value, Vector, at_item
@@ -229,10 +229,14 @@ class Mechanism(Part):
         first, second = part.point_names(joint)
         return self.point(part.links[0], first), self.point(part.links[1], second)
 
+    def loads_on(self, what: Literal["point", "link", "span", "turn"]) -> dict[str, Any]:
+        """Loads that act on a point of a link, a link, the span between two points, or the turn of a joint."""
+        return {name: load for name, load in self.loads.items() if what == load.ON}
+
     def load_points(self, load: str) -> tuple[tuple[str, Vector], tuple[str, Vector]]:
-        """Link and point in its axes of both ends of a spring or damper."""
+        """Link and point in its axes of both ends of a load along a span."""
         part = self.loads[load]
-        assert isinstance(part, (Spring, Damper))
+        assert isinstance(part, SpanLoad)
         (a, first), (b, second) = part.between
         return (a, self.point(a, first)), (b, self.point(b, second))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, ValidationInfo, model_validator
 
@@ -137,7 +137,23 @@ def _end(value: object) -> tuple[str, str]:
     return name(link), name(point)
 
 
-class Directed(Part):
+class LoadPart(Part):
+    """What all loads have: what they act on, and what their forces count as."""
+
+    ON: ClassVar[Literal["point", "link", "span", "turn"]]
+    """A point of a link, a link, the span between two points, or the turn of a joint."""
+
+    FORCE: ClassVar[Literal["load", "spring", "damper"]] = "load"
+
+    type: str
+
+    @property
+    def unknown(self) -> bool:
+        """Whether it is asked for."""
+        return False
+
+
+class Directed(LoadPart):
     """A load along a direction, or a vector, which needs none."""
 
     def replaced_by(self, name: str, value: object) -> tuple[str, ...]:
@@ -153,6 +169,7 @@ class ForceLoad(Directed):
     (np.float64(0.0), np.float64(100.0))
     """
 
+    ON: ClassVar = "point"
     type: Literal["force"] = "force"
     on: Name = Field(description="the link it acts on")
     at: Annotated[str | Vector, Spot()] = Field(
@@ -230,6 +247,7 @@ class ForceLoad(Directed):
 class Couple(Directed):
     """A couple on a link, counter-clockwise positive."""
 
+    ON: ClassVar = "link"
     type: Literal["couple"] = "couple"
     on: Name = Field(description="the link it acts on")
     value: Annotated[Varying | tuple[Varying, ...] | Literal["unknown"], CoupleValue()] = Field(
@@ -283,35 +301,49 @@ class Couple(Directed):
 TwoEnds = Annotated[tuple[tuple[str, str], tuple[str, str]], Ends()]
 
 
-class Spring(Part):
+class SpanLoad(LoadPart):
+    """A load along the line between points of two links; its numbers have the names of ``core.forcing.Springs``."""
+
+    ON: ClassVar = "span"
+    type: str
+    between: TwoEnds = Field(description="[link.point, link.point]")
+
+
+class Spring(SpanLoad):
     """A straight spring between points of two links."""
 
+    FORCE: ClassVar = "spring"
     type: Literal["spring"] = "spring"
-    between: TwoEnds = Field(description="[link.point, link.point]")
     stiffness: Annotated[float, Scalar("stiffness", "not negative")] = Field(description="force per length")
     free_length: Annotated[float, Scalar("length", "not negative")] = Field(
         0.0, description="its length without force; default 0"
     )
 
 
-class Damper(Part):
+class Damper(SpanLoad):
     """A straight viscous damper between points of two links."""
 
+    FORCE: ClassVar = "damper"
     type: Literal["damper"] = "damper"
-    between: TwoEnds = Field(description="[link.point, link.point]")
     damping: Annotated[float, Scalar("damping", "not negative")] = Field(description="force per speed")
 
 
-Turning = Literal["turn", "turn1", "turn2"]
-WHICH_TURN = "in space: which turn of the joint; needed where it has several"
+class TurnLoad(LoadPart):
+    """A load in the turn of a joint."""
+
+    ON: ClassVar = "turn"
+    type: str
+    joint: Name = Field(description="the joint it turns with")
+    freedom: Literal["turn", "turn1", "turn2"] | None = Field(
+        None, description="in space: which turn of the joint; needed where it has several"
+    )
 
 
-class TorsionSpring(Part):
+class TorsionSpring(TurnLoad):
     """A spring in the turn of a joint."""
 
+    FORCE: ClassVar = "spring"
     type: Literal["torsion_spring"] = "torsion_spring"
-    joint: Name = Field(description="the joint it turns with")
-    freedom: Turning | None = Field(None, description=WHICH_TURN)
     stiffness: Annotated[float, Scalar("torsion_stiffness", "not negative")] = Field(
         description="moment per angle; a bare number is one per radian"
     )
@@ -324,12 +356,11 @@ class TorsionSpring(Part):
     )
 
 
-class TorsionDamper(Part):
+class TorsionDamper(TurnLoad):
     """A viscous damper in the turn of a joint."""
 
+    FORCE: ClassVar = "damper"
     type: Literal["torsion_damper"] = "torsion_damper"
-    joint: Name = Field(description="the joint it turns with")
-    freedom: Turning | None = Field(None, description=WHICH_TURN)
     damping: Annotated[float, Scalar("torsion_damping", "not negative")] = Field(
         description="moment per angular speed; a bare number is one per radian"
     )

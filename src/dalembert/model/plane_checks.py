@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from dalembert.errors import ModelError
 from dalembert.model.joints.joint_part import JointPart
-from dalembert.model.joints.space_joints import BALLS, SpaceJoint
 from dalembert.model.links.link import CENTER, GROUND, Link, Offset
-from dalembert.model.load_types import Couple, Damper, ForceLoad, Spring, TorsionDamper, TorsionSpring
+from dalembert.model.load_types import Couple, ForceLoad, SpanLoad, TurnLoad
 from dalembert.model.quantities.expressions import ARGUMENTS, CONSTANTS, Expression
 from dalembert.model.quantities.tables import Table
 from dalembert.model.quantities.varying import Varying
@@ -101,7 +100,7 @@ def _joints(m: Mechanism) -> Iterator[ModelError]:
         for k, (link, point) in enumerate(zip(joint.links, joint.point_names(name), strict=True)):
             missing = list(_link(m, link, user, (*path, "links", k)))
             yield from missing or _point(m, link, point, user, where)
-        if isinstance(joint, SpaceJoint) != (m.dimension == 3) and joint.type not in ("weld", "gear"):
+        if m.dimension not in joint.DIMENSIONS:
             yield ModelError(
                 f"{user} is of the type {joint.type!r}, which is not for {_where(m)}",
                 "take a joint of the plane, or write space: space"
@@ -178,7 +177,7 @@ def _freedom(name: str, freedom: str | None, joint: str, part: JointPart) -> Ite
 
 def _axis(name: str, drive: Drive, joint: str, part: JointPart) -> Iterator[ModelError]:
     """A ball turns about the axis that its drive gives; other joints have their own."""
-    ball = part.type in BALLS and drive.freedom == "turn"
+    ball = part.ball and drive.freedom == "turn"
     if ball and drive.axis is None:
         yield ModelError(
             f"drive {name!r} turns joint {joint!r}, a {part.type} joint, which turns any way",
@@ -231,12 +230,12 @@ def _loads(m: Mechanism) -> Iterator[ModelError]:
             yield from missing or _point(m, load.on, load.at, user, (*path, "at"))
         elif isinstance(load, (ForceLoad, Couple)):
             yield from _link(m, load.on, user, (*path, "on"))
-        elif isinstance(load, (Spring, Damper)):
+        elif isinstance(load, SpanLoad):
             for k, (link, point) in enumerate(load.between):
                 yield from _point(m, link, point, user, (*path, "between", k))
         if isinstance(load, (ForceLoad, Couple)):
             yield from _components(m, load, user, path)
-        if isinstance(load, (TorsionSpring, TorsionDamper)):
+        if isinstance(load, TurnLoad):
             yield from _torsion(m, load, user, path)
 
 
@@ -273,9 +272,7 @@ def _components(
             )
 
 
-def _torsion(
-    m: Mechanism, load: TorsionSpring | TorsionDamper, user: str, path: tuple[str, ...]
-) -> Iterator[ModelError]:
+def _torsion(m: Mechanism, load: TurnLoad, user: str, path: tuple[str, ...]) -> Iterator[ModelError]:
     name, at = load.joint, (*path, "joint")
     if name not in m.joints:
         yield ModelError(
@@ -287,7 +284,7 @@ def _torsion(
     what = f"{user} is in joint {name!r}, a {joint.type}" + (" joint" if m.dimension == 3 else "")
     if not turns:
         yield ModelError(f"{what}, which does not turn", "name a joint that turns", at)
-    elif joint.type in BALLS and not any(d.axis and m.drive_joint(n) == name for n, d in m.drives.items()):
+    elif joint.ball and not any(d.axis and m.drive_joint(n) == name for n, d in m.drives.items()):
         yield ModelError(
             f"{what}, which turns any way", "name a joint that turns about one axis, or give couples", at
         )

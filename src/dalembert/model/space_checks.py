@@ -40,7 +40,7 @@ def space_problems(m: Mechanism) -> Iterator[ModelError]:
     if m.dimension == 2:
         return
     for name, joint in m.joints.items():
-        if joint.type == "weld" and joint.angle:
+        if getattr(joint, "angle", 0.0):
             yield ModelError(
                 f"joint {name!r} is a weld by an angle, which is for the plane",
                 "write axes: {i: {x: [1, 0, 0], z: [0, 0, 1]}, j: {...}}",

@@ -113,7 +113,7 @@ def _bodies(sheet: Sheet, c: ReportContext) -> None:
             "A reaction on its friction circle is the same as the force at the pin's centre and the couple "
             "$M_{f} = ± r F$; on a guide $N$ is the normal force and $F_{f}$ the friction. So the equations are:"
         )
-    if any(r.mechanism.joints[joint].type == "gear" for joint in r.joints) and r.mechanism.dimension == 3:
+    if any(r.mechanism.joints[joint].wheels for joint in r.joints) and r.mechanism.dimension == 3:
         sheet.text(
             "Teeth press with one force, along their line of pressure: the figures before it are the cosines of that "
             "line, in the moments its arms."

@@ -272,7 +272,7 @@ def chart_scenes(r: Result, notation: Notation | None = None) -> list[Scene]:
     loaded = [j for j in r.joints if np.nanmax(magnitude(r.reaction(j)), initial=0.0) > 0]
     out = [*effort_chart(r, shown), reaction_chart(r, shown)]
     out += [components_chart(r, j, shown) for j in loaded]
-    pins = [j for j in loaded if r.mechanism.joints[j].type == "pin"][:6]
+    pins = [j for j in loaded if r.mechanism.joints[j].hinge][:6]
     if pins:
         out += [polar_chart(r, pins, "ground", shown), polar_chart(r, pins, "link", shown)]
     return [*out, shaking_chart(r, shown)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node
@@ -88,11 +88,11 @@ def with_numbers(m: Mechanism, where: Iterable[Number], values: Iterable[Any]) -
 class SymbolicForce:
     """A force whose components, of an unknown one per unit of it, are symbols."""
 
+    ON: ClassVar = "point"
     on: str
     at: Any
     axes: str
     components: tuple[Any, Any]
-    type: str = "force"
     unknown: bool = False
 
     def force(self, drives: Any) -> tuple[Any, Any]:
@@ -121,9 +121,9 @@ def _value(name: str, value: Any, channel: Any) -> Any:
 
 
 def _load(name: str, load: Any, channel: Any) -> Any:
-    if load.type == "couple" and not load.unknown:
+    if load.ON == "link" and not load.unknown:
         return load.model_copy(update={"value": _value(f"loads.{name}.value", load.value, channel)})
-    if load.type != "force":
+    if load.ON != "point":
         return load
     if isinstance(load.value, tuple):
         x, y = (_value(f"loads.{name}.value.{k}", v, channel) for k, v in enumerate(load.value))

@@ -126,7 +126,7 @@ def compile_mechanism(
         compliance=jointing.compliance(fixed),
     )
     drives = {name: schedule.position[:, k] for k, name in enumerate(schedule.names)}
-    unknown = tuple(name for name, load in m.loads.items() if getattr(load, "unknown", False))
+    unknown = tuple(name for name, load in m.loads.items() if load.unknown)
     setting = Setting(m, g, index, reference, names, drives, len(schedule.position))
     return Compiled(
         mechanism=m,

@@ -106,7 +106,7 @@ def contacts(
     found: list[tuple[int, Any, Contact]] = []
     read: list[Array] = []
     for k, joint in enumerate(m.joints.values()):
-        if joint.type not in kinds or not (rubs(m, joint) or joint.type == "gear"):
+        if joint.type not in kinds or not (rubs(m, joint) or joint.TOOTHED):
             continue
         place = places(joint, int(np.flatnonzero(constraints.joint == k)[0]))
         for contact in kinds[joint.type](joint, at[k], rubs(m, joint) and circle(m, joint) == "sin"):

@@ -22,7 +22,7 @@ from dalembert.core.position.first_pose_space import Drawing
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, Schedule
 from dalembert.model.assembly import SpacePose
-from dalembert.model.joints.space_joints import BALLS
+from dalembert.model.joints.pairs import AXES
 
 
 class Jointing(Protocol):
@@ -98,12 +98,9 @@ class PlaneJoints(_Joints):
 
     def add(self, k: int, name: str, joint: Any) -> None:
         """The rows of one joint."""
-        if joint.type not in table.FREEDOMS:
-            what = f"joint {name!r}: joints of type {joint.type!r} cannot be analysed yet"
-            raise ModelError(what, "use " + ", ".join(table.FREEDOMS), ("joints", name, "type"))
         table.add_constraints(self.constraints, k, joint, self.ends[k], *self.arms[k])
         table.add_freedom(self.freedoms, k, joint, self.ends[k], *self.arms[k])
-        self.names += [(name, freedom) for freedom in table.FREEDOMS[joint.type]]
+        self.names += [(name, freedom) for freedom in joint.freedoms]
 
     def contacts(self, fixed: Rows) -> Contacts | None:
         """The contacts of the joints with friction."""
@@ -134,7 +131,7 @@ class SpaceJoints(_Joints):
 
     def add(self, k: int, name: str, joint: Any) -> None:
         """The rows of one joint."""
-        if joint.type == "gear":
+        if joint.wheels:
             at = pair_table.Geometry(*self.arms[k], *(np.array(axes) for axes in joint.frames))
             self.geometries += (at,)
             self.constraints.counted = max(self.freedoms.counted, self.constraints.counted)
@@ -162,7 +159,7 @@ class SpaceJoints(_Joints):
                 for name, joint in self.m.joints.items()
                 if link in joint.links
             ]
-            balls = [joint.type in BALLS and name not in driven for name, joint, _ in ends]
+            balls = [joint.ball and name not in driven for name, joint, _ in ends]
             if link == "ground" or len(ends) != 2 or not all(balls):
                 continue
             a, b = (np.asarray(self.m.joint_points(name)[side]) for name, _, side in ends)
@@ -178,7 +175,7 @@ class SpaceJoints(_Joints):
             if isinstance(given, SpacePose):
                 drawn = space.rotation(np.array(given.angle), given.axis)
             # a ball in a guide of the link moves in it, and the line with it
-            stands = all(joint.type == "spherical" or side == 1 for _, joint, side in ends)
+            stands = all(not joint.slides or side == 1 for _, joint, side in ends)
             self.constraints.add(
                 Idle, -1, (len(self.index) - 1, number), p=line, drawn=drawn, stands=float(stands)
             )
@@ -187,21 +184,19 @@ class SpaceJoints(_Joints):
 
     def reactions(self, k: int, rows: Ints, fixed: Rows) -> Iterator[tuple[int, str, int, float]]:
         """Each row of a joint, force or moment, its local axis, and how much of it a unit of the row is."""
-        joint = list(self.m.joints.values())[k]
-        if joint.type == "gear":
+        joint: Any = list(self.m.joints.values())[k]
+        if joint.wheels:
             yield from super().reactions(k, rows, fixed)
             return
         for name, row in pair_table.reaction_rows(joint, int(rows[0])).items():
-            yield row, "force" if name[0] == "F" else "moment", pair_table.AXES.index(name[1]), 1.0
-            if (
-                joint.type == "screw" and name == "Fx" and joint.lead
-            ):  # the thread's couple goes with its force
+            yield row, "force" if name[0] == "F" else "moment", AXES.index(name[1]), 1.0
+            if joint.pair.threaded and name == "Fx":  # the thread's couple goes with its force
                 yield row, "moment", 0, joint.lead / (2 * np.pi)
 
     def contacts(self, fixed: Rows) -> Contacts | None:
         """The contacts of the joints with friction."""
         for name, joint in self.m.joints.items():
-            if joint.type == "gear" and rubs(self.m, joint):
+            if joint.wheels and rubs(self.m, joint):
                 what = f"gear {name!r}: friction of teeth is not analysed in space"
                 raise ModelError(what, "leave it out", ("joints", name, "friction"))
         return self.contacts_of(fixed, self.geometries, SPACE_FRICTION, pair_table.reaction_rows)
@@ -226,7 +221,7 @@ class SpaceJoints(_Joints):
             )
         hinges = []
         for k, (name, joint) in enumerate(self.m.joints.items()):
-            if joint.type not in pair_table.PAIRS:
+            if joint.wheels:
                 continue
             drives = {
                 str(self.m.drives[d].freedom or "turn"): n

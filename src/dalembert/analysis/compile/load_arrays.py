@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, fields
+from typing import Any, Literal
 
 import numpy as np
 
@@ -44,7 +44,6 @@ def forcing(s: Setting) -> Forcing:
     """Everything that loads the links, but for the drives' efforts."""
     m, g = s.m, s.g
     links = [name for name in m.links if name != "ground"]
-    known = {k: v for k, v in m.loads.items() if not getattr(v, "unknown", False)}
     centers = [np.subtract(m.center(k), s.reference[s.index[k]]) for k in links]
     return Forcing(
         inertia=Inertia(
@@ -53,12 +52,16 @@ def forcing(s: Setting) -> Forcing:
             inertia=numbers([_inertia(m, k) for k in links]).reshape(len(links), -1),
             gravity=np.array(m.gravity_vector),
         ),
-        forces=_forces(s, {k: v for k, v in known.items() if v.type == "force"}),
-        couples=_couples(s, {k: v for k, v in known.items() if v.type == "couple"}),
-        springs=_springs(s, known),
-        resistances=_resistances(s, known),
+        forces=_forces(s, _known_on(m, "point")),
+        couples=_couples(s, _known_on(m, "link")),
+        springs=_springs(s),
+        resistances=_resistances(s),
         separation=numbers(_mesh_tangents(m)),
     )
+
+
+def _known_on(m: Mechanism, what: Literal["point", "link"]) -> dict[str, Any]:
+    return {name: load for name, load in m.loads_on(what).items() if not load.unknown}
 
 
 def _inertia(m: Mechanism, link: str) -> Any:
@@ -75,10 +78,8 @@ def _mesh_tangents(m: Mechanism) -> list[Any]:
     """tan(pressure angle) of each mesh row, 0 for a wheel that rolls on a circle; in the order of the rows."""
     out = []
     for joint in m.joints.values():
-        if joint.type == "gear":
-            out.append(np.tan(joint.pressure_angle))
-        elif joint.type == "rolling" and getattr(joint, "radii", None) is not None:
-            out.append(0.0)
+        if joint.wheels == 2:
+            out.append(np.tan(getattr(joint, "pressure_angle", 0.0)))
     return out
 
 
@@ -108,40 +109,24 @@ def _couples(s: Setting, loads: dict[str, Any]) -> Couples:
     return Couples(link, np.moveaxis(columns, -1, 0), follows)
 
 
-def _springs(s: Setting, loads: dict[str, Any]) -> Springs:
-    rows: list[tuple[Any, ...]] = []
-    for name, load in loads.items():
-        if load.type in ("spring", "damper"):
-            (a, ua), (b, ub) = s.m.load_points(name)
-            ka, kb = s.index[a], s.index[b]
-            stiffness = getattr(load, "stiffness", 0.0)
-            free, damping = getattr(load, "free_length", 0.0), getattr(load, "damping", 0.0)
-            rows.append((ka, kb, ua - s.reference[ka], ub - s.reference[kb], stiffness, free, damping or 0.0))
-    columns = list(zip(*rows, strict=True)) if rows else [()] * 7
-    return Springs(
-        np.array(columns[0], np.intp),
-        np.array(columns[1], np.intp),
-        numbers(columns[2]).reshape(-1, s.g.d),
-        numbers(columns[3]).reshape(-1, s.g.d),
-        *(numbers(column) for column in columns[4:]),
-    )
+def _springs(s: Setting) -> Springs:
+    """Loads along a span: each number of ``Springs`` is the key of that name, 0 of a load without it."""
+    loads = s.m.loads_on("span")
+    ends = [[(s.index[link], u) for link, u in s.m.load_points(name)] for name in loads]
+    links = [np.array([end[side][0] for end in ends], np.intp) for side in (0, 1)]
+    arms = [numbers([end[side][1] - s.reference[end[side][0]] for end in ends]) for side in (0, 1)]
+    names = [field.name for field in fields(Springs)[4:]]
+    values = [numbers([getattr(load, name, 0.0) for load in loads.values()]) for name in names]
+    return Springs(*links, *(arm.reshape(-1, s.g.d) for arm in arms), *values)
 
 
-def _resistances(s: Setting, loads: dict[str, Any]) -> Resistances:
+def _resistances(s: Setting) -> Resistances:
     """Torsion springs, torsion dampers and the joints' own damping, each in its freedom."""
     rows: list[tuple[int, float, float, float]] = []
-    for load in loads.values():
-        if load.type in ("torsion_spring", "torsion_damper"):
-            turn = s.m.joints[load.joint].turn_of(load.freedom)
-            stiffness, free = getattr(load, "stiffness", 0.0), getattr(load, "free_angle", 0.0)
-            rows.append(
-                (
-                    s.freedoms.index((load.joint, str(turn))),
-                    stiffness,
-                    free,
-                    getattr(load, "damping", 0.0) or 0.0,
-                )
-            )
+    for load in s.m.loads_on("turn").values():
+        turn = s.m.joints[load.joint].turn_of(load.freedom)
+        stiffness, free, damping = (getattr(load, key, 0.0) for key in ("stiffness", "free_angle", "damping"))
+        rows.append((s.freedoms.index((load.joint, str(turn))), stiffness, free, damping))
     return _in_freedoms([*rows, *_damper_rows(s.m, s.freedoms)])
 
 
@@ -195,12 +180,12 @@ def unknown_columns(s: Setting, schedule: Schedule, unknown: tuple[str, ...]) ->
     loads: list[Any] = [s.m.loads[name] for name in unknown]
     at = [
         point_of(s.m, load.on, load.at, ("loads", name, "at")) - s.reference[s.index[load.on]]
-        if load.type == "force"
+        if load.ON == "point"
         else np.zeros(g.d)
         for name, load in zip(unknown, loads, strict=True)
     ]
-    direction = [load.force({}) if load.type == "force" else (0.0,) * g.d for load in loads]
-    about = [_about(load) if load.type == "couple" else (0.0,) * (g.n - g.d) for load in loads]
+    direction = [load.force({}) if load.ON == "point" else (0.0,) * g.d for load in loads]
+    about = [_about(load) if load.ON == "link" else (0.0,) * (g.n - g.d) for load in loads]
     return Known(
         asked=asked,
         effort=numbers(effort).reshape(len(effort), s.count).T,
@@ -208,8 +193,8 @@ def unknown_columns(s: Setting, schedule: Schedule, unknown: tuple[str, ...]) ->
         at=numbers(at).reshape(-1, g.d),
         direction=numbers(direction).reshape(-1, g.d),
         about=numbers(about).reshape(-1, g.n - g.d),
-        follows=np.array([getattr(load, "axes", "ground") == "link" for load in loads], bool),
-        couple=np.array([load.type == "couple" for load in loads], bool),
+        follows=np.array([load.axes == "link" for load in loads], bool),
+        couple=np.array([load.ON == "link" for load in loads], bool),
     )
 
 

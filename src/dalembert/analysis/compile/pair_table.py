@@ -1,8 +1,7 @@
-"""Joints in space as rows: the table of pairs, each with the forces and moments it carries in its local axes.
+"""Joints in space as rows, by the model's table of pairs. Local axes are x, y, z; those of docs/theory.md 2.2.
 
-To add a pair, add its row to ``PAIRS`` (and its name and freedoms to the model's table). Local axes are x, y, z;
-those of docs/theory.md 2.2. A pair that blocks one turn only does so between a direction of i and one of j, as a pin
-in a slot does: with x blocked, y of i and z of j stay at a right angle.
+A new pair is a row of ``PAIRS`` and nothing here. One that blocks one turn only does so between a direction of i and
+one of j, as a pin in a slot does: with x blocked, y of i and z of j stay at a right angle.
 """
 
 from __future__ import annotations
@@ -16,56 +15,7 @@ from dalembert.analysis.compile.plane_rows import RowBuilder, numbers, signed_ra
 from dalembert.arrays import Array
 from dalembert.core.layout import Along, Angle, Gearing, Helix, Meet, Perpendicular
 from dalembert.core.position.first_pose_space import Hinge
-from dalembert.model.joints.space_joints import BALLS
-
-AXES = "xyz"
-
-
-class Pair(NamedTuple):
-    """Local axes along which a joint carries forces, and about which moments; how j slides and turns in i.
-
-    slides: axes of i, in the order of the freedoms; turns: axes about which j's axes are those of i turned one after
-    the other, the first fixed in i, a second one in j; local: what the axes are, in words.
-    """
-
-    forces: str
-    moments: str
-    slides: str = ""
-    turns: str = ""
-    local: str = ""
-
-    @property
-    def reactions(self) -> tuple[str, ...]:
-        """Forces, then moments: Fx, Fy, Mz."""
-        return (*(f"F{a}" for a in self.forces), *(f"M{a}" for a in self.moments))
-
-
-PAIRS: dict[str, Pair] = {
-    "weld": Pair("xyz", "xyz", local="any"),
-    "revolute": Pair("xyz", "xy", turns="z", local="z along the axis"),
-    "prismatic": Pair("yz", "xyz", slides="x", local="x along the slide"),
-    "screw": Pair("xyz", "yz", turns="x", local="x along the axis; with Fx comes Mx = -lead Fx / 2 pi"),
-    "cylindrical": Pair("yz", "yz", slides="x", turns="x", local="x along the axis"),
-    "universal": Pair("xyz", "x", turns="yz", local="y the pin of i, z the pin of j, x across both"),
-    "spherical": Pair("xyz", "", turns="xyz", local="any"),
-    "plane": Pair("x", "yz", slides="yz", turns="x", local="x across the plane"),
-    "sphere_between_planes": Pair("x", "", slides="yz", turns="xyz", local="x across the planes"),
-    "sphere_in_cylinder": Pair("yz", "", slides="x", turns="xyz", local="x along the cylinder"),
-    "cylinder_between_planes": Pair(
-        "x", "y", slides="yz", turns="xz", local="x across the planes, z along the cylinder"
-    ),
-    "slotted_sphere": Pair("xyz", "x", turns="yz", local="x the blocked turn (another: blocked)"),
-    "torus": Pair("xyz", "x", turns="yz", local="x the blocked turn"),
-    "slotted_cylinder": Pair("yz", "xy", slides="x", turns="z", local="x along the slot, z along the pin"),
-    "slotted_sphere_in_cylinder": Pair(
-        "yz",
-        "x",
-        slides="x",
-        turns="yz",
-        local="x along the cylinder, the blocked turn (another: blocked)",
-    ),
-}
-"""The classic table; ``blocked`` of a slotted sphere turns the local axes of its moment and turns."""
+from dalembert.model.joints.pairs import AXES, Pair
 
 
 class Geometry(NamedTuple):
@@ -77,20 +27,10 @@ class Geometry(NamedTuple):
     on_j: Array
 
 
-def pair_of(joint: Any) -> Pair:
-    """The row of the table, with the blocked axis of a slotted sphere in its place."""
-    pair = PAIRS[joint.type]
-    blocked = getattr(joint, "blocked", None) or "x"
-    if blocked == "x":
-        return pair
-    k = AXES.index(blocked)
-    return pair._replace(moments=blocked, turns=AXES[(k + 1) % 3] + AXES[(k + 2) % 3])
-
-
 def geometry(joint: Any, ui: Array, uj: Array) -> Geometry:
     """Points and local axes; of a universal joint y is the pin of i and z that of j."""
     on_i, on_j = (np.array(f) for f in joint.frames)
-    if joint.type == "universal":
+    if joint.pair.pins:
         on_i = _with_pin(on_i[2], 1, on_j[2])
         on_j = _with_pin(on_j[2], 2, on_i[1])
     return Geometry(ui, uj, on_i, on_j)
@@ -115,8 +55,8 @@ def add_constraints(
     ``split`` gives a joint that holds its point three rows along its axes, which friction reads, rather than one of
     three along ground's.
     """
-    pair = pair_of(joint)
-    if joint.type == "screw":
+    pair = joint.pair
+    if pair.threaded:
         for axis in (1, 2):
             rows.add(Along, index, ends, ui=at.ui, uj=at.uj, axis=at.on_i[axis], pitch=0.0)
         about = _about(at, 0)
@@ -136,8 +76,8 @@ def add_constraints(
 
 def reaction_rows(joint: Any, first: int) -> dict[str, int]:
     """Row of each reaction, Fx to Mz, of a joint whose first constraint is given and whose point is split."""
-    pair = pair_of(joint)
-    forces = "yzx" if joint.type == "screw" else pair.forces
+    pair = joint.pair
+    forces = "yzx" if pair.threaded else pair.forces
     names = [*(f"F{axis}" for axis in forces), *(f"M{axis}" for axis in pair.moments)]
     return {name: first + k for k, name in enumerate(names)}
 
@@ -177,12 +117,12 @@ def add_freedom(
     rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], at: Geometry, axis: Any = None
 ) -> list[str]:
     """Rows of a joint's freedoms; the names of those it has, that of a sphere only about a drive's ``axis``."""
-    pair, names = pair_of(joint), []
-    for name in joint.freedoms if joint.type != "weld" else ():
+    pair, names = joint.pair, []
+    for name in joint.freedoms:
         if name.startswith("slide"):
             along = at.on_i[AXES.index(pair.slides[int(name[5:] or 1) - 1] if pair.slides else "x")]
             rows.add(Along, index, ends, ui=at.ui, uj=at.uj, axis=along, pitch=0.0)
-        elif joint.type in BALLS:
+        elif pair.ball:
             if axis is None:
                 continue
             rows.add(
@@ -220,10 +160,8 @@ def _about_vector(axis: Array, at: Geometry) -> dict[str, Any]:
 
 def hinge(joint: Any, ends: tuple[int, int], at: Geometry, drives: dict[str, int]) -> Hinge:
     """How the joint lets one link be laid by the other; ``drives`` are the drives' numbers by freedom."""
-    pair = pair_of(joint)
-    names = (
-        [n for n in joint.freedoms if n.startswith("slide") and pair.slides] if joint.type != "weld" else []
-    )
+    pair = joint.pair
+    names = [n for n in joint.freedoms if n.startswith("slide") and pair.slides]
     turning = (
         ["turn"]
         if len(pair.turns) == 1
@@ -242,7 +180,7 @@ def hinge(joint: Any, ends: tuple[int, int], at: Geometry, drives: dict[str, int
         tuple(AXES.index(k) for k in pair.turns),
         driven,
         AXES.index(pair.turns) if len(pair.turns) == 1 else -1,
-        *((joint.lead / (2 * np.pi), drives.get("slide", -1)) if joint.type == "screw" else ()),
+        *((joint.lead / (2 * np.pi), drives.get("slide", -1)) if pair.threaded else ()),
     )
 
 
@@ -252,8 +190,8 @@ def local_axes(joint: Any, at: Geometry, on_i: Array, on_j: Array, moment: bool 
     They are those of i, but where a turn is blocked between a direction of i and one of j: both, and their normal. A
     slotted sphere in a cylinder has them for its moment only; its forces keep to the cylinder.
     """
-    pair = pair_of(joint)
-    if len(pair.turns) == 2 and (moment or joint.type != "slotted_sphere_in_cylinder"):
+    pair = joint.pair
+    if len(pair.turns) == 2 and (moment or pair.slides != "x"):
         first, second = (AXES.index(name) for name in pair.turns)
         n, p = space.rotate(on_i, at.on_i[first]), space.rotate(on_j, at.on_j[second])
         third = 3 - first - second

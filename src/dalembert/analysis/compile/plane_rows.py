@@ -1,6 +1,6 @@
 """Plane joints as rows: freedoms by name, constraints by complement; higher pairs by their constraints.
 
-To add a joint kind that slides or turns, add its freedoms to ``FREEDOMS``; one that does not, a branch of its own in
+A kind of joint that slides or turns needs nothing here but the ``FREEDOMS`` of its class; one that does not, a row in
 ``HIGHER``. The local axes of a joint are `slide` (its direction, in i's axes), `across` and `turn`.
 """
 
@@ -26,17 +26,6 @@ from dalembert.core.layout import (
 )
 
 Vector = tuple[float, float]
-
-FREEDOMS: dict[str, tuple[str, ...]] = {
-    "pin": ("turn",),
-    "slider": ("slide",),
-    "slot": ("slide", "turn"),
-    "weld": (),
-    "rolling": ("turn",),
-    "gear": (),
-}
-"""Freedoms of j in i that a drive, a spring or a damper can act on."""
-
 
 ANGULAR = (Turn, Angle, Perpendicular, Idle)
 """Families whose measure is an angle and whose wrench is a couple."""
@@ -101,22 +90,22 @@ def add_constraints(
     rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array
 ) -> None:
     """Rows of a joint's constraints: what its freedoms leave over, or those of a higher pair."""
-    if joint.type in HIGHER:
-        HIGHER[joint.type](rows, index, joint, ends, ui, uj)
+    higher = HIGHER.get(joint.type)
+    if higher is not None:
+        higher(rows, index, joint, ends, ui, uj)
         return
-    freedoms = FREEDOMS[joint.type]
-    if "slide" not in freedoms:
+    if not joint.slides:
         rows.add(Meet, index, ends, ui=ui, uj=uj)
     else:
         across = _across(direction(joint))
         rows.add(Along, index, ends, ui=ui, uj=uj, axis=across, pitch=0.0)
-    if "turn" not in freedoms:
+    if "turn" not in joint.freedoms:
         rows.add(Turn, index, ends, target=_fixed_angle(joint))
 
 
 def _fixed_angle(joint: Any) -> Any:
     """Angle of j's axes to i's where the joint fixes it."""
-    return joint.angle + (joint.direction if joint.type == "slider" else 0.0)
+    return joint.angle + getattr(joint, "direction", 0.0)
 
 
 def _across(e: Array) -> Array:
@@ -126,8 +115,8 @@ def _across(e: Array) -> Array:
 def add_freedom(
     rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array
 ) -> None:
-    """Rows of a joint's freedoms, in the order of ``FREEDOMS``."""
-    for name in FREEDOMS[joint.type]:
+    """Rows of a joint's freedoms, in their order."""
+    for name in joint.freedoms:
         if name == "slide":
             rows.add(Along, index, ends, ui=ui, uj=uj, axis=direction(joint), pitch=0.0)
         else:
@@ -142,7 +131,7 @@ def _gear(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: A
 def signed_radii(joint: Any) -> Vector:
     """Pitch radii of i and j; of an internal pair the inner (smaller) wheel's is negative, so that their sum is the
     distance of the centres."""
-    ri, rj = joint.pitch_radii if joint.type == "gear" else joint.radii
+    ri, rj = joint.pitch_radii
     if not joint.internal:
         return ri, rj
     return (ri, -rj) if ri > rj else (-ri, rj)
@@ -150,7 +139,7 @@ def signed_radii(joint: Any) -> Vector:
 
 def _rolling(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array) -> None:
     """A wheel on a line stays at its radius from it and rolls: e . span + r theta is constant."""
-    if getattr(joint, "radii", None) is not None:
+    if joint.radii is not None:
         ri, rj = signed_radii(joint)
         rows.add(Distance, index, ends, target=ri + rj, ui=ui, uj=uj)
         rows.add(Mesh, index, ends, ui=ui, uj=uj, ri=ri, rj=rj)

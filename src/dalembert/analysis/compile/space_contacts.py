@@ -21,8 +21,9 @@ import numpy as np
 
 from dalembert.algebra import space
 from dalembert.analysis.compile.contacts import Contact, Kinds, Read, Row
-from dalembert.analysis.compile.pair_table import AXES, Geometry
+from dalembert.analysis.compile.pair_table import Geometry
 from dalembert.core.layout import Along, Angle, Helix, Idle
+from dalembert.model.joints.pairs import AXES
 
 
 def _turning(at: Geometry, axis: int) -> Row:

@@ -38,13 +38,9 @@ DOUBTFUL = np.radians(20)
 
 def wound(c: Compiled, first: tuple[int, Pose], found: Path) -> Compiled:
     """The mechanism with the whole turns of its torsion springs, ``first`` being the first position and its pose."""
-    names = [n for n, load in c.mechanism.loads.items() if load.type in ("torsion_spring", "torsion_damper")]
-    rows = c.forcing.resistances.row
-    asked = [
-        k
-        for k, n in enumerate(names)
-        if c.mechanism.loads[n].type == "torsion_spring" and _open(c, int(rows[k]))
-    ]
+    loads, rows = c.mechanism.loads_on("turn"), c.forcing.resistances.row
+    names = list(loads)
+    asked = [k for k, load in enumerate(loads.values()) if load.FORCE == "spring" and _open(c, int(rows[k]))]
     if not asked or not found.reached.any():
         return c
     counting = _Counting(c, first, found)

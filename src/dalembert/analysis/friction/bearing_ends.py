@@ -11,13 +11,10 @@ import numpy as np
 from dalembert.analysis.friction.joint_friction import friction_of
 from dalembert.analysis.result.reaction_axes import axes_of
 from dalembert.arrays import Array
+from dalembert.model.joints.pairs import AXES
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
-
-
-AXIS = {"revolute": 2, "prismatic": 0, "cylindrical": 0}
-"""Number of the local axis of a joint's bearing."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +33,7 @@ class BearingEnd:
 
 def bearing_axis(r: Result, joint: str) -> Array:
     """Unit vector (P, 3) of the axis of a revolute, prismatic or cylindrical joint, ground axes."""
-    return np.asarray(axes_of(r, joint, "joint")[:, AXIS[r.mechanism.joints[joint].type]])
+    return np.asarray(axes_of(r, joint, "joint")[:, AXES.index(r.mechanism.joints[joint].pair.main)])
 
 
 def bearing_ends(r: Result, joint: str, kind: str) -> list[BearingEnd]:
@@ -53,13 +50,13 @@ def bearing_ends(r: Result, joint: str, kind: str) -> list[BearingEnd]:
     [('', (36, 3))]
     """
     described = r.mechanism.joints[joint]
-    if r.friction is None or described.type not in AXIS:
+    if r.friction is None or "guide" not in described.pair.friction:
         return []
     f, contacts = friction_of(r)
     mine = [
         e for e, found in enumerate(contacts.kind) if r.joints[contacts.joint[e]] == joint and found == kind
     ]
-    axes, first = axes_of(r, joint, "joint"), AXIS[described.type] + 1
+    axes, first = axes_of(r, joint, "joint"), AXES.index(described.pair.main) + 1
     u, v = axes[:, first % 3], axes[:, (first + 1) % 3]
     guide = getattr(getattr(described, "friction", None), "guide", None)
     places = [("", 0.0)] if guide is None else [("behind", -guide[0]), ("ahead", guide[1])]

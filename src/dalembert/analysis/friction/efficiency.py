@@ -98,7 +98,7 @@ def load_rate(r: Result, name: str) -> Array:
 
     load: Any = r.mechanism.loads[name]
     force, couple = unit_load(r, r.unknown_loads.index(name))
-    if load.type == "couple":
+    if load.ON == "link":
         turning = r.speed(load.on) * couple
         return np.asarray(turning if turning.ndim == 1 else turning.sum(axis=-1))
     velocity = r._velocity(load.on, point_of(r.mechanism, load.on, load.at))

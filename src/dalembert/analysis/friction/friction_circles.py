@@ -126,7 +126,7 @@ def two_pins(result: Result, joint: str) -> TwoPins | None:
     m = result.mechanism
     for link in m.joints[joint].links:
         pins = [n for n, d in m.joints.items() if link in d.links]
-        if link == GROUND or len(pins) != 2 or any(m.joints[n].type != "pin" for n in pins):
+        if link == GROUND or len(pins) != 2 or not all(m.joints[n].hinge for n in pins):
             continue
         first, second = pins
         if _two_forces(result, link, first, second):

@@ -121,7 +121,7 @@ def bearing_contact(result: Result, joint: str, kind: str) -> int:
 def bears_on_faces(result: Result, joint: str) -> bool:
     """Whether a joint is a slider with friction."""
     j = result.mechanism.joints[joint]
-    return result.friction is not None and j.type == "slider" and j.friction is not None
+    return result.friction is not None and j.guides and getattr(j, "friction", None) is not None
 
 
 @dataclass(frozen=True)
@@ -167,7 +167,7 @@ def friction_circle_radius(result: Result, joint: str) -> float:
     f = getattr(j, "friction", None)
     if result.friction is None or getattr(f, "radius", None) is None:
         return 0.0
-    if result.mechanism.dimension == 3 and j.type != "revolute":
+    if result.mechanism.dimension == 3 and not j.hinge:
         return 0.0
     _, contacts = friction_of(result)
     return float(strength(contacts, 1.0)[bearing_contact(result, joint, "pin")])

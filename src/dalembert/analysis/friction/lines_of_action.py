@@ -72,12 +72,12 @@ def _acting(r: Result, a: Action, k: int) -> list[Action]:
     """One whole reaction on its line, or at its corners."""
     if r.friction is None:
         return [a]
-    if r.mechanism.joints[a.of].type == "gear":  # the teeth's friction is a couple
+    if r.mechanism.joints[a.of].wheels:  # the teeth's friction is a couple
         return [part for part in joint_actions(r) if (part.of, part.link) == (a.of, a.link)]
     if friction_circle_radius(r, a.of):
         at = friction_circles(r, a.of).taken.point
         return [_shift(a, at)]
-    if r.mechanism.joints[a.of].type != "slider":
+    if not r.mechanism.joints[a.of].guides:
         return [a]
     sign = 1.0 if a.link == r.mechanism.joints[a.of].links[1] else -1.0
     faces = bearing_faces(r, a.of, k) if bears_on_faces(r, a.of) else _plain(r, a.of)

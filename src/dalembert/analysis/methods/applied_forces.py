@@ -159,11 +159,11 @@ def joint_place(r: Result, joint: str) -> Array:
     described: Any = r.mechanism.joints[joint]
     (i, j), (ui, uj) = described.links, r.mechanism.joint_points(joint)
     pj = link_place(r, j, uj)
-    if described.type not in ("gear", "rolling"):
+    if not described.wheels:
         return pj
     if r.mechanism.dimension == 3:
         return _pitch_point(r, joint)
-    if described.type == "rolling" and getattr(described, "radii", None) is None:
+    if described.wheels == 1:
         angle = link_angle(r, i) + float(described.direction)
         return pj + float(described.radius) * np.stack([np.sin(angle), -np.cos(angle)], axis=-1)
     pi = link_place(r, i, ui)
@@ -240,7 +240,7 @@ def unknown_load_actions(r: Result) -> tuple[Action, ...]:
     for k, name in enumerate(r.unknown_loads):
         load: Any = r.mechanism.loads[name]
         value, (force, couple) = r.unknown_load(name), unit_load(r, k)
-        u = r.mechanism.center(load.on) if load.type == "couple" else point_of(r.mechanism, load.on, load.at)
+        u = r.mechanism.center(load.on) if load.ON == "link" else point_of(r.mechanism, load.on, load.at)
         couple = value * couple if couple.ndim == 1 else value[:, None] * couple
         at = link_place(r, load.on, u)
         out.append(Action(name, "load", "", load.on, None, at, value[:, None] * force, couple))
@@ -265,13 +265,12 @@ def known_actions(r: Result, at: State | None = None) -> tuple[Action, ...]:
     with np.errstate(all="ignore"):
         sources = known_sources(c.layout, c.forcing, s.pose, s.moving, r.inertia)
     m = r.mechanism
-    known = {name: load for name, load in m.loads.items() if not getattr(load, "unknown", False)}
     build = _Builder(r, s.pose)
     build.centers("weight", "weight of {}", sources["weight"])
-    build.forces([n for n, load in known.items() if load.type == "force"], sources["force"])
-    build.couples([n for n, load in known.items() if load.type == "couple"], sources["couple"])
-    build.springs([n for n, load in known.items() if load.type in ("spring", "damper")], sources["spring"])
-    build.resistances(list(known.items()), sources["resistance"])
+    build.forces([n for n, load in m.loads_on("point").items() if not load.unknown], sources["force"])
+    build.couples([n for n, load in m.loads_on("link").items() if not load.unknown], sources["couple"])
+    build.springs(m.loads_on("span"), sources["spring"])
+    build.resistances(m.loads_on("turn"), sources["resistance"])
     if "inertia" in sources:
         build.inertia(sources["inertia"])
     return tuple(build.out)
@@ -331,24 +330,22 @@ class _Builder:
             )
             self.add(name, "load", name, one, k, middle, "couple")
 
-    def springs(self, names: list[str], one: Source) -> None:
+    def springs(self, loads: dict[str, Any], one: Source) -> None:
         springs = self.r.compiled.forcing.springs
-        for k, name in enumerate(names):
-            kind: Kind = "spring" if self.mechanism.loads[name].type == "spring" else "damper"
+        for k, (name, load) in enumerate(loads.items()):
             ends = (
                 (k, int(springs.a[k]), springs.at_a[k]),
-                (k + len(names), int(springs.b[k]), springs.at_b[k]),
+                (k + len(loads), int(springs.b[k]), springs.at_b[k]),
             )
             for place, link, u in ends:
-                self.add(name, kind, name, one, place, self.arm(link, u), "force")
+                self.add(name, load.FORCE, name, one, place, self.arm(link, u), "force")
 
-    def resistances(self, loads: list[tuple[str, Any]], one: Source) -> None:
+    def resistances(self, loads: dict[str, Any], one: Source) -> None:
         from dalembert.analysis.compile.load_arrays import joint_damping
 
         rows: list[tuple[str, Kind, str, str, str]] = [
-            (name, "spring" if load.type == "torsion_spring" else "damper", name, load.joint, "turn")
-            for name, load in loads  # the order is that of the compiled resistances
-            if load.type in ("torsion_spring", "torsion_damper")
+            (name, load.FORCE, name, load.joint, "turn")
+            for name, load in loads.items()  # the order is that of the compiled resistances
         ]
         for joint, described in self.mechanism.joints.items():
             damped = joint_damping(described)

@@ -155,7 +155,7 @@ def _member(r: Result, link: str, some: Sequence[Action], split: Sequence[Action
         for a in split
         if np.nanmax(np.abs(a.couple), initial=0.0) > floor * length
         and a.kind != "friction"
-        and not (a.kind == "joint" and r.mechanism.joints[a.of].type == "slider")
+        and not (a.kind == "joint" and r.mechanism.joints[a.of].guides)
     ]
     if not couples and _nothing(r, forces, floor):
         return Member(link, ZERO, tuple(map(_name, forces)), (), None)

@@ -85,7 +85,7 @@ def drive_kinds(result: Result, drive: str) -> dict[str, str]:
 
 def load_kind(result: Result, load: str) -> str:
     """Kind of an unknown load: force, or moment of a couple."""
-    return "force" if result.mechanism.loads[load].type == "force" else "moment"
+    return "force" if result.mechanism.loads[load].ON == "point" else "moment"
 
 
 def reactions(result: Result, axes: Axes = "ground") -> Iterator[Reaction]:

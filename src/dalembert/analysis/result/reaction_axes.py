@@ -66,7 +66,7 @@ def marks(c: Compiled, pose: Pose, rows: System, free: Array | None) -> Marks:
 def _axes(c: Compiled, k: int, pose: Pose, place: str, ends: tuple[int, int], moment: bool = False) -> Array:
     """Axes (P, 3, 3), a row each, in ground axes, from the poses of all links."""
     i, j = (pose.rotation[..., end, :] for end in ends)
-    if place == "joint" and c.mechanism.joints[c.joints[k]].type == "gear":
+    if place == "joint" and c.mechanism.joints[c.joints[k]].wheels:
         rows = c.layout.constraints
         f, mesh = next(
             (f, m) for f in gearings(c.layout) for m, row in enumerate(f.row) if rows.joint[row] == k

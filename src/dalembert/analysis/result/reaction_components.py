@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from dalembert.analysis.compile.pair_table import AXES, PAIRS, Pair, pair_of
 from dalembert.analysis.methods.applied_forces import Action
 from dalembert.analysis.result.reaction_axes import axes_of
 from dalembert.arrays import Array
+from dalembert.model.joints.pairs import AXES
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -40,16 +40,6 @@ class Component(NamedTuple):
         return self.axis not in AXES or not self.axis
 
 
-def table_row(joint: Any) -> Pair:
-    """Forces and moments that a joint carries along its axes; of a gear none by name."""
-    return pair_of(joint) if joint.type in PAIRS else Pair("", "")
-
-
-def local_words(joint: Any) -> str:
-    """What a joint's own axes are, in words."""
-    return PAIRS[joint.type].local if joint.type in PAIRS else "x radial, y tangential, z along the axis of i"
-
-
 def unknown_count(r: Result, joint: str) -> int:
     """How many constraints a joint has, and so how many unknown components its reaction."""
     return int((r.compiled.layout.constraints.joint == r.joints.index(joint)).sum())
@@ -58,18 +48,18 @@ def unknown_count(r: Result, joint: str) -> int:
 def components(r: Result, a: Action, k: int, axes: Array) -> tuple[Component, ...]:
     """The unknown components of a joint's action on a link at position k; three of a kind along ``axes`` (3, 3)."""
     described: Any = r.mechanism.joints[a.of]
-    if described.type not in PAIRS:
+    if described.wheels:
         size = math.hypot(*a.force[k])
         unit = a.force[k] / size if size else np.zeros(3)
         return (Component(False, "", unit, np.zeros(3), size),)
-    pair, out = pair_of(described), []
+    pair, out = described.pair, []
     for turning, letters, vector in ((False, pair.forces, a.force[k]), (True, pair.moments, a.couple[k])):
-        whole = letters == AXES and described.type != "screw"
+        whole = letters == AXES and not pair.threaded
         rows = axes if whole else axes_of(r, a.of, "joint", turning)[k]
         for letter in letters:
             e = rows[AXES.index(letter)]
             force, couple = (np.zeros(3), e) if turning else (e, np.zeros(3))
-            if described.type == "screw" and not turning and letter == "x":
+            if pair.threaded and not turning and letter == "x":
                 couple = -described.lead / (2 * math.pi) * e
             name = letter if whole else f"{letter}'"
             out.append(Component(turning, name, force, couple, float(vector @ e)))

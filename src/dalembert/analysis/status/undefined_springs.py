@@ -25,7 +25,7 @@ def find_undefined_springs(c: Compiled, pose: Pose) -> Flags:
 
 def undefined_sentence(c: Compiled, found: Flags, run: Ints) -> str:
     """Which springs have no direction, and how hard they push."""
-    names = [name for name, load in c.mechanism.loads.items() if load.type in ("spring", "damper")]
+    names = list(c.mechanism.loads_on("span"))
     pushed = np.flatnonzero(found[run].any(axis=0))
     springs = c.forcing.springs
     figures = " and ".join(

@@ -53,8 +53,8 @@ class FrictionDefaults(Part):
     enabled: StrictBool = Field(True, description="false: all friction is left out")
 
 
-class PinFriction(Part):
-    """Friction of a pin of a radius: a couple of the friction circle."""
+class FrictionPart(Part):
+    """What dry friction of every kind of joint has: its coefficients."""
 
     coefficient: Coefficient | None = Field(
         None, description="coefficient of friction; default the top level's"
@@ -63,22 +63,20 @@ class PinFriction(Part):
         None,
         description="coefficient at rest; default the joint's own coefficient, then the top level's static",
     )
+
+
+class PinFriction(FrictionPart):
+    """Friction of a pin of a radius: a couple of the friction circle."""
+
     radius: Annotated[float, Scalar("length", "not negative")] = Field(
         description="radius of the pin, a length"
     )
     circle: Circle | None = Field(None, description="R sin(phi), or mu R with tan; default the top level's")
 
 
-class GuideFriction(Part):
+class GuideFriction(FrictionPart):
     """Friction along a slide; without `guide` the normal force bears on one face."""
 
-    coefficient: Coefficient | None = Field(
-        None, description="coefficient of friction; default the top level's"
-    )
-    static: Coefficient | None = Field(
-        None,
-        description="coefficient at rest; default the joint's own coefficient, then the top level's static",
-    )
     guide: Annotated[tuple[float, float], Guide()] | None = Field(
         None, description="how far the guide reaches behind and ahead of j's point, two lengths"
     )
@@ -87,23 +85,16 @@ class GuideFriction(Part):
     )
 
 
-class SlotFriction(Part):
+class SlotFriction(FrictionPart):
     """Friction of a pin in a slot: along the slide, and with a radius also the pin's couple."""
 
-    coefficient: Coefficient | None = Field(
-        None, description="coefficient of friction; default the top level's"
-    )
-    static: Coefficient | None = Field(
-        None,
-        description="coefficient at rest; default the joint's own coefficient, then the top level's static",
-    )
     radius: Annotated[float, Scalar("length", "not negative")] | None = Field(
         None, description="radius of the pin in the slot, a length"
     )
     circle: Circle | None = Field(None, description="R sin(phi), or mu R with tan; default the top level's")
 
 
-class GearFriction(Part):
+class GearFriction(FrictionPart):
     """Friction of teeth: a couple on each wheel against their relative turn, mu |F_n| times the arm.
 
     Teeth slide at the rate of the wheels' relative turn times the distance of their contact from the pitch point; the
@@ -111,31 +102,17 @@ class GearFriction(Part):
     `arm`, the mean distance on the path of contact of standard full-depth teeth (needs `teeth` and `module`).
     """
 
-    coefficient: Coefficient | None = Field(
-        None, description="coefficient of friction; default the top level's"
-    )
-    static: Coefficient | None = Field(
-        None,
-        description="coefficient at rest; default the joint's own coefficient, then the top level's static",
-    )
     arm: Annotated[float, Scalar("length", "positive")] | None = Field(
         None, description="mean distance of the teeth's contact from the pitch point, a length"
     )
 
 
-class SpaceFriction(Part):
+class SpaceFriction(FrictionPart):
     """Friction of a joint in space: a journal, a guide, a ball or a thread.
 
     Without `guide` the bearing couple of a journal or guide is not counted; with it two ends bear.
     """
 
-    coefficient: Coefficient | None = Field(
-        None, description="coefficient of friction; default the top level's"
-    )
-    static: Coefficient | None = Field(
-        None,
-        description="coefficient at rest; default the joint's own coefficient, then the top level's static",
-    )
     radius: Annotated[float, Scalar("length", "positive")] | None = Field(
         None, description="of the journal, of the ball, or the mean one of the thread; a length"
     )

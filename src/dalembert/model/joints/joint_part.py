@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import Field, ValidationInfo, model_validator
 
 from dalembert.errors import ModelError
+from dalembert.model.joints.pairs import PAIRS, TEETH, Pair
 from dalembert.model.joints.stiffness import Stiffness
 from dalembert.model.part import Part
 from dalembert.model.quantities.values import JsonSchema, TwoNames, Value, name, pair_of_names
@@ -31,6 +32,12 @@ class JointPart(Part):
 
     FREEDOMS: ClassVar[tuple[str, ...]] = ()
 
+    DIMENSIONS: ClassVar[tuple[int, ...]] = (2,)
+    """Of the plane, of space, or of both."""
+
+    TOOTHED: ClassVar[bool] = False
+    """Whether its wheels have teeth."""
+
     type: str
     links: TwoNames = Field(description="[i, j]: motion and reaction are those of j against i")
     at: Annotated[str | tuple[str, str], At()] | None = Field(
@@ -45,6 +52,41 @@ class JointPart(Part):
     def freedoms(self) -> tuple[str, ...]:
         """The freedoms of j in i that a drive can prescribe."""
         return self.FREEDOMS
+
+    @property
+    def wheels(self) -> int:
+        """Of a contact of wheels about its points, how many touch: two, or j's with a line of i; 0 of other joints."""
+        return 0
+
+    @property
+    def slides(self) -> bool:
+        """Whether j slides straight in i."""
+        return any(freedom.startswith("slide") for freedom in self.freedoms)
+
+    @property
+    def apart(self) -> bool:
+        """Whether j's point, the joint's place, moves away from i's."""
+        return self.slides
+
+    @property
+    def guides(self) -> bool:
+        """In the plane: whether j does not turn in a guide, whose faces bear a couple."""
+        return self.freedoms == ("slide",) and 2 in self.DIMENSIONS
+
+    @property
+    def ball(self) -> bool:
+        """Whether j turns any way in i."""
+        return False
+
+    @property
+    def hinge(self) -> bool:
+        """Whether j turns about one axis of i, and does nothing else."""
+        return self.freedoms == ("turn",) and not (self.ball or self.apart or self.wheels)
+
+    @property
+    def pair(self) -> Pair:
+        """In space: its row of the table; a gear carries nothing by name."""
+        return PAIRS.get(self.type, TEETH)
 
     def turn_of(self, named: str | None) -> str | None:
         """The turn that is named, or its only one; None where there is no such one, or a name is needed."""

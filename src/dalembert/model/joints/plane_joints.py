@@ -10,7 +10,8 @@ from pydantic import Field, StrictBool, ValidationInfo, model_validator
 from dalembert.errors import ModelError
 from dalembert.model.joints.friction_keys import GearFriction, GuideFriction, PinFriction, SlotFriction
 from dalembert.model.joints.joint_part import JointPart
-from dalembert.model.joints.space_joints import SPACE_FREEDOMS, Frames, Matrix, SpaceJoint, frames
+from dalembert.model.joints.pairs import freedoms_of
+from dalembert.model.joints.space_joints import Frames, Matrix, SpaceJoint, frames
 from dalembert.model.part import mapping, reading
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
@@ -27,7 +28,7 @@ from dalembert.model.quantities.values import (
 from dalembert.units import quantity
 
 
-class Pair(Value):
+class TwoNumbers(Value):
     """Two positive numbers of a kind, `[of i, of j]`."""
 
     def __init__(self, kind: str) -> None:
@@ -124,6 +125,7 @@ class Slot(JointPart):
 class Weld(JointPart):
     """A rigid connection."""
 
+    DIMENSIONS: ClassVar = (2, 3)
     type: Literal["weld"] = "weld"
     angle: Angle = Field(0.0, description="of j's axes to i's, default 0")
     axes: Frames | None = Field(
@@ -143,11 +145,13 @@ class Gear(JointPart):
     (0.02, 0.05)
     """
 
+    DIMENSIONS: ClassVar = (2, 3)
+    TOOTHED: ClassVar = True
     type: Literal["gear"] = "gear"
-    radii: Annotated[tuple[float, float], Pair("length")] | None = Field(
+    radii: Annotated[tuple[float, float], TwoNumbers("length")] | None = Field(
         None, description="of the pitch circles, [of i, of j], lengths; or teeth and module"
     )
-    teeth: Annotated[tuple[float, float], Pair("number")] | None = Field(
+    teeth: Annotated[tuple[float, float], TwoNumbers("number")] | None = Field(
         None, description="numbers of teeth, [of i, of j]"
     )
     module: Annotated[float, Scalar("length", "positive")] | None = Field(
@@ -166,6 +170,11 @@ class Gear(JointPart):
     )
     internal: StrictBool = Field(False, description="true: the larger wheel is an internal gear")
     friction: GearFriction | None = Field(None, description="dry friction of the teeth")
+
+    @property
+    def wheels(self) -> int:
+        """Both links have one."""
+        return 2
 
     @property
     def pitch_radii(self) -> tuple[float, float]:
@@ -234,10 +243,20 @@ class Rolling(JointPart):
     direction: Angle = Field(
         0.0, description="of the line, an angle in i's axes; the wheel is on its left; default 0"
     )
-    radii: Annotated[tuple[float, float], Pair("length")] | None = Field(
+    radii: Annotated[tuple[float, float], TwoNumbers("length")] | None = Field(
         None, description="of the circle on i and of the wheel on j, lengths"
     )
     internal: StrictBool = Field(False, description="true: one rolls inside the other")
+
+    @property
+    def wheels(self) -> int:
+        """One on a line, else two."""
+        return 1 if self.radii is None else 2
+
+    @property
+    def pitch_radii(self) -> tuple[float, float]:
+        """Radii of the circle on i, 0 of a line, and of the wheel on j, metres."""
+        return self.radii or (0.0, self.radius or 0.0)
 
     @model_validator(mode="after")
     def _line_or_circle(self) -> Self:
@@ -255,27 +274,18 @@ class Rolling(JointPart):
         return self
 
 
-PLANE_FREEDOMS: dict[str, tuple[str, ...]] = {
-    "pin": Pin.FREEDOMS,
-    "slider": Slider.FREEDOMS,
-    "slot": Slot.FREEDOMS,
-    "weld": (),
-    "gear": (),
-    "rolling": Rolling.FREEDOMS,
-}
-"""Joint in the plane -> freedoms that a drive can prescribe."""
-
 Joint = Annotated[
     Pin | Slider | Slot | Weld | Gear | Rolling | SpaceJoint,
     Field(discriminator="type", description="a joint"),
 ]
 
 
+_FREEDOMS = {part.model_fields["type"].default: part.FREEDOMS for part in JointPart.__subclasses__()}
+
+
 def freedoms(kind: object) -> tuple[str, ...]:
-    """The freedoms of a joint type, none for an unknown one."""
-    if not isinstance(kind, str):
-        return ()
-    return PLANE_FREEDOMS.get(kind) or SPACE_FREEDOMS.get(kind) or ()
+    """The freedoms of a joint type that a drive can prescribe, none for an unknown one."""
+    return (_FREEDOMS.get(kind) or freedoms_of(kind)) if isinstance(kind, str) else ()
 
 
 def refuse_unfinished(joint: str, kind: object) -> None:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, ValidationInfo, model_validator
 
 from dalembert.errors import ModelError
 from dalembert.model.joints.friction_keys import SpaceFriction
 from dalembert.model.joints.joint_part import JointPart
+from dalembert.model.joints.pairs import AXES, PAIRS, Pair
 from dalembert.model.part import Part, mapping, reading
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
@@ -61,7 +62,7 @@ class Dampings(Value):
 
     def read(self, value: Any, info: ValidationInfo) -> dict[str, float]:
         rules, kind = reading(info), str(info.data.get("type"))
-        freedoms = damped_freedoms(kind)
+        freedoms = PAIRS[kind].damped if kind in PAIRS else ()
         if not freedoms:
             raise ModelError("this joint has no freedom about one axis to damp", "leave it out")
         keys = value if isinstance(value, dict) else {freedoms[0]: value}
@@ -79,7 +80,7 @@ class Dampings(Value):
         return {key: value_text(item, kinds[key]) for key, item in value.items()}
 
     def json_schema(self) -> JsonSchema:
-        names = sorted({name for freedoms in SPACE_FREEDOMS.values() for name in freedoms})
+        names = sorted({name for pair in PAIRS.values() for name in pair.freedoms})
         what = {True: "force per speed", False: "moment per angular speed"}
         both = {
             "type": "object",
@@ -91,54 +92,6 @@ class Dampings(Value):
         return {"anyOf": [NUMBER_OR_TEXT, both]}
 
 
-SPACE_FREEDOMS: dict[str, tuple[str, ...]] = {
-    "revolute": ("turn",),
-    "prismatic": ("slide",),
-    "screw": ("turn", "slide"),
-    "cylindrical": ("slide", "turn"),
-    "universal": ("turn1", "turn2"),
-    "spherical": ("turn",),
-    "plane": ("slide1", "slide2", "turn"),
-    "sphere_between_planes": ("slide1", "slide2", "turn"),
-    "sphere_in_cylinder": ("slide", "turn"),
-    "cylinder_between_planes": ("slide1", "slide2", "turn1", "turn2"),
-    "slotted_sphere": ("turn1", "turn2"),
-    "torus": ("turn1", "turn2"),
-    "slotted_cylinder": ("slide", "turn"),
-    "slotted_sphere_in_cylinder": ("slide", "turn1", "turn2"),
-}
-"""Joint in space -> freedoms that a drive can prescribe; the turn of a sphere needs the drive's ``axis``."""
-
-BALLS = ("spherical", "sphere_between_planes", "sphere_in_cylinder")
-"""Joints that turn any way."""
-
-
-def damped_freedoms(kind: str) -> tuple[str, ...]:
-    """The freedoms of a joint type that can be damped: of a ball its slides, for it turns about no axis of its own.
-
-    >>> damped_freedoms("sphere_in_cylinder")
-    ('slide',)
-    """
-    return tuple(f for f in SPACE_FREEDOMS.get(kind, ()) if kind not in BALLS or f.startswith("slide"))
-
-
-MAIN: dict[str, str] = dict.fromkeys(SPACE_FREEDOMS, "x") | {"revolute": "z"}
-"""The local axis that the short form `axis` means."""
-
-
-FRICTION_KEYS: dict[str, tuple[str, ...]] = {
-    "revolute": ("radius", "circle", "guide", "thrust_radius"),
-    "prismatic": ("guide",),
-    "cylindrical": ("radius", "circle", "guide"),
-    "spherical": ("radius", "circle"),
-    "screw": ("radius", "thread_angle"),
-}
-"""Joints in space that can have friction, and what describes theirs beside the coefficients."""
-
-NEEDED_RADIUS = {"revolute": "journal", "spherical": "ball", "screw": "thread, the mean one"}
-"""Joints whose friction needs a radius, and what it is the radius of."""
-
-
 class SpaceJoint(JointPart):
     """A joint in space, described by its local axes.
 
@@ -146,6 +99,7 @@ class SpaceJoint(JointPart):
     (0.0, 0.0, 1.0)
     """
 
+    DIMENSIONS: ClassVar = (3,)
     type: Literal[
         "revolute",
         "prismatic",
@@ -182,19 +136,32 @@ class SpaceJoint(JointPart):
     @property
     def freedoms(self) -> tuple[str, ...]:
         """The freedoms of j in i that a drive can prescribe."""
-        return SPACE_FREEDOMS[self.type]
+        return self.pair.freedoms
+
+    @property
+    def pair(self) -> Pair:
+        """Its row of the table, with the blocked axis of a slotted sphere in its place."""
+        pair, k = PAIRS[self.type], AXES.index(self.blocked or "x")
+        if k == 0:
+            return pair
+        return pair._replace(moments=AXES[k], turns=AXES[(k + 1) % 3] + AXES[(k + 2) % 3])
+
+    @property
+    def ball(self) -> bool:
+        """Whether j turns any way in i."""
+        return self.pair.ball
 
     @property
     def frames(self) -> tuple[Matrix, Matrix]:
         """Its local axes in i's and in j's axes, each x, y, z."""
-        return frames(self.axes, self.axis, MAIN[self.type])
+        return frames(self.axes, self.axis, self.pair.main)
 
     @model_validator(mode="after")
     def _own_keys(self, info: ValidationInfo) -> Self:
         if reading(info).dimension == 2:  # the mechanism says that it is not for the plane
             return self
-        if (self.lead is None) == (self.type == "screw"):
-            if self.type == "screw":
+        if (self.lead is None) == self.pair.threaded:
+            if self.pair.threaded:
                 raise ModelError("a screw needs its lead", "write lead: 5 mm, the advance a turn")
             raise ModelError(f"a {self.type} joint has no lead", "leave it out", ("lead",))
         if self.lead == 0:
@@ -215,10 +182,11 @@ class SpaceJoint(JointPart):
         return self
 
     def _check_friction(self, friction: SpaceFriction) -> None:
-        keys = FRICTION_KEYS.get(self.type)
-        if keys is None:
+        keys, needed = self.pair.friction, self.pair.radius
+        if not keys:
             what = f"friction of a {self.type} joint is not analysed"
-            raise ModelError(what, "give it to one of " + ", ".join(FRICTION_KEYS), ("friction",))
+            rough = [kind for kind, pair in PAIRS.items() if pair.friction]
+            raise ModelError(what, "give it to one of " + ", ".join(rough), ("friction",))
         for key in ("radius", "circle", "guide", "thrust_radius", "thread_angle"):
             if key not in keys and getattr(friction, key) is not None:
                 raise ModelError(
@@ -228,18 +196,18 @@ class SpaceJoint(JointPart):
             if friction.guide is not None:
                 what = "its friction has a guide, and no radius of the journal in it"
                 raise ModelError(what, "write radius: 10 mm, or leave guide out", ("friction", "guide"))
-        elif friction.radius is None and self.type in NEEDED_RADIUS:
-            what = f"its friction needs the radius of its {NEEDED_RADIUS[self.type]}"
-            collar = ", or thrust_radius alone for a collar" if self.type == "revolute" else ""
+        elif friction.radius is None and needed:
+            what = f"its friction needs the radius of its {needed}"
+            collar = ", or thrust_radius alone for a collar" if "thrust_radius" in keys else ""
             raise ModelError(what, f"write radius: 10 mm{collar}", ("friction",))
 
     def _check_axes(self) -> None:
-        if self.type == "universal":
+        if self.pair.pins:
             pins = self.axes and (self.axes.i.z, self.axes.j.z)
             if not pins or None in pins:
                 what = "a universal joint needs the directions of its two pins"
                 raise ModelError(what, "write axes: {i: {z: [0, 0, 1]}, j: {z: [0, 1, 0]}}")
-        elif self.axis is None and self.axes is None and self.type != "spherical":
+        elif self.axis is None and self.axes is None and (self.slides or not self.ball):
             raise ModelError(f"a {self.type} joint needs its axis", "write axis: [0, 0, 1], or axes")
 
 

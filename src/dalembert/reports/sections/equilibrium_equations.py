@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING
 
 from dalembert.analysis.methods.applied_forces import actions, joint_place, on_link
-from dalembert.analysis.result.reaction_components import table_row
 from dalembert.reports.sections.terms import AXES, About, Piece, join_signed, setting, terms
 from dalembert.reports.sections.terms import about as at
 from dalembert.reports.sheet import Working
@@ -29,7 +28,7 @@ def moment_point(r: Result, link: str, k: int, wanted: str = "") -> About:
         return About("G", r.center(link)[k])
     if r.mechanism.dimension == 2:
         return About(joints[0], joint_place(r, joints[0])[k])
-    rows = {n: table_row(r.mechanism.joints[n]) for n in joints}
+    rows = {n: r.mechanism.joints[n].pair for n in joints}
     most = max(joints, key=lambda n: (len(rows[n].forces), len(rows[n].moments)))
     return About(most, joint_place(r, most)[k])
 

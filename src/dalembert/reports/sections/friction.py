@@ -89,7 +89,7 @@ def _two_force_links(c: ReportContext) -> list[TwoPins]:
     """Links that two pins alone load, with a friction circle in one at least."""
     found: dict[str, TwoPins] = {}
     for joint in (n for n in c.r.joints if friction_circle_radius(c.r, n)):
-        two = two_pins(c.r, joint) if c.r.mechanism.joints[joint].type == "pin" else None
+        two = two_pins(c.r, joint) if c.r.mechanism.joints[joint].hinge else None
         if two is not None and abs(two.tension[c.k]) > c.shown.least["force"]:
             found[two.link] = two
     return list(found.values())

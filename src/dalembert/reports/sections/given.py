@@ -9,13 +9,12 @@ from typing import Any
 import numpy as np
 
 from dalembert.analysis.compile.contacts import coefficient, resting_coefficient
-from dalembert.analysis.compile.pair_table import AXES
 from dalembert.analysis.methods.applied_forces import actions
 from dalembert.analysis.methods.inertia_couples import inertia_matrix
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.rounding import PART
-from dalembert.analysis.result.reaction_components import local_words
 from dalembert.model import GROUND
+from dalembert.model.joints.pairs import AXES
 from dalembert.reports.pictures import given_picture
 from dalembert.reports.report_context import ReportContext, as_formula
 from dalembert.reports.sheet import Sheet
@@ -102,7 +101,7 @@ def joint_axes(sheet: Sheet, c: ReportContext) -> None:
             [
                 joint,
                 *(f"({', '.join(_cosine(float(x), c.notation.figures) for x in e)})" for e in axes),
-                _add_primes(local_words(described)),
+                _add_primes(described.pair.local),
             ]
         )
     heads = ["Joint", "x'", "y'", "z'", "What they are"]
@@ -121,13 +120,10 @@ def _cosine(x: float, figures: int) -> str:
 def _measures(shown: Shown, joint: Any) -> str:
     """What a joint has of its own besides its points: ', pitch radii 80 mm and 40 mm, pressure angle 20°'."""
     parts = []
-    radii = joint.pitch_radii if joint.type == "gear" else getattr(joint, "radii", None)
-    if radii is not None:
-        both = " and ".join(shown.text("length", float(x)) for x in radii)
-        parts.append(f"{'pitch ' if joint.type == 'gear' else ''}radii {both}")
+    if joint.wheels == 2:
+        both = " and ".join(shown.text("length", float(x)) for x in joint.pitch_radii)
+        parts.append(f"{'pitch ' if joint.TOOTHED else ''}radii {both}")
         parts.append("internal" if joint.internal else "")
-    elif joint.type == "rolling":
-        parts.append(f"radius {shown.text('length', float(joint.radius))}")
     for key, words, kind in OWN_MEASURES:
         value = getattr(joint, key, None)
         parts.append(
@@ -137,6 +133,7 @@ def _measures(shown: Shown, joint: Any) -> str:
 
 
 OWN_MEASURES = (
+    ("radius", "radius", "length"),
     ("direction", "along", "angle"),
     ("pressure_angle", "pressure angle", "angle"),
     ("helix_angle", "helix angle", "angle"),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -16,8 +15,6 @@ from dalembert.views.notation import Shown
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
-
-CLOSING = ("pin", "slider", "slot", "weld")
 
 
 class Vector(NamedTuple):
@@ -43,13 +40,13 @@ Ring = list[tuple[str, str, str]]
 
 
 def loops(r: Result, k: int) -> list[Loop]:
-    """Independent loops through pins, sliders, slots and welds; each side at position k."""
-    return [_loop(r, k, ring) for ring in rings(r, CLOSING)]
+    """Independent loops; each side at position k."""
+    return [_loop(r, k, ring) for ring in rings(r)]
 
 
-def rings(r: Result, closing: Collection[str]) -> list[Ring]:
-    """Independent loops through joints of some types: each of a joint outside a tree from the ground."""
-    edges = {n: d.links for n, d in r.mechanism.joints.items() if d.type in closing}
+def rings(r: Result) -> list[Ring]:
+    """Independent loops through joints that are no contacts of wheels: each of one outside a tree from the ground."""
+    edges = {n: d.links for n, d in r.mechanism.joints.items() if not d.wheels}
     parent: dict[str, tuple[str, str] | None] = {GROUND: None}
     queue, tree = [GROUND], set()
     for link in queue:
@@ -109,7 +106,7 @@ def _side(r: Result, k: int, link: str, start: str, end: str) -> list[Vector]:
 def _crossing(r: Result, k: int, joint: str, before: str, after: str) -> list[Vector]:
     """The slide of a joint between its two points."""
     described = r.mechanism.joints[joint]
-    if described.type not in ("slider", "slot"):
+    if not described.slides:
         return []
     value, rate, second = (float(v[k]) for v in r.freedom(joint, "slide"))
     e = slide_direction(r, joint)[k]

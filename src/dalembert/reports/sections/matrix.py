@@ -128,16 +128,18 @@ def _plane_reaction(r: Result, joint: str, k: int, shown: Shown) -> list[Unknown
     sign, place, of = shown.reaction(joint, j), joint_place(r, joint)[k], (("joint", joint),)
     force, moment = r.least_norm(joint)[k, :2], float(r.least_norm(joint)[k, 2])
     axes: list[tuple[str, Array]] = []
-    if described.type in ("pin", "weld", "rolling"):
+    rows = r.compiled.layout.constraints
+    turning = rows.angular[rows.joint == r.joints.index(joint)]
+    if (~turning).sum() == 2:
         axes = [("x", np.array([1.0, 0.0])), ("y", np.array([0.0, 1.0]))]
-    elif described.type in ("slider", "slot"):
+    elif described.slides:
         e = slide_direction(r, joint)[k]
         axes = [("n", np.array([-e[1], e[0]]))]
     none, zero = np.zeros(()), np.zeros(2)
     for letter, e in axes:
         on = {j: (e, none), i: (-e, none)}
         out.append(Unknown(along(sign, letter), float(force @ e), "force", on, place, of))
-    if described.type in ("slider", "weld"):
+    if turning.any():
         on = {j: (zero, none + 1.0), i: (zero, none - 1.0)}
         out.append(Unknown(shown.joint_moment(joint, j), moment, "moment", on, place, of))
     return out

@@ -31,7 +31,7 @@ def motion(sheet: Sheet, c: ReportContext) -> None:
             sheet.equations(kinematics.velocity_lines(loop, shown))
             sheet.equations(kinematics.acceleration_lines(loop, shown))
     for name, joint in r.mechanism.joints.items() if moving else ():
-        if joint.type == "gear":
+        if joint.TOOTHED:
             words, lines = mesh(r, c.k, name, shown)
             sheet.text(words)
             sheet.equations(lines)

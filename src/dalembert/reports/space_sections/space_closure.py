@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from dalembert.analysis.compile.pair_table import AXES, PAIRS, pair_of
 from dalembert.arrays import Array
 from dalembert.model import GROUND
+from dalembert.model.joints.pairs import AXES
 from dalembert.reports.sections.kinematics import Ring, joint_end, rings
 from dalembert.reports.sections.terms import Signed, join_signed
 from dalembert.reports.sheet import Sheet, Working
@@ -36,7 +36,7 @@ class Side(NamedTuple):
 
 def closing_lines(sheet: Sheet, r: Result, k: int, shown: Shown, moving: bool) -> None:
     """Each loop in letters, and the components of its sides with their sums."""
-    for n, ring in enumerate(rings(r, PAIRS)):
+    for n, ring in enumerate(rings(r)):
         sides = loop_sides(r, k, ring)
         names = " – ".join(shown.heading(after) for _, _, after in ring)
         ways = any(s.slide for s in sides)
@@ -71,7 +71,7 @@ def rates_of(r: Result, link: str, k: int) -> tuple[Array, Array]:
 def _slides(r: Result, k: int, joint: str, before: str) -> list[Side]:
     """From the point of a joint on the link before to that on the link after, along each of its slides."""
     described: Any = r.mechanism.joints[joint]
-    i, axes = described.links[0], "x" if described.type == "screw" else pair_of(described).slides
+    i, axes = described.links[0], "x" if described.pair.threaded else described.pair.slides
     names = [name for name in getattr(described, "freedoms", ()) if name.startswith("slide")] if axes else []
     turn = np.eye(3) if i == GROUND else r.rotation(i)[k]
     backwards, (w, alpha), out = before != i, rates_of(r, i, k), []

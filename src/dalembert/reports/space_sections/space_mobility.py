@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dalembert.analysis.degree_of_freedom import Mobility
-from dalembert.analysis.result.reaction_components import table_row, unknown_count
+from dalembert.analysis.result.reaction_components import unknown_count
 from dalembert.reports.report_context import ReportContext
 from dalembert.reports.sheet import Sheet, Working
 
@@ -32,8 +32,8 @@ def degrees_of_freedom(sheet: Sheet, c: ReportContext) -> None:
 
 def _row(c: ReportContext, joint: str) -> list[str]:
     described = c.r.mechanism.joints[joint]
-    carried = ", ".join(f"${name[0]}_{{{name[1]}'}}$" for name in table_row(described).reactions)
-    if described.type == "screw":
+    carried = ", ".join(f"${name[0]}_{{{name[1]}'}}$" for name in described.pair.reactions)
+    if described.pair.threaded:
         carried += " ($M_{x'}$ with $F_{x'}$)"
     links = " – ".join(c.shown.heading(link) for link in described.links)
     count = str(unknown_count(c.r, joint))

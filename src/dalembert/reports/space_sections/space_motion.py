@@ -36,7 +36,7 @@ def space_motion(sheet: Sheet, c: ReportContext) -> None:
         f"joints{given}; they are solved together by Newton's method. The largest gap left in any of them is "
         f"{remainder(gap / length)} of the characteristic length {c.shown.text('length', length)}."
     )
-    meshes = [n for n in r.joints if r.mechanism.joints[n].type == "gear"]
+    meshes = [n for n in r.joints if r.mechanism.joints[n].wheels]
     if meshes:
         sheet.text(f"The pitch circles of {' and '.join(meshes)} tie the turns of their wheels.")
     closing_lines(sheet, r, k, c.shown, _moves(c))

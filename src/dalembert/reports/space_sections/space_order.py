@@ -55,7 +55,7 @@ def _two_force_step(c: ReportContext, member: Member) -> Member:
 def _between_balls(c: ReportContext, link: str) -> bool:
     """Whether a link has two ball joints and no other."""
     joints = [d for d in c.r.mechanism.joints.values() if link in d.links]
-    return len(joints) == 2 and all(d.type == "spherical" for d in joints)
+    return len(joints) == 2 and all(d.ball and not d.slides for d in joints)
 
 
 def _ends(c: ReportContext, link: str) -> tuple[tuple[str, Array], tuple[str, Array]]:

@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from dalembert.analysis.compile.pair_table import AXES
-from dalembert.analysis.result.reaction_components import table_row
+from dalembert.model.joints.pairs import AXES
 from dalembert.reports.report_context import ReportContext, as_formula
 from dalembert.reports.sections.terms import floors
 from dalembert.reports.sheet import Sheet
@@ -44,7 +43,7 @@ def _row(c: ReportContext, joint: str, on: str, axes: Any, least: tuple[float, .
     row = [joint]
     for n, (kind, sign) in enumerate((("force", shown.reaction), ("moment", shown.joint_moment))):
         part, known = whole[3 * n : 3 * n + 3], np.isfinite(exact[3 * n : 3 * n + 3])
-        if n and not table_row(r.mechanism.joints[joint]).moments and not (np.abs(part) > least[1]).any():
+        if n and not r.mechanism.joints[joint].pair.moments and not (np.abs(part) > least[1]).any():
             return [*row, *["–"] * 5]
         carried = _carried_components(c, joint, n) if axes == "joint" else (True,) * 3
         row.append(as_formula(sign(joint, on)))
@@ -61,10 +60,10 @@ def _row(c: ReportContext, joint: str, on: str, axes: Any, least: tuple[float, .
 def _carried_components(c: ReportContext, joint: str, moments: int) -> tuple[bool, ...]:
     """Which components along its own axes a joint carries; of a gear any."""
     described = c.r.mechanism.joints[joint]
-    pair = table_row(described)
+    pair = described.pair
     letters = pair.moments if moments else pair.forces
-    screw = described.type == "screw" and moments == 1
-    return tuple(described.type == "gear" or a in letters or (screw and a == "x") for a in AXES)
+    screw = pair.threaded and moments == 1
+    return tuple(described.wheels > 0 or a in letters or (screw and a == "x") for a in AXES)
 
 
 def uniqueness(c: ReportContext) -> str:

@@ -42,7 +42,7 @@ def detail_scenes(
 
 def _own(r: Result, joint: str) -> str:
     """The link whose reaction a detail shows: the one that two pins alone load, else j, unless that is ground."""
-    two = two_pins(r, joint) if r.mechanism.joints[joint].type == "pin" else None
+    two = two_pins(r, joint) if r.mechanism.joints[joint].hinge else None
     i, j = r.mechanism.joints[joint].links
     return two.link if two is not None else i if j == GROUND else j
 

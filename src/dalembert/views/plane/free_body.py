@@ -18,6 +18,7 @@ from dalembert.views.paper.frame import Frame, fit_frame, force_scale
 from dalembert.views.paper.scene import Arrow, Line, Point, Scene
 from dalembert.views.plane.circle_details import draw_circles, with_friction_circle
 from dalembert.views.plane.guide_details import guide_block, guide_corners, with_rough_guide
+from dalembert.views.plane.joint_drawings import own_symbol
 from dalembert.views.plane.mechanism_view import draw_actions, role_of, scale_notes, unit_size
 from dalembert.views.plane.outline import link_points, link_shape, wheels
 from dalembert.views.symbols import plane_symbols
@@ -81,12 +82,8 @@ def _frame(r: Result, link: str, k: int, shown: Shown, some: tuple[Action, ...])
 
 
 def _own_wheels(r: Result, link: str, k: int) -> list[tuple[tuple[float, float], float]]:
-    out = []
-    for name, joint in r.mechanism.joints.items():
-        if link in joint.links and joint.type in ("gear", "rolling"):
-            both = wheels(r, name, joint, k)
-            out.append(both[-1] if joint.links[1] == link or len(both) == 1 else both[0])
-    return out
+    found = (wheel for name, joint in r.mechanism.joints.items() for wheel in wheels(r, name, joint, k))
+    return [(center, radius) for on, center, radius in found if on == link]
 
 
 def _draw_link(canvas: Canvas, r: Result, link: str, k: int, frame: Frame, shown: Shown) -> None:
@@ -100,15 +97,11 @@ def _draw_link(canvas: Canvas, r: Result, link: str, k: int, frame: Frame, shown
         end, at = joint.links.index(link), frame(joint_place(r, name)[k])
         if name in with_rough_guide(r, [name]) and end == 1:
             canvas.add(guide_block(r, name, k, frame))
-        elif joint.type == "slider" and end == 1:
+        elif joint.guides and end == 1:
             angle = float(r.angle(link)[k]) - float(getattr(joint, "angle", 0.0) or 0.0)
             canvas.add(*plane_symbols.slider(at, angle))
-        if joint.type == "weld":
-            canvas.add(*plane_symbols.weld(at))
-        elif (
-            end == 1 or joint.type == "pin"
-        ):  # the pin of a slot or slider is j's, and wheels meet without one
-            canvas.add(*(plane_symbols.pin(at) if joint.type not in ("gear", "rolling") else ()))
+        if end == 1 or not joint.apart:  # the pin of a slot or slider is j's
+            canvas.add(*own_symbol(joint.type, at))
         canvas.label(name, *_corners(at), size=3.2, role="title", leads=False)
     at = frame(r.center(link)[k])
     if m.mass(link):

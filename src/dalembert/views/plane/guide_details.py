@@ -44,7 +44,7 @@ HALF = 3.2
 def with_rough_guide(r: Result, joints: Sequence[str]) -> list[str]:
     """Those of some joints that slide with dry friction."""
     m = r.mechanism.joints
-    some = [n for n in joints if m[n].type in ("slider", "slot", "prismatic", "cylindrical", "screw")]
+    some = [n for n in joints if m[n].slides]
     return [n for n in some if r.friction is not None and getattr(m[n], "friction", None) is not None]
 
 

@@ -17,8 +17,8 @@ from dalembert.views.paper.frame import Frame, fit_frame, force_scale
 from dalembert.views.paper.scene import Arrow, Line, Point, Scene
 from dalembert.views.plane.circle_details import draw_circles, with_friction_circle
 from dalembert.views.plane.guide_details import with_rough_guide
+from dalembert.views.plane.joint_drawings import draw_joint
 from dalembert.views.plane.outline import (
-    draw_joint,
     every_place,
     link_points,
     link_shape,
@@ -134,7 +134,7 @@ def draw_traces(canvas: Canvas, r: Result, frame: Frame) -> None:
     if len(r.status) < 8 or r.stability is not None:
         return
     for name, joint in r.mechanism.joints.items():
-        if GROUND in joint.links and joint.type == "pin":
+        if GROUND in joint.links and joint.hinge:
             continue
         path = link_place(r, joint.links[1], r.mechanism.joint_points(name)[1])
         canvas.add(*(Line(tuple(frame(p) for p in run), "trace") for run in unbroken(path)))
@@ -147,13 +147,12 @@ def draw_links(canvas: Canvas, r: Result, k: int, frame: Frame) -> None:
         canvas.add(*rail(r, name, k, frame))
     for link in r.links:
         canvas.add(*link_shape(r, link, k, frame))
-    for name, load in m.loads.items():
-        if load.type in ("spring", "damper"):
-            a, b = (frame(link_place(r, end, u)[k]) for end, u in m.load_points(name))
-            canvas.add(*(plane_symbols.spring(a, b) if load.type == "spring" else plane_symbols.damper(a, b)))
-            for (end, _), at in zip(m.load_points(name), (a, b), strict=True):
-                canvas.add(*(plane_symbols.fixed_pin(at) if end == GROUND else plane_symbols.pin(at)))
-    for name in sorted(r.joints, key=lambda n: m.joints[n].type == "pin"):
+    for name, load in m.loads_on("span").items():
+        a, b = (frame(link_place(r, end, u)[k]) for end, u in m.load_points(name))
+        canvas.add(*plane_symbols.SPANS[load.type](a, b))
+        for (end, _), at in zip(m.load_points(name), (a, b), strict=True):
+            canvas.add(*(plane_symbols.fixed_pin(at) if end == GROUND else plane_symbols.pin(at)))
+    for name in sorted(r.joints, key=lambda n: m.joints[n].hinge):
         draw_joint(canvas, r, name, k, frame)
     joints = [frame(p) for link in r.links for p in link_points(r, link, k).values()]
     for link in r.links:

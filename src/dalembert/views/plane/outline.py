@@ -1,4 +1,4 @@
-"""Links as shapes and joints as symbols on paper, at one position."""
+"""Links as shapes on paper, at one position."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.methods.applied_forces import joint_place, link_angle, link_place, slide_direction
+from dalembert.analysis.compile.load_arrays import point_of
+from dalembert.analysis.methods.applied_forces import joint_place, link_place
 from dalembert.arrays import Array
 from dalembert.model import GROUND
-from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import Frame
 from dalembert.views.paper.scene import Item, Line, Point, Polygon
-from dalembert.views.symbols import plane_symbols
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
+    from dalembert.model import Mechanism
 
 
 def link_points(r: Result, link: str, k: int) -> dict[str, tuple[float, float]]:
@@ -28,27 +28,28 @@ def link_points(r: Result, link: str, k: int) -> dict[str, tuple[float, float]]:
             if end == link and not _slides_on(joint, end):
                 places.setdefault(name, link_place(r, link, u)[k])
     for name, joint in m.joints.items():
-        if joint.type in ("slider", "slot") and joint.links[0] == link != GROUND:
+        if joint.apart and joint.links[0] == link != GROUND:
             places[f"{name} sliding"] = link_place(r, joint.links[1], m.joint_points(name)[1])[k]
-    for name, load in m.loads.items():
-        if load.type == "force" and load.on == link:
-            places.setdefault(name, link_place(r, link, _spot(r, load))[k])
-        if load.type in ("spring", "damper"):
-            for end, u in m.load_points(name):
-                if end == link:
-                    places.setdefault(f"{name} {end}", link_place(r, link, u)[k])
+    for name, at in load_places(m, link).items():
+        places.setdefault(name, link_place(r, link, at)[k])
     return {name: (float(p[0]), float(p[1])) for name, p in places.items()}
 
 
 def _slides_on(joint: Any, link: str) -> bool:
-    """Whether the link is the rail of a slider or slot: its point is not where the other link is."""
-    return joint.type in ("slider", "slot") and joint.links[0] == link and link == GROUND
+    """Whether the link is what another moves along: its point is not where the other link is."""
+    return joint.apart and joint.links[0] == link and link == GROUND
 
 
-def _spot(r: Result, load: Any) -> Any:
-    from dalembert.analysis.compile.load_arrays import point_of
-
-    return point_of(r.mechanism, load.on, load.at)
+def load_places(m: Mechanism, link: str) -> dict[str, Any]:
+    """Points of a link, in its axes, where loads act on it."""
+    out: dict[str, Any] = {}
+    for name, load in m.loads.items():
+        if load.ON == "point" and load.on == link:
+            out[name] = point_of(m, link, load.at)
+        for end, u in m.load_points(name) if load.ON == "span" else ():
+            if end == link:
+                out.setdefault(f"{name} {end}", u)
+    return out
 
 
 def every_place(r: Result, k: int) -> list[tuple[float, float]]:
@@ -57,22 +58,18 @@ def every_place(r: Result, k: int) -> list[tuple[float, float]]:
     out += [tuple(joint_place(r, joint)[k]) for joint in r.joints]
     out += [tuple(r.center(link)[k]) for link in r.links if r.mechanism.mass(link)]
     for name, joint in r.mechanism.joints.items():
-        for center, radius in wheels(r, name, joint, k):
+        for _, center, radius in wheels(r, name, joint, k):
             out += [(center[0] + radius, center[1] + radius), (center[0] - radius, center[1] - radius)]
     return out
 
 
-def wheels(r: Result, name: str, joint: Any, k: int) -> list[tuple[tuple[float, float], float]]:
-    """Pitch circles of a gear or rolling joint: centre and radius in metres."""
-    if joint.type not in ("gear", "rolling"):
+def wheels(r: Result, name: str, joint: Any, k: int) -> list[tuple[str, tuple[float, float], float]]:
+    """Pitch circles of wheels in contact: link, centre and radius in metres."""
+    if not joint.wheels:
         return []
-    (i, j), (ui, uj) = joint.links, r.mechanism.joint_points(name)
-    pj = tuple(map(float, link_place(r, j, uj)[k]))
-    if joint.type == "rolling" and getattr(joint, "radii", None) is None:
-        return [(pj, float(joint.radius))]  # type: ignore[list-item]
-    pi = tuple(map(float, link_place(r, i, ui)[k]))
-    ri, rj = joint.pitch_radii if joint.type == "gear" else joint.radii
-    return [(pi, float(ri)), (pj, float(rj))]  # type: ignore[list-item]
+    both = zip(joint.links, r.mechanism.joint_points(name), joint.pitch_radii, strict=True)
+    found = [(link, link_place(r, link, u)[k], float(radius)) for link, u, radius in both if radius]
+    return [(link, (float(at[0]), float(at[1])), radius) for link, at, radius in found]
 
 
 def link_shape(r: Result, link: str, k: int, frame: Frame) -> list[Item]:
@@ -114,72 +111,15 @@ def _turn(a: Point, b: Point, c: Point) -> float:
 
 
 def rail(r: Result, name: str, k: int, frame: Frame) -> list[Item]:
-    """The rail of a slider on a moving link, from that link's point to the block."""
+    """The rail of a block on a moving link, from that link's point to the block."""
     joint = r.mechanism.joints[name]
-    if joint.type != "slider" or joint.links[0] == GROUND:
+    if not joint.guides or joint.links[0] == GROUND:
         return []
     ends = [
         frame(link_place(r, link, u)[k])
         for link, u in zip(joint.links, r.mechanism.joint_points(name), strict=True)
     ]
     return [Line(tuple(ends), "link")] if math.dist(*ends) > 0.5 else []
-
-
-def draw_joint(canvas: Canvas, r: Result, name: str, k: int, frame: Frame) -> None:
-    """The symbol of a joint."""
-    joint = r.mechanism.joints[name]
-    i, j = joint.links
-    at = frame(link_place(r, j, r.mechanism.joint_points(name)[1])[k])
-    if joint.type == "pin":
-        grounded = GROUND in (i, j)
-        canvas.add(*(plane_symbols.fixed_pin(at) if grounded else plane_symbols.pin(at)))
-    elif joint.type in ("slider", "slot"):
-        _draw_slide(canvas, r, name, k, frame, at)
-    elif joint.type == "weld":
-        canvas.add(*plane_symbols.weld(at))
-    else:
-        _draw_wheels(canvas, r, name, joint, k, frame)
-
-
-def _draw_slide(canvas: Canvas, r: Result, name: str, k: int, frame: Frame, at: Point) -> None:
-    joint = r.mechanism.joints[name]
-    i, j = joint.links
-    e = slide_direction(r, name)[k]
-    angle = math.atan2(float(e[1]), float(e[0]))
-    if joint.type == "slider":
-        if GROUND in (i, j):
-            side = -1.0 if math.cos(angle) > -1e-9 else 1.0
-            canvas.add(*plane_symbols.guide(at, angle, 13.0, side))
-        canvas.add(*plane_symbols.slider(at, angle))
-        if len([n for n, d in r.mechanism.joints.items() if j in d.links and d.type == "pin"]):
-            return
-        return
-    low, high = _slot_range(r, name, frame)
-    start = np.array(link_place(r, i, r.mechanism.joint_points(name)[0])[k])
-    a, b = frame(start + low * e), frame(start + high * e)
-    if GROUND in (i, j):
-        middle = ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
-        canvas.add(*plane_symbols.guide(middle, angle, math.dist(a, b) + 8.0))
-    canvas.add(*plane_symbols.slot(((a[0] + b[0]) / 2, (a[1] + b[1]) / 2), angle, math.dist(a, b)))
-    canvas.add(*plane_symbols.pin(at))
-
-
-def _slot_range(r: Result, name: str, frame: Frame) -> tuple[float, float]:
-    """Values that the slide takes over the cycle, with a little room, metres."""
-    values = r.freedom(name, "slide")[0]
-    low, high = float(np.nanmin(values)), float(np.nanmax(values))
-    room = min(0.08 * r.compiled.layout.length, 12.0 * frame.per_mm)
-    return low - room, high + room
-
-
-def _draw_wheels(canvas: Canvas, r: Result, name: str, joint: Any, k: int, frame: Frame) -> None:
-    for (center, radius), link in zip(wheels(r, name, joint, k)[::-1], joint.links[::-1], strict=False):
-        angle = float(link_angle(r, link)[k])
-        canvas.add(*plane_symbols.wheel(frame(center), frame.length(radius), angle))
-    if joint.type == "rolling" and getattr(joint, "radii", None) is None:
-        e = slide_direction(r, name)[k]
-        at = frame(joint_place(r, name)[k])
-        canvas.add(*plane_symbols.hatch(at, math.atan2(float(e[1]), float(e[0])), 22.0))
 
 
 def unbroken(path: Array) -> list[Array]:

@@ -81,7 +81,7 @@ def _images(r: Result) -> dict[str, list[str]]:
     out: dict[str, list[str]] = {link: [] for link in r.links}
     for name, joint in m.joints.items():
         for link in joint.links:
-            if link in out and not (joint.type in ("slider", "slot") and link == joint.links[0]):
+            if link in out and not (joint.apart and link == joint.links[0]):
                 out[link].append(name)
     for link in r.links:
         if m.mass(link):
@@ -101,7 +101,7 @@ def _vectors(r: Result, k: int, order: Order) -> dict[str, tuple[float, float]]:
         link = joint.links[1] if joint.links[1] != "ground" else joint.links[0]
         u = m.joint_points(name)[joint.links.index(link)]
         v = read(link, np.asarray(u, float))[k]
-        if "ground" not in joint.links or joint.type in ("slider", "slot"):
+        if "ground" not in joint.links or joint.apart:
             out[name] = (float(v[0]), float(v[1]))
     for link in r.links:
         if m.mass(link):

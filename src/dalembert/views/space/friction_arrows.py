@@ -47,7 +47,7 @@ def draw_friction(arrows: Arrows, joint: str, link: str, k: int) -> None:
             arrows.vector(at, v, "friction", joint, text, bool(turning))
     if journals(r, k, [joint]):
         draw_circle(arrows.canvas, r, arrows.s, joint, k)
-    if with_rough_guide(r, [joint]) and r.mechanism.joints[joint].type != "screw":
+    if with_rough_guide(r, [joint]) and not r.mechanism.joints[joint].pair.threaded:
         _slide(arrows, joint, link, k)
 
 

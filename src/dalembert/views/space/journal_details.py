@@ -136,9 +136,7 @@ def _words(r: Result, joint: str, k: int, shown: Shown, on: str) -> list[str]:
     f: Any = r.mechanism.joints[joint].friction  # type: ignore[union-attr]
     mu = friction_coefficient(r, joint, k)
     kind = "R sin φ" if circle_kind(r.mechanism, r.mechanism.joints[joint]) == "sin" else "μ R"
-    law = (
-        f"r = {kind}" if r.mechanism.joints[joint].type == "revolute" else "r: friction around over the force"
-    )
+    law = f"r = {kind}" if r.mechanism.joints[joint].hinge else "r: friction around over the force"
     write = shown.notation
     sizes = f"R = {shown.text('length', float(f.radius))}, μ = {write.given(mu)}, φ = {write.degrees(math.atan(mu))}°"
     out = [f"{law}; {sizes}."]

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.compile.load_arrays import point_of
-from dalembert.analysis.compile.pair_table import AXES, pair_of
 from dalembert.arrays import Array
 from dalembert.model import GROUND
+from dalembert.model.joints.pairs import AXES
 from dalembert.model.links.shapes import Box, Sphere
 from dalembert.model.links.shapes import Cylinder as Round
 from dalembert.model.links.shapes import Tube as Hollow
-from dalembert.views.plane.outline import convex
+from dalembert.views.plane.joint_drawings import DRAWINGS
+from dalembert.views.plane.outline import convex, load_places
 from dalembert.views.space.solids import (
     Ball,
     Block,
@@ -41,9 +41,6 @@ ROD = 0.8
 LAYER = 2.2
 """Distance of the layers of a plane mechanism, mm."""
 
-PLANE_KINDS = {"pin": "revolute", "slider": "prismatic", "slot": "slotted_cylinder", "weld": "weld"}
-"""Joint of the plane -> the joint in space whose symbol it has."""
-
 
 @dataclass(frozen=True)
 class Mount:
@@ -63,7 +60,7 @@ def link_solids(r: Result, size: float) -> dict[str, list[Solid]]:
     """Solids of all links, ground included, in link axes and metres; ``size`` is a symbol's millimetre in metres."""
     out: dict[str, list[Solid]] = {link: [] for link in (*r.links, GROUND)}
     clear: dict[tuple[str, str], float] = {}
-    mounts = {name: mount(r, name) for name in r.joints if r.mechanism.joints[name].type not in WHEELS}
+    mounts = {name: mount(r, name) for name in r.joints if not r.mechanism.joints[name].wheels}
     for name, m in mounts.items():
         found = _symbol(r, m, size)
         for end, solids in enumerate((found.on_i, found.on_j)):
@@ -80,9 +77,6 @@ def link_solids(r: Result, size: float) -> dict[str, list[Solid]]:
     for link in r.links:
         out[link] += _frame(r, link, clear, size)
     return out
-
-
-WHEELS = ("gear", "rolling")
 
 
 def pose(r: Result, link: str, k: int) -> tuple[Array, Array]:
@@ -113,13 +107,13 @@ def mount(r: Result, name: str) -> Mount:
             float(getattr(joint, "angle", 0.0) or 0.0),
         )
         axes, slides = (_about_z(direction), _about_z(-angle)), {"slide": 0}
-        kind, blocked = PLANE_KINDS[joint.type], "x"
+        kind, blocked = DRAWINGS[joint.type].solid, "x"
     else:
         geometry = r.compiled.geometries[r.joints.index(name)]
         axes, kind = (geometry.on_i, geometry.on_j), joint.type
         blocked = getattr(joint, "blocked", None) or "x"
         names = [n for n in getattr(joint, "freedoms", ()) if n.startswith("slide")]
-        slides = {n: AXES.index(a) for n, a in zip(names, pair_of(joint).slides or "x", strict=False)}
+        slides = {n: AXES.index(a) for n, a in zip(names, joint.pair.slides or "x", strict=False)}
     for freedom, axis in slides.items():
         if (name, freedom) in r.compiled.freedoms:
             values = r.freedom(name, freedom)[0]
@@ -178,13 +172,8 @@ def nodes(r: Result, link: str) -> dict[str, Array]:
         for end, u in zip(joint.links, m.joint_points(name), strict=True):
             if end == link:
                 out.setdefault(name, lift(r, link, u))
-    for name, load in m.loads.items():
-        if load.type == "force" and load.on == link:
-            out.setdefault(name, lift(r, link, point_of(m, link, load.at)))
-        if load.type in ("spring", "damper"):
-            for end, u in m.load_points(name):
-                if end == link:
-                    out.setdefault(f"{name} {end}", lift(r, link, u))
+    for name, u in load_places(m, link).items():
+        out.setdefault(name, lift(r, link, u))
     if link != GROUND and len(out) == 1 and m.mass(link):
         out[""] = lift(r, link, m.center(link))
     return out
@@ -304,9 +293,8 @@ def _foot(at: Array, down: Array, start: float, size: float) -> list[Solid]:
 def wheels(r: Result, name: str, size: float = 0.0) -> list[tuple[str, Array, Array, float]]:
     """Link, centre, axis, both in link axes, and pitch radius of the wheels of a gear or rolling joint."""
     joint: Any = r.mechanism.joints[name]
-    radii = joint.pitch_radii if joint.type == "gear" else (joint.radii or (0.0, joint.radius))
     axes = [np.array(f[2]) for f in joint.frames] if r.mechanism.dimension == 3 else [np.eye(3)[2]] * 2
-    places = zip(joint.links, r.mechanism.joint_points(name), axes, radii, strict=True)
+    places = zip(joint.links, r.mechanism.joint_points(name), axes, joint.pitch_radii, strict=True)
     return [(link, lift(r, link, u, size), axis, float(radius)) for link, u, axis, radius in places if radius]
 
 

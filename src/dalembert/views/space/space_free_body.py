@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.compile.pair_table import AXES, PAIRS, Pair, pair_of
 from dalembert.analysis.methods.applied_forces import joint_place, link_place, on_link, whole_actions
 from dalembert.analysis.result.reaction_axes import axes_of
 from dalembert.arrays import Array, Flags
+from dalembert.model.joints.pairs import AXES, Pair
 from dalembert.views.notation import Notation, Shown, along
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.details import with_details
@@ -90,7 +90,7 @@ class Reaction:
 def reaction(r: Result, joint: str, link: str, k: int) -> Reaction:
     """The reaction of a joint on a link at a position; least-norm numbers where it is not unique."""
     described = r.mechanism.joints[joint]
-    pair = pair_of(described) if described.type in PAIRS else Pair(AXES, "")
+    pair = Pair(AXES, "") if described.wheels else described.pair
     carried = np.array([a in pair.forces for a in AXES] + [a in pair.moments for a in AXES])
     exact = np.concatenate([f(joint, link, "joint")[k] for f in (r.reaction, r.reaction_moment)])
     return Reaction(joint, r.least_norm(joint, link, "joint")[k], np.isfinite(exact), carried)

@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
 def sliding_contact(r: Result, joint: str) -> str:
     """Kind of the contact of a joint that slides."""
-    return "thread" if r.mechanism.joints[joint].type == "screw" else "guide"
+    return "thread" if r.mechanism.joints[joint].pair.threaded else "guide"
 
 
 def slide_on_paper(r: Result, joint: str, k: int) -> Array:
     """The slide (2,): of a screw up its thread, whose positive turn is to the right; else in space to the right."""
     if r.mechanism.dimension == 2:
         return np.asarray(slide_direction(r, joint)[k], float)
-    if r.mechanism.joints[joint].type != "screw":
+    if not r.mechanism.joints[joint].pair.threaded:
         return np.array([1.0, 0.0])
     climb = thread(r, joint).climb
     return np.array([math.copysign(math.cos(climb), climb), abs(math.sin(climb))])
@@ -34,14 +34,14 @@ def slide_on_paper(r: Result, joint: str, k: int) -> Array:
 
 def guide_layout(r: Result, joint: str) -> str:
     """How a guide of space is laid on paper."""
-    if r.mechanism.joints[joint].type == "screw":
+    if r.mechanism.joints[joint].pair.threaded:
         return "the thread unrolled at its mean radius, the axis upward"
     return "forces turned about the slide into the paper"
 
 
 def ends_on_paper(r: Result, joint: str) -> list[FaceForce]:
     """Where a guide bears: behind on the lower face, ahead on the side that it is nearer to; a thread on its flank."""
-    if r.mechanism.joints[joint].type == "screw":
+    if r.mechanism.joints[joint].pair.threaded:
         return _flank(r, joint)
     ends = [end for end in bearing_ends(r, joint, "guide") if np.isfinite(end.force).all()]
     out = []
@@ -63,7 +63,7 @@ def _flank(r: Result, joint: str) -> list[FaceForce]:
 
 def ends_words(r: Result, joint: str, k: int, shown: Shown) -> list[str]:
     """How much each end of a guide bears, and how far one is turned from the other; how steep a thread is."""
-    if r.mechanism.joints[joint].type == "screw":
+    if r.mechanism.joints[joint].pair.threaded:
         return _thread_words(r, joint, k, shown)
     ends = [end.force[k] for end in bearing_ends(r, joint, "guide")]
     size = [float(np.linalg.norm(v)) for v in ends]

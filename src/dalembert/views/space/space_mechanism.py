@@ -76,9 +76,7 @@ def every_place(r: Result, k: int) -> list[Array]:
 
 def rims(r: Result, link: str, k: int) -> list[Array]:
     """Places around the wheels of a link at a position, metres."""
-    gears = [
-        n for n in r.joints if r.mechanism.joints[n].type == "gear" and link in r.mechanism.joints[n].links
-    ]
+    gears = [n for n, joint in r.mechanism.joints.items() if joint.wheels and link in joint.links]
     turn, origin = pose(r, link, k)
     found = [wheel for name in gears for wheel in wheels(r, name) if wheel[0] == link]
     return [
@@ -111,10 +109,9 @@ def draw_machine(canvas: Canvas, r: Result, k: int, s: Sight) -> None:
     """Links with their joints, the ground, springs, mass centres."""
     canvas.add(*s.paint(standing(r, k, s.frame.per_mm)))
     m = r.mechanism
-    for name, load in m.loads.items():
-        if load.type in ("spring", "damper"):
-            a, b = (s(link_place(r, end, u)[k]) for end, u in m.load_points(name))
-            canvas.add(*(plane_symbols.spring(a, b) if load.type == "spring" else plane_symbols.damper(a, b)))
+    for name, load in m.loads_on("span").items():
+        a, b = (s(link_place(r, end, u)[k]) for end, u in m.load_points(name))
+        canvas.add(*plane_symbols.SPANS[load.type](a, b))
     joints = [s(joint_place(r, name)[k]) for name in r.joints]
     for link in r.links:
         at = s(r.center(link)[k])

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from dalembert.analysis.compile.pair_table import AXES, PAIRS
 from dalembert.errors import ModelError
+from dalembert.model.joints.pairs import AXES, PAIRS
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.scene import Arrow, Line, Point, Scene, stack_scenes
 from dalembert.views.space.camera import Camera

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from dalembert.views.paper.scene import Arc, Arrow, Circle, Item, Line, Point, Polygon
 
@@ -107,6 +108,10 @@ def damper(a: Point, b: Point) -> list[Item]:
         [(middle, 0.0), (length, 0.0)],
     ]
     return [Line(_rotate(list(p), a, angle), "spring") for p in parts]
+
+
+SPANS: dict[str, Callable[[Point, Point], list[Item]]] = {"spring": spring, "damper": damper}
+"""Loads along a span -> their symbols."""
 
 
 def couple(

@@ -129,7 +129,7 @@ def friction_text(result: Result, joint: str, to: Scale) -> str:
         return "viscous"
     sizes = {
         "friction circle": friction_circle_radius(result, joint),
-        "thread": friction.radius if part.type == "screw" else None,
+        "thread": friction.radius if part.pair.threaded else None,
         "collar": getattr(friction, "thrust_radius", None),
     }
     shown = [

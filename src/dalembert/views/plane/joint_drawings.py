@@ -1,0 +1,116 @@
+"""Joints of the plane as symbols on paper, at one position: a row of ``DRAWINGS`` for each type."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from dalembert.analysis.methods.applied_forces import joint_place, link_angle, link_place, slide_direction
+from dalembert.model import GROUND
+from dalembert.views.paper.canvas import Canvas
+from dalembert.views.paper.frame import Frame
+from dalembert.views.paper.scene import Item, Point
+from dalembert.views.plane.outline import wheels
+from dalembert.views.symbols import plane_symbols
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+
+class Spot(NamedTuple):
+    """A joint to be drawn: its name, a position, a frame, and j's point in it."""
+
+    r: Result
+    name: str
+    k: int
+    frame: Frame
+    at: Point
+
+
+class Drawing(NamedTuple):
+    """How a type of joint is drawn.
+
+    whole: between its two links; own: at its place in a link's free body; solid: type in space whose solids it has,
+    empty of wheels.
+    """
+
+    whole: Callable[[Spot], list[Item]]
+    own: Callable[[Point], list[Item]]
+    solid: str = ""
+
+
+def draw_joint(canvas: Canvas, r: Result, name: str, k: int, frame: Frame) -> None:
+    """The symbol of a joint."""
+    joint = r.mechanism.joints[name]
+    at = frame(link_place(r, joint.links[1], r.mechanism.joint_points(name)[1])[k])
+    canvas.add(*DRAWINGS[joint.type].whole(Spot(r, name, k, frame, at)))
+
+
+def own_symbol(joint_type: str, at: Point) -> list[Item]:
+    """What a free body shows of a joint at its place."""
+    return DRAWINGS[joint_type].own(at)
+
+
+def _on_ground(s: Spot) -> bool:
+    return GROUND in s.r.mechanism.joints[s.name].links
+
+
+def _pin(s: Spot) -> list[Item]:
+    return plane_symbols.fixed_pin(s.at) if _on_ground(s) else plane_symbols.pin(s.at)
+
+
+def _along(s: Spot) -> float:
+    e = slide_direction(s.r, s.name)[s.k]
+    return math.atan2(float(e[1]), float(e[0]))
+
+
+def _slider(s: Spot) -> list[Item]:
+    angle = _along(s)
+    side = -1.0 if math.cos(angle) > -1e-9 else 1.0
+    ground = plane_symbols.guide(s.at, angle, 13.0, side) if _on_ground(s) else []
+    return [*ground, *plane_symbols.slider(s.at, angle)]
+
+
+def _slot(s: Spot) -> list[Item]:
+    """As long as its slide over the cycle, with a little room."""
+    values, angle = s.r.freedom(s.name, "slide")[0], _along(s)
+    room = min(0.08 * s.r.compiled.layout.length, 12.0 * s.frame.per_mm)
+    start = np.array(
+        link_place(s.r, s.r.mechanism.joints[s.name].links[0], s.r.mechanism.joint_points(s.name)[0])[s.k]
+    )
+    e = slide_direction(s.r, s.name)[s.k]
+    a, b = (
+        s.frame(start + x * e) for x in (float(np.nanmin(values)) - room, float(np.nanmax(values)) + room)
+    )
+    middle, length = ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2), math.dist(a, b)
+    ground = plane_symbols.guide(middle, angle, length + 8.0) if _on_ground(s) else []
+    return [*ground, *plane_symbols.slot(middle, angle, length), *plane_symbols.pin(s.at)]
+
+
+def _wheels(s: Spot) -> list[Item]:
+    joint, out = s.r.mechanism.joints[s.name], []
+    for link, center, radius in wheels(s.r, s.name, joint, s.k)[::-1]:
+        angle = float(link_angle(s.r, link)[s.k])
+        out += plane_symbols.wheel(s.frame(center), s.frame.length(radius), angle)
+    if joint.wheels == 1:
+        out += plane_symbols.hatch(s.frame(joint_place(s.r, s.name)[s.k]), _along(s), 22.0)
+    return out
+
+
+def _nothing(at: Point) -> list[Item]:
+    """Wheels meet without a pin."""
+    return []
+
+
+DRAWINGS: dict[str, Drawing] = {
+    "pin": Drawing(_pin, plane_symbols.pin, "revolute"),
+    "slider": Drawing(_slider, plane_symbols.pin, "prismatic"),
+    "slot": Drawing(_slot, plane_symbols.pin, "slotted_cylinder"),
+    "weld": Drawing(lambda s: plane_symbols.weld(s.at), plane_symbols.weld, "weld"),
+    "gear": Drawing(_wheels, _nothing),
+    "rolling": Drawing(_wheels, _nothing),
+}
+"""Type of joint -> how it is drawn."""
