@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from dalembert.model import (
         Answer,
         Box,
+        ConstantForceSpring,
         Couple,
         Cylinder,
         Damper,
@@ -121,6 +122,7 @@ _HOME = {
     "Answer": "model",
     "BatchResult": "analysis.batch",
     "Box": "model",
+    "ConstantForceSpring": "model",
     "Couple": "model",
     "Cylinder": "model",
     "Damper": "model",
@@ -223,6 +225,7 @@ __all__ = [
     "Answer",
     "BatchResult",
     "Box",
+    "ConstantForceSpring",
     "Couple",
     "Cylinder",
     "DalembertError",

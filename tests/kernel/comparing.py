@@ -12,7 +12,7 @@ from dalembert.analysis.batch.symbolic_model import geometric, with_numbers
 NAMES = {
     "links": ("mass", "inertia", "center"),
     "joints": ("direction", "angle", "radius", "radii", "pressure_angle", "damping"),
-    "loads": ("stiffness", "free_length", "free_angle", "damping", "direction", "value", "at"),
+    "loads": ("stiffness", "free_length", "free_angle", "damping", "force", "direction", "value", "at"),
     "drives": ("speed", "acceleration", "effort"),
 }
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.methods.applied_forces import known_actions
 
 ZERO = "compressed to no length, it pushes in no direction, and just before and after in opposite ones"
 
@@ -48,6 +49,45 @@ def test_a_preloaded_spring_of_length_zero_has_no_force() -> None:
             f"The ends of spring k (100 N) coincide at s = 0 m: {ZERO}. "
             "Step over this position, move an end off the other's path, or give no free_length."
         )
+
+
+def constant(positions: Any, aside: float, **spring: Any) -> da.Mechanism:
+    """The block with a constant force spring from a point beside its line."""
+    tree = block(positions).with_values({"links.ground.points.Q": (0.0, aside)}).to_tree()
+    pull = {"type": "constant_force_spring", "between": ["ground.Q", "block.P"], **spring}
+    return da.mechanism(tree | {"loads": {"k": pull}})
+
+
+@pytest.mark.parametrize("force", [50.0, -50.0])
+def test_a_constant_force_spring_keeps_its_force(force: float) -> None:
+    """At 0.5 m and at 1.24 m it pulls, or pushes, with the same force along its own line."""
+    m = constant([-1.2, -0.4, 0.4, 1.2], 0.3, force=force)
+    s = np.array([-1.2, -0.4, 0.4, 1.2])
+    slope = s / np.hypot(s, 0.3)
+    for r in (da.statics(m), da.statics(da.lifted(m))):
+        assert r.effort("s") == pytest.approx(force * slope, rel=1e-12)
+        (power,) = (
+            a.force @ [1.0, *[0.0] * (a.force.shape[1] - 1)]
+            for a in known_actions(r)
+            if (a.of, a.kind, a.link) == ("k", "spring", "block")
+        )
+        assert power == pytest.approx(-force * slope, rel=1e-12)
+    k = da.compile(m, ["loads.k.force"], derivatives=True)()
+    assert k.effort("s")[0] == pytest.approx(force * slope, rel=1e-12)
+    assert k.gradient("effort.s")[0, :, 0] == pytest.approx(slope, rel=1e-12)
+
+
+@pytest.mark.parametrize(("force", "verb"), [(50.0, "pulls"), (-50.0, "pushes")])
+def test_a_constant_force_spring_of_length_zero_has_no_direction(force: float, verb: str) -> None:
+    m = constant([-0.001, 0, 0.001], 0.0, force=force)
+    for r in (da.statics(m), da.statics(da.lifted(m))):
+        assert r.status == ("ok", "undefined_load", "ok")
+        assert r.effort("s") == pytest.approx([-force, np.nan, force], nan_ok=True)
+        assert r.reasons[1] == (
+            f"The ends of spring k (50 N) coincide at s = 0 m: of no length, it {verb} in no direction, and just "
+            "before and after in opposite ones. Step over this position, or move an end off the other's path."
+        )
+    assert da.compile(m)().status.tolist() == [["ok", "undefined_load", "ok"]]
 
 
 def test_the_kernel_leaves_a_spring_of_length_zero_out_of_no_reduction() -> None:

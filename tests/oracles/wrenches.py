@@ -95,6 +95,8 @@ def _line(m: Machine, load: Tree, w: Array, q: Array, v: Array) -> None:
 
 
 def _tension(load: Tree, stretch: Array, rate: Array) -> Array:
+    if "force" in load:
+        return number(load["force"]) + 0 * stretch
     if "stiffness" in load:
         return number(load["stiffness"]) * (stretch - number(load.get("free_length", 0.0)))
     return number(load["damping"]) * rate
@@ -134,6 +136,6 @@ def _slide_damping(joint: Joint, c: float, w: Array, q: Array, v: Array) -> None
 
 
 LOADS = {
-    "force": _force, "couple": _couple, "spring": _line, "damper": _line,
+    "force": _force, "couple": _couple, "spring": _line, "constant_force_spring": _line, "damper": _line,
     "torsion_spring": _torsion, "torsion_damper": _torsion,
 }  # fmt: skip

@@ -186,7 +186,7 @@ class _Writer:
             return {"type": "force", "on": load.a[0], "at": load.a[1], "axes": axes, "value": value}
         if load.type == "couple":
             return {"type": "couple", "on": load.a[0], "value": kind(factor * load.value, force=1, length=1)}
-        if load.type in ("spring", "damper"):
+        if load.b[0]:
             return self._line(load, factor)
         sign = -1.0 if load.joint in self.exchange else 1.0
         made: Tree = {"type": load.type, "joint": load.joint}
@@ -198,6 +198,8 @@ class _Writer:
 
     def _line(self, load: Load, factor: float) -> Tree:
         made: Tree = {"type": load.type, "between": [".".join(load.a), ".".join(load.b)]}
+        if load.type == "constant_force_spring":
+            return made | {"force": self.style.kind(factor * load.value, force=1)}
         value = self.style.kind(factor * load.value, force=1, length=-1)
         if load.type == "damper":
             return made | {"damping": value}

@@ -189,8 +189,10 @@ class _Writer:
         factor, kind = self.options.loads, self.kind
         if load.type in ("force", "couple"):
             return self.vectorial(load, factor)
-        if load.type in ("spring", "damper"):
+        if load.b[0]:
             made: Tree = {"type": load.type, "between": [".".join(load.a), ".".join(load.b)]}
+            if load.type == "constant_force_spring":
+                return made | {"force": kind(factor * load.value, force=1)}
             value = kind(factor * load.value, force=1, length=-1)
             if load.type == "damper":
                 return made | {"damping": value}

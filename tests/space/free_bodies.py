@@ -54,7 +54,7 @@ class Balance:
                 p = self.at.point(link, self.d.spots[link][load.a[1]]) if load.type == "force" else 0 * value
                 force, couple = (value, 0.0) if load.type == "force" else (0 * value, value)
                 w[:, self.at.number[link]] += self._wrench(p, force, couple)
-            elif load.type in ("spring", "damper"):
+            elif load.b[0]:
                 self._pull(w, load)
         return w
 
@@ -65,7 +65,8 @@ class Balance:
         length = np.linalg.norm(pb - pa, axis=-1, keepdims=True)
         e = (pb - pa) / length
         rate = np.sum(e * (self.at.velocity(b, pb) - self.at.velocity(a, pa)), -1, keepdims=True)
-        size = load.value * (length - load.free if load.type == "spring" else rate)
+        stretch = {"spring": length - load.free, "constant_force_spring": 1 + 0 * length, "damper": rate}
+        size = load.value * stretch[load.type]
         w[:, self.at.number[a]] += self._wrench(pa, size * e)
         w[:, self.at.number[b]] += self._wrench(pb, -size * e)
 

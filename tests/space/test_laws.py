@@ -351,7 +351,7 @@ def test_the_drawings_have_everything() -> None:
     assert {x.freedom for d in drawings for x in d.drives.values()} >= {"turn", "slide", "turn1", "turn2"}
     assert any(j.axis is not None for d in drawings for j in d.joints.values())
     assert {load.type for d in drawings for load in d.loads.values()} == {
-        "force", "couple", "spring", "damper", "torsion_spring", "torsion_damper",
+        "force", "couple", "spring", "constant_force_spring", "damper", "torsion_spring", "torsion_damper",
     }  # fmt: skip
     assert any(d.rods for d in drawings)
     assert {d.posed for d in drawings} == {True, False}

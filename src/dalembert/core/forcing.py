@@ -56,7 +56,10 @@ class Couples:
 
 @dataclass(frozen=True)
 class Springs:
-    """Springs and dampers between points of two links: tension k (l - l0) + c dl/dt pulls them together."""
+    """Springs and dampers between points of two links: tension k (l - l0) + F + c dl/dt pulls them together.
+
+    Their numbers have the names of the loads' keys (``analysis.compile.load_arrays``).
+    """
 
     a: Ints
     b: Ints
@@ -65,6 +68,7 @@ class Springs:
     stiffness: Array
     free_length: Array
     damping: Array
+    force: Array
 
 
 @dataclass(frozen=True)
@@ -177,7 +181,7 @@ def spring_wrench(layout: Layout, springs: Springs, pose: Pose, twist: Array) ->
     vb = twist[..., springs.b, : g.d] + g.spin(twist[..., springs.b, g.d :], rb)
     e = _direction(layout, springs, span, square, vb - va)
     extended = np.sqrt(square) - springs.free_length
-    tension = springs.stiffness * extended + springs.damping * g.dot(e, vb - va)
+    tension = springs.stiffness * extended + springs.force + springs.damping * g.dot(e, vb - va)
     pull = tension[..., None] * e
     return Source(
         np.concatenate([springs.a, springs.b]),
@@ -210,8 +214,9 @@ def _direction(layout: Layout, springs: Springs, span: Array, square: Array, rat
 
 
 def pushes_at_zero_length(springs: Springs) -> Flags:
-    """Springs (k,) that push at length zero."""
-    return np.array((springs.stiffness != 0) & (springs.free_length != 0), bool)
+    """Springs (k,) that push or pull at length zero."""
+    compressed = (springs.stiffness != 0) & (springs.free_length != 0)
+    return np.array(compressed | (springs.force != 0), bool)
 
 
 def needs_direction(springs: Springs) -> Flags:

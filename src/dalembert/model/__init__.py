@@ -25,7 +25,16 @@ from dalembert.model.joints.plane_joints import Gear, Joint, Pin, Rolling, Slide
 from dalembert.model.joints.space_joints import SpaceJoint
 from dalembert.model.links.link import GROUND, Link, Offset
 from dalembert.model.links.shapes import Box, Cylinder, SlenderBar, Sphere, StlMesh, Tube
-from dalembert.model.load_types import Couple, Damper, ForceLoad, Load, Spring, TorsionDamper, TorsionSpring
+from dalembert.model.load_types import (
+    ConstantForceSpring,
+    Couple,
+    Damper,
+    ForceLoad,
+    Load,
+    Spring,
+    TorsionDamper,
+    TorsionSpring,
+)
 from dalembert.model.quantities.expressions import Expression
 from dalembert.model.quantities.tables import Table
 from dalembert.model.quantities.varying import Varying, value_at
@@ -35,6 +44,7 @@ __all__ = [
     "GROUND",
     "Answer",
     "Box",
+    "ConstantForceSpring",
     "Couple",
     "Cylinder",
     "Damper",

@@ -320,6 +320,20 @@ class Spring(SpanLoad):
     )
 
 
+class ConstantForceSpring(SpanLoad):
+    """A strip spring that pulls points of two links together with one force, whatever their distance.
+
+    >>> ConstantForceSpring(between=("ground.A", "rod.B"), force="40 N").force
+    40.0
+    """
+
+    FORCE: ClassVar = "spring"
+    type: Literal["constant_force_spring"] = "constant_force_spring"
+    force: Annotated[float, Scalar("force")] = Field(
+        description="its tension; negative pushes the points apart, as a gas spring nearly does"
+    )
+
+
 class Damper(SpanLoad):
     """A straight viscous damper between points of two links."""
 
@@ -367,6 +381,6 @@ class TorsionDamper(TurnLoad):
 
 
 Load = Annotated[
-    ForceLoad | Couple | Spring | Damper | TorsionSpring | TorsionDamper,
+    ForceLoad | Couple | Spring | ConstantForceSpring | Damper | TorsionSpring | TorsionDamper,
     Field(discriminator="type", description="a load"),
 ]

@@ -30,9 +30,8 @@ def applied(m: Any, q: Array, v: Array) -> Array:
     g = np.zeros(3) if gravity == "none" else np.asarray(gravity, float)
     out = momentum(m, np.stack([g if k % 4 == 0 else 0 * g for k in range(m.size)])[None] + 0 * q)
     for load in m.tree.get("loads", {}).values():
-        {"force": _force, "couple": _couple, "spring": _line, "damper": _line}.get(load["type"], _torsion)(
-            m, load, out, q, v
-        )
+        pulls = _line if "between" in load else _torsion
+        {"force": _force, "couple": _couple}.get(load["type"], pulls)(m, load, out, q, v)
     for name, joint in m.tree["joints"].items():
         if "damping" in joint:
             _damping(m, name, joint, out, q, v)
@@ -66,7 +65,9 @@ def _line(m: Any, load: Tree, out: Array, q: Array, v: Array) -> None:
     line, rate = (r - p) @ q, (r - p) @ v
     length = np.linalg.norm(line, axis=-1)
     along = line / length[:, None]
-    if load["type"] == "spring":
+    if "force" in load:
+        tension = load["force"] + 0 * length
+    elif load["type"] == "spring":
         tension = load["stiffness"] * (length - load.get("free_length", 0.0))
     else:
         tension = load["damping"] * _dot(rate, along)

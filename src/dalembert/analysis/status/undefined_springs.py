@@ -28,13 +28,13 @@ def undefined_sentence(c: Compiled, found: Flags, run: Ints) -> str:
     names = list(c.mechanism.loads_on("span"))
     pushed = np.flatnonzero(found[run].any(axis=0))
     springs = c.forcing.springs
-    figures = " and ".join(
-        f"{names[k]} ({quantity_text(c, 'force', float(springs.stiffness[k] * springs.free_length[k]))})"
-        for k in pushed
-    )
-    many = len(pushed) > 1
+    push = springs.stiffness * springs.free_length - springs.force
+    figures = " and ".join(f"{names[k]} ({quantity_text(c, 'force', abs(float(push[k])))})" for k in pushed)
+    many, compressed = len(pushed) > 1, bool((springs.force[pushed] == 0).all())
+    verb = f"push{'' if many else 'es'}" if (push[pushed] > 0).all() else f"pull{'' if many else 's'}"
     return (
-        f"The ends of spring{'s' * many} {figures} coincide{arc(c, run)}: compressed to no length, "
-        f"{'they push' if many else 'it pushes'} in no direction, and just before and after in opposite ones. "
-        "Step over this position, move an end off the other's path, or give no free_length."
+        f"The ends of spring{'s' * many} {figures} coincide{arc(c, run)}: "
+        f"{'compressed to' if compressed else 'of'} no length, {'they' if many else 'it'} {verb} in no direction, and "
+        "just before and after in opposite ones. Step over this position, "
+        f"{'move' if compressed else 'or move'} an end off the other's path{', or give no free_length' * compressed}."
     )

@@ -110,7 +110,23 @@ def damper(a: Point, b: Point) -> list[Item]:
     return [Line(_rotate(list(p), a, angle), "spring") for p in parts]
 
 
-SPANS: dict[str, Callable[[Point, Point], list[Item]]] = {"spring": spring, "damper": damper}
+def strip_spring(a: Point, b: Point, turns: float = 2.5) -> list[Item]:
+    """A strip that comes off its coil, which a bracket holds."""
+    length = math.dist(a, b)
+    angle = math.atan2(b[1] - a[1], b[0] - a[0])
+    coil = min(1.8, 0.2 * length)
+    way = [k / 40 for k in range(41)]
+    spiral = [(coil * (0.3 + 0.7 * t), math.pi / 2 - 2 * math.pi * turns * (1 - t)) for t in way]
+    strip = [(coil + s * math.cos(turn), -coil + s * math.sin(turn)) for s, turn in spiral]
+    parts: list[list[Point]] = [[(0.0, 0.0), (coil, -coil)], [*strip, (length, 0.0)]]
+    return [Line(_rotate(p, a, angle), "spring") for p in parts]
+
+
+SPANS: dict[str, Callable[[Point, Point], list[Item]]] = {
+    "spring": spring,
+    "constant_force_spring": strip_spring,
+    "damper": damper,
+}
 """Loads along a span -> their symbols."""
 
 
