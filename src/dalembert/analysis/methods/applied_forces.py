@@ -232,6 +232,14 @@ def slide_direction(r: Result, joint: str) -> Array:
     return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
 
 
+def normal_direction(r: Result, joint: str) -> Array:
+    """In the plane: unit vector (P, 2), ground axes, of the force on j of a joint that carries one along its normal."""
+    layout = r.compiled.layout
+    row = int(np.flatnonzero(layout.constraints.joint == r.joints.index(joint))[0])
+    with np.errstate(all="ignore"):
+        return np.asarray(system(layout.algebra, layout.constraints, whole_pose(r)).on_j[:, row, :2])
+
+
 def unknown_load_actions(r: Result) -> tuple[Action, ...]:
     """Loads that were asked for, with the values found."""
     from dalembert.analysis.compile.load_arrays import point_of

@@ -13,8 +13,8 @@ from dalembert.analysis.methods.applied_forces import (
     actions,
     drive_wrench,
     joint_place,
+    normal_direction,
     on_link,
-    slide_direction,
     unit_load,
 )
 from dalembert.analysis.output.columns import drive_kinds
@@ -132,9 +132,8 @@ def _plane_reaction(r: Result, joint: str, k: int, shown: Shown) -> list[Unknown
     turning = rows.angular[rows.joint == r.joints.index(joint)]
     if (~turning).sum() == 2:
         axes = [("x", np.array([1.0, 0.0])), ("y", np.array([0.0, 1.0]))]
-    elif described.slides:
-        e = slide_direction(r, joint)[k]
-        axes = [("n", np.array([-e[1], e[0]]))]
+    elif described.apart:
+        axes = [("n", normal_direction(r, joint)[k])]
     none, zero = np.zeros(()), np.zeros(2)
     for letter, e in axes:
         on = {j: (e, none), i: (-e, none)}

@@ -14,7 +14,9 @@ from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import Frame
 from dalembert.views.paper.scene import Item, Point
 from dalembert.views.plane.outline import wheels
+from dalembert.views.space.solids import Solid
 from dalembert.views.symbols import plane_symbols
+from dalembert.views.symbols.joint_solids import wheel_solids
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -33,13 +35,13 @@ class Spot(NamedTuple):
 class Drawing(NamedTuple):
     """How a type of joint is drawn.
 
-    whole: between its two links; own: at its place in a link's free body; solid: type in space whose solids it has,
-    empty of wheels.
+    whole: between its two links; own: at its place in a link's free body; solid: type in space whose solids it has, or
+    solids of its own, each with its link, whose axes it is in, for the metres of a symbol's millimetre.
     """
 
     whole: Callable[[Spot], list[Item]]
     own: Callable[[Point], list[Item]]
-    solid: str = ""
+    solid: str | Callable[[Result, str, float], list[tuple[str, Solid]]]
 
 
 def draw_joint(canvas: Canvas, r: Result, name: str, k: int, frame: Frame) -> None:
@@ -110,7 +112,7 @@ DRAWINGS: dict[str, Drawing] = {
     "slider": Drawing(_slider, plane_symbols.pin, "prismatic"),
     "slot": Drawing(_slot, plane_symbols.pin, "slotted_cylinder"),
     "weld": Drawing(lambda s: plane_symbols.weld(s.at), plane_symbols.weld, "weld"),
-    "gear": Drawing(_wheels, _nothing),
-    "rolling": Drawing(_wheels, _nothing),
+    "gear": Drawing(_wheels, _nothing, wheel_solids),
+    "rolling": Drawing(_wheels, _nothing, wheel_solids),
 }
 """Type of joint -> how it is drawn."""

@@ -23,13 +23,12 @@ from dalembert.views.space.solids import (
     Block,
     Cylinder,
     Plate,
-    Ring,
     Solid,
     Wire,
     across,
     all_placed,
-    circle,
 )
+from dalembert.views.symbols.joint_solids import lift
 from dalembert.views.symbols.pair_symbols import Setting, Symbol, symbol
 
 if TYPE_CHECKING:
@@ -37,9 +36,6 @@ if TYPE_CHECKING:
 
 ROD = 0.8
 """Radius of a link's bars, mm."""
-
-LAYER = 2.2
-"""Distance of the layers of a plane mechanism, mm."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +56,14 @@ def link_solids(r: Result, size: float) -> dict[str, list[Solid]]:
     """Solids of all links, ground included, in link axes and metres; ``size`` is a symbol's millimetre in metres."""
     out: dict[str, list[Solid]] = {link: [] for link in (*r.links, GROUND)}
     clear: dict[tuple[str, str], float] = {}
-    mounts = {name: mount(r, name) for name in r.joints if not r.mechanism.joints[name].wheels}
+    mounts: dict[str, Mount] = {}
+    for name, joint in r.mechanism.joints.items():
+        drawing = DRAWINGS.get(joint.type)
+        if drawing is None or isinstance(drawing.solid, str):
+            mounts[name] = mount(r, name)
+            continue
+        for link, solid in drawing.solid(r, name, size):
+            out[link].append(solid)
     for name, m in mounts.items():
         found = _symbol(r, m, size)
         for end, solids in enumerate((found.on_i, found.on_j)):
@@ -70,10 +73,6 @@ def link_solids(r: Result, size: float) -> dict[str, list[Solid]]:
             height = _layers(r, m)[m.links.index(GROUND)] if r.mechanism.dimension == 2 else 0.0
             feet = _feet(r, m, found.clear, size)
             out[GROUND] += all_placed(feet, np.eye(3), np.array([0.0, 0.0, height * size]))
-    for name in r.joints:
-        if name not in mounts:
-            for link, solid in _wheels(r, name, size):
-                out[link].append(solid)
     for link in r.links:
         out[link] += _frame(r, link, clear, size)
     return out
@@ -88,13 +87,6 @@ def pose(r: Result, link: str, k: int) -> tuple[Array, Array]:
     return turn, at
 
 
-def lift(r: Result, link: str, u: Any, size: float = 0.0) -> Array:
-    """A point of a link with three components; in the plane in the link's layer."""
-    if r.mechanism.dimension == 3:
-        return np.asarray(u, float)
-    return np.array([*map(float, u), size * LAYER * (0 if link == GROUND else 1 + r.links.index(link))])
-
-
 def mount(r: Result, name: str) -> Mount:
     """How a joint is mounted on its links; slides over all positions."""
     m = r.mechanism
@@ -107,7 +99,7 @@ def mount(r: Result, name: str) -> Mount:
             float(getattr(joint, "angle", 0.0) or 0.0),
         )
         axes, slides = (_about_z(direction), _about_z(-angle)), {"slide": 0}
-        kind, blocked = DRAWINGS[joint.type].solid, "x"
+        kind, blocked = str(DRAWINGS[joint.type].solid), "x"
     else:
         geometry = r.compiled.geometries[r.joints.index(name)]
         axes, kind = (geometry.on_i, geometry.on_j), joint.type
@@ -288,33 +280,6 @@ def _foot(at: Array, down: Array, start: float, size: float) -> list[Solid]:
             strokes.append(Wire(np.array([p, p + size * (1.2 * down - 0.9 * b)]), "hatch"))
     post = [Cylinder(at + start * size * down, base, 0.55 * size, "ground-solid")]
     return [*post, Plate(corners, 0.4 * size, "ground-solid"), *strokes]
-
-
-def wheels(r: Result, name: str, size: float = 0.0) -> list[tuple[str, Array, Array, float]]:
-    """Link, centre, axis, both in link axes, and pitch radius of the wheels of a gear or rolling joint."""
-    joint: Any = r.mechanism.joints[name]
-    axes = [np.array(f[2]) for f in joint.frames] if r.mechanism.dimension == 3 else [np.eye(3)[2]] * 2
-    places = zip(joint.links, r.mechanism.joint_points(name), axes, joint.pitch_radii, strict=True)
-    return [(link, lift(r, link, u, size), axis, float(radius)) for link, u, axis, radius in places if radius]
-
-
-def _wheels(r: Result, name: str, size: float) -> list[tuple[str, Solid]]:
-    """Discs; a ring for the wheel around an internal one; a worm has a thread."""
-    joint: Any = r.mechanism.joints[name]
-    found = wheels(r, name, size)
-    largest = max(radius for *_, radius in found)
-    helix = float(getattr(joint, "helix_angle", 0.0) or 0.0)
-    out: list[tuple[str, Solid]] = []
-    for n, (link, at, axis, radius) in enumerate(found):
-        if joint.internal and radius == largest:
-            out.append((link, Ring(at, axis, radius + 0.9 * size, 0.9 * size)))
-            continue
-        if abs(helix) > 0.8 and n == 0:
-            half, lead = 2.0 * radius * axis, 2 * np.pi * radius / np.tan(helix)
-            out.append((link, Cylinder(at - half, at + half, radius, thread=lead)))
-            continue
-        out.append((link, Plate(circle(at, axis, radius, 48)[:-1], 1.4 * size, spoke=True)))
-    return out
 
 
 def shape_solids(r: Result, link: str, size: float) -> list[Solid]:

@@ -20,11 +20,12 @@ from dalembert.views.plane.outline import unbroken
 from dalembert.views.space.camera import Camera
 from dalembert.views.space.friction_arrows import draw_circle, friction_details
 from dalembert.views.space.journal_details import journals
-from dalembert.views.space.link_solids import nodes, pose, wheels
+from dalembert.views.space.link_solids import nodes, pose
 from dalembert.views.space.solids import across
 from dalembert.views.space.space_arrows import Arrows
 from dalembert.views.space.space_view import Sight, sight, standing, triad
 from dalembert.views.symbols import plane_symbols
+from dalembert.views.symbols.joint_solids import wheels
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result

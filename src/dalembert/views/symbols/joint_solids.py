@@ -1,0 +1,51 @@
+"""Wheels of joints as solids in their links' axes; a mechanism of the plane has its links in layers along z."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.arrays import Array
+from dalembert.model import GROUND
+from dalembert.views.space.solids import Cylinder, Plate, Ring, Solid, circle
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+LAYER = 2.2
+"""Distance of the layers of a plane mechanism, mm."""
+
+
+def lift(r: Result, link: str, u: Any, size: float = 0.0) -> Array:
+    """A point of a link with three components; in the plane in the link's layer."""
+    if r.mechanism.dimension == 3:
+        return np.asarray(u, float)
+    return np.array([*map(float, u), size * LAYER * (0 if link == GROUND else 1 + r.links.index(link))])
+
+
+def wheels(r: Result, name: str, size: float = 0.0) -> list[tuple[str, Array, Array, float]]:
+    """Link, centre, axis, both in link axes, and pitch radius of the wheels of a gear or rolling joint."""
+    joint: Any = r.mechanism.joints[name]
+    axes = [np.array(f[2]) for f in joint.frames] if r.mechanism.dimension == 3 else [np.eye(3)[2]] * 2
+    places = zip(joint.links, r.mechanism.joint_points(name), axes, joint.pitch_radii, strict=True)
+    return [(link, lift(r, link, u, size), axis, float(radius)) for link, u, axis, radius in places if radius]
+
+
+def wheel_solids(r: Result, name: str, size: float) -> list[tuple[str, Solid]]:
+    """Discs; a ring for the wheel around an internal one; a worm has a thread."""
+    joint: Any = r.mechanism.joints[name]
+    found = wheels(r, name, size)
+    largest = max(radius for *_, radius in found)
+    helix = float(getattr(joint, "helix_angle", 0.0) or 0.0)
+    out: list[tuple[str, Solid]] = []
+    for n, (link, at, axis, radius) in enumerate(found):
+        if joint.internal and radius == largest:
+            out.append((link, Ring(at, axis, radius + 0.9 * size, 0.9 * size)))
+            continue
+        if abs(helix) > 0.8 and n == 0:
+            half, lead = 2.0 * radius * axis, 2 * np.pi * radius / np.tan(helix)
+            out.append((link, Cylinder(at - half, at + half, radius, thread=lead)))
+            continue
+        out.append((link, Plate(circle(at, axis, radius, 48)[:-1], 1.4 * size, spoke=True)))
+    return out
