@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from dalembert.model import (
         Answer,
         Box,
+        CircularSlot,
         ConstantForceSpring,
         Couple,
         Cylinder,
@@ -122,6 +123,7 @@ _HOME = {
     "Answer": "model",
     "BatchResult": "analysis.batch",
     "Box": "model",
+    "CircularSlot": "model",
     "ConstantForceSpring": "model",
     "Couple": "model",
     "Cylinder": "model",
@@ -225,6 +227,7 @@ __all__ = [
     "Answer",
     "BatchResult",
     "Box",
+    "CircularSlot",
     "ConstantForceSpring",
     "Couple",
     "Cylinder",

@@ -223,7 +223,7 @@ def at_position(made: dict[str, Any], r: Any, k: int) -> dict[str, Any]:
     made = deepcopy(made)
     for drive in made["drives"].values():
         drive["position"] = drive["position"][k]
-    made["assembly"] = {link: float(np.degrees(r.angle(link)[k])) for link in r.links}
+    made["assembly"] = {n: [*r.position(n)[k].tolist(), float(np.degrees(r.angle(n)[k]))] for n in r.links}
     return made
 
 

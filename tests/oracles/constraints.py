@@ -56,6 +56,7 @@ def functions(kind: str) -> list[sp.Expr]:
         "weld": lambda: [d[0], d[1], turn - ANGLE],
         "slider": lambda: [_across(), turn - DIRECTION - ANGLE],
         "slot": lambda: [_across()],
+        "circular_slot": lambda: [sp.sqrt(d[0] ** 2 + d[1] ** 2) - RI],
         "gear": lambda: [_mesh()],
         "rolling": lambda: [_across() - RJ, _along() + RJ * turn - PHASE],
         "rolling_circle": lambda: [sp.sqrt(d[0] ** 2 + d[1] ** 2) - RI - RJ, _mesh()],

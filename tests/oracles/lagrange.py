@@ -124,6 +124,8 @@ def _radii(joint: Joint) -> tuple[str, float, float]:
     t = joint.tree
     if joint.type == "rolling" and "radius" in t:
         return "rolling", 0.0, number(t["radius"])
+    if joint.type == "circular_slot":
+        return joint.type, number(t["radius"]), 0.0
     if "radii" not in t:
         return joint.type, 0.0, 0.0
     ri, rj = (number(r) for r in t["radii"])

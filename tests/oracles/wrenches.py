@@ -119,7 +119,7 @@ def _couples(joint: Joint, w: Array, on_j: Array) -> None:
 def _joint_damping(joint: Joint, w: Array, q: Array, v: Array) -> None:
     given = joint.tree.get("damping", {})
     if not isinstance(given, dict):
-        given = {"turn" if joint.type == "pin" else "slide": given}
+        given = {"slide" if joint.type in ("slider", "slot") else "turn": given}
     if "turn" in given:
         _couples(joint, w, -number(given["turn"]) * (v[:, joint.j, 2] - v[:, joint.i, 2]))
     if "slide" in given:

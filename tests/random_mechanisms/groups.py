@@ -34,18 +34,13 @@ def _joined(d: Drawing, rng: np.random.Generator, type_: str, i: str, j: str, p:
     if rng.random() < 0.5:
         i, j = j, i
     damping = float(rng.uniform(0.1, 2.0)) if rng.random() < 0.2 and type_ != "weld" else 0.0
-    if type_ not in ("slider", "slot"):
+    if type_ not in ("slider", "slot", "circular_slot"):
         return d.join(type_, i, j, p, damping=damping)
-    direction = float(rng.uniform(-3, 3))
-    return d.join(
-        type_,
-        i,
-        j,
-        p,
-        beside(p, float(rng.uniform(-0.5, 0.5)), direction),
-        direction=direction,
-        damping=damping,
-    )
+    direction, away = float(rng.uniform(-3, 3)), float(rng.uniform(-0.5, 0.5))
+    if type_ == "circular_slot":
+        radius = 0.1 + abs(away)
+        return d.join(type_, i, j, p, beside(p, radius, direction), radii=(radius, 0.0), damping=damping)
+    return d.join(type_, i, j, p, beside(p, away, direction), direction=direction, damping=damping)
 
 
 def driven(d: Drawing, rng: np.random.Generator) -> None:
@@ -77,7 +72,7 @@ def dyad(d: Drawing, rng: np.random.Generator) -> None:
 
 
 def single(d: Drawing, rng: np.random.Generator) -> None:
-    """One link: a pin or slide on one and a slot with another, or three slots."""
+    """One link: a pin or slide on one and a slot, straight or round, with another, or three slots."""
     a, b, c = some(d, rng), some(d, rng), some(d, rng)
     if a == b:
         return
@@ -88,7 +83,7 @@ def single(d: Drawing, rng: np.random.Generator) -> None:
             _joined(d, rng, "slot", other, link, place(rng))
         return
     _joined(d, rng, ("pin", "slider")[int(rng.random() < 0.4)], a, link, p)
-    _joined(d, rng, "slot", b, link, place(rng))
+    _joined(d, rng, "circular_slot" if d.seed % 2 else "slot", b, link, place(rng))
 
 
 def welded(d: Drawing, rng: np.random.Generator) -> None:

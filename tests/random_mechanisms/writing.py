@@ -136,6 +136,8 @@ class _Writer:
             made["direction"] = self.angle(direction)
         if j.type in ("slider", "weld"):
             made["angle"] = self.angle(turn - (direction if j.type == "slider" else 0.0))
+        if j.type == "circular_slot":
+            made["radius"] = self.length(j.radii[0])
         if j.type in ("gear", "rolling"):
             made |= self._wheels(j, swapped)
         if j.damping:
@@ -152,7 +154,7 @@ class _Writer:
     def _damping(self, j: Joint) -> Any:
         if j.type == "slot":
             return {"slide": self.style.kind(j.damping, force=1, length=-1)}
-        turns = j.type == "pin"
+        turns = j.type != "slider"
         return self.style.kind(j.damping, force=1, length=1 if turns else -1)
 
     def drive(self, drive: Drive) -> Tree:
@@ -206,8 +208,9 @@ class _Writer:
         return made | {"stiffness": value, "free_length": self.length(load.free)}
 
     def assembly(self, k: int, name: str) -> Any:
-        """The drawn angle; for some links the whole pose, with units in text."""
+        """The drawn angle; the whole pose for some links, and where an angle does not tell two places apart."""
         x, y, angle = self.d.poses[name]
-        if (self.d.seed + k) % 5:
+        round_slot = any(j.type == "circular_slot" and name in (j.i, j.j) for j in self.d.joints.values())
+        if (self.d.seed + k) % 5 and not round_slot:
             return self.angle(angle)
         return [self.length(x), self.length(y), self.angle(angle)]

@@ -21,7 +21,7 @@ from dalembert.model.joints.friction_keys import (
     PinFriction,
     SlotFriction,
 )
-from dalembert.model.joints.plane_joints import Gear, Joint, Pin, Rolling, Slider, Slot, Weld
+from dalembert.model.joints.plane_joints import CircularSlot, Gear, Joint, Pin, Rolling, Slider, Slot, Weld
 from dalembert.model.joints.space_joints import SpaceJoint
 from dalembert.model.links.link import GROUND, Link, Offset
 from dalembert.model.links.shapes import Box, Cylinder, SlenderBar, Sphere, StlMesh, Tube
@@ -44,6 +44,7 @@ __all__ = [
     "GROUND",
     "Answer",
     "Box",
+    "CircularSlot",
     "ConstantForceSpring",
     "Couple",
     "Cylinder",

@@ -149,7 +149,14 @@ def _rolling(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui
     rows.add(Along, index, ends, ui=ui, uj=uj, axis=e, pitch=r)
 
 
+def _circular_slot(
+    rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array
+) -> None:
+    rows.add(Distance, index, ends, target=joint.radius, ui=ui, uj=uj)
+
+
 HIGHER: dict[str, Callable[[RowBuilder, int, Any, tuple[int, int], Array, Array], None]] = {
+    "circular_slot": _circular_slot,
     "gear": _gear,
     "rolling": _rolling,
 }

@@ -122,6 +122,38 @@ class Slot(JointPart):
     )
 
 
+class CircularSlot(JointPart):
+    """A pin of j in a circular slot of i: it keeps its distance from the slot's centre, i's point, and turns.
+
+    >>> CircularSlot(links=("ground", "arm"), at=("C", "P"), radius="200 mm").radius
+    0.2
+    """
+
+    FREEDOMS: ClassVar = ("turn",)
+    type: Literal["circular_slot"] = "circular_slot"
+    radius: Annotated[float, Scalar("length", "positive")] = Field(
+        description="of the slot's middle line about i's point, a length"
+    )
+    damping: TurnDamping = Field(0.0, description="viscous couple per angular speed of the pin")
+
+    @property
+    def apart(self) -> bool:
+        """The pin goes round i's point."""
+        return True
+
+    @model_validator(mode="before")
+    @classmethod
+    def _without_friction(cls, keys: Any) -> Any:
+        if isinstance(keys, Mapping) and keys.get("friction") is not None:
+            raise ModelError(
+                "friction in a circular slot is not analysed as such",
+                "put a link from the slot's centre to its pin, pinned at both: friction in the pin at the centre, with "
+                "the slot's radius, is the slot's",
+                ("friction",),
+            )
+        return keys
+
+
 class Weld(JointPart):
     """A rigid connection."""
 
@@ -275,7 +307,7 @@ class Rolling(JointPart):
 
 
 Joint = Annotated[
-    Pin | Slider | Slot | Weld | Gear | Rolling | SpaceJoint,
+    Pin | Slider | Slot | CircularSlot | Weld | Gear | Rolling | SpaceJoint,
     Field(discriminator="type", description="a joint"),
 ]
 

@@ -107,7 +107,7 @@ def _crossing(r: Result, k: int, joint: str, before: str, after: str) -> list[Ve
     """The slide of a joint between its two points."""
     described = r.mechanism.joints[joint]
     if not described.slides:
-        return []
+        return [_radius(r, k, joint, before)] if described.apart else []
     value, rate, second = (float(v[k]) for v in r.freedom(joint, "slide"))
     e = slide_direction(r, joint)[k]
     rail = described.links[0]
@@ -118,6 +118,25 @@ def _crossing(r: Result, k: int, joint: str, before: str, after: str) -> list[Ve
     speed = float(link_speed(r, rail)[k])
     assert link_angle(r, rail) is not None
     return [Vector(f"s,{joint}", value, angle + offset, speed, alpha, (rate, second))]
+
+
+def _radius(r: Result, k: int, joint: str, before: str) -> Vector:
+    """From the centre of a circular slot to its pin, or back: of one length, turning at a rate of its own."""
+    i, j = r.mechanism.joints[joint].links
+    (pi, vi, ai), (pj, vj, aj) = (_point_motion(r, k, joint, link) for link in (i, j))
+    span, square = pj - pi, float((pj - pi) @ (pj - pi))
+    speed, alpha = (float(span[0] * v[1] - span[1] * v[0]) / square for v in (vj - vi, aj - ai))
+    angle = math.atan2(float(span[1]), float(span[0])) + (0.0 if before == i else math.pi)
+    return Vector(f"R,{joint}", math.sqrt(square), angle, speed, alpha, None)
+
+
+def _point_motion(r: Result, k: int, joint: str, link: str) -> tuple[Any, Any, Any]:
+    """Place, velocity and acceleration of a joint's point on one of its links."""
+    at, described = joint_end(r, joint, link, k), r.mechanism.joints[joint]
+    if link == GROUND:
+        return at, np.zeros(2), np.zeros(2)
+    u = np.asarray(r.mechanism.joint_points(joint)[described.links.index(link)], float)
+    return at, r._velocity(link, u)[k], r._acceleration(link, u)[k]
 
 
 def position_lines(loop: Loop, shown: Shown) -> list[Working]:

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import joint_place, link_angle, link_place, slide_direction
+from dalembert.arrays import Array
 from dalembert.model import GROUND
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import Frame
-from dalembert.views.paper.scene import Item, Point
+from dalembert.views.paper.scene import Arc, Item, Line, Point, Polygon
 from dalembert.views.plane.outline import wheels
-from dalembert.views.space.solids import Solid
+from dalembert.views.space.solids import Cylinder, Ring, Solid
 from dalembert.views.symbols import plane_symbols
-from dalembert.views.symbols.joint_solids import wheel_solids
+from dalembert.views.symbols.joint_solids import lift, wheel_solids
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -92,6 +93,53 @@ def _slot(s: Spot) -> list[Item]:
     return [*ground, *plane_symbols.slot(middle, angle, length), *plane_symbols.pin(s.at)]
 
 
+def _arm(r: Result, name: str) -> Array:
+    """From the centre of a circular slot to its pin (P, 2), ground axes."""
+    ends = zip(r.mechanism.joints[name].links, r.mechanism.joint_points(name), strict=True)
+    center, at = (link_place(r, link, u) for link, u in ends)
+    return np.asarray(at - center)
+
+
+def _circular_slot(s: Spot) -> list[Item]:
+    """As long as the way of its pin over the cycle, with a little room."""
+    joint: Any = s.r.mechanism.joints[s.name]
+    radius, i = s.frame.length(joint.radius), joint.links[0]
+    angle = np.arctan2(*_arm(s.r, s.name).T[::-1]) - link_angle(s.r, i)
+    way = np.unwrap(angle[np.isfinite(angle)])
+    here, room = float(link_angle(s.r, i)[s.k]), 3.0 / radius
+    low, high = here + float(way.min()) - room, here + float(way.max()) + room
+    pin = float(angle[s.k]) + here
+    middle = (s.at[0] - radius * math.cos(pin), s.at[1] - radius * math.sin(pin))
+    return [
+        *_round_slot(middle, radius, low, min(high, low + 2 * math.pi), _on_ground(s)),
+        *plane_symbols.pin(s.at),
+    ]
+
+
+def _round_slot(middle: Point, radius: float, low: float, high: float, ground: bool) -> list[Item]:
+    """A slot between two angles about its centre, round at its ends; strokes outside it on the ground."""
+    half, ways = plane_symbols.PIN + 0.5, np.linspace(low, high, 2 + int((high - low) / 0.04))
+    outside, inside = Arc(middle, radius + half, low, high), Arc(middle, max(radius - half, 0.0), low, high)
+    ends = [Arc(middle, radius, low, high).at(t) for t in (low, high)]
+    caps = Arc(ends[1], half, high, high + math.pi), Arc(ends[0], half, low + math.pi, low + 2 * math.pi)
+    sides = [outside.at(t) for t in ways], [inside.at(t) for t in ways[::-1]]
+    out: list[Item] = [Polygon((*sides[0], *caps[0].points, *sides[1], *caps[1].points), "block")]
+    for t in np.arange(low, high, 1.5 / outside.radius) if ground else ():
+        out.append(
+            Line((outside.at(t), Arc(middle, outside.radius + 1.4, t, t).at(t - 1.2 / radius)), "hatch")
+        )
+    return out
+
+
+def _circular_slot_solids(r: Result, name: str, size: float) -> list[tuple[str, Solid]]:
+    """A ring on i, a peg of j through it."""
+    joint: Any = r.mechanism.joints[name]
+    (i, j), (ui, uj), up = joint.links, r.mechanism.joint_points(name), np.array([0.0, 0.0, 1.0])
+    center, at = lift(r, i, ui, size), lift(r, j, uj, size)
+    low, high = (np.array([*at[:2], f(center[2], at[2]) + x * size]) for f, x in ((min, -2.0), (max, 2.0)))
+    return [(i, Ring(center, up, joint.radius, 0.9 * size)), (j, Cylinder(low, high, 0.9 * size, "inner"))]
+
+
 def _wheels(s: Spot) -> list[Item]:
     joint, out = s.r.mechanism.joints[s.name], []
     for link, center, radius in wheels(s.r, s.name, joint, s.k)[::-1]:
@@ -111,6 +159,7 @@ DRAWINGS: dict[str, Drawing] = {
     "pin": Drawing(_pin, plane_symbols.pin, "revolute"),
     "slider": Drawing(_slider, plane_symbols.pin, "prismatic"),
     "slot": Drawing(_slot, plane_symbols.pin, "slotted_cylinder"),
+    "circular_slot": Drawing(_circular_slot, plane_symbols.pin, _circular_slot_solids),
     "weld": Drawing(lambda s: plane_symbols.weld(s.at), plane_symbols.weld, "weld"),
     "gear": Drawing(_wheels, _nothing, wheel_solids),
     "rolling": Drawing(_wheels, _nothing, wheel_solids),
