@@ -1,4 +1,4 @@
-"""What arrays hold, by name; their shapes stand in each docstring."""
+"""What is passed about, by name; the shapes of arrays stand in each docstring."""
 
 from __future__ import annotations
 
@@ -15,6 +15,12 @@ Ints = NDArray[np.intp]
 
 Flags = NDArray[np.bool_]
 """Yes or no."""
+
+Numeric = Any
+"""One number or an array of them; while an analysis is traced, symbols in their place."""
+
+Tree = dict[str, Any]
+"""Keys and values, as JSON, YAML and TOML have them."""
 
 Arrays = TypeVar("Arrays")
 """An array, or a NamedTuple of arrays and of such records over the same positions."""

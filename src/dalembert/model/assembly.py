@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from pydantic import ValidationInfo
 
 from dalembert.errors import ModelError
-from dalembert.model.part import mapping, reading
+from dalembert.model.part import Reading, mapping, reading
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
     JsonSchema,
@@ -39,7 +38,7 @@ Pose = float | tuple[float, float, float] | SpacePose
 class PoseValue(Value):
     """An angle, `[x, y, angle]`, in space `{position, axis, angle}`."""
 
-    def read(self, value: Any, info: ValidationInfo) -> Pose:
+    def read(self, value: object, info: ValidationInfo) -> Pose:
         rules = reading(info)
         if isinstance(value, SpacePose):
             return value
@@ -58,7 +57,7 @@ class PoseValue(Value):
         )
         return x, y, angle
 
-    def write(self, value: Pose) -> Any:
+    def write(self, value: Pose) -> object:
         if isinstance(value, tuple):
             return [
                 value_text(value[0], "length"),
@@ -84,11 +83,11 @@ class PoseValue(Value):
         return {"anyOf": [NUMBER_OR_TEXT, pose, space]}
 
 
-def _axis(value: Any, rules: Any) -> Vector:
+def _axis(value: object, rules: Reading) -> Vector:
     return direction_vector(vector(value, "number", rules))
 
 
-def _in_space(keys: Mapping[str, Any], rules: Any) -> SpacePose:
+def _in_space(keys: Mapping[str, object], rules: Reading) -> SpacePose:
     return SpacePose(
         at_item("position", vector, keys.get("position", (0.0, 0.0, 0.0)), "length", rules),
         at_item("axis", _axis, keys.get("axis", (0.0, 0.0, 1.0)), rules),

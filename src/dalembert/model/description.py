@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
 
+from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.assembly import Pose, PoseValue
 from dalembert.model.drives.driven_freedoms import drive_freedoms, refuse_empty, with_freedoms
@@ -33,10 +34,10 @@ from dalembert.wording import quote_value
 class UnitsValue(Value):
     """The file's units."""
 
-    def read(self, value: Any, info: ValidationInfo) -> Units:
+    def read(self, value: object, info: ValidationInfo) -> Units:
         return file_units(value)
 
-    def write(self, value: Units) -> Any:
+    def write(self, value: Units) -> object:
         return value.tree()
 
     def json_schema(self) -> JsonSchema:
@@ -101,14 +102,14 @@ class Mechanism(Part):
     )
     answers: tuple[Answer, ...] = Field((), description="published answers, compared by `check`")
     _source: Source | None = PrivateAttr(None)
-    _changes: Mapping[str, Any] = PrivateAttr({})
+    _changes: Mapping[str, object] = PrivateAttr({})
 
     @classmethod
-    def _rules(cls, keys: Mapping[str, Any]) -> Reading:
+    def _rules(cls, keys: Mapping[str, object]) -> Reading:
         return Reading(None, drive_freedoms(keys), 3 if keys.get("space") == "space" else 2)
 
     @classmethod
-    def model_validate(cls, obj: Any, *, context: Any = None, **options: Any) -> Self:
+    def model_validate(cls, obj: object, *, context: Any = None, **options: Any) -> Self:
         """The mechanism that a tree describes, by the file's rules; raises ModelError."""
         if context is None and isinstance(obj, Mapping):
             context = file_rules(obj)
@@ -116,7 +117,7 @@ class Mechanism(Part):
 
     @field_validator("dalembert", mode="before")
     @classmethod
-    def _version(cls, value: Any) -> Any:
+    def _version(cls, value: object) -> object:
         if value != 1 or isinstance(value, bool):
             raise ModelError(
                 f"{quote_value(value)} is no version of the format that this program knows",
@@ -126,7 +127,7 @@ class Mechanism(Part):
 
     @model_validator(mode="before")
     @classmethod
-    def _freedoms(cls, keys: Any) -> Any:
+    def _freedoms(cls, keys: object) -> object:
         if not isinstance(keys, Mapping):
             return keys
         keys = {key: value for key, value in keys.items() if value is not None}
@@ -253,7 +254,7 @@ class Mechanism(Part):
         """Whether some drive has a speed, an acceleration or a law, so that inertia counts."""
         return any(drive.moves for drive in self.drives.values())
 
-    def with_values(self, values: Mapping[str, Any]) -> Mechanism:
+    def with_values(self, values: Mapping[str, object]) -> Mechanism:
         """Another mechanism with some values replaced, each named by its path.
 
         Numbers are SI and radians; texts are read as the file reads them: `"3 @ 30"`, `"[1 in, 20]"`, `"60"` in its
@@ -268,7 +269,7 @@ class Mechanism(Part):
         return changed
 
     @property
-    def changes(self) -> Mapping[str, Any]:
+    def changes(self) -> Mapping[str, object]:
         """Path -> value of what `with_values` has replaced since the mechanism was read."""
         return self._changes
 
@@ -278,7 +279,7 @@ class Mechanism(Part):
         folder = self._source.folder if self._source else ""
         return Reading(self.units.of_texts(), freedoms, self.dimension, folder)
 
-    def to_tree(self) -> dict[str, Any]:
+    def to_tree(self) -> Tree:
         """The description as a file's tree, every quantity as text with its SI unit; reads back equal."""
         return self.model_dump(mode="json", by_alias=True)
 
@@ -293,13 +294,13 @@ class Mechanism(Part):
         save_text(text_of(self, format_of(path)), path, overwrite)
 
 
-def file_rules(tree: Mapping[str, Any], folder: str = "") -> Reading:
+def file_rules(tree: Mapping[str, object], folder: str = "") -> Reading:
     """The rules of a file: its own units, its drives' freedoms, plane or space, and where it is."""
     units = at_item("units", file_units, tree.get("units", {}))
     return Reading(units, drive_freedoms(tree), 3 if tree.get("space") == "space" else 2, folder)
 
 
-def mechanism(tree: Mapping[str, Any], source: Source | None = None) -> Mechanism:
+def mechanism(tree: Mapping[str, object], source: Source | None = None) -> Mechanism:
     """The mechanism that a file's tree describes, by the file's rules: its units, angles in degrees.
 
     >>> mechanism({"links": {"ground": {}, "bar": {"mass": 1}}, "units": {"mass": "lbm"}}).mass("bar")

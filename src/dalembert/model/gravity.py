@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import ValidationInfo
 
@@ -20,7 +20,7 @@ Gravity = Vector | Literal["standard"] | None
 class GravityValue(Value):
     """`none`, `standard`, or a vector of accelerations."""
 
-    def read(self, value: Any, info: ValidationInfo) -> Gravity:
+    def read(self, value: object, info: ValidationInfo) -> Gravity:
         if value is None or value == "none":
             return None
         if value == "standard":
@@ -32,7 +32,7 @@ class GravityValue(Value):
             )
         return vector(value, "acceleration", reading(info))
 
-    def write(self, value: Gravity) -> Any:
+    def write(self, value: Gravity) -> object:
         if isinstance(value, tuple):
             return vector_text(value, "acceleration")
         return value or "none"

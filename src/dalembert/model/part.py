@@ -17,6 +17,7 @@ from pydantic import (
     model_validator,
 )
 
+from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.files.messages import UnknownKey, translate
 from dalembert.units import Units
@@ -62,7 +63,7 @@ class Part(BaseModel):
 
     if not TYPE_CHECKING:
 
-        def __init__(self, **keys: Any) -> None:
+        def __init__(self, **keys: object) -> None:
             try:
                 self.__pydantic_validator__.validate_python(
                     keys, self_instance=self, context=self._rules(keys)
@@ -73,11 +74,11 @@ class Part(BaseModel):
         __init__.__pydantic_base_init__ = True
 
     @classmethod
-    def _rules(cls, keys: Mapping[str, Any]) -> Reading:
+    def _rules(cls, keys: Mapping[str, object]) -> Reading:
         return PYTHON
 
     @classmethod
-    def model_validate(cls, obj: Any, *, context: Any = None, **options: Any) -> Self:
+    def model_validate(cls, obj: object, *, context: Any = None, **options: Any) -> Self:
         """The part that a tree describes; raises ModelError."""
         try:
             return super().model_validate(obj, context=context, **options)
@@ -86,7 +87,7 @@ class Part(BaseModel):
 
     @model_validator(mode="before")
     @classmethod
-    def _known_keys(cls, keys: Any) -> Any:
+    def _known_keys(cls, keys: object) -> object:
         if isinstance(keys, Mapping):
             check_keys(keys, cls.keys())
         return keys
@@ -97,8 +98,8 @@ class Part(BaseModel):
         return [field.alias or name for name, field in cls.model_fields.items()]
 
     @model_serializer(mode="wrap")
-    def _tree(self, handler: SerializerFunctionWrapHandler, info: SerializationInfo) -> dict[str, Any]:
-        keys: dict[str, Any] = handler(self)
+    def _tree(self, handler: SerializerFunctionWrapHandler, info: SerializationInfo) -> Tree:
+        keys: Tree = handler(self)
         if info.mode != "json":
             return keys
         for name, model_field in type(self).model_fields.items():
@@ -114,13 +115,13 @@ IN_SPACE = {"pin": "revolute", "slider": "prismatic", "slot": "slotted_cylinder"
 """Joints of the plane that have another name in space."""
 
 
-def check_keys(keys: Mapping[Any, Any], allowed: list[str]) -> None:
+def check_keys(keys: Mapping[str, object], allowed: list[str]) -> None:
     """Raise for the first key that is not allowed."""
     for key in keys:
         if key not in allowed:
             remedy = closest(str(key), allowed, 20)
             if key in ("axis", "axes") and keys.get("type") in IN_SPACE:
-                kind = keys["type"]
+                kind = str(keys["type"])
                 remedy = f"a {kind} is for the plane and has none; in space, write type: {IN_SPACE[kind]}"
             raise UnknownKey(f"there is no key {quote_value(key)}", remedy, (str(key),))
 

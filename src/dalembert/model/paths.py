@@ -11,7 +11,7 @@ from dalembert.wording import closest
 
 
 def replace_value(
-    part: Any, keys: Sequence[str], value: Any, rules: Reading, walked: tuple[str, ...] = ()
+    part: object, keys: Sequence[str], value: object, rules: Reading, walked: tuple[str, ...] = ()
 ) -> Any:
     """The part with the value at the path in place of its own; raises ModelError where there is no such path."""
     key, rest = keys[0], keys[1:]
@@ -37,7 +37,7 @@ WORDS = ("title", "source", "why")
 """Keys of texts that are no values."""
 
 
-def as_in_file(value: Any, key: str = "") -> Any:
+def as_in_file(value: object, key: str = "") -> object:
     """A value with each text that is a list as a file would have it: its numbers are texts too."""
     if isinstance(value, Mapping):
         return {key: as_in_file(item, key) for key, item in value.items()}
@@ -53,7 +53,7 @@ def as_in_file(value: Any, key: str = "") -> Any:
         raise ModelError(error.what, error.remedy) from None
 
 
-def _texts(value: Any) -> Any:
+def _texts(value: object) -> object:
     if isinstance(value, list):
         return [_texts(item) for item in value]
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
@@ -69,7 +69,7 @@ def _mirror(rows: tuple[Any, ...], keys: Sequence[str]) -> tuple[Any, ...]:
     return (*rows[:j], other, *rows[j + 1 :])
 
 
-def latest(earlier: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, Any]:
+def latest(earlier: Mapping[str, object], given: Mapping[str, object]) -> dict[str, object]:
     """Changes by path, each with what replaced it last; what lies within a value given later is gone."""
     kept = {
         path: value
@@ -79,7 +79,7 @@ def latest(earlier: Mapping[str, Any], given: Mapping[str, Any]) -> dict[str, An
     return {**kept, **given}
 
 
-def fields(part: Part) -> dict[str, Any]:
+def fields(part: Part) -> dict[str, object]:
     """Its keys and values, from which an equal part can be made."""
     return {field.alias or name: getattr(part, name) for name, field in type(part).model_fields.items()}
 
@@ -100,7 +100,7 @@ def _require_known(key: str, choices: list[str], here: tuple[str, ...]) -> None:
         )
 
 
-def _rebuilt(part: Part, name: str, inner: Any, rules: Reading, here: tuple[str, ...]) -> Any:
+def _rebuilt(part: Part, name: str, inner: object, rules: Reading, here: tuple[str, ...]) -> Part:
     """The part with one field replaced; the whole mechanism is rebuilt by its own method, once."""
     if len(here) == 1:
         return part.model_copy(update={name: inner})
@@ -113,7 +113,7 @@ def _rebuilt(part: Part, name: str, inner: Any, rules: Reading, here: tuple[str,
         ) from None
 
 
-def value_at(part: Any, keys: Sequence[str], walked: tuple[str, ...] = ()) -> Any:
+def value_at(part: object, keys: Sequence[str], walked: tuple[str, ...] = ()) -> Any:
     """The value at a path; raises ModelError where there is none."""
     if not keys:
         return part
@@ -131,7 +131,7 @@ def value_at(part: Any, keys: Sequence[str], walked: tuple[str, ...] = ()) -> An
     )
 
 
-def set_value(part: Any, keys: Sequence[str], value: Any, walked: tuple[str, ...] = ()) -> Any:
+def set_value(part: Any, keys: Sequence[str], value: object, walked: tuple[str, ...] = ()) -> Any:
     """The part with any value at an existing path, unchecked: also a symbol in place of a number."""
     if not keys:
         return value

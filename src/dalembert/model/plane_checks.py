@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from dalembert.errors import ModelError
 from dalembert.model.joints.joint_part import JointPart
@@ -244,7 +244,7 @@ def _components(
 ) -> Iterator[ModelError]:
     for value in load.varying:
         yield from _varying(m, value, user, (*path, "value"))
-    vectors: dict[str, Any] = {
+    vectors: dict[str, object] = {
         "value": load.value,
         "at": getattr(load, "at", None),
         "direction": getattr(load, "direction", None),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from dalembert.model.assembly import SpacePose
 
 if TYPE_CHECKING:
     from dalembert.model.description import Mechanism
+    from dalembert.model.links.link import Inertia
 
 ROUNDED = 1e-6
 """Relative excess of a principal inertia over the sum of the others that rounding may bring in."""
@@ -48,7 +49,7 @@ def space_problems(m: Mechanism) -> Iterator[ModelError]:
             )
 
 
-def principal_inertias(inertia: Any) -> tuple[float, ...]:
+def principal_inertias(inertia: Inertia) -> tuple[float, ...]:
     """The three principal values of an inertia as it is given.
 
     >>> principal_inertias(((2.0, 1.0, 0.0), (1.0, 2.0, 0.0), (0.0, 0.0, 5.0)))
@@ -61,7 +62,7 @@ def principal_inertias(inertia: Any) -> tuple[float, ...]:
     return tuple(np.linalg.eigvalsh(np.array(inertia, float)).tolist())
 
 
-def impossible(inertia: Any) -> bool:
+def impossible(inertia: Inertia) -> bool:
     """Whether no body has an inertia: one principal value exceeds the sum of the others.
 
     >>> impossible((1.2, 0.0, 0.0)), impossible((1.0, 1.0, 2.0))

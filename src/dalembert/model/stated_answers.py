@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import Field, ValidationInfo, field_validator
 
@@ -77,7 +77,7 @@ class Answer(Part):
     of: str | None = Field(None, description="of which joint, drive, load, link or link.point")
     on: str | None = Field(None, description="the link a reaction acts on; default the joint's j")
     by: str | None = Field(None, description="the link a reaction is exerted by")
-    at: Any = Field(None, description="position: its number from 1, or the drive's value as text")
+    at: object = Field(None, description="position: its number from 1, or the drive's value as text")
     extreme: Literal["max", "min", "maxabs"] | None = Field(
         None, description="over all positions, in place of at"
     )
@@ -88,18 +88,18 @@ class Answer(Part):
         "ground",
         description="the axes of a vector: ground's, the link's (acted on), in space the joint's own",
     )
-    value: Any = Field(
+    value: object = Field(
         None,
         description="as published: number, text with unit, [x, y], r @ angle, [x, y, z], 3 rows, a status",
     )
-    exact: Any = Field(None, description="the exact value, computed independently; checked to 1e-7")
-    tolerance: Any = Field(None, description="relative, 0.3 %, or a quantity; default 1e-6 relative")
-    exact_tolerance: Any = Field(None, description="in place of 1e-7 relative")
+    exact: object = Field(None, description="the exact value, computed independently; checked to 1e-7")
+    tolerance: object = Field(None, description="relative, 0.3 %, or a quantity; default 1e-6 relative")
+    exact_tolerance: object = Field(None, description="in place of 1e-7 relative")
     why: str | None = Field(None, description="the reason of the tolerance")
 
     @field_validator("value", "exact", "at", "tolerance", "exact_tolerance")
     @classmethod
-    def _plain(cls, value: Any, info: ValidationInfo) -> Any:
+    def _plain(cls, value: object, info: ValidationInfo) -> object:
         for item in value if isinstance(value, (list, tuple)) else (value,):
             rows = info.field_name in ("value", "exact") and isinstance(item, (list, tuple))
             for number in item if rows else (item,):
@@ -107,7 +107,7 @@ class Answer(Part):
         return _frozen(value)
 
 
-def _frozen(value: Any) -> Any:
+def _frozen(value: object) -> object:
     return tuple(_frozen(item) for item in value) if isinstance(value, (list, tuple)) else value
 
 

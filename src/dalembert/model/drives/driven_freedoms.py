@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 from dalembert.errors import ModelError
 from dalembert.model.drives.drives import Drive, slides
@@ -15,7 +14,7 @@ SECTIONS = ("joints", "drives", "loads", "assembly", "answers", "title", "source
 """Keys of a file that may be left blank."""
 
 
-def refuse_empty(tree: Any, path: tuple[str | int, ...] = ()) -> None:
+def refuse_empty(tree: object, path: tuple[str | int, ...] = ()) -> None:
     """Raise ModelError for the first value that is left blank."""
     inner = tree.items() if isinstance(tree, Mapping) else enumerate(tree) if isinstance(tree, list) else ()
     for key, value in inner:
@@ -27,15 +26,15 @@ def refuse_empty(tree: Any, path: tuple[str | int, ...] = ()) -> None:
             refuse_empty(value, (*path, key))
 
 
-def drive_freedoms(tree: Mapping[str, Any]) -> dict[str, str]:
+def drive_freedoms(tree: Mapping[str, object]) -> dict[str, str]:
     """Drive -> `turn` or `slide`, where it is known."""
     found = {name: freedom for name, _, freedom, _ in _drives(tree)}
     return {name: "slide" if slides(freedom) else "turn" for name, freedom in found.items() if freedom}
 
 
-def with_freedoms(tree: Mapping[str, Any]) -> Mapping[str, Any]:
+def with_freedoms(tree: Mapping[str, object]) -> Mapping[str, object]:
     """The tree with the freedom of each drive said; raises ModelError where a joint has several."""
-    drives: dict[Any, Any] = {}
+    drives: dict[str, object] = {}
     problems: list[ModelError] = []
     for key, drive, freedom, choices in _drives(tree):
         drives[key] = drive
@@ -56,7 +55,7 @@ def with_freedoms(tree: Mapping[str, Any]) -> Mapping[str, Any]:
     return {**tree, "drives": drives} if isinstance(tree.get("drives"), Mapping) else tree
 
 
-def _drives(tree: Mapping[str, Any]) -> Iterator[tuple[str, Any, str | None, tuple[str, ...]]]:
+def _drives(tree: Mapping[str, object]) -> Iterator[tuple[str, object, str | None, tuple[str, ...]]]:
     """Name, drive, the freedom it prescribes, and those its joint has."""
     drives, joints = tree.get("drives"), tree.get("joints")
     if not isinstance(drives, Mapping):

@@ -52,18 +52,18 @@ class DriveValue(Value):
 
     what = ""
 
-    def read(self, value: Any, info: ValidationInfo) -> Any:
+    def read(self, value: object, info: ValidationInfo) -> object:
         freedom = info.data.get("freedom")
         return self.parse(value, kind_of(freedom, self.what), reading(info))
 
-    def parse(self, value: Any, kind: str, rules: Reading) -> Any:
+    def parse(self, value: object, kind: str, rules: Reading) -> object:
         raise NotImplementedError
 
 
 class PositionValue(DriveValue):
     """One value, a list, a range, or unknown."""
 
-    def parse(self, value: Any, kind: str, rules: Reading) -> Positions:
+    def parse(self, value: object, kind: str, rules: Reading) -> Positions:
         if value == UNKNOWN:
             return UNKNOWN
         if isinstance(value, Range):
@@ -88,7 +88,7 @@ class PositionValue(DriveValue):
         return {"anyOf": [NUMBER_OR_TEXT, {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 1}, steps]}
 
 
-def _range(value: Mapping[str, Any], kind: str, rules: Reading) -> Range:
+def _range(value: Mapping[str, object], kind: str, rules: Reading) -> Range:
     mapping(value, ["from", "to", "count"], EXAMPLE)
     for key in ("from", "to", "count"):
         if key not in value:
@@ -103,7 +103,7 @@ class RateValue(DriveValue):
     def __init__(self, what: str) -> None:
         self.what = what
 
-    def parse(self, value: Any, kind: str, rules: Reading) -> Rates:
+    def parse(self, value: object, kind: str, rules: Reading) -> Rates:
         if value == 0 and not isinstance(value, (str, bool)):
             return 0.0
         if isinstance(value, (list, tuple)):
@@ -117,7 +117,7 @@ class RateValue(DriveValue):
 class LawValue(DriveValue):
     """A law of motion."""
 
-    def parse(self, value: Any, kind: str, rules: Reading) -> Law:
+    def parse(self, value: object, kind: str, rules: Reading) -> Law:
         return law(value, kind, rules)
 
     def json_schema(self) -> JsonSchema:
@@ -129,7 +129,7 @@ class EffortValue(DriveValue):
 
     what = "effort"
 
-    def parse(self, value: Any, kind: str, rules: Reading) -> Varying:
+    def parse(self, value: object, kind: str, rules: Reading) -> Varying:
         if value == UNKNOWN:
             raise ModelError("an effort is unknown unless it is given", "leave it out")
         return varying(value, kind, rules)
@@ -141,7 +141,7 @@ class EffortValue(DriveValue):
 class Interval(DriveValue):
     """`[a, b]`."""
 
-    def parse(self, value: Any, kind: str, rules: Reading) -> tuple[float, float]:
+    def parse(self, value: object, kind: str, rules: Reading) -> tuple[float, float]:
         found = numbers(value, kind, rules)
         if len(found) != 2 or not found[0] < found[1]:
             raise ModelError("a range is two increasing positions", "write range: [0 deg, 180 deg]")
@@ -161,7 +161,7 @@ def slides(freedom: str | None) -> bool:
     return (freedom or "").startswith("slide")
 
 
-def implied_freedom(keys: Mapping[str, Any]) -> str | None:
+def implied_freedom(keys: Mapping[str, object]) -> str | None:
     """Slide or turn, if the unit of some value says so."""
     for key, what in (("position", ""), ("range", ""), ("speed", "speed"), ("acceleration", "acceleration")):
         value = keys.get(key)
@@ -237,7 +237,7 @@ class Drive(Part):
 
     @model_validator(mode="before")
     @classmethod
-    def _freedom_of_units(cls, keys: Any) -> Any:
+    def _freedom_of_units(cls, keys: object) -> object:
         if isinstance(keys, Mapping) and keys.get("freedom") is None:
             return {**keys, "freedom": implied_freedom(keys)}
         return keys
@@ -302,7 +302,7 @@ class Drive(Part):
         }
 
     @field_serializer("position", "speed", "acceleration", "law", "effort", "range", when_used="json")
-    def _serialize(self, value: Any, info: FieldSerializationInfo) -> Any:
+    def _serialize(self, value: object, info: FieldSerializationInfo) -> object:
         what = info.field_name if info.field_name in TURN else ""
         with in_units(info.context):
             return _tree(value, kind_of(self.freedom, str(what)))
@@ -312,7 +312,7 @@ def _nonzero(rate: Rates) -> bool:
     return any(rate) if isinstance(rate, tuple) else rate != 0
 
 
-def _tree(value: Any, kind: str) -> Any:
+def _tree(value: Any, kind: str) -> object:
     if isinstance(value, tuple):
         return [value_text(number, kind) for number in value]
     if isinstance(value, Range):

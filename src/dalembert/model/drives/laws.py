@@ -6,8 +6,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
+from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model.part import Reading, mapping
 from dalembert.model.quantities.values import (
@@ -46,7 +46,7 @@ class Rise:
     duration: float
     count: int
 
-    def motion(self, count: int | None = None) -> tuple[Any, Any, Any, Any]:
+    def motion(self, count: int | None = None) -> tuple[Array, Array, Array, Array]:
         """Time, position, speed and acceleration at `count` equal steps, both ends among them."""
         import numpy as np
 
@@ -55,7 +55,7 @@ class Rise:
         rise, t = self.stop - self.start, self.duration
         return u * t, self.start + rise * shape, rise / t * slope, rise / t**2 * bend
 
-    def tree(self, kind: str) -> dict[str, Any]:
+    def tree(self, kind: str) -> dict[str, object]:
         """As a file says it."""
         return {
             "type": self.type,
@@ -66,7 +66,7 @@ class Rise:
         }
 
 
-def _shape(form: str, u: Any) -> tuple[Any, Any, Any]:
+def _shape(form: str, u: Array) -> tuple[Array, Array, Array]:
     import numpy as np
 
     if form == "harmonic":
@@ -94,7 +94,7 @@ class TimeTable:
     count: int
     periodic: bool = False
 
-    def motion(self, count: int | None = None) -> tuple[Any, Any, Any, Any]:
+    def motion(self, count: int | None = None) -> tuple[Array, Array, Array, Array]:
         """Time, position, speed and acceleration at `count` equal steps of time."""
         import numpy as np
         from scipy.interpolate import CubicSpline
@@ -106,9 +106,9 @@ class TimeTable:
         t = np.linspace(self.time[0], self.time[-1], count or self.count, endpoint=not self.periodic)
         return t, spline(t), spline(t, 1), spline(t, 2)
 
-    def tree(self, kind: str) -> dict[str, Any]:
+    def tree(self, kind: str) -> dict[str, object]:
         """As a file says it."""
-        tree: dict[str, Any] = {
+        tree: dict[str, object] = {
             "type": "table",
             "time": [value_text(t, "time") for t in self.time],
             "position": [value_text(x, kind) for x in self.position],
@@ -133,15 +133,15 @@ def law(value: object, kind: str, rules: Reading) -> Law:
     return _table(value, kind, rules) if form == "table" else _rise(value, kind, rules)
 
 
-def _rise(value: Mapping[str, Any], kind: str, rules: Reading) -> Rise:
+def _rise(value: Mapping[str, object], kind: str, rules: Reading) -> Rise:
     _require(value, ["type", "from", "to", "duration", "count"], EXAMPLES["rise"])
     start, stop = (at_item(key, quantity, value[key], kind, rules.units) for key in ("from", "to"))
     duration = at_item("duration", quantity, value["duration"], "time", rules.units)
     at_item("duration", check_sign, duration, value["duration"], "positive")
-    return Rise(value["type"], start, stop, duration, at_item("count", count, value["count"], 2))
+    return Rise(str(value["type"]), start, stop, duration, at_item("count", count, value["count"], 2))
 
 
-def _table(value: Mapping[str, Any], kind: str, rules: Reading) -> TimeTable:
+def _table(value: Mapping[str, object], kind: str, rules: Reading) -> TimeTable:
     if value.get("interpolate", "cubic") != "cubic":
         raise ModelError(
             f"a law of motion is not interpolated {quote_value(value['interpolate'])}: "
@@ -155,7 +155,7 @@ def _table(value: Mapping[str, Any], kind: str, rules: Reading) -> TimeTable:
     position = at_item("position", numbers, value["position"], kind, rules)
     periodic = value.get("periodic", False)
     _check_table(time, position, periodic)
-    return TimeTable(time, position, at_item("count", count, value["count"], 1), periodic)
+    return TimeTable(time, position, at_item("count", count, value["count"], 1), periodic is True)
 
 
 def _check_table(time: tuple[float, ...], position: tuple[float, ...], periodic: object) -> None:
@@ -177,7 +177,7 @@ def _check_table(time: tuple[float, ...], position: tuple[float, ...], periodic:
         )
 
 
-def _require(value: Mapping[str, Any], keys: list[str], example: str) -> None:
+def _require(value: Mapping[str, object], keys: list[str], example: str) -> None:
     mapping(value, keys, example)
     for key in keys:
         if key not in value:

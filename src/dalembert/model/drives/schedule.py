@@ -7,9 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.model.drives.drives import Drive, Range
 from dalembert.model.drives.laws import MOST
+
+Motion = tuple[Any, Array, Array, Array]
+"""Time, if a law says it, position, speed and acceleration of a drive."""
 
 
 @dataclass(frozen=True)
@@ -22,10 +26,10 @@ class Schedule:
     """
 
     names: tuple[str, ...]
-    position: Any
-    speed: Any
-    acceleration: Any
-    time: Any = None
+    position: Array
+    speed: Array
+    acceleration: Array
+    time: Array | None = None
     unknown: str | None = None
     range: tuple[float, float] | None = None
 
@@ -35,15 +39,15 @@ class Schedule:
         return len(self.position)
 
     @property
-    def moves(self) -> Any:
+    def moves(self) -> Flags:
         """Whether the machine moves at each position (positions,): some drive has a speed, or all stand only to turn
         back, between two positions where they move."""
         import numpy as np
 
-        moving = (self.speed != 0).any(axis=1)
+        moving: Flags = (self.speed != 0).any(axis=1)
         turning = np.zeros_like(moving)
         turning[1:-1] = moving[:-2] & moving[2:] & (self.acceleration != 0).any(axis=1)[1:-1]
-        return moving | turning
+        return np.asarray(moving | turning)
 
 
 def schedule(drives: Mapping[str, Drive], positions: int | None = None) -> Schedule:
@@ -116,13 +120,13 @@ def _count(drives: Mapping[str, Drive], positions: int | None) -> int:
     return next(iter(found), 1)
 
 
-def _motion(drive: Drive, size: int) -> tuple[Any, Any, Any, Any]:
+def _motion(drive: Drive, size: int) -> Motion:
     """Time, position, speed and acceleration of one drive."""
     import numpy as np
 
     if drive.law is not None:
         return drive.law.motion(size)
-    position = drive.position
+    position: object = drive.position
     if isinstance(position, Range):
         position = _steps(position, size, drive.turns)
     elif isinstance(position, str):
@@ -130,7 +134,7 @@ def _motion(drive: Drive, size: int) -> tuple[Any, Any, Any, Any]:
     return None, np.asarray(position, float), np.asarray(drive.speed), np.asarray(drive.acceleration)
 
 
-def _steps(span: Range, size: int, turns: bool) -> Any:
+def _steps(span: Range, size: int, turns: bool) -> Array:
     import numpy as np
 
     turned = abs(span.stop - span.start) / (2 * math.pi)
@@ -138,7 +142,7 @@ def _steps(span: Range, size: int, turns: bool) -> Any:
     return np.linspace(span.start, span.stop, size, endpoint=not full)
 
 
-def _time(columns: Mapping[str, tuple[Any, Any, Any, Any]]) -> Any:
+def _time(columns: Mapping[str, Motion]) -> Array | None:
     """The time of the laws, which must agree."""
     import numpy as np
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
+from dalembert.arrays import Tree
 from dalembert.model.description import Mechanism
 
 
-def json_schema() -> dict[str, Any]:
+def json_schema() -> Tree:
     """The JSON Schema of a model file: every key with its meaning and units.
 
     >>> json_schema()["properties"]["links"]["description"]

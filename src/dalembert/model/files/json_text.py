@@ -11,7 +11,7 @@ from dalembert.model.files.yaml_text import DEEPEST, at_line
 from dalembert.wording import quote_value
 
 
-def read(text: str) -> Any:
+def read(text: str) -> object:
     """The tree; raises ModelError with its `line`."""
     _check_tokens(text)
     try:
@@ -31,8 +31,8 @@ class _TwiceError(ValueError):
     """A key that an object has twice."""
 
 
-def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found: dict[str, Any] = {}
+def _object(pairs: list[tuple[str, object]]) -> dict[str, object]:
+    found: dict[str, object] = {}
     for key, value in pairs:
         if key in found:
             raise _TwiceError(key)

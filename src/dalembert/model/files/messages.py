@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from pydantic import ValidationError
+from pydantic_core import ErrorDetails
 
 from dalembert.errors import Locator, ModelError
 from dalembert.wording import closest, quote_value
@@ -95,12 +95,12 @@ def place(path: Sequence[str | int]) -> str:
 
 def translate(error: ValidationError, tree: object) -> ModelError:
     """pydantic's findings about a tree as one ModelError, with paths down that tree."""
-    found = [_translate_one(dict(one), tree) for one in error.errors(include_url=False)]
+    found = [_translate_one(one, tree) for one in error.errors(include_url=False)]
     ranked = sorted(enumerate(found), key=lambda pair: (pair[1][0], pair[0]))
     return together([one for _, (_, one) in ranked])
 
 
-def _translate_one(one: dict[str, Any], tree: object) -> tuple[int, ModelError]:
+def _translate_one(one: ErrorDetails, tree: object) -> tuple[int, ModelError]:
     path = _path(one["loc"], tree, one["type"] == "missing")
     inner = one.get("ctx", {}).get("error")
     if isinstance(inner, ModelError):
@@ -149,7 +149,7 @@ def _missing(path: Path) -> ModelError:
     return ModelError(f"the key {key!r} is missing{where}", HINTS.get(key, f"write {key}: ..."), path[:-1])
 
 
-def _sentence(one: Mapping[str, Any]) -> tuple[str, str]:
+def _sentence(one: ErrorDetails) -> tuple[str, str]:
     kind, given, ctx = one["type"], one.get("input"), one.get("ctx", {})
     if kind == "union_tag_invalid":
         word, choices = str(ctx["tag"]), _quote(ctx["expected_tags"])

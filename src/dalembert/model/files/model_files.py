@@ -64,14 +64,14 @@ def read_text(text: str, form: str = "yaml", name: str = "text") -> tuple[Any, S
     return tree, Source(name, lines, text, form)
 
 
-def _yaml(text: str) -> tuple[Any, Callable[[], Lines]]:
+def _yaml(text: str) -> tuple[object, Callable[[], Lines]]:
     from dalembert.model.files import yaml_text
 
     tree, lines = yaml_text.read(text)
     return tree, _Known(lines)
 
 
-def _json(text: str) -> tuple[Any, Callable[[], Lines]]:
+def _json(text: str) -> tuple[object, Callable[[], Lines]]:
     from dalembert.model.files import json_text
 
     if not text.strip():
@@ -79,13 +79,13 @@ def _json(text: str) -> tuple[Any, Callable[[], Lines]]:
     return json_text.read(text), _Later(json_text.lines, text)
 
 
-def _toml(text: str) -> tuple[Any, Callable[[], Lines]]:
+def _toml(text: str) -> tuple[object, Callable[[], Lines]]:
     from dalembert.model.files import toml_text
 
     return toml_text.read(text), _Later(toml_text.lines, text)
 
 
-_READERS: dict[str, Callable[[str], tuple[Any, Callable[[], Lines]]]] = {
+_READERS: dict[str, Callable[[str], tuple[object, Callable[[], Lines]]]] = {
     "yaml": _yaml,
     "json": _json,
     "toml": _toml,
@@ -203,7 +203,7 @@ def convert(path: FilePath, target: FilePath, overwrite: bool = False) -> None:
     save_tree({key: value for key, value in tree.items() if value is not None}, target, overwrite)
 
 
-def save_tree(tree: Mapping[str, Any], path: FilePath, overwrite: bool = False) -> None:
+def save_tree(tree: Mapping[str, object], path: FilePath, overwrite: bool = False) -> None:
     """Write a tree to a .yaml, .json or .toml file; raises ModelError if there is one and not `overwrite`."""
     save_text(tree_text(tree, format_of(path)), path, overwrite)
 
@@ -222,7 +222,7 @@ def save_text(text: str, path: FilePath, overwrite: bool = False) -> None:
         temporary.write_bytes(content)
 
 
-def tree_text(tree: Mapping[str, Any], form: str = "yaml") -> str:
+def tree_text(tree: Mapping[str, object], form: str = "yaml") -> str:
     """A tree as text.
 
     >>> print(tree_text({"title": "Bar", "links": {"bar": {"points": {"A": [0, "1 m"]}}}}), end="")
@@ -239,7 +239,7 @@ def tree_text(tree: Mapping[str, Any], form: str = "yaml") -> str:
     return _toml_text(tree)
 
 
-def _toml_text(tree: Mapping[str, Any]) -> str:
+def _toml_text(tree: Mapping[str, object]) -> str:
     try:
         import tomli_w
     except ImportError:

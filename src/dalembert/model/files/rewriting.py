@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from dalembert.arrays import Tree
 from dalembert.model.files.source import Path, Source
 from dalembert.model.files.splicing import REMOVED, Renamed, splice
 from dalembert.model.files.yaml_text import scalar
@@ -42,9 +43,9 @@ def text_of(m: Mechanism, form: str) -> str:
     return tree_text({key: value for key, value in tree.items() if value is not None}, form)
 
 
-def file_tree(m: Mechanism) -> dict[str, Any]:
+def file_tree(m: Mechanism) -> Tree:
     """The description in its own units, without what goes without saying."""
-    tree = m.model_dump(mode="json", by_alias=True, context=m.units)
+    tree: Tree = m.model_dump(mode="json", by_alias=True, context=m.units)
     for name, drive in tree.get("drives", {}).items():
         if len(m.joints[m.drive_joint(name)].freedoms) == 1:
             drive.pop("freedom", None)
@@ -72,21 +73,21 @@ def _own_text(m: Mechanism, source: Source) -> str | None:
     return None
 
 
-def _values(m: Mechanism, tree: Mapping[str, Any]) -> Iterator[tuple[Path, Any]]:
+def _values(m: Mechanism, tree: Mapping[str, object]) -> Iterator[tuple[Path, object]]:
     """The changes as paths down the file's tree, with values in the file's own words."""
     dumped = m.to_tree()
     for path, given in m.changes.items():
         yield from _value(m, tree, dumped, path.split("."), given)
 
 
-def _differences(m: Mechanism, read: Mechanism, tree: Mapping[str, Any]) -> Iterator[tuple[Path, Any]]:
+def _differences(m: Mechanism, read: Mechanism, tree: Mapping[str, object]) -> Iterator[tuple[Path, object]]:
     """What a text says otherwise than the mechanism, leaf by leaf."""
     wanted = m.to_tree()
     for path in _differing(wanted, read.to_tree(), ()):
         yield from _value(m, tree, wanted, list(map(str, path)), _at(wanted, path, REMOVED), said=False)
 
 
-def _differing(a: Any, b: Any, path: Path) -> Iterator[Path]:
+def _differing(a: object, b: object, path: Path) -> Iterator[Path]:
     if isinstance(a, dict) and isinstance(b, dict):
         for key in dict.fromkeys([*a, *b]):
             yield from _differing(a.get(key), b.get(key), (*path, key))
@@ -98,8 +99,8 @@ def _differing(a: Any, b: Any, path: Path) -> Iterator[Path]:
 
 
 def _value(
-    m: Mechanism, tree: Any, dumped: Any, keys: list[str], given: Any, said: bool = True
-) -> Iterator[tuple[Path, Any]]:
+    m: Mechanism, tree: object, dumped: object, keys: list[str], given: object, said: bool = True
+) -> Iterator[tuple[Path, object]]:
     """A change as paths and values of the tree; `said`: a text given is written as it is."""
     path, old = _path_to_text(tree, keys)
     while keys[len(path) - 1].isdigit() and _at(dumped, path, REMOVED) is REMOVED:  # it is written otherwise
@@ -123,7 +124,7 @@ def _value(
             yield other, _value_text(m, text, _at(dumped, other, given), _at(tree, other, None))
 
 
-def _path_to_text(tree: Any, keys: list[str]) -> tuple[Path, Any]:
+def _path_to_text(tree: object, keys: list[str]) -> tuple[Path, object]:
     """The path down the tree, as far as it goes before a value that is one text, and what stands there."""
     path: Path = ()
     for key in keys:
@@ -136,7 +137,7 @@ def _path_to_text(tree: Any, keys: list[str]) -> tuple[Path, Any]:
     return path, tree
 
 
-def _at(tree: Any, path: Path, default: Any) -> Any:
+def _at(tree: Any, path: Path, default: object) -> Any:
     """What stands at a path of a tree."""
     for key in path:
         try:
@@ -146,7 +147,7 @@ def _at(tree: Any, path: Path, default: Any) -> Any:
     return tree
 
 
-def _items(path: Path, value: Any, old: Any) -> Iterator[tuple[Path, Any]]:
+def _items(path: Path, value: object, old: object) -> Iterator[tuple[Path, object]]:
     """Item by item where both have the same items, so that what is between them stays."""
     if isinstance(value, list) and isinstance(old, list) and len(value) == len(old):
         for i, (new, was) in enumerate(zip(value, old, strict=True)):
@@ -158,7 +159,7 @@ def _items(path: Path, value: Any, old: Any) -> Iterator[tuple[Path, Any]]:
         yield path, value
 
 
-def _value_text(m: Mechanism, given: Any, si: Any, old: Any) -> Any:
+def _value_text(m: Mechanism, given: object, si: object, old: object) -> object:
     """A value in the words of the one it replaces: as given where it is text, else its number in the same unit."""
     if isinstance(given, str):
         return scalar(given) if re.fullmatch(NUMBER, given) else given
@@ -184,7 +185,7 @@ def _value_text(m: Mechanism, given: Any, si: Any, old: Any) -> Any:
     return si
 
 
-def _number(number: float, kind: str, old: Any, units: Units) -> Any:
+def _number(number: float, kind: str, old: object, units: Units) -> object:
     if isinstance(old, str):
         own = with_own_unit(number, kind, old, units)
         if own is not None:
@@ -196,7 +197,7 @@ def _number(number: float, kind: str, old: Any, units: Units) -> Any:
     return plain(number, kind, units)
 
 
-def _polar(m: Mechanism, si: list[Any], old: str) -> Any:
+def _polar(m: Mechanism, si: list[Any], old: str) -> object:
     """A vector as polar text again, where some polar text is exactly this vector."""
     found = [si_quantity(x) or (float(x), "number") for x in si]
     vector, kind = tuple(number for number, _ in found), found[0][1]
@@ -206,7 +207,7 @@ def _polar(m: Mechanism, si: list[Any], old: str) -> Any:
     return polar if polar and len(polar) <= max(2 * SHORT, len(str(components))) else components
 
 
-def _of_load(m: Mechanism, tree: Any, name: str, given: Any) -> Iterator[tuple[Path, Any]]:
+def _of_load(m: Mechanism, tree: object, name: str, given: object) -> Iterator[tuple[Path, object]]:
     """The value and direction of a force, which may stand as one polar text, or as a vector without a direction."""
     load, was = m.loads[name], _at(tree, ("loads", name), {})
     path, old = ("loads", name, "value"), was.get("value") if isinstance(was, Mapping) else None

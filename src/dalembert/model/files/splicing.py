@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from dalembert.model.files.places import Places, inside, places
 from dalembert.model.files.source import Path
@@ -22,7 +22,7 @@ class Renamed(NamedTuple):
     """Another key, and its value, in the place of a key."""
 
     key: str
-    value: Any
+    value: object
 
 
 class Change(NamedTuple):
@@ -33,11 +33,11 @@ class Change(NamedTuple):
     text: str
 
 
-def splice(text: str, form: str, values: Mapping[Path, Any]) -> str:
+def splice(text: str, form: str, values: Mapping[Path, object]) -> str:
     """The text with values of its tree replaced, added or (REMOVED) taken out; those that overlap one by one."""
     waiting = dict(values)
     while waiting:
-        found, changes, later = places(text, form), list[Change](), dict[Path, Any]()
+        found, changes, later = places(text, form), list[Change](), dict[Path, object]()
         for path, value in waiting.items():
             change = _change(text, form, found, path, value)
             if change is None:
@@ -54,7 +54,7 @@ def splice(text: str, form: str, values: Mapping[Path, Any]) -> str:
     return text
 
 
-def _change(text: str, form: str, found: Places, path: Path, value: Any) -> Change | None:
+def _change(text: str, form: str, found: Places, path: Path, value: object) -> Change | None:
     place = found.get(path)
     if value is REMOVED:
         return _removal(text, found, path) if place else None
@@ -69,7 +69,7 @@ def _change(text: str, form: str, found: Places, path: Path, value: Any) -> Chan
     return Change(place.start, place.end, value_text(value, form, text[place.start : place.end]))
 
 
-def value_text(value: Any, form: str, old: str = "") -> str:
+def value_text(value: object, form: str, old: str = "") -> str:
     """A value as the format writes it on one line; a text keeps the quotes that the old one stood in."""
     if form == "json":
         return json.dumps(value, ensure_ascii=False)
@@ -92,7 +92,7 @@ def _toml_key(key: str) -> str:
     return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key, ensure_ascii=False)
 
 
-def _pair(key: Any, value: Any, form: str) -> str:
+def _pair(key: object, value: object, form: str) -> str:
     if form == "toml":
         return f"{_toml_key(str(key))} = {value_text(value, form)}"
     if form == "json":
@@ -116,7 +116,7 @@ def _removal(text: str, found: Places, path: Path) -> Change:
     return Change(line, len(text) if end < 0 else end + 1, "")
 
 
-def _addition(text: str, form: str, found: Places, path: Path, value: Any) -> Change:
+def _addition(text: str, form: str, found: Places, path: Path, value: object) -> Change:
     """A new key at the end of the mapping it belongs to; what is between that and the value is added too."""
     depth = len(path) - 1
     while path[:depth] not in found or not (
@@ -153,7 +153,7 @@ def _new_line(text: str, behind: int, indent: str, pair: str) -> Change:
     return Change(at, at, f"{line_end}{indent}{pair}")
 
 
-def _block(text: str, form: str, found: Places, path: Path, value: Any) -> Change:
+def _block(text: str, form: str, found: Places, path: Path, value: object) -> Change:
     """A block on lines of its own becomes one value behind its key."""
     place = found[path]
     assert place.key is not None, path

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 import tomllib
-from typing import Any
 
+from dalembert.arrays import Tree
 from dalembert.model.files.source import Path
 from dalembert.model.files.yaml_text import DEEPEST, at_line
 
 
-def read(text: str) -> Any:
+def read(text: str) -> Tree:
     """The tree; raises ModelError with its `line`."""
     for number, line in enumerate(text.split("\n")):
         if line.count("[") + line.count("{") + line.count(".") > 1000 and re.search(

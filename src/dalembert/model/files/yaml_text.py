@@ -7,11 +7,15 @@ keys are texts, equal keys are refused, and tags and second documents never come
 from __future__ import annotations
 
 import re
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from dalembert.errors import ModelError
 from dalembert.model.files.source import Path
 from dalembert.wording import quote_value
+
+if TYPE_CHECKING:
+    from ruamel.yaml.error import MarkedYAMLError, StreamMark
+    from ruamel.yaml.events import CollectionStartEvent, ScalarEvent
 
 DEEPEST, MOST = 30, 50_000
 """Levels of nesting and values of one file."""
@@ -19,7 +23,7 @@ DEEPEST, MOST = 30, 50_000
 MERGE = "<<"
 """The key that takes in another mapping."""
 
-_WORDS: dict[str, Any] = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
+_WORDS: dict[str, object] = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
 _WORDS |= {
     word: value for value in (True, False) for word in (str(value), str(value).lower(), str(value).upper())
 }
@@ -30,7 +34,7 @@ _FLOAT = re.compile(
 )
 
 
-def read(text: str) -> tuple[Any, dict[Path, int]]:
+def read(text: str) -> tuple[object, dict[Path, int]]:
     """The tree and the line of each path; raises ModelError with its `line`."""
     from ruamel.yaml import YAML
     from ruamel.yaml.error import MarkedYAMLError, YAMLError
@@ -67,7 +71,7 @@ def _check_properties(text: str) -> None:
         )
 
 
-def _problem(error: Any) -> str:
+def _problem(error: MarkedYAMLError) -> str:
     said = " ".join(str(error.problem or error.context).split())
     begun, found = error.context_mark, error.problem_mark
     if begun is not None and found is not None and begun.line != found.line:
@@ -80,7 +84,7 @@ def at_line(what: str, remedy: str, line: int) -> ModelError:
     return ModelError(what, remedy, (), "", line)
 
 
-def _advice(text: str, mark: Any) -> str:
+def _advice(text: str, mark: StreamMark | None) -> str:
     lines = text.split("\n")
     line = lines[mark.line] if mark and mark.line < len(lines) else ""
     if "\t" in line[: len(line) - len(line.lstrip())]:
@@ -92,9 +96,9 @@ class _Builder:
     """Stacks the open mappings and lists; `key` is the mapping key whose value comes next."""
 
     def __init__(self) -> None:
-        self.root: Any = None
+        self.root: object = None
         self.lines: dict[Path, int] = {}
-        self.anchors: dict[str, tuple[Any, int]] = {}
+        self.anchors: dict[str, tuple[object, int]] = {}
         self.stack: list[_Open] = []
         self.size = self.documents = 0
 
@@ -126,7 +130,7 @@ class _Builder:
                 "a second document begins", "keep one mechanism in a file: leave out the line ---", line
             )
 
-    def scalar(self, event: Any, line: int) -> None:
+    def scalar(self, event: ScalarEvent, line: int) -> None:
         if event.tag is not None:
             raise at_line(
                 f"a tag {quote_value(str(event.tag))} has no place in a model file", "leave it out", line
@@ -151,7 +155,9 @@ class _Builder:
         top.key, top.wants_key = key, False
         self.lines[(*top.path, key)] = line
 
-    def open_node(self, event: Any, value: Any, line: int) -> None:
+    def open_node(
+        self, event: CollectionStartEvent, value: dict[str, object] | list[object], line: int
+    ) -> None:
         if event.tag is not None:
             raise at_line(
                 f"a tag {quote_value(str(event.tag))} has no place in a model file", "leave it out", line
@@ -175,7 +181,7 @@ class _Builder:
         """Take in what `<<: *name` names; keys that stand in the mapping itself, and earlier ones, go first."""
         given = top.value.pop(MERGE)
         line = self.lines.pop((*top.path, MERGE))
-        merged: dict[str, Any] = {}
+        merged: dict[str, object] = {}
         for other in reversed(given if isinstance(given, list) else [given]):
             if not isinstance(other, dict):
                 raise at_line(
@@ -189,7 +195,7 @@ class _Builder:
         top.value.update(merged | own)
         self.lines |= {(*top.path, key): line for key in merged if key not in own}
 
-    def add_anchor(self, anchor: str | None, value: Any, size: int) -> None:
+    def add_anchor(self, anchor: str | None, value: object, size: int) -> None:
         if anchor:
             self.anchors[anchor] = value, size
 
@@ -204,7 +210,7 @@ class _Builder:
         self.size += size
         self.add(value, line)
 
-    def add(self, value: Any, line: int) -> Path:
+    def add(self, value: object, line: int) -> Path:
         if not self.stack:
             self.root = value
             return ()
@@ -227,7 +233,7 @@ class _Open:
         self.key, self.wants_key, self.merges = "", isinstance(value, dict), False
 
 
-def scalar(text: str) -> Any:
+def scalar(text: str) -> object:
     """The value of a plain scalar by the core schema of YAML 1.2: `1e-3` is a number, `on` is text.
 
     >>> scalar("1e-3"), scalar("on"), scalar("true")

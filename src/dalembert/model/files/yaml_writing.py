@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Iterable, Mapping, Sequence
 
 from dalembert.model.files.yaml_text import scalar
 
@@ -13,12 +12,12 @@ _SPECIAL = re.compile(r"[\x7f-\x9f\u2028\u2029\ufeff\ufffe\uffff\ud800-\udfff]")
 _PLAIN = re.compile(r"[^\W\d_][\w./*^() +@-]*|[-+]?\.?[0-9][\w./*^() +@-]*")
 
 
-def to_yaml(tree: Mapping[str, Any]) -> str:
+def to_yaml(tree: Mapping[str, object]) -> str:
     """The tree as YAML text that reads back equal."""
     return "".join(line + "\n" for key, value in tree.items() for line in _entry(word(key), value, 0))
 
 
-def _entry(head: str, value: Any, indent: int) -> list[str]:
+def _entry(head: str, value: object, indent: int) -> list[str]:
     """The lines of `head: value`; a mapping at the top level is always opened up."""
     space = " " * indent
     on_one_line = flow(value)
@@ -37,12 +36,12 @@ def _entry(head: str, value: Any, indent: int) -> list[str]:
     return [f"{space}{head}: {on_one_line}"]
 
 
-def _open_value(value: Any, indent: int) -> bool:
+def _open_value(value: Mapping[str, object] | Iterable[object], indent: int) -> bool:
     inner = value.values() if isinstance(value, Mapping) else value
     return indent == 0 and any(isinstance(item, (Mapping, list, tuple)) for item in inner)
 
 
-def flow(value: Any) -> str:
+def flow(value: object) -> str:
     """A value on one line."""
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{word(key)}: {flow(item)}" for key, item in value.items()) + "}"

@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import acos, atan2, degrees, pi, sqrt
 from typing import TYPE_CHECKING
 
+from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.library.compass import FULL_TURN, Points, angle, meet, reach, start_points, vector_at
 from dalembert.model.library.tree_parts import (
     Point,
-    Tree,
     build_mechanism,
     force,
     pin,

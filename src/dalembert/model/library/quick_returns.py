@@ -5,10 +5,10 @@ from __future__ import annotations
 from math import asin, degrees, pi
 from typing import TYPE_CHECKING
 
+from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.library.compass import FULL_TURN, Points, angle, reach, start_points, vector_at
 from dalembert.model.library.tree_parts import (
-    Tree,
     block,
     build_mechanism,
     force,

@@ -9,9 +9,10 @@ from __future__ import annotations
 from math import cos, pi, radians, sin
 from typing import TYPE_CHECKING
 
+from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.library.compass import FULL_TURN
-from dalembert.model.library.tree_parts import Tree, build_mechanism, positive, turning
+from dalembert.model.library.tree_parts import build_mechanism, positive, turning
 from dalembert.model.library.vectors import Vector
 
 if TYPE_CHECKING:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dalembert.arrays import Tree
 from dalembert.model.library.compass import Points, angle, meet, vector_at
-from dalembert.model.library.tree_parts import Point, Tree, pin, positive
+from dalembert.model.library.tree_parts import Point, pin, positive
 
 
 def check_six_bar(template: str, mass_per_length: float, mass_per_area: float, **lengths: float) -> None:

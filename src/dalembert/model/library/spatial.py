@@ -5,13 +5,14 @@ Every link is described as it is drawn with the crank at 0: its axes parallel to
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import atan2, cos, hypot, isfinite, pi, radians, sin, sqrt
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.library.compass import FULL_TURN
-from dalembert.model.library.tree_parts import Tree, build_mechanism, force, positive, turning
+from dalembert.model.library.tree_parts import build_mechanism, force, positive, turning
 from dalembert.model.library.vectors import Vector, cross, dot, less, plus, times
 
 if TYPE_CHECKING:
@@ -293,7 +294,7 @@ def _on(kind: str, i: str, j: str, axis: Vector) -> Tree:
     return {"type": kind, "links": [i, j], "axis": list(axis)}
 
 
-def _four_links(title: str, at: Any, mass_per_length: float, joints: Any) -> dict[str, Any]:
+def _four_links(title: str, at: Sequence[Vector], mass_per_length: float, joints: Tree) -> Tree:
     """A closed loop of slender crank, coupler and rocker between four points, under gravity."""
     o, a, b, c = at
     links = {

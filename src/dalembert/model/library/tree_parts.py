@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from math import degrees, isfinite
 from typing import TYPE_CHECKING, Any
 
+from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
     from dalembert.model import Mechanism
 
-Tree = dict[str, Any]
 Point = tuple[float, float]
 
 
@@ -90,7 +90,7 @@ def sliding(
     return drive | ({"speed": speed} if speed else {})
 
 
-def force(on: str, at: str, value: Any, **more: Any) -> Tree:
+def force(on: str, at: str, value: object, **more: object) -> Tree:
     return {
         "type": "force",
         "on": on,
@@ -103,14 +103,14 @@ def couple(on: str, value: float) -> Tree:
     return {"type": "couple", "on": on, "value": value}
 
 
-def build_mechanism(title: str, **sections: Any) -> Mechanism:
+def build_mechanism(title: str, **sections: object) -> Mechanism:
     """The mechanism of a whole tree, through the public constructor with all its checks."""
     from dalembert.model import mechanism
 
     return mechanism({"dalembert": 1, "title": title} | tidy(sections))
 
 
-def tidy(tree: Any) -> Any:
+def tidy(tree: object) -> Any:
     """The same tree without the last digits of rounding, for files that people read.
 
     >>> tidy({"mass": 0.1 + 0.2})

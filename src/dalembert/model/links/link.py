@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 from pydantic import Discriminator, Field, Tag, ValidationInfo, model_validator
 
+from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
 from dalembert.model.links.shapes import (
     MassProperties,
@@ -59,7 +60,7 @@ Inertia = float | tuple[float, ...] | tuple[tuple[float, ...], ...]
 class Place(Value):
     """A point: a vector in link axes, or `{from: OTHER, at: VECTOR}`."""
 
-    def read(self, value: Any, info: ValidationInfo) -> Vector | Offset:
+    def read(self, value: object, info: ValidationInfo) -> Vector | Offset:
         rules = reading(info)
         if isinstance(value, Offset):
             return value
@@ -71,7 +72,7 @@ class Place(Value):
                 raise ModelError(f"the key {key!r} is missing", "write {from: center, at: [x, y]}")
         return Offset(at_item("from", name, keys["from"]), at_item("at", vector, keys["at"], "length", rules))
 
-    def write(self, value: Vector | Offset) -> Any:
+    def write(self, value: Vector | Offset) -> object:
         if isinstance(value, Offset):
             return {"from": value.start, "at": vector_text(value.at, "length")}
         return vector_text(value, "length")
@@ -92,7 +93,7 @@ class Place(Value):
 class InertiaValue(Value):
     """About the mass centre: one number; in space three principal values or a symmetric matrix."""
 
-    def read(self, value: Any, info: ValidationInfo) -> Inertia:
+    def read(self, value: object, info: ValidationInfo) -> Inertia:
         rules = reading(info)
         if not isinstance(value, (list, tuple)):
             return check_sign(quantity(value, "inertia", rules.units), value, "not negative")
@@ -110,7 +111,7 @@ class InertiaValue(Value):
         found = numbers(value, "inertia", rules)
         return tuple(at_item(i, check_sign, x, value[i], "not negative") for i, x in enumerate(found))
 
-    def write(self, value: Inertia) -> Any:
+    def write(self, value: Inertia) -> object:
         if isinstance(value, tuple):
             return [self.write(item) for item in value]
         return value_text(value, "inertia")
@@ -211,7 +212,7 @@ class Link(Part):
                 "its mass or inertia is no finite number", "check its size and units", ("shape",)
             )
 
-    def mass_properties(self, mass: Any = None) -> MassProperties:
+    def mass_properties(self, mass: Numeric = None) -> MassProperties:
         """Mass, centre and inertia of its shapes; of one density where the whole mass is given."""
         return mass_properties(self.shapes, self._marked, mass)
 

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Self
 import numpy as np
 from pydantic import Field, ValidationInfo, model_validator
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
 from dalembert.model.joints.space_joints import Frame, Frames, Matrix, frames
 from dalembert.model.links.stl_solids import MeshFile, MeshFileValue, MeshUnit, mesh_solid
@@ -34,7 +34,7 @@ Points = Callable[[str], Vector]
 class Solid(NamedTuple):
     """Volume, centre (3,) and inertia (3, 3) about it at a density of 1, in link axes."""
 
-    volume: Any
+    volume: Numeric
     center: Array
     inertia: Array
 
@@ -42,7 +42,7 @@ class Solid(NamedTuple):
 class MassProperties(NamedTuple):
     """Mass, centre (3,) and inertia (3, 3) about it, in link axes."""
 
-    mass: Any
+    mass: Numeric
     center: Array
     inertia: Array
 
@@ -59,7 +59,7 @@ class Lengths(Value):
             raise ModelError(f"a list of {len(found)} stands where {self.count} are needed", self.example)
         return tuple(at_item(i, check_sign, x, value[i], "positive") for i, x in enumerate(found))
 
-    def write(self, value: Vector) -> Any:
+    def write(self, value: Vector) -> object:
         return [value_text(x, "length") for x in value]
 
     def json_schema(self) -> JsonSchema:
@@ -157,7 +157,7 @@ class Long(Placed):
             raise ModelError("axis has no direction", "write one of its components other than 0", ("axis",))
         return self
 
-    def line(self, points: Points) -> tuple[Any, Array, Array]:
+    def line(self, points: Points) -> tuple[Numeric, Array, Array]:
         """Length, middle and unit vector of the axis."""
         if self.between is None:
             axis = in_three(self.axis or (0.0, 0.0, 1.0))
@@ -171,7 +171,7 @@ class Long(Placed):
             )
         return length, (a + b) / 2, (b - a) / length
 
-    def round(self, points: Points, area: Any, squares: Any) -> Solid:
+    def round(self, points: Points, area: Numeric, squares: Numeric) -> Solid:
         """Of an area turned about the axis, ``squares`` the sum of the squares of its radii: I = V squares / 2 about
         the axis, V (3 squares + l^2) / 12 across it."""
         length, middle, axis = self.line(points)
@@ -282,7 +282,7 @@ def check_densities(shapes: tuple[ShapePart, ...], weighed: bool) -> None:
             raise ModelError("a bar needs the area of its section here", "give it: area: 2 cm^2", path)
 
 
-def finite(properties: Callable[[Any], MassProperties], mass: Any) -> bool:
+def finite(properties: Callable[[Numeric], MassProperties], mass: Numeric) -> bool:
     """Whether a mass, its centre and its inertia can be told in numbers."""
     try:
         with np.errstate(all="ignore"):
@@ -292,7 +292,7 @@ def finite(properties: Callable[[Any], MassProperties], mass: Any) -> bool:
     return all(map(math.isfinite, (found, *center, *inertia.flat)))
 
 
-def mass_properties(shapes: tuple[ShapePart, ...], points: Points, mass: Any = None) -> MassProperties:
+def mass_properties(shapes: tuple[ShapePart, ...], points: Points, mass: Numeric = None) -> MassProperties:
     """Shapes taken together (parallel axes); of one density where the whole mass is given."""
     solids = [
         at_item("shape", shape.solid, points)
@@ -309,7 +309,7 @@ def mass_properties(shapes: tuple[ShapePart, ...], points: Points, mass: Any = N
     if mass is not None and not mass:  # without mass the centre is that of the volume
         masses, whole = [solid.volume for solid in solids], sum(solid.volume for solid in solids)
     center = sum(m * solid.center for m, solid in zip(masses, solids, strict=True)) / whole
-    inertia: Any = np.zeros((3, 3))
+    inertia: Array = np.zeros((3, 3))
     for m, solid in zip(masses, solids, strict=True):
         r = solid.center - center
         inertia = inertia + m / solid.volume * solid.inertia + m * ((r @ r) * np.eye(3) - np.outer(r, r))

@@ -6,7 +6,6 @@ import os
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from pydantic import ValidationInfo
@@ -40,14 +39,14 @@ class MeshFile:
 class MeshFileValue(Value):
     """The path of an .stl file, relative to the model file."""
 
-    def read(self, value: Any, info: ValidationInfo) -> MeshFile:
+    def read(self, value: object, info: ValidationInfo) -> MeshFile:
         if isinstance(value, MeshFile):
             return value
         if not isinstance(value, str) or not value.lower().endswith(".stl"):
             raise ModelError(f"{quote_value(value)} is no STL file", "name one, for example file: rod.stl")
         return MeshFile(value, reading(info).folder)
 
-    def write(self, value: MeshFile) -> Any:
+    def write(self, value: MeshFile) -> object:
         return value.written
 
     def json_schema(self) -> JsonSchema:
@@ -57,7 +56,7 @@ class MeshFileValue(Value):
 class MeshUnit(Value):
     """A unit of length, or a length: what 1 in the file is."""
 
-    def read(self, value: Any, info: ValidationInfo) -> float:
+    def read(self, value: object, info: ValidationInfo) -> float:
         units = reading(info).units
         if value is None:
             return quantity(1, "length", units)
@@ -69,7 +68,7 @@ class MeshUnit(Value):
             value = f"1 {value}"
         return check_sign(quantity(value, "length", units), value, "positive")
 
-    def write(self, value: float) -> Any:
+    def write(self, value: float) -> object:
         return value_text(value, "length")
 
     def json_schema(self) -> JsonSchema:

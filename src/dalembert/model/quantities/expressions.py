@@ -14,8 +14,8 @@ import operator
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
+from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
 from dalembert.unit_names import unit
 from dalembert.wording import closest, quote_value
@@ -37,7 +37,8 @@ CONSTANTS = {"pi": math.pi}
 
 LONGEST, DEEPEST, MOST, EXPONENT = 1000, 40, 200, 16
 """Characters, brackets, operations, and size of an exponent."""
-OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
+Functions = Mapping[str, Callable[..., Numeric]]
+OPERATORS: dict[str, Callable[[Numeric, Numeric], Numeric]] = {
     "+": operator.add,
     "-": operator.sub,
     "*": operator.mul,
@@ -98,13 +99,13 @@ class Expression:
         """The drives it uses."""
         return frozenset(node.name for node in nodes(self.tree) if isinstance(node, Name))
 
-    def at(self, drives: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]] | None = None) -> Any:
+    def at(self, drives: Mapping[str, Numeric], functions: Functions | None = None) -> Numeric:
         """The SI value at the drives' positions; `functions` replaces numpy's, for values of another kind."""
         scale = unit(self.unit) if self.unit else None
         value = evaluate(self.tree, drives, functions) if functions else self._of_numbers(drives)
         return value if scale is None else scale.si(value)
 
-    def _of_numbers(self, drives: Mapping[str, Any]) -> Any:
+    def _of_numbers(self, drives: Mapping[str, Numeric]) -> Numeric:
         import numpy as np
 
         with np.errstate(all="ignore"):
@@ -116,7 +117,7 @@ class Expression:
             )
         return value[()]
 
-    def _where(self, drives: Mapping[str, Any], value: Any) -> str:
+    def _where(self, drives: Mapping[str, Numeric], value: Array) -> str:
         import numpy as np
 
         first = np.argmin(np.isfinite(value).ravel())
@@ -128,7 +129,7 @@ class Expression:
         return "at " + ", ".join(said) if said else "anywhere"
 
 
-def numpy_functions() -> dict[str, Callable[..., Any]]:
+def numpy_functions() -> Functions:
     """The functions of the grammar for numbers and arrays."""
     import numpy as np
 
@@ -137,7 +138,7 @@ def numpy_functions() -> dict[str, Callable[..., Any]]:
     return {name: other.get(name) or getattr(np, name) for name in ARGUMENTS}
 
 
-def evaluate(tree: Tree, drives: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]]) -> Any:
+def evaluate(tree: Tree, drives: Mapping[str, Numeric], functions: Functions) -> Numeric:
     """The value of a tree over anything that has operators, functions from the table given."""
     if isinstance(tree, Number):
         return tree.value
@@ -153,7 +154,7 @@ def evaluate(tree: Tree, drives: Mapping[str, Any], functions: Mapping[str, Call
     return functions[tree.function](*values)
 
 
-def _apply(sign: str, a: Any, b: Any) -> Any:
+def _apply(sign: str, a: Numeric, b: Numeric) -> Numeric:
     if isinstance(a, float) and isinstance(b, float):
         import numpy as np
 

@@ -7,7 +7,6 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import Any
 
 from dalembert.unit_names import Unit, unit
 from dalembert.units import KINDS, NUMBER, Units, quantity, text
@@ -65,7 +64,7 @@ def _sign(number: float) -> float:
     return math.copysign(1.0, number)
 
 
-def plain(number: float, kind: str, units: Units) -> Any:
+def plain(number: float, kind: str, units: Units) -> float | str:
     """The number bare in the file's units where that says it best; else with a unit.
 
     >>> plain(0.0254, "length", Units(length="in")), plain(157.07963267948966, "angular_speed", Units())
@@ -93,7 +92,7 @@ def in_own_unit(number: float, kind: str, name: str, units: Units) -> str | None
     return None if found is None else f"{found} {name}".rstrip()
 
 
-def plain_vector(vector: tuple[float, ...], kind: str, units: Units) -> Any:
+def plain_vector(vector: tuple[float, ...], kind: str, units: Units) -> object:
     """Components bare in the file's units; polar text where that is short and they are not."""
     components = [plain(x, kind, units) for x in vector]
     if len(vector) == 2 and max(len(str(x)) for x in components) > SHORT:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
+from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
+from dalembert.model.quantities.expressions import Functions
 
 SLACK = 1e-9
 """Relative to the table's span: how far outside its ends a position is still taken as the end."""
@@ -43,7 +44,7 @@ class Table:
             return self.x, self.y
         return (*self.x, self.x[0] + self.period), (*self.y, self.y[0])
 
-    def pieces(self) -> tuple[Any, Any]:
+    def pieces(self) -> tuple[Array, Array]:
         """Breaks (n+1,) and coefficients (k, n), highest power first, in the distance from a piece's left break."""
         import numpy as np
 
@@ -57,7 +58,7 @@ class Table:
         spline = CubicSpline(x, y, bc_type="not-a-knot" if self.period is None else "periodic")
         return x, spline.c
 
-    def at(self, drives: Mapping[str, Any], functions: Mapping[str, Callable[..., Any]] | None = None) -> Any:
+    def at(self, drives: Mapping[str, Numeric], functions: Functions | None = None) -> Numeric:
         """The SI value at the drives' positions; `functions["table"](table, position)` replaces numpy's."""
         if self.against not in drives:
             raise ModelError(f"a table is against {self.against!r}, which is no drive")
@@ -65,7 +66,7 @@ class Table:
             return functions["table"](self, drives[self.against])
         return self._of_numbers(drives[self.against])
 
-    def _of_numbers(self, position: Any) -> Any:
+    def _of_numbers(self, position: Numeric) -> Numeric:
         import numpy as np
 
         breaks, coefficients = self.pieces()
@@ -76,7 +77,7 @@ class Table:
             value = value * step + row[piece]
         return value[()]
 
-    def _inside(self, position: Any, low: float, high: float) -> Any:
+    def _inside(self, position: Array, low: float, high: float) -> Array:
         import numpy as np
 
         if self.period is not None:

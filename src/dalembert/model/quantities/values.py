@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, SerializationInfo, ValidationInfo
 from pydantic_core import CoreSchema, core_schema
 
+from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.part import Reading, reading
 from dalembert.model.quantities.expressions import parse_expression
@@ -19,27 +20,28 @@ from dalembert.wording import quote_value
 
 Vector = tuple[float, ...]
 
-JsonSchema = dict[str, Any]
+JsonSchema = Tree
+T = TypeVar("T")
 NUMBER_OR_TEXT: JsonSchema = {"type": ["number", "string"]}
 
 
 class Value:
     """Annotation of a field: how its value is read from a tree, written to one, and described."""
 
-    def read(self, value: Any, info: ValidationInfo) -> Any:
+    def read(self, value: object, info: ValidationInfo) -> object:
         raise NotImplementedError
 
-    def write(self, value: Any) -> Any:
+    def write(self, value: Any) -> object:
         return value
 
     def json_schema(self) -> JsonSchema:
         raise NotImplementedError
 
-    def _serialize(self, value: Any, info: SerializationInfo) -> Any:
+    def _serialize(self, value: object, info: SerializationInfo) -> object:
         with in_units(info.context):
             return self.write(value)
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.with_info_plain_validator_function(
             self.read,
             serialization=core_schema.plain_serializer_function_ser_schema(
@@ -57,10 +59,10 @@ class Scalar(Value):
     def __init__(self, kind: str, sign: str = "") -> None:
         self.kind, self.sign = kind, sign
 
-    def read(self, value: Any, info: ValidationInfo) -> float:
+    def read(self, value: object, info: ValidationInfo) -> float:
         return check_sign(quantity(value, self.kind, reading(info).units), value, self.sign)
 
-    def write(self, value: float) -> Any:
+    def write(self, value: float) -> object:
         return value_text(value, self.kind)
 
     def json_schema(self) -> JsonSchema:
@@ -78,7 +80,7 @@ def check_sign(number: float, value: object, sign: str) -> float:
     return number
 
 
-def value_text(number: float, kind: str) -> Any:
+def value_text(number: float, kind: str) -> object:
     """The number with its SI unit as text, or as a file in the units of the moment has it; a plain number as it is."""
     units = FILE_UNITS.get()
     if units is None:
@@ -86,7 +88,7 @@ def value_text(number: float, kind: str) -> Any:
     return plain(number, kind, units) if KINDS[kind].si else whole(number)
 
 
-def vector_text(vector: Vector, kind: str) -> Any:
+def vector_text(vector: Vector, kind: str) -> object:
     """The components, or polar text, as `value_text` has them."""
     units = FILE_UNITS.get()
     return [value_text(x, kind) for x in vector] if units is None else plain_vector(vector, kind, units)
@@ -98,10 +100,10 @@ class Components(Value):
     def __init__(self, kind: str) -> None:
         self.kind = kind
 
-    def read(self, value: Any, info: ValidationInfo) -> Vector:
+    def read(self, value: object, info: ValidationInfo) -> Vector:
         return vector(value, self.kind, reading(info))
 
-    def write(self, value: Vector) -> Any:
+    def write(self, value: Vector) -> object:
         return vector_text(value, self.kind)
 
     def json_schema(self) -> JsonSchema:
@@ -139,7 +141,7 @@ def vector(value: object, kind: str, rules: Reading) -> Vector:
     return tuple(at_item(i, quantity, item, kind, rules.units) for i, item in enumerate(items))
 
 
-def at_item(index: int | str, function: Callable[..., Any], *arguments: Any) -> Any:
+def at_item(index: int | str, function: Callable[..., T], *arguments: object) -> T:
     """The function's value; an error in it is one of this item."""
     try:
         return function(*arguments)
@@ -217,7 +219,7 @@ def name(value: object) -> str:
 class NameValue(Value):
     """A name."""
 
-    def read(self, value: Any, info: ValidationInfo) -> str:
+    def read(self, value: object, info: ValidationInfo) -> str:
         return name(value)
 
     def json_schema(self) -> JsonSchema:
@@ -227,10 +229,10 @@ class NameValue(Value):
 class PairOfNames(Value):
     """Two names, `[i, j]`."""
 
-    def read(self, value: Any, info: ValidationInfo) -> tuple[str, str]:
+    def read(self, value: object, info: ValidationInfo) -> tuple[str, str]:
         return pair_of_names(value)
 
-    def write(self, value: tuple[str, str]) -> Any:
+    def write(self, value: tuple[str, str]) -> object:
         return list(value)
 
     def json_schema(self) -> JsonSchema:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from typing import Any
 
+from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
 from dalembert.model.part import Reading, mapping
-from dalembert.model.quantities.expressions import Expression, parse_expression
+from dalembert.model.quantities.expressions import Expression, Functions, parse_expression
 from dalembert.model.quantities.figures import FILE_UNITS
 from dalembert.model.quantities.tables import SLACK, Table
 from dalembert.model.quantities.values import (
@@ -102,7 +102,7 @@ def expression(value: object, kind: str, rules: Reading, unit_text: str = "") ->
     return Expression(value, unit_text or default)
 
 
-def _map_values(value: Mapping[str, Any], kind: str, rules: Reading) -> Varying:
+def _map_values(value: Mapping[str, object], kind: str, rules: Reading) -> Varying:
     if "expression" in value:
         keys = mapping(value, ["expression", "unit"], "")
         unit_text = keys.get("unit", "")
@@ -110,11 +110,11 @@ def _map_values(value: Mapping[str, Any], kind: str, rules: Reading) -> Varying:
             raise ModelError(
                 f"{quote_value(unit_text)} is no unit", f"write {KINDS[kind].si}, for example", ("unit",)
             )
-        return at_item("expression", expression, keys["expression"], kind, rules, unit_text)  # type: ignore[no-any-return]
+        return at_item("expression", expression, keys["expression"], kind, rules, unit_text)
     return _table(value, kind, rules)
 
 
-def _table(value: Mapping[str, Any], kind: str, rules: Reading) -> Table:
+def _table(value: Mapping[str, object], kind: str, rules: Reading) -> Table:
     example = "{against: O2, x: [...], y: [...]}"
     keys = mapping(value, ["against", "x", "y", "interpolate", "periodic"], example)
     for key in ("against", "x", "y"):
@@ -157,7 +157,7 @@ def _period(value: object, along: str, x: tuple[float, ...], rules: Reading) -> 
     return span if abs(span - 2 * math.pi * turns) <= SLACK * span else 2 * math.pi
 
 
-def varying_tree(value: Varying, kind: str) -> Any:
+def varying_tree(value: Varying, kind: str) -> object:
     """The value as it stands in a file, in SI, units said."""
     if isinstance(value, Expression):
         units = FILE_UNITS.get()
@@ -165,7 +165,7 @@ def varying_tree(value: Varying, kind: str) -> Any:
             return value.text if value.unit == units.text(kind) else f"{value.text} {value.unit}"
         return {"expression": value.text, "unit": value.unit} if value.unit else {"expression": value.text}
     if isinstance(value, Table):
-        tree: dict[str, Any] = {
+        tree: dict[str, object] = {
             "against": value.against,
             "x": [value_text(x, value.along) for x in value.x],
             "y": [value_text(y, kind) for y in value.y],
@@ -178,7 +178,7 @@ def varying_tree(value: Varying, kind: str) -> Any:
     return value_text(value, kind)
 
 
-def value_at(value: Varying, drives: Mapping[str, Any], functions: Mapping[str, Any] | None = None) -> Any:
+def value_at(value: Varying, drives: Mapping[str, Numeric], functions: Functions | None = None) -> Numeric:
     """The SI value at the drives' positions, of the drives' common shape.
 
     >>> value_at(3.0, {})
