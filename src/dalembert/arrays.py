@@ -16,6 +16,9 @@ Ints = NDArray[np.intp]
 Flags = NDArray[np.bool_]
 """Yes or no."""
 
+Index = int | slice | Ints | Flags | None
+"""What picks items along one axis; None adds one."""
+
 Numeric = Any
 """One number or an array of them; while an analysis is traced, symbols in their place."""
 

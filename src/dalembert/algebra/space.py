@@ -6,9 +6,8 @@ that turns link components into ground components. Only arithmetic, ``cos``, ``s
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
+from numpy.typing import ArrayLike
 
 from dalembert.arrays import Array
 
@@ -42,7 +41,7 @@ def matrix(r: Array) -> Array:
     return np.asarray(r.reshape((*r.shape[:-1], 3, 3)))
 
 
-def rotation(turn: Array, axis: Any = (0.0, 0.0, 1.0)) -> Array:
+def rotation(turn: Array, axis: ArrayLike = (0.0, 0.0, 1.0)) -> Array:
     """Rotation (..., 9) by an angle (...) about an axis (..., 3) of any length.
 
     >>> rotation(np.array(np.pi / 2)).round(12).tolist()

@@ -6,11 +6,11 @@ A traced value has no truth: a comparison of two is itself a value, 1 where it h
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Numeric
 
 
 def any_traced(*arrays: Array) -> bool:
@@ -47,7 +47,8 @@ def hypot(a: Array, b: Array) -> Array:
 def unit(a: Array, b: Array, least: Array) -> tuple[Array, Array, Array]:
     """Components of the unit vector along (a, b), shorter where the vector is below ``least``; and its length."""
     if any_traced(a, b, least):
-        return tuple(_UNIT(a, b, least))
+        x, y, length = (np.asarray(part) for part in _UNIT(a, b, least))
+        return x, y, length
     length = np.hypot(a, b)
     over = 1.0 / np.maximum(length, least)
     return a * over, b * over, length
@@ -69,7 +70,7 @@ def top(a: Array, axes: int) -> Array:
     return out
 
 
-def _value(x: Any, method: str, plain: Any) -> Any:
+def _value(x: Numeric, method: str, plain: Callable[[Numeric], Numeric]) -> Numeric:
     return getattr(x, method)() if hasattr(x, method) else plain(x)
 
 
@@ -83,7 +84,7 @@ _LARGER = np.frompyfunc(
 )
 
 
-def _unit(a: Any, b: Any, least: Any) -> tuple[Any, Any, Any]:
+def _unit(a: Numeric, b: Numeric, least: Numeric) -> tuple[Numeric, Numeric, Numeric]:
     """A single component keeps its sign, whatever its size."""
     if not b:
         return a.sign(), b, abs(a)

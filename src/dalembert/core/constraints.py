@@ -6,10 +6,12 @@ e   axis of a row, ground axes
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 
+from dalembert.algebra import plane
+from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array
 from dalembert.core import gear_rows, rotation_rows
 from dalembert.core.geometry import arm, point_motion, span, span_motion
@@ -32,7 +34,7 @@ from dalembert.core.layout import (
 )
 
 
-def measure(g: Any, rows: Rows, pose: Pose) -> Array:
+def measure(g: Algebra, rows: Rows, pose: Pose) -> Array:
     """Value of each row (..., K): lengths and angles that constraints hold at their targets."""
     out = np.zeros((*pose.point.shape[:-2], rows.count), pose.point.dtype)
     for family in rows.families:
@@ -40,7 +42,7 @@ def measure(g: Any, rows: Rows, pose: Pose) -> Array:
     return out
 
 
-def wrenches(g: Any, rows: Rows, pose: Pose) -> tuple[Array, Array]:
+def wrenches(g: Algebra, rows: Rows, pose: Pose) -> tuple[Array, Array]:
     """Wrench of each row on i and on j per unit of multiplier, each about its link's reference point: (..., K, n)."""
     shape = (*pose.point.shape[:-2], rows.count, g.n)
     on_i, on_j = np.zeros(shape, pose.point.dtype), np.zeros(shape, pose.point.dtype)
@@ -49,7 +51,7 @@ def wrenches(g: Any, rows: Rows, pose: Pose) -> tuple[Array, Array]:
     return on_i, on_j
 
 
-def drift(g: Any, rows: Rows, pose: Pose, twist: Array) -> Array:
+def drift(g: Algebra, rows: Rows, pose: Pose, twist: Array) -> Array:
     """Second derivative of each measure at zero acceleration (..., K); ``twist`` (..., L+1, n)."""
     out = np.zeros((*pose.point.shape[:-2], rows.count), pose.point.dtype)
     for family in rows.families:
@@ -58,7 +60,7 @@ def drift(g: Any, rows: Rows, pose: Pose, twist: Array) -> Array:
     return out
 
 
-def system(g: Any, rows: Rows, pose: Pose) -> System:
+def system(g: Algebra, rows: Rows, pose: Pose) -> System:
     """The rows with their wrenches at a pose."""
     return System(*rows.ends, rows.angular, *wrenches(g, rows, pose))
 
@@ -83,7 +85,7 @@ def rates(rows: System, twist: Array) -> Array:
     return np.asarray((rows.on_i * twist[..., rows.i, :] + rows.on_j * twist[..., rows.j, :]).sum(axis=-1))
 
 
-def _relative_turn(f: Any, pose: Pose) -> Array:
+def _relative_turn(f: Along | Turn, pose: Pose) -> Array:
     return np.asarray(pose.turn[..., f.j] - pose.turn[..., f.i])
 
 
@@ -92,20 +94,20 @@ def _unit(span: Array) -> tuple[Array, Array]:
     return span / length[..., None], length
 
 
-def _mesh_measure(g: Any, f: Mesh, pose: Pose) -> Array:
+def _mesh_measure(g: Algebra, f: Mesh, pose: Pose) -> Array:
     line = span(g, f, pose)
     phi = np.arctan2(line[..., 1], line[..., 0])
     return np.asarray(f.ri * (pose.turn[..., f.i] - phi) + f.rj * (pose.turn[..., f.j] - phi))
 
 
-def _along_measure(g: Any, f: Along, pose: Pose) -> Array:
+def _along_measure(g: Algebra, f: Along, pose: Pose) -> Array:
     along: Array = g.dot(arm(g, pose, f.i, f.axis), span(g, f, pose))
     if f.pitch.dtype != object and not f.pitch.any():
         return along
     return np.asarray(along + f.pitch * _relative_turn(f, pose))
 
 
-_MEASURES: dict[type[Family], Any] = {
+_MEASURES: dict[type[Family], Callable[..., Array]] = {
     Meet: span,
     Along: _along_measure,
     Turn: lambda g, f, pose: _relative_turn(f, pose),
@@ -119,14 +121,14 @@ _MEASURES: dict[type[Family], Any] = {
 }
 
 
-def _meet_wrench(g: Any, f: Meet, pose: Pose, on_i: Array, on_j: Array) -> None:
+def _meet_wrench(g: Algebra, f: Meet, pose: Pose, on_i: Array, on_j: Array) -> None:
     ri, rj = arm(g, pose, f.i, f.ui), arm(g, pose, f.j, f.uj)
     axes = np.eye(g.d)
     on_j[..., f.row, : g.d], on_j[..., f.row, g.d :] = axes, g.cross(rj[..., None, :], axes)
     on_i[..., f.row, : g.d], on_i[..., f.row, g.d :] = -axes, -g.cross(ri[..., None, :], axes)
 
 
-def _along_wrench(g: Any, f: Along, pose: Pose, on_i: Array, on_j: Array) -> None:
+def _along_wrench(g: Algebra, f: Along, pose: Pose, on_i: Array, on_j: Array) -> None:
     e = arm(g, pose, f.i, f.axis)
     rj = arm(g, pose, f.j, f.uj)
     ri = pose.point[..., f.j, :] + rj - pose.point[..., f.i, :]
@@ -135,27 +137,27 @@ def _along_wrench(g: Any, f: Along, pose: Pose, on_i: Array, on_j: Array) -> Non
     on_i[..., f.row, : g.d], on_i[..., f.row, g.d :] = -e, -(g.cross(ri, e) + pitch)
 
 
-def _turn_wrench(g: Any, f: Turn, pose: Pose, on_i: Array, on_j: Array) -> None:
+def _turn_wrench(g: Algebra, f: Turn, pose: Pose, on_i: Array, on_j: Array) -> None:
     on_j[..., f.row, -1] = 1
     on_i[..., f.row, -1] = -1
 
 
-def _mesh_wrench(g: Any, f: Mesh, pose: Pose, on_i: Array, on_j: Array) -> None:
+def _mesh_wrench(g: Algebra, f: Mesh, pose: Pose, on_i: Array, on_j: Array) -> None:
     e, length = _unit(span(g, f, pose))
-    t = g.across(e) * ((f.ri + f.rj) / length)[..., None]
+    t = plane.across(e) * ((f.ri + f.rj) / length)[..., None]
     ri, rj = arm(g, pose, f.i, f.ui), arm(g, pose, f.j, f.uj)
     on_j[..., f.row, : g.d], on_j[..., f.row, g.d :] = -t, f.rj[..., None] - g.cross(rj, t)
     on_i[..., f.row, : g.d], on_i[..., f.row, g.d :] = t, f.ri[..., None] + g.cross(ri, t)
 
 
-def _distance_wrench(g: Any, f: Distance, pose: Pose, on_i: Array, on_j: Array) -> None:
+def _distance_wrench(g: Algebra, f: Distance, pose: Pose, on_i: Array, on_j: Array) -> None:
     e, _ = _unit(span(g, f, pose))
     ri, rj = arm(g, pose, f.i, f.ui), arm(g, pose, f.j, f.uj)
     on_j[..., f.row, : g.d], on_j[..., f.row, g.d :] = e, g.cross(rj, e)
     on_i[..., f.row, : g.d], on_i[..., f.row, g.d :] = -e, -g.cross(ri, e)
 
 
-_WRENCHES: dict[type[Family], Any] = {
+_WRENCHES: dict[type[Family], Callable[..., None]] = {
     Meet: _meet_wrench,
     Along: _along_wrench,
     Turn: _turn_wrench,
@@ -169,7 +171,7 @@ _WRENCHES: dict[type[Family], Any] = {
 }
 
 
-def _along_drift(g: Any, f: Along, pose: Pose, twist: Array) -> Array:
+def _along_drift(g: Algebra, f: Along, pose: Pose, twist: Array) -> Array:
     rj = arm(g, pose, f.j, f.uj)
     vj, aj = point_motion(g, pose, twist, f.j, rj)
     vi, ai = point_motion(g, pose, twist, f.i, pose.point[..., f.j, :] + rj - pose.point[..., f.i, :])
@@ -177,7 +179,7 @@ def _along_drift(g: Any, f: Along, pose: Pose, twist: Array) -> Array:
     return np.asarray(g.dot(arm(g, pose, f.i, f.axis), aj - ai - coriolis))
 
 
-def _mesh_drift(g: Any, f: Mesh, pose: Pose, twist: Array) -> Array:
+def _mesh_drift(g: Algebra, f: Mesh, pose: Pose, twist: Array) -> Array:
     line = span(g, f, pose)
     rate, second = span_motion(g, f, pose, twist)
     square = g.dot(line, line)
@@ -187,14 +189,14 @@ def _mesh_drift(g: Any, f: Mesh, pose: Pose, twist: Array) -> Array:
     )
 
 
-def _distance_drift(g: Any, f: Distance, pose: Pose, twist: Array) -> Array:
+def _distance_drift(g: Algebra, f: Distance, pose: Pose, twist: Array) -> Array:
     e, length = _unit(span(g, f, pose))
     rate, second = span_motion(g, f, pose, twist)
     along = g.dot(e, rate)
     return np.asarray(g.dot(e, second) + (g.dot(rate, rate) - along * along) / length)
 
 
-_DRIFTS: dict[type[Family], Any] = {
+_DRIFTS: dict[type[Family], Callable[..., Array]] = {
     Meet: lambda g, f, pose, twist: span_motion(g, f, pose, twist)[1],
     Along: _along_drift,
     Mesh: _mesh_drift,

@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.core import forcing as fc
 from dalembert.core.constraints import drift, rates, stack_rows
@@ -254,7 +255,7 @@ def _power(
     return np.asarray(np.abs(power / np.where(reference > 0, reference, 1.0)).max(axis=-1))
 
 
-def _screw_rows(g: Any, constraints: Rows, pose: Pose, rows: System) -> Iterator[tuple[int, Array]]:
+def _screw_rows(g: Algebra, constraints: Rows, pose: Pose, rows: System) -> Iterator[tuple[int, Array]]:
     """Row of each screw and the couple that its force comes with, at j's point."""
     for f in constraints.families:
         if isinstance(f, Helix):

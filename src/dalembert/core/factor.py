@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,6 +12,9 @@ from dalembert.arrays import Array, Flags
 from dalembert.core.constraints import dense
 from dalembert.core.layout import Layout, System
 from dalembert.core.linear import Factor, inverse, pseudo_inverse, solve_square
+
+if TYPE_CHECKING:
+    from scipy.sparse import csc_array
 
 SPARSE = 120
 """Unknowns above which sparse elimination beats a batched dense inverse."""
@@ -73,7 +76,7 @@ class Sparse:
     """Square systems by sparse LU, one a position; cost grows with the number of links."""
 
     solvers: tuple[Any, ...]
-    matrices: tuple[Any, ...]
+    matrices: tuple[csc_array, ...]
     lead: tuple[int, ...]
     row: Array
     column: Array
@@ -85,7 +88,7 @@ class Sparse:
     def forces(self, wrench: Array) -> Array:
         return self._each(wrench * self.column, "T", lambda m: m.T) * self.row
 
-    def _each(self, right: Array, trans: str, side: Callable[[Any], Any]) -> Array:
+    def _each(self, right: Array, trans: str, side: Callable[[csc_array], Any]) -> Array:
         size = right.shape[-1]
         lead = np.broadcast_shapes(self.lead, right.shape[:-1])
         which = np.broadcast_to(np.arange(len(self.solvers)).reshape(self.lead), lead).ravel()
@@ -112,7 +115,7 @@ def sparse(layout: Layout, rows: System, row: Array, column: Array) -> Sparse:
     return Sparse(tuple(solvers), tuple(matrices), lead, row, column, np.array(rcond).reshape(lead))
 
 
-def _sparse_matrix(layout: Layout, rows: System, row: Array, column: Array) -> Any:
+def _sparse_matrix(layout: Layout, rows: System, row: Array, column: Array) -> csc_array:
     """Scaled J (K, n L) in compressed columns; ground's columns left out."""
     from scipy.sparse import csc_array
 
@@ -127,7 +130,7 @@ def _sparse_matrix(layout: Layout, rows: System, row: Array, column: Array) -> A
     return matrix
 
 
-def _lu(matrix: Any) -> tuple[Any, float]:
+def _lu(matrix: csc_array) -> tuple[Any, float]:
     """Factors and estimated reciprocal condition number; None and 0 where exactly singular."""
     from scipy.sparse.linalg import LinearOperator, onenormest, splu
 

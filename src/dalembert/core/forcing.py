@@ -7,10 +7,11 @@ contribution, so that superposition and virtual work can take them apart; ``tota
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array, Flags, Ints
 from dalembert.core import gear_rows
 from dalembert.core.branchless import any_traced
@@ -148,7 +149,7 @@ def _at_center(layout: Layout, inertia: Inertia, pose: Pose, force: Array, coupl
     return Source(links, _wrench(g, r, force, couple))
 
 
-def _wrench(g: Any, r: Array, force: Array, couple: Array | None = None) -> Array:
+def _wrench(g: Algebra, r: Array, force: Array, couple: Array | None = None) -> Array:
     """Wrench about the reference point of a force with arm r and a couple."""
     moment = g.cross(r, force)
     if couple is not None:

@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import product
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from dalembert.arrays import Array, Ints
+from dalembert.algebra.protocol import Algebra
+from dalembert.arrays import Array, Index, Ints, Numeric
 from dalembert.core.geometry import arm
-from dalembert.core.layout import Gearing, Layout, Pose
+from dalembert.core.layout import Family, Gearing, Layout, Pose
 
 PARALLEL = 1e-9
 """Sine of the angle between two axes below which they are parallel."""
@@ -31,13 +32,13 @@ class _Vector(NamedTuple):
     rate: Array
 
 
-def _fixed_direction(g: Any, pose: Pose, twist: Array, link: Any, u: Array) -> _Vector:
+def _fixed_direction(g: Algebra, pose: Pose, twist: Array, link: Index, u: Array) -> _Vector:
     """A direction of a link."""
     a = arm(g, pose, link, u)
     return _Vector(a, g.spin(twist[..., link, g.d :], a))
 
 
-def _center(g: Any, pose: Pose, twist: Array, link: Any, u: Array) -> _Vector:
+def _center(g: Algebra, pose: Pose, twist: Array, link: Index, u: Array) -> _Vector:
     """A point of a link."""
     r = arm(g, pose, link, u)
     return _Vector(pose.point[..., link, :] + r, twist[..., link, : g.d] + g.spin(twist[..., link, g.d :], r))
@@ -52,7 +53,7 @@ class _Mesh(NamedTuple):
     contact: _Vector
 
 
-def _across(g: Any, q: _Vector, a: _Vector) -> _Vector:
+def _across(g: Algebra, q: _Vector, a: _Vector) -> _Vector:
     """The unit vector of q's part across a unit vector a."""
     along, along_rate = g.dot(q.at, a.at), g.dot(q.rate, a.at) + g.dot(q.at, a.rate)
     p = q.at - along[..., None] * a.at
@@ -62,18 +63,18 @@ def _across(g: Any, q: _Vector, a: _Vector) -> _Vector:
     return _Vector(e, (rate - g.dot(rate, e)[..., None] * e) / size)
 
 
-def _cross(g: Any, a: _Vector, b: _Vector) -> _Vector:
+def _cross(g: Algebra, a: _Vector, b: _Vector) -> _Vector:
     return _Vector(g.cross(a.at, b.at), g.cross(a.rate, b.at) + g.cross(a.at, b.rate))
 
 
-def _towards(g: Any, f: Gearing, span: _Vector, own: _Vector, other: _Vector, normal: _Vector) -> _Vector:
+def _towards(g: Algebra, f: Gearing, span: _Vector, own: _Vector, other: _Vector, normal: _Vector) -> _Vector:
     """e of one wheel."""
     ways = (span, other, normal)
     at, rate = (sum(f.way[:, k, None] * way[part] for k, way in enumerate(ways)) for part in (0, 1))
     return _across(g, _Vector(np.asarray(at), np.asarray(rate)), own)
 
 
-def _axes(g: Any, f: Gearing, pose: Pose, twist: Array) -> tuple[_Vector, _Vector, _Vector, _Vector]:
+def _axes(g: Algebra, f: Gearing, pose: Pose, twist: Array) -> tuple[_Vector, _Vector, _Vector, _Vector]:
     """Axis and e of i, axis and e of j."""
     ai, aj = _fixed_direction(g, pose, twist, f.i, f.ai), _fixed_direction(g, pose, twist, f.j, f.aj)
     ci, cj = _center(g, pose, twist, f.i, f.ui), _center(g, pose, twist, f.j, f.uj)
@@ -81,7 +82,7 @@ def _axes(g: Any, f: Gearing, pose: Pose, twist: Array) -> tuple[_Vector, _Vecto
     return ai, _towards(g, f, span, ai, aj, normal), aj, _towards(g, f, span, aj, ai, normal)
 
 
-def _mesh(g: Any, f: Gearing, pose: Pose, twist: Array) -> _Mesh:
+def _mesh(g: Algebra, f: Gearing, pose: Pose, twist: Array) -> _Mesh:
     a, e, _, _ = _axes(g, f, pose, twist)
     t = _cross(g, a, e)
     cos, sin = np.cos(f.helix)[:, None], np.sin(f.helix)[:, None]
@@ -97,7 +98,7 @@ def _still(pose: Pose) -> Array:
     return np.zeros((*pose.point.shape[:-1], 6))
 
 
-def angles(g: Any, f: Gearing, pose: Pose) -> Array:
+def angles(g: Algebra, f: Gearing, pose: Pose) -> Array:
     """psi of both wheels (..., k, 2), whole turns as counted."""
     out = []
     ai, ei, aj, ej = _axes(g, f, pose, _still(pose))
@@ -109,13 +110,13 @@ def angles(g: Any, f: Gearing, pose: Pose) -> Array:
     return np.stack(out, axis=-1)
 
 
-def measure(g: Any, f: Gearing, pose: Pose) -> Array:
+def measure(g: Algebra, f: Gearing, pose: Pose) -> Array:
     """ki psi_i - kj psi_j: a length, constant as the wheels roll."""
     psi = angles(g, f, pose)
     return np.asarray(f.ki * psi[..., 0] - f.kj * psi[..., 1])
 
 
-def wrench(g: Any, f: Gearing, pose: Pose, on_i: Array, on_j: Array) -> None:
+def wrench(g: Algebra, f: Gearing, pose: Pose, on_i: Array, on_j: Array) -> None:
     """Force n on j at C, the opposite on i."""
     m = _mesh(g, f, pose, _still(pose))
     on_j[..., f.row, : g.d], on_i[..., f.row, : g.d] = m.n.at, -m.n.at
@@ -123,11 +124,11 @@ def wrench(g: Any, f: Gearing, pose: Pose, on_i: Array, on_j: Array) -> None:
     on_i[..., f.row, g.d :] = -g.cross(m.contact.at - pose.point[..., f.i, :], m.n.at)
 
 
-def drift(g: Any, f: Gearing, pose: Pose, twist: Array) -> Array:
+def drift(g: Algebra, f: Gearing, pose: Pose, twist: Array) -> Array:
     """Rate of n . (v_j - v_i) at C at zero accelerations of the links; C goes with the line of centres."""
     m = _mesh(g, f, pose, twist)
 
-    def material(link: Any) -> tuple[Array, Array]:
+    def material(link: Index) -> tuple[Array, Array]:
         v, w = twist[..., link, : g.d], twist[..., link, g.d :]
         return v + g.spin(w, m.contact.at - pose.point[..., link, :]), g.spin(w, m.contact.rate - v)
 
@@ -135,13 +136,13 @@ def drift(g: Any, f: Gearing, pose: Pose, twist: Array) -> Array:
     return np.asarray(g.dot(m.n.rate, vj - vi) + g.dot(m.n.at, sj - si))
 
 
-def separation(g: Any, f: Gearing, pose: Pose) -> tuple[Array, Array]:
+def separation(g: Algebra, f: Gearing, pose: Pose) -> tuple[Array, Array]:
     """Direction in which separation pushes j (..., k, 3), and C."""
     m = _mesh(g, f, pose, _still(pose))
     return m.normal * f.outward[:, None], m.contact.at
 
 
-def own_axes(g: Any, f: Gearing, pose: Pose) -> Array:
+def own_axes(g: Algebra, f: Gearing, pose: Pose) -> Array:
     """Axes of the meshes (..., k, 3, 3), a row each: radial, from the axis of wheel i to C; tangential, the way its
     teeth go there when it turns; and that axis. They go with the line of centres, not with the wheels."""
     a, e, _, _ = _axes(g, f, pose, _still(pose))
@@ -181,7 +182,7 @@ def mesh_wheels(layout: Layout, pose: Pose) -> tuple[Layout, list[Misfit]]:
     return replace(layout, constraints=constraints), [misfit for _, misfit in fitted]
 
 
-def _swap_family(f: Any, found: list[Gearing], fitted: list[tuple[Gearing, Misfit]]) -> Any:
+def _swap_family(f: Family, found: list[Gearing], fitted: list[tuple[Gearing, Misfit]]) -> Family:
     return next((new for old, (new, _) in zip(found, fitted, strict=True) if old is f), f)
 
 
@@ -211,7 +212,7 @@ def _sides(f: Gearing, mesh: _Mesh, ei: Array, ej: Array) -> tuple[Array, Array]
     return np.where(away < 0, -1.0, 1.0), side_i * side_j
 
 
-def _one(g: Any, f: Gearing, pose: Pose, k: int) -> tuple[dict[str, Any], tuple[float, float]]:
+def _one(g: Algebra, f: Gearing, pose: Pose, k: int) -> tuple[dict[str, Numeric], tuple[float, float]]:
     """Centres, radii, direction and cone of one mesh at a pose (1, L+1, ...)."""
     i, j = f.i[k], f.j[k]
     (ai, aj), (ui, uj) = (

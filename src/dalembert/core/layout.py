@@ -13,13 +13,15 @@ All arms (``ui``, ``uj``) are in link axes from the link's own reference point. 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from dalembert.arrays import Array, Flags, Ints
+from dalembert.algebra.protocol import Algebra
+from dalembert.arrays import Array, Flags, Index, Ints
 
 
 class Pose(NamedTuple):
@@ -34,7 +36,7 @@ class Pose(NamedTuple):
     turn: Array
     rotation: Array
 
-    def at(self, index: Any) -> Pose:
+    def at(self, index: Index) -> Pose:
         """The poses at an index of the leading axes."""
         return Pose(self.point[index], self.turn[index], self.rotation[index])
 
@@ -249,11 +251,11 @@ class System(NamedTuple):
             np.concatenate(wide[2:], axis=-2),
         )
 
-    def at(self, where: Any) -> System:
+    def at(self, where: Index) -> System:
         """The rows at some positions."""
         return self._replace(on_i=self.on_i[where], on_j=self.on_j[where])
 
-    def rows(self, which: Any) -> System:
+    def rows(self, which: Index) -> System:
         """Some of the rows."""
         on_i, on_j = self.on_i[..., which, :], self.on_j[..., which, :]
         return System(self.i[which], self.j[which], self.angular[which], on_i, on_j)
@@ -293,7 +295,7 @@ class Layout:
     length                  characteristic length: makes angles and moments comparable with lengths and forces
     """
 
-    algebra: Any
+    algebra: Algebra
     links: int
     joints: int
     constraints: Rows
@@ -303,7 +305,7 @@ class Layout:
     redundant: bool
     reference: Array = field(repr=False)  # (L+1, d) reference point of each link in its own axes
     compliance: Array | None = field(repr=False, default=None)  # (K,) of each constraint, 0 where it is rigid
-    solver: Any = field(
+    solver: Callable[[Layout, System], Any] | None = field(
         repr=False, default=None
     )  # factors systems that are not made of numbers (the kernel's)
 

@@ -6,43 +6,45 @@ u, v  p . (a x b) and p . b: sine and cosine of a relative angle, times the leng
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.algebra import space
+from dalembert.algebra.protocol import Algebra
+from dalembert.arrays import Array, Ints
 from dalembert.core import gear_rows
 from dalembert.core.geometry import arm, point_motion, span
 from dalembert.core.layout import Angle, Gearing, Helix, Idle, Layout, Perpendicular, Pose
 
 
-def perpendicular(g: Any, f: Perpendicular, pose: Pose) -> Array:
+def perpendicular(g: Algebra, f: Perpendicular, pose: Pose) -> Array:
     """a . p."""
     return np.asarray(g.dot(arm(g, pose, f.i, f.a), arm(g, pose, f.j, f.p)))
 
 
-def perpendicular_wrench(g: Any, f: Perpendicular, pose: Pose, on_i: Array, on_j: Array) -> None:
+def perpendicular_wrench(g: Algebra, f: Perpendicular, pose: Pose, on_i: Array, on_j: Array) -> None:
     """Couple p x a."""
     _couple(g, f.row, g.cross(arm(g, pose, f.j, f.p), arm(g, pose, f.i, f.a)), on_i, on_j)
 
 
-def perpendicular_drift(g: Any, f: Perpendicular, pose: Pose, twist: Array) -> Array:
+def perpendicular_drift(g: Algebra, f: Perpendicular, pose: Pose, twist: Array) -> Array:
     """Second derivative of a . p at zero accelerations."""
     a, p = arm(g, pose, f.i, f.a), arm(g, pose, f.j, f.p)
     return _second(g, *_turning(g, twist[..., f.i, g.d :], a), *_turning(g, twist[..., f.j, g.d :], p))
 
 
-def _couple(g: Any, row: Any, couple: Array, on_i: Array, on_j: Array) -> None:
+def _couple(g: Algebra, row: Ints, couple: Array, on_i: Array, on_j: Array) -> None:
     on_j[..., row, g.d :] = couple
     on_i[..., row, g.d :] = -couple
 
 
-def _turning(g: Any, w: Array, a: Array) -> tuple[Array, Array, Array]:
+def _turning(g: Algebra, w: Array, a: Array) -> tuple[Array, Array, Array]:
     """A direction, its rate, and its second rate at zero angular acceleration."""
     return a, g.spin(w, a), g.centripetal(w, a)
 
 
-def _second(g: Any, a: Array, a1: Array, a2: Array, p: Array, p1: Array, p2: Array) -> Array:
+def _second(g: Algebra, a: Array, a1: Array, a2: Array, p: Array, p1: Array, p2: Array) -> Array:
     return np.asarray(g.dot(a2, p) + 2 * g.dot(a1, p1) + g.dot(a, p2))
 
 
@@ -55,19 +57,19 @@ class _Axes(NamedTuple):
     p: Array
 
 
-def _axes(g: Any, f: Angle | Helix, pose: Pose) -> _Axes:
+def _axes(g: Algebra, f: Angle | Helix, pose: Pose) -> _Axes:
     a, b = arm(g, pose, f.i, f.a), arm(g, pose, f.i, f.b)
     return _Axes(a, b, g.cross(a, b), arm(g, pose, f.j, f.p))
 
 
-def angle(g: Any, f: Angle | Helix, pose: Pose) -> Array:
+def angle(g: Algebra, f: Angle | Helix, pose: Pose) -> Array:
     """The relative angle, whole turns as counted."""
     x = _axes(g, f, pose)
     raw = np.arctan2(g.dot(x.p, x.c), g.dot(x.p, x.b))
     return np.asarray(raw + 2 * np.pi * np.round((pose.turn[..., f.count] - raw) / (2 * np.pi)))
 
 
-def _angle_couple(g: Any, f: Angle | Helix, pose: Pose) -> Array:
+def _angle_couple(g: Algebra, f: Angle | Helix, pose: Pose) -> Array:
     """p x (v c - u b) / r^2: the axis itself where p stands across it."""
     x = _axes(g, f, pose)
     u, v = g.dot(x.p, x.c), g.dot(x.p, x.b)
@@ -76,12 +78,12 @@ def _angle_couple(g: Any, f: Angle | Helix, pose: Pose) -> Array:
     return couple
 
 
-def angle_wrench(g: Any, f: Angle, pose: Pose, on_i: Array, on_j: Array) -> None:
+def angle_wrench(g: Algebra, f: Angle, pose: Pose, on_i: Array, on_j: Array) -> None:
     """Couple along the axis."""
     _couple(g, f.row, _angle_couple(g, f, pose), on_i, on_j)
 
 
-def angle_drift(g: Any, f: Angle | Helix, pose: Pose, twist: Array) -> Array:
+def angle_drift(g: Algebra, f: Angle | Helix, pose: Pose, twist: Array) -> Array:
     """Second derivative of the angle at zero accelerations."""
     x = _axes(g, f, pose)
     wi = twist[..., f.i, g.d :]
@@ -94,17 +96,17 @@ def angle_drift(g: Any, f: Angle | Helix, pose: Pose, twist: Array) -> Array:
     return np.asarray((v * u2 - u * v2 - 2 * rate * (u * u1 + v * v1)) / square)
 
 
-def helix(g: Any, f: Helix, pose: Pose) -> Array:
+def helix(g: Algebra, f: Helix, pose: Pose) -> Array:
     """Coordinate along the axis plus pitch times the angle."""
     return np.asarray(along_axis(g, f, pose) + f.pitch * angle(g, f, pose))
 
 
-def along_axis(g: Any, f: Helix, pose: Pose) -> Array:
+def along_axis(g: Algebra, f: Helix, pose: Pose) -> Array:
     """Coordinate of j's point along the axis of i."""
     return np.asarray(g.dot(arm(g, pose, f.i, f.a), span(g, f, pose)))
 
 
-def helix_wrench(g: Any, f: Helix, pose: Pose, on_i: Array, on_j: Array) -> None:
+def helix_wrench(g: Algebra, f: Helix, pose: Pose, on_i: Array, on_j: Array) -> None:
     """Force along the axis at j's point and pitch times the angle's couple."""
     e, rj = arm(g, pose, f.i, f.a), arm(g, pose, f.j, f.uj)
     ri = pose.point[..., f.j, :] + rj - pose.point[..., f.i, :]
@@ -113,7 +115,7 @@ def helix_wrench(g: Any, f: Helix, pose: Pose, on_i: Array, on_j: Array) -> None
     on_i[..., f.row, : g.d], on_i[..., f.row, g.d :] = -e, -(g.cross(ri, e) + couple)
 
 
-def helix_drift(g: Any, f: Helix, pose: Pose, twist: Array) -> Array:
+def helix_drift(g: Algebra, f: Helix, pose: Pose, twist: Array) -> Array:
     """Second derivative of the measure at zero accelerations."""
     rj = arm(g, pose, f.j, f.uj)
     vj, aj = point_motion(g, pose, twist, f.j, rj)
@@ -123,17 +125,17 @@ def helix_drift(g: Any, f: Helix, pose: Pose, twist: Array) -> Array:
     return np.asarray(along + f.pitch * angle_drift(g, f, pose, twist))
 
 
-def idle(g: Any, f: Idle, pose: Pose) -> Array:
+def idle(g: Algebra, f: Idle, pose: Pose) -> Array:
     """0: the spin is a rate, not a place."""
     return np.zeros((*pose.point.shape[:-2], len(f.j)))
 
 
-def idle_wrench(g: Any, f: Idle, pose: Pose, on_i: Array, on_j: Array) -> None:
+def idle_wrench(g: Algebra, f: Idle, pose: Pose, on_i: Array, on_j: Array) -> None:
     """Couple along the direction."""
     _couple(g, f.row, arm(g, pose, f.j, f.p), on_i, on_j)
 
 
-def idle_drift(g: Any, f: Idle, pose: Pose, twist: Array) -> Array:
+def idle_drift(g: Algebra, f: Idle, pose: Pose, twist: Array) -> Array:
     """0: a direction of the link turns with it, so that w . (w x p) = 0."""
     return np.zeros((*pose.point.shape[:-2], len(f.j)))
 
@@ -146,7 +148,7 @@ def recount_turns(layout: Layout, pose: Pose) -> Pose:
             rotation, link = pose.rotation.copy(), f.j[f.stands > 0]
             p, drawn = f.p[f.stands > 0], f.drawn[f.stands > 0]
             was, now = g.rotate(drawn, p), arm(g, pose, link, p)
-            rotation[..., link, :] = g.compose(g.least_turn(was, now), drawn)
+            rotation[..., link, :] = space.compose(space.least_turn(was, now), drawn)
             pose = pose._replace(rotation=rotation)
     if not layout.counted:
         return pose

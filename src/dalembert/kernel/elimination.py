@@ -7,15 +7,16 @@ transmission angle; larger blocks are eliminated entry by entry, with pivots cho
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
 from dalembert.arrays import Array
-from dalembert.kernel.graph import Graph, Node, is_zero, unit_value
+from dalembert.kernel.graph import Graph, Node, Scalar, is_zero, unit_value
 
-Row = dict[int, Any]
+Row = dict[int, Scalar]
+Matrix = list[list[Scalar]]
 
 
 @dataclass
@@ -24,9 +25,9 @@ class Step:
 
     rows: tuple[int, ...]
     columns: tuple[int, ...]
-    inverse: list[list[Any]]
+    inverse: Matrix
     right: list[Row]
-    below: list[tuple[int, list[Any]]]
+    below: list[tuple[int, list[Scalar]]]
 
 
 @dataclass
@@ -38,7 +39,7 @@ class Structural:
 
     size: int
     steps: list[Step]
-    pivots: list[Node] = field(default_factory=list)
+    pivots: list[Scalar] = field(default_factory=list)
 
     @property
     def rcond(self) -> Array:
@@ -83,26 +84,26 @@ class Structural:
         return x
 
 
-def _dot(a: Any, b: Any) -> Any:
-    total: Any = 0.0
+def _dot(a: Iterable[Scalar], b: Iterable[Scalar]) -> Scalar:
+    total: Scalar = 0.0
     for x, y in zip(a, b, strict=True):
         if not (is_zero(x) or is_zero(y)):
             total = x * y + total
     return total
 
 
-def _minus(start: Any, a: list[Any], b: list[Any]) -> Any:
+def _minus(start: Scalar, a: list[Scalar], b: list[Scalar]) -> Scalar:
     for x, y in zip(a, b, strict=True):
         if not (is_zero(x) or is_zero(y)):
             start = start - x * y
     return start
 
 
-def _times(matrix: list[list[Any]], vector: list[Any]) -> list[Any]:
+def _times(matrix: Matrix, vector: list[Scalar]) -> list[Scalar]:
     return [_dot(row, vector) for row in matrix]
 
 
-def _transpose(matrix: list[list[Any]]) -> list[list[Any]]:
+def _transpose(matrix: Matrix) -> Matrix:
     return [list(column) for column in zip(*matrix, strict=True)]
 
 
@@ -126,7 +127,7 @@ class _Work:
             for c in row:
                 self.columns.setdefault(c, set()).add(r)
         self.steps: list[Step] = []
-        self.pivots: list[Node] = []
+        self.pivots: list[Scalar] = []
 
     def unit_pivots(self) -> None:
         while True:
@@ -144,7 +145,7 @@ class _Work:
             _, r, c, sign = best
             self.eliminate((r,), (c,), [[sign]])
 
-    def eliminate(self, rows: tuple[int, ...], columns: tuple[int, ...], inverse: list[list[Any]]) -> None:
+    def eliminate(self, rows: tuple[int, ...], columns: tuple[int, ...], inverse: Matrix) -> None:
         """Take a pivot block out: Schur complement of the rest."""
         taken = [self.rows.pop(r) for r in rows]
         right = [{c: x for c, x in row.items() if c not in columns} for row in taken]
@@ -163,7 +164,7 @@ class _Work:
                     self.subtract(i, row, u, factor)
         self.steps.append(Step(rows, columns, inverse, right, below))
 
-    def subtract(self, i: int, row: Row, u: Row, factor: Any) -> None:
+    def subtract(self, i: int, row: Row, u: Row, factor: Scalar) -> None:
         for c, x in u.items():
             new = row.get(c, 0.0) - x * factor
             if is_zero(new):
@@ -225,7 +226,7 @@ class _Work:
         return best[1], best[2]
 
 
-def _inverse2(m: list[list[Any]]) -> tuple[Any, list[list[Any]]]:
+def _inverse2(m: Matrix) -> tuple[Scalar, Matrix]:
     (a, b), (c, d) = m
     det = a * d - b * c
     over = 1.0 / det

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, SupportsFloat
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Numeric
 from dalembert.kernel.operations import EVALUATE, not_negative
 
 INPUTS = ("number", "common", "channel")
@@ -38,7 +38,7 @@ class Node:
     def __repr__(self) -> str:
         return f"{self.op}#{self.index}"
 
-    def __add__(self, other: Any) -> Node:
+    def __add__(self, other: Scalar | Array) -> Node:
         if type(other) is not Node:
             if isinstance(other, np.ndarray):
                 return NotImplemented
@@ -47,17 +47,17 @@ class Node:
 
     __radd__ = __add__
 
-    def __sub__(self, other: Any) -> Node:
+    def __sub__(self, other: Scalar | Array) -> Node:
         if type(other) is not Node:
             if isinstance(other, np.ndarray):
                 return NotImplemented
             other = self.graph.constant(other)
         return self.graph.sub(self, other)
 
-    def __rsub__(self, other: Any) -> Node:
+    def __rsub__(self, other: Scalar) -> Node:
         return self.graph.sub(self.graph.constant(other), self)
 
-    def __mul__(self, other: Any) -> Node:
+    def __mul__(self, other: Scalar | Array) -> Node:
         if type(other) is not Node:
             if isinstance(other, np.ndarray):
                 return NotImplemented
@@ -66,14 +66,14 @@ class Node:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Any) -> Node:
+    def __truediv__(self, other: Scalar | Array) -> Node:
         if type(other) is not Node:
             if isinstance(other, np.ndarray):
                 return NotImplemented
             other = self.graph.constant(other)
         return self.graph.div(self, other)
 
-    def __rtruediv__(self, other: Any) -> Node:
+    def __rtruediv__(self, other: Scalar) -> Node:
         return self.graph.div(self.graph.constant(other), self)
 
     def __neg__(self) -> Node:
@@ -85,7 +85,7 @@ class Node:
     def __abs__(self) -> Node:
         return self.graph.unary("abs", self)
 
-    def __pow__(self, power: Any) -> Node:
+    def __pow__(self, power: float) -> Node:
         count = int(power)
         if count != power or not 0 < abs(count) <= 16:
             raise TypeError(f"a traced value to the power {power}")
@@ -113,11 +113,11 @@ class Node:
         """1 where above zero, else 0."""
         return self.graph.unary("positive", self)
 
-    def larger(self, other: Any) -> Node:
+    def larger(self, other: Scalar) -> Node:
         other = other if type(other) is Node else self.graph.constant(other)
         return self.graph.binary("max", self, other)
 
-    def __and__(self, other: Any) -> Any:
+    def __and__(self, other: Scalar | Array) -> Node:
         """Both of two flags, which are 0 or 1."""
         if isinstance(other, np.ndarray):
             return NotImplemented
@@ -126,7 +126,7 @@ class Node:
     def __invert__(self) -> Node:
         return 1.0 - self
 
-    def arctan2(self, other: Any) -> Node:
+    def arctan2(self, other: Scalar) -> Node:
         other = other if type(other) is Node else self.graph.constant(other)
         return self.graph.binary("atan2", self, other)
 
@@ -142,16 +142,16 @@ class Node:
             raise TypeError(f"a traced value that changes along the motion has no truth: {self!r}")
         return float(self.graph.evaluate([self], {})[0])
 
-    def __lt__(self, other: Any) -> bool:
+    def __lt__(self, other: Scalar) -> bool:
         return bool(self._decision() < _number(other))
 
-    def __gt__(self, other: Any) -> bool:
+    def __gt__(self, other: Scalar) -> bool:
         return bool(self._decision() > _number(other))
 
-    def __le__(self, other: Any) -> bool:
+    def __le__(self, other: Scalar) -> bool:
         return bool(self._decision() <= _number(other))
 
-    def __ge__(self, other: Any) -> bool:
+    def __ge__(self, other: Scalar) -> bool:
         return bool(self._decision() >= _number(other))
 
     def __bool__(self) -> bool:
@@ -166,19 +166,22 @@ class Node:
     __hash__ = object.__hash__
 
 
+Scalar = Node | float
+
+
 class Graph:
     """All nodes of one trace, in an order in which they can be computed."""
 
     def __init__(self) -> None:
         self.nodes: list[Node] = []
-        self.table: dict[Any, Node] = {}
+        self.table: dict[tuple[object, ...], Node] = {}
         self.count = {"number": 0, "common": 0, "channel": 0}
         self.names: dict[int, str] = {}
-        self.nominal: dict[int, Any] = {}
-        self.samples: dict[int, Any] = {}
+        self.nominal: dict[int, Numeric] = {}
+        self.samples: dict[int, Numeric] = {}
         self.zero, self.one = self.constant(0.0), self.constant(1.0)
 
-    def constant(self, value: Any) -> Node:
+    def constant(self, value: SupportsFloat) -> Node:
         number = float(value)
         key = ("const", number, math.copysign(1.0, number)) if number == 0 else ("const", number)
         node = self.table.get(key)
@@ -186,7 +189,7 @@ class Graph:
             node = self.table[key] = Node(self, "const", None, None, number, CONSTANT)
         return node
 
-    def input(self, kind: str, name: str, nominal: Any) -> Node:
+    def input(self, kind: str, name: str, nominal: Numeric) -> Node:
         """A value given from outside: a ``number`` of each design, one ``common`` to all, or a ``channel`` along the
         positions. ``nominal`` is its value (or its values along the motion) in the file."""
         node = Node(self, kind, None, None, self.count[kind], POSITION if kind == "channel" else DESIGN)
@@ -286,7 +289,7 @@ class Graph:
             return a.a
         return self.make("neg", a)
 
-    def assume_equal(self, node: Any, same: Any) -> None:
+    def assume_equal(self, node: object, same: object) -> None:
         """From now on the operation that made ``node`` gives ``same``, which is equal to it by what is known."""
         if type(node) is Node and node.a is not None and type(same) is Node and node is not same:
             key = (node.op, node.a.index) if node.b is None else (node.op, node.a.index, node.b.index)
@@ -337,7 +340,7 @@ class Graph:
         one = {"neg": self.neg, "inv": self.inverse, "detach": self.without_gradient}
         return one[op](a) if op in one else self.unary(op, a)
 
-    def evaluate(self, outputs: Iterable[Node], values: Mapping[int, Any]) -> list[Any]:
+    def evaluate(self, outputs: Iterable[Node], values: Mapping[int, Numeric]) -> list[Numeric]:
         """Numbers of nodes with numpy; ``values`` (by index of the input node) replace the nominal ones."""
         outputs = list(outputs)
         done = {} if values else self.samples
@@ -345,7 +348,7 @@ class Graph:
             self._evaluate(self.order(outputs, done), values, done)
         return [done[node.index] for node in outputs]
 
-    def _evaluate(self, nodes: list[Node], values: Mapping[int, Any], done: dict[int, Any]) -> None:
+    def _evaluate(self, nodes: list[Node], values: Mapping[int, Numeric], done: dict[int, Numeric]) -> None:
         for node in nodes:
             if node.op == "const":
                 done[node.index] = node.value
@@ -356,7 +359,7 @@ class Graph:
                 args = (done[node.a.index],) if node.b is None else (done[node.a.index], done[node.b.index])
                 done[node.index] = EVALUATE[node.op](*args)
 
-    def order(self, outputs: Iterable[Node], known: Mapping[int, Any] | None = None) -> list[Node]:
+    def order(self, outputs: Iterable[Node], known: Mapping[int, Numeric] | None = None) -> list[Node]:
         """Every node the outputs need, arguments first; those known already left out."""
         needed: dict[int, Node] = {}
         known = known or {}
@@ -372,23 +375,23 @@ class Graph:
         return [needed[k] for k in sorted(needed)]
 
 
-def _number(x: Any) -> float:
+def _number(x: Scalar) -> float:
     return x._decision() if type(x) is Node else float(x)
 
 
-def is_zero(x: Any) -> bool:
+def is_zero(x: Scalar) -> bool:
     """Exactly zero, whatever the design and the position."""
     return x.op == "const" and x.value == 0 if type(x) is Node else x == 0
 
 
-def unit_value(x: Any) -> float:
+def unit_value(x: Scalar) -> float:
     """1 or -1 where the value is exactly that, else 0."""
     if type(x) is Node:
         x = x.value if x.op == "const" else 0.0
     return float(x) if x in (1.0, -1.0) else 0.0
 
 
-def trace_array(graph: Graph, array: Any) -> Array:
+def trace_array(graph: Graph, array: object) -> Array:
     """An array of nodes: numbers become constants."""
     source = np.asarray(array)
     out = np.empty(source.shape, object)

@@ -7,7 +7,9 @@ from typing import Any
 
 import numpy as np
 
-EVALUATE: dict[str, Callable[..., Any]] = {
+from dalembert.arrays import Numeric
+
+EVALUATE: dict[str, Callable[..., Numeric]] = {
     "add": lambda a, b: a + b,
     "sub": lambda a, b: a - b,
     "mul": lambda a, b: a * b,

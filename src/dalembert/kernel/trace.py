@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -11,15 +12,18 @@ from dalembert.arrays import Array
 from dalembert.core import forcing as fc
 from dalembert.core.constraints import measure
 from dalembert.core.equilibrium import Balance, Known, Statement, known_sources, motion, reactions, statement
+from dalembert.core.equilibrium import Motion as Moving
 from dalembert.core.forcing import Forcing, pair, total_wrench
 from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.geometry import span
-from dalembert.core.layout import Layout, Pose
+from dalembert.core.layout import Layout, Pose, System
+from dalembert.core.linear import Factor
 from dalembert.core.position.first_pose_plane import held_wheels, phase_rows, with_rows
 from dalembert.kernel.elimination import Structural
 from dalembert.kernel.friction_trace import FrictionTrace, trace_friction
-from dalembert.kernel.graph import CONSTANT, Graph, Node, trace_array
+from dalembert.kernel.graph import CONSTANT, Graph, Node, Scalar, trace_array
 from dalembert.kernel.position.closed_forms import newton_correction, positions
+from dalembert.kernel.position.plane_vectors import Pair
 from dalembert.kernel.position.rigid_parts import Motion, Placed
 from dalembert.kernel.position.unrolled_newton import solver
 from dalembert.kernel.program import Marks
@@ -58,9 +62,9 @@ class Problem:
     like_target: Array
     guess: Any
     inertia: bool
-    path: Any
-    first_path: Any
-    signs: Any
+    path: Callable[[str, int], Node]
+    first_path: Callable[[str, int], Node]
+    signs: Callable[[Pair, Pair, int, int], Scalar]
     contacts: Contacts | None
     slips: Array | None
     reversals: Array | None
@@ -124,7 +128,7 @@ def trace(p: Problem) -> Traced:
 
 
 def _trace_equilibrium(
-    p: Problem, layout: Layout, pose: Pose, moving: Any, rows: Any, factors: Any
+    p: Problem, layout: Layout, pose: Pose, moving: Moving, rows: System, factors: Factor
 ) -> tuple[Statement, FrictionTrace]:
     """What is asked of the equilibrium, and its multipliers, with friction where there is any."""
     sources = known_sources(layout, p.forcing, pose, moving, p.inertia)
@@ -142,7 +146,9 @@ def _trace_equilibrium(
     return s, trace_friction(p.graph, layout, p.contacts, pose, moving, s, still, p.slips, p.reversals)
 
 
-def _trace_pose(p: Problem, layout: Layout, target: Array, drives: Drives, path: Any) -> Placed:
+def _trace_pose(
+    p: Problem, layout: Layout, target: Array, drives: Drives, path: Callable[[str, int], Node]
+) -> Placed:
     """Poses at the drives' positions."""
     count = layout.constraints.count
     angular = layout.freedoms.angular[layout.driven]
@@ -153,11 +159,11 @@ def _trace_pose(p: Problem, layout: Layout, target: Array, drives: Drives, path:
     return place(Motion(p.graph, layout, whole, turns, path, p.signs))
 
 
-def _cos(angle: Any) -> Any:
+def _cos(angle: Scalar) -> Scalar:
     return angle.cos() if type(angle) is Node else np.cos(float(angle))
 
 
-def _sin(angle: Any) -> Any:
+def _sin(angle: Scalar) -> Scalar:
     return angle.sin() if type(angle) is Node else np.sin(float(angle))
 
 
@@ -229,7 +235,7 @@ NEAR = 1e-5
 """Square of a pivot over its size in the file's own motion, below which a position is left to the general executor."""
 
 
-def _singular(p: Problem, *factors: Any) -> list[Node]:
+def _singular(p: Problem, *factors: object) -> list[Node]:
     """Below zero near where the system is singular; known solutions are not."""
     if p.slips is not None:
         return []
@@ -259,6 +265,6 @@ def _short(p: Problem, layout: Layout, pose: Pose) -> list[Node]:
     return [n for n in nodes if n.level != CONSTANT]
 
 
-def _pivots(factors: Any) -> list[Node]:
+def _pivots(factors: object) -> list[Node]:
     assert isinstance(factors, Structural)
     return [x for x in factors.pivots if type(x) is Node and x.level != CONSTANT]

@@ -9,12 +9,13 @@ from typing import Any, Self
 import numpy as np
 
 from dalembert.algebra import plane, space
+from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.wrench import reading
 from dalembert.wrench.reading import Number, UnitNames, Vector, number, read_only
 
-ALGEBRA: dict[int, Any] = {2: plane, 3: space}
+ALGEBRA: dict[int, Algebra] = {2: plane, 3: space}
 """Components of a force -> the algebra of its vectors."""
 
 

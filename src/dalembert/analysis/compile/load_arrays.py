@@ -7,6 +7,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from dalembert.algebra.protocol import Algebra
 from dalembert.analysis.compile.plane_rows import numbers
 from dalembert.arrays import Array
 from dalembert.core.equilibrium import Known
@@ -20,7 +21,7 @@ class Setting:
     """What loads are compiled in: numbers and reference points of the links, freedoms by name, drives' positions."""
 
     m: Mechanism
-    g: Any
+    g: Algebra
     index: dict[str, int]
     reference: Array
     freedoms: list[tuple[str, str]]

@@ -11,12 +11,12 @@ side  sign of the determinant of a group's Jacobian, which tells its two ways ap
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from dalembert.algebra import plane
-from dalembert.arrays import Array, Flags, Ints
+from dalembert.arrays import Array, Flags, Index, Ints
 from dalembert.core.linear import apply, generalized_inverse, solve_square
 from dalembert.core.position.assur_plan import Conditions, Group, Plan
 from dalembert.core.position.newton import LONGEST_TURN
@@ -41,7 +41,7 @@ class Laid(NamedTuple):
     turn: Array
     side: Array
 
-    def at(self, index: Any) -> Laid:
+    def at(self, index: Index) -> Laid:
         return Laid(*(part[index] for part in self))
 
 
@@ -54,7 +54,7 @@ class Part(NamedTuple):
     off: Array
     target: Array
 
-    def at(self, index: Any) -> Part:
+    def at(self, index: Index) -> Part:
         return Part(*(part[index] for part in self))
 
 

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from dalembert.algebra import plane
+from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array, Ints
 from dalembert.core.constraints import dense, measure, stack_rows
 from dalembert.core.layout import Along, Distance, Gearing, Layout, Meet, Mesh, Pose, Rows, Turn, select_rows
@@ -328,12 +330,12 @@ def _spread_turns(turn: Array, target: Array, edges: _Edges) -> None:
                 grown = True
 
 
-def _place(g: Any, edge: _PointEdge, target: Array, point: Array, rotation: Array, slides: Array) -> None:
+def _place(g: Algebra, edge: _PointEdge, target: Array, point: Array, rotation: Array, slides: Array) -> None:
     """Lay one of the two links of an edge by the other."""
     offset = np.zeros(point[:, 0].shape)
     if edge.axis is not None:
         across = g.rotate(rotation[:, edge.i], edge.axis)
-        along = -g.across(across)
+        along = -plane.across(across)
         offset = across * target[edge.row] + along * slides[:, edge.row, None]
     elif edge.far:
         far = target[edge.row] if np.isnan(edge.far) else edge.far

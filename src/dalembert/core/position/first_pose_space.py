@@ -8,10 +8,12 @@ freedoms, always the same ones.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from dalembert.algebra import space
+from dalembert.algebra.protocol import Algebra
 from dalembert.arrays import Array, Flags
 from dalembert.core.constraints import measure
 from dalembert.core.gear_rows import mesh_wheels
@@ -163,8 +165,8 @@ class Drawing:
         g, good = layout.algebra, np.ones(len(pose.point), bool)
         for h in self.hinges:
             for axis in range(3) if not h.turns else [h.parallel] * (h.parallel >= 0):
-                on_i = g.rotate(pose.rotation[:, h.i], g.matrix(h.frame_i)[:, axis])
-                on_j = g.rotate(pose.rotation[:, h.j], g.matrix(h.frame_j)[:, axis])
+                on_i = g.rotate(pose.rotation[:, h.i], space.matrix(h.frame_i)[:, axis])
+                on_j = g.rotate(pose.rotation[:, h.j], space.matrix(h.frame_j)[:, axis])
                 good &= g.dot(on_i, on_j) > 0.5
         return good
 
@@ -233,18 +235,18 @@ def _place(layout: Layout, h: Hinge, pose: Pose, values: Array, forward: bool, b
     if by_values or not _as_drawn(g, h, pose):
         relative = np.broadcast_to(h.frame_i, (len(values), 9))
         for k, axis in enumerate(h.turns, start=len(h.slides)):
-            relative = g.compose(relative, g.rotation(values[:, k], np.eye(3)[axis]))
-        relative = g.compose(relative, _inverse(g, h.frame_j))
+            relative = space.compose(relative, space.rotation(values[:, k], np.eye(3)[axis]))
+        relative = space.compose(relative, _inverse(h.frame_j))
         if not forward:
-            relative = _inverse(g, relative)
-        pose.rotation[:, new] = g.compose(pose.rotation[:, known], relative)
+            relative = _inverse(relative)
+        pose.rotation[:, new] = space.compose(pose.rotation[:, known], relative)
     ri, rj = g.rotate(pose.rotation[:, h.i], h.ui), g.rotate(pose.rotation[:, h.j], h.uj)
     offset = np.zeros_like(ri)
     for k, axis in enumerate(h.slides):
-        e = g.rotate(pose.rotation[:, h.i], g.matrix(h.frame_i)[:, axis])
+        e = g.rotate(pose.rotation[:, h.i], space.matrix(h.frame_i)[:, axis])
         offset = offset + e * (values[:, k, None] if h.drives[k] >= 0 else values[:, k, None] * size)
     if h.rise and by_values:
-        e = g.rotate(pose.rotation[:, h.i], g.matrix(h.frame_i)[:, h.turns[0]])
+        e = g.rotate(pose.rotation[:, h.i], space.matrix(h.frame_i)[:, h.turns[0]])
         offset = offset + h.rise * e * values
     if forward:
         pose.point[:, new] = pose.point[:, known] + ri + offset - rj
@@ -252,16 +254,16 @@ def _place(layout: Layout, h: Hinge, pose: Pose, values: Array, forward: bool, b
         pose.point[:, new] = pose.point[:, known] + rj - offset - ri
 
 
-def _as_drawn(g: Any, h: Hinge, pose: Pose) -> bool:
+def _as_drawn(g: Algebra, h: Hinge, pose: Pose) -> bool:
     """Whether the joint lets its links stand as they are drawn, as far as its axes say."""
     axes = [h.parallel] * (h.parallel >= 0) if h.turns else [0, 1, 2]
     on_i, on_j = (
-        [g.rotate(pose.rotation[0, link], g.matrix(frame)[:, axis]) for axis in axes]
+        [g.rotate(pose.rotation[0, link], space.matrix(frame)[:, axis]) for axis in axes]
         for link, frame in ((h.i, h.frame_i), (h.j, h.frame_j))
     )
     return all(g.dot(a, b) > 1 - ALONG for a, b in zip(on_i, on_j, strict=True))
 
 
-def _inverse(g: Any, r: Array) -> Array:
-    turned: Array = np.swapaxes(g.matrix(r), -1, -2)
+def _inverse(r: Array) -> Array:
+    turned: Array = np.swapaxes(space.matrix(r), -1, -2)
     return turned.reshape((*turned.shape[:-2], 9))

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from dalembert.kernel.graph import Node
 from dalembert.kernel.program import CODES, Program
 
+Expression = Any
+"""What casadi computes with; the package says no types."""
 
-def function(program: Program, name: str, numbers: int, outputs: list[tuple[str, int]]) -> Any:
+
+def function(program: Program, name: str, numbers: int, outputs: list[tuple[str, int]]) -> Expression:
     """Function of (values, inputs) to the named outputs and ``mark`` (0, or one of ``CODES``)."""
     import casadi as ca
 
     v, c = ca.SX.sym("values", numbers), ca.SX.sym("inputs", len(program.inputs_in_use("channel")))
-    done: dict[int, Any] = {}
+    done: dict[int, Expression] = {}
     for node in program.order:
         done[node.index] = _value(ca, node, program, v, c, done)
     found, place = [], 0
@@ -24,13 +28,13 @@ def function(program: Program, name: str, numbers: int, outputs: list[tuple[str,
     return ca.Function(name, [v, c], [*found, mark], ["values", "inputs"], [*(o for o, _ in outputs), "mark"])
 
 
-def _mark(ca: Any, program: Program, done: dict[int, Any]) -> Any:
+def _mark(ca: Any, program: Program, done: dict[int, Expression]) -> Expression:
     m = program.marks
 
-    def below(nodes: tuple[Node, ...]) -> Any:
+    def below(nodes: tuple[Node, ...]) -> Expression:
         return _any(ca, [done[n.index] < 0 for n in nodes])
 
-    def unsure(nodes: tuple[Node, ...]) -> Any:
+    def unsure(nodes: tuple[Node, ...]) -> Expression:
         return _any(ca, [ca.logic_not(done[n.index] >= 0) for n in nodes])
 
     turned = below(m.turned)
@@ -39,7 +43,7 @@ def _mark(ca: Any, program: Program, done: dict[int, Any]) -> Any:
     slips = _any(ca, [unsure(m.slips), single, ca.logic_and(turned, unsure(m.still))])
     rest, jam = below(m.rest), ca.logic_and(single, below(m.jam))
     doubt = ca.logic_or(unsure(m.doubt), ca.logic_and(ca.logic_not(ca.logic_or(rest, jam)), slips))
-    mark: Any = ca.SX(0)
+    mark: Expression = ca.SX(0)
     found = {"open": below(m.open), "doubt": doubt, "rest": rest, "jam": jam, "locked": locked}
     found["slope"] = unsure(m.slope)
     for name, test in reversed(found.items()):
@@ -47,14 +51,16 @@ def _mark(ca: Any, program: Program, done: dict[int, Any]) -> Any:
     return mark
 
 
-def _any(ca: Any, tests: list[Any]) -> Any:
+def _any(ca: Any, tests: list[Expression]) -> Expression:
     total = ca.SX(0)
     for test in tests:
         total = ca.logic_or(total, test)
     return total
 
 
-def _value(ca: Any, node: Node, program: Program, v: Any, c: Any, done: dict[int, Any]) -> Any:
+def _value(
+    ca: Any, node: Node, program: Program, v: Expression, c: Expression, done: dict[int, Expression]
+) -> Expression:
     if node.op == "const":
         return ca.SX(node.value)
     if node.op == "number":
@@ -68,7 +74,12 @@ def _value(ca: Any, node: Node, program: Program, v: Any, c: Any, done: dict[int
         two = {"add": lambda: a + b, "sub": lambda: a - b, "mul": lambda: a * b}
         two |= {"atan2": lambda: ca.atan2(a, b), "max": lambda: ca.fmax(a, b), "min": lambda: ca.fmin(a, b)}
         return two[node.op]()
-    one = {"neg": lambda: -a, "inv": lambda: 1 / a, "abs": lambda: ca.fabs(a), "detach": lambda: a}
+    one: dict[str, Callable[[], Expression]] = {
+        "neg": lambda: -a,
+        "inv": lambda: 1 / a,
+        "abs": lambda: ca.fabs(a),
+        "detach": lambda: a,
+    }
     one |= {"positive": lambda: a > 0, "rsqrt": lambda: 1 / ca.sqrt(a)}
     one |= {"rint": lambda: ca.floor(a + 0.5)}
     return one[node.op]() if node.op in one else getattr(ca, node.op)(a)

@@ -8,9 +8,9 @@ the ground. Of the two ways such a group closes the one of the mechanism's own m
 from __future__ import annotations
 
 from itertools import combinations
-from typing import Any
 
 from dalembert.kernel.elimination import components, maximum_matching
+from dalembert.kernel.graph import Scalar
 from dalembert.kernel.position import plane_vectors as v
 from dalembert.kernel.position.plane_vectors import Pair
 from dalembert.kernel.position.relations import Relation
@@ -59,7 +59,7 @@ class Groups(Parts):
         pi, pj = self.point(slot.i, slot.ui), self.point(slot.j, slot.uj)
         on_y = self.owner[slot.j] == y
 
-        def rotation(sign: Any) -> Pair:
+        def rotation(sign: Scalar) -> Pair:
             if on_y:  # the line on x, the point on y
                 arm = v.minus(pj, py)
                 k = slot.target - v.dot(axis, v.minus(px, pi))
@@ -136,11 +136,11 @@ class Groups(Parts):
         over = 1.0 / d2
         along, aside = over * foot, over * area
 
-        def legs(sign: Any) -> tuple[Pair, Pair]:
+        def legs(sign: Scalar) -> tuple[Pair, Pair]:
             e = v.plus(v.times(along, d), v.times(sign * aside, v.across(d)))
             return e, v.minus(e, d)
 
-        def sides(sign: Any) -> tuple[Pair, Pair]:
+        def sides(sign: Scalar) -> tuple[Pair, Pair]:
             e, s = legs(sign)
             return self.onto(p, p2, e), self.onto(q, q2, s)
 
@@ -162,10 +162,10 @@ class Groups(Parts):
         p2 = v.dot(p, p)
         h = self.root(p2 - k * k, p2)
 
-        def side(sign: Any) -> Pair:
+        def side(sign: Scalar) -> Pair:
             return v.plus(v.times(k, n), v.times(sign * h, v.across(n)))
 
-        def rotation(sign: Any) -> Pair:
+        def rotation(sign: Scalar) -> Pair:
             return self.onto(p, p2, side(sign))
 
         ry = self.choose_rotation(rotation, x, y)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
+from dalembert.kernel.graph import Scalar
 
-Pair = tuple[Any, Any]
+Pair = tuple[Scalar, Scalar]
 
 
 def plus(a: Pair, b: Pair) -> Pair:
@@ -15,15 +15,15 @@ def minus(a: Pair, b: Pair) -> Pair:
     return a[0] - b[0], a[1] - b[1]
 
 
-def times(k: Any, a: Pair) -> Pair:
+def times(k: Scalar, a: Pair) -> Pair:
     return k * a[0], k * a[1]
 
 
-def dot(a: Pair, b: Pair) -> Any:
+def dot(a: Pair, b: Pair) -> Scalar:
     return a[0] * b[0] + a[1] * b[1]
 
 
-def cross(a: Pair, b: Pair) -> Any:
+def cross(a: Pair, b: Pair) -> Scalar:
     return a[0] * b[1] - a[1] * b[0]
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
+from dalembert.arrays import Array
 from dalembert.core.layout import Along, Distance, Layout, Meet, Mesh, Turn
-from dalembert.kernel.graph import is_zero
+from dalembert.kernel.graph import Scalar, is_zero
 from dalembert.kernel.position.plane_vectors import Pair
 
 
@@ -21,7 +21,7 @@ class Relation:
     ui: Pair
     uj: Pair
     axis: Pair
-    target: Any
+    target: Scalar
     turn: Pair
     radii: Pair
     rows: tuple[int, ...]
@@ -31,7 +31,7 @@ NONE: Pair = (0.0, 0.0)
 _KINDS: dict[type, str] = {Meet: "meet", Along: "along", Turn: "turn", Distance: "distance", Mesh: "mesh"}
 
 
-def relations(layout: Layout, target: Any, turns: dict[int, Pair]) -> list[Relation]:
+def relations(layout: Layout, target: Array, turns: dict[int, Pair]) -> list[Relation]:
     """Every condition of the stacked system; ``turns`` gives (cos, sin) of the targets of turn rows."""
     out = []
     for f in layout.stack.families:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
 from dalembert.arrays import Array
 from dalembert.core.layout import Layout, Pose
-from dalembert.kernel.graph import CONSTANT, POSITION, Graph, Node
+from dalembert.kernel.graph import CONSTANT, POSITION, Graph, Node, Scalar
 from dalembert.kernel.position import plane_vectors as v
 from dalembert.kernel.position.plane_vectors import Pair
 from dalembert.kernel.position.relations import Relation, relations
@@ -49,7 +48,7 @@ class Motion:
     target: Array
     turns: dict[int, Pair]
     path: Callable[[str, int], Node]
-    signs: Callable[[Pair, Pair, int, int], Any]
+    signs: Callable[[Pair, Pair, int, int], Scalar]
     placed: set[int] = field(default_factory=set)
 
 
@@ -130,7 +129,7 @@ class Parts:
         """(link, point) of the end on the other part, and on part y."""
         return ((r.i, r.ui), (r.j, r.uj)) if self.owner[r.j] == y else ((r.j, r.uj), (r.i, r.ui))
 
-    def line(self, r: Relation, y: int, rotation: Pair) -> tuple[Pair, Any]:
+    def line(self, r: Relation, y: int, rotation: Pair) -> tuple[Pair, Scalar]:
         """A slide's condition n . T = c on the translation T of part y, whose rotation is known."""
         axis = v.rotate(self.part[self.owner[r.i]][r.i][0], r.axis)
         pi, pj = self.point(r.i, r.ui), self.point(r.j, r.uj)
@@ -146,14 +145,14 @@ class Parts:
         (lx, ux), (ly, uy) = self.ends(r, y)
         return self.point(lx, ux), self.point(ly, uy)
 
-    def onto(self, u: Pair, length2: Any, w: Pair) -> Pair:
+    def onto(self, u: Pair, length2: Scalar, w: Pair) -> Pair:
         """The rotation that turns a vector u, of known square, into w of the same length."""
         r = v.rotate_back(v.times(1.0 / length2, u), w)
         for node, same in zip(v.rotate(r, u), w, strict=True):
             self.graph.assume_equal(node, same)
         return r
 
-    def root(self, square: Any, scale: Any) -> Any:
+    def root(self, square: Scalar, scale: Scalar) -> Scalar:
         """Square root of what is negative where the linkage does not close; its inverse is computed with it."""
         if not isinstance(square, Node):
             square = self.graph.constant(square)
@@ -168,25 +167,25 @@ class Parts:
         self.graph.assume_equal(1.0 / root, inverse)
         return root
 
-    def add_doubt(self, margin: Any) -> None:
+    def add_doubt(self, margin: Scalar) -> None:
         """Below zero the general executor must look."""
         if isinstance(margin, Node) and margin.level != CONSTANT:
             self.out.doubt.append(margin)
 
-    def set_cross_product(self, a: Pair, b: Pair, product: Any) -> None:
+    def set_cross_product(self, a: Pair, b: Pair, product: Scalar) -> None:
         """What the products a x b and b x a are: determinants of the group, which need not be computed again."""
         self.graph.assume_equal(v.cross(a, b), product)
         self.graph.assume_equal(v.cross(b, a), -product)
 
-    def longer(self, a: Any, b: Any) -> bool:
+    def longer(self, a: Scalar, b: Scalar) -> bool:
         """Whether one square is larger than another at the file's numbers; no, where they change along the motion."""
         moving = any(type(x) is Node and x.level & POSITION for x in (a, b))
         return not moving and bool(a > b)
 
-    def regular(self, det: Any) -> None:
+    def regular(self, det: Scalar) -> None:
         self.add_doubt(det * det - DEAD)
 
-    def choose_rotation(self, rotation: Callable[[Any], Pair], x: int, y: int) -> Pair:
+    def choose_rotation(self, rotation: Callable[[Scalar], Pair], x: int, y: int) -> Pair:
         """The rotation of y in x of the two, that the known motion has; ``sign`` is kept for the other parts."""
         lx = self.ground if self.ground in self.part[x] else min(self.part[x])
         ly = min(self.part[y])
@@ -194,12 +193,12 @@ class Parts:
         before = len(self.out.open), len(self.out.doubt)
         ways = [v.rotate_back(rx, v.rotate(rotation(s), ry)) for s in (1.0, -1.0)]
         del self.out.open[before[0] :], self.out.doubt[before[1] :]
-        self.sign: Any = self.m.signs(ways[0], ways[1], lx, ly)
+        self.sign: Scalar = self.m.signs(ways[0], ways[1], lx, ly)
         if isinstance(self.sign, Node):
             self.out.flips = self.out.flips or self.sign.level != CONSTANT
         return rotation(self.sign)
 
-    def near(self, line: Pair, what: str, which: int) -> Any:
+    def near(self, line: Pair, what: str, which: int) -> Node:
         """Angle of a line, whole turns counted along the known motion."""
         c, s = self.m.path(what + " cos", which), self.m.path(what + " sin", which)
         off = self.graph.binary(
@@ -222,7 +221,7 @@ class Parts:
         for link in range(size):
             if link in placed:
                 (c, s), (x, y) = placed[link]
-                angle: Any = self.turn_of(link)
+                angle: Scalar = self.turn_of(link)
             else:
                 assert partial
                 x, y, angle, c, s = (self.m.path(k, link) for k in ("x", "y", "turn", "turn cos", "turn sin"))
@@ -232,7 +231,7 @@ class Parts:
         return Pose(point, turn, rotation)
 
 
-def _node(graph: Graph, x: Any) -> Node:
+def _node(graph: Graph, x: Scalar) -> Node:
     return x if type(x) is Node else graph.constant(x)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +12,7 @@ from dalembert.core.constraints import stack_rows
 from dalembert.core.layout import Layout, Pose, System
 from dalembert.core.position.newton import displace, gap
 from dalembert.kernel.elimination import Row, Structural, structural
-from dalembert.kernel.graph import Graph, Node, is_zero
+from dalembert.kernel.graph import Graph, Node, Scalar, is_zero
 
 if TYPE_CHECKING:
     from dalembert.kernel.position.rigid_parts import Motion
@@ -48,7 +49,7 @@ def newton(m: Motion, guess: Pose, links: list[int], steps: int = STEPS) -> Foun
     return Found(pose, [LAST**2 - last, FAR**2 - far])
 
 
-def _step(m: Motion, pose: Pose, links: list[int]) -> dict[int, list[Any]]:
+def _step(m: Motion, pose: Pose, links: list[int]) -> dict[int, list[Scalar]]:
     """Newton step of some links."""
     layout = m.layout
     rows = stack_rows(layout, pose)
@@ -82,7 +83,7 @@ def factor_rows(graph: Graph, rows: System, kept: list[int], links: list[int]) -
     return structural(graph, out, 3 * len(links))
 
 
-def solver(graph: Graph) -> Any:
+def solver(graph: Graph) -> Callable[[Layout, System], Structural]:
     """What the core factors its systems with while it is traced."""
 
     def factor(layout: Layout, rows: System) -> Structural:
@@ -91,7 +92,7 @@ def solver(graph: Graph) -> Any:
     return factor
 
 
-def _displace(m: Motion, pose: Pose, dq: dict[int, list[Any]], links: list[int]) -> Pose:
+def _displace(m: Motion, pose: Pose, dq: dict[int, list[Scalar]], links: list[int]) -> Pose:
     step = np.full((m.layout.links, 3), 0.0, object)
     for link in links:
         step[link] = dq[link]
@@ -112,11 +113,11 @@ def _detach(graph: Graph, pose: Pose, links: list[int]) -> Pose:
     return Pose(point, turn, rotation)
 
 
-def _difference(a: Pose, b: Pose, k: int) -> list[Any]:
+def _difference(a: Pose, b: Pose, k: int) -> list[Scalar]:
     return [*(a.point[k] - b.point[k]), a.turn[k] - b.turn[k]]
 
 
-def _size(layout: Layout, dq: list[list[Any]]) -> Any:
+def _size(layout: Layout, dq: list[list[Scalar]]) -> Any:
     """Sum of squares of turns, and shifts over the characteristic length."""
     scale = (1 / layout.length**2, 1 / layout.length**2, 1.0)
     return sum((s * x * x for step in dq for s, x in zip(scale, step, strict=True)), 0.0)
