@@ -69,7 +69,7 @@ def no_drawings(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in DRAWN:
         monkeypatch.setattr(draw, name, lambda *_, **__: Scene(()))
     monkeypatch.setattr(given, "given_picture", lambda *_: Scene(()))
-    monkeypatch.setattr(friction, "rubbing_pictures", lambda *_: ())
+    monkeypatch.setattr(friction, "friction_pictures", lambda *_: ())
 
 
 def in_units(m: Any, system: str) -> Any:

@@ -18,7 +18,7 @@ def given_picture(c: ReportContext) -> Scene:
     return mechanism_scene(c.r, c.k, c.notation, friction=False)
 
 
-def rubbing_pictures(c: ReportContext) -> list[Scene]:
+def friction_pictures(c: ReportContext) -> list[Scene]:
     """The mechanism with its friction circles, then its pins and guides at a larger scale; in space its free bodies."""
     if c.r.mechanism.dimension == 3:
         return [draw.free_body(c.r, link, c.k + 1, c.notation) for link in c.r.links]

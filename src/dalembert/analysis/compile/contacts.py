@@ -61,7 +61,7 @@ def friction_on(m: Mechanism) -> bool:
     return m.friction.enabled and any(getattr(j, "friction", None) is not None for j in m.joints.values())
 
 
-def rubs(m: Mechanism, joint: Any) -> bool:
+def has_friction(m: Mechanism, joint: Any) -> bool:
     """Whether a joint has friction that is not switched off."""
     return m.friction.enabled and getattr(joint, "friction", None) is not None
 
@@ -106,10 +106,10 @@ def contacts(
     found: list[tuple[int, Any, Contact]] = []
     read: list[Array] = []
     for k, joint in enumerate(m.joints.values()):
-        if joint.type not in kinds or not (rubs(m, joint) or joint.TOOTHED):
+        if joint.type not in kinds or not (has_friction(m, joint) or joint.TOOTHED):
             continue
         place = places(joint, int(np.flatnonzero(constraints.joint == k)[0]))
-        for contact in kinds[joint.type](joint, at[k], rubs(m, joint) and circle(m, joint) == "sin"):
+        for contact in kinds[joint.type](joint, at[k], has_friction(m, joint) and circle(m, joint) == "sin"):
             kind, given = contact.row
             rows.add(kind, k, ends[k], **given)
             found.append((k, joint, contact))

@@ -11,7 +11,7 @@ from dalembert.algebra import plane, space
 from dalembert.analysis.compile import pair_table
 from dalembert.analysis.compile import plane_rows as table
 from dalembert.analysis.compile.contacts import KINDS as PLANE_FRICTION
-from dalembert.analysis.compile.contacts import Kinds, contacts, rubs
+from dalembert.analysis.compile.contacts import Kinds, contacts, has_friction
 from dalembert.analysis.compile.load_arrays import joint_resistances
 from dalembert.analysis.compile.space_contacts import KINDS as SPACE_FRICTION
 from dalembert.arrays import Array, Ints
@@ -140,7 +140,7 @@ class SpaceJoints(_Joints):
             return
         at = pair_table.geometry(joint, *self.arms[k])
         self.geometries += (at,)
-        split = rubs(self.m, joint) or joint.stiffness is not None
+        split = has_friction(self.m, joint) or joint.stiffness is not None
         pair_table.add_constraints(self.constraints, k, joint, self.ends[k], at, split)
         axes = (d.axis for key, d in self.m.drives.items() if self.m.drive_joint(key) == name)
         axis = next((axis for axis in axes if axis is not None), None)
@@ -196,7 +196,7 @@ class SpaceJoints(_Joints):
     def contacts(self, fixed: Rows) -> Contacts | None:
         """The contacts of the joints with friction."""
         for name, joint in self.m.joints.items():
-            if joint.wheels and rubs(self.m, joint):
+            if joint.wheels and has_friction(self.m, joint):
                 what = f"gear {name!r}: friction of teeth is not analysed in space"
                 raise ModelError(what, "leave it out", ("joints", name, "friction"))
         return self.contacts_of(fixed, self.geometries, SPACE_FRICTION, pair_table.reaction_rows)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.friction.joint_friction import friction_of
+from dalembert.analysis.friction.joint_friction import contacts_of, friction_of
 from dalembert.analysis.result.reaction_axes import axes_of
 from dalembert.arrays import Array
 from dalembert.model.joints.pairs import AXES
@@ -52,17 +52,14 @@ def bearing_ends(r: Result, joint: str, kind: str) -> list[BearingEnd]:
     described = r.mechanism.joints[joint]
     if r.friction is None or "guide" not in described.pair.friction:
         return []
-    f, contacts = friction_of(r)
-    mine = [
-        e for e, found in enumerate(contacts.kind) if r.joints[contacts.joint[e]] == joint and found == kind
-    ]
+    f, _ = friction_of(r)
     axes, first = axes_of(r, joint, "joint"), AXES.index(described.pair.main) + 1
     u, v = axes[:, first % 3], axes[:, (first + 1) % 3]
     guide = getattr(getattr(described, "friction", None), "guide", None)
     places = [("", 0.0)] if guide is None else [("behind", -guide[0]), ("ahead", guide[1])]
     return [
         BearingEnd(part, along, f.argument[:, 0, e, None] * u + f.argument[:, 1, e, None] * v, f.cz[:, e])
-        for (part, along), e in zip(places, mine, strict=False)
+        for (part, along), e in zip(places, contacts_of(r, joint, kind), strict=False)
     ]
 
 
@@ -88,7 +85,7 @@ def thread(r: Result, joint: str) -> Thread:
     """
     screw: Any = r.mechanism.joints[joint]
     f, contacts = friction_of(r)
-    mine = np.flatnonzero(contacts.joint == r.joints.index(joint))
+    mine = contacts_of(r, joint)
     climb = math.atan2(screw.lead / (2 * math.pi), screw.friction.radius)
     by_kind = {contacts.kind[e]: e for e in mine}
     normal = f.argument[:, 0, by_kind["thread"]] * math.cos(screw.friction.thread_angle or 0.0)

@@ -204,8 +204,8 @@ class FrictionProblem:
 
     def _friction(self, found: FrictionSolution, cz: Array, reversing: Flags | None) -> Friction:
         layout, contacts, state = self.c.layout, self.contacts, found.state
-        rubbing = np.where(contacts.fixed, 0.0, cz)
-        force, moment = dry_wrenches(layout, contacts, self.pose, self.along, rubbing)
+        dry = np.where(contacts.fixed, 0.0, cz)
+        force, moment = dry_wrenches(layout, contacts, self.pose, self.along, dry)
         viscous_force, viscous_moment, viscous_loss = viscous_wrenches(
             layout, contacts, self.pose, self.moving.twist
         )
@@ -214,9 +214,9 @@ class FrictionProblem:
             moment=moment,
             viscous_force=viscous_force,
             viscous_moment=viscous_moment,
-            dry_loss=by_joint(contacts.joint, layout.joints, -rubbing * state.rate),
+            dry_loss=by_joint(contacts.joint, layout.joints, -dry * state.rate),
             viscous_loss=viscous_loss,
-            cz=rubbing,
+            cz=dry,
             sense=state.sense,
             rate=state.rate,
             argument=argument(self.r, cz),

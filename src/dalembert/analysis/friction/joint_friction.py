@@ -109,13 +109,18 @@ def power_lost(result: Result, joint: str, kind: Loss = "all") -> Array:
 
 def bearing_contact(result: Result, joint: str, kind: str) -> int:
     """Index of a joint's contact of a kind."""
-    _, contacts = friction_of(result)
-    for e, found in enumerate(contacts.kind):
-        if result.joints[contacts.joint[e]] == joint and found == kind:
-            return e
+    for e in contacts_of(result, joint, kind):
+        return e
     raise ModelError(
         f"joint {joint!r} has no friction of a {kind}", "ask a joint that has", ("joints", joint)
     )
+
+
+def contacts_of(result: Result, joint: str, kind: str | None = None) -> list[int]:
+    """Indices of a joint's contacts with dry friction, of one kind or of all."""
+    _, contacts = friction_of(result)
+    mine = np.flatnonzero((contacts.joint == result.joints.index(joint)) & ~contacts.fixed)
+    return [int(e) for e in mine if kind in (None, contacts.kind[e])]
 
 
 def bears_on_faces(result: Result, joint: str) -> bool:
@@ -184,10 +189,7 @@ def friction_circle_radii(result: Result, joint: str) -> Array:
 
 def friction_coefficient(result: Result, joint: str, position: int) -> float:
     """Coefficient of a joint at a position: that at rest where nothing tells the sense of its friction."""
-    f, contacts = friction_of(result)
-    e = next(n for n, k in enumerate(contacts.joint) if result.joints[k] == joint and not contacts.fixed[n])
-    which = contacts.resting if f.open[position, e] else contacts.coefficient
-    return float(which[e])
+    return contact_forces(result, joint, position)[0].coefficient
 
 
 def friction_sense(result: Result, joint: str, kind: str, position: int) -> float:
@@ -203,7 +205,7 @@ def at_rest(result: Result, joint: str, kind: str, position: int) -> bool:
 
 
 @dataclass(frozen=True)
-class Rub:
+class ContactForce:
     """One contact of a joint at a position: what it bears and the friction that makes.
 
     kind: `pin`, `collar`, `guide`, `ball`, `thread`; coefficient mu; bearing S (N), the size of the forces it reads;
@@ -219,15 +221,22 @@ class Rub:
     amount: float
 
 
-def rubs_of(result: Result, joint: str, position: int) -> tuple[Rub, ...]:
+def contact_forces(result: Result, joint: str, position: int) -> tuple[ContactForce, ...]:
     """The contacts of a joint's dry friction at a position, in the order of its law."""
     f, contacts = friction_of(result)
-    k, out = result.joints.index(joint), []
-    size = bearing(contacts, f.argument[position])
-    strong = strength(contacts, 1.0, f.open[position], f.sense[position])
-    for e in (e for e in range(contacts.count) if contacts.joint[e] == k and not contacts.fixed[e]):
-        mu = (contacts.resting if f.open[position, e] else contacts.coefficient)[e]
-        part, kind = float(f.sense[position, e]), contacts.kind[e]
-        numbers = (float(size[e]), part, float(strong[e]), float(f.cz[position, e]))
-        out.append(Rub(kind, float(mu), *numbers))
-    return tuple(out)
+    mu = np.where(f.open[position], contacts.resting, contacts.coefficient)
+    size, c = (
+        bearing(contacts, f.argument[position]),
+        strength(contacts, 1.0, f.open[position], f.sense[position]),
+    )
+    return tuple(
+        ContactForce(
+            kind=contacts.kind[e],
+            coefficient=float(mu[e]),
+            bearing=float(size[e]),
+            part=float(f.sense[position, e]),
+            strength=float(c[e]),
+            amount=float(f.cz[position, e]),
+        )
+        for e in contacts_of(result, joint)
+    )

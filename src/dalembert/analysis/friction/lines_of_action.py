@@ -137,12 +137,12 @@ def bearing_faces(r: Result, joint: str, k: int) -> list[FaceForce]:
     f: Any = part.friction  # type: ignore[union-attr]
     e, at, height = slide_direction(r, joint), joint_place(r, joint), float(f.half_height or 0.0)
     across = np.stack([-e[:, 1], e[:, 0]], axis=-1)
-    rub = (r.friction_force(joint) * e).sum(axis=-1)
+    friction = (r.friction_force(joint) * e).sum(axis=-1)
     total = contact.lower + contact.upper
 
     def face(part: str, along: Array, side: Array, load: Array) -> FaceForce:
         place = at + along[:, None] * e - (side * height)[:, None] * across
-        share = _ratio(rub * load, total)
+        share = _ratio(friction * load, total)
         return FaceForce(part, place, along, (side * load)[:, None] * across, share[:, None] * e)
 
     one = np.ones_like(total)

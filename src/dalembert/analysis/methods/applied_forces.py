@@ -126,14 +126,14 @@ def joint_actions(r: Result, split: bool = True) -> tuple[Action, ...]:
         at = joint_place(r, joint)
         for on, by in ((j, i), (i, j)):
             force, moment = force_and_moment(r.least_norm(joint, on))
-            rub, turn = r.friction_force(joint, on), r.friction_moment(joint, on)
-            rubs, turns = (np.nan_to_num(v).any() for v in (rub, turn))
-            if not split or not (rubs or turns):
+            friction, couple = r.friction_force(joint, on), r.friction_moment(joint, on)
+            slides, turns = (np.nan_to_num(v).any() for v in (friction, couple))
+            if not split or not (slides or turns):
                 out.append(Action(joint, "joint", "", on, by, at, force, moment))
                 continue
-            part = "normal" if rubs else ""
-            out.append(Action(joint, "joint", "", on, by, at, force - rub, moment - turn, part))
-            out.append(Action(joint, "friction", "", on, by, at, rub, turn))
+            part = "normal" if slides else ""
+            out.append(Action(joint, "joint", "", on, by, at, force - friction, moment - couple, part))
+            out.append(Action(joint, "friction", "", on, by, at, friction, couple))
     return tuple(out)
 
 

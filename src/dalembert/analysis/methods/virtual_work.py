@@ -99,9 +99,9 @@ def virtual_work(r: Result) -> VirtualWork:
     """
     at = state(r)
     g = r.compiled.layout.algebra
-    loads, rubbing = known_actions(r, at), friction_actions(r)
-    known = (*loads, *rubbing)
-    motions = [*(_motion(r, at, a) for a in loads), *(_relative(r, at, a) for a in rubbing)]
+    loads, friction = known_actions(r, at), friction_actions(r)
+    known = (*loads, *friction)
+    motions = [*(_motion(r, at, a) for a in loads), *(_relative(r, at, a) for a in friction)]
     shape = (len(known), len(r.status), len(r.drives))
     velocity = np.array([v for v, _ in motions]).reshape((*shape, g.d))
     spin = np.array([w for _, w in motions]).reshape(shape if g.d == 2 else (*shape, 3))

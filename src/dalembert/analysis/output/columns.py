@@ -177,7 +177,7 @@ def _joint_columns(result: Result, axes: Axes) -> Iterator[Column]:
     """Reactions, and friction's part of them."""
     for reaction in reactions(result, axes):
         yield from _reaction_columns(reaction)
-    for joint in rubbing_joints(result):
+    for joint in friction_joints(result):
         yield from _friction_columns(result, joint, axes)
 
 
@@ -203,7 +203,7 @@ def unknown_kinds(result: Result) -> dict[str, str]:
     return kinds | {load: load_kind(result, load) for load in result.unknown_loads}
 
 
-def rubbing_joints(result: Result) -> list[str]:
+def friction_joints(result: Result) -> list[str]:
     """Joints with dry or viscous friction, where friction is on."""
     if result.friction is None:
         return []

@@ -19,11 +19,11 @@ from dalembert.analysis.output.columns import (
     drive_kinds,
     force_and_moment,
     friction_in,
+    friction_joints,
     in_plane,
     link_turning,
     load_kind,
     reactions,
-    rubbing_joints,
     scale,
     unknown_kinds,
 )
@@ -172,7 +172,7 @@ def _joint_numbers(result: Result, axes: Axes) -> Numbers:
     for r in reactions(result, axes):
         out["reactions", r.joint, "force"] = "force", r.force
         out["reactions", r.joint, "moment"] = "moment", r.moment
-    for joint in rubbing_joints(result):
+    for joint in friction_joints(result):
         at = "reactions", joint, "friction"
         force, moment = friction_in(result, joint, axes)
         out[*at, "force"], out[*at, "moment"] = ("force", force), ("moment", moment)
@@ -197,7 +197,7 @@ def _reaction_fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, .
             out["reactions", r.joint, "axes"] = numbers("number", own)
             if not np.array_equal(own, of_moment, equal_nan=True):
                 out["reactions", r.joint, "moment_axes"] = numbers("number", of_moment)
-    for joint in rubbing_joints(result):
+    for joint in friction_joints(result):
         if bears_on_faces(result, joint):
             contact = guide_contact(result, joint)
             out["reactions", joint, "contact", "mode"] = _words(contact.mode)

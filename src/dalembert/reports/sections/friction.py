@@ -25,9 +25,9 @@ from dalembert.analysis.friction.joint_friction import (
     holds_beyond,
     unknown_names,
 )
-from dalembert.analysis.output.columns import rubbing_joints, unknown_kinds
+from dalembert.analysis.output.columns import friction_joints, unknown_kinds
 from dalembert.model import GROUND
-from dalembert.reports.pictures import rubbing_pictures
+from dalembert.reports.pictures import friction_pictures
 from dalembert.reports.report_context import ReportContext
 from dalembert.reports.sheet import Sheet, Working
 from dalembert.views import both_ends
@@ -42,7 +42,7 @@ def friction(sheet: Sheet, c: ReportContext) -> None:
         "Signs follow the relative motion. The reaction of a pin touches its friction circle on the side that turns "
         "the link against that motion; on a guide it leans from the normal by phi, against the sliding."
     )
-    sheet.figure(*rubbing_pictures(c))
+    sheet.figure(*friction_pictures(c))
     for joint in (n for n in c.r.joints if friction_circle_radius(c.r, n)):
         sheet.equations(pin_lines(c, joint))
     for two in _two_force_links(c):
@@ -167,12 +167,12 @@ def guide_lines(c: ReportContext, joint: str) -> list[Working]:
             for face, sign, load in loads
         ]
     mu = friction_coefficient(r, joint, k)
-    rub = float(np.hypot(*r.friction_force(joint)[k]))
+    force = float(np.hypot(*r.friction_force(joint)[k]))
     out.append(
         Working(
             f"F_{{f{shown.pair(i, j)}}} = mu_{{{joint}}} S_{{{joint}}}",
             f"{c.notation.given(mu)} cdot {number('force', total)}",
-            f'{number("force", rub)} "{unit}"',
+            f'{number("force", force)} "{unit}"',
         )
     )
     return out
@@ -181,7 +181,7 @@ def guide_lines(c: ReportContext, joint: str) -> list[Working]:
 def cost(sheet: Sheet, c: ReportContext) -> None:
     """Power that each joint loses and its share; the efficiency in both senses."""
     r, shown, k = c.r, c.shown, c.k
-    lost = {n: float(r.power_lost(n)[k]) for n in rubbing_joints(r)}
+    lost = {n: float(r.power_lost(n)[k]) for n in friction_joints(r)}
     total = sum(lost.values())
     if not total > 0:
         return
@@ -224,7 +224,7 @@ def at_rest(sheet: Sheet, c: ReportContext, answers: Any) -> None:
         sheet.heading(words, 2)
         if known:
             there = replace(c, r=end)
-            sheet.figure(*rubbing_pictures(there))
+            sheet.figure(*friction_pictures(there))
             answers(sheet, there)
 
 

@@ -30,7 +30,7 @@ def knowns(sheet: Sheet, c: ReportContext) -> None:
     joints = [
         [
             name,
-            f"{d.type}{_measures(shown, d)}{_rubbing(c, d)}",
+            f"{d.type}{_measures(shown, d)}{_friction(c, d)}",
             f"{shown.heading(d.links[0])} – {shown.heading(d.links[1])}",
         ]
         for name, d in m.joints.items()
@@ -142,7 +142,7 @@ OWN_MEASURES = (
 """Keys of joints, what they are called and of which kind."""
 
 
-def _rubbing(c: ReportContext, joint: Any) -> str:
+def _friction(c: ReportContext, joint: Any) -> str:
     """The friction of a joint as it was given: '; μ = 0.4, R = 0.07 m'."""
     f, shown = getattr(joint, "friction", None), c.shown
     if f is None or c.r.friction is None:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from dalembert.analysis.compile.contacts import circle as circle_kind
-from dalembert.analysis.friction.joint_friction import Rub, rubs_of
+from dalembert.analysis.friction.joint_friction import ContactForce, contact_forces
 from dalembert.analysis.output.rounding import PART
 from dalembert.arrays import Array
 from dalembert.reports.report_context import ReportContext
@@ -40,19 +40,19 @@ def space_friction(sheet: Sheet, c: ReportContext) -> None:
         "normal forces, which are those of the solution below."
     )
     for joint in c.r.joints:
-        rubs = rubs_of(c.r, joint, c.k)
-        if rubs:
+        contacts = contact_forces(c.r, joint, c.k)
+        if contacts:
             kind = c.r.mechanism.joints[joint].type
             sheet.text(f"Joint {joint}, {kind}: {LAWS[kind]}.")
-            sheet.equations(_Joint(c, joint, rubs).lines())
+            sheet.equations(_Joint(c, joint, contacts).lines())
     cost(sheet, c)
 
 
 class _Joint:
     """The lines of one joint."""
 
-    def __init__(self, c: ReportContext, joint: str, rubs: tuple[Rub, ...]) -> None:
-        self.c, self.joint, self.rubs = c, joint, rubs
+    def __init__(self, c: ReportContext, joint: str, contacts: tuple[ContactForce, ...]) -> None:
+        self.c, self.joint, self.contacts = c, joint, contacts
         self.described: Any = c.r.mechanism.joints[joint]
         self.j = self.described.links[1]
         self.sign = c.shown.reaction(joint, self.j)
@@ -65,6 +65,12 @@ class _Joint:
         kind = self.described.type
         return getattr(self, f"_{kind}")()  # type: ignore[no-any-return]
 
+    def _of_kind(self, kind: str) -> list[ContactForce]:
+        return [contact for contact in self.contacts if contact.kind == kind]
+
+    def _amounts(self) -> list[float]:
+        return [contact.amount for contact in self.contacts]
+
     # figures
 
     def _number(self, kind: str, value: float) -> str:
@@ -73,24 +79,24 @@ class _Joint:
     def _text(self, kind: str, value: float) -> str:
         return f'{self._number(kind, value)} "{self.c.shown.unit(kind)}"'
 
-    def _bearing(self, rub: Rub, n: int, of: int, axes: str) -> Working:
+    def _bearing(self, contact: ContactForce, n: int, of: int, axes: str) -> Working:
         """N of one contact: of both ends of a bearing that has them, else of the components that make it."""
         name = f"S_{{{self.joint}{f',{n + 1}' if of > 1 else ''}}}"
         if of > 1:
             end = ("behind", "ahead")[n]
-            return Working(name, "", f'{self._text("force", rub.bearing)} "at the end {end}"')
+            return Working(name, "", f'{self._text("force", contact.bearing)} "at the end {end}"')
         inside = " + ".join(f"{along(self.sign, a + chr(39))}^{{2}}" for a in axes)
-        return Working(name, f"({inside})^{{1/2}}", self._text("force", rub.bearing))
+        return Working(name, f"({inside})^{{1/2}}", self._text("force", contact.bearing))
 
-    def _radius(self, rub: Rub, radius: float) -> Working:
+    def _radius(self, contact: ContactForce, radius: float) -> Working:
         """Radius of a friction circle: R sin(arctan mu), or mu R."""
-        large, mu, given = self._number("length", radius), rub.coefficient, self.c.notation.given
+        large, mu, given = self._number("length", radius), contact.coefficient, self.c.notation.given
         if circle_kind(self.c.r.mechanism, self.described) == "sin":
             letters = f"R_{{{self.joint}}} sin (arctan mu_{{{self.joint}}})"
             numbers = f"{large} sin {self.c.notation.degrees(math.atan(mu))} deg"
         else:
             letters, numbers = f"mu_{{{self.joint}}} R_{{{self.joint}}}", f"{given(mu)} cdot {large}"
-        return Working(f"r_{{{self.joint}}} = {letters}", numbers, self._text("length", rub.strength))
+        return Working(f"r_{{{self.joint}}} = {letters}", numbers, self._text("length", contact.strength))
 
     def _sum(self, sign: str, kind: str, parts: list[tuple[str, str]], amounts: list[float]) -> Working:
         """Letters and numbers of products, all with the sign of the friction."""
@@ -107,56 +113,56 @@ class _Joint:
         """A product of a length and a force as a moment."""
         return self.c.shown.converted(numbers, "moment", "length", "force")
 
-    def _product(self, factor: str, factor_number: str, rub: Rub, n: int, of: int) -> tuple[str, str]:
+    def _product(self, factor: str, number: str, contact: ContactForce, n: int, of: int) -> tuple[str, str]:
         name = f"S_{{{self.joint}{f',{n + 1}' if of > 1 else ''}}}"
-        return f"{factor} {name}", f"{factor_number} cdot {self._number('force', rub.bearing)}"
+        return f"{factor} {name}", f"{number} cdot {self._number('force', contact.bearing)}"
 
     # laws
 
     def _revolute(self) -> list[Working]:
-        pins = [rub for rub in self.rubs if rub.kind == "pin"]
-        collars = [rub for rub in self.rubs if rub.kind == "collar"]
+        pins = self._of_kind("pin")
+        collars = self._of_kind("collar")
         out = (
             [self._radius(pins[0], self.described.friction.radius)] if pins else []
         )  # none of a collar alone
-        out += [self._bearing(rub, n, len(pins), "xy") for n, rub in enumerate(pins)]
+        out += [self._bearing(contact, n, len(pins), "xy") for n, contact in enumerate(pins)]
         parts = [
-            self._product(f"r_{{{self.joint}}}", self._number("length", rub.strength), rub, n, len(pins))
-            for n, rub in enumerate(pins)
+            self._product(f"r_{{{self.joint}}}", self._number("length", pin.strength), pin, n, len(pins))
+            for n, pin in enumerate(pins)
         ]
-        for rub in collars:
-            mu, arm = self._given(rub), self._number("length", self.described.friction.thrust_radius)
+        for contact in collars:
+            mu, arm = self._given(contact), self._number("length", self.described.friction.thrust_radius)
             size = f"|{along(self.sign, 'z' + chr(39))}|"
             letters = f"mu_{{{self.joint}}} R_{{t}} {size}"
-            parts.append((letters, f"{mu} cdot {arm} cdot {self._number('force', rub.bearing)}"))
+            parts.append((letters, f"{mu} cdot {arm} cdot {self._number('force', contact.bearing)}"))
         sign = along(self.couple_sign, "z'")
-        return [*out, self._sum(sign, "moment", parts, [rub.amount for rub in self.rubs])]
+        return [*out, self._sum(sign, "moment", parts, self._amounts())]
 
     def _prismatic(self) -> list[Working]:
-        of, mu = len(self.rubs), f"mu_{{{self.joint}}}"
-        out = [self._bearing(rub, n, of, "yz") for n, rub in enumerate(self.rubs)]
-        parts = [self._product(mu, self._given(rub), rub, n, of) for n, rub in enumerate(self.rubs)]
+        of, mu = len(self.contacts), f"mu_{{{self.joint}}}"
+        out = [self._bearing(contact, n, of, "yz") for n, contact in enumerate(self.contacts)]
+        parts = [self._product(mu, self._given(end), end, n, of) for n, end in enumerate(self.contacts)]
         return [
             *out,
-            self._sum(along(self.force_sign, "x'"), "force", parts, [rub.amount for rub in self.rubs]),
+            self._sum(along(self.force_sign, "x'"), "force", parts, self._amounts()),
         ]
 
     def _cylindrical(self) -> list[Working]:
-        guides = [rub for rub in self.rubs if rub.kind == "guide"]
-        pins = [rub for rub in self.rubs if rub.kind == "pin"]
-        of, rub, name = len(guides), guides[0], self.joint
-        out = [self._bearing(rub, n, of, "yz") for n, rub in enumerate(guides)]
-        parts = [("p_{x'}", rub.part), *([("p_{t}", pins[0].part)] if pins else [])]
+        guides = self._of_kind("guide")
+        pins = self._of_kind("pin")
+        of, contact, name = len(guides), guides[0], self.joint
+        out = [self._bearing(contact, n, of, "yz") for n, contact in enumerate(guides)]
+        parts = [("p_{x'}", contact.part), *([("p_{t}", pins[0].part)] if pins else [])]
         out.append(Working(", quad ".join(f"{sign} = {self._figure(part)}" for sign, part in parts)))
-        factor, figure = f"mu_{{{name}}}", self._given(rub)
+        factor, figure = f"mu_{{{name}}}", self._given(contact)
         if pins and circle_kind(self.c.r.mechanism, self.described) == "sin":
             below = f"(1 + ({figure} cdot {self._figure(abs(pins[0].part))})^{{2}})^{{1/2}}"
             letters = f"k_{{{name}}} = frac(mu_{{{name}}}; (1 + (mu_{{{name}}} p_{{t}})^{{2}})^{{1/2}})"
-            factor, figure = f"k_{{{name}}}", self._figure(rub.strength)
-            out.append(Working(letters, f"frac({self._given(rub)}; {below})", figure))
+            factor, figure = f"k_{{{name}}}", self._figure(contact.strength)
+            out.append(Working(letters, f"frac({self._given(contact)}; {below})", figure))
         out.append(
             self._share(
-                "force", f"{factor} |p_{{x'}}|", f"{figure} cdot {self._figure(abs(rub.part))}", guides
+                "force", f"{factor} |p_{{x'}}|", f"{figure} cdot {self._figure(abs(contact.part))}", guides
             )
         )
         if pins:
@@ -171,31 +177,33 @@ class _Joint:
             )
         return out
 
-    def _share(self, kind: str, factor: str, figure: str, rubs: list[Rub]) -> Working:
+    def _share(self, kind: str, factor: str, figure: str, contacts: list[ContactForce]) -> Working:
         """The part of the friction along x', or around it."""
-        parts = [self._product(factor, figure, rub, n, len(rubs)) for n, rub in enumerate(rubs)]
+        parts = [
+            self._product(factor, figure, contact, n, len(contacts)) for n, contact in enumerate(contacts)
+        ]
         sign = along(self.couple_sign if kind == "moment" else self.force_sign, "x'")
-        return self._sum(sign, kind, parts, [rub.amount for rub in rubs])
+        return self._sum(sign, kind, parts, [contact.amount for contact in contacts])
 
     def _figure(self, x: float) -> str:
         return self.c.shown.number("number", x)
 
-    def _given(self, rub: Rub) -> str:
-        return self.c.notation.given(rub.coefficient)
+    def _given(self, contact: ContactForce) -> str:
+        return self.c.notation.given(contact.coefficient)
 
     def _spherical(self) -> list[Working]:
-        rub = self.rubs[0]
+        contact = self.contacts[0]
         couple = self.c.r.friction_moment(self.joint)[self.c.k]
         least = PART * float(np.abs(couple).max())
         size = self._text("moment", float(np.linalg.norm(couple)))
         numbers = ", ".join(self.c.shown.number("moment", float(x), least) for x in couple)
         return [
-            self._radius(rub, self.described.friction.radius),
-            self._bearing(rub, 0, 1, "xyz"),
+            self._radius(contact, self.described.friction.radius),
+            self._bearing(contact, 0, 1, "xyz"),
             Working(
                 f"|{self.couple_sign}| = r_{{{self.joint}}} S_{{{self.joint}}}",
                 self._couple(
-                    f"{self._number('length', rub.strength)} cdot {self._number('force', rub.bearing)}"
+                    f"{self._number('length', contact.strength)} cdot {self._number('force', contact.bearing)}"
                 ),
                 size,
             ),
@@ -203,12 +211,12 @@ class _Joint:
         ]
 
     def _screw(self) -> list[Working]:
-        thread, pin = self.rubs
+        thread, pin = self.contacts
         f, joint = self.described.friction, self.joint
         climb = math.atan(abs(self.described.lead) / (2 * math.pi * f.radius))
         flank = f.thread_angle or 0.0
         axial = thread.bearing * math.cos(climb) * math.cos(flank)
-        rub = (thread.amount + pin.amount) / math.sin(climb)
+        friction = (thread.amount + pin.amount) / math.sin(climb)
         mu, degrees = self._given(thread), self.c.notation.degrees(climb)
         both = f"({self._number('force', thread.bearing)} + {self._number('force', pin.bearing)})"
         lead = self._number("length", abs(self.described.lead))
@@ -228,11 +236,11 @@ class _Joint:
             Working(
                 f"|{self.force_sign}| = mu_{{{joint}}} (S_{{{joint},t}} + S_{{{joint}}})",
                 f"{mu} cdot {both}",
-                self._text("force", abs(rub)),
+                self._text("force", abs(friction)),
             ),
         ]
         force, couple = (float(v @ self._axis()) for v in self._law())
-        size, minus = self._number("force", abs(rub)), "−" if force < 0 else ""
+        size, minus = self._number("force", abs(friction)), "−" if force < 0 else ""
         turned = "−" if couple < 0 else ""
         return [
             *out,

@@ -219,10 +219,10 @@ class _Sketch:
         """Normal force and friction as the sides of a triangle, the reaction as its third, pushing on the place."""
         side = -math.copysign(self.half, float(face.normal[self.k] @ self.n))
         head = self.at(self.mm(float(face.along[self.k])), side)
-        normal, rub = (sign * np.asarray(v[self.k]) / per_mm for v in (face.normal, face.friction))
+        normal, friction = (sign * np.asarray(v[self.k]) / per_mm for v in (face.normal, face.friction))
         corner = (head[0] - normal[0], head[1] - normal[1])
-        tail = (corner[0] - rub[0], corner[1] - rub[1])
-        size = [float(np.hypot(*v)) * per_mm for v in (normal, rub, normal + rub)]
+        tail = (corner[0] - friction[0], corner[1] - friction[1])
+        size = [float(np.hypot(*v)) * per_mm for v in (normal, friction, normal + friction)]
         kind, sign_of = f"force at {self.joint}", self.shown.reaction(self.joint, on)
         if face.part:
             self.canvas.add(Circle(head, 0.8, "mark"))

@@ -65,8 +65,8 @@ def mechanism_scene(
     canvas = Canvas()
     draw_traces(canvas, r, frame)
     draw_links(canvas, r, k, frame)
-    rubs = friction and r.friction is not None
-    if rubs:
+    with_friction = friction and r.friction is not None
+    if with_friction:
         draw_circles(canvas, r, k, frame, with_friction_circle(r, r.joints))
     canvas_names(canvas, r, k, frame, shown)
     kinds = ("load", "spring", "effort", "weight", "inertia", "damper") if forces else ("load", "effort")
@@ -74,10 +74,10 @@ def mechanism_scene(
     per_mm = draw_actions(canvas, r, some, k, frame, shown, 22.0)
     notes, scales = scale_notes(shown, frame, per_mm)
     heading = title if title is not None else r.mechanism.title or "Mechanism"
-    if rubs and with_friction_circle(r, r.joints):
+    if with_friction and with_friction_circle(r, r.joints):
         notes = [TAKEN if any(two_pins(r, n) for n in with_friction_circle(r, r.joints)) else OWN, *notes]
     scene = canvas.scene(place_title(r, k, heading, shown), notes=notes, scales=scales)
-    return with_details(scene, detail_scenes(r, k, frame, shown) if rubs and details else [])
+    return with_details(scene, detail_scenes(r, k, frame, shown) if with_friction and details else [])
 
 
 def is_drawn(r: Result, a: Action) -> bool:

@@ -28,7 +28,7 @@ SLID = 9.0
 """Length of the arrow that says which way a link slides, mm."""
 
 
-def rubs(r: Result, joint: str, link: str, k: int) -> tuple[Array, Array]:
+def friction_wrench(r: Result, joint: str, link: str, k: int) -> tuple[Array, Array]:
     """Friction's force and couple on a link at a position, ground axes."""
     return r.friction_force(joint, link)[k], r.friction_moment(joint, link)[k]
 
@@ -36,7 +36,7 @@ def rubs(r: Result, joint: str, link: str, k: int) -> tuple[Array, Array]:
 def draw_friction(arrows: Arrows, joint: str, link: str, k: int) -> None:
     """A joint's friction on a link: force and couple with their sizes, the circle of a journal, the way of a slide."""
     r, shown = arrows.r, arrows.shown
-    at, (force, couple) = arrows.s(joint_place(r, joint)[k]), rubs(r, joint, link, k)
+    at, (force, couple) = arrows.s(joint_place(r, joint)[k]), friction_wrench(r, joint, link, k)
     i, j = r.mechanism.joints[joint].links
     pair = shown.pair(i if link == j else j, link)
     parts = (("force", force, shown.notation.letter), ("moment", couple, "M"))

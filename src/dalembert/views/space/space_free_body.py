@@ -17,7 +17,7 @@ from dalembert.views.paper.lettering import text_width
 from dalembert.views.paper.scene import Item, Line, Point, Scene, Text
 from dalembert.views.plane.mechanism_view import ring, unit_size
 from dalembert.views.space.camera import Camera
-from dalembert.views.space.friction_arrows import draw_friction, friction_details, rubs
+from dalembert.views.space.friction_arrows import draw_friction, friction_details, friction_wrench
 from dalembert.views.space.link_solids import nodes
 from dalembert.views.space.space_arrows import Arrows
 from dalembert.views.space.space_mechanism import mark_center, rims
@@ -98,7 +98,7 @@ def reaction(r: Result, joint: str, link: str, k: int) -> Reaction:
 
 def _friction(r: Result, joint: str, link: str, k: int, axes: list[Array]) -> Reaction:
     """Friction's part of a reaction, in the joint's own axes."""
-    parts = [e @ v for e, v in zip(axes, rubs(r, joint, link, k), strict=True)]
+    parts = [e @ v for e, v in zip(axes, friction_wrench(r, joint, link, k), strict=True)]
     numbers = np.nan_to_num(np.concatenate(parts))
     least = 1e-12 * max(float(np.abs(numbers).max()), 1e-300)
     return Reaction(FRICTION, numbers, np.ones(6, bool), np.abs(numbers) > least)

@@ -84,16 +84,16 @@ def _one(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
         return
     if result.unknown_loads:
         yield _load_table(result, to)
-    rubbed = result.friction is not None and result.friction.known(0)
+    friction_known = result.friction is not None and result.friction.known(0)
     if status == "at_rest" and result.ends:
         yield from _ends(result, to, axes)
     elif result.joints and not without_reactions(result):
         for side, words in zip(result.sides, ("Just before:", "Just after:"), strict=False):
             yield from [words] if result.reverses[0] else []
             yield _reactions(side, to, axes)
-            if rubbed:
+            if friction_known:
                 yield friction_table(side, to)
-    if status != "at_rest" and rubbed:
+    if status != "at_rest" and friction_known:
         yield wrap(efficiency_note(result))
     if result.links:
         yield (_link_tables if in_plane(result) else space_link_tables)(result, to)

@@ -8,7 +8,7 @@ import numpy as np
 
 from dalembert.analysis.compile.contacts import coefficient
 from dalembert.analysis.friction.joint_friction import bears_on_faces, friction_circle_radius, guide_contact
-from dalembert.analysis.output.columns import Scale, rubbing_joints, unknown_kinds
+from dalembert.analysis.output.columns import Scale, friction_joints, unknown_kinds
 from dalembert.printing import number, tables, with_unit
 
 if TYPE_CHECKING:
@@ -95,7 +95,7 @@ def cycle_text(result: Result, to: Any) -> str:
     rows = [
         [joint, number(share * found.put_in * unit), f"{number(100 * share, 4)} %"]
         for joint, share in found.share.items()
-        if joint in rubbing_joints(result)
+        if joint in friction_joints(result)
     ]
     heads = ["friction over\nthe positions", f"work lost\n{to.text('moment')}", "of the work\nput in"]
     cycle = 0.0 if abs(found.cycle) < NOTHING else 100 * found.cycle
@@ -108,7 +108,7 @@ def friction_table(result: Result, to: Any) -> str:
     heads = ["friction", "on j", f"force\n{to.text('force')}", f"couple\n{to.text('moment')}"]
     heads += [f"power lost\n{to.text('power')}", "law"]
     rows = []
-    for joint in rubbing_joints(result):
+    for joint in friction_joints(result):
         part = result.mechanism.joints[joint]
         force = float(to("force", np.linalg.norm(result.friction_force(joint)[0])))
         turning = result.friction_moment(joint)[0]
