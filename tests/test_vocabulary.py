@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -63,6 +64,13 @@ def length(function: Function) -> int:
     first = function.body[0]
     lines = (function.end_lineno or 0) - function.lineno + 1
     return lines - ((first.end_lineno or 0) - first.lineno + 1 if ast.get_docstring(function) else 0)
+
+
+def test_nobody_asks_for_the_type_of_a_joint_or_load() -> None:
+    """Their classes say what they do, tables by type how they look."""
+    asked = re.compile(r"\.type (==|!=|in|not in) ")
+    found = [path.name for path in MODULES if asked.search(path.read_text(encoding="utf-8"))]
+    assert not found
 
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: path.relative_to(PACKAGE).as_posix())

@@ -8,16 +8,45 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.model.joints.joint_part import JointPart
+from dalembert.model.load_types import SpanLoad
 from dalembert.views.formats.glb import _material
 from dalembert.views.formats.themes import SOLIDS
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.scene import Arrow, Line
+from dalembert.views.plane.joint_drawings import DRAWINGS
 from dalembert.views.space.camera import CAMERAS
 from dalembert.views.space.solids import Ball
 from dalembert.views.space.space_view import triad
 from dalembert.views.symbols.pair_symbols import SYMBOLS, symbol
-from dalembert.views.symbols.plane_symbols import spring
+from dalembert.views.symbols.plane_symbols import SPANS, spring, strip_spring
 from dalembert.wrench import Force, System
+
+
+def test_every_joint_of_the_plane_and_every_load_between_points_has_a_symbol() -> None:
+    joints = {
+        part.model_fields["type"].default for part in JointPart.__subclasses__() if part is not da.SpaceJoint
+    }
+    assert set(DRAWINGS) == joints
+    assert set(SPANS) == {part.model_fields["type"].default for part in SpanLoad.__subclasses__()}
+
+
+@pytest.mark.parametrize(("a", "b"), [((3.0, 1.0), (23.0, 1.0)), ((5.0, -3.0), (2.0, 1.0))])
+def test_a_strip_spring_goes_from_its_bracket_to_the_other_end(
+    a: tuple[float, float], b: tuple[float, float]
+) -> None:
+    """The bracket holds the middle of the coil, whose strip is straight on the line of the ends behind it."""
+    bracket, strip = strip_spring(a, b)
+    assert isinstance(bracket, Line)
+    assert isinstance(strip, Line)
+    coil = min(1.8, 0.2 * math.dist(a, b))
+    assert (*bracket.points[0], *strip.points[-1]) == pytest.approx((*a, *b))
+    far = [math.dist(p, bracket.points[-1]) for p in strip.points[:-1]]
+    assert max(far) == pytest.approx(coil)
+    assert min(far) == pytest.approx(0.3 * coil)
+    e = np.subtract(b, a) / math.dist(a, b)
+    off = np.subtract(strip.points[-2], a)
+    assert off[0] * e[1] - off[1] * e[0] == pytest.approx(0.0, abs=1e-9)
 
 
 @pytest.mark.parametrize(("a", "b"), [((1.0, 2.0), (21.0, 2.0)), ((5.0, -3.0), (2.0, 1.0))])

@@ -106,10 +106,11 @@ def contacts(
     found: list[tuple[int, Any, Contact]] = []
     read: list[Array] = []
     for k, joint in enumerate(m.joints.values()):
-        if joint.type not in kinds or not (has_friction(m, joint) or joint.TOOTHED):
+        touching, rough = kinds.get(joint.type), has_friction(m, joint)
+        if touching is None or not (rough or joint.TOOTHED):
             continue
         place = places(joint, int(np.flatnonzero(constraints.joint == k)[0]))
-        for contact in kinds[joint.type](joint, at[k], has_friction(m, joint) and circle(m, joint) == "sin"):
+        for contact in touching(joint, at[k], rough and circle(m, joint) == "sin"):
             kind, given = contact.row
             rows.add(kind, k, ends[k], **given)
             found.append((k, joint, contact))
