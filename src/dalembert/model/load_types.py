@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, ValidationInfo, model_validator
 
@@ -156,6 +156,26 @@ class LoadPart(Part):
 class Directed(LoadPart):
     """A load along a direction, or a vector, which needs none."""
 
+    if TYPE_CHECKING:
+        value: Varying | tuple[Varying, ...] | Literal["unknown"]
+
+    @property
+    def unknown(self) -> bool:
+        """Whether it is asked for."""
+        return isinstance(self.value, str)
+
+    @property
+    def components(self) -> tuple[Varying, ...] | None:
+        """Its components in `axes`, if it is given as a vector."""
+        return self.value if isinstance(self.value, tuple) else None
+
+    @property
+    def varying(self) -> tuple[Varying, ...]:
+        """Its values that may change."""
+        if isinstance(self.value, str):
+            return ()
+        return self.value if isinstance(self.value, tuple) else (self.value,)
+
     def replaced_by(self, name: str, value: object) -> tuple[str, ...]:
         """A vector later takes the place of a single value and its direction."""
         vector = isinstance(value, (list, tuple)) or (isinstance(value, str) and "@" in value)
@@ -215,23 +235,6 @@ class ForceLoad(Directed):
             )
         return self
 
-    @property
-    def unknown(self) -> bool:
-        """Whether its size along `direction` is asked for."""
-        return isinstance(self.value, str)
-
-    @property
-    def components(self) -> tuple[Varying, ...] | None:
-        """Its components in `axes`, if it is given as a vector."""
-        return self.value if isinstance(self.value, tuple) else None
-
-    @property
-    def varying(self) -> tuple[Varying, ...]:
-        """Its values that may change."""
-        if isinstance(self.value, str):
-            return ()
-        return self.value if isinstance(self.value, tuple) else (self.value,)
-
     def force(self, drives: Mapping[str, Any], functions: Mapping[str, Any] | None = None) -> tuple[Any, ...]:
         """The components (fx, fy) in `axes`, N, at the drives' positions; of an unknown force, per unit of it."""
         if isinstance(self.value, tuple):
@@ -267,29 +270,12 @@ class Couple(Directed):
         return self
 
     @property
-    def unknown(self) -> bool:
-        """Whether it is asked for."""
-        return isinstance(self.value, str)
-
-    @property
     def axis(self) -> Vector:
         """Unit vector of a single value in space; 1 in the plane."""
         if self.direction is None:
             return (1.0,)
         length = sum(x * x for x in self.direction) ** 0.5
         return tuple(x / length for x in self.direction)
-
-    @property
-    def components(self) -> tuple[Varying, ...] | None:
-        """Its components in `axes`, if it is given as a vector."""
-        return self.value if isinstance(self.value, tuple) else None
-
-    @property
-    def varying(self) -> tuple[Varying, ...]:
-        """Its values that may change."""
-        if isinstance(self.value, str):
-            return ()
-        return self.value if isinstance(self.value, tuple) else (self.value,)
 
     def moment(self, drives: Mapping[str, Any], functions: Mapping[str, Any] | None = None) -> Any:
         """The moment, N m, at the drives' positions; of an unknown couple, per unit of it."""
