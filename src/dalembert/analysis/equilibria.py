@@ -12,7 +12,7 @@ import numpy as np
 
 from dalembert.analysis.one_pass import at_schedule, slice_forcing
 from dalembert.analysis.result.result import Result
-from dalembert.arrays import Array, Ints
+from dalembert.arrays import Array, Ints, Tree
 from dalembert.model import Mechanism, Schedule
 
 SCAN = 720
@@ -101,7 +101,7 @@ def select_positions(result: Result, where: Ints) -> Result:
     )
     forcing, known = slice_forcing(c, where)
     counts = tuple(replace(n, margin=n.margin[where]) for n in c.counts)
-    arrays: dict[str, Any] = {
+    arrays: Tree = {
         name: value[where]
         for name, value in vars(result).items()
         if isinstance(value, np.ndarray) and value.ndim > 0
@@ -182,7 +182,7 @@ def _none(scan: _Scan, q: Array, g: Array) -> Result:
     nearest = int(np.nanargmin(np.abs(g))) if np.isfinite(g).any() else 0
     found = scan.at(q[[nearest]])
     arrays = {n: v for n, v in vars(found).items() if isinstance(v, np.ndarray) and v.dtype.kind == "f"}
-    blank: dict[str, Any] = {n: np.full_like(v, np.nan) for n, v in arrays.items()}
+    blank: Tree = {n: np.full_like(v, np.nan) for n, v in arrays.items()}
     position = np.full_like(found.schedule.position, np.nan)
     compiled = replace(found.compiled, schedule=replace(found.schedule, position=position))
     low, high = (float(np.nanmin(g)), float(np.nanmax(g))) if np.isfinite(g).any() else (np.nan, np.nan)

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
+from dalembert.model.joints.plane_joints import Gear, Pin, Slider, Slot, Weld
+from dalembert.model.quantities.values import Vector
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
@@ -22,7 +25,7 @@ Freed = Literal["cylindrical", "spherical"]
 
 def lifted(
     m: Mechanism,
-    offsets: Mapping[str, Any] | None = None,
+    offsets: Mapping[str, object] | None = None,
     become: Mapping[str, Freed] | None = None,
 ) -> Mechanism:
     """The plane mechanism in space, its plane as x and y.
@@ -51,7 +54,7 @@ def lifted(
 class _Lift:
     """One mechanism being lifted."""
 
-    def __init__(self, m: Mechanism, offsets: dict[str, Any], become: dict[str, Freed]) -> None:
+    def __init__(self, m: Mechanism, offsets: Tree, become: dict[str, Freed]) -> None:
         from dalembert.units import quantity
 
         self.m, self.become = m, become
@@ -96,10 +99,10 @@ class _Lift:
         }
         return mechanism(tree).model_copy(update={"units": m.units})
 
-    def _at(self, vector: Any, height: float) -> list[float]:
+    def _at(self, vector: Vector, height: float) -> list[float]:
         return [float(vector[0]), float(vector[1]), height]
 
-    def _link(self, name: str) -> dict[str, Any]:
+    def _link(self, name: str) -> Tree:
         m, z = self.m, self.link[name]
         points = {point: self._at(at, z) for point, at in m.points(name).items()} | self.extra[name]
         if name == "ground":
@@ -113,9 +116,9 @@ class _Lift:
             "inertia": inertia,
         }
 
-    def _joint(self, name: str) -> dict[str, Any]:
+    def _joint(self, name: str) -> Tree:
         joint = self.m.joints[name]
-        kinds: dict[str, Any] = {
+        kinds: dict[str, Callable[..., Tree]] = {
             "pin": self._pin,
             "slider": self._slider,
             "slot": self._slot,
@@ -147,7 +150,7 @@ class _Lift:
         self.extra[link][name] = self._at(place, height)
         return name
 
-    def _pin(self, name: str, joint: Any) -> dict[str, Any]:
+    def _pin(self, name: str, joint: Pin) -> Tree:
         kind = self.become.get(name, "revolute")
         driven = any(self.m.drive_joint(d) == name for d in self.m.drives)
         if kind == "spherical" and (driven or joint.damping):
@@ -158,29 +161,29 @@ class _Lift:
         axis = {} if kind == "spherical" else {"axis": UP}
         return {"type": kind, **axis, **damping, **self._friction(name, joint)}
 
-    def _slider(self, name: str, joint: Any) -> dict[str, Any]:
+    def _slider(self, name: str, joint: Slider) -> Tree:
         damping = {"damping": {"slide": joint.damping}} if joint.damping else {}
         axes = {"i": _axes(joint.direction), "j": _axes(-joint.angle)}
         return {"type": "prismatic", "axes": axes, **damping, **self._friction(name, joint)}
 
-    def _slot(self, name: str, joint: Any) -> dict[str, Any]:
+    def _slot(self, name: str, joint: Slot) -> Tree:
         damping = {k: v for k, v in zip(("slide", "turn"), joint.damping, strict=True) if v}
         # j's x too, so that the turn is 0 where the links' own axes agree, as in the plane
         axes = {"i": _axes(joint.direction), "j": _axes(joint.direction)}
         self._refuse_friction(name, joint)
         return {"type": "slotted_cylinder", "axes": axes, **({"damping": damping} if damping else {})}
 
-    def _weld(self, name: str, joint: Any) -> dict[str, Any]:
+    def _weld(self, name: str, joint: Weld) -> Tree:
         return {"type": "weld", "axes": {"i": _axes(joint.angle), "j": _axes(0.0)}}
 
-    def _refuse_friction(self, name: str, joint: Any) -> None:
+    def _refuse_friction(self, name: str, joint: Slot | Gear) -> None:
         if joint.friction is not None and self.m.friction.enabled:
             what = f"friction of joint {name!r}, a {joint.type}, is not lifted"
             raise ModelError(
                 what, "leave it out, or switch it off with friction: {enabled: false}", ("joints", name)
             )
 
-    def _friction(self, name: str, joint: Any) -> dict[str, Any]:
+    def _friction(self, name: str, joint: Pin | Slider) -> Tree:
         """Friction of a pin or of a guide without faces at a height, which have the same meaning in space."""
         if joint.friction is None or getattr(joint.friction, "radius", None) == 0:
             return {}
@@ -191,7 +194,7 @@ class _Lift:
             "friction": joint.friction.model_dump(mode="json", exclude={"half_height"}, exclude_none=True)
         }
 
-    def _gear(self, name: str, joint: Any) -> dict[str, Any]:
+    def _gear(self, name: str, joint: Gear) -> Tree:
         self._refuse_friction(name, joint)
         sizes = joint.model_dump(
             mode="json", include={"radii", "teeth", "module", "pressure_angle", "internal"}
@@ -202,12 +205,12 @@ class _Lift:
             **{key: value for key, value in sizes.items() if value is not None},
         }
 
-    def _drive(self, name: str) -> dict[str, Any]:
+    def _drive(self, name: str) -> Tree:
         tree = self.m.drives[name].model_dump(mode="json", by_alias=True)
         joint = self.m.joints[self.m.drive_joint(name)]
         return {**tree, "freedom": self.m.drives[name].freedom or joint.freedoms[0]}
 
-    def _load(self, name: str) -> dict[str, Any]:
+    def _load(self, name: str) -> Tree:
         load: Any = self.m.loads[name]
         tree = dict(load.model_dump(mode="json", by_alias=True))
         if load.ON == "point":
@@ -227,7 +230,7 @@ class _Lift:
             tree["free_angle"] = load.free_angle - self._turn_offset(name)
         return tree
 
-    def _assembly(self) -> dict[str, Any]:
+    def _assembly(self) -> Tree:
         """Poses of the links where the plane mechanism first closes."""
         result, k = self._closing
         return {

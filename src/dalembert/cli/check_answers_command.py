@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.printing import table
 
@@ -32,7 +33,7 @@ def grade_answers(
     return 0 if all(v.right for v in found) else 1
 
 
-def _ask_figures(m: Any, static: bool) -> dict[str, dict[str, Any]]:
+def _ask_figures(m: Any, static: bool) -> dict[str, Tree]:
     """Ask for every effort and joint force; an empty line skips one, the end of the input all that follow."""
     from dalembert.analysis import solve
 
@@ -43,7 +44,7 @@ def _ask_figures(m: Any, static: bool) -> dict[str, dict[str, Any]]:
     for joint in r.joints:
         i, j = m.joints[joint].links
         asked.append(("reaction", joint, f"Joint {joint}, force of {i} on {j} ({form}): "))
-    out: dict[str, dict[str, Any]] = {"effort": {}, "unknown_load": {}, "reaction": {}}
+    out: dict[str, Tree] = {"effort": {}, "unknown_load": {}, "reaction": {}}
     for quantity, name, question in asked:
         try:
             said = input(question).strip()

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.saving import check_new
 
@@ -124,7 +125,7 @@ def _at_last_position(m: Mechanism, values: list[float]) -> Mechanism:
 
     path = f"drives.{next(iter(m.drives))}.position"
     r = kinematics(m.with_values({path: values}))
-    there: dict[str, Any] = {path: values[-1]}
+    there: Tree = {path: values[-1]}
     if all(map(math.isfinite, r.point_array[-1].ravel())):
         there["assembly"] = {link: _pose(r, link) for link in r.links}
     return m.with_values(there)

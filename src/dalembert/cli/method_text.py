@@ -9,6 +9,7 @@ import numpy as np
 from dalembert.analysis.friction.joint_friction import unknown_names
 from dalembert.analysis.output.columns import UnitChoice, drive_kinds, load_kind, unknown_kinds
 from dalembert.analysis.output.summary.printed_units import Printed, print_scale, significant
+from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.printing import number, remainder, round_components, table, tables, with_unit, wrap
 from dalembert.units import KINDS
@@ -80,7 +81,7 @@ def _quantities(parts: Any, to: Printed) -> list[tuple[str, Any, str]]:
     return out
 
 
-def zip_axes(vectors: Any) -> list[tuple[int, str]]:
+def zip_axes(vectors: Array) -> list[tuple[int, str]]:
     """Number and name of each component of vectors (..., d)."""
     return list(enumerate("xyz"[: vectors.shape[-1]]))
 
@@ -184,11 +185,11 @@ def _powers(found: Any, drive: int, k: int, to: Printed) -> str:
     )
 
 
-def _largest(values: Any) -> float:
+def _largest(values: Array) -> float:
     return float(np.nan_to_num(np.abs(values)).max(initial=0.0))
 
 
-def _cells(values: Any, count: int, beside: float) -> list[list[str]]:
+def _cells(values: Array, count: int, beside: float) -> list[list[str]]:
     """Numbers of some actions, those that are nothing but rounding beside the largest, or beside a size, as 0."""
     rows = np.reshape(values, (count, -1)).tolist()
     largest = max(_largest(values), beside)

@@ -129,7 +129,7 @@ def describe_answer(answer: Answer) -> str:
     return ", ".join(part for part in (text, answer.component, axes, where, answer.extreme) if part)
 
 
-def _at_text(at: Any) -> str:
+def _at_text(at: object) -> str:
     return f"at no. {at}" if isinstance(at, int) else f"at {at}"
 
 
@@ -153,7 +153,7 @@ def _word(answer: Answer, case: str, found: str | int | None, problem: str) -> R
     )
 
 
-def _plain(value: Any) -> str:
+def _plain(value: object) -> str:
     return str(int(value)) if isinstance(value, float) and value.is_integer() else str(value)
 
 
@@ -192,7 +192,7 @@ def _extreme(which: str, values: Array) -> int:
     return 0 if np.isnan(values).all() else int(np.nanargmax(BY[which](values)))
 
 
-def _position_name(result: Result, at: Any) -> int:
+def _position_name(result: Result, at: object) -> int:
     """The position where the first drive has a value: `60 deg`."""
     if not result.drives:
         raise ModelError(
@@ -212,7 +212,7 @@ def _position_name(result: Result, at: Any) -> int:
     return int(away.argmin())
 
 
-def _apart(found: Array, wanted: Any, kind: str) -> Array:
+def _apart(found: Array, wanted: object, kind: str) -> Array:
     """Difference of two values; angles a whole turn apart are the same."""
     difference = found - wanted
     return np.asarray(np.angle(np.exp(1j * difference)) if kind == "angle" else difference)
@@ -221,7 +221,7 @@ def _apart(found: Array, wanted: Any, kind: str) -> Array:
 # numbers and vectors
 
 
-def target(value: Any, series: Series, units: Units, key: str) -> Target:
+def target(value: object, series: Series, units: Units, key: str) -> Target:
     """A value as it stands in the file, read as the kind of the series."""
     from dalembert.model.part import Reading
     from dalembert.model.quantities.values import at_item, check_vector, vector
@@ -240,7 +240,7 @@ def target(value: Any, series: Series, units: Units, key: str) -> Target:
     return Target(np.array(read, dtype=float), _unit_of(value, series.kind, units), polar)
 
 
-def _unit_of(value: Any, kind: str, units: Units) -> str:
+def _unit_of(value: object, kind: str, units: Units) -> str:
     """The unit a published value is written in: its own, or the file's."""
     for item in value if isinstance(value, (list, tuple)) else [value]:
         for text in re.findall(rf"(?>{NUMBER})\s*([^\W\d][^@]*)", str(item)):
@@ -302,7 +302,7 @@ def _scale(wanted: Array, series: Series) -> float:
 
 
 def _tolerance(
-    given: Any, scale: float, kind: str, units: Units, default: float, key: str
+    given: object, scale: float, kind: str, units: Units, default: float, key: str
 ) -> tuple[float, str]:
     """Allowed distance in SI, and as text: relative (`0.3 %`) or a quantity of the same kind."""
     if given is None:
@@ -327,7 +327,7 @@ def _percent(text: str, key: str) -> float:
 # as text
 
 
-def value_text(value: Any) -> str:
+def value_text(value: object) -> str:
     """A value as it stands in the file."""
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(value_text(item) for item in value) + "]"
@@ -339,7 +339,7 @@ def _shorten(text: str) -> str:
     return re.sub(rf"(?<![\w.]){NUMBER}", lambda found: f"{float(found[0]):.{DIGITS}g}", text)
 
 
-def computed_text(found: Array, published: Target, kind: str, units: Units, form: Any = "") -> str:
+def computed_text(found: Array, published: Target, kind: str, units: Units, form: object = "") -> str:
     """A computed value in the unit and the form of the published one, its direction in the turn of that."""
     if not np.isfinite(found).all():
         return "-"
@@ -355,7 +355,7 @@ def computed_text(found: Array, published: Target, kind: str, units: Units, form
     return _bracket(clean, own) + behind
 
 
-def _direction(form: Any, units: Units, vector: Array) -> float:
+def _direction(form: object, units: Units, vector: Array) -> float:
     """The angle of a polar value in radians as it was written, 220 deg and not -140."""
     number = re.search(NUMBER, str(form).partition("@")[2])
     angle = math.atan2(vector[1], vector[0])
@@ -365,7 +365,7 @@ def _direction(form: Any, units: Units, vector: Array) -> float:
     return angle + 2 * math.pi * round((written - angle) / (2 * math.pi))
 
 
-def _bracket(values: Array, own: Any) -> str:
+def _bracket(values: Array, own: Callable[[float], float]) -> str:
     """Numbers in brackets; of a rotation a row each in brackets of its own."""
     inner = [f"{own(float(v)):.{DIGITS}g}" if v.ndim == 0 else _bracket(v, own) for v in values]
     return "[" + ", ".join(inner) + "]"

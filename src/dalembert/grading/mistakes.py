@@ -7,11 +7,11 @@ parts of the superposition left out or scaled (inertia, weights, loads), or the 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Tree
 from dalembert.errors import DalembertError, ModelError
 from dalembert.grading.file_answers import (
     computed_text,
@@ -60,7 +60,7 @@ def check_answers(mechanism: Mechanism, answers: Sequence[Answer], static: bool 
     return [_verdict(result, answer, variants) for answer in answers]
 
 
-def figures(tree: Any) -> list[Answer]:
+def figures(tree: object) -> list[Answer]:
     """Answers of a file: a list as in a model file's `answers`, or {efforts: {O2: 27.5}, reactions: {A: 155 @ 40}}.
 
     In the short form a single number for a vector is its magnitude.
@@ -91,7 +91,7 @@ VECTORS = ("reaction", "center", "velocity", "position", "point")
 """Quantities of which a single number can only be the magnitude (in space more of them are vectors)."""
 
 
-def _short(tree: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+def _short(tree: Mapping[str, object]) -> Iterator[Tree]:
     """The items of {efforts: {O2: 27.5}, reactions: {A: 155 @ 40}}."""
     for name, values in tree.items():
         quantity = str(name).removesuffix("s") if name != "status" else name
@@ -214,5 +214,5 @@ def _others(result: Result, answer: Answer, k: int) -> Iterator[Hypothesis]:
                 yield _rename(result, answer, k, {"of": link}, f"this is link {link}")
 
 
-def _rename(result: Result, answer: Answer, k: int, change: dict[str, Any], sentence: str) -> Hypothesis:
+def _rename(result: Result, answer: Answer, k: int, change: Tree, sentence: str) -> Hypothesis:
     return Hypothesis(sentence, _read(result, answer.model_copy(update=change), k))

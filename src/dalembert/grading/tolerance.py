@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -98,7 +98,7 @@ def closeness(answer: Answer, given: Target, kind: str, units: Units) -> Closene
     return Closeness(given.value, kind, NEAR, _halves(answer.value, given, kind, units), given.polar)
 
 
-def _halves(value: Any, given: Target, kind: str, units: Units) -> tuple[float, ...]:
+def _halves(value: object, given: Target, kind: str, units: Units) -> tuple[float, ...]:
     """Half units of the last digits in SI: of each component, or of a size and a direction."""
     if given.value.ndim > 1:
         return ()

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import actions, magnitude
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Tree
 from dalembert.errors import DalembertError, ModelError
 from dalembert.units import file_units
 
@@ -41,7 +41,7 @@ class Variants:
         for n, (sentence, change) in enumerate(_changes(self.result)):
             yield sentence, partial(self._solution, n, change)
 
-    def _solution(self, n: int, change: dict[str, Any]) -> Result | None:
+    def _solution(self, n: int, change: Tree) -> Result | None:
         if n not in self._solved:
             self._solved[n] = _again(self.result, change)
         return self._solved[n]
@@ -109,7 +109,7 @@ def _gravities(r: Result) -> list[tuple[float, str]]:
     return out if abs(own - 9.80665) < 0.1 else [*out, (9.80665, "m/s2")]
 
 
-def _changes(r: Result) -> Iterator[tuple[str, dict[str, Any]]]:
+def _changes(r: Result) -> Iterator[tuple[str, Tree]]:
     """Data changed one at a time: a sentence and what to put in their place."""
     m = r.mechanism
     for mode in _other_modes(r) if m.dimension == 2 else ():
@@ -139,7 +139,7 @@ def _changes(r: Result) -> Iterator[tuple[str, dict[str, Any]]]:
         yield from _link_changes(r, link)
 
 
-def _force_changes(r: Result, name: str) -> Iterator[tuple[str, dict[str, Any]]]:
+def _force_changes(r: Result, name: str) -> Iterator[tuple[str, Tree]]:
     """A force at another point of its link, or in another direction."""
     m, load = r.mechanism, r.mechanism.loads[name]
     on = load.on  # type: ignore[union-attr]
@@ -152,7 +152,7 @@ def _force_changes(r: Result, name: str) -> Iterator[tuple[str, dict[str, Any]]]
         yield from _other_angle(r, name)
 
 
-def _other_angle(r: Result, name: str) -> Iterator[tuple[str, dict[str, Any]]]:
+def _other_angle(r: Result, name: str) -> Iterator[tuple[str, Tree]]:
     """A force whose angle is counted from another axis or clockwise."""
     load: Any = r.mechanism.loads[name]
     a = next(a for a in actions(r) if a.of == name)
@@ -167,7 +167,7 @@ def _other_angle(r: Result, name: str) -> Iterator[tuple[str, dict[str, Any]]]:
             yield f"the angle of {name} is counted {slip}", {f"loads.{name}.value": value}
 
 
-def _link_changes(r: Result, link: str) -> Iterator[tuple[str, dict[str, Any]]]:
+def _link_changes(r: Result, link: str) -> Iterator[tuple[str, Tree]]:
     """The mass centre or the moment of inertia of a link at the wrong point."""
     m = r.mechanism
     if not m.mass(link):
@@ -203,7 +203,7 @@ def _other_modes(r: Result) -> Iterator[dict[str, float]]:
             yield dict(zip(r.links, map(float, turn), strict=True))
 
 
-def _again(r: Result, change: dict[str, Any]) -> Result | None:
+def _again(r: Result, change: Tree) -> Result | None:
     from dalembert.analysis.solution import dynamics, statics
 
     try:

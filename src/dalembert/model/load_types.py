@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Field, ValidationInfo, model_validator
 
+from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
 from dalembert.model.part import Part, Reading, reading
+from dalembert.model.quantities.expressions import Functions
 from dalembert.model.quantities.figures import unit_vector
 from dalembert.model.quantities.values import (
     Components,
@@ -36,7 +38,7 @@ UNKNOWN: Literal["unknown"] = "unknown"
 class ForceValue(Value):
     """A vector whose components may change, a scalar along `direction`, or unknown."""
 
-    def read(self, value: Any, info: ValidationInfo) -> Varying | tuple[Varying, ...] | Literal["unknown"]:
+    def read(self, value: object, info: ValidationInfo) -> Varying | tuple[Varying, ...] | Literal["unknown"]:
         rules = reading(info)
         if value == UNKNOWN:
             return UNKNOWN
@@ -45,7 +47,7 @@ class ForceValue(Value):
             return tuple(at_item(i, varying, item, "force", rules) for i, item in enumerate(items))
         return varying(value, "force", rules)
 
-    def write(self, value: Any) -> Any:
+    def write(self, value: Any) -> object:
         if value == UNKNOWN:
             return value
         if isinstance(value, tuple):
@@ -60,7 +62,7 @@ class ForceValue(Value):
 class CoupleValue(Value):
     """A couple that may change, or unknown; in space a vector."""
 
-    def read(self, value: Any, info: ValidationInfo) -> Any:
+    def read(self, value: object, info: ValidationInfo) -> Any:
         rules = reading(info)
         if value == UNKNOWN:
             return UNKNOWN
@@ -69,7 +71,7 @@ class CoupleValue(Value):
             return tuple(at_item(i, varying, item, "moment", rules) for i, item in enumerate(items))
         return varying(value, "moment", rules)
 
-    def write(self, value: Any) -> Any:
+    def write(self, value: Any) -> object:
         if isinstance(value, tuple):
             return [varying_tree(item, "moment") for item in value]
         return value if value == UNKNOWN else varying_tree(value, "moment")
@@ -82,12 +84,12 @@ class CoupleValue(Value):
 class Direction(Value):
     """An angle; in space a vector."""
 
-    def read(self, value: Any, info: ValidationInfo) -> float | Vector:
+    def read(self, value: object, info: ValidationInfo) -> float | Vector:
         if isinstance(value, (list, tuple)):
             return direction_vector(vector(value, "number", Reading(dimension=3)))
         return Scalar("angle").read(value, info)
 
-    def write(self, value: float | Vector) -> Any:
+    def write(self, value: float | Vector) -> object:
         return list(value) if isinstance(value, tuple) else value_text(value, "angle")
 
     def json_schema(self) -> JsonSchema:
@@ -98,12 +100,12 @@ class Direction(Value):
 class Spot(Value):
     """A point of the link by name, or a vector in link axes."""
 
-    def read(self, value: Any, info: ValidationInfo) -> str | Vector:
+    def read(self, value: object, info: ValidationInfo) -> str | Vector:
         if isinstance(value, (list, tuple)) or (isinstance(value, str) and "@" in value):
             return vector(value, "length", reading(info))
         return name(value)
 
-    def write(self, value: str | Vector) -> Any:
+    def write(self, value: str | Vector) -> object:
         return value if isinstance(value, str) else vector_text(value, "length")
 
     def json_schema(self) -> JsonSchema:
@@ -113,7 +115,7 @@ class Spot(Value):
 class Ends(Value):
     """`[link.point, link.point]`."""
 
-    def read(self, value: Any, info: ValidationInfo) -> tuple[tuple[str, str], tuple[str, str]]:
+    def read(self, value: object, info: ValidationInfo) -> tuple[tuple[str, str], tuple[str, str]]:
         if isinstance(value, str) or not isinstance(value, (list, tuple)) or len(value) != 2:
             raise ModelError(
                 f"{quote_value(value)} stands where two ends are needed", "write [ground.A, rod.B]"
@@ -121,7 +123,7 @@ class Ends(Value):
         first, second = (at_item(i, _end, item) for i, item in enumerate(value))
         return first, second
 
-    def write(self, value: Any) -> Any:
+    def write(self, value: Any) -> object:
         return [".".join(end) for end in value]
 
     def json_schema(self) -> JsonSchema:
@@ -235,7 +237,7 @@ class ForceLoad(Directed):
             )
         return self
 
-    def force(self, drives: Mapping[str, Any], functions: Mapping[str, Any] | None = None) -> tuple[Any, ...]:
+    def force(self, drives: Mapping[str, Numeric], functions: Functions | None = None) -> tuple[Numeric, ...]:
         """The components (fx, fy) in `axes`, N, at the drives' positions; of an unknown force, per unit of it."""
         if isinstance(self.value, tuple):
             return tuple(value_at(value, drives, functions) for value in self.value)
@@ -277,7 +279,7 @@ class Couple(Directed):
         length = sum(x * x for x in self.direction) ** 0.5
         return tuple(x / length for x in self.direction)
 
-    def moment(self, drives: Mapping[str, Any], functions: Mapping[str, Any] | None = None) -> Any:
+    def moment(self, drives: Mapping[str, Numeric], functions: Functions | None = None) -> Numeric:
         """The moment, N m, at the drives' positions; of an unknown couple, per unit of it."""
         if isinstance(self.value, tuple):
             return tuple(value_at(value, drives, functions) for value in self.value)

@@ -11,7 +11,7 @@ import numpy as np
 from dalembert.analysis.methods.applied_forces import actions
 from dalembert.analysis.methods.members import components_along
 from dalembert.analysis.output.columns import drive_kinds, load_kind
-from dalembert.analysis.result.position_lookup import position_at
+from dalembert.analysis.result.position_lookup import PositionChoice, position_at
 from dalembert.errors import NUMBERED, ModelError
 from dalembert.reports.report_context import METHODS, Method, ReportContext, as_formula, in_ground
 from dalembert.reports.sections import equilibrium_equations, friction, matrix
@@ -37,7 +37,7 @@ ANSWERED = (*NUMBERED, "redundant")
 
 def working(
     r: Result,
-    at: Any = None,
+    at: PositionChoice = None,
     methods: tuple[Method, ...] = METHODS,
     notation: Notation | None = None,
     about: str = "",

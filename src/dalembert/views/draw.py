@@ -14,10 +14,10 @@ first drive; the first solved position by default.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from dalembert.analysis.plane_only import refuse_space
-from dalembert.analysis.result.position_lookup import position_at
+from dalembert.analysis.result.position_lookup import PositionChoice, position_at
 from dalembert.views import charts as _charts
 from dalembert.views.both_ends import at_both_ends
 from dalembert.views.formats import glb
@@ -41,6 +41,7 @@ from dalembert.views.symbols.pair_pictures import pair_scene, pairs_scene
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
     from dalembert.wrench import System
+    from dalembert.wrench.reading import Vector
 
 FREE_BODIES = "draw its free bodies"
 """What there is in space in place of drawings of the plane."""
@@ -50,7 +51,7 @@ View = Literal["mechanism", "free-bodies", "force-polygons", "charts", "motion",
 
 def mechanism(
     r: Result,
-    at: Any = None,
+    at: PositionChoice = None,
     notation: Notation | None = None,
     forces: bool = False,
     camera: Sighted = None,
@@ -70,7 +71,7 @@ def mechanism(
 
 
 def free_body(
-    r: Result, link: str, at: Any = None, notation: Notation | None = None, camera: Sighted = None
+    r: Result, link: str, at: PositionChoice = None, notation: Notation | None = None, camera: Sighted = None
 ) -> Scene:
     """One link with everything that acts on it, to scale; in space reactions are in their joints' own axes."""
     k, seen = position_at(r, at), _camera(r, camera)
@@ -83,7 +84,7 @@ def free_body(
     return _whole(r, k, notation, render)
 
 
-def components(r: Result, link: str, at: Any = None, notation: Notation | None = None) -> Scene:
+def components(r: Result, link: str, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
     """Joint forces of a link along and across it."""
     refuse_space(r.mechanism, "a drawing along and across a link", FREE_BODIES)
     k = position_at(r, at)
@@ -91,7 +92,7 @@ def components(r: Result, link: str, at: Any = None, notation: Notation | None =
 
 
 def force_polygon(
-    r: Result, link: str, at: Any = None, notation: Notation | None = None, case: str | None = None
+    r: Result, link: str, at: PositionChoice = None, notation: Notation | None = None, case: str | None = None
 ) -> Scene:
     """The forces on a link head to tail; ``case`` names one source of the superposition to draw alone."""
     refuse_space(r.mechanism, "a force polygon", FREE_BODIES)
@@ -100,7 +101,7 @@ def force_polygon(
 
 
 def force_chain(
-    r: Result, at: Any = None, notation: Notation | None = None, case: str | None = None
+    r: Result, at: PositionChoice = None, notation: Notation | None = None, case: str | None = None
 ) -> Scene:
     """The polygons of all links on the sides they share, in the order of solution."""
     refuse_space(r.mechanism, "a force polygon", FREE_BODIES)
@@ -109,7 +110,7 @@ def force_chain(
 
 
 def lines_of_action(
-    r: Result, link: str, at: Any = None, notation: Notation | None = None, case: str | None = None
+    r: Result, link: str, at: PositionChoice = None, notation: Notation | None = None, case: str | None = None
 ) -> Scene:
     """Where the lines of a link's forces meet."""
     refuse_space(r.mechanism, "a drawing of lines of action", FREE_BODIES)
@@ -117,19 +118,19 @@ def lines_of_action(
     return _whole(r, k, notation, lambda end: lines_of_action_scene(end, _link(r, link), k, notation, case))
 
 
-def velocity_polygon(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
+def velocity_polygon(r: Result, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
     """Velocities from one pole, with the links' images."""
     refuse_space(r.mechanism, "a velocity polygon", FREE_BODIES)
     return motion_polygon_scene(r, position_at(r, at), "velocity", notation)
 
 
-def acceleration_polygon(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
+def acceleration_polygon(r: Result, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
     """Accelerations from one pole, with the links' images."""
     refuse_space(r.mechanism, "an acceleration polygon", FREE_BODIES)
     return motion_polygon_scene(r, position_at(r, at), "acceleration", notation)
 
 
-def instant_centers(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
+def instant_centers(r: Result, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
     """The instant centres of every two links."""
     refuse_space(r.mechanism, "a drawing of instant centres", FREE_BODIES)
     return instant_centers_scene(r, position_at(r, at), notation)
@@ -141,7 +142,9 @@ def charts(r: Result, notation: Notation | None = None) -> Scene:
     return stack_scenes(_charts.chart_scenes(r, notation), title=r.mechanism.title, width=270.0)
 
 
-def free_bodies(r: Result, at: Any = None, notation: Notation | None = None, camera: Sighted = None) -> Scene:
+def free_bodies(
+    r: Result, at: PositionChoice = None, notation: Notation | None = None, camera: Sighted = None
+) -> Scene:
     """All links as free bodies, one force scale."""
     k = position_at(r, at)
     title, seen = _title(r, k, "Free bodies", notation), _camera(r, camera)
@@ -154,7 +157,7 @@ def free_bodies(r: Result, at: Any = None, notation: Notation | None = None, cam
     return _whole(r, k, notation, render, title)
 
 
-def force_polygons(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
+def force_polygons(r: Result, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
     """Polygons of each link, then of the chain."""
     refuse_space(r.mechanism, "a force polygon", FREE_BODIES)
     k = position_at(r, at)
@@ -172,13 +175,15 @@ def beside(scenes: Sequence[Scene], title: str = "", width: float = 240.0) -> Sc
     return stack_scenes(scenes, title=title, width=width)
 
 
-def displaced_inertia(r: Result, link: str, at: Any = None, notation: Notation | None = None) -> Scene:
+def displaced_inertia(
+    r: Result, link: str, at: PositionChoice = None, notation: Notation | None = None
+) -> Scene:
     """The inertia force of a link on its displaced line, with its offset h."""
     refuse_space(r.mechanism, "a displaced inertia force", FREE_BODIES)
     return displaced_inertia_scene(r, _link(r, link), position_at(r, at), notation)
 
 
-def superposition(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
+def superposition(r: Result, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
     """Force polygons of the chain for one source at a time, then for all together."""
     refuse_space(r.mechanism, "a force polygon", FREE_BODIES)
     from dalembert.analysis.methods.superposition import superposition as split
@@ -192,7 +197,7 @@ def superposition(r: Result, at: Any = None, notation: Notation | None = None) -
 
 def force_system(
     s: System,
-    at: Any = None,
+    at: Vector | None = None,
     notation: Notation | None = None,
     camera: Sighted = "isometric",
 ) -> Scene:
@@ -214,7 +219,7 @@ def force_system(
     )
 
 
-def motion(r: Result, at: Any = None, notation: Notation | None = None) -> Scene:
+def motion(r: Result, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
     """Velocity and acceleration polygons and instant centres."""
     refuse_space(r.mechanism, "a velocity polygon", FREE_BODIES)
     if not r.drives:
@@ -253,7 +258,7 @@ def solid_model(r: Result) -> SolidModel:
 def view(
     r: Result,
     which: View = "all",
-    at: Any = None,
+    at: PositionChoice = None,
     notation: Notation | None = None,
     camera: Sighted = None,
 ) -> Scene:

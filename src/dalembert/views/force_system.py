@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Tree
 from dalembert.views.notation import Figures, Notation, own_name, pretty
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import fit_frame, force_scale
@@ -20,6 +19,7 @@ from dalembert.views.plane.mechanism_view import role_of, scale_notes
 from dalembert.views.space.camera import ISOMETRIC, Camera
 from dalembert.views.symbols import plane_symbols
 from dalembert.wrench import Couple, Force, ForceCouple, System
+from dalembert.wrench.reading import Vector
 
 WIDTH, HEIGHT = 84.0, 62.0
 """Space in mm for the points of a system."""
@@ -41,7 +41,7 @@ def force_system_scene(s: System, notation: Notation | None = None, camera: Came
 
 
 def reduced_scene(
-    s: System, at: Any, notation: Notation | None = None, camera: Camera | None = None
+    s: System, at: Vector, notation: Notation | None = None, camera: Camera | None = None
 ) -> Scene:
     """The force and the couple at a point that the system is equivalent to."""
     d = Drawing(s, Figures(s.units, notation or Notation()), camera, [s.reduced(at).at])
@@ -339,7 +339,7 @@ class Drawing:
         texts, scales = scale_notes(self.shown, self.frame, self.per_mm if self.s.forces else None)
         if self.camera is not None:
             texts, scales = self._scale_notes(texts[0], scales)
-        numbers: dict[str, Any] = {"kind": self.kind, "resultant": math.hypot(*self.s.resultant)}
+        numbers: Tree = {"kind": self.kind, "resultant": math.hypot(*self.s.resultant)}
         if self.central is not None:
             numbers |= {"moment": self.central.moment, "pitch": self.central.pitch}
         return self.canvas.scene(title, notes=[*notes, *texts], scales=scales, numbers=numbers)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -10,7 +11,7 @@ import numpy as np
 
 from dalembert.algebra import plane, space
 from dalembert.algebra.protocol import Algebra
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
 from dalembert.wrench import reading
 from dalembert.wrench.reading import Number, UnitNames, Vector, number, read_only
@@ -19,7 +20,7 @@ ALGEBRA: dict[int, Algebra] = {2: plane, 3: space}
 """Components of a force -> the algebra of its vectors."""
 
 
-def value_of(moment: Array) -> Any:
+def value_of(moment: Array) -> Numeric:
     """A moment as it is handed out: a number in the plane, a vector (3,) in space."""
     return float(moment[0]) if moment.shape == (1,) else moment
 
@@ -142,7 +143,12 @@ class Force:
 
     @classmethod
     def by_angles(
-        cls, size: Number, angles: Any, at: Vector | None = None, name: str = "", units: UnitNames = None
+        cls,
+        size: Number,
+        angles: Sequence[Number],
+        at: Vector | None = None,
+        name: str = "",
+        units: UnitNames = None,
     ) -> Self:
         """A force in space by its size and its angles to the x, y and z axes.
 
@@ -211,7 +217,7 @@ class Force:
         """Orthogonal projection F . e on a direction, N."""
         return float(self.vector @ reading.direction(along, self.dimension))
 
-    def moment(self, about: Vector | Axis | None = None) -> Any:
+    def moment(self, about: Vector | Axis | None = None) -> Numeric:
         """Moment r x F about a point (default the origin) or an axis, N m.
 
         About a point: a number in the plane (counter-clockwise positive), a vector (3,) in space. About an axis in
@@ -280,7 +286,7 @@ class Couple:
         return 3 if len(self.vector) == 3 else 2
 
     @property
-    def moment(self) -> Any:
+    def moment(self) -> Numeric:
         """Its moment, about any point: a number in the plane, a vector (3,) in space."""
         return value_of(self.vector)
 
@@ -293,7 +299,7 @@ class Couple:
         return Couple(-self.vector, self.name, self.kind)
 
 
-def moment_components(moment: Any, units: UnitNames = None) -> list[float]:
+def moment_components(moment: Numeric, units: UnitNames = None) -> list[float]:
     """A moment in SI: one number in the plane, three in space."""
     if isinstance(moment, str) and "[" in moment:
         return list(reading.vector(moment, "moment", units, 3))
@@ -304,7 +310,7 @@ def moment_components(moment: Any, units: UnitNames = None) -> list[float]:
     return list(reading.vector(moment, "moment", units, 3))
 
 
-def moment_about(part: Any, about: Vector | Axis | None) -> Any:
+def moment_about(part: Any, about: Vector | Axis | None) -> Numeric:
     """Moment of whatever has `dimension` and `_moment(point)` about a point or an axis, as it is handed out."""
     d = part.dimension
     if isinstance(about, Axis):

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action, actions
-from dalembert.analysis.result.position_lookup import position_at
+from dalembert.analysis.result.position_lookup import PositionChoice, position_at
 from dalembert.errors import NUMBERED, STATUSES, AnalysisError, ModelError
 from dalembert.wording import closest
 from dalembert.wrench.forces import Couple, Force
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-def on(r: Result, *links: str, at: Any = None) -> System:
+def on(r: Result, *links: str, at: PositionChoice = None) -> System:
     """Everything that acts on a link at a position, or on some links taken as one: N, N m, m, ground axes.
 
     Reactions (F_A and M_A in joint A), loads, weights, efforts and, in dynamics, D'Alembert's inertia forces: a system

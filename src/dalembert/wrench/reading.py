@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
@@ -25,7 +26,7 @@ LARGEST = 1e60
 """Largest number in SI, of a moment its square: products of a few stay finite."""
 
 
-def number(value: Any, kind: str, units: UnitNames = None) -> float:
+def number(value: object, kind: str, units: UnitNames = None) -> float:
     """A number in SI: bare numbers are SI and radians, or in `units`; a bare angle within a text is in degrees.
 
     >>> number(2.5, "force"), number("2 kN", "force"), number("180", "angle")
@@ -77,7 +78,7 @@ def direction(value: Vector | Number, dimension: int | None = None) -> Array:
     return read_only(along / length)
 
 
-def read_only(values: Any) -> Array:
+def read_only(values: ArrayLike) -> Array:
     """An array that nobody changes, without negative zeros."""
     out = np.array(values, float) + 0.0
     out.setflags(write=False)
@@ -97,7 +98,7 @@ def _items(text: str) -> list[str]:
     return [item.strip() for item in inside[1:-1].split(",")]
 
 
-def _count(items: Any, dimension: int | None) -> None:
+def _count(items: object, dimension: int | None) -> None:
     if not isinstance(items, Sequence):
         raise ModelError(f"{quote_value(items)} is no vector", "write [x, y] or [x, y, z]")
     wanted = (2, 3) if dimension is None else (dimension,)

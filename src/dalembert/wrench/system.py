@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Numeric
 from dalembert.errors import AnalysisError, ModelError
 from dalembert.units import Units, file_units
 from dalembert.wording import closest
@@ -31,7 +30,7 @@ class ForceCouple:
     vector: Array
 
     @property
-    def couple(self) -> Any:
+    def couple(self) -> Numeric:
         """The couple: a number in the plane, a vector (3,) in space."""
         return value_of(self.vector)
 
@@ -202,7 +201,7 @@ class System:
         free = (name for name in (other, *"OPQSTUVW") if name not in {*self.points, taken})
         return next(free, other)
 
-    def moment(self, about: Vector | Axis | None = None) -> Any:
+    def moment(self, about: Vector | Axis | None = None) -> Numeric:
         """Sum of the moments about a point (default the origin) or an axis, couples included, N m.
 
         A number in the plane, a vector (3,) about a point in space, a number about an axis.

@@ -35,7 +35,7 @@ from dalembert.wrench.system import System
 class Along(Value):
     """A vector of any length, in the plane also an angle."""
 
-    def read(self, value: Any, info: ValidationInfo) -> Vector:
+    def read(self, value: object, info: ValidationInfo) -> Vector:
         rules = reading(info)
         if isinstance(value, (list, tuple)):
             return tuple(unit_along(vector(value, "number", rules)))
@@ -52,7 +52,7 @@ class Along(Value):
 class ToAxes(Value):
     """Angles to the x, y and z axes, as direction cosines."""
 
-    def read(self, value: Any, info: ValidationInfo) -> Vector:
+    def read(self, value: object, info: ValidationInfo) -> Vector:
         return tuple(cosines(numbers(value, "angle", reading(info))))
 
     def json_schema(self) -> JsonSchema:
@@ -62,7 +62,7 @@ class ToAxes(Value):
 class Moment(Value):
     """A number in the plane, a vector in space."""
 
-    def read(self, value: Any, info: ValidationInfo) -> Vector:
+    def read(self, value: object, info: ValidationInfo) -> Vector:
         rules = reading(info)
         if rules.dimension == 3:
             return vector(value, "moment", rules)
@@ -176,7 +176,7 @@ def loads(text: str, form: str = "yaml", name: str = "text") -> System:
     return _system(*read_text(text, form, name))
 
 
-def _system(tree: Any, source: Source) -> System:
+def _system(tree: object, source: Source) -> System:
     try:
         if not isinstance(tree, Mapping):
             raise ModelError(f"{quote_value(tree)} stands where a mapping is needed", "write forces: ...")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.kernel.emit import c_text
 from dalembert.kernel.graph import Graph, Node
@@ -40,7 +41,7 @@ def plain(k: Kernel) -> Program:
     return Program(graph, outputs, Marks(*marks))
 
 
-def functions(graph: Graph) -> dict[str, Any]:
+def functions(graph: Graph) -> Tree:
     """The functions of expressions for nodes."""
 
     def node(x: Any) -> Node:

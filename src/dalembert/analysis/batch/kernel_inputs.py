@@ -12,7 +12,7 @@ import numpy as np
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.positions import Positions, positions
 from dalembert.analysis.result.result import Result
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Tree
 from dalembert.core.friction.contact_equations import bearing
 from dalembert.core.layout import Pose
 from dalembert.kernel.graph import POSITION, Graph, Node
@@ -107,7 +107,7 @@ class Inputs:
     course: Course
     found: dict[Node, Callable[[Course], Any]] = field(default_factory=dict)
     named: dict[tuple[str, str], Node] = field(default_factory=dict)
-    varying: dict[str, Any] = field(default_factory=dict)
+    varying: Tree = field(default_factory=dict)
 
     def make(self, kind: str, name: str, value: Callable[[Course], Any]) -> Node:
         """An input, made once."""

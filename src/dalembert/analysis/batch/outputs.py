@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from dalembert.algebra import plane
 from dalembert.analysis.compile.compiled_mechanism import Compiled
@@ -52,7 +53,7 @@ class Catalogue:
     def load(self, name: str) -> Any:
         return self.traced.load[_index(self.compiled.unknown_loads, name, "unknown load")]
 
-    def arm(self, link: int, u: Any) -> Array:
+    def arm(self, link: int, u: ArrayLike) -> Array:
         reference = np.asarray(self.compiled.layout.reference, object)
         arm: Array = plane.rotate(self.traced.pose.rotation[link], np.asarray(u, object) - reference[link])
         return arm
@@ -60,17 +61,17 @@ class Catalogue:
     def center(self, name: str) -> Any:
         return self.compiled.mechanism.center(name)
 
-    def place(self, name: str, u: Any) -> Array:
+    def place(self, name: str, u: ArrayLike) -> Array:
         k = self.link(name)
         origin = np.asarray(self.compiled.layout.reference, object)[-1]
         return np.asarray(self.traced.pose.point[k] + self.arm(k, u) + origin)
 
-    def velocity(self, name: str, u: Any) -> Array:
+    def velocity(self, name: str, u: ArrayLike) -> Array:
         k = self.link(name)
         twist = self.traced.twist[k]
         return np.asarray(twist[:2] + plane.spin(twist[2:], self.arm(k, u)))
 
-    def acceleration(self, name: str, u: Any) -> Array:
+    def acceleration(self, name: str, u: ArrayLike) -> Array:
         k = self.link(name)
         rate, r = self.traced.acceleration[k], self.arm(k, u)
         return np.asarray(rate[:2] + plane.spin(rate[2:], r) + plane.centripetal(self.traced.twist[k][2:], r))

@@ -6,9 +6,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node
 from dalembert.model import Mechanism
+from dalembert.model.load_types import Load
 from dalembert.model.paths import set_value, value_at
 
 
@@ -92,10 +94,10 @@ class SymbolicForce:
     on: str
     at: Any
     axes: str
-    components: tuple[Any, Any]
+    components: tuple[Numeric, Numeric]
     unknown: bool = False
 
-    def force(self, drives: Any) -> tuple[Any, Any]:
+    def force(self, drives: Any) -> tuple[Numeric, Numeric]:
         return self.components
 
 
@@ -120,7 +122,7 @@ def _value(name: str, value: Any, channel: Any) -> Any:
     return channel(name, value) if hasattr(value, "at") else value
 
 
-def _load(name: str, load: Any, channel: Any) -> Any:
+def _load(name: str, load: Load, channel: Any) -> Any:
     if load.ON == "link" and not load.unknown:
         return load.model_copy(update={"value": _value(f"loads.{name}.value", load.value, channel)})
     if load.ON != "point":
@@ -133,7 +135,7 @@ def _load(name: str, load: Any, channel: Any) -> Any:
     return SymbolicForce(load.on, load.at, load.axes, (size * x, size * y), unknown=load.unknown)
 
 
-def _direction(angle: Any) -> tuple[Any, Any]:
+def _direction(angle: Any) -> tuple[Numeric, Numeric]:
     if isinstance(angle, Node):
         return angle.cos(), angle.sin()
     from dalembert.model.quantities.figures import unit_vector

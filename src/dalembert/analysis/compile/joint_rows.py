@@ -23,6 +23,7 @@ from dalembert.errors import ModelError
 from dalembert.model import Mechanism, Schedule
 from dalembert.model.assembly import SpacePose
 from dalembert.model.joints.pairs import AXES
+from dalembert.model.joints.plane_joints import Joint
 
 
 class Jointing(Protocol):
@@ -61,7 +62,7 @@ class _Joints:
             self.add(k, name, joint)
         self.passive = self.add_passive()
 
-    def add(self, k: int, name: str, joint: Any) -> None:
+    def add(self, k: int, name: str, joint: Joint) -> None:
         """The rows of one joint."""
         raise NotImplementedError
 
@@ -96,7 +97,7 @@ class _Joints:
 class PlaneJoints(_Joints):
     """Joints of the plane."""
 
-    def add(self, k: int, name: str, joint: Any) -> None:
+    def add(self, k: int, name: str, joint: Joint) -> None:
         """The rows of one joint."""
         table.add_constraints(self.constraints, k, joint, self.ends[k], *self.arms[k])
         table.add_freedom(self.freedoms, k, joint, self.ends[k], *self.arms[k])

@@ -9,11 +9,13 @@ import numpy as np
 
 from dalembert.algebra.protocol import Algebra
 from dalembert.analysis.compile.plane_rows import numbers
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Tree
 from dalembert.core.equilibrium import Known
 from dalembert.core.forcing import Couples, Forces, Forcing, Inertia, Resistances, Springs
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, Schedule
+from dalembert.model.joints.plane_joints import Joint
+from dalembert.model.quantities.values import Vector
 
 
 @dataclass(frozen=True)
@@ -61,7 +63,7 @@ def forcing(s: Setting) -> Forcing:
     )
 
 
-def _known_on(m: Mechanism, what: Literal["point", "link"]) -> dict[str, Any]:
+def _known_on(m: Mechanism, what: Literal["point", "link"]) -> Tree:
     return {name: load for name, load in m.loads_on(what).items() if not load.unknown}
 
 
@@ -84,7 +86,7 @@ def _mesh_tangents(m: Mechanism) -> list[Any]:
     return out
 
 
-def _forces(s: Setting, loads: dict[str, Any]) -> Forces:
+def _forces(s: Setting, loads: Tree) -> Forces:
     link, at, value = [], [], []
     for name, load in loads.items():
         link.append(s.index[load.on])
@@ -97,7 +99,7 @@ def _forces(s: Setting, loads: dict[str, Any]) -> Forces:
     )
 
 
-def _couples(s: Setting, loads: dict[str, Any]) -> Couples:
+def _couples(s: Setting, loads: Tree) -> Couples:
     size = s.g.n - s.g.d
     value = []
     for load in loads.values():
@@ -151,7 +153,7 @@ def _in_freedoms(rows: list[tuple[int, float, float, float]]) -> Resistances:
     return Resistances(np.array(columns[0], np.intp), stiffness, free, damping, turns=np.zeros(len(rows)))
 
 
-def joint_damping(joint: Any) -> dict[str, float]:
+def joint_damping(joint: Joint) -> dict[str, float]:
     """Viscous coefficient of each damped freedom of a joint."""
     damping = getattr(joint, "damping", None)
     if not damping:
@@ -199,6 +201,6 @@ def unknown_columns(s: Setting, schedule: Schedule, unknown: tuple[str, ...]) ->
     )
 
 
-def _about(load: Any) -> tuple[Any, ...]:
+def _about(load: Any) -> Vector:
     """A unit of an unknown couple: counter-clockwise, in space about its direction."""
     return tuple(load.axis)

@@ -12,10 +12,12 @@ import numpy as np
 
 from dalembert.algebra import space
 from dalembert.analysis.compile.plane_rows import RowBuilder, numbers, signed_radii
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Tree
 from dalembert.core.layout import Along, Angle, Gearing, Helix, Meet, Perpendicular
 from dalembert.core.position.first_pose_space import Hinge
 from dalembert.model.joints.pairs import AXES, Pair
+from dalembert.model.joints.plane_joints import Gear, Joint
+from dalembert.model.quantities.values import Vector
 
 
 class Geometry(NamedTuple):
@@ -74,7 +76,7 @@ def add_constraints(
         rows.add(Perpendicular, index, ends, a=a, p=p)
 
 
-def reaction_rows(joint: Any, first: int) -> dict[str, int]:
+def reaction_rows(joint: Joint, first: int) -> dict[str, int]:
     """Row of each reaction, Fx to Mz, of a joint whose first constraint is given and whose point is split."""
     pair = joint.pair
     forces = "yzx" if pair.threaded else pair.forces
@@ -82,13 +84,13 @@ def reaction_rows(joint: Any, first: int) -> dict[str, int]:
     return {name: first + k for k, name in enumerate(names)}
 
 
-def add_gear(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], at: Geometry) -> None:
+def add_gear(rows: RowBuilder, index: int, joint: Gear, ends: tuple[int, int], at: Geometry) -> None:
     """The row of a mesh; directions, signs and cones are those of the first pose (``core.gear_rows.mesh_wheels``)."""
     ri, rj = signed_radii(joint)
-    axes: dict[str, Any] = {"ai": at.on_i[2], "aj": at.on_j[2], "bi": at.on_i[0], "bj": at.on_j[0]}
+    axes: Tree = {"ai": at.on_i[2], "aj": at.on_j[2], "bi": at.on_i[0], "bj": at.on_j[0]}
     count = (rows.next_counted_angle(), rows.next_counted_angle())
-    unknown: dict[str, Any] = {"way": np.zeros(3), "cone": np.array([1.0, 0.0]), "ki": np.nan, "kj": np.nan}
-    sizes: dict[str, Any] = {"ri": ri, "rj": rj, "helix": joint.helix_angle, "outward": 1.0}
+    unknown: Tree = {"way": np.zeros(3), "cone": np.array([1.0, 0.0]), "ki": np.nan, "kj": np.nan}
+    sizes: Tree = {"ri": ri, "rj": rj, "helix": joint.helix_angle, "outward": 1.0}
     rows.add(Gearing, index, ends, ui=at.ui, uj=at.uj, count=count, **axes, **sizes, **unknown)
 
 
@@ -107,14 +109,19 @@ def _moment(pair: Pair, about: int, at: Geometry) -> tuple[Array, Array]:
     return at.on_i[last], at.on_j[after]
 
 
-def _about(at: Geometry, axis: int) -> dict[str, Any]:
+def _about(at: Geometry, axis: int) -> Tree:
     """Angle of j's local axes to i's about an axis both share."""
     after = (axis + 1) % 3
     return {"a": at.on_i[axis], "b": at.on_i[after], "p": at.on_j[after]}
 
 
 def add_freedom(
-    rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], at: Geometry, axis: Any = None
+    rows: RowBuilder,
+    index: int,
+    joint: Joint,
+    ends: tuple[int, int],
+    at: Geometry,
+    axis: Vector | None = None,
 ) -> list[str]:
     """Rows of a joint's freedoms; the names of those it has, that of a sphere only about a drive's ``axis``."""
     pair, names = joint.pair, []
@@ -149,7 +156,7 @@ def add_freedom(
     return names
 
 
-def _about_vector(axis: Array, at: Geometry) -> dict[str, Any]:
+def _about_vector(axis: Array, at: Geometry) -> Tree:
     """Angle about any axis of i, of directions with the same components in the joint's local axes of both links: across
     the axis and the local axis farthest from it, so that it does not matter in which axes a link is described."""
     a = at.on_i @ (axis / np.linalg.norm(axis))
@@ -184,7 +191,7 @@ def hinge(joint: Any, ends: tuple[int, int], at: Geometry, drives: dict[str, int
     )
 
 
-def local_axes(joint: Any, at: Geometry, on_i: Array, on_j: Array, moment: bool = False) -> Array:
+def local_axes(joint: Joint, at: Geometry, on_i: Array, on_j: Array, moment: bool = False) -> Array:
     """The joint's local axes at poses of its links (..., 3, 3), a row each, in ground axes; rotations (..., 9) given.
 
     They are those of i, but where a turn is blocked between a direction of i and one of j: both, and their normal. A

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Numeric, Tree
 from dalembert.core.layout import (
     Along,
     Angle,
@@ -24,6 +24,7 @@ from dalembert.core.layout import (
     Rows,
     Turn,
 )
+from dalembert.model.joints.plane_joints import CircularSlot, Gear, Joint, Rolling
 
 Vector = tuple[float, float]
 
@@ -39,9 +40,11 @@ class RowBuilder:
         self.targets: list[float] = []
         self._joint: list[int] = []
         self._angular: list[bool] = []
-        self._families: dict[type, list[dict[str, Any]]] = {}
+        self._families: dict[type, list[Tree]] = {}
 
-    def add(self, kind: type, joint: int, ends: tuple[int, int], target: float = 0.0, **numbers: Any) -> int:
+    def add(
+        self, kind: type, joint: int, ends: tuple[int, int], target: Numeric = 0.0, **numbers: object
+    ) -> int:
         """One row (one a ground axis for ``Meet``) between links i and j; returns its place."""
         count = self.dimension if kind is Meet else 1
         first = len(self.targets)
@@ -64,8 +67,8 @@ class RowBuilder:
         return Rows(len(self.targets), self.links, families, joint, angular)
 
 
-def _family(kind: type, entries: list[dict[str, Any]]) -> Family:
-    columns: dict[str, Any] = {}
+def _family(kind: type, entries: list[Tree]) -> Family:
+    columns: Tree = {}
     for name in entries[0]:
         whole = name in ("row", "i", "j", "count")
         values = [e[name] for e in entries]
@@ -74,20 +77,20 @@ def _family(kind: type, entries: list[dict[str, Any]]) -> Family:
     return family
 
 
-def numbers(values: Any) -> Array:
+def numbers(values: object) -> Array:
     """An array of floats; of symbols where some are (the kernel is traced on them)."""
     array = np.asarray(values)
     return array if array.dtype == object else array.astype(float)
 
 
-def direction(joint: Any) -> Array:
+def direction(joint: Joint) -> Array:
     """Unit vector of the slide in i's axes; x where the joint has none."""
     angle = getattr(joint, "direction", 0.0) or 0.0
     return np.array([np.cos(angle), np.sin(angle)])
 
 
 def add_constraints(
-    rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array
+    rows: RowBuilder, index: int, joint: Joint, ends: tuple[int, int], ui: Array, uj: Array
 ) -> None:
     """Rows of a joint's constraints: what its freedoms leave over, or those of a higher pair."""
     higher = HIGHER.get(joint.type)
@@ -103,7 +106,7 @@ def add_constraints(
         rows.add(Turn, index, ends, target=_fixed_angle(joint))
 
 
-def _fixed_angle(joint: Any) -> Any:
+def _fixed_angle(joint: Any) -> Numeric:
     """Angle of j's axes to i's where the joint fixes it."""
     return joint.angle + getattr(joint, "direction", 0.0)
 
@@ -113,7 +116,7 @@ def _across(e: Array) -> Array:
 
 
 def add_freedom(
-    rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array
+    rows: RowBuilder, index: int, joint: Joint, ends: tuple[int, int], ui: Array, uj: Array
 ) -> None:
     """Rows of a joint's freedoms, in their order."""
     for name in joint.freedoms:
@@ -123,12 +126,12 @@ def add_freedom(
             rows.add(Turn, index, ends)
 
 
-def _gear(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array) -> None:
+def _gear(rows: RowBuilder, index: int, joint: Gear, ends: tuple[int, int], ui: Array, uj: Array) -> None:
     ri, rj = signed_radii(joint)
     rows.add(Mesh, index, ends, ui=ui, uj=uj, ri=ri, rj=rj)
 
 
-def signed_radii(joint: Any) -> Vector:
+def signed_radii(joint: Gear | Rolling) -> Vector:
     """Pitch radii of i and j; of an internal pair the inner (smaller) wheel's is negative, so that their sum is the
     distance of the centres."""
     ri, rj = joint.pitch_radii
@@ -137,7 +140,9 @@ def signed_radii(joint: Any) -> Vector:
     return (ri, -rj) if ri > rj else (-ri, rj)
 
 
-def _rolling(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array) -> None:
+def _rolling(
+    rows: RowBuilder, index: int, joint: Rolling, ends: tuple[int, int], ui: Array, uj: Array
+) -> None:
     """A wheel on a line stays at its radius from it and rolls: e . span + r theta is constant."""
     if joint.radii is not None:
         ri, rj = signed_radii(joint)
@@ -150,12 +155,12 @@ def _rolling(rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui
 
 
 def _circular_slot(
-    rows: RowBuilder, index: int, joint: Any, ends: tuple[int, int], ui: Array, uj: Array
+    rows: RowBuilder, index: int, joint: CircularSlot, ends: tuple[int, int], ui: Array, uj: Array
 ) -> None:
     rows.add(Distance, index, ends, target=joint.radius, ui=ui, uj=uj)
 
 
-HIGHER: dict[str, Callable[[RowBuilder, int, Any, tuple[int, int], Array, Array], None]] = {
+HIGHER: dict[str, Callable[..., None]] = {
     "circular_slot": _circular_slot,
     "gear": _gear,
     "rolling": _rolling,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
@@ -11,7 +12,7 @@ import numpy as np
 from dalembert.analysis.compile.plane_rows import signed_radii
 from dalembert.analysis.output.columns import force_and_moment
 from dalembert.analysis.result.joint_freedoms import whole_pose
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Tree
 from dalembert.core.constraints import system
 from dalembert.core.equilibrium import Motion, known_sources, motion
 from dalembert.core.forcing import Source
@@ -180,7 +181,7 @@ def _pitch_point(r: Result, joint: str) -> Array:
     return np.asarray(contact[..., mine, :] + r.compiled.origin)
 
 
-def link_place(r: Result, link: str, u: Any) -> Array:
+def link_place(r: Result, link: str, u: Sequence[float] | Array) -> Array:
     """A point of any link, ground included (P, d)."""
     if link == GROUND:
         return np.broadcast_to(np.asarray(u, float), (len(r.status), len(u)))
@@ -338,7 +339,7 @@ class _Builder:
             )
             self.add(name, "load", name, one, k, middle, "couple")
 
-    def springs(self, loads: dict[str, Any], one: Source) -> None:
+    def springs(self, loads: Tree, one: Source) -> None:
         springs = self.r.compiled.forcing.springs
         for k, (name, load) in enumerate(loads.items()):
             ends = (
@@ -348,7 +349,7 @@ class _Builder:
             for place, link, u in ends:
                 self.add(name, load.FORCE, name, one, place, self.arm(link, u), "force")
 
-    def resistances(self, loads: dict[str, Any], one: Source) -> None:
+    def resistances(self, loads: Tree, one: Source) -> None:
         from dalembert.analysis.compile.load_arrays import joint_damping
 
         rows: list[tuple[str, Kind, str, str, str]] = [

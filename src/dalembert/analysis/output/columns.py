@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 
 from dalembert.analysis.result.reaction_axes import Axes, to_axes
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Numeric
 from dalembert.units import KINDS, file_units
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ class Scale:
         """The unit of a kind of number, as text."""
         return KINDS[kind].si if self._units is None else self._units.text(kind)
 
-    def __call__(self, kind: str, values: Any) -> Any:
+    def __call__(self, kind: str, values: Numeric) -> Numeric:
         """The values in that unit."""
         if self._units is None:
             return values

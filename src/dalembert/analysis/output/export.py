@@ -25,7 +25,7 @@ from dalembert.analysis.output.columns import (
 )
 from dalembert.analysis.output.json_record import BLOCK, nan_to_none, to_dict, to_json, write_json
 from dalembert.analysis.result.reaction_axes import Axes
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.saving import check_installed, new_file
 
@@ -152,14 +152,14 @@ def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -
     import xarray
 
     to = scale(result, units)
-    data: dict[str, Any] = {"status": ("position", np.array(result.status, dtype=str))}
+    data: Tree = {"status": ("position", np.array(result.status, dtype=str))}
     data |= _drive_arrays(result, to) | _link_arrays(result, to) | _force_arrays(result, to, axes)
     data |= _reaction_links(result, axes) | _ends(result, to)
     if result.after is not None:
         data |= _spans(result, to, axes)
     data["residual"] = ("position", result.residual, {"units": "1"})
     data["power_balance"] = ("position", result.power_balance, {"units": "1"})
-    coordinates: dict[str, Any] = {
+    coordinates: Tree = {
         "position": np.arange(1, len(result.status) + 1),
         "component": list("xyz"[: result.mechanism.dimension]),
         "link_axis": [] if result.mechanism.dimension == 2 else list("xyz"),
@@ -171,16 +171,16 @@ def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -
     return xarray.Dataset(data, coords=present, attrs=_about(result) | {"reaction_axes": axes})
 
 
-def _drive_arrays(result: Result, to: Scale) -> dict[str, Any]:
+def _drive_arrays(result: Result, to: Scale) -> Tree:
     """Position, speed and acceleration."""
     return {f"drive_{name}": array for name, array in _by_drive(result, to, DRIVE_NUMBERS).items()}
 
 
-def _by_drive(result: Result, to: Scale, numbers: dict[str, Any]) -> dict[str, Any]:
+def _by_drive(result: Result, to: Scale, numbers: Tree) -> Tree:
     """Numbers of all drives; drives that turn and that slide differ in their units."""
     if not result.drives:
         return {}
-    out: dict[str, Any] = {}
+    out: Tree = {}
     for name, read in numbers.items():
         kinds = [drive_kinds(result, drive)[name] for drive in result.drives]
         stacked = np.stack(
@@ -192,7 +192,7 @@ def _by_drive(result: Result, to: Scale, numbers: dict[str, Any]) -> dict[str, A
     return out
 
 
-def _force_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
+def _force_arrays(result: Result, to: Scale, axes: Axes) -> Tree:
     """Efforts, unknown loads, reactions, and what friction does in the joints."""
     out = _by_drive(result, to, EFFORT)
     out |= _joint_arrays(result, to, axes) | _friction_arrays(result, to, axes)
@@ -203,17 +203,17 @@ def _force_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
     return out
 
 
-def _spans(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
+def _spans(result: Result, to: Scale, axes: Axes) -> Tree:
     """Low and high of the numbers just before and just after reversals; elsewhere twice the number itself."""
     sides = [_force_arrays(side, to, axes) for side in result.sides]
-    out: dict[str, Any] = {}
+    out: Tree = {}
     for name, (over, before, units) in sides[0].items():
         for word, of in (("low", np.minimum), ("high", np.maximum)):
             out[f"{name}_{word}"] = (over, of(before, sides[1][name][1]), units)
     return out
 
 
-def _joint_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
+def _joint_arrays(result: Result, to: Scale, axes: Axes) -> Tree:
     """Reactions on each joint's j."""
     found = list(reactions(result, axes))
     if not found:
@@ -226,7 +226,7 @@ def _joint_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
     }
 
 
-def _reaction_links(result: Result, axes: Axes) -> dict[str, Any]:
+def _reaction_links(result: Result, axes: Axes) -> Tree:
     """The link that each joint's reaction is on, and the one it is by."""
     found = list(reactions(result, axes))
     if not found:
@@ -237,7 +237,7 @@ def _reaction_links(result: Result, axes: Axes) -> dict[str, Any]:
     }
 
 
-def _friction_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
+def _friction_arrays(result: Result, to: Scale, axes: Axes) -> Tree:
     """What dry friction does in each joint, on j, and the power that all friction takes."""
     if result.friction is None:
         return {}
@@ -252,9 +252,9 @@ def _friction_arrays(result: Result, to: Scale, axes: Axes) -> dict[str, Any]:
     }
 
 
-def _ends(result: Result, to: Scale) -> dict[str, Any]:
+def _ends(result: Result, to: Scale) -> Tree:
     """Ends of the efforts and loads that friction leaves open at rest."""
-    out: dict[str, Any] = {}
+    out: Tree = {}
     for name, kind in unknown_kinds(result).items() if result.ends else ():
         for k, end in enumerate(("low", "high")):
             values = to(kind, result.interval(name)[:, k])
@@ -262,10 +262,10 @@ def _ends(result: Result, to: Scale) -> dict[str, Any]:
     return out
 
 
-def _link_arrays(result: Result, to: Scale) -> dict[str, Any]:
+def _link_arrays(result: Result, to: Scale) -> Tree:
     if not result.links:
         return {}
-    out: dict[str, Any] = {}
+    out: Tree = {}
     for name, (kind, read) in {**link_turning(result), **LINK_VECTORS}.items():
         stacked = np.stack([read(result, link) for link in result.links], axis=1)
         out[f"link_{name}"] = (_over("link", stacked), to(kind, stacked), {"units": to.text(kind)})

@@ -29,7 +29,7 @@ from dalembert.analysis.output.columns import (
 )
 from dalembert.analysis.result.joint_freedoms import whole_pose
 from dalembert.analysis.result.reaction_axes import Axes
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Tree
 from dalembert.saving import new_file
 from dalembert.units import KINDS
 
@@ -41,12 +41,12 @@ BLOCK = 1024
 """Positions turned into Python objects at once: of a hundred thousand few stand in memory together."""
 
 
-def to_dict(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> dict[str, Any]:
+def to_dict(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Tree:
     """The JSON answer of the model file's contract (section 6); None where there is no value."""
     return {**head(result, units, axes), "positions": list(position_records(result, units, axes))}
 
 
-def head(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> dict[str, Any]:
+def head(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Tree:
     """What stands before the positions: title, units, assumptions, mobility."""
     to = scale(result, units)
     mobility = result.mobility
@@ -71,7 +71,7 @@ def head(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> dic
     }
 
 
-def _counts(result: Result, to: Scale) -> dict[str, Any]:
+def _counts(result: Result, to: Scale) -> Tree:
     """How the turns of torsion springs were counted, where there are any that whole turns make different."""
     c, turns = result.compiled, count_turns(result.compiled, whole_pose(result))
     found = {
@@ -89,7 +89,7 @@ def _counts(result: Result, to: Scale) -> dict[str, Any]:
 
 def position_records(
     result: Result, units: UnitChoice = "SI", axes: Axes = "ground", others: bool = False
-) -> Iterator[dict[str, Any]]:
+) -> Iterator[Tree]:
     """One mapping a position, made a block at a time; ``others`` seeks the other solutions of friction."""
     fields = _fields(result, scale(result, units), axes)
     sought = _other_solutions(result, scale(result, units)) if others else {}
@@ -256,9 +256,9 @@ def _transpose(lists: dict[tuple[str, ...], list[Any]]) -> Iterator[dict[tuple[s
         yield dict(zip(lists, row, strict=True))
 
 
-def _record(result: Result, position: int, values: dict[tuple[str, ...], Any]) -> dict[str, Any]:
+def _record(result: Result, position: int, values: dict[tuple[str, ...], Any]) -> Tree:
     status, reason = result.status[position], result.reasons[position]
-    record: dict[str, Any] = {"drives": {}, "status": status}
+    record: Tree = {"drives": {}, "status": status}
     if reason is not None:
         record["reason"] = reason
     if result.stability is not None and result.stability[position] is not None:
@@ -288,7 +288,7 @@ SIDES = ("after", "low", "high")
 """Keys of a position where contacts reverse: what holds just after, and the low and the high of both sides."""
 
 
-def _solution(result: Result, position: int) -> dict[str, Any]:
+def _solution(result: Result, position: int) -> Tree:
     """How sure the branch is: det(A + J) / det(A), whether no other exists, and the scale at which it jams."""
     f = result.friction
     assert f is not None
@@ -302,7 +302,7 @@ def _solution(result: Result, position: int) -> dict[str, Any]:
     }
 
 
-def _other_solutions(result: Result, to: Scale) -> dict[int, list[dict[str, Any]]]:
+def _other_solutions(result: Result, to: Scale) -> dict[int, list[Tree]]:
     """What `--other-solutions` found at each position where it had to seek."""
     from dalembert.analysis.friction.other_solutions import every_other_solution
 
@@ -324,7 +324,7 @@ def _other_solutions(result: Result, to: Scale) -> dict[int, list[dict[str, Any]
     }
 
 
-def _with_others(record: dict[str, Any], others: list[dict[str, Any]] | None) -> dict[str, Any]:
+def _with_others(record: Tree, others: list[Tree] | None) -> Tree:
     if others is not None:
         record["friction"]["other_solutions"] = others
     return record

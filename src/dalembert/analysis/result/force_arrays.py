@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from dalembert.arrays import Array, Flags, Ints
+from dalembert.arrays import Array, Flags, Ints, Tree
 
 
 class Friction(NamedTuple):
@@ -79,7 +79,7 @@ def concatenate_blocks(parts: list[Forces]) -> Forces:
         return parts[0]
     count = max(len(p.ends) for p in parts)
     friction = [p.friction for p in parts if p.friction is not None]
-    made: dict[str, Any] = {name: _concatenate([getattr(p, name) for p in parts]) for name in ARRAYS}
+    made: Tree = {name: _concatenate([getattr(p, name) for p in parts]) for name in ARRAYS}
     whole = Forces(
         **made,
         friction=Friction(*(np.concatenate(a) for a in zip(*friction, strict=True))) if friction else None,

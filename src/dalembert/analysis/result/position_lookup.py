@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dalembert.analysis.output.columns import drive_kinds, scale
+from dalembert.arrays import Array
 from dalembert.errors import STATUSES, AnalysisError, ModelError
 from dalembert.units import file_units, quantity
 
@@ -14,7 +15,11 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-def position_at(r: Result, at: Any = None) -> int:
+PositionChoice = int | float | str | None
+"""A position by its number from 1, or by a value of the first drive."""
+
+
+def position_at(r: Result, at: PositionChoice = None) -> int:
     """Index from 0 of a position given by its number from 1, or nearest to a value of the first drive (`60 deg`).
 
     Without ``at`` the first that is ok, or else that has a pose. Raises AnalysisError, with its reason, for a position
@@ -26,7 +31,7 @@ def position_at(r: Result, at: Any = None) -> int:
     return k
 
 
-def _place(r: Result, at: Any) -> int:
+def _place(r: Result, at: PositionChoice) -> int:
     if at is None:
         posed = np.array([s != "not_assembled" for s in r.status])
         good = np.flatnonzero(r.ok if r.ok.any() else posed)
@@ -50,7 +55,7 @@ def _place(r: Result, at: Any) -> int:
     return k
 
 
-def _nearest(values: Any, wanted: float, turns: bool) -> tuple[int, bool]:
+def _nearest(values: Array, wanted: float, turns: bool) -> tuple[int, bool]:
     """Index of the nearest value, and whether it is within half a step; whole cycles away is the same place."""
     away, step = np.abs(values - wanted), float(np.nanmax(np.abs(np.diff(values)), initial=0.0))
     near = 1e-6 + 0.5 * step

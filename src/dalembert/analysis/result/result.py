@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from dalembert.analysis.result.link_motion import LinkMotion, place_of
-from dalembert.arrays import Array, Flags
+from dalembert.arrays import Array, Flags, Tree
 from dalembert.errors import SOLVED, ModelError
 
 if TYPE_CHECKING:
@@ -273,7 +273,7 @@ class Result(LinkMotion):
 
         return outcome.worst(self, quantity, of)
 
-    def to_dict(self, units: Literal["SI", "file"] = "SI", axes: Axes = "ground") -> dict[str, Any]:
+    def to_dict(self, units: Literal["SI", "file"] = "SI", axes: Axes = "ground") -> Tree:
         """The JSON answer of the model file's contract."""
         from dalembert.analysis.output import export
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field, StrictBool, ValidationInfo
 
@@ -25,7 +25,7 @@ Circle = Literal["sin", "tan"]
 class Guide(Value):
     """How far the guide reaches behind and ahead of j's point, `[l1, l2]`."""
 
-    def read(self, value: Any, info: ValidationInfo) -> tuple[float, float]:
+    def read(self, value: object, info: ValidationInfo) -> tuple[float, float]:
         lengths = numbers(value, "length", reading(info))
         if len(lengths) != 2 or not sum(check_sign(length, length, "not negative") for length in lengths) > 0:
             raise ModelError(
@@ -33,7 +33,7 @@ class Guide(Value):
             )
         return lengths[0], lengths[1]
 
-    def write(self, value: tuple[float, float]) -> Any:
+    def write(self, value: tuple[float, float]) -> object:
         return [value_text(length, "length") for length in value]
 
     def json_schema(self) -> JsonSchema:

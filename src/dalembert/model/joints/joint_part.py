@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, ClassVar, Self
+from typing import Annotated, ClassVar, Self
 
 from pydantic import Field, ValidationInfo, model_validator
 
@@ -16,10 +16,10 @@ from dalembert.model.quantities.values import JsonSchema, TwoNames, Value, name,
 class At(Value):
     """The name of a point, or `[point of i, point of j]`."""
 
-    def read(self, value: Any, info: ValidationInfo) -> str | tuple[str, str]:
+    def read(self, value: object, info: ValidationInfo) -> str | tuple[str, str]:
         return pair_of_names(value) if isinstance(value, (list, tuple)) else name(value)
 
-    def write(self, value: str | tuple[str, str]) -> Any:
+    def write(self, value: str | tuple[str, str]) -> object:
         return value if isinstance(value, str) else list(value)
 
     def json_schema(self) -> JsonSchema:

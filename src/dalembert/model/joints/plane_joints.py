@@ -42,7 +42,7 @@ class TwoNumbers(Value):
             at_item(i, check_sign, number, value[i], "positive")
         return found[0], found[1]
 
-    def write(self, value: tuple[float, float]) -> Any:
+    def write(self, value: tuple[float, float]) -> object:
         return [value_text(number, self.kind) for number in value]
 
     def json_schema(self) -> JsonSchema:
@@ -52,7 +52,7 @@ class TwoNumbers(Value):
 class SlotDamping(Value):
     """Of the slide; or `{slide:, turn:}`."""
 
-    def read(self, value: Any, info: ValidationInfo) -> tuple[float, float]:
+    def read(self, value: object, info: ValidationInfo) -> tuple[float, float]:
         rules = reading(info)
         if isinstance(value, tuple):
             return value[0], value[1]
@@ -65,7 +65,7 @@ class SlotDamping(Value):
         slide, turn = (check_sign(number, number, "not negative") for number in found)
         return slide, turn
 
-    def write(self, value: tuple[float, float]) -> Any:
+    def write(self, value: tuple[float, float]) -> object:
         return {"slide": value_text(value[0], "damping"), "turn": value_text(value[1], "torsion_damping")}
 
     def json_schema(self) -> JsonSchema:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, ValidationInfo, model_validator
 
@@ -60,7 +60,7 @@ class Frames(Part):
 class Dampings(Value):
     """Of the only freedom; or `{freedom: coefficient}`."""
 
-    def read(self, value: Any, info: ValidationInfo) -> dict[str, float]:
+    def read(self, value: object, info: ValidationInfo) -> dict[str, float]:
         rules, kind = reading(info), str(info.data.get("type"))
         freedoms = PAIRS[kind].damped if kind in PAIRS else ()
         if not freedoms:
@@ -75,7 +75,7 @@ class Dampings(Value):
             for key, item in keys.items()
         }
 
-    def write(self, value: dict[str, float]) -> Any:
+    def write(self, value: dict[str, float]) -> object:
         kinds = {key: "damping" if key.startswith("slide") else "torsion_damping" for key in value}
         return {key: value_text(item, kinds[key]) for key, item in value.items()}
 

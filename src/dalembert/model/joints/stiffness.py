@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import Field, ValidationInfo
 
@@ -28,7 +28,7 @@ class Stiffnesses(Value):
     def __init__(self, kind: str) -> None:
         self.kind = kind
 
-    def read(self, value: Any, info: ValidationInfo) -> float | tuple[float, ...]:
+    def read(self, value: object, info: ValidationInfo) -> float | tuple[float, ...]:
         rules = reading(info)
         if not isinstance(value, (list, tuple)):
             return check_sign(quantity(value, self.kind, rules.units), value, "positive")
@@ -38,7 +38,7 @@ class Stiffnesses(Value):
         found = numbers(value, self.kind, rules)
         return tuple(at_item(k, check_sign, x, value[k], "positive") for k, x in enumerate(found))
 
-    def write(self, value: float | tuple[float, ...]) -> Any:
+    def write(self, value: float | tuple[float, ...]) -> object:
         if isinstance(value, tuple):
             return [value_text(x, self.kind) for x in value]
         return value_text(value, self.kind)

@@ -15,12 +15,13 @@ from dalembert.reports.sheet import Sheet, Working
 from dalembert.views import draw
 from dalembert.views.notation import Figures, Notation, own_name, pretty
 from dalembert.wrench import Couple, Force, System
+from dalembert.wrench.reading import Vector
 
 MOMENT_TERMS = {2: ("x F_y − y F_x",), 3: ("y F_z − z F_y", "z F_x − x F_z", "x F_y − y F_x")}
 """How the moment of a force about the point is made of arm and components, by dimension."""
 
 
-def force_system_sheet(s: System, at: Any = None, notation: Notation | None = None) -> Sheet:
+def force_system_sheet(s: System, at: Vector | None = None, notation: Notation | None = None) -> Sheet:
     """How the answers about a force system come out, with moments about a point (default the origin)."""
     shown = Figures(s.units, notation or Notation())
     sheet = Sheet(

@@ -6,9 +6,11 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from dalembert.analysis.compile.plane_rows import signed_radii
 from dalembert.analysis.methods.applied_forces import link_place, link_speed
+from dalembert.arrays import Array, Numeric
 from dalembert.model import GROUND
 from dalembert.reports.formula import bracket_negative
 from dalembert.reports.sections.kinematics import zero_sum
@@ -66,11 +68,11 @@ class _Line:
         self.acceleration = _cross(span, a) / square - 2 * self.speed * float(span @ v) / square
 
 
-def _cross(a: Any, b: Any) -> float:
+def _cross(a: Array, b: Array) -> float:
     return float(a[0] * b[1] - a[1] * b[0])
 
 
-def _point_rates(r: Result, link: str, u: Any, k: int) -> tuple[Any, Any]:
+def _point_rates(r: Result, link: str, u: ArrayLike, k: int) -> tuple[Numeric, Numeric]:
     """Velocity and acceleration of a link's point."""
     if link == GROUND:
         return np.zeros(2), np.zeros(2)

@@ -13,8 +13,10 @@ from dalembert.analysis.methods.applied_forces import actions
 from dalembert.analysis.methods.inertia_couples import inertia_matrix
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.rounding import PART
+from dalembert.arrays import Array
 from dalembert.model import GROUND
 from dalembert.model.joints.pairs import AXES
+from dalembert.model.joints.plane_joints import Joint
 from dalembert.reports.pictures import given_picture
 from dalembert.reports.report_context import ReportContext, as_formula
 from dalembert.reports.sheet import Sheet
@@ -142,7 +144,7 @@ OWN_MEASURES = (
 """Keys of joints, what they are called and of which kind."""
 
 
-def _friction(c: ReportContext, joint: Any) -> str:
+def _friction(c: ReportContext, joint: Joint) -> str:
     """The friction of a joint as it was given: '; μ = 0.4, R = 0.07 m'."""
     f, shown = getattr(joint, "friction", None), c.shown
     if f is None or c.r.friction is None:
@@ -214,7 +216,7 @@ def _load_text(c: ReportContext, name: str) -> str:
     return f"{_vector_text(c, 'moment', a.couple[c.k])} on {c.shown.heading(a.link)}"
 
 
-def _vector_text(c: ReportContext, kind: str, v: Any) -> str:
+def _vector_text(c: ReportContext, kind: str, v: Array) -> str:
     """A force or couple as the reader writes it: in the plane by size and angle, in space by components."""
     if np.ndim(v) == 0:
         return c.shown.text(kind, float(v))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import link_angle, link_place, link_speed, slide_direction
+from dalembert.arrays import Tree
 from dalembert.model import GROUND
 from dalembert.reports.sections.terms import Signed, join_signed
 from dalembert.reports.sheet import Working
@@ -60,7 +61,7 @@ def rings(r: Result) -> list[Ring]:
     return [_ring(joint, *edges[joint], parent) for joint in left]
 
 
-def _ring(joint: str, i: str, j: str, parent: dict[str, Any]) -> Ring:
+def _ring(joint: str, i: str, j: str, parent: Tree) -> Ring:
     """Through one joint outside the tree and back through the tree."""
     to_i, to_j = _way(i, parent), _way(j, parent)
     while to_i and to_j and to_i[0] == to_j[0]:
@@ -78,7 +79,7 @@ def _loop(r: Result, k: int, ring: Ring) -> Loop:
     return Loop(tuple(after for _, _, after in ring), tuple(s for s in sides if s.length > 1e-12 or s.slide))
 
 
-def _way(link: str, parent: dict[str, Any]) -> Ring:
+def _way(link: str, parent: Tree) -> Ring:
     """Steps (joint, from, to) from the ground to a link."""
     out: Ring = []
     while parent[link] is not None:

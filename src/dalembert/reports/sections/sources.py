@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -196,13 +196,13 @@ def _nothing(a: Action, k: int, least: tuple[float, ...]) -> bool:
     return bool(np.abs(a.force[k]).max() <= least[0] and np.abs(a.couple[k]).max() <= least[1] and least[2])
 
 
-def _vector_of(shown: Shown, kind: str, v: Any) -> str:
+def _vector_of(shown: Shown, kind: str, v: Array) -> str:
     """A number, or a vector by its components."""
     numbers = [shown.number(kind, float(x)) for x in np.atleast_1d(v)]
     return f"({', '.join(numbers)})" if np.ndim(v) else numbers[0]
 
 
-def _displacement(shown: Shown, v: Any, factor: float, size: float) -> str:
+def _displacement(shown: Shown, v: Array, factor: float, size: float) -> str:
     """A displacement or turn for a unit of the drive, in the reader's units; beside a size rounding is 0."""
     numbers = [
         shown.notation.number(float(x) * factor if abs(float(x)) > PART * size else 0.0)

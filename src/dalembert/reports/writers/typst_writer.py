@@ -7,6 +7,7 @@ from importlib import import_module
 from importlib.resources import files
 from typing import Any
 
+from dalembert.arrays import Tree
 from dalembert.reports.formula import typst, write_mixed
 from dalembert.reports.sheet import Block, Equations, Figure, Heading, Matrix, Paragraph, Sheet, Table
 from dalembert.views.formats.svg import MARGIN
@@ -20,7 +21,7 @@ def typst_bytes(sheet: Sheet, kind: str) -> bytes:
     """The report as `pdf` or `html`."""
     engine: Any = import_module("typst")
     pictures: dict[str, bytes] = {}
-    tree: dict[str, Any] = {
+    tree: Tree = {
         "title": sheet.title,
         "source": sheet.source,
         "subtitle": sheet.subtitle,
@@ -37,7 +38,7 @@ def typst_bytes(sheet: Sheet, kind: str) -> bytes:
     return out
 
 
-def _block(b: Block, pictures: dict[str, bytes]) -> dict[str, Any]:
+def _block(b: Block, pictures: dict[str, bytes]) -> Tree:
     if isinstance(b, Heading):
         return {"kind": "heading", "level": b.level, "text": b.text}
     if isinstance(b, Paragraph):
@@ -64,7 +65,7 @@ def _rich(text: str) -> list[str]:
     return write_mixed(text, typst, str)
 
 
-def _pictures(scenes: tuple[Scene, ...], pictures: dict[str, bytes]) -> list[dict[str, Any]]:
+def _pictures(scenes: tuple[Scene, ...], pictures: dict[str, bytes]) -> list[Tree]:
     out = []
     scale = 0.82 if len(scenes) > 1 else 0.95
     for scene in scenes:

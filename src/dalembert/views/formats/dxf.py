@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 from typing import Any
 
+from dalembert.arrays import Tree
 from dalembert.views.formats.svg import arrow_parts
 from dalembert.views.paper.lettering import plain
 from dalembert.views.paper.scene import Arc, Arrow, Circle, Line, Polygon, Scene, Text
@@ -29,7 +30,7 @@ def write_dxf(scene: Scene, path: str | Path) -> None:
     document.saveas(path)
 
 
-def _add(space: Any, item: Any, at: dict[str, Any]) -> None:
+def _add(space: Any, item: Any, at: Tree) -> None:
     if isinstance(item, Text):
         from ezdxf.enums import TextEntityAlignment as Alignment
 

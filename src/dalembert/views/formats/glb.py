@@ -10,12 +10,12 @@ import json
 import struct
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dalembert.algebra import space
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.model import GROUND
 from dalembert.saving import new_file
@@ -45,7 +45,7 @@ UPRIGHT = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]
 class SolidModel:
     """A glTF document and its numbers; ``save`` writes .glb."""
 
-    document: dict[str, Any] = field(repr=False)
+    document: Tree = field(repr=False)
     numbers: bytes = field(repr=False)
 
     def to_glb(self) -> bytes:
@@ -75,15 +75,15 @@ def solid_model(r: Result) -> SolidModel:
     materials = {role: n for n, role in enumerate(MATERIALS)}
     links = [GROUND, *r.links]
     solids = link_solids(r, size)
-    document_nodes: list[dict[str, Any]] = []
-    meshes: list[dict[str, Any]] = []
+    document_nodes: list[Tree] = []
+    meshes: list[Tree] = []
     for link in links:
         by_role: dict[str, list[Mesh]] = {}
         for s in [*solids[link], *shape_solids(r, link, size)]:
             role = "thread" if s.role == "hatch" else s.role
             by_role.setdefault(role, []).append(mesh(s, ROD * size))
         turn, at = pose(r, link, int(k[0]))
-        node: dict[str, Any] = {
+        node: Tree = {
             "name": link,
             "translation": _list(at),
             "rotation": _list(_quaternions(turn[None])[0]),
@@ -93,9 +93,9 @@ def solid_model(r: Result) -> SolidModel:
             parts = [w.primitive(join_meshes(some), materials[role]) for role, some in by_role.items()]
             meshes.append({"name": link, "primitives": parts})
         document_nodes.append(node)
-    root: dict[str, Any] = {"name": r.mechanism.title or "mechanism", "children": list(range(len(links)))}
+    root: Tree = {"name": r.mechanism.title or "mechanism", "children": list(range(len(links)))}
     root |= {"rotation": UPRIGHT} if r.mechanism.dimension == 3 else {}
-    document: dict[str, Any] = {
+    document: Tree = {
         "asset": {"version": "2.0", "generator": "dalembert"},
         "scene": 0,
         "scenes": [{"nodes": [len(links)]}],
@@ -125,7 +125,7 @@ def times(r: Result, k: Array) -> Array:
     return np.arange(len(k)) / FRAMES
 
 
-def _animation(r: Result, k: Array, links: list[str], w: _Writer) -> dict[str, Any]:
+def _animation(r: Result, k: Array, links: list[str], w: _Writer) -> Tree:
     """Translation and rotation of every moving link; a motion that comes round to its start is closed."""
     moving = [link for link in links if link != GROUND]
     t = times(r, k)
@@ -137,8 +137,8 @@ def _animation(r: Result, k: Array, links: list[str], w: _Writer) -> dict[str, A
         places = {link: np.concatenate([p, p[:1]]) for link, p in places.items()}
         turns = {link: _smooth(np.concatenate([q, q[:1]])) for link, q in turns.items()}
     clock = w.accessor(t[:, None].astype("<f4"), None, limits=True)
-    samplers: list[dict[str, Any]] = []
-    channels: list[dict[str, Any]] = []
+    samplers: list[Tree] = []
+    channels: list[Tree] = []
     for link in moving:
         for path, values in (("translation", places[link]), ("rotation", turns[link])):
             channels.append({"sampler": len(samplers), "target": {"node": links.index(link), "path": path}})
@@ -191,16 +191,16 @@ class _Writer:
 
     def __init__(self) -> None:
         self.numbers = bytearray()
-        self.views: list[dict[str, Any]] = []
-        self.accessors: list[dict[str, Any]] = []
+        self.views: list[Tree] = []
+        self.accessors: list[Tree] = []
 
     def accessor(self, values: Array, target: int | None, kind: int = FLOAT, limits: bool = False) -> int:
         """The number of a new accessor of values (n, c)."""
         written = np.ascontiguousarray(values, DTYPES[kind])
-        view: dict[str, Any] = {"buffer": 0, "byteOffset": len(self.numbers), "byteLength": written.nbytes}
+        view: Tree = {"buffer": 0, "byteOffset": len(self.numbers), "byteLength": written.nbytes}
         self.views.append(view | ({"target": target} if target else {}))
         self.numbers += written.tobytes() + b"\0" * (-written.nbytes % 4)
-        found: dict[str, Any] = {
+        found: Tree = {
             "bufferView": len(self.views) - 1,
             "componentType": kind,
             "count": len(written),
@@ -211,7 +211,7 @@ class _Writer:
         self.accessors.append(found)
         return len(self.accessors) - 1
 
-    def primitive(self, m: Mesh, material: int) -> dict[str, Any]:
+    def primitive(self, m: Mesh, material: int) -> Tree:
         """A mesh of one material."""
         kind = SHORT if len(m.points) < 65535 else INTEGER
         return {
@@ -230,13 +230,13 @@ MATERIALS = (*SOLIDS, "guide", "thread", "shape")
 SEEN_THROUGH = ("guide", "shape")
 
 
-def _material(role: str) -> dict[str, Any]:
+def _material(role: str) -> Tree:
     colour = SOLIDS[role][1] if role in SOLIDS else "#6b7785"
     red, green, blue = (int(colour[n : n + 2], 16) / 255 for n in (1, 3, 5))
     seen = {
         "baseColorFactor": [*(_linear(c) for c in (red, green, blue)), 0.3 if role in SEEN_THROUGH else 1.0]
     }
-    out: dict[str, Any] = {
+    out: Tree = {
         "name": role,
         "pbrMetallicRoughness": seen | {"metallicFactor": 0.1, "roughnessFactor": 0.7},
     }
@@ -248,5 +248,5 @@ def _linear(c: float) -> float:
     return round(c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4, 5)
 
 
-def _list(values: Any) -> list[float]:
+def _list(values: Array) -> list[float]:
     return [float(v) for v in values]

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+from numpy.typing import ArrayLike
+
+from dalembert.arrays import Array, Tree
 from dalembert.views.formats.svg import MARGIN, arc_head, arrow_parts
 from dalembert.views.formats.themes import BACKGROUND, THEMES, Look
 from dalembert.views.paper.lettering import BOLD, SMALL, Box, letters_width, pieces
@@ -19,7 +23,7 @@ POINT = 72 / 25.4
 def write_figure(scene: Scene, path: str | Path, theme: str = "light", dpi: int = 200) -> None:
     """Write a PDF or a PNG, to scale."""
     path = Path(path)
-    metadata: dict[str, Any] = {"Title": scene.title} if path.suffix != ".png" else {}
+    metadata: Tree = {"Title": scene.title} if path.suffix != ".png" else {}
     if path.suffix == ".pdf":
         metadata["CreationDate"] = None
     _save(scene, theme, scene.bounds, path, dpi=dpi, metadata=metadata, format=path.suffix[1:])
@@ -94,7 +98,7 @@ class _Painter:
         self.line(shaft, look)
         self.head(head, look)
 
-    def line(self, points: Any, look: Look) -> None:
+    def line(self, points: Iterable[Sequence[float]] | Array, look: Look) -> None:
         from matplotlib.lines import Line2D
 
         x, y = zip(*points, strict=True)
@@ -105,7 +109,7 @@ class _Painter:
         line.set_linestyle((0, [d / look.width for d in look.dash]) if look.dash else style)
         self.axes.add_line(line)
 
-    def area(self, points: Any, look: Look) -> None:
+    def area(self, points: ArrayLike, look: Look) -> None:
         from matplotlib.patches import Polygon as Patch
 
         self.axes.add_patch(
@@ -120,7 +124,7 @@ class _Painter:
             )
         )
 
-    def head(self, points: Any, look: Look) -> None:
+    def head(self, points: ArrayLike, look: Look) -> None:
         from matplotlib.patches import Polygon as Patch
 
         if points:

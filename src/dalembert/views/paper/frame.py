@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from dalembert.arrays import Array
 from dalembert.views.paper.scene import Point
 
 STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
@@ -22,7 +23,7 @@ class Frame:
     per_mm: float
     middle: Point = (0.0, 0.0)
 
-    def __call__(self, p: Any) -> Point:
+    def __call__(self, p: Point | Array) -> Point:
         """A place of the machine (metres) on paper."""
         return (
             (float(p[0]) - self.middle[0]) / self.per_mm,

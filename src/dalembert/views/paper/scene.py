@@ -10,8 +10,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
-from typing import Any
 
+from dalembert.arrays import Tree
 from dalembert.views.paper.lettering import Box, text_box
 
 Point = tuple[float, float]
@@ -126,7 +126,7 @@ class Scene:
     items: tuple[Item, ...]
     title: str = ""
     scales: Mapping[str, float] = field(default_factory=dict)
-    numbers: Mapping[str, Any] = field(default_factory=dict)
+    numbers: Mapping[str, object] = field(default_factory=dict)
 
     def flat(self) -> Iterator[Item]:
         """All primitives, groups opened."""
@@ -153,7 +153,7 @@ class Scene:
         """The same elsewhere on the paper."""
         return replace(self, items=tuple(shift_item(item, dx, dy) for item in self.items))
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> Tree:
         """The data form: every primitive with its kind, role and numbers."""
         return {
             "title": self.title,
@@ -215,8 +215,8 @@ def shift_item(item: Item, dx: float, dy: float) -> Item:
     return replace(item, center=to(item.center))
 
 
-def _tree(item: Item) -> dict[str, Any]:
-    tree: dict[str, Any] = {"primitive": type(item).__name__.lower()}
+def _tree(item: Item) -> Tree:
+    tree: Tree = {"primitive": type(item).__name__.lower()}
     if isinstance(item, Group):
         return tree | {"name": item.name, "items": [_tree(one) for one in item.items]}
     return tree | {f.name: getattr(item, f.name) for f in fields(item)}

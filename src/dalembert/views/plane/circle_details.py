@@ -21,6 +21,7 @@ from dalembert.analysis.friction.joint_friction import (
     friction_coefficient,
     friction_sense,
 )
+from dalembert.arrays import Array
 from dalembert.model import GROUND
 from dalembert.views.notation import Shown
 from dalembert.views.paper.canvas import Canvas
@@ -95,7 +96,7 @@ def _common_lines(canvas: Canvas, r: Result, k: int, frame: Frame, name: str, fo
         canvas.add(Line((onward(at, e, -BEYOND), onward(at, e, length + BEYOND)), role))
 
 
-def onward(at: Point, e: Any, distance: float) -> Point:
+def onward(at: Point, e: Array, distance: float) -> Point:
     return (at[0] + distance * float(e[0]), at[1] + distance * float(e[1]))
 
 
@@ -164,7 +165,7 @@ def _draw_links(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on:
             canvas.label(shown.link(link), onward((0.0, 0.0), ways[0], WINDOW), size=3.0, role="note")
 
 
-def chord(canvas: Canvas, at: Point, e: Any, role: str) -> None:
+def chord(canvas: Canvas, at: Point, e: Array, role: str) -> None:
     """A line through a point, as far as the detail reaches."""
     if not np.isfinite([*at, *e]).all() or not np.any(e):
         return
@@ -208,7 +209,7 @@ def _turning(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on: st
     canvas.label(words, arc.at(free), prefer=free, size=2.8, role="velocity")
 
 
-def _clear(free: float, force: Any) -> float:
+def _clear(free: float, force: Array) -> float:
     """A turn that keeps the curved arrow off the line of the reaction."""
     if not np.isfinite(force).all() or not np.any(force):
         return 0.0

@@ -239,9 +239,9 @@ def _meeting(
         _mark(canvas, frame(point), span, "P")
         return [f"The lines of {', '.join(names)} meet in P."]
     if len(mine) == 4:
-        pairs = [concurrency(mine[:2], k), concurrency(mine[2:], k)]
-        if None not in pairs:
-            return _two_meetings(canvas, frame(pairs[0]), frame(pairs[1]), span, names)
+        first, second = concurrency(mine[:2], k), concurrency(mine[2:], k)
+        if first is not None and second is not None:
+            return _two_meetings(canvas, frame(first), frame(second), span, names)
     return []
 
 

@@ -17,6 +17,7 @@ from dalembert.analysis.friction.joint_friction import (
 )
 from dalembert.analysis.friction.lines_of_action import FaceForce, bearing_faces, close_by, slot_face
 from dalembert.analysis.methods.applied_forces import joint_place, slide_direction
+from dalembert.arrays import Array
 from dalembert.model import GROUND
 from dalembert.views.notation import Shown
 from dalembert.views.paper.canvas import Canvas
@@ -145,7 +146,7 @@ def faces_of(r: Result, joint: str, k: int) -> list[FaceForce]:
     return [f for f in faces if np.isfinite(f.normal[k]).all()]
 
 
-def _point(p: Any) -> Point:
+def _point(p: Point | Array) -> Point:
     return (float(p[0]), float(p[1]))
 
 
@@ -161,7 +162,7 @@ class _Sketch:
     """The block of a guide on paper, the slide in its true direction."""
 
     def __init__(
-        self, r: Result, joint: str, k: int, shown: Shown, faces: Sequence[FaceForce], e: Any
+        self, r: Result, joint: str, k: int, shown: Shown, faces: Sequence[FaceForce], e: Array
     ) -> None:
         self.r, self.joint, self.k, self.shown = r, joint, k, shown
         self.canvas = Canvas()

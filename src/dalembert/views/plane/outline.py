@@ -9,8 +9,9 @@ import numpy as np
 
 from dalembert.analysis.compile.load_arrays import point_of
 from dalembert.analysis.methods.applied_forces import joint_place, link_place
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Tree
 from dalembert.model import GROUND
+from dalembert.model.joints.plane_joints import Joint
 from dalembert.views.paper.frame import Frame
 from dalembert.views.paper.scene import Item, Line, Point, Polygon
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 def link_points(r: Result, link: str, k: int) -> dict[str, tuple[float, float]]:
     """Places in metres of what a link's shape spans: joints, then points that carry loads."""
     m = r.mechanism
-    places: dict[str, Any] = {}
+    places: Tree = {}
     for name, joint in m.joints.items():
         for end, u in zip(joint.links, m.joint_points(name), strict=True):
             if end == link and not _slides_on(joint, end):
@@ -35,14 +36,14 @@ def link_points(r: Result, link: str, k: int) -> dict[str, tuple[float, float]]:
     return {name: (float(p[0]), float(p[1])) for name, p in places.items()}
 
 
-def _slides_on(joint: Any, link: str) -> bool:
+def _slides_on(joint: Joint, link: str) -> bool:
     """Whether the link is what another moves along: its point is not where the other link is."""
     return joint.apart and joint.links[0] == link and link == GROUND
 
 
-def load_places(m: Mechanism, link: str) -> dict[str, Any]:
+def load_places(m: Mechanism, link: str) -> Tree:
     """Points of a link, in its axes, where loads act on it."""
-    out: dict[str, Any] = {}
+    out: Tree = {}
     for name, load in m.loads.items():
         if load.ON == "point" and load.on == link:
             out[name] = point_of(m, link, load.at)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from dalembert.arrays import Array
 
@@ -46,11 +47,11 @@ class Camera:
             [flat * math.cos(self.azimuth), flat * math.sin(self.azimuth), math.sin(self.elevation)]
         )
 
-    def __call__(self, points: Any) -> Array:
+    def __call__(self, points: ArrayLike) -> Array:
         """Places (..., 3) on paper (..., 2); vectors too, for the camera is linear."""
         return np.asarray(np.asarray(points, float) @ np.stack([self.right, self.up], axis=-1))
 
-    def depth(self, points: Any) -> Array:
+    def depth(self, points: ArrayLike) -> Array:
         """How near to the eye places (..., 3) are: larger is nearer."""
         return np.asarray(np.asarray(points, float) @ self.eye)
 

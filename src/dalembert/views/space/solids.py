@@ -9,11 +9,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Tree
 
 Rotation = Array
 
@@ -117,7 +116,7 @@ def place_solid(solid: Solid, turn: Rotation, at: Array, scale: float = 1.0) -> 
     >>> ball.center.tolist(), ball.radius
     ([3.0, 0.0, 5.0], 6.0)
     """
-    changed: dict[str, Any] = {}
+    changed: Tree = {}
     for f in fields(solid):
         value = getattr(solid, f.name)
         if f.name in PLACES:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.views.notation import Figures
 from dalembert.views.paper.canvas import Canvas
@@ -51,11 +52,11 @@ class Sight:
     camera: Camera
     frame: Frame
 
-    def __call__(self, p: Any) -> Point:
+    def __call__(self, p: Point | Array) -> Point:
         """A place of the machine (metres) on paper."""
         return self.frame(self.camera(p))
 
-    def ahead(self, start: Point, v: Any, per_mm: float) -> Point:
+    def ahead(self, start: Point, v: Array, per_mm: float) -> Point:
         """The head of an arrow that starts at a place on paper and stands for a vector of space."""
         dx, dy = self.camera(v) / per_mm
         return start[0] + float(dx), start[1] + float(dy)

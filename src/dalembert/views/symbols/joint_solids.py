@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,7 +18,7 @@ LAYER = 2.2
 """Distance of the layers of a plane mechanism, mm."""
 
 
-def lift(r: Result, link: str, u: Any, size: float = 0.0) -> Array:
+def lift(r: Result, link: str, u: Sequence[float] | Array, size: float = 0.0) -> Array:
     """A point of a link with three components; in the plane in the link's layer."""
     if r.mechanism.dimension == 3:
         return np.asarray(u, float)

@@ -36,6 +36,7 @@ from dalembert.analysis.output.summary.printed_units import (
     without_reactions,
 )
 from dalembert.analysis.result.reaction_axes import Axes
+from dalembert.arrays import Array
 from dalembert.printing import number, remainder, round_components, table, tables, with_unit, wrap
 
 if TYPE_CHECKING:
@@ -186,7 +187,7 @@ def _wrench(force: Any, moment: float, to: Printed) -> list[str]:
     return [number(v) for v in (x, y, size, direction, float(to("moment", moment)))]
 
 
-def _largest(values: Any) -> float:
+def _largest(values: Array) -> float:
     return float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0
 
 

@@ -9,20 +9,21 @@ import numpy as np
 from dalembert.analysis.compile.contacts import coefficient
 from dalembert.analysis.friction.joint_friction import bears_on_faces, friction_circle_radius, guide_contact
 from dalembert.analysis.output.columns import Scale, friction_joints, unknown_kinds
+from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.printing import number, tables, with_unit
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-def ends_text(result: Result, name: str, to: Any, position: int = 0) -> str:
+def ends_text(result: Result, name: str, to: Printed, position: int = 0) -> str:
     """'-7304 to -4522 N*m'; a dash where no value holds."""
     kind = unknown_kinds(result)[name]
     low, high = (number(float(v)) for v in to(kind, result.interval(name)[position]))
     return f"{low} to {high} {to.text(kind)}"
 
 
-def open_text(result: Result, name: str, to: Any) -> str:
+def open_text(result: Result, name: str, to: Printed) -> str:
     """At the first position of two numbers: the interval at rest, both sides of a reversal; '' where there is one."""
     if result.status[0] == "at_rest":
         return ends_text(result, name, to)
@@ -35,7 +36,7 @@ def open_text(result: Result, name: str, to: Any) -> str:
     return " / ".join(number(float(to(kind, v[0]))) for v in values) + f" {to.text(kind)}"
 
 
-def with_ends(result: Result, to: Any, position: int, cells: list[str]) -> list[str]:
+def with_ends(result: Result, to: Printed, position: int, cells: list[str]) -> list[str]:
     """A row of the table of positions with intervals where friction leaves efforts and unknown loads open."""
     names = [*result.drives, *result.unknown_loads]
     out = list(cells)
@@ -82,7 +83,7 @@ def efficiency_note(result: Result) -> str:
     return f"Efficiency, without inertia: {'; '.join(parts)}." if parts else ""
 
 
-def cycle_text(result: Result, to: Any) -> str:
+def cycle_text(result: Result, to: Printed) -> str:
     """What each joint's friction takes over all positions, and the efficiency."""
     from dalembert.analysis.friction.efficiency import efficiency
 
@@ -103,7 +104,7 @@ def cycle_text(result: Result, to: Any) -> str:
     return f"{tables(heads, rows, 1)}\n{words}"
 
 
-def friction_table(result: Result, to: Any) -> str:
+def friction_table(result: Result, to: Printed) -> str:
     """Friction force, couple and lost power of each joint at the first position, and how guides bear."""
     heads = ["friction", "on j", f"force\n{to.text('force')}", f"couple\n{to.text('moment')}"]
     heads += [f"power lost\n{to.text('power')}", "law"]

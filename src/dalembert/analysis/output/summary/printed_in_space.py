@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dalembert.algebra.space import angle_and_axis
+from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.arrays import Array
 from dalembert.printing import number, round_components, tables, wrap
 
 if TYPE_CHECKING:
@@ -25,7 +27,7 @@ AXES: dict[Axes, str] = {
 }
 
 
-def space_reaction_tables(reactions: Sequence[Reaction], to: Any, axes: Axes) -> str:
+def space_reaction_tables(reactions: Sequence[Reaction], to: Printed, axes: Axes) -> str:
     """Forces, then moments, of reactions at one position (3,); what is not unique also with the least norm."""
     note = f"F_ij and M_ij are by link i on link j, in {AXES[axes]}; moments about j's point of the joint."
     shown = f"{_tables(reactions, to)}\n{wrap(note)}"
@@ -37,7 +39,7 @@ def space_reaction_tables(reactions: Sequence[Reaction], to: Any, axes: Axes) ->
     return f"{shown}\n\n{NOT_UNIQUE}\n\n{_tables(least, to)}" if least else shown
 
 
-def _tables(reactions: Sequence[Reaction], to: Any) -> str:
+def _tables(reactions: Sequence[Reaction], to: Printed) -> str:
     parts = []
     for letter, kind in (("F", "force"), ("M", "moment")):
         heads = [
@@ -49,13 +51,13 @@ def _tables(reactions: Sequence[Reaction], to: Any) -> str:
     return "\n\n".join(parts)
 
 
-def _components_and_size(vector: Any) -> list[str]:
+def _components_and_size(vector: Array) -> list[str]:
     """Components and size."""
     components = round_components(vector)
     return [number(v) for v in (*components, math.hypot(*components))]
 
 
-def space_link_tables(result: Result, to: Any) -> str:
+def space_link_tables(result: Result, to: Printed) -> str:
     """How every link is turned, where its mass centre is, and their rates, at the first position."""
     turned = [f"turned\n{to.text('angle')}", "about x", "y", "z", *_heads("center", to.text("length"))]
     rates = (("speed", "angular_speed"), ("acceler.", "angular_acceleration"))

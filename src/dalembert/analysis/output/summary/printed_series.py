@@ -16,6 +16,7 @@ from dalembert.analysis.output.summary.printed_units import (
     without_reactions,
 )
 from dalembert.analysis.result.reaction_axes import Axes
+from dalembert.arrays import Array
 from dalembert.printing import number, tables
 
 if TYPE_CHECKING:
@@ -97,9 +98,9 @@ def _turning(result: Result, link: str) -> list[tuple[str, str, Any]]:
     return [(f"|{name}| {link}", kind, np.linalg.norm(v, axis=-1)) for name, kind, v in rates]
 
 
-def _sizes(name: str, vectors: Any) -> list[tuple[str, Any]]:
+def _sizes(name: str, vectors: Array) -> list[tuple[str, Any]]:
     """The magnitudes of vectors (P, d); where none is known because a component is not, the components that are."""
-    known = np.isfinite(vectors).any(axis=0)
+    known = np.asarray(np.isfinite(vectors).any(axis=0))
     if known.all() or not known.any():
         letter, _, joint = name.partition(" ")
         return [(f"|{letter}| {joint}", np.linalg.norm(vectors, axis=-1))]

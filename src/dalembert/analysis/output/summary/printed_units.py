@@ -8,6 +8,7 @@ import numpy as np
 
 from dalembert.analysis.output.columns import Scale, UnitChoice, drive_kinds
 from dalembert.analysis.output.rounding import PART, cached, largest, sizes
+from dalembert.arrays import Array, Numeric, Tree
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -19,7 +20,7 @@ class Printed(Scale):
     def text(self, kind: str) -> str:
         return super().text(kind) if self.bare(kind) else RADIANS[kind]
 
-    def __call__(self, kind: str, values: Any) -> Any:
+    def __call__(self, kind: str, values: Numeric) -> Numeric:
         return super().__call__(kind, values) if self.bare(kind) else values
 
 
@@ -41,7 +42,7 @@ def motion_only(result: Result) -> bool:
     return without_reactions(result) and not np.isfinite(result.effort_array).any()
 
 
-def significant(result: Result, kind: str, values: Any) -> Any:
+def significant(result: Result, kind: str, values: Array) -> Any:
     """Numbers of a kind, (P,) or (P, ...), or of the first position; those that are nothing but rounding as 0.
 
     >>> from dalembert.analysis import statics
@@ -55,7 +56,7 @@ def significant(result: Result, kind: str, values: Any) -> Any:
     return np.where(np.abs(values) < small, 0.0, values)
 
 
-def _largest(result: Result) -> dict[str, Any]:
+def _largest(result: Result) -> Tree:
     """By kind the largest number at each position (P,): quicker than all that acts there."""
     d, length, many = result.compiled.layout.algebra.d, result.compiled.layout.length, len(result.status)
     angular = [drive_kinds(result, drive)["effort"] == "moment" for drive in result.drives]
