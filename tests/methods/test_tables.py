@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+import dalembert as da
+from dalembert.reports.sections.given import _measures
 from dalembert.reports.sections.sources import _tables
 from dalembert.reports.sheet import Equations, Sheet, Table
 from dalembert.reports.space_sections.space_closure import closing_lines
@@ -56,3 +58,23 @@ def test_loops_close_in_lengths_and_where_it_moves_in_both_rates(moving: bool, o
     r, sheet = solved("rssr"), Sheet("")
     closing_lines(sheet, r, 0, Shown(r, Notation()), moving)
     assert len([b for b in sheet.blocks if isinstance(b, Equations)]) == orders  # of one loop
+
+
+@pytest.mark.parametrize(
+    ("joint", "words"),
+    [
+        (da.Pin(links=("a", "b")), ""),
+        (da.Slot(links=("a", "b"), direction="30 deg"), ", along 30.00°"),
+        (da.CircularSlot(links=("a", "b"), radius="0.2 m"), ", radius 200.0 mm"),
+        (
+            da.Gear(links=("a", "b"), radii=("40 mm", "80 mm"), internal=True),
+            ", pitch radii 40.00 mm and 80.00 mm, internal, pressure angle 20.00°",
+        ),
+        (da.Rolling(links=("a", "b"), radii=("40 mm", "80 mm")), ", radii 40.00 mm and 80.00 mm"),
+        (da.Rolling(links=("a", "b"), radius="80 mm", direction="5 deg"), ", radius 80.00 mm, along 5.000°"),
+    ],
+    ids=lambda given: getattr(given, "type", ""),
+)
+def test_joints_are_given_with_their_measures(joint: object, words: str) -> None:
+    """Only teeth have a pitch; a wheel on a line has one radius."""
+    assert _measures(Shown(solved("rssr"), Notation()), joint) == words
