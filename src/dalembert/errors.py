@@ -58,7 +58,7 @@ class Status(NamedTuple):
 STATUSES: dict[str, Status] = {
     "ok": Status("Solved.", ""),
     "not_assembled": Status(
-        "The linkage does not close at this position.",
+        "The linkage does not close at this position, or no pose was found that does.",
         "Change a length, the assembly or the range of the drive.",
     ),
     "singular": Status(

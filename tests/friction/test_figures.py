@@ -97,6 +97,11 @@ def test_a_rod_at_45_degrees_jams_above_1(mu: float) -> None:
     assert r.status == ("jammed",)
     assert np.isnan(r.unknown_load("rod")[0])
     assert np.isnan(r.reaction("guide")[0]).all()
+    (position,) = r.to_dict()["positions"]
+    nothing = {"force": [None, None], "moment": None}
+    guide = position["reactions"]["guide"]
+    assert guide["friction"] == {**nothing, "power_lost": None}
+    assert guide["contact"] == {"mode": None, "lower": None, "upper": None}
     assert r.friction.critical[0] == pytest.approx(1 / mu, rel=1e-9)
     assert r.reasons[0] == (
         "Friction jams the mechanism at guide = 1 m: no effort moves it in this sense, whatever its size. "

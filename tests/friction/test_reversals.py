@@ -212,8 +212,12 @@ def test_tables_have_low_and_high_of_every_quantity_that_friction_changes() -> N
     y = [found.force["B"][1] for found in (before, after)]
     assert values == pytest.approx([y[0], min(y), max(y)], rel=1e-9)
     assert min(y) < max(y)
-    assert {cell(f"{name}{word} [N]", 1) for word in (" low", " high")} == {cell(f"{name} [N]", 1)}
     assert "effort O low [N*m]" in heads
+    for head in heads:
+        if " low [" in head:
+            places = [heads.index(head.replace(" low", word)) for word in ("", " low", " high")]
+            one = [len({row[n] for n in places}) == 1 for row in rows]
+            assert all(np.array(one)[~r.reverses]), head
 
 
 def test_arrays_have_low_and_high() -> None:

@@ -78,15 +78,52 @@ def test_a_range_is_found_however_few_of_the_positions_lie_in_it(order: str) -> 
     np.testing.assert_array_equal(r.ok, angles == 345.0)
 
 
-def test_a_range_is_found_in_a_list_in_no_order_without_a_closed_form() -> None:
-    """One of eight positions is in it, and none of twelve spread over the list."""
-    tree = four_bar_tree((1.0, 1.0, 1.0, 2.9), 10.0, 0.0, 1, 1.0)
+def meshing(tree: dict[str, Any]) -> None:
+    """A wheel on the ground that the crank turns."""
     tree["links"]["ground"]["points"]["P"] = [-0.5, 0.0]
     tree["links"]["wheel"] = {"points": {"P": [0.0, 0.0]}}
     teeth = {"type": "gear", "links": ["crank", "wheel"], "at": ["O2", "P"], "radii": [0.25, 0.25]}
     tree["joints"] |= {"P": {"type": "pin", "links": ["ground", "wheel"]}, "teeth": teeth}
-    angles = np.random.default_rng(2).permutation(5.0 * np.arange(72))
-    np.testing.assert_array_equal(driven(tree, "O2", angles).ok, np.cos(np.radians(angles)) > 5.41 / 5.8)
+
+
+def rolling(tree: dict[str, Any]) -> None:
+    """A wheel that the rocker's rod rolls along the ground."""
+    tree["links"]["ground"]["points"]["L"] = [0.0, -3.5]
+    tree["links"] |= {"rod": {"points": {"B": [0, 0], "Q": [3.5, 0]}}, "wheel": {"points": {"Q": [0, 0]}}}
+    line = {"type": "rolling", "links": ["ground", "wheel"], "at": ["L", "Q"], "direction": 0, "radius": 0.5}
+    pins = {"B2": ["rocker", "rod"], "Q": ["rod", "wheel"]}
+    tree["joints"] |= {name: {"type": "pin", "links": links, "at": name[0]} for name, links in pins.items()}
+    tree["joints"]["line"] = line
+    tree["assembly"]["rod"] = -90
+
+
+@pytest.mark.parametrize(("wheel", "seed"), [(meshing, 3), (rolling, 2)])
+def test_a_range_is_found_in_a_list_in_any_order_with_wheels_that_have_a_phase(wheel: Any, seed: int) -> None:
+    """9 of 72 positions close, in a range on each side of the gap."""
+    tree = four_bar_tree((1.0, 1.0, 1.0, 2.9), 10.0, 0.0, 1, 1.0)
+    wheel(tree)
+    angles = np.random.default_rng(seed).permutation(5.0 * np.arange(72))
+    r = driven(tree, "O2", angles)
+    np.testing.assert_array_equal(r.ok, np.cos(np.radians(angles)) > 5.41 / 5.8)
+    travel = -angles if wheel is meshing else -np.degrees(r.point("wheel", "Q")[:, 0] / 0.5)
+    assert np.nanmax(np.abs(np.ptp((np.degrees(r.angle("wheel")) - travel)[r.ok]))) < 1e-9
+
+
+def test_all_ranges_of_two_drives_are_found_however_many_gaps_lie_between_them() -> None:
+    rng = np.random.default_rng(3)
+    turns = [x.ravel() for x in np.meshgrid(np.arange(0.0, 360.0, 30.0), np.arange(0.0, 360.0, 45.0))]
+    order = rng.permutation(len(turns[0]))
+    tree = four_bar_tree((1.0, 1.0, 1.0, 2.9), 10.0, 0.0, 1, 1.0)
+    tree["links"]["second"] = {"points": {"O4": [0.0, 0.0], "C": [0.3, 0.0]}}
+    tree["links"]["rocker"]["points"]["C"] = [0.0, 0.0]
+    tree["joints"]["O4"] = {"type": "pin", "links": ["ground", "second"]}
+    tree["joints"]["C"] = {"type": "pin", "links": ["second", "rocker"]}
+    tree["drives"] = {
+        name: {"position": turn[order].tolist()} for name, turn in zip(("O2", "O4"), turns, strict=True)
+    }
+    r = da.kinematics(da.mechanism(tree))
+    ends = np.exp(1j * np.radians(turns[0][order])), 2.9 + 0.3 * np.exp(1j * np.radians(turns[1][order]))
+    np.testing.assert_array_equal(r.ok, np.abs(ends[1] - ends[0]) < 2)
 
 
 @pytest.mark.parametrize("side", [-1.0, 1.0])

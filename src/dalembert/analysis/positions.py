@@ -18,7 +18,7 @@ from dalembert.core.gear_rows import Misfit, mesh_wheels
 from dalembert.core.layout import Mesh, Pose
 from dalembert.core.position.assembly_modes import closing
 from dalembert.core.position.assur_plan import plan
-from dalembert.core.position.first_pose_plane import Guess, Modes, phase_rows
+from dalembert.core.position.first_pose_plane import Guess, Modes, phase_rows, without_phase
 from dalembert.core.position.first_pose_space import Drawing
 from dalembert.core.position.motion_path import BLOCK, Path, path
 from dalembert.core.position.newton import CLOSED, close_loops
@@ -28,6 +28,9 @@ from dalembert.errors import ModelError
 
 SAMPLES = 12
 """Positions, spread over the course, at which a first pose is sought when the first of the list does not close."""
+
+NAMED = 8
+"""Ranges behind gaps that are named, each by a position."""
 
 FARTHEST = 1e4
 """Longest way between two positions that is followed, in radians or characteristic lengths."""
@@ -86,10 +89,15 @@ def _asked(c: Compiled) -> Iterator[int]:
     however few these are."""
     yield 0
     yield from np.setdiff1d(_spread(course(c.layout, c.targets).order), 0)
-    way = plan(c.layout)
+    if not isinstance(c.guess, Guess):
+        return
+    free, start = without_phase(c.layout, c.targets[0], c.guess, hold=True)
+    way, constant = plan(free), start[: free.constraints.count]
     if way is not None and way.closed:
-        blocks = range(0, len(c.targets), BLOCK)
-        yield from _spread(np.concatenate([k + closing(way, c.targets[k : k + BLOCK]) for k in blocks]))
+        drives = c.targets[:, c.layout.constraints.count :]
+        targets = np.column_stack([np.broadcast_to(constant, (len(drives), len(constant))), drives])
+        blocks = range(0, len(targets), BLOCK)
+        yield from _spread(np.concatenate([k + closing(way, targets[k : k + BLOCK]) for k in blocks]))
 
 
 def _spread(places: Ints) -> Ints:
@@ -222,6 +230,7 @@ def _ranges(c: Compiled, found: Path) -> str | None:
         for k in found.entered
     ]
     many = "a range is" if len(at) == 1 else f"{len(at)} ranges are"
+    at = at[:NAMED] + [f"{len(at) - NAMED} more"] * (len(at) > NAMED)
     return (
         f"{many} behind a gap, where the linkage does not close, and not reached by the motion from the first pose: "
         f"there (at {', '.join(at)}) every group of links is on the same side as before"

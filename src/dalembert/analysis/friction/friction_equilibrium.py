@@ -209,9 +209,12 @@ class FrictionProblem:
         viscous_force, viscous_moment, viscous_loss = viscous_wrenches(
             layout, contacts, self.pose, self.moving.twist
         )
+        without = by_joint(
+            contacts.joint, layout.joints, 0.0 * dry
+        )  # NaN, wholly, where a contact has no number
         return Friction(
-            force=force,
-            moment=moment,
+            force=force + without[..., None],
+            moment=moment + without.reshape((*without.shape, *(1,) * (moment.ndim - 2))),
             viscous_force=viscous_force,
             viscous_moment=viscous_moment,
             dry_loss=by_joint(contacts.joint, layout.joints, -dry * state.rate),

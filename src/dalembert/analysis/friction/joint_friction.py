@@ -134,7 +134,8 @@ class GuideContact:
     """Where a guide bears, over P positions.
 
     normal, couple (P,): of the contact forces about j's point; lower, upper (P,): loads on the two faces, both positive
-    mode: `lower face`, `upper face`, or the diagonals `lower ahead, upper behind` and `lower behind, upper ahead`
+    mode: `lower face`, `upper face`, or the diagonals `lower ahead, upper behind` and `lower behind, upper ahead`;
+    empty where no force is known
     angle (P,): of the reaction to the normal, atan of friction over normal force
     """
 
@@ -161,6 +162,7 @@ def guide_contact(result: Result, joint: str) -> GuideContact:
     tilted = np.abs(tilting) > np.abs(normal)
     ahead = np.where(tilting > 0, "lower ahead, upper behind", "lower behind, upper ahead")
     mode = np.where(tilted, ahead, np.where(normal >= 0, "lower face", "upper face"))
+    mode = np.where(np.isnan(total), "", mode)
     angle = np.arctan2(np.abs(f.cz[:, e]), np.abs(normal))
     lower, upper = (total + normal) / 2, (total - normal) / 2
     return GuideContact(normal, couple, lower, upper, tuple(str(m) for m in mode), angle)

@@ -217,7 +217,7 @@ def _numbers(to: Scale) -> Callable[[str, Array], Lists]:
 
 
 def _words(words: tuple[str, ...]) -> Lists:
-    return lambda part: list(words[part])
+    return lambda part: [word or None for word in words[part]]
 
 
 def _limits(end: Result) -> Lists:

@@ -8,6 +8,8 @@ import numpy as np
 
 from dalembert.arrays import Array, Ints
 from dalembert.core.layout import Perpendicular, Pose
+from dalembert.core.position.assur_plan import plan
+from dalembert.core.position.first_pose_plane import Guess, without_phase
 from dalembert.core.position.newton import displace, least_gap
 from dalembert.units import file_units
 
@@ -42,7 +44,16 @@ def open_sentence(c: Compiled, found: Path | None, where: Ints) -> str:
     gap = f": {there}{' and '.join(parts)}" if parts else ""
     drives = f", or give {' and '.join(c.schedule.names)} another range" if c.schedule.names else ""
     datum = "a length" if lengths or not parts else "a direction"
-    return f"The linkage does not close {_span(c, where)}{gap}. Change {datum} or the assembly{drives}."
+    verdict = "The linkage does not close" if _every_way_is_known(c) else "No pose of the linkage was found"
+    return f"{verdict} {_span(c, where)}{gap}. Change {datum} or the assembly{drives}."
+
+
+def _every_way_is_known(c: Compiled) -> bool:
+    """Whether closed forms say where the linkage closes; else poses are sought from starts, which may miss some."""
+    if not isinstance(c.guess, Guess):
+        return False
+    way = plan(without_phase(c.layout, c.targets[0], c.guess, hold=True)[0])
+    return way is not None and way.closed
 
 
 def _openings(c: Compiled, found: Path | None, position: int) -> tuple[Array, Array]:

@@ -82,9 +82,9 @@ def modes(layout: Layout, target: Array, guess: Guess) -> Modes | None:
     The phase of a mesh (or of a rolling wheel) is that of this first pose: its row is left out here, and one wheel
     of it held at its given angle; where that does not close, wheels turn as little as possible from the start.
     """
-    found = _modes(layout, *_without_phase(layout, target, guess, hold=True), guess)
+    found = _modes(layout, *without_phase(layout, target, guess, hold=True), guess)
     if found is None and phase_rows(layout.constraints).size:
-        found = _modes(layout, *_without_phase(layout, target, guess, hold=False), guess)
+        found = _modes(layout, *without_phase(layout, target, guess, hold=False), guess)
     return found
 
 
@@ -123,7 +123,7 @@ def phase_rows(rows: Rows) -> Ints:
     return np.concatenate([*found, np.zeros(0, np.intp)]).astype(np.intp)
 
 
-def _without_phase(layout: Layout, target: Array, guess: Guess, hold: bool) -> tuple[Layout, Array]:
+def without_phase(layout: Layout, target: Array, guess: Guess, hold: bool) -> tuple[Layout, Array]:
     """The layout and target without phase rows; with ``hold``, wheels held at their given angles, or at 0."""
     phased = phase_rows(layout.constraints)
     if not phased.size:

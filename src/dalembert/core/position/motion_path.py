@@ -8,9 +8,8 @@ s  parameter of the course
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
 from dataclasses import replace
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,13 +17,10 @@ from dalembert.arrays import Array, Flags, Ints
 from dalembert.core.constraints import stack_rows
 from dalembert.core.factor import displacement
 from dalembert.core.layout import Angle, Layout, Mesh, Pose, Turn
-from dalembert.core.position.assembly_modes import on_sides
-from dalembert.core.position.assur_groups import Group, groups, on_independent_rows, senses
-from dalembert.core.position.assur_plan import Plan, plan
 from dalembert.core.position.continuation import STEP, March, Nodes, interpolate, march, twists
-from dalembert.core.position.first_pose_plane import phase_rows
-from dalembert.core.position.newton import CLOSED, close_loops, distance, gap
+from dalembert.core.position.newton import CLOSED, close_loops, distance
 from dalembert.core.position.path_parameter import Course, course
+from dalembert.core.position.range_entries import Ways, entries
 
 BLOCK = 2048
 """Positions corrected at once: enough to hide the cost of a numpy call, few enough to stay in the cache."""
@@ -34,12 +30,6 @@ TRUSTED = 1e-6
 
 SAME = 1e-6
 """Distance over characteristic length, or change of a rotation, below which two poses are the same."""
-
-BETWEEN = 8
-"""Parts of the way between two positions at which a gap between them is looked for."""
-
-MOST_GAPS = 8
-"""Times a motion is taken up again behind a gap."""
 
 
 class Path(NamedTuple):
@@ -53,17 +43,6 @@ class Path(NamedTuple):
     reached: Flags
     stretch: Ints
     entered: tuple[int, ...] = ()
-
-
-class Ways(Protocol):
-    """What knows the ways that a linkage closes (``Guess``, ``Drawing``)."""
-
-    @property
-    def stated(self) -> Array | None:
-        """Given angles of the links (L+1,), NaN where there is none; None in space."""
-
-    def every(self, layout: Layout, target: Array) -> Any:
-        """All ways found at a target (K + D,), poses (M, L+1, ...) in ``pose``; None where there is none."""
 
 
 def path(
@@ -239,103 +218,18 @@ def _enter_behind_gap(layout: Layout, first: Pose, along: Course, known: Path, w
 
     Where no sides tell the branches apart there, what lies behind a gap counts as not reached.
     """
-    way, entered = plan(layout), []
-    if way is not None and way.closed:
-        entries = _closed_form_entries(layout, way, first, along, known, ways)
-    else:
-        entries = _sought(layout, first, along, lambda: known, ways)
-    for place, entry in entries:
+    entered: list[int] = []
+
+    def now() -> tuple[Pose, Flags]:
+        return known.pose, known.reached
+
+    for place, entry in entries(layout, first, along, now, ways):
         if known.reached[place]:
             continue
         more = _both_ways(layout, entry, along, along.at(place), len(known.reached))
         if (more.reached & ~known.reached).any():
             entered.append(place)
         known = _first_reached(known, _apart(more, known))
-        if known.reached.all() or len(entered) == MOST_GAPS:
+        if known.reached.all():
             break
     return known._replace(entered=tuple(entered))
-
-
-def _closed_form_entries(
-    layout: Layout, way: Plan, first: Pose, along: Course, known: Path, ways: Ways | None
-) -> Iterator[tuple[int, Pose]]:
-    """Where groups in closed form close on the first pose's sides: the middle of each range that nothing has reached.
-
-    A gap that is seen lies between: where none does, the march has stopped at a place that it could not follow.
-    """
-    turn = np.full(layout.links + 1, np.nan) if ways is None or ways.stated is None else ways.stated
-    reached = known.reached[along.order]
-    part = np.arange(BETWEEN) / BETWEEN
-    s = np.append((along.s[:-1, None] + np.diff(along.s)[:, None] * part).ravel(), along.s[-1])
-    listed = np.arange(len(s)) % BETWEEN == 0
-    there = np.zeros(len(s), bool)
-    there[listed] = reached
-    asked = np.flatnonzero(~there)
-    which, found = on_sides(layout, way, np.concatenate([along.target(x) for x in s[asked]]), first, turn)
-    closes = there.copy()
-    closes[asked[which]] = True
-    pose = dict(zip(asked[which].tolist(), range(len(which)), strict=True))
-    for run in np.split(np.arange(len(s)), np.flatnonzero(np.diff(closes)) + 1):
-        places = run[listed[run]]
-        if closes[run[0]] and places.size and not there[run].any():
-            middle = int(places[len(places) // 2])
-            yield int(along.order[middle // BETWEEN]), found.at(pose[middle])
-
-
-class Fast(NamedTuple):
-    """What entries are sought with: the layout with a solver that is fast, groups and their senses (G,)."""
-
-    layout: Layout
-    kinds: list[Group]
-    sense: Array
-
-
-def _sought(
-    layout: Layout, first: Pose, along: Course, now: Callable[[], Path], ways: Ways | None
-) -> Iterator[tuple[int, Pose]]:
-    """Entries found by Newton from the poses known so far, or by a search, on the first pose's sides."""
-    kinds = groups(layout, _some(now()))
-    if not kinds:
-        return
-    sense, tried = senses(layout, kinds, first.at(None)), np.zeros(0, np.intp)
-    fast = Fast(on_independent_rows(layout, first), kinds, sense)
-    while True:
-        missing = np.setdiff1d(np.flatnonzero(~now().reached), tried)
-        if not missing.size:
-            return
-        sample = missing[np.unique(np.linspace(0, len(missing) - 1, min(len(missing), 12)).astype(int))]
-        targets = ((int(k), along.target(along.at(int(k)))[0]) for k in sample)
-        found = ((k, _entry(layout, fast, target, now(), ways)) for k, target in targets)
-        place, entry = next(((k, e) for k, e in found if e is not None), (0, None))
-        if entry is None:
-            return
-        tried = np.append(tried, place)
-        yield place, entry
-
-
-def _some(known: Path) -> Pose:
-    """A few of the known poses, spread over all of them."""
-    good = np.flatnonzero(known.reached)
-    return known.pose.at(good[np.linspace(0, len(good) - 1, min(len(good), 24)).astype(int)])
-
-
-def _entry(layout: Layout, fast: Fast, target: Array, known: Path, ways: Ways | None) -> Pose | None:
-    """A pose at one target with the groups' given senses: from the nearest of the known poses that leads there, else
-    the only one of the ways that a search finds."""
-    guess = _some(known)
-    pose, _ = close_loops(fast.layout, guess, np.broadcast_to(target, (len(guess.point), len(target))).copy())
-    fits = _fitting(layout, fast, pose, target, 0.0)
-    if fits.any():
-        return pose.at(np.flatnonzero(fits)[np.argmin(distance(layout, pose, guess)[fits])])
-    if ways is None or phase_rows(layout.constraints).size:
-        return None
-    found = ways.every(fast.layout, target)
-    fits = np.zeros(0, bool) if found is None else _fitting(layout, fast, found.pose, target, 0.5)
-    return found.pose.at(np.flatnonzero(fits)[0]) if fits.sum() == 1 else None
-
-
-def _fitting(layout: Layout, fast: Fast, pose: Pose, target: Array, least: float) -> Flags:
-    """Poses (P, L+1, ...) that meet a target with all rows, their groups' senses as given."""
-    missing = np.abs(gap(layout, pose, np.broadcast_to(target, (len(pose.point), len(target))))).max(axis=1)
-    same = senses(layout, fast.kinds, pose) * fast.sense >= least
-    return np.asarray((missing <= CLOSED * layout.length) & same.all(axis=1))

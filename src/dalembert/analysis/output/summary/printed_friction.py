@@ -115,9 +115,8 @@ def friction_table(result: Result, to: Printed) -> str:
         turning = result.friction_moment(joint)[0]
         couple = float(to("moment", np.linalg.norm(turning) if np.ndim(turning) else turning))
         lost = float(to("power", result.power_lost(joint)[0]))
-        law = friction_text(result, joint, to)
-        if bears_on_faces(result, joint):
-            law += f", {guide_contact(result, joint).mode[0]}"
+        bears = guide_contact(result, joint).mode[0] if bears_on_faces(result, joint) else ""
+        law = ", ".join(part for part in (friction_text(result, joint, to), bears) if part)
         rows.append([joint, part.links[1], number(force), number(couple), number(lost), law])
     return tables(heads, rows, 2)
 

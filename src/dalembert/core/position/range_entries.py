@@ -1,0 +1,211 @@
+"""Where a motion is taken up again behind a gap: by closed forms, else by Newton and a search.
+
+Wheels in mesh and rolling ones are held while closed forms lay the links down, then turned into their phase.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.core.constraints import measure, stack_rows
+from dalembert.core.factor import displacement, displacements
+from dalembert.core.layout import Layout, Pose
+from dalembert.core.position.assembly_modes import on_sides
+from dalembert.core.position.assur_groups import Group, groups, on_independent_rows, senses
+from dalembert.core.position.assur_plan import Plan, plan
+from dalembert.core.position.dyads import sides
+from dalembert.core.position.first_pose_plane import Guess, held_wheels, phase_rows, with_rows
+from dalembert.core.position.newton import CLOSED, close_loops, displace, distance, gap
+from dalembert.core.position.path_parameter import Course
+
+SAME = 1e-6
+"""Distance over characteristic length, or turn, below which two ways are the same."""
+
+BETWEEN = 8
+"""Parts of the way between two positions at which a gap between them is looked for."""
+
+STEADY = 1e-6
+"""Change of a wheel's turn per turn of a drive, from pose to pose, below which its train is driven."""
+
+MOST_GAPS = 64
+"""Times a motion is taken up again behind a gap where no closed form says where."""
+
+Entry = tuple[int, Pose]
+"""A position of the list and the pose there."""
+
+Known = Callable[[], tuple[Pose, Flags]]
+"""Poses (P, L+1, ...) of the positions, and which are reached (P,), as far as known now."""
+
+
+class Ways(Protocol):
+    """What knows the ways that a linkage closes (``Guess``, ``Drawing``)."""
+
+    @property
+    def stated(self) -> Array | None:
+        """Given angles of the links (L+1,), NaN where there is none; None in space."""
+
+    def every(self, layout: Layout, target: Array) -> Any:
+        """All ways found at a target (K + D,), poses (M, L+1, ...) in ``pose``; None where there is none."""
+
+
+def entries(layout: Layout, first: Pose, along: Course, now: Known, ways: Ways | None) -> Iterator[Entry]:
+    """Poses at positions not reached, one in each range of them, with every group on the first pose's side."""
+    held = _hold_wheels(layout, _spread(along, *now()))
+    way = plan(held.layout)
+    if way is not None and way.closed:
+        return _closed_form_entries(layout, held, way, first, along, now()[1], ways)
+    return _sought(layout, held, first, along, now, ways)
+
+
+class Held(NamedTuple):
+    """A layout without phases: rows (K',) that are kept of it, and wheels (H,) held in place of the others.
+
+    A wheel is held where the drives turn it by its rates (H, D) from a known pose, where they stand at ``drives`` (D,).
+    The rates are those of a train that is driven, the same at all known poses; 0 where its phase has to turn it on.
+    """
+
+    layout: Layout
+    kept: Ints
+    turn: Array
+    drives: Array
+    rates: Array
+
+    def targets(self, target: Array) -> Array:
+        """Targets (P, K' + H + D) by those with phases (P, K + D)."""
+        drives = target[:, target.shape[1] - len(self.drives) :]
+        angles = self.turn + (drives - self.drives) @ self.rates.T
+        return np.concatenate([target[:, self.kept], angles, drives], axis=1)
+
+
+def _hold_wheels(layout: Layout, poses: Pose) -> Held:
+    """The layout with wheels held in place of their phases, where it has any; in space none is."""
+    count, phased = layout.constraints.count, phase_rows(layout.constraints)
+    kept = np.setdiff1d(np.arange(count), phased)
+    here = measure(layout.algebra, layout.stack, poses.at(0))
+    if not phased.size or layout.algebra.d != 2:
+        return Held(layout, np.arange(count), np.zeros(0), here[count:], np.zeros((0, len(here) - count)))
+    free = with_rows(layout, kept, [])
+    stood = Guess(poses.turn[0], poses.point[0])
+    held = held_wheels(layout, free, np.concatenate([here[kept], here[count:]]), phased, stood)
+    one = np.eye(len(here))[count:] * layout.row_scale[count:, None]
+    each = [
+        displacements(layout, stack_rows(layout, poses.at(slice(k, k + 1))), one)[0]
+        for k in range(len(poses.turn))
+    ]
+    rates = np.reshape(each, (len(each), len(one), layout.links, -1))[:, :, held, -1]
+    rates = np.where(np.ptp(rates, axis=0) <= STEADY * (1 + np.abs(rates[0])), rates[0], 0.0).T
+    return Held(with_rows(layout, kept, held), kept, poses.turn[0, held], here[count:], rates)
+
+
+def _closed_form_entries(
+    layout: Layout, held: Held, way: Plan, first: Pose, along: Course, known: Flags, ways: Ways | None
+) -> Iterator[Entry]:
+    """Where groups in closed form close on the first pose's sides: the middle of each range that nothing has reached.
+
+    A gap that is seen lies between: where none does, the march has stopped at a place that it could not follow.
+    """
+    turn = np.full(layout.links + 1, np.nan) if ways is None or ways.stated is None else ways.stated
+    reached = known[along.order]
+    part = np.arange(BETWEEN) / BETWEEN
+    s = np.append((along.s[:-1, None] + np.diff(along.s)[:, None] * part).ravel(), along.s[-1])
+    listed = np.arange(len(s)) % BETWEEN == 0
+    there = np.zeros(len(s), bool)
+    there[listed] = reached
+    asked = np.flatnonzero(~there)
+    targets = np.concatenate([along.target(x) for x in s[asked]])
+    which, found = on_sides(held.layout, way, held.targets(targets), first, turn)
+    if held.layout is not layout:
+        good, found = _turn_wheels(layout, way, found, targets[which])
+        which = which[good]
+    closes = there.copy()
+    closes[asked[which]] = True
+    pose = dict(zip(asked[which].tolist(), range(len(which)), strict=True))
+    for run in np.split(np.arange(len(s)), np.flatnonzero(np.diff(closes)) + 1):
+        places = run[listed[run]]
+        if closes[run[0]] and places.size and not there[run].any():
+            middle = int(places[len(places) // 2])
+            yield int(along.order[middle // BETWEEN]), found.at(pose[middle])
+
+
+def _turn_wheels(layout: Layout, way: Plan, held: Pose, targets: Array) -> tuple[Ints, Pose]:
+    """Which poses (P, L+1, ...) with held wheels close, every group on its side, once these are in their phase."""
+    missing = gap(layout, held, targets)
+    with np.errstate(all="ignore"):  # at once, however far: a phase is linear in its wheel's angle
+        dq = displacement(layout, stack_rows(layout, held), missing)
+    found = displace(layout, held, dq.reshape(len(targets), layout.links, -1))
+    found, open_ = close_loops(layout, found, targets)
+    nothing = np.full((len(targets), targets.shape[1]), np.nan)
+    with np.errstate(all="ignore"):
+        same = sides(way, found.turn, found.point, nothing) == sides(way, held.turn, held.point, nothing)
+    good = np.flatnonzero((open_ <= CLOSED * layout.length) & same.all(axis=1))
+    return good, found.at(good)
+
+
+class Fast(NamedTuple):
+    """What entries are sought with: the layout with a fast solver, without phases, its groups and their senses (G,)."""
+
+    layout: Layout
+    held: Held
+    kinds: list[Group]
+    sense: Array
+
+
+def _sought(
+    layout: Layout, held: Held, first: Pose, along: Course, now: Known, ways: Ways | None
+) -> Iterator[Entry]:
+    """Entries found by Newton from the poses known so far, or by a search, on the first pose's sides."""
+    kinds = groups(layout, _spread(along, *now()))
+    if not kinds:
+        return
+    sense, tried = senses(layout, kinds, first.at(None)), np.zeros(len(along.s), bool)
+    fast = Fast(on_independent_rows(layout, first), held, kinds, sense)
+    for _ in range(MOST_GAPS):
+        missing = along.order[~(now()[1] | tried)[along.order]]
+        if not missing.size:
+            return
+        sample = missing[np.unique(np.linspace(0, len(missing) - 1, min(len(missing), 12)).astype(int))]
+        targets = ((int(k), along.target(along.at(int(k)))[0]) for k in sample)
+        guess = _spread(along, *now())
+        found = ((k, _entry(layout, fast, target, guess, ways)) for k, target in targets)
+        place, entry = next(((k, e) for k, e in found if e is not None), (0, None))
+        if entry is None:
+            return
+        tried[place] = True
+        yield place, entry
+
+
+def _spread(along: Course, pose: Pose, reached: Flags) -> Pose:
+    """A few of the known poses, spread over all of them along the course."""
+    good = along.order[reached[along.order]]
+    return pose.at(good[np.linspace(0, len(good) - 1, min(len(good), 24)).astype(int)])
+
+
+def _entry(layout: Layout, fast: Fast, target: Array, guess: Pose, ways: Ways | None) -> Pose | None:
+    """A pose at one target with the groups' given senses: from the nearest of the known poses that leads there, else
+    the only one of the ways that a search finds. In space it does not know how often wheels in mesh have turned."""
+    pose, _ = close_loops(fast.layout, guess, np.broadcast_to(target, (len(guess.point), len(target))).copy())
+    fits = _fitting(layout, fast, pose, target, 0.0)
+    if fits.any():
+        return pose.at(np.flatnonzero(fits)[np.argmin(distance(layout, pose, guess)[fits])])
+    if ways is None or phase_rows(fast.held.layout.constraints).size:
+        return None
+    found = ways.every(fast.held.layout, fast.held.targets(target[None])[0])
+    if found is None:
+        return None
+    pose, _ = close_loops(
+        fast.layout, found.pose, np.broadcast_to(target, (len(found.pose.point), len(target))).copy()
+    )
+    pose = pose.at(np.flatnonzero(_fitting(layout, fast, pose, target, 0.5)))
+    one = len(pose.point) > 0 and bool((distance(layout, pose, pose.at(slice(0, 1))) <= SAME).all())
+    return pose.at(0) if one else None
+
+
+def _fitting(layout: Layout, fast: Fast, pose: Pose, target: Array, least: float) -> Flags:
+    """Poses (P, L+1, ...) that meet a target with all rows, their groups' senses as given."""
+    missing = np.abs(gap(layout, pose, np.broadcast_to(target, (len(pose.point), len(target))))).max(axis=1)
+    same = senses(layout, fast.kinds, pose) * fast.sense >= least
+    return np.asarray((missing <= CLOSED * layout.length) & same.all(axis=1))
