@@ -17,11 +17,12 @@ from dalembert.grading.file_answers import (
     computed_text,
     describe_answer,
     position_of,
+    read,
     sides_of,
     target,
     value_text,
 )
-from dalembert.grading.quantities import QUANTITIES, Series, component
+from dalembert.grading.quantities import QUANTITIES, Series
 from dalembert.grading.tolerance import Closeness, closeness
 from dalembert.grading.value_errors import Hypothesis, of_units, of_value
 from dalembert.grading.wrong_problems import Variants
@@ -113,7 +114,7 @@ def _verdict(result: Result, answer: Answer, variants: Variants) -> Verdict:
 
 
 def _of_side(result: Result, answer: Answer, variants: Variants) -> Verdict:
-    series = _series(result, answer)
+    series = read(result, answer)
     k = position_of(result, answer, series)
     units = file_units(result.mechanism.units)
     given = target(answer.value, series, units, "value")
@@ -129,10 +130,6 @@ def _of_side(result: Result, answer: Answer, variants: Variants) -> Verdict:
         met,
         mistake,
     )
-
-
-def _series(result: Result, answer: Answer) -> Series:
-    return component(QUANTITIES[answer.quantity](result, answer), answer.component)
 
 
 def _explain(
@@ -184,7 +181,7 @@ def _read(result: Result | None, answer: Answer, k: int) -> Array | None:
     if result is None:
         return None
     try:
-        return np.asarray(_series(result, answer).values[k], dtype=float)
+        return np.asarray(read(result, answer).values[k], dtype=float)
     except (DalembertError, IndexError):
         return None
 

@@ -178,6 +178,12 @@ class Directed(LoadPart):
             return ()
         return self.value if isinstance(self.value, tuple) else (self.value,)
 
+    def at_drives(self, drives: Mapping[str, Numeric], functions: Functions | None) -> Numeric:
+        """Its components, or its single value, at the drives' positions; 1 of what is asked for."""
+        if isinstance(self.value, tuple):
+            return tuple(value_at(value, drives, functions) for value in self.value)
+        return value_at(1.0 if isinstance(self.value, str) else self.value, drives, functions)
+
     def replaced_by(self, name: str, value: object) -> tuple[str, ...]:
         """A vector later takes the place of a single value and its direction."""
         vector = isinstance(value, (list, tuple)) or (isinstance(value, str) and "@" in value)
@@ -239,9 +245,9 @@ class ForceLoad(Directed):
 
     def force(self, drives: Mapping[str, Numeric], functions: Functions | None = None) -> tuple[Numeric, ...]:
         """The components (fx, fy) in `axes`, N, at the drives' positions; of an unknown force, per unit of it."""
-        if isinstance(self.value, tuple):
-            return tuple(value_at(value, drives, functions) for value in self.value)
-        size = value_at(1.0 if isinstance(self.value, str) else self.value, drives, functions)
+        size = self.at_drives(drives, functions)
+        if isinstance(size, tuple):
+            return size
         if isinstance(self.direction, tuple):
             length = sum(x * x for x in self.direction) ** 0.5
             return tuple(size * (x / length) for x in self.direction)
@@ -281,9 +287,7 @@ class Couple(Directed):
 
     def moment(self, drives: Mapping[str, Numeric], functions: Functions | None = None) -> Numeric:
         """The moment, N m, at the drives' positions; of an unknown couple, per unit of it."""
-        if isinstance(self.value, tuple):
-            return tuple(value_at(value, drives, functions) for value in self.value)
-        return value_at(1.0 if isinstance(self.value, str) else self.value, drives, functions)
+        return self.at_drives(drives, functions)
 
 
 TwoEnds = Annotated[tuple[tuple[str, str], tuple[str, str]], Ends()]

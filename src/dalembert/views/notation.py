@@ -12,16 +12,14 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from dalembert import unit_names
-from dalembert.analysis.output.columns import Scale, drive_kinds
+from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.rounding import least
+from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.model import GROUND
 
 if TYPE_CHECKING:
     from dalembert.analysis.methods.applied_forces import Action
     from dalembert.analysis.result.result import Result
-
-RADIANS = {"angular_speed": "rad/s", "angular_acceleration": "rad/s^2"}
-"""Angular rates have no bare unit in a file; they are shown in radians."""
 
 
 @dataclass(frozen=True)
@@ -116,16 +114,16 @@ class Figures:
     def __init__(self, units: object, notation: Notation) -> None:
         self.notation = notation
         self.least: Mapping[str, float] = defaultdict(float)
-        self.scale = Scale(None if notation.units == "SI" else units)
+        self.scale = Printed(None if notation.units == "SI" else units)
 
     def unit(self, kind: str) -> str:
         """Unit of a kind as the reader writes it: N·m."""
-        return pretty(self.scale.text(kind) if self.scale.bare(kind) else RADIANS[kind])
+        return pretty(self.scale.text(kind))
 
     def value(self, kind: str, value: float) -> float:
         """An SI number in the reader's unit."""
         sign = self.notation.torque if kind == "moment" else 1
-        return sign * float(self.scale(kind, value) if self.scale.bare(kind) else value)
+        return sign * float(self.scale(kind, value))
 
     def size(self, kind: str) -> float:
         """Size in SI of the reader's unit of a kind."""

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from dalembert.algebra import plane
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.compile.load_arrays import point_of
+from dalembert.analysis.result.link_motion import place_of
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, trace_array
@@ -42,16 +43,16 @@ class Catalogue:
         return out + [f"reaction.{j}" for j in c.joints] + [f"moment.{j}" for j in c.joints if j in fixed]
 
     def drive(self, name: str) -> int:
-        return _index(tuple(self.compiled.schedule.names), name, "drive")
+        return place_of(tuple(self.compiled.schedule.names), name, "drive")
 
     def joint(self, name: str) -> int:
-        return _index(self.compiled.joints, name, "joint")
+        return place_of(self.compiled.joints, name, "joint")
 
     def link(self, name: str) -> int:
-        return _index(self.compiled.links, name, "link")
+        return place_of(self.compiled.links, name, "link")
 
     def load(self, name: str) -> Any:
-        return self.traced.load[_index(self.compiled.unknown_loads, name, "unknown load")]
+        return self.traced.load[place_of(self.compiled.unknown_loads, name, "unknown load")]
 
     def arm(self, link: int, u: ArrayLike) -> Array:
         reference = np.asarray(self.compiled.layout.reference, object)
@@ -112,9 +113,3 @@ KINDS: dict[str, Callable[[Catalogue, str], Any]] = {
     "residual": lambda c, of: c.traced.residual,
 }
 """Output kind -> its nodes; the part of the name behind the first dot says of what."""
-
-
-def _index(names: tuple[str, ...], name: str, kind: str) -> int:
-    if name not in names:
-        raise ModelError(f"there is no {kind} {name!r}", f"there are: {', '.join(names) or 'none'}")
-    return names.index(name)

@@ -24,6 +24,7 @@ from dalembert.model.quantities.values import (
     direction_vector,
     value_text,
 )
+from dalembert.model.quantities.vectors import cross, dot
 from dalembert.units import quantity
 
 Matrix = tuple[Vector, Vector, Vector]
@@ -45,7 +46,7 @@ class Frame(Part):
             vector = getattr(self, key)
             if vector is not None:
                 at_item(key, direction_vector, vector)
-        if self.x is not None and self.z is not None and abs(_dot(_unit(self.x), _unit(self.z))) > RIGHT:
+        if self.x is not None and self.z is not None and abs(dot(_unit(self.x), _unit(self.z))) > RIGHT:
             raise ModelError("x and z are not at a right angle", "turn one of them, or leave it out")
         return self
 
@@ -238,7 +239,7 @@ def _frame(own: dict[str, Vector], other: dict[str, Vector], main: str) -> Matri
     wanted = [v for part in (own, other) if (v := part.get(second)) is not None]
     two = next(square for v in [*wanted, *_LINK_AXES[second]] if (square := _square(v, one)) is not None)
     x, z = (one, two) if first == "x" else (two, one)
-    return x, _cross(z, x), z
+    return x, cross(z, x), z
 
 
 _LINK_AXES: dict[str, tuple[Vector, ...]] = {
@@ -250,20 +251,12 @@ _LINK_AXES: dict[str, tuple[Vector, ...]] = {
 def _square(vector: Vector, axis: Vector) -> Vector | None:
     """The unit vector across an axis nearest to a vector; None where that is nearly along it."""
     unit = _unit(vector)
-    along = _dot(unit, axis)
+    along = dot(unit, axis)
     if abs(along) > 0.9:
         return None
     return _unit(tuple(u - along * a for u, a in zip(unit, axis, strict=True)))
 
 
-def _dot(a: Vector, b: Vector) -> float:
-    return sum(x * y for x, y in zip(a, b, strict=True))
-
-
 def _unit(vector: Vector) -> Vector:
     size = math.hypot(*vector)
     return tuple(x / size for x in vector)
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]

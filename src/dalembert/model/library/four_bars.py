@@ -18,6 +18,7 @@ from dalembert.model.library.tree_parts import (
     slender,
     slider,
     slot,
+    slot_holds,
     turning,
 )
 
@@ -180,7 +181,7 @@ def inverted_slider_crank(
             f"not farther than the slide's offset of {abs(offset):g} m",
             "let ground and crank differ by more, or take a smaller offset",
         )
-    _on_the_arm(name, "rocker", rocker, ground + crank)
+    slot_holds(name, "rocker", rocker, ground + crank)
     lever = vector_at(crank, sweep[0]) - ground
     return build_mechanism(
         "Inverted slider-crank",
@@ -254,11 +255,3 @@ def _slotted(mass_per_length: float, length: float, offset: float) -> dict[str, 
     link = slender(mass_per_length, O4=0.0, end=length)
     link["points"]["S"] = [0.0, offset]
     return link
-
-
-def _on_the_arm(template: str, name: str, length: float, needed: float) -> None:
-    if length < needed:
-        raise ModelError(
-            f"{template}: the block goes out to {needed:.4g} m from O4, and the {name} ends at {length:g} m",
-            f"lengthen the {name} to {needed:.4g} m or more",
-        )

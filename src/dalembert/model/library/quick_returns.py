@@ -16,6 +16,7 @@ from dalembert.model.library.tree_parts import (
     positive,
     slender,
     slider,
+    slot_holds,
     turning,
 )
 
@@ -68,7 +69,7 @@ def whitworth(
             "so the arm would not go round",
             "lengthen the crank, or take the template crank_shaper",
         )
-    _slot_holds("whitworth", "slot", slot, ground + crank)
+    slot_holds("whitworth", "slot", slot, ground + crank)
 
     def place(turn: float) -> Points:
         a, o4 = vector_at(crank, turn), -1j * ground
@@ -139,7 +140,7 @@ def crank_shaper(
             "so the lever would not swing to and fro",
             "shorten the crank, or take the template whitworth",
         )
-    _slot_holds("crank_shaper", "lever", lever, ground + crank)
+    slot_holds("crank_shaper", "lever", lever, ground + crank)
 
     def place(turn: float) -> Points:
         a, o4 = vector_at(crank, turn), -1j * ground
@@ -194,11 +195,3 @@ def _stroke(value: float, early: float) -> Tree:
     """The force while the crank goes from `early` degrees before 0 to as much past 180, nothing on the way back."""
     ends = [0.0, 180 + early - RAMP, 180 + early, 360 - early, 360 - early + RAMP, 360.0]
     return {"against": "O2", "x": ends, "y": [value, value, 0.0, 0.0, value, value], "periodic": True}
-
-
-def _slot_holds(template: str, name: str, length: float, needed: float) -> None:
-    if length < needed:
-        raise ModelError(
-            f"{template}: the block goes out to {needed:.4g} m from O4, and the {name} ends at {length:g} m",
-            f"lengthen the {name} to {needed:.4g} m or more",
-        )

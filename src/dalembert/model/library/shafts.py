@@ -13,7 +13,7 @@ from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.library.compass import FULL_TURN
 from dalembert.model.library.tree_parts import build_mechanism, positive, turning
-from dalembert.model.library.vectors import Vector
+from dalembert.model.quantities.vectors import Vector
 
 if TYPE_CHECKING:
     from dalembert.model import Mechanism

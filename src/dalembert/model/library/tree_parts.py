@@ -141,3 +141,12 @@ def points_of(template: str, /, **points: Point) -> Mapping[str, complex]:
                 f"{template}: {name} is {point}, not two numbers (x, y)", f"give {name} in metres"
             )
     return {name: complex(*point) for name, point in points.items()}
+
+
+def slot_holds(template: str, name: str, length: float, needed: float) -> None:
+    """Refuse an arm that ends before the farthest place of its block."""
+    if length < needed:
+        raise ModelError(
+            f"{template}: the block goes out to {needed:.4g} m from O4, and the {name} ends at {length:g} m",
+            f"lengthen the {name} to {needed:.4g} m or more",
+        )

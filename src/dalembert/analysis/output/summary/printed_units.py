@@ -1,4 +1,4 @@
-"""The units of a printed answer, and what of its numbers is nothing but rounding."""
+"""The units of what is printed and drawn, and what of its numbers is nothing but rounding."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Printed(Scale):
-    """The units of the file, but angular rates in rad/s: a bare angular rate has no unit in a file."""
+    """The units of the file; angular rates to which it gives no unit of their own, in radians."""
 
     def text(self, kind: str) -> str:
         return super().text(kind) if self.bare(kind) else RADIANS[kind]

@@ -1,15 +1,15 @@
-"""Vectors of three numbers, for templates in space."""
+"""Vectors of three numbers: axes of joints, and templates in space."""
 
 from __future__ import annotations
 
 Vector = tuple[float, float, float]
 
 
-def dot(a: Vector, b: Vector) -> float:
+def dot(a: tuple[float, ...], b: tuple[float, ...]) -> float:
     return sum(x * y for x, y in zip(a, b, strict=True))
 
 
-def cross(a: Vector, b: Vector) -> Vector:
+def cross(a: tuple[float, ...], b: tuple[float, ...]) -> Vector:
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
