@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 WIDTH = 80
 GAP = 2
@@ -39,7 +38,7 @@ def remainder(value: float, decimals: int = 0) -> str:
     return f"{value:.{decimals}e}" if value else "0"
 
 
-def round_components(vector: Any, beside: float = 0.0) -> list[float]:
+def round_components(vector: Iterable[float], beside: float = 0.0) -> list[float]:
     """Components of a vector; what is nothing but rounding beside its largest, or beside another size, is 0.
 
     >>> rounded([1e-17, 3.0]), rounded([1e-17], 3.0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
@@ -11,6 +11,7 @@ from dalembert.printing import table
 
 if TYPE_CHECKING:
     from dalembert.grading.mistakes import Verdict
+    from dalembert.model.description import Mechanism
 
 
 def grade_answers(
@@ -23,7 +24,7 @@ def grade_answers(
 
     m = load_model(file, friction)
     if interactive:
-        tree: Any = _ask_figures(m, static)
+        tree: object = _ask_figures(m, static)
     elif answers is None:
         raise ModelError("check-answers needs a file of answers", "name one, or answer with --interactive")
     else:
@@ -33,7 +34,7 @@ def grade_answers(
     return 0 if all(v.right for v in found) else 1
 
 
-def _ask_figures(m: Any, static: bool) -> dict[str, Tree]:
+def _ask_figures(m: Mechanism, static: bool) -> dict[str, Tree]:
     """Ask for every effort and joint force; an empty line skips one, the end of the input all that follow."""
     from dalembert.analysis import solve
 

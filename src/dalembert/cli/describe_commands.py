@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
 
 from dalembert.errors import ModelError
 from dalembert.printing import table
@@ -135,7 +134,7 @@ def joint_table() -> str:
     return f"{shown}\n\nA screw slides with its turn. {drawn}\n{more}"
 
 
-def joints_shown(output: Path | None, camera: str | None, theme: Any, force: bool) -> int:
+def joints_shown(output: Path | None, camera: str | None, theme: str, force: bool) -> int:
     """The table printed; or all joints in one picture, or a picture each in a folder."""
     from dalembert.cli.draw_command import camera_at
     from dalembert.model.joints.pairs import PAIRS

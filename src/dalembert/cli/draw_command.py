@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -14,6 +15,7 @@ from dalembert.saving import check_new
 if TYPE_CHECKING:
     from dalembert.analysis import Result
     from dalembert.model import Mechanism
+    from dalembert.views.notation import Notation
 
 OK, SOME_NOT_OK = 0, 1
 MOVING = ("animation", "mechanism", "all")
@@ -79,8 +81,8 @@ def write_report(
     at: str | None,
     positions: int | None,
     static: bool,
-    methods: Any,
-    notation: Any,
+    methods: Sequence[str] | None,
+    notation: Notation | None,
     about: str,
     force: bool,
     friction: bool = True,
@@ -131,7 +133,7 @@ def _at_last_position(m: Mechanism, values: list[float]) -> Mechanism:
     return m.with_values(there)
 
 
-def _pose(r: Result, link: str) -> Any:
+def _pose(r: Result, link: str) -> object:
     """Where a link is at the last position, as an assembly says it."""
     if r.mechanism.dimension == 2:
         return float(r.angle(link)[-1])
@@ -166,7 +168,7 @@ def _way(m: Mechanism, at: str) -> list[float] | None:
     return [float(v) for v in np.linspace(start, end, count)]
 
 
-def _moves(view: str, output: Path) -> bool:
+def _moves(view: Any, output: Path) -> bool:
     """Whether an animation is asked for."""
     return view == "animation" or output.suffix.lower() in (".gif", ".webp", ".glb")
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,6 +16,8 @@ from dalembert.units import KINDS
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
+    from dalembert.analysis.methods.superposition import Superposition
+    from dalembert.analysis.methods.virtual_work import VirtualWork
 
 
 def superposition_text(result: Result, units: UnitChoice) -> str:
@@ -42,7 +44,7 @@ def superposition_text(result: Result, units: UnitChoice) -> str:
     return f"Superposition{where}\n\n{_split(['source', *heads], rows)}\n\n{wrap(words)}"
 
 
-def _rounding(result: Result, quantities: list[tuple[str, Any]]) -> dict[str, float]:
+def _rounding(result: Result, quantities: list[tuple[str, Array]]) -> dict[str, float]:
     """Force and moment below which a part is nothing but rounding, beside the largest of both."""
     length = result.compiled.layout.length
     largest = max(
@@ -66,7 +68,7 @@ def _split(heads: list[str], rows: list[list[str]]) -> str:
     return "\n\n".join(blocks)
 
 
-def _quantities(parts: Any, to: Printed) -> list[tuple[str, Any, str]]:
+def _quantities(parts: Superposition, to: Printed) -> list[tuple[str, Array, str]]:
     """Name, values (S, P) and kind of every number that is split."""
     r = parts.result
     out = [(d, parts.efforts[..., n], drive_kinds(r, d)["effort"]) for n, d in enumerate(r.drives)]
@@ -111,7 +113,7 @@ def virtual_work_answer(result: Result, units: UnitChoice) -> tuple[Result, str]
     return found.answer, "\n\n".join([f"Virtual work{where}", *blocks, *_agreement(found)])
 
 
-def _agreement(found: Any) -> list[str]:
+def _agreement(found: VirtualWork) -> list[str]:
     """How far the matrix answer is off, and what that shows."""
     words = []
     if not found.independent:
@@ -129,7 +131,7 @@ def _agreement(found: Any) -> list[str]:
     return [wrap(" ".join(words))] if words else []
 
 
-def _all_powers(found: Any, k: int, to: Printed) -> list[str]:
+def _all_powers(found: VirtualWork, k: int, to: Printed) -> list[str]:
     return [_powers(found, n, k, to) for n in range(len(found.result.drives))]
 
 
@@ -140,7 +142,7 @@ SPACE_HEADS = [
 ]
 
 
-def _powers(found: Any, drive: int, k: int, to: Printed) -> str:
+def _powers(found: VirtualWork, drive: int, k: int, to: Printed) -> str:
     r = found.result
     name = r.drives[drive]
     angular = drive_kinds(r, name)["effort"] == "moment"

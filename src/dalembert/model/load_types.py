@@ -62,7 +62,7 @@ class ForceValue(Value):
 class CoupleValue(Value):
     """A couple that may change, or unknown; in space a vector."""
 
-    def read(self, value: object, info: ValidationInfo) -> Any:
+    def read(self, value: object, info: ValidationInfo) -> object:
         rules = reading(info)
         if value == UNKNOWN:
             return UNKNOWN

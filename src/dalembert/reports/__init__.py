@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
+    from dalembert.reports.sheet import Sheet
     from dalembert.views.notation import Notation
     from dalembert.wrench import System
 
@@ -20,7 +21,7 @@ FORMATS = (".pdf", ".html", ".tex", ".txt")
 class Report:
     """A worked solution, ready to be written or shown in a notebook."""
 
-    def __init__(self, sheet: Any) -> None:
+    def __init__(self, sheet: Sheet) -> None:
         self.sheet = sheet
 
     def to_bytes(self, kind: str) -> bytes:

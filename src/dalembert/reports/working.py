@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -157,7 +157,7 @@ def _joint_forces(sheet: Sheet, c: ReportContext) -> None:
     sheet.equations(_efforts(c))
 
 
-def _force_row(c: ReportContext, joint: str) -> list[Any]:
+def _force_row(c: ReportContext, joint: str) -> list[str]:
     """One joint's force on its j, or on its i where j is ground."""
     r, shown, k = c.r, c.shown, c.k
     i, j = r.mechanism.joints[joint].links

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from operator import methodcaller
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -62,7 +62,9 @@ def curves_scene(
     return canvas.scene(title, numbers={name: [float(v) for v in curve] for name, curve in series.items()})
 
 
-def _axes(canvas: Canvas, xs: list[float], ys: list[float], x_label: str, y_label: str) -> Any:
+def _axes(
+    canvas: Canvas, xs: list[float], ys: list[float], x_label: str, y_label: str
+) -> Callable[[float, float], Point]:
     width, height = SIZE
 
     def to(a: float, b: float) -> Point:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +40,7 @@ def redone(
     d: int,
     values: Array,
     course: Course,
-    undecided: Any,
+    undecided: Flags,
     found: Sides,
 ) -> None:
     """Put the general executor's answer for design ``d`` in its place: where it is undecided, or all of it reduced."""
@@ -142,7 +142,7 @@ def _magnitude(r: Result, joint: str) -> Array:
     return np.asarray(np.hypot(*np.moveaxis(r.reaction(joint), -1, 0)))
 
 
-_KINDS: dict[str, Callable[[Result, str], Any]] = {
+_KINDS: dict[str, Callable[[Result, str], Array]] = {
     "effort": lambda r, of: r.effort(of),
     "load": lambda r, of: r.unknown_load(of),
     "reaction": lambda r, of: r.reaction(of),

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from dalembert.analysis.batch import over_positions
 from dalembert.analysis.batch.batch_result import CODES, NUMBERED, BatchResult, mark_overflow, not_finite
@@ -19,7 +19,7 @@ from dalembert.analysis.batch.symbolic_model import geometric
 from dalembert.analysis.batch.traced_analysis import Trace, trace_analysis
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.plane_only import refuse_space
-from dalembert.arrays import Array, Flags
+from dalembert.arrays import Array, Flags, Numeric
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.graph import CONSTANT, Node
@@ -83,14 +83,14 @@ def _several(names: Sequence[str]) -> tuple[str, ...]:
     return (names,) if isinstance(names, str) else tuple(names)
 
 
-def _check_count(name: str, count: Any) -> None:
+def _check_count(name: str, count: object) -> None:
     if count is not None and (
         isinstance(count, bool) or not isinstance(count, int | np.integer) or count <= 0
     ):
         raise ModelError(f"{name}={count!r} is no number of {name}", "give 1 or more, or leave it out")
 
 
-def _moves(course: Course, dimensions: int) -> Any:
+def _moves(course: Course, dimensions: int) -> Numeric:
     """Where a contact without a rate may only reverse."""
     moves = course.schedule.moves
     return moves if dimensions > 1 else moves.any()
@@ -286,7 +286,7 @@ class Kernel:
         self,
         values: Array,
         course: Course,
-        code: Any,
+        code: NDArray[np.uint8],
         arrays: dict[str, Array],
         rates: dict[str, Array],
         redo: bool,

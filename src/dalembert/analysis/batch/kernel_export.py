@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +12,7 @@ import numpy as np
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.kernel.emit import c_text
-from dalembert.kernel.graph import Graph, Node
+from dalembert.kernel.graph import Graph, Node, Scalar
 from dalembert.kernel.program import Marks, Program
 from dalembert.model.quantities.expressions import Expression
 
@@ -44,16 +45,16 @@ def plain(k: Kernel) -> Program:
 def functions(graph: Graph) -> Tree:
     """The functions of expressions for nodes."""
 
-    def node(x: Any) -> Node:
+    def node(x: Scalar) -> Node:
         return x if isinstance(x, Node) else graph.constant(x)
 
-    def one(op: str) -> Any:
+    def one(op: str) -> Callable[[Scalar], Node]:
         return lambda x: graph.unary(op, node(x))
 
-    def two(op: str) -> Any:
+    def two(op: str) -> Callable[[Scalar, Scalar], Node]:
         return lambda x, y: graph.binary(op, node(x), node(y))
 
-    out = {
+    out: dict[str, Callable[..., Node]] = {
         name: one(name) for name in ("sin", "cos", "tan", "asin", "acos", "sqrt", "exp", "log", "abs", "sign")
     }
     out |= {name: two(name) for name in ("atan2", "min", "max")}

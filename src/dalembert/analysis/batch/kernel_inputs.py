@@ -12,10 +12,11 @@ import numpy as np
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.positions import Positions, positions
 from dalembert.analysis.result.result import Result
-from dalembert.arrays import Array, Tree
+from dalembert.arrays import Array, Numeric, Tree
 from dalembert.core.friction.contact_equations import bearing
 from dalembert.core.layout import Pose
-from dalembert.kernel.graph import POSITION, Graph, Node
+from dalembert.kernel.graph import POSITION, Graph, Node, Scalar
+from dalembert.kernel.position.plane_vectors import Pair
 from dalembert.kernel.trace import Drives
 from dalembert.model import Mechanism, Schedule
 
@@ -105,22 +106,22 @@ class Inputs:
 
     graph: Graph
     course: Course
-    found: dict[Node, Callable[[Course], Any]] = field(default_factory=dict)
+    found: dict[Node, Callable[[Course], Numeric]] = field(default_factory=dict)
     named: dict[tuple[str, str], Node] = field(default_factory=dict)
     varying: Tree = field(default_factory=dict)
 
-    def make(self, kind: str, name: str, value: Callable[[Course], Any]) -> Node:
+    def make(self, kind: str, name: str, value: Callable[[Course], Numeric]) -> Node:
         """An input, made once."""
         if (kind, name) not in self.named:
             node = self.graph.input(kind, name, value(self.course))
             self.named[kind, name], self.found[node] = node, value
         return self.named[kind, name]
 
-    def drives(self, symbolic: Any, kind: str = "channel") -> Drives:
+    def drives(self, symbolic: Mechanism, kind: str = "channel") -> Drives:
         """The drives' values; those that stay constant along the file's positions are constants of the trace."""
         names = self.course.schedule.names
         angular = self.course.compiled.layout.freedoms.angular[self.course.compiled.layout.driven]
-        columns: dict[str, list[Any]] = {k: [] for k in ("q", "cos", "sin", "speed", "acceleration")}
+        columns: dict[str, list[Node]] = {k: [] for k in ("q", "cos", "sin", "speed", "acceleration")}
         for k, name in enumerate(names):
             q = self._drive(kind, name, "position", k)
             columns["q"].append(q)
@@ -139,7 +140,7 @@ class Inputs:
     def _drive(self, kind: str, name: str, what: str, k: int) -> Node:
         return self.make(kind, f"{what} {name}", lambda c: _one(kind, c, getattr(c.schedule, what)[:, k]))
 
-    def _derivative(self, kind: str, f: str, name: str, k: int, ufunc: Any) -> Node:
+    def _derivative(self, kind: str, f: str, name: str, k: int, ufunc: np.ufunc) -> Node:
         return self.make(kind, f"{f} {name}", lambda c: _one(kind, c, ufunc(c.schedule.position[:, k])))
 
     def load(self, name: str, varying: Any) -> Node:
@@ -189,7 +190,7 @@ class Inputs:
         forcing = replace(c.forcing, resistances=replace(own, turns=turns))
         return replace(c, forcing=forcing), margins
 
-    def signs(self, plus: Any, minus: Any, a: int, b: int) -> Any:
+    def signs(self, plus: Pair, minus: Pair, a: int, b: int) -> Scalar:
         """Which of two rotations of link b against link a the known motion has: 1 or -1, or an input if it changes."""
         kind = "channel" if any(n.level & POSITION for n in plus if isinstance(n, Node)) else "common"
         signs = self._signs(self.course, kind, plus, minus, a, b)
@@ -200,7 +201,7 @@ class Inputs:
             "channel", name, lambda c: _carry_sign_forward(self._signs(c, kind, plus, minus, a, b))
         )
 
-    def _signs(self, c: Course, kind: str, plus: Any, minus: Any, a: int, b: int) -> Array:
+    def _signs(self, c: Course, kind: str, plus: Pair, minus: Pair, a: int, b: int) -> Array:
         values = {} if c is self.course else {n.index: f(c) for n, f in self.found.items()}
         nodes = [n if isinstance(n, Node) else self.graph.constant(n) for n in (*plus, *minus)]
         pc, ps, mc, ms = self.graph.evaluate(nodes, values)
@@ -245,7 +246,7 @@ def _poses_with_ground(result: Result) -> Pose:
     )
 
 
-def _one(kind: str, c: Course, column: Array) -> Any:
+def _one(kind: str, c: Course, column: Array) -> Numeric:
     return column if kind == "channel" else column[c.first]
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,10 +12,11 @@ from dalembert.algebra import plane
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.compile.load_arrays import point_of
 from dalembert.analysis.result.link_motion import place_of
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, trace_array
 from dalembert.kernel.trace import Traced
+from dalembert.model.quantities.values import Vector
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Catalogue:
     def link(self, name: str) -> int:
         return place_of(self.compiled.links, name, "link")
 
-    def load(self, name: str) -> Any:
+    def load(self, name: str) -> Numeric:
         return self.traced.load[place_of(self.compiled.unknown_loads, name, "unknown load")]
 
     def arm(self, link: int, u: ArrayLike) -> Array:
@@ -59,7 +59,7 @@ class Catalogue:
         arm: Array = plane.rotate(self.traced.pose.rotation[link], np.asarray(u, object) - reference[link])
         return arm
 
-    def center(self, name: str) -> Any:
+    def center(self, name: str) -> Vector:
         return self.compiled.mechanism.center(name)
 
     def place(self, name: str, u: ArrayLike) -> Array:
@@ -81,7 +81,7 @@ class Catalogue:
 ORIGIN = np.zeros(2)
 
 
-def _point(c: Catalogue, of: str) -> tuple[str, Any]:
+def _point(c: Catalogue, of: str) -> tuple[str, Array]:
     link, _, point = of.partition(".")
     c.link(link)
     return link, point_of(c.compiled.mechanism, link, point)
@@ -93,7 +93,7 @@ def _magnitude(c: Catalogue, joint: str) -> Node:
     return total
 
 
-KINDS: dict[str, Callable[[Catalogue, str], Any]] = {
+KINDS: dict[str, Callable[[Catalogue, str], Numeric]] = {
     "effort": lambda c, of: c.traced.effort[c.drive(of)],
     "load": lambda c, of: c.load(of),
     "reaction": lambda c, of: c.traced.force[c.joint(of)],

@@ -121,7 +121,7 @@ class Runner:
         columns: Array,
         common: Array,
         threads: int | None,
-        progress: Any,
+        progress: Callable[[int, int], object] | None,
     ) -> tuple[Array, NDArray[np.uint8]]:
         """Results (design, output, position) or (design, slot), and codes."""
         weighted = any(p in SUMS for _, p in slots)
@@ -143,7 +143,7 @@ class Runner:
         columns: Array,
         common: Array,
         threads: int | None,
-        progress: Any,
+        progress: Callable[[int, int], object] | None,
     ) -> tuple[Array, NDArray[np.uint8]]:
         """Every design at every position, a part of the designs at a time."""
         designs, count = len(values), len(columns)

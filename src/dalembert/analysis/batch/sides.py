@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dalembert.arrays import Array, Flags
 
@@ -14,7 +14,7 @@ from dalembert.arrays import Array, Flags
 class Sides:
     """Marks, outputs and their derivatives by name; ``after``: the same numbers but those just after reversals."""
 
-    code: Any
+    code: NDArray[np.uint8]
     arrays: dict[str, Array]
     rates: dict[str, Array]
     after: dict[str, Array] = field(default_factory=dict)

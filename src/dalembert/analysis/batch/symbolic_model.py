@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
-from dalembert.kernel.graph import Graph, Node
+from dalembert.kernel.graph import Graph, Node, Scalar
 from dalembert.model import Mechanism
-from dalembert.model.load_types import Load
 from dalembert.model.paths import set_value, value_at
+from dalembert.model.quantities.values import Vector
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ def _refuse_law(m: Mechanism, path: str) -> None:
         raise ModelError(f"{path!r} follows from the drive's law of motion", "leave it out, or the law", keys)
 
 
-def _numbers(path: str, value: Any) -> list[Number]:
+def _numbers(path: str, value: object) -> list[Number]:
     keys = path.split(".")
     if keys[0] == "drives" and len(keys) > 2 and keys[2] in ("position", "law", "range"):
         raise ModelError(
@@ -79,7 +79,7 @@ def geometric(path: str) -> bool:
     return "points" in keys[2:3] or (keys[0] == "joints" and not loads & set(keys[2:]))
 
 
-def with_numbers(m: Mechanism, where: Iterable[Number], values: Iterable[Any]) -> Any:
+def with_numbers(m: Mechanism, where: Iterable[Number], values: Iterable[object]) -> Mechanism:
     """The description with other numbers, or symbols, in their places; not checked again."""
     for number, value in zip(where, values, strict=True):
         m = set_value(m, number.keys, value)
@@ -92,16 +92,20 @@ class SymbolicForce:
 
     ON: ClassVar = "point"
     on: str
-    at: Any
+    at: str | Vector
     axes: str
     components: tuple[Numeric, Numeric]
     unknown: bool = False
 
-    def force(self, drives: Any) -> tuple[Numeric, Numeric]:
+    def force(self, drives: object) -> tuple[Numeric, Numeric]:
         return self.components
 
 
-def symbolic(m: Mechanism, where: tuple[Number, ...], graph: Graph, channel: Any) -> Any:
+Channel = Callable[[str, Any], Node]
+"""The input of a load by its name and how it varies."""
+
+
+def symbolic(m: Mechanism, where: tuple[Number, ...], graph: Graph, channel: Channel) -> Mechanism:
     """The description on symbols; ``channel(name, varying)`` gives the input of a load that changes with the drives."""
     nodes = [graph.input("number", n.path, n.value) for n in where]
     s = with_numbers(m, where, nodes)
@@ -117,12 +121,12 @@ def symbolic(m: Mechanism, where: tuple[Number, ...], graph: Graph, channel: Any
     return s.model_copy(update={"loads": loads, "drives": drives})
 
 
-def _value(name: str, value: Any, channel: Any) -> Any:
+def _value(name: str, value: Numeric, channel: Channel) -> Numeric:
     """A number or symbol as it is, else the input that stands for its value along the motion."""
     return channel(name, value) if hasattr(value, "at") else value
 
 
-def _load(name: str, load: Load, channel: Any) -> Any:
+def _load(name: str, load: Any, channel: Channel) -> object:
     if load.ON == "link" and not load.unknown:
         return load.model_copy(update={"value": _value(f"loads.{name}.value", load.value, channel)})
     if load.ON != "point":
@@ -135,7 +139,7 @@ def _load(name: str, load: Load, channel: Any) -> Any:
     return SymbolicForce(load.on, load.at, load.axes, (size * x, size * y), unknown=load.unknown)
 
 
-def _direction(angle: Any) -> tuple[Numeric, Numeric]:
+def _direction(angle: Scalar) -> tuple[Numeric, Numeric]:
     if isinstance(angle, Node):
         return angle.cos(), angle.sin()
     from dalembert.model.quantities.figures import unit_vector

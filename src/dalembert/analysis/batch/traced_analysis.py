@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -15,9 +14,11 @@ from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
 from dalembert.analysis.degree_of_freedom import check_knowns
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.closure_failure import open_sentence
+from dalembert.arrays import Array
+from dalembert.core.layout import Layout
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph
-from dalembert.kernel.trace import Problem, trace
+from dalembert.kernel.trace import Problem, Traced, trace
 from dalembert.model import Mechanism, Schedule
 
 
@@ -89,12 +90,12 @@ def _check(course: Course) -> None:
         )
 
 
-def _symbolic(schedule: Schedule, position: Any) -> Schedule:
+def _symbolic(schedule: Schedule, position: Array) -> Schedule:
     row = position[None]
     return Schedule(schedule.names, row, row, row)
 
 
-def _targets(symbolic: Any, known: Any, layout: Any) -> Any:
+def _targets(symbolic: Array, known: Array, layout: Layout) -> Array:
     """Constants of the constraints; phases of meshes and rolling wheels are those of the known motion."""
     from dalembert.core.position.first_pose_plane import phase_rows
 
@@ -104,7 +105,7 @@ def _targets(symbolic: Any, known: Any, layout: Any) -> Any:
     return out
 
 
-def _run(problem: Problem) -> Any:
+def _run(problem: Problem) -> Traced:
     try:
         return trace(problem)
     except ValueError as error:

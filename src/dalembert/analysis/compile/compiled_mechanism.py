@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -22,6 +21,7 @@ from dalembert.core.position.first_pose_plane import Guess
 from dalembert.core.position.first_pose_space import Drawing
 from dalembert.errors import ModelError
 from dalembert.model import GROUND, Mechanism, Schedule
+from dalembert.model.quantities.values import Vector
 
 
 @dataclass(frozen=True)
@@ -149,7 +149,7 @@ def compile_mechanism(
 def _references(m: Mechanism, index: dict[str, int]) -> Array:
     """Reference point of each link: its point of the first joint, one with the ground before others, so that arms stay
     short and many, and many velocities, are zero."""
-    reference: dict[int, Any] = {}
+    reference: dict[int, Vector] = {}
     for name, joint in sorted(m.joints.items(), key=lambda item: GROUND not in item[1].links):
         for link, u in zip(joint.links, m.joint_points(name), strict=True):
             reference.setdefault(index[link], u)

@@ -9,7 +9,7 @@ import numpy as np
 
 from dalembert.algebra.protocol import Algebra
 from dalembert.analysis.compile.plane_rows import numbers
-from dalembert.arrays import Array, Tree
+from dalembert.arrays import Array, Numeric, Tree
 from dalembert.core.equilibrium import Known
 from dalembert.core.forcing import Couples, Forces, Forcing, Inertia, Resistances, Springs
 from dalembert.errors import ModelError
@@ -31,7 +31,7 @@ class Setting:
     count: int
 
 
-def point_of(m: Mechanism, link: str, at: Any, path: tuple[str | int, ...] = ()) -> Array:
+def point_of(m: Mechanism, link: str, at: str | Vector, path: tuple[str | int, ...] = ()) -> Array:
     """A point of a link in its axes: by name, `center`, or as a vector."""
     if not isinstance(at, str):
         return numbers(at)
@@ -67,7 +67,7 @@ def _known_on(m: Mechanism, what: Literal["point", "link"]) -> Tree:
     return {name: load for name, load in m.loads_on(what).items() if not load.unknown}
 
 
-def _inertia(m: Mechanism, link: str) -> Any:
+def _inertia(m: Mechanism, link: str) -> Numeric:
     """One number in the plane; in space the matrix row by row."""
     given = m.inertia(link)
     if m.dimension == 2:
@@ -77,7 +77,7 @@ def _inertia(m: Mechanism, link: str) -> Any:
     return (given * np.eye(3)).ravel()
 
 
-def _mesh_tangents(m: Mechanism) -> list[Any]:
+def _mesh_tangents(m: Mechanism) -> list[Numeric]:
     """tan(pressure angle) of each mesh row, 0 for a wheel that rolls on a circle; in the order of the rows."""
     out = []
     for joint in m.joints.values():

@@ -48,7 +48,7 @@ class RowBuilder:
         """One row (one a ground axis for ``Meet``) between links i and j; returns its place."""
         count = self.dimension if kind is Meet else 1
         first = len(self.targets)
-        row: Any = tuple(range(first, first + count)) if kind is Meet else first
+        row: object = tuple(range(first, first + count)) if kind is Meet else first
         self.targets += [target] * count
         self._joint += [joint] * count
         self._angular += [kind in ANGULAR] * count

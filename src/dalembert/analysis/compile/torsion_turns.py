@@ -9,7 +9,6 @@ is, at the first position.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -75,7 +74,7 @@ class _Counting:
         self.ways: dict[int, Way] = {}
         self.pieces = self._pieces()
 
-    def _pieces(self) -> list[Any]:
+    def _pieces(self) -> list[Ints]:
         """Positions that are counted together: those of a stretch. Several drives may go around a singular place, on
         either side of which turns count otherwise: then every position has its own way, if there are not too many."""
         found = self.found

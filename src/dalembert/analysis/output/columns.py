@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
@@ -110,24 +110,23 @@ def parts(values: Array) -> Iterator[tuple[str, Array]]:
         yield " " + "".join("xyz"[k] for k in place), values[(slice(None), *place)]
 
 
-LINK_VECTORS: dict[str, tuple[str, Callable[[Any, str], Array]]] = {
+Question = Callable[["Result", str], Array]
+"""What is asked of a result about something with a name."""
+
+LINK_VECTORS: dict[str, tuple[str, Question]] = {
     "position": ("length", lambda r, link: r.position(link)),
     "center": ("length", lambda r, link: r.center(link)),
     "center_acceleration": ("acceleration", lambda r, link: r.center_acceleration(link)),
 }
-ANGLE: dict[str, tuple[str, Callable[[Any, str], Array]]] = {
-    "angle": ("angle", lambda r, link: r.angle(link))
-}
-ROTATION: dict[str, tuple[str, Callable[[Any, str], Array]]] = {
-    "rotation": ("number", lambda r, link: r.rotation(link))
-}
-RATES: dict[str, tuple[str, Callable[[Any, str], Array]]] = {
+ANGLE: dict[str, tuple[str, Question]] = {"angle": ("angle", lambda r, link: r.angle(link))}
+ROTATION: dict[str, tuple[str, Question]] = {"rotation": ("number", lambda r, link: r.rotation(link))}
+RATES: dict[str, tuple[str, Question]] = {
     "speed": ("angular_speed", lambda r, link: r.speed(link)),
     "acceleration": ("angular_acceleration", lambda r, link: r.acceleration(link)),
 }
 
 
-def link_turning(result: Result) -> dict[str, tuple[str, Callable[[Any, str], Array]]]:
+def link_turning(result: Result) -> dict[str, tuple[str, Question]]:
     """Kind and values of how links are turned and turn: angles in the plane, rotations in space."""
     return (ANGLE if in_plane(result) else ROTATION) | RATES
 
@@ -137,12 +136,12 @@ def in_plane(result: Result) -> bool:
     return result.mechanism.dimension == 2
 
 
-DRIVE_NUMBERS: dict[str, Callable[[Any, str], Array]] = {
+DRIVE_NUMBERS: dict[str, Question] = {
     "position": lambda r, drive: r.drive_position(drive),
     "speed": lambda r, drive: r.drive_speed(drive),
     "acceleration": lambda r, drive: r.drive_acceleration(drive),
 }
-EFFORT: dict[str, Callable[[Any, str], Array]] = {"effort": lambda r, drive: r.effort(drive)}
+EFFORT: dict[str, Question] = {"effort": lambda r, drive: r.effort(drive)}
 
 
 def columns(result: Result, axes: Axes = "ground") -> Iterator[Column]:

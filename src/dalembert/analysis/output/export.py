@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING
 
 import numpy as np
 
@@ -66,7 +66,7 @@ def headings(
     return [f"{name} [{unit}]" if unit else name for name, unit, _ in named], [values for *_, values in named]
 
 
-def rows(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Iterator[list[Any]]:
+def rows(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> Iterator[list[object]]:
     """The heading, then one row a position: its number, status, every number (or None), reason."""
     names, arrays = headings(result, units, axes)
     yield ["position", "status", *names, "reason"]

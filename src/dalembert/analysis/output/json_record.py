@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any
+from typing import IO, TYPE_CHECKING
 
 import numpy as np
 
@@ -101,7 +101,7 @@ def position_records(
         )
 
 
-Lists = Callable[[slice], list[Any]]
+Lists = Callable[[slice], list[object]]
 
 
 def _fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], Lists]:
@@ -228,7 +228,7 @@ def _limits(end: Result) -> Lists:
 def _ranges(single: Lists, ends: Lists, status: tuple[str, ...]) -> Lists:
     """The number, or `[low, high]` where friction leaves it open."""
 
-    def lists(part: slice) -> list[Any]:
+    def lists(part: slice) -> list[object]:
         rows = zip(single(part), ends(part), status[part], strict=True)
         return [both if word == "at_rest" else number for number, both, word in rows]
 
@@ -241,7 +241,7 @@ def _sought(ends: Lists, values: Array) -> Lists:
     return lambda part: [None if no else both for both, no in zip(ends(part), unsought[part], strict=True)]
 
 
-def nan_to_none(values: Array) -> list[Any]:
+def nan_to_none(values: Array) -> list[object]:
     """A list with None for NaN and infinity."""
     finite = np.isfinite(values)
     if finite.all():
@@ -251,12 +251,12 @@ def nan_to_none(values: Array) -> list[Any]:
     return list(out.tolist())
 
 
-def _transpose(lists: dict[tuple[str, ...], list[Any]]) -> Iterator[dict[tuple[str, ...], Any]]:
+def _transpose(lists: dict[tuple[str, ...], list[object]]) -> Iterator[dict[tuple[str, ...], object]]:
     for row in zip(*lists.values(), strict=True):
         yield dict(zip(lists, row, strict=True))
 
 
-def _record(result: Result, position: int, values: dict[tuple[str, ...], Any]) -> Tree:
+def _record(result: Result, position: int, values: dict[tuple[str, ...], object]) -> Tree:
     status, reason = result.status[position], result.reasons[position]
     record: Tree = {"drives": {}, "status": status}
     if reason is not None:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Index
 from dalembert.core.constraints import drift, measure, rates, system
 from dalembert.core.equilibrium import with_ground
 from dalembert.core.layout import Pose
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
-def whole_pose(result: Result, part: Any = slice(None)) -> Pose:
+def whole_pose(result: Result, part: Index = slice(None)) -> Pose:
     """Poses of the links at some positions, the ground added."""
     turn, rotation = result.turn_array[part], result.rotation_array[part]
     g = result.compiled.layout.algebra

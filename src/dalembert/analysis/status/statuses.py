@@ -27,6 +27,10 @@ KEPT = (*NUMBERED, "redundant", "jammed", "at_rest", "undefined_load")
 """Statuses whose motion stands, and what numbers there are of the forces."""
 
 
+Check = tuple[str, Any, Callable[[Any], str]]
+"""A status, where it holds (P,), and the sentence about position k."""
+
+
 def statuses(
     followed: Positions, twist: Array, acceleration: Array, rcond: Array, f: Forces, forces: bool
 ) -> tuple[tuple[str, ...], tuple[str | None, ...]]:
@@ -37,7 +41,7 @@ def statuses(
     unbalanced = (f.rcond < limit) | ~(f.residual <= UNBALANCED)
     unheld = np.array([e.residual for e in f.ends] or [np.zeros(len(f.rcond))]) > UNBALANCED
     partial = f.unique is not None and not f.unique.all()
-    checks: list[tuple[str, Any, Callable[[Any], str]]] = [
+    checks: list[Check] = [
         ("not_assembled", ~path.reached, lambda k: open_sentence(c, path, k)),
         ("singular", ~(rcond >= limit), lambda k: _singular_sentence(c, k)),
     ]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from typing import Any
 
 import numpy as np
 
@@ -15,6 +14,7 @@ from dalembert.reports.sheet import Sheet, Working
 from dalembert.views import draw
 from dalembert.views.notation import Figures, Notation, own_name, pretty
 from dalembert.wrench import Couple, Force, System
+from dalembert.wrench.forces import Axis
 from dalembert.wrench.reading import Vector
 
 MOMENT_TERMS = {2: ("x F_y − y F_x",), 3: ("y F_z − z F_y", "z F_x − x F_z", "x F_y − y F_x")}
@@ -231,7 +231,7 @@ class _Work:
     def _equation(self, r: Array, m: float) -> str:
         return f"{self.force(r[1])} x − {bracket_negative(self.force(r[0]))} y = {self.moment(m)}"
 
-    def _intercepts(self, axis: Any, name: str) -> str:
+    def _intercepts(self, axis: Axis, name: str) -> str:
         """Where a line crosses the axes or planes through the point."""
         k = self.axes.index(name)
         if abs(axis.direction[k]) < 1e-9:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -214,7 +215,7 @@ def cost(sheet: Sheet, c: ReportContext) -> None:
         sheet.text(f"Efficiency, without inertia: {'; '.join(parts)}.")
 
 
-def at_rest(sheet: Sheet, c: ReportContext, answers: Any) -> None:
+def at_rest(sheet: Sheet, c: ReportContext, answers: Callable[..., object]) -> None:
     """Both ends of every effort or load that friction leaves open: drawing and joint forces of each."""
     r, shown, k = c.r, c.shown, c.k
     sheet.heading("At rest: what friction can hold")

@@ -58,7 +58,7 @@ class _Line:
     """The line from centre to centre of two wheels: its angular speed and acceleration, 0 where it stands."""
 
     def __init__(self, r: Result, k: int, joint: str) -> None:
-        described = r.mechanism.joints[joint]
+        described: Any = r.mechanism.joints[joint]
         points = r.mechanism.joint_points(joint)
         places = [link_place(r, link, u)[k] for link, u in zip(described.links, points, strict=True)]
         rates = [_point_rates(r, link, u, k) for link, u in zip(described.links, points, strict=True)]
@@ -80,5 +80,5 @@ def _point_rates(r: Result, link: str, u: ArrayLike, k: int) -> tuple[Numeric, N
     return r._velocity(link, at)[k], r._acceleration(link, at)[k]
 
 
-def _link_acceleration(r: Result, link: str) -> Any:
+def _link_acceleration(r: Result, link: str) -> Array:
     return np.zeros(len(r.status)) if link == GROUND else r.acceleration(link)

@@ -194,7 +194,7 @@ def _drive_row(c: ReportContext, d: str) -> list[str]:
 
 
 def _load_text(c: ReportContext, name: str) -> str:
-    load: Any = c.r.mechanism.loads[name]
+    load = c.r.mechanism.loads[name]
     if getattr(load, "unknown", False):
         return "unknown"
     some = [a for a in actions(c.r) if a.of == name and a.kind in ("load", "spring", "damper")]

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import link_angle, link_place, link_speed, slide_direction
-from dalembert.arrays import Tree
+from dalembert.arrays import Array, Numeric, Tree
 from dalembert.model import GROUND
 from dalembert.reports.sections.terms import Signed, join_signed
 from dalembert.reports.sheet import Working
@@ -89,7 +89,7 @@ def _way(link: str, parent: Tree) -> Ring:
     return out
 
 
-def joint_end(r: Result, joint: str, link: str, k: int) -> Any:
+def joint_end(r: Result, joint: str, link: str, k: int) -> Numeric:
     """A joint's point on one of its links, in ground axes, metres."""
     described = r.mechanism.joints[joint]
     return link_place(r, link, r.mechanism.joint_points(joint)[described.links.index(link)])[k]
@@ -131,7 +131,7 @@ def _radius(r: Result, k: int, joint: str, before: str) -> Vector:
     return Vector(f"R,{joint}", math.sqrt(square), angle, speed, alpha, None)
 
 
-def _point_motion(r: Result, k: int, joint: str, link: str) -> tuple[Any, Any, Any]:
+def _point_motion(r: Result, k: int, joint: str, link: str) -> tuple[Array, Array, Array]:
     """Place, velocity and acceleration of a joint's point on one of its links."""
     at, described = joint_end(r, joint, link, k), r.mechanism.joints[joint]
     if link == GROUND:

@@ -6,7 +6,7 @@ Moments of a force F with the arm R about an axis a are R_b F_c - R_c F_b, with 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
@@ -32,7 +32,7 @@ class About(NamedTuple):
     """The point that moments are taken about: its name and place (metres)."""
 
     name: str
-    place: Any
+    place: Array
 
 
 class Piece(NamedTuple):

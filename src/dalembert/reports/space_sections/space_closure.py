@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -70,7 +70,7 @@ def rates_of(r: Result, link: str, k: int) -> tuple[Array, Array]:
 
 def _slides(r: Result, k: int, joint: str, before: str) -> list[Side]:
     """From the point of a joint on the link before to that on the link after, along each of its slides."""
-    described: Any = r.mechanism.joints[joint]
+    described = r.mechanism.joints[joint]
     i, axes = described.links[0], "x" if described.pair.threaded else described.pair.slides
     names = [name for name in getattr(described, "freedoms", ()) if name.startswith("slide")] if axes else []
     turn = np.eye(3) if i == GROUND else r.rotation(i)[k]

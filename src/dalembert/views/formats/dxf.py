@@ -9,7 +9,7 @@ from typing import Any
 from dalembert.arrays import Tree
 from dalembert.views.formats.svg import arrow_parts
 from dalembert.views.paper.lettering import plain
-from dalembert.views.paper.scene import Arc, Arrow, Circle, Line, Polygon, Scene, Text
+from dalembert.views.paper.scene import Arc, Arrow, Circle, Item, Line, Polygon, Scene, Text
 
 ANCHORS = {"start": "MIDDLE_LEFT", "middle": "MIDDLE_CENTER", "end": "MIDDLE_RIGHT"}
 
@@ -30,7 +30,7 @@ def write_dxf(scene: Scene, path: str | Path) -> None:
     document.saveas(path)
 
 
-def _add(space: Any, item: Any, at: Tree) -> None:
+def _add(space: Any, item: Item, at: Tree) -> None:
     if isinstance(item, Text):
         from ezdxf.enums import TextEntityAlignment as Alignment
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -35,7 +34,7 @@ class Frame:
         return metres / self.per_mm
 
 
-def fit_frame(points: Iterable[Any], width: float, height: float, factor: float = 1.0) -> Frame:
+def fit_frame(points: Iterable[Point | Array], width: float, height: float, factor: float = 1.0) -> Frame:
     """The frame that shows all points (metres) in a space on paper; scale in round numbers of the reader's unit.
 
     ``factor`` is the size of that unit in metres.

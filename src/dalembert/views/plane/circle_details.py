@@ -147,7 +147,7 @@ def _law(r: Result, joint: str, k: int, shown: Shown) -> str:
 
 def _journal(r: Result, joint: str) -> float:
     """Radius of the pin itself, m."""
-    f: Any = r.mechanism.joints[joint].friction  # type: ignore[union-attr]
+    f: Any = getattr(r.mechanism.joints[joint], "friction", None)
     return float(f.radius)
 
 

@@ -115,7 +115,7 @@ def guide_block(r: Result, joint: str, k: int, frame: Frame) -> Polygon:
     """The block of a guide in a drawing: its true length where that is given, at least to where it bears."""
     e = np.asarray(slide_direction(r, joint)[k], float)
     across = np.array([-e[1], e[0]])
-    f: Any = r.mechanism.joints[joint].friction  # type: ignore[union-attr]
+    f: Any = getattr(r.mechanism.joints[joint], "friction", None)
     places = [float(face.along[k]) for face in faces_of(r, joint, k) if close_by(r, face, k)]
     given = getattr(f, "guide", None)
     behind, ahead = given or (0.0, 0.0)
@@ -130,7 +130,7 @@ def guide_block(r: Result, joint: str, k: int, frame: Frame) -> Polygon:
 
 def guide_corners(r: Result, joint: str, k: int) -> list[Point]:
     """Corners of a guide whose length is given, metres; none where it is not."""
-    f: Any = r.mechanism.joints[joint].friction  # type: ignore[union-attr]
+    f: Any = getattr(r.mechanism.joints[joint], "friction", None)
     if getattr(f, "guide", None) is None:
         return []
     e, middle = np.asarray(slide_direction(r, joint)[k], float), joint_place(r, joint)[k]
@@ -168,7 +168,7 @@ class _Sketch:
         self.canvas = Canvas()
         self.e = e
         self.n = np.array([-self.e[1], self.e[0]])
-        f: Any = r.mechanism.joints[joint].friction  # type: ignore[union-attr]
+        f: Any = getattr(r.mechanism.joints[joint], "friction", None)
         self.ends = getattr(f, "guide", None)
         self.height = float(getattr(f, "half_height", None) or 0.0)
         self.places = [float(face.along[k]) for face in faces]

@@ -47,7 +47,7 @@ class Drawing(NamedTuple):
 
 def draw_joint(canvas: Canvas, r: Result, name: str, k: int, frame: Frame) -> None:
     """The symbol of a joint."""
-    joint = r.mechanism.joints[name]
+    joint: Any = r.mechanism.joints[name]
     at = frame(link_place(r, joint.links[1], r.mechanism.joint_points(name)[1])[k])
     canvas.add(*DRAWINGS[joint.type].whole(Spot(r, name, k, frame, at)))
 

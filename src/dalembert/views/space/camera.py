@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -55,7 +54,7 @@ class Camera:
         """How near to the eye places (..., 3) are: larger is nearer."""
         return np.asarray(np.asarray(points, float) @ self.eye)
 
-    def order(self, points: Sequence[Any]) -> list[int]:
+    def order(self, points: Sequence[ArrayLike]) -> list[int]:
         """Numbers of things at some places, the farthest first: so drawn, near ones cover far ones.
 
         >>> Camera().order([[1, 1, 1], [0, 0, 0], [2, 2, 2]])

@@ -66,7 +66,7 @@ def journal_detail(r: Result, joint: str, k: int, shown: Shown, on: str, words: 
     axis, ends = bearing_axis(r, joint), _bearing(r, joint, k)
     camera, radius = along_axis(axis[k]), circle_radius(r, joint, k)
     per_mm = round_up(radius / 6.0 / shown.size("length")) * shown.size("length")
-    f: Any = r.mechanism.joints[joint].friction  # type: ignore[union-attr]
+    f: Any = getattr(r.mechanism.joints[joint], "friction", None)
     large = float(f.radius) / per_mm
     canvas = Canvas()
     _draw_link(canvas, r, joint, k, camera, shown, on)
@@ -133,7 +133,7 @@ def _turning(canvas: Canvas, r: Result, joint: str, k: int, shown: Shown, on: st
 
 def _words(r: Result, joint: str, k: int, shown: Shown, on: str) -> list[str]:
     """The circle's law, which way the link turns, what friction there is about the axis."""
-    f: Any = r.mechanism.joints[joint].friction  # type: ignore[union-attr]
+    f: Any = getattr(r.mechanism.joints[joint], "friction", None)
     mu = friction_coefficient(r, joint, k)
     kind = "R sin φ" if circle_kind(r.mechanism, r.mechanism.joints[joint]) == "sin" else "μ R"
     law = f"r = {kind}" if r.mechanism.joints[joint].hinge else "r: friction around over the force"

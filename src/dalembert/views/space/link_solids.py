@@ -6,7 +6,7 @@ Pictures in space and 3-D files are made of the same solids. A mechanism of the 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -90,7 +90,7 @@ def pose(r: Result, link: str, k: int) -> tuple[Array, Array]:
 def mount(r: Result, name: str) -> Mount:
     """How a joint is mounted on its links; slides over all positions."""
     m = r.mechanism
-    joint: Any = m.joints[name]
+    joint = m.joints[name]
     points = tuple(lift(r, link, u) for link, u in zip(joint.links, m.joint_points(name), strict=True))
     low, high = np.zeros(3), np.zeros(3)
     if m.dimension == 2:

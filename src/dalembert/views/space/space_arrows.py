@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action, link_place
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Index
 from dalembert.model import GROUND
 from dalembert.views.notation import Shown
 from dalembert.views.paper.canvas import Canvas
@@ -40,7 +40,7 @@ class Arrows:
         s: Sight,
         shown: Shown,
         some: list[Action],
-        at: Any,
+        at: Index,
         longest: float = LONGEST,
         values: bool = True,
     ) -> None:

@@ -79,7 +79,7 @@ def ends_words(r: Result, joint: str, k: int, shown: Shown) -> list[str]:
 
 
 def _thread_words(r: Result, joint: str, k: int, shown: Shown) -> list[str]:
-    f: Any = r.mechanism.joints[joint].friction  # type: ignore[union-attr]
+    f: Any = getattr(r.mechanism.joints[joint], "friction", None)
     found = thread(r, joint)
     climb, write = abs(found.climb), shown.notation
     slope = math.atan2(abs(found.friction[k]), abs(found.normal[k]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -69,7 +69,7 @@ class Sight:
         return paint((place_solid(s, np.eye(3), -scale * middle, scale) for s in solids), self.camera)
 
 
-def sight(camera: Camera, places: Iterable[Any], width: float, height: float, factor: float) -> Sight:
+def sight(camera: Camera, places: Iterable[Array], width: float, height: float, factor: float) -> Sight:
     """A camera that shows all places in a space on paper; ``factor`` is the size of the reader's unit in metres."""
     seen = camera(np.array([p for p in places if np.isfinite(p).all()]).reshape(-1, 3))
     return Sight(camera, fit_frame([tuple(p) for p in seen], width, height, factor))

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -179,7 +179,7 @@ def _reaction_table(result: Result, to: Printed, axes: Axes) -> str:
     return shown
 
 
-def _wrench(force: Any, moment: float, to: Printed) -> list[str]:
+def _wrench(force: Array, moment: float, to: Printed) -> list[str]:
     """x, y, magnitude, direction, moment as text."""
     x, y = round_components(to("force", force))
     size = float(np.hypot(x, y))
@@ -192,7 +192,7 @@ def _largest(values: Array) -> float:
 
 
 def _link_tables(result: Result, to: Printed) -> str:
-    def of_all(question: Any) -> Any:
+    def of_all(question: Callable[[str], Array]) -> Array:
         return np.array([np.atleast_1d(question(link)[0]) for link in result.links])
 
     columns = [

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -60,12 +60,12 @@ def position_tables(result: Result, to: Printed, axes: Axes, every: bool) -> Ite
         yield cycle_text(result, to)
 
 
-def _series(result: Result, to: Printed, axes: Axes) -> tuple[list[str], list[Any]]:
+def _series(result: Result, to: Printed, axes: Axes) -> tuple[list[str], list[Array]]:
     """Columns of the table of positions: drives, efforts, unknown loads, magnitudes of the reactions.
 
     Where only the motion is known, the links' angles (in the plane), angular speeds and accelerations.
     """
-    named: list[tuple[str, str, Any]] = []
+    named: list[tuple[str, str, Array]] = []
     for drive in result.drives:
         named.append((drive, drive_kinds(result, drive)["position"], result.drive_position(drive)))
     for link in result.links if motion_only(result) else ():
@@ -85,7 +85,7 @@ def _series(result: Result, to: Printed, axes: Axes) -> tuple[list[str], list[An
     ]
 
 
-def _turning(result: Result, link: str) -> list[tuple[str, str, Any]]:
+def _turning(result: Result, link: str) -> list[tuple[str, str, Array]]:
     """Angle, angular speed and acceleration of a link; in space the magnitudes of the last two."""
     rates = [
         ("speed", "angular_speed", result.speed(link)),
@@ -98,7 +98,7 @@ def _turning(result: Result, link: str) -> list[tuple[str, str, Any]]:
     return [(f"|{name}| {link}", kind, np.linalg.norm(v, axis=-1)) for name, kind, v in rates]
 
 
-def _sizes(name: str, vectors: Array) -> list[tuple[str, Any]]:
+def _sizes(name: str, vectors: Array) -> list[tuple[str, Array]]:
     """The magnitudes of vectors (P, d); where none is known because a component is not, the components that are."""
     known = np.asarray(np.isfinite(vectors).any(axis=0))
     if known.all() or not known.any():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -42,7 +42,7 @@ def motion_only(result: Result) -> bool:
     return without_reactions(result) and not np.isfinite(result.effort_array).any()
 
 
-def significant(result: Result, kind: str, values: Array) -> Any:
+def significant(result: Result, kind: str, values: Array) -> Array:
     """Numbers of a kind, (P,) or (P, ...), or of the first position; those that are nothing but rounding as 0.
 
     >>> from dalembert.analysis import statics
@@ -50,7 +50,7 @@ def significant(result: Result, kind: str, values: Array) -> Any:
     >>> significant(statics(four_bar()), "force", np.array([1e-30, 5.0]))
     array([0., 5.])
     """
-    small: Any = PART * cached(result, _largest).get(kind, np.zeros(len(result.status)))
+    small: Array = PART * cached(result, _largest).get(kind, np.zeros(len(result.status)))
     shape = np.shape(values)
     small = small.reshape(-1, *[1] * (len(shape) - 1)) if shape[:1] == small.shape else small[0]
     return np.where(np.abs(values) < small, 0.0, values)
