@@ -73,6 +73,30 @@ def test_efficiency_of_the_engine() -> None:
     assert sum(float(r.power_lost(j)[0]) for j in r.joints) == pytest.approx(e.lost, rel=1e-12)
 
 
+def test_efficiency_with_damping() -> None:
+    """A damped shaft under a couple M: M / (M + R_f F + c w) ahead; back the damping takes more than M gives."""
+    pin = {"type": "pin", "links": ["ground", "shaft"], "friction": {"coefficient": 0.1, "radius": 0.05}}
+    loads = {
+        "F": {"type": "force", "on": "shaft", "at": "O", "value": [100, 0]},
+        "M": {"type": "couple", "on": "shaft", "value": -3},
+    }
+    points = {"points": {"O": [0, 0]}}
+    for damping, speed in ((0.0, 3.0), (5.0, 3.0), (5.0, -3.0), (0.5, 3.0)):
+        tree = {
+            "links": {"ground": points, "shaft": points},
+            "joints": {"O": pin | {"damping": damping}},
+            "drives": {"O": {"position": 0, "speed": f"{speed} rad/s"}},
+            "loads": loads,
+        }
+        r = da.statics(da.mechanism(tree))
+        taken = 100 * 0.05 * np.sin(np.arctan(0.1)) + damping * 3
+        found = da.efficiency(r)
+        assert found.forward[0] == pytest.approx(3 / (3 + taken), rel=1e-12)
+        assert found.reverse[0] == pytest.approx((3 - taken) / 3, rel=1e-12)
+        assert ("damping takes more" in str(r)) == (taken > 3), str(r)
+        assert "self-locking" not in str(r)
+
+
 def test_efficiency_of_a_screw_thread_on_its_incline() -> None:
     """A block on an incline of lead angle l: tan l / tan(l + phi) up, tan(l - phi) / tan l back."""
     for mu, lead in ((0.1, 20.0), (0.3, 7.0)):

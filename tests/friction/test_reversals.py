@@ -12,6 +12,7 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis.output.export import write_csv
+from dalembert.analysis.output.summary.printed_answer import checks_text
 from dalembert.cli import main
 from dalembert.grading.file_answers import check
 from dalembert.reports.working import working
@@ -77,6 +78,17 @@ def test_the_largest_values_take_reversals_in(capsys: pytest.CaptureFixture[str]
 # limits, on random mechanisms
 
 TINY = 1e-6
+
+
+def test_what_is_counted_adds_up() -> None:
+    """A reversal is solved, beside a position that a rod shorter than the crank does not reach."""
+    r = da.dynamics(
+        engine(position=["20 deg", "0 deg", "10 deg", "90 deg"]).with_values(
+            {"links.crank.points.A": [1.3, 0]}
+        )
+    )
+    assert r.status == ("ok", "reversal", "ok", "not_assembled")
+    assert "3 of 4 positions solved in full; 1 without an answer" in " ".join(checks_text(r).split())
 
 
 def moved(tree: Any, times: Any) -> Any:

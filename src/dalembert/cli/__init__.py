@@ -9,8 +9,9 @@ import os
 import sys
 from collections.abc import Sequence
 
-SCREEN = dict.fromkeys(("--json", "--csv"), "-") | dict.fromkeys(("--output", "-o"), "/dev/stdout")
-"""Option whose value may be -, the screen, and what it is then given."""
+NAMED = dict.fromkeys(("--json", "--csv", "--xlsx", "--netcdf"), "-")
+NAMED |= dict.fromkeys(("--output", "-o"), "/dev/stdout")
+"""Option with a value -> what it is given for the value -; a - by itself is standard input."""
 NO_ANSWER, WRONG_INPUT, INTERRUPTED = 1, 2, 130
 
 
@@ -69,10 +70,14 @@ def _run(arguments: list[str]) -> int:
 
 def _name_streams(arguments: list[str]) -> list[str]:
     """The arguments with a name for standard input and output: the parser would take a lone - for an option."""
-    return [
-        SCREEN.get(previous, "/dev/stdin") if argument == "-" else argument
-        for previous, argument in zip(["", *arguments], arguments, strict=False)
-    ]
+    named = []
+    for previous, argument in zip(["", *arguments], arguments, strict=False):
+        option, _, value = argument.partition("=")
+        if argument == "-":
+            named.append(NAMED.get(previous, "/dev/stdin"))
+        else:
+            named.append(f"{option}={NAMED[option]}" if value == "-" and option in NAMED else argument)
+    return named
 
 
 def _refuse(sentence: str) -> int:

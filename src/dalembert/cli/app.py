@@ -76,9 +76,9 @@ def solve(
     csv: Annotated[
         Path | None, target("Write a table, one row a position; - prints it, and nothing else.")
     ] = None,
-    xlsx: Annotated[Path | None, with_help("Write a workbook.")] = None,
+    xlsx: Annotated[Path | None, target("Write a workbook.")] = None,
     netcdf: Annotated[
-        Path | None, with_help("Write labelled arrays for xarray and other readers of netCDF.")
+        Path | None, target("Write labelled arrays for xarray and other readers of netCDF.")
     ] = None,
     method: Annotated[
         Literal["matrix", "superposition", "virtual-work", "fixed-point"],

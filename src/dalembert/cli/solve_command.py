@@ -79,9 +79,15 @@ def solve_file(
 
 def _check_targets(file: Path, wanted: Wanted) -> None:
     """Refused before the work, not behind it."""
-    for kind in ("json", "csv"):
+    for kind in ENDINGS:
         if str(getattr(wanted, kind) or "").startswith("--"):
-            raise ModelError(f"--{kind} needs the name of a file", f"or - to print it: --{kind} -")
+            printed = "" if kind in PACKAGES else f"or - to print it: --{kind} -"
+            raise ModelError(f"--{kind} needs the name of a file", printed)
+    for kind in PACKAGES:
+        if str(getattr(wanted, kind)) == "-":
+            raise ModelError(
+                f"--{kind} - asks for {PACKAGES[kind][1]} on the screen, which is no text", "name a file"
+            )
     if str(wanted.json) == "-" and str(wanted.csv) == "-":
         raise ModelError("--json - and --csv - both ask for the screen", "name a file for one of them")
     taken = {os.path.realpath(file): "the model file"}

@@ -6,11 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from operator import methodcaller
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
@@ -23,7 +23,8 @@ class Efficiency:
 
     At a reversal forward and reverse are those just before it.
     forward (P,): of the drive against the load, static: effort without friction over effort with it; 0 where it jams
-    reverse (P,): of the load against the drive, static; 0 or less where the machine locks itself
+    reverse (P,): of the load against the drive, static; 0 or less where the machine locks itself, or where the drive
+        must help the load against damping at this speed (``damped``)
     cycle: work that arrives over work put in, all positions together; put_in and lost are those works, J
     share: part of the work put in that each joint's friction takes, dry and viscous
     """
@@ -34,15 +35,26 @@ class Efficiency:
     put_in: float
     lost: float
     share: dict[str, float]
+    damped: Flags
+
+    def held(self, k: int) -> str:
+        """What it means at a position that the load moves the drive with an efficiency of 0 or less."""
+        if not self.reverse[k] <= 0:
+            return ""
+        return (
+            " (0 or less: the damping takes more at this speed)"
+            if self.damped[k]
+            else " (0 or less: self-locking)"
+        )
 
 
 def efficiency(r: Result) -> Efficiency:
     """Efficiency of a result with friction.
 
     Forward is the sense of motion in which the drives (and the loads asked for) put power in: eta = P0 / P; reverse the
-    other one, in which they take it out: eta = P / P0, with P0 without friction and the same loads in both senses,
-    inertia left out. Over the cycle: (W - L) / W, with W the work of the drives, or of the loads where those drive, and
-    L what the joints lose. NaN where nothing moves.
+    other one, in which they take it out: eta = P / P0, with P0 the power in the same sense with the same loads but
+    without the joints' friction, dry and viscous, inertia left out. Over the cycle: (W - L) / W, with W the work of the
+    drives, or of the loads where those drive, and L what the joints lose. NaN where nothing moves.
 
     >>> import dalembert as da
     >>> r = da.statics(da.mechanism({
@@ -56,30 +68,42 @@ def efficiency(r: Result) -> Efficiency:
     """
     if r.friction is None:
         raise ModelError("this result has no friction", "give a joint `friction`, and do not switch it off")
-    senses = [_static(r, sign) for sign in (1.0, -1.0)]
-    bare, one, other = senses[0][0], senses[0][1], senses[1][1]
-    drives = bare > 0
+    one, other = (_static(r, sign) for sign in (1.0, -1.0))
+    drives = one.bare > 0
+    ahead, back = (
+        _Sense(*(np.where(drives, *pair) for pair in zip(*two, strict=True)))
+        for two in ((one, other), (other, one))
+    )
     with np.errstate(all="ignore"):
-        forward = np.where(bare == 0, np.nan, bare / np.where(drives, one, other))
-        reverse = np.where(bare == 0, np.nan, np.where(drives, other, one) / bare)
-    jammed = np.where(drives, senses[0][2], senses[1][2])
-    forward = np.where(jammed & (bare != 0), 0.0, forward)
-    return Efficiency(forward, reverse, *_cycle(r))
+        forward = np.where(ahead.bare > 0, ahead.bare / ahead.rubbed, np.nan)
+        reverse = np.where(back.bare < 0, back.rubbed / back.bare, np.nan)
+    forward = np.where(ahead.jammed & (ahead.bare > 0), 0.0, forward)
+    return Efficiency(forward, reverse, *_cycle(r), back.damped)
 
 
-def _static(r: Result, sign: float) -> tuple[Array, Array, Array]:
-    """Power of the unknowns without and with friction in a sense, per unit of the given speeds; jammed or not."""
+class _Sense(NamedTuple):
+    """Power (P,) of the unknowns in one sense of the motion, without the joints' friction and with it."""
+
+    bare: Array
+    rubbed: Array
+    jammed: Flags
+    damped: Flags
+
+
+def _static(r: Result, sign: float) -> _Sense:
     from dalembert.analysis.one_pass import at_schedule
 
     schedule = replace(r.schedule, speed=sign * r.schedule.speed, acceleration=0 * r.schedule.acceleration)
     turned = at_schedule(r.mechanism, schedule, inertia=False)
     assert turned.friction is not None
     f = turned.friction
-    powers = [
-        sign * unknown_power(turned, effort, load)
-        for effort, load in ((f.bare_effort, f.bare_load), (turned.effort_array, turned.load_array))
-    ]
-    return powers[0], powers[1], np.array([s == "jammed" for s in turned.status])
+    damping = f.viscous_loss.sum(axis=-1)
+    return _Sense(
+        unknown_power(turned, f.bare_effort, f.bare_load) - damping,
+        unknown_power(turned, turned.effort_array, turned.load_array),
+        np.array([s == "jammed" for s in turned.status]),
+        damping > 0,
+    )
 
 
 def unknown_power(r: Result, effort: Array, load: Array) -> Array:

@@ -183,6 +183,7 @@ def cost(sheet: Sheet, c: ReportContext) -> None:
     """Power that each joint loses and its share; the efficiency in both senses."""
     r, shown, k = c.r, c.shown, c.k
     lost = {n: float(r.power_lost(n)[k]) for n in friction_joints(r)}
+    lost = {n: p if abs(p) > shown.least["power"] else 0.0 for n, p in lost.items()}
     total = sum(lost.values())
     if not total > 0:
         return
@@ -207,8 +208,7 @@ def cost(sheet: Sheet, c: ReportContext) -> None:
     if math.isfinite(forward):
         parts.append(f"{c.notation.percent(forward)} where the drive moves the load")
     if math.isfinite(reverse):
-        held = " (0 or less: self-locking)" if reverse <= 0 else ""
-        parts.append(f"{c.notation.percent(reverse)} where the load moves the drive{held}")
+        parts.append(f"{c.notation.percent(reverse)} where the load moves the drive{found.held(k)}")
     if len(r.status) > 1 and math.isfinite(found.cycle):
         parts.append(f"{c.notation.percent(found.cycle)} over all positions, inertia and all")
     if parts:

@@ -35,10 +35,10 @@ def mesh(r: Result, k: int, joint: str, shown: Shown) -> tuple[str, list[Working
         letters, numbers, values = [], [], []
         for link, radius in wheels:
             rate, sign = float(of(r, link)[k]), f"{letter}_{{{shown.link(link)}}}"
-            figure, size = shown.number(kind, rate), bracket_negative(shown.number("length", radius))
+            figure, size = _radians(shown, kind, rate), bracket_negative(shown.number("length", radius))
             if turning:
                 sign = f"({sign} − {letter}_{{c}})"
-                figure = f"({figure} − {bracket_negative(shown.number(kind, turning))})"
+                figure = f"({figure} − {bracket_negative(_radians(shown, kind, turning))})"
             letters.append(f"r_{{{shown.link(link)}}} {sign}")
             numbers.append(f"{size} cdot {figure if turning else bracket_negative(figure)}")
             values.append(radius * (rate - turning))
@@ -50,8 +50,14 @@ def mesh(r: Result, k: int, joint: str, shown: Shown) -> tuple[str, list[Working
     if line.speed or line.acceleration:
         parts = [f"${letter}_{{c}}$ = {shown.text(kind, rate)}" for letter, kind, rate, _ in rates if rate]
         words += f", seen from the line of centres, of which {' and '.join(parts)}"
+    words += ", rates in radians" if any(shown.size(kind) != 1 for _, kind, *_ in rates) else ""
     inner = "; of an internal pair the inner radius is negative" if described.internal else ""
     return f"{words}{inner}.", out
+
+
+def _radians(shown: Shown, kind: str, rate: float) -> str:
+    """A rate in radians, whatever the reader's own unit of rates is: times a radius it is a speed."""
+    return shown.notation.number(0.0 if abs(rate) < shown.least.get(kind, 0.0) else rate)
 
 
 class _Line:

@@ -47,7 +47,10 @@ def _motion_table(c: ReportContext, moving: bool) -> tuple[list[str], list[list[
     r, shown, k = c.r, c.shown, c.k
     heads = ["Link", "$theta$ (°)"]
     if moving:
-        heads += ["$omega$ (rad/s)", "$alpha$ (rad/s²)"]
+        heads += [
+            f"$omega$ ({shown.unit('angular_speed')})",
+            f"$alpha$ ({shown.unit('angular_acceleration')})",
+        ]
         heads += [f"$a_{{G{axis}}}$ ({shown.unit('acceleration')})" for axis in "xy"]
     rows = []
     for link in r.links:

@@ -37,6 +37,7 @@ from dalembert.analysis.output.summary.printed_units import (
 )
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.arrays import Array
+from dalembert.errors import SOLVED
 from dalembert.printing import number, remainder, round_components, table, tables, with_unit, wrap
 
 if TYPE_CHECKING:
@@ -251,7 +252,7 @@ def _count(result: Result) -> str:
     said = [
         NOT_IN_FULL[s] if s in NOT_IN_FULL and (known or s == "at_rest") else "without an answer"
         for s, known in zip(result.status, answered, strict=True)
-        if s != "ok"
+        if s not in SOLVED
     ]
     others = "; ".join(f"{said.count(words)} {words}" for words in dict.fromkeys(said))
     return f"{solved} of {many} positions solved in full; {others}"

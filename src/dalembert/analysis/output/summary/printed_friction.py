@@ -9,7 +9,7 @@ import numpy as np
 from dalembert.analysis.compile.contacts import coefficient
 from dalembert.analysis.friction.joint_friction import bears_on_faces, friction_circle_radius, guide_contact
 from dalembert.analysis.output.columns import Scale, friction_joints, unknown_kinds
-from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.analysis.output.summary.printed_units import Printed, significant
 from dalembert.printing import number, tables, with_unit
 
 if TYPE_CHECKING:
@@ -73,8 +73,10 @@ def efficiency_note(result: Result) -> str:
     if not (result.schedule.speed != 0).any():
         return ""
     found = efficiency(result)
-    held = " (0 or less: self-locking)" if found.reverse[0] <= 0 else ""
-    senses = ((found.forward[0], "drive moves the load"), (found.reverse[0], f"load moves the drive{held}"))
+    senses = (
+        (found.forward[0], "drive moves the load"),
+        (found.reverse[0], f"load moves the drive{found.held(0)}"),
+    )
     parts = [
         f"{number(100 * float(value), 4)} % where the {words}"
         for value, words in senses
@@ -114,7 +116,7 @@ def friction_table(result: Result, to: Printed) -> str:
         force = float(to("force", np.linalg.norm(result.friction_force(joint)[0])))
         turning = result.friction_moment(joint)[0]
         couple = float(to("moment", np.linalg.norm(turning) if np.ndim(turning) else turning))
-        lost = float(to("power", result.power_lost(joint)[0]))
+        lost = float(to("power", significant(result, "power", result.power_lost(joint))[0]))
         bears = guide_contact(result, joint).mode[0] if bears_on_faces(result, joint) else ""
         law = ", ".join(part for part in (friction_text(result, joint, to), bears) if part)
         rows.append([joint, part.links[1], number(force), number(couple), number(lost), law])

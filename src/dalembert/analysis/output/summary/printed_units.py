@@ -65,7 +65,9 @@ def _largest(result: Result) -> Tree:
     if many == 1 or (force < 1e-9 * force.max()).any():  # what is left where loads balance each other
         return sizes(result)
     turning = largest(many, result.twist_array[..., d:])
+    sliding = largest(many, result.twist_array[..., :d])
     return {
+        "power": force * np.maximum(sliding, length * turning),
         "force": force,
         "moment": force * length,
         "angular_speed": turning,
