@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Tree
 from dalembert.core.branchless import above, top
 from dalembert.core.equilibrium import Motion, Statement
 from dalembert.core.forcing import pair, total_wrench
@@ -126,7 +126,7 @@ def trace_friction(
 
 def _trace_contacts(graph: Graph, contacts: Contacts) -> Contacts:
     names = ("read", "lever", "coefficient", "resting", "reach", "viscous")
-    numbers: dict[str, Any] = {name: trace_array(graph, getattr(contacts, name)) for name in names}
+    numbers: Tree = {name: trace_array(graph, getattr(contacts, name)) for name in names}
     return replace(contacts, **numbers)
 
 

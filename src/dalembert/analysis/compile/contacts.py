@@ -13,16 +13,17 @@ from typing import Any
 import numpy as np
 
 from dalembert.analysis.compile import plane_rows as table
-from dalembert.arrays import Array, Ints
+from dalembert.arrays import Array, Ints, Numeric, Tree
 from dalembert.core.forcing import Resistances
 from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.layout import Along, Distance, Rows, Turn
 from dalembert.model import Mechanism
+from dalembert.model.joints.plane_joints import Gear, Joint
 
-Row = tuple[type, dict[str, Any]]
+Row = tuple[type, Mapping[str, object]]
 """Kind of a row and its numbers."""
 
-Read = Mapping[Any, Any]
+Read = Mapping[Any, float]
 """A sum of reactions of the joint: factor by the name of each; in the plane by its place among the joint's rows."""
 
 
@@ -37,20 +38,20 @@ class Contact:
     kind: str
     row: Row
     read: tuple[Read, ...]
-    lever: Any = 1.0
+    lever: float = 1.0
     circle: bool = False
     signed: bool = False
     ball: bool = False
     fixed: bool = False
     led: int = 0
-    reach: Any = 0.0
+    reach: float = 0.0
     group: int = 0
-    reckoned: Any = 1.0
+    reckoned: float = 1.0
     around: bool = False
-    viscous: Any = None
+    viscous: float | None = None
 
 
-Kinds = Mapping[str, Callable[[Any, Any, bool], Iterator[Contact]]]
+Kinds = Mapping[str, Callable[..., Iterator[Contact]]]
 """Contacts of a joint by its type, from its description, its geometry and whether its circles are of R sin(phi)."""
 
 TURN: Row = (Turn, {})
@@ -61,18 +62,18 @@ def friction_on(m: Mechanism) -> bool:
     return m.friction.enabled and any(getattr(j, "friction", None) is not None for j in m.joints.values())
 
 
-def has_friction(m: Mechanism, joint: Any) -> bool:
+def has_friction(m: Mechanism, joint: object) -> bool:
     """Whether a joint has friction that is not switched off."""
     return m.friction.enabled and getattr(joint, "friction", None) is not None
 
 
-def coefficient(m: Mechanism, joint: Any) -> Any:
+def coefficient(m: Mechanism, joint: Any) -> Numeric:
     """Coefficient of friction in motion."""
     own, top = joint.friction.coefficient, m.friction.coefficient
     return (top or 0.0) if own is None else own
 
 
-def resting_coefficient(m: Mechanism, joint: Any) -> Any:
+def resting_coefficient(m: Mechanism, joint: Any) -> Numeric:
     """Coefficient at rest: the joint's own, else its coefficient of motion, else the file's."""
     f, top = joint.friction, m.friction
     if f.static is not None or f.coefficient is not None:
@@ -89,11 +90,11 @@ def contacts(
     m: Mechanism,
     constraints: Rows,
     ends: list[tuple[int, int]],
-    at: Sequence[Any],
+    at: Sequence[object],
     arms: list[tuple[Array, Array]],
     damping: Resistances,
     kinds: Kinds,
-    places: Callable[[Any, int], Mapping[Any, int]],
+    places: Callable[[Joint, int], Mapping[Any, int]],
 ) -> Contacts | None:
     """All contacts; None without friction.
 
@@ -103,7 +104,7 @@ def contacts(
     if not friction_on(m):
         return None
     rows = table.RowBuilder(constraints.links, m.dimension)
-    found: list[tuple[int, Any, Contact]] = []
+    found: list[tuple[int, Joint, Contact]] = []
     read: list[Array] = []
     for k, joint in enumerate(m.joints.values()):
         touching, rough = kinds.get(joint.type), has_friction(m, joint)
@@ -130,11 +131,11 @@ def contacts(
     )
 
 
-def _columns(m: Mechanism, found: list[tuple[int, Any, Contact]]) -> dict[str, Any]:
+def _columns(m: Mechanism, found: list[tuple[int, Joint, Contact]]) -> Tree:
     """What contacts are by themselves."""
     of = [c for _, _, c in found]
 
-    def coefficients(mu: Callable[[Mechanism, Any], Any]) -> Array:
+    def coefficients(mu: Callable[[Mechanism, Joint], float]) -> Array:
         return table.numbers([0.0 if c.fixed else mu(m, joint) for _, joint, c in found])
 
     return {
@@ -153,7 +154,7 @@ def _columns(m: Mechanism, found: list[tuple[int, Any, Contact]]) -> dict[str, A
 FLAGS = ("circle", "signed", "ball", "fixed", "around")
 
 
-def _groups(found: list[tuple[int, Any, Contact]]) -> Ints:
+def _groups(found: list[tuple[int, Joint, Contact]]) -> Ints:
     """One number for contacts of one joint and group; contacts of group 0 stand alone."""
     keys = [(k, c.group, 0 if c.group else n) for n, (k, _, c) in enumerate(found)]
     return np.array([keys.index(key) for key in keys], np.intp)
@@ -163,12 +164,13 @@ def _pin(joint: Any, at: tuple[Array, Array], sine: bool) -> Iterator[Contact]:
     yield Contact("pin", TURN, ({0: 1.0}, {1: 1.0}), joint.friction.radius, sine)
 
 
-def _slide(joint: Any, at: tuple[Array, Array]) -> Row:
+def _slide(joint: Joint, at: tuple[Array, Array]) -> Row:
     return Along, {"ui": at[0], "uj": at[1], "axis": table.direction(joint), "pitch": 0.0}
 
 
 def _slider(joint: Any, at: tuple[Array, Array], sine: bool) -> Iterator[Contact]:
-    f, tilting = joint.friction, {}
+    f = joint.friction
+    tilting: Read = {}
     if f.guide is not None:
         behind, ahead = f.guide
         tilting = {0: -(ahead - behind) / (behind + ahead), 1: 2 / (behind + ahead)}
@@ -185,7 +187,7 @@ def _slot(joint: Any, at: tuple[Array, Array], sine: bool) -> Iterator[Contact]:
         yield Contact("pin", TURN, ({0: 1.0},), joint.friction.radius, sine, viscous=slide)
 
 
-def _gear(joint: Any, at: tuple[Array, Array], sine: bool) -> Iterator[Contact]:
+def _gear(joint: Gear, at: tuple[Array, Array], sine: bool) -> Iterator[Contact]:
     """The normal force of teeth, and with or without friction what of it pushes the wheels apart."""
     if joint.pressure_angle:
         ri, rj = table.signed_radii(joint)
@@ -196,7 +198,7 @@ def _gear(joint: Any, at: tuple[Array, Array], sine: bool) -> Iterator[Contact]:
         yield Contact("mesh", TURN, ({0: 1 / np.cos(joint.pressure_angle)},), contact_arm(joint))
 
 
-def contact_arm(joint: Any) -> Any:
+def contact_arm(joint: Any) -> Numeric:
     """Mean distance of the teeth's contact from the pitch point, both sides of it weighted by their length.
 
     Full-depth teeth: addendum one module, so that the path of contact reaches to the addendum circles.
@@ -211,7 +213,7 @@ def contact_arm(joint: Any) -> Any:
     return sum(p * p for p in parts) / (2 * sum(parts))
 
 
-def _path(radius: Any, addendum: Any, angle: Any, sign: int) -> Any:
+def _path(radius: float, addendum: float, angle: float, sign: int) -> Numeric:
     """Length of the path of contact from the pitch point to the addendum circle of one wheel."""
     outer, base = radius + sign * addendum, radius * np.cos(angle)
     return abs(np.sqrt(max(outer * outer - base * base, 0.0)) - radius * np.sin(angle))

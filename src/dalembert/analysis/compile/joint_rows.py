@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -84,7 +84,13 @@ class _Joints:
         for row in rows:
             yield int(row), "moment" if fixed.angular[row] else "force", 0, 1.0
 
-    def contacts_of(self, fixed: Rows, at: Any, kinds: Kinds, places: Any) -> Contacts | None:
+    def contacts_of(
+        self,
+        fixed: Rows,
+        at: Sequence[object],
+        kinds: Kinds,
+        places: Callable[[Joint, int], Mapping[Any, int]],
+    ) -> Contacts | None:
         """The contacts of the joints with friction, of a table of those that can have it."""
         damping = joint_resistances(self.m, self.names)
         return contacts(self.m, fixed, self.ends, at, self.arms, damping, kinds, places)

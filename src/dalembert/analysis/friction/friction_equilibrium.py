@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dalembert.analysis.result.force_arrays import Forces, Friction
 from dalembert.analysis.result.reaction_axes import marks
-from dalembert.arrays import Array, Flags, Ints, at, put
+from dalembert.arrays import Array, Flags, Index, Ints, Tree, at, put
 from dalembert.core.constraints import rates
 from dalembert.core.equilibrium import (
     UNIQUE,
@@ -126,7 +126,7 @@ class FrictionProblem:
         return check_equilibrium(c, *given, x, w)
 
     def solution(
-        self, r: Response, side: SlipState | None = None, where: Any = EVERY
+        self, r: Response, side: SlipState | None = None, where: Index = EVERY
     ) -> tuple[FrictionSolution, SpinningRods | None]:
         """Friction from the response at some positions, on one ``side`` of them; with rods that spin the branch is
         followed with them where it ends or leaves a moment."""
@@ -145,7 +145,7 @@ class FrictionProblem:
         return found, rods
 
     def _state(
-        self, r: Response, side: SlipState | None, where: Any
+        self, r: Response, side: SlipState | None, where: Index
     ) -> tuple[SlipState, SpinningRods | None]:
         """Senses of the contacts; rods between balls spin as the balls' friction lets them."""
         layout, contacts, pose = self.c.layout, self.contacts, self.pose.at(where)
@@ -279,7 +279,7 @@ def _open(p: FrictionProblem, found: FrictionSolution, open_: Ints, rods: Spinni
 def _after(whole: Forces, behind: Forces, turn: Ints) -> Forces:
     """Forces and friction just after reversals; at other positions they stay, found at rest or not."""
     names = ["force", "moment", "effort", "load", "residual", "power_balance", "rcond", "friction"]
-    numbers: Any = {n: put(getattr(whole, n), turn, at(getattr(behind, n), turn)) for n in names}
+    numbers: Tree = {n: put(getattr(whole, n), turn, at(getattr(behind, n), turn)) for n in names}
     return behind._replace(**numbers)
 
 

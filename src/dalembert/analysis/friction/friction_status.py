@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from dalembert.model import Mechanism
 
 
+Check = tuple[str, Any, Callable[[Any], str]]
+"""A status, where it holds (P,), and the sentence about position k."""
+
+
 def refuse_friction(m: Mechanism) -> None:
     """Equilibrium positions are points only without friction."""
     if friction_on(m):
@@ -29,7 +33,7 @@ def refuse_friction(m: Mechanism) -> None:
         raise ModelError(what, remedy, ("drives",))
 
 
-def friction_checks(c: Compiled, f: Forces, solvable: Array) -> list[tuple[str, Any, Callable[[Any], str]]]:
+def friction_checks(c: Compiled, f: Forces, solvable: Array) -> list[Check]:
     """Status, positions and sentence of each thing that friction can do; none without friction."""
     if f.friction is None:
         return []
@@ -75,7 +79,7 @@ def _side(f: Forces, ask: Callable[[Forces], Array], k: int) -> tuple[Forces, st
     return side, f", just {word} contacts reverse there"
 
 
-def reversal_checks(c: Compiled, f: Forces) -> list[tuple[str, Any, Callable[[Any], str]]]:
+def reversal_checks(c: Compiled, f: Forces) -> list[Check]:
     """Where contacts reverse, and in words what that does."""
     if f.friction is None or f.after is None:
         return []

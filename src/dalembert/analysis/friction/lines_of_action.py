@@ -134,7 +134,7 @@ def bearing_faces(r: Result, joint: str, k: int) -> list[FaceForce]:
     On one face at M / N from j's point, as far as the faces are apart from it; at corners l2 ahead and l1 behind.
     """
     contact, part = guide_contact(r, joint), r.mechanism.joints[joint]
-    f: Any = part.friction  # type: ignore[union-attr]
+    f: Any = getattr(part, "friction", None)
     e, at, height = slide_direction(r, joint), joint_place(r, joint), float(f.half_height or 0.0)
     across = np.stack([-e[:, 1], e[:, 0]], axis=-1)
     friction = (r.friction_force(joint) * e).sum(axis=-1)

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.friction.friction_status import alone, friction_checks, reversal_checks
+from dalembert.analysis.friction.friction_status import Check, alone, friction_checks, reversal_checks
 from dalembert.analysis.status.closure_failure import drive_text, open_sentence
 from dalembert.analysis.status.overflow import fast, not_finite, overflow_sentence, strong
 from dalembert.analysis.status.undefined_springs import find_undefined_springs, undefined_sentence
@@ -25,10 +24,6 @@ UNBALANCED = 1e-6
 
 KEPT = (*NUMBERED, "redundant", "jammed", "at_rest", "undefined_load")
 """Statuses whose motion stands, and what numbers there are of the forces."""
-
-
-Check = tuple[str, Any, Callable[[Any], str]]
-"""A status, where it holds (P,), and the sentence about position k."""
 
 
 def statuses(

@@ -17,9 +17,10 @@ H   change of y with c z (..., 3, E, E): -Y A^-1 B
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -348,7 +349,9 @@ def jacobian(r: Response, steep: Array, sense: Array) -> Array:
     return np.asarray(np.eye(sense.shape[-1]) + change)
 
 
-def correction(r: Response, steep: Array, sense: Array, off: Array, solve: Any) -> Array:
+def correction(
+    r: Response, steep: Array, sense: Array, off: Array, solve: Callable[[Array, Array], Array]
+) -> Array:
     """Newton's step where z + s S is ``off`` (..., E), from the slope of S and H after z."""
     return np.asarray(solve(jacobian(r, steep, sense), -off))
 

@@ -15,11 +15,11 @@ t   friction forces and couples (..., E), taken by a unit of each that makes num
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from dalembert.arrays import Array, Flags, Ints, at
+from dalembert.arrays import Array, Flags, Index, Ints, at
 from dalembert.core.friction.contact_equations import (
     Contacts,
     Response,
@@ -63,7 +63,7 @@ class _Rest(NamedTuple):
     c: Array
     own: Ints
 
-    def at(self, which: Any) -> _Rest:
+    def at(self, which: Index) -> _Rest:
         return self._replace(r=at(self.r, which))
 
 

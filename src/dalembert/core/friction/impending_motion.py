@@ -9,8 +9,6 @@ g   change of the unknown with a unit of each contact (..., E)
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from dalembert.arrays import Array, Flags
@@ -29,6 +27,7 @@ from dalembert.core.friction.contact_equations import (
 )
 from dalembert.core.friction.friction_solver import FrictionSolution, solve_friction
 from dalembert.core.friction.rod_spin import SpinningRods, solve_spins
+from dalembert.core.layout import Layout
 from dalembert.core.linear import solve_square
 
 ROUNDS = 12
@@ -36,7 +35,7 @@ ROUNDS = 12
 
 
 def extreme(
-    layout: Any,
+    layout: Layout,
     contacts: Contacts,
     r: Response,
     known: SlipState,
