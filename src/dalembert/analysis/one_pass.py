@@ -16,9 +16,9 @@ from dalembert.analysis.result.reaction_axes import marks
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.closure_failure import open_sentence
 from dalembert.analysis.status.statuses import KEPT, UNBALANCED, statuses
-from dalembert.arrays import Array, Flags, Index, Numeric
-from dalembert.core.equilibrium import balance, known_sources, motion, reactions
-from dalembert.core.forcing import total_wrench
+from dalembert.arrays import Array, Flags, Index
+from dalembert.core.equilibrium import Known, balance, known_sources, motion, reactions
+from dalembert.core.forcing import Forcing, total_wrench
 from dalembert.core.layout import Pose
 from dalembert.core.position.motion_path import BLOCK
 from dalembert.model import Mechanism, Schedule
@@ -111,7 +111,7 @@ def _couple_shape(c: Compiled) -> tuple[int, ...]:
     return () if c.layout.algebra.d == 2 else (3,)
 
 
-def slice_forcing(c: Compiled, part: Index) -> tuple[Numeric, Numeric]:
+def slice_forcing(c: Compiled, part: Index) -> tuple[Forcing, Known]:
     """Loads and given efforts of some positions."""
     f, k = c.forcing, c.known
     forces = replace(f.forces, value=f.forces.value[part])

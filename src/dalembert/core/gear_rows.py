@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dalembert.algebra.protocol import Algebra
-from dalembert.arrays import Array, Index, Ints, Numeric
+from dalembert.arrays import Array, Index, Ints
 from dalembert.core.geometry import arm
 from dalembert.core.layout import Family, Gearing, Layout, Pose
 
@@ -212,7 +212,7 @@ def _sides(f: Gearing, mesh: _Mesh, ei: Array, ej: Array) -> tuple[Array, Array]
     return np.where(away < 0, -1.0, 1.0), side_i * side_j
 
 
-def _one(g: Algebra, f: Gearing, pose: Pose, k: int) -> tuple[dict[str, Numeric], tuple[float, float]]:
+def _one(g: Algebra, f: Gearing, pose: Pose, k: int) -> tuple[dict[str, Array], tuple[float, float]]:
     """Centres, radii, direction and cone of one mesh at a pose (1, L+1, ...)."""
     i, j = f.i[k], f.j[k]
     (ai, aj), (ui, uj) = (

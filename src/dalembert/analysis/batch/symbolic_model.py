@@ -94,10 +94,10 @@ class SymbolicForce:
     on: str
     at: str | Vector
     axes: str
-    components: tuple[Numeric, Numeric]
+    components: tuple[Scalar, Scalar]
     unknown: bool = False
 
-    def force(self, drives: object) -> tuple[Numeric, Numeric]:
+    def force(self, drives: object) -> tuple[Scalar, Scalar]:
         return self.components
 
 
@@ -139,7 +139,7 @@ def _load(name: str, load: Any, channel: Channel) -> object:
     return SymbolicForce(load.on, load.at, load.axes, (size * x, size * y), unknown=load.unknown)
 
 
-def _direction(angle: Scalar) -> tuple[Numeric, Numeric]:
+def _direction(angle: Scalar) -> tuple[Scalar, Scalar]:
     if isinstance(angle, Node):
         return angle.cos(), angle.sin()
     from dalembert.model.quantities.figures import unit_vector

@@ -77,7 +77,7 @@ def _inertia(m: Mechanism, link: str) -> Numeric:
     return (given * np.eye(3)).ravel()
 
 
-def _mesh_tangents(m: Mechanism) -> list[Numeric]:
+def _mesh_tangents(m: Mechanism) -> list[float]:
     """tan(pressure angle) of each mesh row, 0 for a wheel that rolls on a circle; in the order of the rows."""
     out = []
     for joint in m.joints.values():

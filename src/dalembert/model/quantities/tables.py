@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from numpy.typing import ArrayLike
+
 from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
 from dalembert.model.quantities.expressions import Functions
@@ -66,7 +68,7 @@ class Table:
             return functions["table"](self, drives[self.against])
         return self._of_numbers(drives[self.against])
 
-    def _of_numbers(self, position: Numeric) -> Numeric:
+    def _of_numbers(self, position: ArrayLike) -> Numeric:
         import numpy as np
 
         breaks, coefficients = self.pieces()

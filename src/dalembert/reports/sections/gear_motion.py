@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from dalembert.analysis.compile.plane_rows import signed_radii
 from dalembert.analysis.methods.applied_forces import link_place, link_speed
-from dalembert.arrays import Array, Numeric
+from dalembert.arrays import Array
 from dalembert.model import GROUND
 from dalembert.reports.formula import bracket_negative
 from dalembert.reports.sections.kinematics import zero_sum
@@ -78,7 +78,7 @@ def _cross(a: Array, b: Array) -> float:
     return float(a[0] * b[1] - a[1] * b[0])
 
 
-def _point_rates(r: Result, link: str, u: ArrayLike, k: int) -> tuple[Numeric, Numeric]:
+def _point_rates(r: Result, link: str, u: ArrayLike, k: int) -> tuple[Array, Array]:
     """Velocity and acceleration of a link's point."""
     if link == GROUND:
         return np.zeros(2), np.zeros(2)
