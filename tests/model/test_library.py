@@ -372,6 +372,11 @@ BAD: list[tuple[Callable[[], Mechanism], str]] = [
         "stephenson_2 does not close from 0 to 360 degrees of the crank: rocker 0.9 m misses the point E of the plate "
         "by 0.211 m; change the rocker or the ground, or give the crank a smaller range",
     ),
+    (
+        lambda: stephenson_2(rocker=0.7, sweep=(pi, 3 * pi)),
+        "stephenson_2 does not close from 300 to 383 degrees of the crank: rocker 0.7 m misses the point E of the "
+        "plate by 0.0138 m; change the rocker or the ground, or give the crank a smaller range",
+    ),
 ]
 
 

@@ -140,6 +140,16 @@ def test_equilibria_of_a_pendulum_on_an_inclined_axis() -> None:
     assert len(records[0]["links"]["arm"]["rotation"]) == 3
 
 
+@pytest.mark.parametrize(("sense", "found"), [(1, [np.pi / 3, 2 * np.pi / 3]), (-1, [])])
+def test_a_jump_through_the_given_effort_is_no_equilibrium(sense: int, found: list[float]) -> None:
+    """The weight needs -w cos q, and w/2 is given that changes its sense at 2 rad."""
+    tree = copy.deepcopy(PENDULUM)
+    w = 2 * 9.80665 * 0.3 / np.sqrt(2)
+    tree["drives"]["O"] |= {"effort": f"{sense * w / 2}*sign(O - 2) N*m", "range": [0, 180]}
+    r = da.solve(da.mechanism(tree))
+    assert r.drive_position("O")[np.isfinite(r.effort("O"))] == pytest.approx(found, abs=1e-12)
+
+
 def test_an_effort_that_nothing_balances_has_no_numbers() -> None:
     tree = copy.deepcopy(PENDULUM)
     tree["drives"]["O"]["effort"] = 100

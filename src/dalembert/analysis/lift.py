@@ -206,13 +206,13 @@ class _Lift:
         }
 
     def _drive(self, name: str) -> Tree:
-        tree = self.m.drives[name].model_dump(mode="json", by_alias=True)
+        tree = self.m.drives[name].model_dump(mode="json")
         joint = self.m.joints[self.m.drive_joint(name)]
         return {**tree, "freedom": self.m.drives[name].freedom or joint.freedoms[0]}
 
     def _load(self, name: str) -> Tree:
         load: Any = self.m.loads[name]
-        tree = dict(load.model_dump(mode="json", by_alias=True))
+        tree = dict(load.model_dump(mode="json"))
         if load.ON == "point":
             if load.components is not None:
                 tree["value"] = [*tree["value"], 0.0]

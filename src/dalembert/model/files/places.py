@@ -154,7 +154,7 @@ class _Toml:
         path = table
         for part in name[:-1]:
             path = (*path, part)
-            self.found.setdefault(path, Place(span[0], span[1], "dotted", mapping=True))
+            self.found.setdefault(path, Place(span[0], span[1], "dotted"))
         self.value((*path, name[-1]), span)
 
     def value(self, path: Path, key: tuple[int, int] | None = None) -> None:

@@ -128,10 +128,6 @@ def _addition(text: str, form: str, found: Places, path: Path, value: object) ->
         return Change(len(text), len(text), f"\n[{header}]\n{_pair(path[-1], value, form)}\n")
     for key in reversed(path[depth + 1 :]):
         value = {key: value}
-    if path[: depth + 1] in found:  # blank, or one text
-        blank = found[path[: depth + 1]]
-        space = " " if text[blank.start - 1 : blank.start] == ":" else ""
-        return Change(blank.start, blank.end, space + value_text(value, form))
     place, siblings = found[path[:depth]], inside(found, path[:depth])
     pair = _pair(path[depth], value, form)
     if place.form == "alias":
