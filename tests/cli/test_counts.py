@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+import pytest
+
 import dalembert as da
 from tests.cli.conftest import Run
 
@@ -97,6 +100,17 @@ def test_what_is_only_rounding_is_0_in_the_tables_of_methods(run: Run, folder: P
         *tables, _ = printed.partition(f"{method.replace('-', ' ').capitalize()}\n")[2].split("\n\n")
         assert tables
         assert not any("e-" in part for part in tables), printed
+
+
+def test_the_parts_of_superposition_add_up_as_printed(run: Run, folder: Path) -> None:
+    printed = run("solve", "four_bar.yaml", "--method", "superposition").out.partition("Superposition")[2]
+    tables = [part.splitlines()[3:] for part in printed.split("\n\n") if "---" in part]
+    for rows in tables:
+        wide = len(rows[-1].split()) - 1
+        numbers = np.array([row.split()[-wide:] for row in rows], float)
+        assert (numbers < 0).any()
+        assert numbers[:-1].sum(axis=0) == pytest.approx(numbers[-1], abs=1e-3 * np.abs(numbers).max())
+    assert len(tables) == 2
 
 
 def test_where_nothing_acts_methods_say_so(run: Run, folder: Path) -> None:

@@ -46,6 +46,7 @@ QUICK = (
     "quick_return",
     "seed-001-da-guide-lower-face",
     "sp-04-spinning-disk-on-a-turning-arm",
+    "ba-07-partly-balanced-slider-crank",
 )
 DRAWN = [
     "free_body",

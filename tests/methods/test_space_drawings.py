@@ -130,6 +130,28 @@ def test_bars_reach_their_joints(name: str) -> None:
             assert min(near) < 12 * size, (joint, link)
 
 
+def test_strokes_of_the_ground_start_at_the_edge_of_its_square() -> None:
+    solids = link_solids(solved("rssr"), 0.002)["ground"]
+    squares = [s.corners for s in solids if isinstance(s, Plate)]
+    strokes = [s.points[0] for s in solids if isinstance(s, Wire) and s.role == "hatch"]
+    assert len(strokes) == 20 * len(squares) > 0
+    for p in strokes:
+        sides = [(a, b) for square in squares for a, b in pairwise([*square, square[0]])]
+        around = [np.linalg.norm(p - a) + np.linalg.norm(p - b) - np.linalg.norm(a - b) for a, b in sides]
+        assert min(around) < 1e-12
+
+
+def test_a_link_that_is_one_point_has_a_free_body() -> None:
+    tree: Any = {
+        "space": "space",
+        "gravity": "standard",
+        "links": {"ground": {"points": {"O": [0, 0, 0]}}, "ball": {"points": {"O": [0, 0, 0]}, "mass": 2}},
+        "joints": {"O": {"type": "prismatic", "links": ["ground", "ball"], "axis": [0, 0, 1]}},
+        "drives": {"O": {"position": 0.1}},
+    }
+    check(da.draw.free_body(da.statics(da.mechanism(tree)), "ball"))
+
+
 @each
 @pytest.mark.parametrize("camera", ["isometric", "front"])
 def test_free_bodies(name: str, camera: str) -> None:
