@@ -153,7 +153,9 @@ def test_changing_numbers_does_not_compile_again(monkeypatch: pytest.MonkeyPatch
     k = da.compile(four_bar(360), vary=VARY, outputs=OUTPUTS)
     k(designs(k, 2))
     compilations: list[object] = []
-    monkeypatch.setattr("dalembert.analysis.batch.runner.compiled", lambda *given: compilations.append(given))
+    monkeypatch.setattr(
+        "dalembert.analysis.batch.runner.compile_module", lambda *given: compilations.append(given)
+    )
     for seed in range(20):
         k(changed(k, seed, shape=0.02))
     assert not compilations

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 from typing import Any
@@ -11,8 +12,10 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
+from dalembert.reports.sections.kinematics import acceleration_lines, loops, velocity_lines
 from dalembert.reports.sheet import Equations, Figure, Matrix, Sheet, Table
 from dalembert.reports.working import working
+from dalembert.views.notation import Notation, Shown
 from tests.methods.readable import text_over_lines, text_overlaps
 
 GALLERY = [*sorted(name for name in cases() if name.startswith("seed-")), *sorted(examples())]
@@ -146,3 +149,45 @@ def test_rates_of_the_line_of_centres_are_those_of_the_carrier() -> None:
         line = _Line(r, 0, joint)
         assert line.speed == pytest.approx(float(r.speed("carrier")[0]))
         assert line.acceleration == pytest.approx(float(r.acceleration("carrier")[0]))
+
+
+@pytest.mark.parametrize("name", ["four_bar", "quick_return"])
+def test_every_term_of_a_loop_means_its_figure(name: str) -> None:
+    """Both rates: the letters with the sides' numbers in their places."""
+    r = result(name)
+    shown, compared = Shown(r, Notation(), 0), 0
+    orders = {"speed": velocity_lines, "acceleration": acceleration_lines}
+    for loop in loops(r, 0):
+        known = {
+            f"{letter}_{{{s.name}}}": x
+            for s in loop.sides
+            for letter, x in zip(
+                ("r", "theta", "omega", "alpha", "v", "a"),
+                (s.length, s.angle, s.speed, s.acceleration, *(s.slide or ())),
+                strict=False,
+            )
+        }
+
+        def figure(term: str, known: dict[str, float] = known) -> float:
+            minus, words = term.startswith("−"), term.removeprefix("−").split(" ")
+            out = -1.0 if minus else 1.0
+            for before, word in zip(["", *words], words, strict=False):
+                letter, _, power = word.partition("^")
+                x = known[letter] if letter in known else float(letter == "2") + 1
+                turned = {"sin": math.sin, "cos": math.cos}.get(before)
+                out *= 1.0 if word in ("sin", "cos") else turned(x) if turned else x ** (2 if power else 1)
+            return out
+
+        for kind, lines in orders.items():
+            for line in lines(loop, shown):
+                letters, numbers = (
+                    re.sub(
+                        r" ([+−]) ", lambda sign: "|" + sign[1].strip("+"), text.partition(" = ")[0]
+                    ).split("|")
+                    for text in (line.letters, line.numbers)
+                )
+                means = [shown.value(kind, figure(term)) for term in letters]
+                printed = [float(text.replace("−", "-")) for text in numbers]
+                assert printed == pytest.approx(means, rel=1e-3, abs=1e-4 * max(map(abs, means)))
+                compared += len(means)
+    assert compared >= 18

@@ -296,6 +296,21 @@ def test_json_and_toml_keep_all_other_characters() -> None:
     assert text_of(other, "toml") == expected.replace('"b.c"', "bc")
 
 
+def test_a_table_that_others_lie_within_is_added_after_them() -> None:
+    text = "[links.ground.points]\nO = [0, 0]\n\n[links.bar.points]  # of the bar\nO = [0, 0]\n"
+    other = loads(text, "toml").with_values({"links.bar.mass": 3})
+    assert text_of(other, "toml") == text + "\n[links.bar]\nmass = 3\n"
+
+
+@pytest.mark.parametrize("value", ["3 @ 40", ["1 N", "2 N"]])
+def test_a_vector_takes_the_place_of_size_and_direction(value: Any) -> None:
+    written = str(value).replace("'", "")
+    text = FOUR_BAR.replace("value: 80 @ 330", "value: 80, direction: 330")
+    assert text != FOUR_BAR
+    other = loads(text).with_values({"loads.F_P.value": value})
+    assert str(other) == text.replace("value: 80, direction: 330", f"value: {written}")
+
+
 @pytest.mark.parametrize("form", FORMS)
 def test_another_format_keeps_units_and_texts(form: str, tmp_path: Path) -> None:
     other = M.with_values({"links.crank.center": "4 @ 35"})
