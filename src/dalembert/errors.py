@@ -70,8 +70,8 @@ STATUSES: dict[str, Status] = {
         "Read the unique components; free a constraint, or give the joints a stiffness, to have the others.",
     ),
     "undefined_load": Status(
-        "A preloaded spring has length zero here: its force has no direction.",
-        "Step over this position, move an end of the spring, or give it no free length.",
+        "A preloaded spring, or one of constant force, has length zero here: its force has no direction.",
+        "Step over this position, move an end of the spring, or give a preloaded one no free length.",
     ),
     "overflow": Status(
         "A number is too large for the arithmetic: beyond 1.8e308 in SI.",

@@ -342,3 +342,12 @@ def test_charts_are_of_joints_that_carry_something_and_have_one_axis(name: str) 
         lines = [i for i in scene.items if isinstance(i, Line) and len(i.points) == 2]
         flat = [i for i in lines if i.points[0][1] == i.points[1][1] and i.role in ("axis", "grid")]
         assert sum(line.role == "axis" for line in flat) <= 1
+
+
+def test_the_image_of_a_wheel_has_no_point_of_the_other() -> None:
+    """The place of a mesh is the centre of its second wheel, which is no point of the first."""
+    from dalembert.views.plane.velocity_polygons import _images
+
+    r = da.kinematics(da.load(examples()["gear_train"]))
+    assert _images(r)["sun"] == ["sun_bearing", "G2"]
+    assert _images(r)["planet"] == ["P", "sun_mesh", "ring_mesh", "G3"]

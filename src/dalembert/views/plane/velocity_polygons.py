@@ -12,6 +12,7 @@ from dalembert.analysis.compile.load_arrays import point_of
 from dalembert.analysis.methods.applied_forces import state
 from dalembert.arrays import Array
 from dalembert.errors import AnalysisError
+from dalembert.model import GROUND, Joint
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import force_scale
@@ -80,13 +81,20 @@ def _images(r: Result) -> dict[str, list[str]]:
     m = r.mechanism
     out: dict[str, list[str]] = {link: [] for link in r.links}
     for name, joint in m.joints.items():
+        own = _own(joint)
         for link in joint.links:
-            if link in out and not (joint.apart and link == joint.links[0]):
+            if link in out and (link == own or not (joint.apart or joint.wheels)):
                 out[link].append(name)
     for link in r.links:
         if m.mass(link):
             out[link].append(_center_name(r, link))
     return out
+
+
+def _own(joint: Joint) -> str:
+    """The link whose point of a joint is drawn: j, or i where j is the ground."""
+    i, j = joint.links
+    return j if j != GROUND else i
 
 
 def _center_name(r: Result, link: str) -> str:
@@ -98,7 +106,7 @@ def _vectors(r: Result, k: int, order: Order) -> dict[str, tuple[float, float]]:
     m, out = r.mechanism, {}
     read = r._velocity if order == "velocity" else r._acceleration
     for name, joint in m.joints.items():
-        link = joint.links[1] if joint.links[1] != "ground" else joint.links[0]
+        link = _own(joint)
         u = m.joint_points(name)[joint.links.index(link)]
         v = read(link, np.asarray(u, float))[k]
         if "ground" not in joint.links or joint.apart:
