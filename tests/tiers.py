@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-BLOCK, LONG = 50, 2
+BLOCK, LONG = 20, 1
 """Mechanisms in one test of a block, and how many blocks of each law are long."""
 
 

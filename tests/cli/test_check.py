@@ -175,6 +175,7 @@ def test_a_case_that_cannot_be_read_is_no_pass(
     assert run("validate").out.splitlines()[-1].startswith("FAILED: 0 problems, 0 answers, ")
 
 
+@pytest.mark.long
 def test_this_installation(run: Run) -> None:
     ran = run("validate")
     assert ran.err == ""

@@ -65,7 +65,7 @@ def test_a_number_without_a_slope_leaves_the_others_theirs(monkeypatch: pytest.M
     both(da.mechanism(made), monkeypatch)
 
 
-@pytest.mark.parametrize("seed", tiers([11, 42], range(50, 65)))
+@pytest.mark.parametrize("seed", tiers([300], [11, 42], range(50, 65)))
 def test_slopes_of_random_mechanisms(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Wheels among them, whose phases follow from the first position."""
     both(da.mechanism(tree(random_case(seed).drawing)), monkeypatch)
@@ -93,7 +93,10 @@ def slopes_are_the_executor_s(m: Any, vary: list[str], output: str, at: np.ndarr
     return int(here.sum())
 
 
-@pytest.mark.parametrize(("name", "mu", "count"), [("scotch_yoke", 0.9, 20), ("toggle_press", 1.5, 10)])
+@pytest.mark.parametrize(
+    ("name", "mu", "count"),
+    [("toggle_press", 1.5, 10), pytest.param("scotch_yoke", 0.9, 20, marks=pytest.mark.long)],
+)
 def test_strong_friction(name: str, mu: float, count: int) -> None:
     """Where the kernel does not show that there is one solution only; where it jams there is no derivative."""
     m = cycle(name, 24).with_values({"friction.coefficient": mu})
@@ -119,7 +122,7 @@ def test_beside_a_dead_centre() -> None:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("seed", [12, 14, 26])
+@pytest.mark.parametrize("seed", [12, 14])
 def test_random_mechanisms_with_strong_friction(seed: int) -> None:
     m = da.mechanism(rough_tree(seed))
     vary = frictional(m)[:2]
@@ -131,7 +134,7 @@ def test_random_mechanisms_with_strong_friction(seed: int) -> None:
 def test_a_peak_over_positions_of_both() -> None:
     """A design with some positions in doubt is reduced as a whole, its slopes too."""
     m = cycle("toggle_press", 24).with_values({"friction.coefficient": 1.5})
-    vary = frictional(m)[:3]
+    vary = frictional(m)[:1]
     k, whole = (
         da.compile(m, vary=vary, outputs=["effort.O2"], reduce=reduce, derivatives=True)
         for reduce in ("peak", None)

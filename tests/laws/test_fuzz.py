@@ -104,12 +104,12 @@ FOUND = (5124, 10552, 1198)
 four links, could close)."""
 
 
-@pytest.mark.parametrize("seed", [*range(300), *FOUND])
+@pytest.mark.parametrize("seed", tiers([*range(150), *FOUND], range(150, 300)))
 def test_a_changed_tree_is_refused_or_answered_honestly(seed: int) -> None:
     check(mutated(bases()[seed % len(bases())], seed))
 
 
-@pytest.mark.parametrize("block", tiers((), range(5), range(5, 100)))
+@pytest.mark.parametrize("block", tiers((), range(1), range(1, 100)))
 def test_a_hundred_thousand_changed_trees(block: int) -> None:
     for seed in range(1000 * (block + 1), 1000 * (block + 2)):
         check(mutated(bases()[seed % len(bases())], seed))
@@ -154,7 +154,7 @@ def test_any_value_in_a_link(link: str, key: str, value: Any) -> None:
     check({**made, "links": {**made["links"], link: {**made["links"][link], key: value}}})
 
 
-@settings(max_examples=25)
+@settings(max_examples=10)
 @given(st.lists(st.floats(0.02, 2.0), min_size=4, max_size=4), st.floats(-360, 360), st.floats(-100, 100))
 def test_any_four_bar_closes_or_says_why(lengths: list[float], start: float, speed: float) -> None:
     a, b, c, d = lengths

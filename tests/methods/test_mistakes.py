@@ -203,9 +203,10 @@ def outcome(name: str) -> tuple[bool, str]:
     return words in found, found
 
 
-def test_most_of_the_typical_mistakes_are_named() -> None:
+@pytest.mark.parametrize("names", tiers([list(MISTAKES)[::4]], [list(MISTAKES)]), ids=len)
+def test_most_of_the_typical_mistakes_are_named(names: list[str]) -> None:
     """At least 23 of 25; these are 30."""
-    missed = {name: found for name in MISTAKES for ok, found in [outcome(name)] if not ok}
+    missed = {name: found for name in names for ok, found in [outcome(name)] if not ok}
     assert len(MISTAKES) >= 25
     assert len(missed) <= 2, missed
 
@@ -252,7 +253,7 @@ def test_the_digits_written_decide_what_rounding_is_forgiven(value: Any, right: 
     assert verdict("reaction", "A", value).right is right
 
 
-@pytest.mark.parametrize("seed", tiers(range(8), range(8, 30)))
+@pytest.mark.parametrize("seed", tiers(range(8), range(8, 14), range(14, 30)))
 def test_a_figure_rounded_to_three_digits_and_whole_degrees_is_right(seed: int) -> None:
     rng = np.random.default_rng(seed)
     m = da.four_bar().with_values({"drives.O2.position": float(rng.uniform(0, 6)), "loads.torque.value": 7.0})

@@ -176,14 +176,14 @@ NESTED = {
         f"{b}: &{b} [{', '.join(['*' + a] * 10)}]\n" for a, b in zip("abcdefgh", "bcdefghi", strict=True)
     ),
     "large": "# " + "a" * 5_000_000,
-    "values": "x: [" + "1," * 400_000 + "1]",
+    "values": "x: [" + "1," * 100_000 + "1]",
     "number": "links: {a: {mass: " + "9" * 900_000 + "}}",
     "expression": "links: {a: {}}\nloads: {F: {type: couple, on: a, value: " + "(" * 900_000 + "}}",
     "signs": "links: {a: {}}\nloads: {F: {type: couple, on: a, value: '" + "-" * 900 + "1'}}",
     "tag": "a: !" + "x" * 900_000,
     "anchor": "a: &" + "x" * 900_000,
     "directive": "%" + "x" * 900_000,
-    "errors": "[links]\n" + "\n".join(f"a{i} = {{mass = 'x'}}" for i in range(10_000)),
+    "errors": "[links]\n" + "\n".join(f"a{i} = {{mass = 'x'}}" for i in range(2_000)),
     "unit": "links: {a: {mass: 1 " + "kg*" * 200_000 + "kg}}",
 }
 
