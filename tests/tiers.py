@@ -41,14 +41,14 @@ def nth(n: int, holds: Callable[[int], bool]) -> int:
     return met[n]
 
 
-def over(quick: int, whole: int = 1000) -> Callable[..., Any]:
+def over(quick: int, whole: int = 1000, block: int = BLOCK) -> Callable[..., Any]:
     """A law on the first seeds, one test each, and on the rest of the whole a block a test."""
-    return over_seeds(range(quick), range(quick, whole))
+    return over_seeds(range(quick), range(quick, whole), block)
 
 
-def over_seeds(quick: Iterable[int], rest: range) -> Callable[..., Any]:
+def over_seeds(quick: Iterable[int], rest: range, block: int = BLOCK) -> Callable[..., Any]:
     """A law on the quick seeds, one test each, and on the rest a block a test."""
-    blocks = [rest[k : k + BLOCK] for k in range(0, len(rest), BLOCK)]
+    blocks = [rest[k : k + block] for k in range(0, len(rest), block)]
 
     def decorated(law: Callable[..., None]) -> Callable[..., None]:
         @wraps(law)

@@ -152,13 +152,13 @@ def reversing(trees: Any, seed: int) -> tuple[Any, float]:
     raise AssertionError("none of a hundred mechanisms reverses")
 
 
-@over_seeds([6], range(200))
+@over_seeds([6], range(200), block=4)
 def test_both_sides_are_the_limits_of_the_positions_around(seed: int) -> None:
     """Extrapolated from two positions near by; these have one number each, however small a rate is there."""
     check_limits(*reversing(plane, seed))
 
 
-@over_seeds([2], range(100))
+@over_seeds([2], range(100), block=3)
 def test_both_sides_are_the_limits_in_space(seed: int) -> None:
     check_limits(*reversing(space, seed))
 

@@ -49,7 +49,7 @@ def two_ranges(rng: np.random.Generator) -> tuple[tuple[float, float, float, flo
     return (crank, coupler, rocker, ground), low + rng.uniform(0.2, 0.8) * (high - low)
 
 
-@over(3, 150)
+@over(1, 150, block=4)
 def test_a_four_bar_closes_in_both_its_ranges(seed: int) -> None:
     rng = np.random.default_rng(seed)
     sizes, start = two_ranges(rng)
@@ -155,7 +155,7 @@ def test_a_slider_crank_whose_rod_is_short_closes_in_both_its_ranges(order: str,
     np.testing.assert_allclose(r.point("block", "B")[closes, 0], a.real[closes] + side * reach, atol=1e-6)
 
 
-@over(3, 100)
+@over(1, 100, block=4)
 def test_the_second_group_of_a_six_bar_closes_in_two_ranges(seed: int) -> None:
     """The rocker swings; arm and lever close only where its end is neither too near to their pivot nor too far."""
     rng, sizes, turn = np.random.default_rng(seed), (0.5, 1.5, 1.2, 1.4), 5.0 * np.arange(72)
@@ -188,7 +188,7 @@ def test_the_second_group_of_a_six_bar_closes_in_two_ranges(seed: int) -> None:
     assert np.abs(off)[r.ok].max() < 1e-6
 
 
-@over(1, 25)
+@over(1, 25, block=3)
 def test_an_rssr_closes_in_both_its_ranges(seed: int) -> None:
     """The end of the rocker is where its circle cuts the sphere about the crank's end."""
     rng, turn = np.random.default_rng(seed), 2 * pi * np.arange(72) / 72
@@ -242,7 +242,7 @@ def rssr_tree(
     }
 
 
-@over(1, 15)
+@over(1, 15, block=2)
 def test_a_lifted_four_bar_closes_where_the_plane_one_does(seed: int) -> None:
     """Its constraints repeat each other: independent ones are chosen, which tell the sides."""
     rng = np.random.default_rng(seed)
