@@ -44,7 +44,7 @@ from typing import Any  # noqa: E402
 
 import numpy as np  # noqa: E402
 import pytest  # noqa: E402
-from mutations import PACKAGES, SOURCE, Mutant, drawn, mutated, statements  # noqa: E402
+from mutations import PACKAGES, SOURCE, Mutant, drawn, mutants, mutated, statements  # noqa: E402
 
 ROOT = SOURCE.parents[1]
 BUILD = ROOT / "build" / "mutants"
@@ -379,6 +379,9 @@ def main() -> None:
         return
     same = tomllib.loads((Path(__file__).parent / "equivalent_mutants.toml").read_text(encoding="utf-8"))
     rows = [json.loads(line) for line in VERDICTS.read_text().splitlines()] if asked.again else []
+    named = {SOURCE / key.partition(": ")[0] for key in same}
+    if gone := same.keys() - {m.key for path in named if path.exists() for m in mutants(path, "")}:
+        parser.error("equivalent_mutants.toml names what is no mutant: " + "; ".join(sorted(gone)))
     every = {m.key: m for m in drawn(asked.count, asked.seed, asked.package)}
     rows = [r for r in rows if r["key"] in every and (r["verdict"] != "alive" or r["key"] in same)]
     some = [m for key, m in every.items() if key not in {r["key"] for r in rows}]

@@ -31,6 +31,8 @@ def test_a_drawing_at_another_value_is_of_the_pose_that_leads_there(template: st
     for link in followed.links:
         assert there.rotation(link)[0] == pytest.approx(followed.rotation(link)[-1], abs=1e-9)
         assert there.position(link)[0] == pytest.approx(followed.position(link)[-1], abs=1e-9)
+        stated = getattr(there.mechanism.assembly[link], "position", None)
+        assert stated is None or stated == pytest.approx(followed.position(link)[-1], abs=1e-9)
 
 
 def test_whole_numbers_have_fifteen_digits_at_most() -> None:

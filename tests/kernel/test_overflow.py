@@ -61,6 +61,15 @@ def test_the_general_executor_says_so_too(analysis: Any) -> None:
     )
 
 
+def test_one_rate_that_overflows_is_enough() -> None:
+    block = {
+        "links": {"ground": {"points": {"O": [0, 0]}}, "block": {"points": {"P": [0, 0]}, "mass": 1}},
+        "joints": {"s": {"type": "slider", "links": ["ground", "block"], "at": ["O", "P"]}},
+        "drives": {"s": {"position": 0, "speed": 1e160}},
+    }
+    assert da.kinematics(da.mechanism(block)).status == ("overflow",)
+
+
 def test_forces_that_overflow_where_the_motion_does_not() -> None:
     m = da.four_bar().with_values({"links.coupler.inertia": 1e308})
     r = da.dynamics(m)

@@ -105,9 +105,11 @@ def virtual_work(r: Result) -> VirtualWork:
     shape = (len(known), len(r.status), len(r.drives))
     velocity = np.array([v for v, _ in motions]).reshape((*shape, g.d))
     spin = np.array([w for _, w in motions]).reshape(shape if g.d == 2 else (*shape, 3))
-    power = np.zeros(shape)
-    for k, (a, (v, w)) in enumerate(zip(known, motions, strict=True)):
-        power[k] = np.moveaxis(a.power(np.moveaxis(v, 1, 0), np.moveaxis(w, 1, 0)), 0, 1)
+    powers = (
+        a.power(np.moveaxis(v, 1, 0), np.moveaxis(w, 1, 0)).T
+        for a, (v, w) in zip(known, motions, strict=True)
+    )
+    power = np.array([*powers]).reshape(shape)
     effort, load = _solve_power_balance(r, at, power.sum(axis=0))
     return VirtualWork(r, known, velocity, spin, power, effort, load)
 
