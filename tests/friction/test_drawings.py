@@ -36,7 +36,7 @@ def distance(line: Line, point: Any) -> float:
     return abs(float(e[0] * arm[1] - e[1] * arm[0]))
 
 
-@over(24, 200)
+@over(8, 200)
 def test_reactions_on_their_own_lines_balance(seed: int) -> None:
     """The forces at the places where the links touch, with what couples are left, are the same wrenches."""
     r = da.dynamics(rough(seed))
