@@ -41,7 +41,7 @@ def remainder(value: float, decimals: int = 0) -> str:
 def round_components(vector: Iterable[float], beside: float = 0.0) -> list[float]:
     """Components of a vector; what is nothing but rounding beside its largest, or beside another size, is 0.
 
-    >>> rounded([1e-17, 3.0]), rounded([1e-17], 3.0)
+    >>> round_components([1e-17, 3.0]), round_components([1e-17], 3.0)
     ([0.0, 3.0], [0.0])
     """
     numbers = [float(v) for v in vector]

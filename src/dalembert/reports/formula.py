@@ -214,7 +214,7 @@ def plain(text: str) -> str:
 def bracket_negative(number: str) -> str:
     """A number behind an operator: a negative one in brackets.
 
-    >>> bracketed("−3.5"), bracketed("2")
+    >>> bracket_negative("−3.5"), bracket_negative("2")
     ('(−3.5)', '2')
     """
     return f"({number})" if number.startswith("−") else number

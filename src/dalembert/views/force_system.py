@@ -358,7 +358,7 @@ class Drawing:
 def clip_line(at: Point, along: Point, room: tuple[float, float, float, float]) -> tuple[Point, Point] | None:
     """The part inside a box of a line through a place on paper; None where it passes by.
 
-    >>> clipped((0, 5), (1, 0), (-10, 0, 10, 8))
+    >>> clip_line((0, 5), (1, 0), (-10, 0, 10, 8))
     ((-10.0, 5.0), (10.0, 5.0))
     """
     low, high = -math.inf, math.inf

@@ -85,7 +85,7 @@ def _describe(part: Force | Couple, units: Units) -> str:
 def list_components(values: Array, kind: str, units: Units) -> str:
     """Components with their unit, five figures: `[3, 4] N`.
 
-    >>> listed(np.array([3.0, 4.0]), "force", Units(force="kN"))
+    >>> list_components(np.array([3.0, 4.0]), "force", Units(force="kN"))
     '[0.003, 0.004] kN'
     """
     floor = 1e-12 * float(np.abs(values).max(initial=0.0))

@@ -131,10 +131,10 @@ def drive_text(c: Compiled, position: int, drive: int) -> str:
 def quantity_text(c: Compiled, kind: str, value: float, figures: int = 6) -> str:
     """A number of SI with its unit, in the units of the mechanism's file (without: SI and degrees).
 
-    >>> from dalembert.analysis.compile.compiled_mechanism import compiled
+    >>> from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
     >>> from dalembert.model.library import four_bar
     >>> m = four_bar()
-    >>> quantity_text(compiled(m, m.schedule()), "angle", 1.0471975511965976)
+    >>> quantity_text(compile_mechanism(m, m.schedule()), "angle", 1.0471975511965976)
     '60 deg'
     """
     units = file_units(c.mechanism.units)

@@ -32,7 +32,7 @@ class GapError(Exception):
 def vector_at(length: float, angle: float) -> complex:
     """The vector of that length in that direction.
 
-    >>> turned(2.0, 0.0)
+    >>> vector_at(2.0, 0.0)
     (2+0j)
     """
     return length * exp(1j * angle)

@@ -173,7 +173,7 @@ def nodes(tree: Tree) -> Iterator[Tree]:
 def expression_text(tree: Tree, rank: int = 0) -> str:
     """The tree as text that parses to the same tree.
 
-    >>> written(parsed("2*( (O2) + 1)^2")[0])
+    >>> expression_text(parse_expression("2*( (O2) + 1)^2")[0])
     '2*(O2 + 1)^2'
     """
     if isinstance(tree, Number):

@@ -112,7 +112,7 @@ SIZES = ("radius", "half", "thickness", "thread")
 def place_solid(solid: Solid, turn: Rotation, at: Array, scale: float = 1.0) -> Solid:
     """A solid enlarged, turned by a matrix (3, 3) and moved.
 
-    >>> ball = placed(Ball(np.array([1.0, 0, 0]), 2.0), np.eye(3), np.array([0, 0, 5.0]), scale=3.0)
+    >>> ball = place_solid(Ball(np.array([1.0, 0, 0]), 2.0), np.eye(3), np.array([0, 0, 5.0]), scale=3.0)
     >>> ball.center.tolist(), ball.radius
     ([3.0, 0.0, 5.0], 6.0)
     """

@@ -73,7 +73,7 @@ def words(kind: str) -> str:
 def describe_kind(kind: str) -> str:
     """What a joint leaves free and what it carries.
 
-    >>> said("cylindrical")
+    >>> describe_kind("cylindrical")
     '1 turn, 1 slide; Fy Fz My Mz.'
     """
     pair = PAIRS[kind]
