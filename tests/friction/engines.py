@@ -8,8 +8,8 @@ import numpy as np
 
 import dalembert as da
 
-GAS = 22089.32334555
-"""N on the piston, from its pressure and bore."""
+GAS = 450e3 * np.pi / 4 * 0.25**2
+"""N on the piston: 450 kPa on a bore of 250 mm."""
 
 
 def engine(

@@ -9,9 +9,12 @@ from __future__ import annotations
 
 import math
 import re
+from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
+
+from dalembert.units import KINDS
 
 TOKEN = re.compile(
     r"\s*(?:(?P<number>\d+(?:\.\d+)?(?:e[−+-]?\d+)?)|(?P<function>(?:cos|sin|tan|arcsin|arctan)\b)"
@@ -19,6 +22,42 @@ TOKEN = re.compile(
 )
 FUNCTIONS = {"cos": math.cos, "sin": math.sin, "tan": math.tan, "arcsin": math.asin, "arctan": math.atan}
 SLACK = 1.1
+
+LEADS = {
+    r"F\b(?!_)|cos θ|x R_y": "",
+    r"R$|R_[xyz]$|R · M": "force",
+    r"[dpr]$": "arm|length",
+    r"M$": "moment",
+    r"Σ M|[TM]_|J_|ω_\S+' × J_": "moment",
+    r"Σ F|[FGWNS]_": "force",
+    r"ω_\S+$": "angular_speed",
+    r"α_\S+$": "angular_acceleration",
+    r"[θβφ]": "angle",
+    r"(?!.*(?:cos|sin)).*r_\S+ α_": "rolling_rate",
+    r"(?!.*(?:cos|sin)).*r_\S+ \(?ω_": "rolling",
+    r".*\b(?:α_|ω_\S+\^2|a_)": "acceleration",
+    r".*\b(?:ω_|v_)": "speed",
+    r"h_": "arm",
+    r".*\b[rR]_": "length",
+    r"[xyz]: |0$": "length|speed|acceleration",
+    r"[^\W\d]\w*$": "force|moment",  # an unknown load by its own name
+}
+"""What an equation begins with, and the kind of its result."""
+
+IN_LETTERS = r"[^=]*_[^=]* = 0"
+"""A sum of vectors, whose components follow in numbers."""
+
+RATES = {"angular_speed": "rad/s", "angular_acceleration": "rad/s^2"}
+
+
+def printed_units(units: Any) -> dict[str, str]:
+    """By kind, the unit as it is printed: angles in degrees, rates without a unit of the file in radians."""
+    texts = {kind: RATES[kind] if units.refuses_bare(kind) else units.text(kind) for kind in KINDS}
+    signs = (("*", "·"), ("^2", "²"), ("^3", "³"), ("deg", "°"))
+    printed = {kind: reduce(lambda t, sign: t.replace(*sign), signs, text) for kind, text in texts.items()}
+    arm = re.sub(rf"{printed['force']}·|·{printed['force']}", "", printed["moment"])
+    rolling = f"{printed['length']}/s"  # radii times radians
+    return printed | {"angle": "°", "arm": arm, "rolling": rolling, "rolling_rate": f"{rolling}²"}
 
 
 class Read(NamedTuple):
@@ -35,8 +74,16 @@ class UnreadableError(Exception):
 class Reader:
     """Reads lines one by one, and counts what it compared."""
 
-    def __init__(self, figures: int = 4) -> None:
+    def __init__(self, figures: int = 4, units: Any = None) -> None:
         self.figures, self.known = figures, dict[str, Read]()
+        self.units = None if units is None else printed_units(units)
+        self.idle: list[str] = []
+        self.turning = self.crossed = (
+            1.0  # the unit of angular speeds squared in that of angular accelerations
+        )
+        if units is not None:
+            speed, rate = (1.0 if units.refuses_bare(k) else units.unit(k).si(1.0) for k in RATES)
+            self.turning = speed**2 / rate
         self.compared = self.lines = self.same = 0
         self.factors = {"m": 1.0, "I": 1.0, "J": 1.0}  # of products with these, where units are not coherent
         self.learning = True
@@ -94,8 +141,8 @@ class Reader:
             elif self._next("×"):
                 self._take()
                 other = self._product()
-                error = np.abs(cross_error(total, other))
-                total = Read(np.cross(total.value, other.value), error)
+                product = Read(np.cross(total.value, other.value), np.abs(cross_error(total, other)))
+                total = times(product, Read(self.crossed, 0.0))
             elif self._next("/"):
                 self._take()
                 other = self._factor()
@@ -163,17 +210,37 @@ class Reader:
             return
         self.lines += 1
         text = text.strip()
+        before = self.compared + self.same
         for part in re.split(r",\s+(?=[^\W\d_][\w,']* = )", text):
+            self.result_unit(part)
             self._equation(re.sub(r"^(?:Σ [\w,']+|[xyz]):\s*", "", part))
+        if self.compared + self.same == before:
+            self.idle.append(text)
+
+    def result_unit(self, text: str) -> None:
+        """The unit behind the result is that of what the equation begins with."""
+        behind = re.sub(r"^(?:\(.*?\)|−?\d[\d.]*(?:e[−+-]?\d+)?)\s*", "", text.rpartition(" = ")[2])
+        letters = text.partition(" = ")[0].lstrip("−|")
+        if re.fullmatch(IN_LETTERS, text):
+            return
+        kinds = next(kinds for lead, kinds in LEADS.items() if re.match(lead, letters))
+        self.unit(re.split(r"[\s,:]", behind)[0], kinds, text)
+
+    def unit(self, found: str, kinds: str, text: str) -> None:
+        """A printed unit is that of one of these kinds."""
+        if self.units is not None:
+            wanted = [self.units[kind] if kind else "" for kind in kinds.split("|")]
+            assert found in wanted, f"{text}: the unit is {found!r}, and should be {' or '.join(wanted)}"
 
     def _equation(self, text: str) -> None:
         parts = [p.strip() for p in re.split(r" = ", text)]
         read: list[Read] = []
         for n, part in enumerate(parts):
+            heavy = re.search(r"\b([mIJ])_", part)
+            letters = heavy is not None and not re.search(r"(?<![\w,])\d", part)
+            self.crossed = self.turning if letters else 1.0
             try:
                 found = self._part(part, last=n == len(parts) - 1 and n > 0)
-                heavy = re.search(r"\b([mIJ])_", part)
-                letters = heavy is not None and not re.search(r"(?<![\w,])\d", part)
                 read.append(times(found, Read(self.factors[heavy[1]], 0.0)) if heavy and letters else found)
             except UnreadableError:
                 continue

@@ -18,9 +18,9 @@ EVERYWHERE = re.compile(r"[FGMTWNmIJ]_|a_G|\||work|[ωα]_(?!c)")
 """Signs that mean one number in the whole solution; arms, radii, springs and dampers are those of the link at hand."""
 
 
-def read_sheet(sheet: Sheet, figures: int = 4) -> Reader:
+def read_sheet(sheet: Sheet, figures: int = 4, units: Any = None) -> Reader:
     """Every equation, table and matrix of a worked solution."""
-    reader = Reader(figures)
+    reader = Reader(figures, units)
     for b in sheet.blocks:
         if isinstance(b, Heading) and " end of " in b.text:
             reader.known.clear()  # another solution begins
@@ -32,6 +32,7 @@ def read_sheet(sheet: Sheet, figures: int = 4) -> Reader:
         if isinstance(b, Table):
             rows = [["".join(write_mixed(cell, plain, str)) for cell in row] for row in (b.heads, *b.rows)]
             reader.learning = "ground axes" not in b.caption
+            _units(reader, b.caption, rows[0])
             _table(reader, rows[0], rows[1:])
         if isinstance(b, Matrix):
             reader.learning = "ground axes" not in b.caption
@@ -73,6 +74,20 @@ def _table(reader: Reader, heads: list[str], rows: Cells) -> None:
         if starts.startswith(start):
             read(reader, heads, rows)
             return
+    assert starts.startswith(WORDS), f"no reader of the table {starts}"
+
+
+def _units(reader: Reader, caption: str, heads: list[str]) -> None:
+    """Units in heads and captions are those of what the heads say."""
+    for head in heads:
+        if (found := re.search(r" \((\S*)\)$", head)) is not None:
+            kinds = next(kinds for sign, kinds in HEADS.items() if re.match(sign, head))
+            reader.unit(found[1], kinds, head)
+    for words, kind in (("[Ff]orces in", "force"), ("(?:couple|moment)s in", "moment")):
+        for unit in re.findall(rf"{words} ([^\s,;]+)", caption):
+            reader.unit(unit, kind, caption)
+    for unit in re.findall(r"Inertia \((\S+)\)", caption):
+        reader.unit(unit, "inertia", caption)
 
 
 def _links(reader: Reader, heads: list[str], rows: Cells) -> None:
@@ -225,6 +240,31 @@ def _system_moments(reader: Reader, heads: list[str], rows: Cells) -> None:
 def _counts(reader: Reader, heads: list[str], rows: Cells) -> None:
     assert sum(int(row[-1]) for row in rows[:-1]) == int(rows[-1][-1])
 
+
+HEADS = {
+    "Points|Centre|[xyz] |G_": "length",
+    "θ": "angle",
+    "ω": "angular_speed",
+    "α": "angular_acceleration",
+    "a_G": "acceleration",
+    "v_G": "speed",
+    "couple": "moment",
+    "Work": "force|moment",
+    "Power": "power",
+}
+"""What a head with a unit begins with, and of which kind it is."""
+
+WORDS = (
+    "Joint or drive|Type",
+    "Load|Type|Value",
+    "Couple|M",
+    "Joint|x'|y'|z'",
+    "Joint|Freedom|Value",
+    "Joint|x (",
+    "Link|Turned by",
+    "Largest|Value",
+)
+"""Tables that say what the equations below them use, or nothing that can be worked out again."""
 
 TABLES: dict[str, Any] = {
     "Link|Points": _links,
