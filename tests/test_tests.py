@@ -29,6 +29,32 @@ def returns_early(function: ast.FunctionDef) -> bool:
     return False
 
 
+def compares(block: list[ast.stmt]) -> bool:
+    """Whether it asserts something that neither an `if` nor a `continue` before it can pass by."""
+    for s in block:
+        match s:
+            case ast.Assert() | ast.Expr(value=ast.Call()):  # a function that compares
+                return True
+            case ast.With() if compares(s.body) or "raises" in ast.unparse(s.items[0]):
+                return True
+            case ast.For() | ast.While() | ast.Try() if compares(s.body):
+                return True
+            case ast.If() if compares(s.body) and compares(s.orelse):
+                return True
+            case ast.If() if any(isinstance(n, ast.Continue) for n in ast.walk(s)) and not compares(s.body):
+                return False
+    return False
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+def test_no_test_compares_under_a_condition_only(path: Path) -> None:
+    tests = [
+        f for f in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(f, ast.FunctionDef)
+    ]
+    asserting = [f for f in tests if any(isinstance(n, ast.Assert) for n in ast.walk(f))]
+    assert [f.name for f in asserting if f.name.startswith("test_") and not compares(f.body)] == []
+
+
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
 def test_no_test_returns_before_it_has_compared(path: Path) -> None:
     """Draw until the condition holds (`tiers.nth`) instead."""

@@ -99,9 +99,7 @@ def test_each_wrong_multiplier_of_a_mechanism_is_left_over_in_the_residual(seed:
     loads = known_sources(layout, r.compiled.forcing, at.pose, at.moving, True).values()
     known = total_wrench(layout, *loads) * layout.wrench_scale
     largest = np.maximum(np.abs(on_links).max(axis=(1, 2)), np.abs(known).max(axis=(1, 2)))
-    for k in range(x.shape[1]):
-        if k in idle:
-            continue
+    for k in sorted(set(range(x.shape[1])) - idle):
         column = np.concatenate([rows.on_i[:, k], rows.on_j[:, k]], axis=1)
         moving = np.repeat([rows.i[k] < layout.links, rows.j[k] < layout.links], layout.algebra.n)
         left = np.abs(column * np.tile(layout.wrench_scale, 2))[:, moving].max(axis=1)

@@ -28,9 +28,7 @@ def test_turning_and_side_of_a_friction_circle(joint: str, speed: float) -> None
     """The curved arrow turns as the link does against the other one; the reaction's arm makes friction's couple."""
     r = da.statics(engine(mu=0.2).with_values({"drives.O.speed": speed}))
     links = r.mechanism.joints[joint].links
-    for on, other in (links, links[::-1]):
-        if on == "ground":
-            continue
+    for on, other in (ends for ends in (links, links[::-1]) if ends[0] != "ground"):
         scene = pin_detail(r, joint, 0, Shown(r, Notation(), 0), on)
         turning = float(r.speed(on)[0]) - (float(r.speed(other)[0]) if other != "ground" else 0.0)
         (arc,) = (i for i in scene.items if isinstance(i, Arc) and i.role == "velocity")
