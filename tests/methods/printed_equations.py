@@ -33,7 +33,7 @@ LEADS = {
     r"ω_\S+$": "angular_speed",
     r"α_\S+$": "angular_acceleration",
     r"[θβφ]": "angle",
-    r"(?!.*(?:cos|sin)).*r_\S+ α_": "rolling_rate",
+    r"(?!.*(?:cos|sin)).*r_\S+ \(?α_": "rolling_rate",
     r"(?!.*(?:cos|sin)).*r_\S+ \(?ω_": "rolling",
     r".*\b(?:α_|ω_\S+\^2|a_)": "acceleration",
     r".*\b(?:ω_|v_)": "speed",

@@ -266,7 +266,18 @@ WORDS = (
 )
 """Tables that say what the equations below them use, or nothing that can be worked out again."""
 
+
+def _unknowns(reader: Reader, heads: list[str], rows: Cells) -> None:
+    """Unknowns of a large matrix beside their values, which are what they are elsewhere."""
+    for row in rows:
+        for sign, cell in zip(row[::2], row[1::2], strict=True):
+            found = number(reader, cell)
+            if found is not None and sign in reader.known:
+                reader.learn(sign, found, str(row))
+
+
 TABLES: dict[str, Any] = {
+    "Unknown|Value": _unknowns,
     "Link|Points": _links,
     "Link|J_xx": _inertias,
     "Link|θ (°)": _motion,
