@@ -219,7 +219,7 @@ def _scaled(tree: dict[str, Any], k: float) -> dict[str, Any]:
             if key in link:
                 link[key] *= k
     for part in (*out["loads"].values(), *out["joints"].values()):
-        for key in ("value", "stiffness", "damping"):
+        for key in ("value", "stiffness", "damping", "force"):
             if key in part:
                 part[key] = _times(part[key], k)
     return out
