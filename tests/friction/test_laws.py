@@ -61,7 +61,7 @@ def rests(seed: int) -> bool:
     return r.status == ("at_rest",) and all(np.isfinite(r.holding(d)).all() for d in r.drives)
 
 
-@over(24, 1000)
+@over(12, 1000)
 def test_solved_or_a_verdict_and_no_wrong_number(seed: int) -> None:
     """Links balance, every contact obeys its law; what is not solved has no number, and a sentence."""
     r = answered(seed)
@@ -83,13 +83,13 @@ def scale(r: Any) -> float:
     return float(np.nanmax(np.abs(r.force_array)) * np.nanmax(np.abs(r.twist_array)) + 1e-300)
 
 
-@over(24, 200)
+@over(12, 200)
 def test_virtual_work_with_the_losses_of_friction(seed: int) -> None:
     r = answered(nth(seed, rubs))
     assert np.max(da.virtual_work(r).gap[solved(r)]) < 1e-10
 
 
-@over(8, 200)
+@over(6, 200)
 def test_links_balance(seed: int) -> None:
     seed = nth(seed, rubs_throughout)
     tree, r = rough_tree(seed), answered(seed)
@@ -102,7 +102,7 @@ def test_links_balance(seed: int) -> None:
     )
 
 
-@over(8, 200)
+@over(6, 200)
 def test_the_oracle_follows_the_same_branch(seed: int) -> None:
     seed = nth(seed, begins)
     tree, drawing = rough_tree(seed), random_mechanism(seed, (2, 12))
@@ -144,7 +144,7 @@ def test_reversing_the_motion_reverses_the_senses(seed: int) -> None:
     assert np.array_equal(back.friction.sense[told], -r.friction.sense[told], equal_nan=True)
 
 
-@over(8, 200)
+@over(6, 200)
 def test_no_coefficient_is_no_friction(seed: int) -> None:
     tree = rough_tree(nth(seed, rubs), most=0.0)
     r, plain = da.dynamics(da.mechanism(tree)), da.dynamics(da.mechanism({**tree, "friction": OFF}))
@@ -157,7 +157,7 @@ def test_no_coefficient_is_no_friction(seed: int) -> None:
         )
 
 
-@over(8, 200)
+@over(6, 200)
 def test_small_coefficients_go_to_no_friction(seed: int) -> None:
     """The change of the efforts is linear in a small coefficient: halving it halves the change."""
     _, changes = small_changes(nth(seed, small_coefficients_show))
@@ -194,7 +194,7 @@ def forces(r: Any) -> float:
     return float(np.nanmax(np.abs(r.force_array))) * max(1.0, r.compiled.layout.length)
 
 
-@over(8, 200)
+@over(6, 200)
 def test_scaling_all_loads_scales_everything(seed: int) -> None:
     k, seed = 3.7, nth(seed, rubs)
     tree = rough_tree(seed)

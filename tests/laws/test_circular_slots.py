@@ -64,7 +64,7 @@ def rod_angles(r: Any, tree: dict[str, Any]) -> dict[str, float]:
     return out
 
 
-@over(12, 62)
+@over(6, 62)
 def test_every_number_is_that_of_the_lagrange_oracle(seed: int) -> None:
     """Damping in the slots' turns too."""
     case = random_case(ROUND + nth(seed, has_slots))
@@ -73,7 +73,7 @@ def test_every_number_is_that_of_the_lagrange_oracle(seed: int) -> None:
     assert size < 1e-9, quantity
 
 
-@over(12, 62)
+@over(6, 62)
 def test_a_circular_slot_is_a_light_link_from_its_center(seed: int) -> None:
     """Motion, efforts and reactions, the slot's being that of the link on its pin."""
     tree = slotted_tree(seed)

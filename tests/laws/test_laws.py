@@ -61,13 +61,13 @@ def answered(seed: int) -> Any:
     return dynamics(random_case(seed).tree)
 
 
-@over(100)
+@over(40)
 def test_every_number_is_that_of_the_lagrange_oracle(seed: int) -> None:
     quantity, size = worst(disagreement(answered(seed), random_case(seed).answer))
     assert size < TOLERANCE, quantity
 
 
-@over(30)
+@over(16)
 def test_statics_is_that_of_the_lagrange_oracle(seed: int) -> None:
     case = random_case(seed)
     expected = lagrange.solve(case.tree, case.answer.q, inertia=False)
@@ -75,7 +75,7 @@ def test_statics_is_that_of_the_lagrange_oracle(seed: int) -> None:
     assert size < TOLERANCE, quantity
 
 
-@over(60)
+@over(25)
 def test_every_link_is_in_equilibrium(seed: int) -> None:
     r, answer = answered(seed), random_case(seed).answer
     out_of_balance = (joint_wrenches(r, answer) + known_wrenches(r, answer))[:, 1:]
@@ -84,7 +84,7 @@ def test_every_link_is_in_equilibrium(seed: int) -> None:
     assert np.max(r.residual) < TOLERANCE
 
 
-@over(60)
+@over(25)
 def test_power_of_efforts_loads_and_inertia_is_balanced(seed: int) -> None:
     r, answer = answered(seed), random_case(seed).answer
     v = state(r, answer.machine.links)[1]
@@ -94,14 +94,14 @@ def test_power_of_efforts_loads_and_inertia_is_balanced(seed: int) -> None:
     assert np.max(np.abs(r.power_balance)) < TOLERANCE
 
 
-@over(60)
+@over(25)
 def test_reactions_do_no_work(seed: int) -> None:
     answer = random_case(seed).answer
     for joint, power in joint_powers(answered(seed), answer).items():
         assert np.max(np.abs(power)) < TOLERANCE * answer.force_scale() * speed_scale(answer), joint
 
 
-@over(12)
+@over(8)
 @pytest.mark.parametrize("motion", [Rigid(0.7, 0.3, -2.0), Rigid(-2.9, 100.0, 350.0)])
 def test_moving_the_machine_moves_the_answers(seed: int, motion: Rigid) -> None:
     d, r = random_case(seed).drawing, answered(seed)
@@ -121,7 +121,7 @@ def test_moving_the_machine_moves_the_answers(seed: int, motion: Rigid) -> None:
         assert np.max(np.abs(moved.effort(drive) - r.effort(drive))) < TOLERANCE * force * max(length, 1.0)
 
 
-@over(10)
+@over(8)
 @pytest.mark.parametrize("style", [MM_N, IN_LBF], ids=["mm N", "in lbf"])
 def test_units_change_nothing(seed: int, style: Style) -> None:
     case = random_case(seed)
@@ -131,7 +131,7 @@ def test_units_change_nothing(seed: int, style: Style) -> None:
     assert size < TOLERANCE, quantity
 
 
-@over(10)
+@over(8)
 def test_loads_add(seed: int) -> None:
     d = smooth_teeth(random_case(seed).drawing)
     names = sorted(d.loads)
@@ -164,14 +164,14 @@ def test_all_forces_scale_together(seed: int, factor: float) -> None:
         assert np.max(np.abs(scaled.reaction(joint) / factor - r.reaction(joint))) < TOLERANCE * force
 
 
-@over(10)
+@over(8)
 def test_at_speed_0_dynamics_is_statics(seed: int) -> None:
     case = random_case(seed)
     still = tree(case.drawing, scale=Scale(speeds=0.0))
     assert difference(dynamics(still), statics(still), case.drawing, case.answer.length()) < TOLERANCE
 
 
-@over(10)
+@over(8)
 def test_inertia_forces_grow_with_the_square_of_speed(seed: int) -> None:
     """What dynamics adds to statics, which keeps the viscous forces, is inertia alone."""
     d = smooth_teeth(random_case(seed).drawing)
@@ -184,7 +184,7 @@ def test_inertia_forces_grow_with_the_square_of_speed(seed: int) -> None:
         assert np.max(np.abs(9 * added[0] - added[1])) < TOLERANCE * force, joint
 
 
-@over(15)
+@over(8)
 def test_exchanging_i_and_j_only_flips_signs(seed: int) -> None:
     case = random_case(seed)
     d, r, swapped = case.drawing, answered(seed), exchangeable(case.drawing)
@@ -231,7 +231,7 @@ FIRST = np.array([-1, 9, -45, 0, 45, -9, 1]) / 60
 SECOND = np.array([2, -27, 270, -490, 270, -27, 2]) / 180
 
 
-@over(15)
+@over(8)
 def test_rates_are_the_differences_of_positions(seed: int) -> None:
     """Central differences over seven positions in time, of sixth order."""
     case, h = random_case(seed), 4e-4

@@ -25,7 +25,7 @@ def first_drive_feels_the_force(seed: int) -> bool:
     return bool(np.min(np.abs(weighed)) >= 1e-3 * 999 * size)
 
 
-@over(8, 200)
+@over(6, 200)
 def test_a_force_is_found_from_the_effort_that_balances_it(seed: int) -> None:
     """An effort made known and a force made unknown give back the force."""
     case = random_case(nth(seed, first_drive_feels_the_force))
@@ -58,7 +58,7 @@ def undamped(kind: str, seed: int) -> list[str]:
 SOME = {kind: lru_cache(maxsize=512)(partial(undamped, kind)) for kind in ("pin", "slider")}
 
 
-@over(7, 200)
+@over(6, 200)
 @pytest.mark.parametrize("kind", ["pin", "slider"])
 def test_a_doubled_joint_is_redundant_and_changes_nothing_else(seed: int, kind: str) -> None:
     case = random_case(found := nth(seed, SOME[kind]))

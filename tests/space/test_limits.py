@@ -42,7 +42,7 @@ HAS = {
 """Of a seed, its joints of a kind that may be exchanged."""
 
 
-@over(12, 100)
+@over(6, 100)
 def test_a_screw_of_small_lead_is_nearly_a_revolute(seed: int) -> None:
     """All reactions go to those of the revolute in proportion to the lead."""
     seed = nth(seed, HAS["revolute"])
@@ -134,7 +134,7 @@ def arm_turns(seed: int) -> bool:
     return bool(name) and len(d.joints) == 1
 
 
-@over(24, 80)
+@over(12, 80)
 def test_turns_are_not_reduced(seed: int) -> None:
     """The freedom follows its drive through whole turns, a screw advances with them, a spring winds up."""
     d, name = turning_arm(nth(seed, arm_turns))
