@@ -15,6 +15,7 @@ import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
 from dalembert.grading.mistakes import figures
+from dalembert.grading.wrong_problems import Variants
 from dalembert.model.files.model_files import read_file
 from tests.tiers import tiers
 
@@ -312,3 +313,53 @@ def test_asked_one_by_one(monkeypatch: pytest.MonkeyPatch, capsys: pytest.Captur
     monkeypatch.setattr("builtins.input", answered)
     assert main(["check-answers", str(examples()["four_bar"]), "--interactive"]) == 0
     assert capsys.readouterr().out.endswith("2 of 2 right.\n")
+
+
+def test_every_wrong_part_is_that_part_times_its_factor() -> None:
+    """Parts by solving without gravity, without moments of inertia, without inertia: no superposition."""
+    heavy = da.mechanism({k: v for k, v in tree(NORTON).items() if k != "answers"} | {"gravity": "standard"})
+    light = heavy.with_values({"gravity": "none"})
+    points = light.with_values({f"links.{name}.inertia": 0.0 for name in ("crank", "coupler", "rocker")})
+    efforts = [float(r.effort("O2")[0]) for r in map(da.dynamics, (heavy, light, points))]
+    whole, rest = efforts[0], float(da.statics(light).effort("O2")[0])
+    weights, couples, forces = -np.diff([*efforts, rest])
+    g = heavy.g / 0.0254
+    taken = "weight is taken for mass: inertia"
+    factors = {
+        "inertia is left out: this is the static answer": (forces + couples, [0.0]),
+        "the inertia couples are left out": (couples, [0.0]),
+        "the inertia forces are left out": (forces, [0.0]),
+        "inertia forces and couples act along the accelerations, not against them": (
+            forces + couples,
+            [-1.0],
+        ),
+        "the inertia couples have the sense of the accelerations, not against them": (couples, [-1.0]),
+        "the inertia forces have the sense of the accelerations, not against them": (forces, [-1.0]),
+        f"{taken} forces are too large by g = {g:.5g} in/s^2": (forces, [g]),
+        f"{taken} is too large by g = {g:.5g} in/s^2": (forces + couples, [g]),
+        f"{taken} forces are too large by g = {9.80665:.5g} m/s2": (forces, [9.80665]),
+        f"{taken} is too large by g = {9.80665:.5g} m/s2": (forces + couples, [9.80665]),
+        "g is in ft/s2 where lengths are inches: the masses are too large by 12": (forces, [12.0]),
+        "g is in in/s2 where lengths are feet: the masses are too small by 12": (forces, [1 / 12]),
+        "the moments of inertia are in the wrong unit of length: a factor of 12": (couples, [12.0, 1 / 12]),
+        "the moments of inertia are in the wrong unit of length: a factor of 144": (couples, [1 / 144]),
+        "gravity is left out": (weights, [0.0]),
+        "the weights act upwards": (weights, [-1.0]),
+    }
+    found: dict[str, list[float]] = {}
+    for sentence, r in Variants(da.dynamics(heavy)).linear():
+        found.setdefault(sentence, []).append(float(r.effort("O2")[0]))
+    for sentence, (part, some) in factors.items():
+        assert found.pop(sentence) == pytest.approx([whole + (f - 1) * part for f in some], rel=1e-9), (
+            sentence
+        )
+    assert found
+    assert all(words.endswith(("is left out", "has the wrong sense")) for words in found)
+
+
+def test_gravity_is_offered_where_there_is_none() -> None:
+    counted = "gravity is counted, and the problem has none"
+    made = {k: v for k, v in tree(NORTON).items() if k != "answers"}
+    for gravity, offered in (("none", True), ("standard", False), ([0, -9.81], False)):
+        r = da.dynamics(da.mechanism(made | {"gravity": gravity}))
+        assert (counted in dict(Variants(r).solutions())) == offered
