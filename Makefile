@@ -1,7 +1,7 @@
 # make run        a private environment in .venv, then the first example solved and printed
 # make test       the same environment with what the tests need; ruff, mypy --strict, pytest
 # make gallery    drawings and worked solutions of the bundled problems, in build/gallery
-# make test-long  the long tests too, 12 minutes on two cores; make test-exhaustive all there are (over an hour)
+# make test-long  the long tests too, 15 minutes on two cores; make test-exhaustive all there are (over an hour)
 # Needs nothing but make and Python 3.11 or newer.
 
 VENV ?= .venv
