@@ -4,10 +4,10 @@ Method. A mutant is one change at one place (`mutations.py`): + for -, < for >, 
 another constant, a guard or a statement left out, an index off by one, `not`, minus or abs dropped. In each package a
 kind of change is drawn, then a place for it. Which default tests run which statement is measured once, by a mark
 before every statement, and kept in build/mutants. Then every mutant meets the tests that run its statement, in a
-process forked from one that has imported everything: one instance of every test first, the fastest first, until one
-fails, or for --limit seconds. What runs on import (constants, tables, defaults) is imported anew, and meets the tests
-of the statements that say its name. No test can know an equivalent mutant: those in `equivalent_mutants.toml`, each
-with its reason, do not count.
+process forked from one that has imported everything: the fastest first, the nth instance of a test as if it took n
+times as long, until one fails, or for --limit seconds. What runs on import (constants, tables, defaults) is imported
+anew, and meets the tests of the statements that say its name. No test can know an equivalent mutant: those in
+`equivalent_mutants.toml`, each with its reason, do not count.
 
     python benchmarks/mutants.py [--count 340] [--seed 1] [--package core]
     python benchmarks/mutants.py --again     # those that are not killed yet, against the tests of now
@@ -232,12 +232,12 @@ class Tests:
         return []
 
     def __call__(self, mutant: Mutant, limit: float) -> list[tuple[str, float]]:
-        """One instance of each test first, the fastest first, up to a limit of seconds."""
+        """The fastest first, the nth instance of a test as if it took n times as long, up to a limit of seconds."""
         again: Counter[str] = Counter()
         turns = []
         for k in sorted(self.of(mutant), key=self.seconds.__getitem__):
             again[test := self.nodes[k].partition("[")[0]] += 1
-            turns.append((again[test], self.seconds[k], self.nodes[k]))
+            turns.append((again[test] * self.seconds[k], self.seconds[k], self.nodes[k]))
         total = np.cumsum([seconds for _, seconds, _ in sorted(turns)])
         return [(node, s) for (_, s, node), t in zip(sorted(turns), total, strict=True) if t - s < limit]
 

@@ -121,6 +121,8 @@ def unit(text: str) -> Unit:
 
     >>> unit("N-m") == unit("N*m")
     True
+    >>> unit("s^-2*kg^2 m^-1/s").dimension
+    (-1, 2, -3, 0)
     """
     if len(text) > 60:
         raise ModelError(f"{quote_value(text)} is no unit", EXAMPLE)

@@ -357,6 +357,23 @@ def test_every_wrong_part_is_that_part_times_its_factor() -> None:
     assert all(words.endswith(("is left out", "has the wrong sense")) for words in found)
 
 
+@pytest.mark.parametrize(
+    ("gravity", "offered"),
+    [
+        ("standard", ["9.8066 m/s^2"]),
+        ([0, -9.81], ["9.81 m/s^2"]),
+        ([0, -1.62], ["1.62 m/s^2", "9.8066 m/s2"]),
+        ([0, -24.8], ["24.8 m/s^2", "9.8066 m/s2"]),
+    ],
+)
+def test_mass_is_taken_for_weight_by_the_files_gravity_and_by_that_of_the_earth(
+    gravity: str | list[float], offered: list[str]
+) -> None:
+    r = da.dynamics(da.four_bar().with_values({"gravity": gravity}))
+    said = [words for words, _ in Variants(r).linear() if "inertia is too large by g" in words]
+    assert [words.partition(" = ")[2] for words in said] == offered
+
+
 def test_gravity_is_offered_where_there_is_none() -> None:
     counted = "gravity is counted, and the problem has none"
     made = {k: v for k, v in tree(NORTON).items() if k != "answers"}

@@ -100,6 +100,15 @@ def test_angles_differ_whichever_is_larger_and_by_no_whole_turn(a: float, b: flo
     assert Closeness(np.asarray(a), "angle", 0.11, (), False).holds(np.asarray(b))
 
 
+def test_an_angle_in_tens_of_degrees_excuses_half_a_degree() -> None:
+    """Its digits excuse as much where they are finer; a rounded angle lies on the edge."""
+    for half, excused in ((5.0, 0.5), (0.05, 0.05)):
+        figure = Closeness(np.asarray(1.0), "angle", 1e-6, (np.radians(half),), False)
+        for side in (-1, 1):
+            assert figure.holds(np.asarray(1.0 + side * np.radians(excused)))
+            assert not figure.holds(np.asarray(1.0 + side * np.radians(1.01 * excused)))
+
+
 def test_a_vector_of_which_a_part_is_not_known_has_no_text() -> None:
     published = Target(np.array([1.0, 2.0]), "N", False)
     assert computed_text(np.array([3.0, 4.0]), published, "force", Units()) == "[3, 4]"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 import dalembert as da
 from dalembert.model.files.json_text import read
 from dalembert.model.library import bevel_differential, scissor, toggle_press
-from dalembert.printing import round_components
+from dalembert.printing import round_components, wrap
 from dalembert.wording import nearest, quote_value
 
 
@@ -34,6 +35,17 @@ def test_what_is_nothing_beside_the_largest_is_zero() -> None:
     assert round_components([1e-13], beside=1.0) == [0.0]
     assert round_components([float("inf"), 1e-13])[1] == 1e-13
     assert str(round_components([-1e-13, 1.0])[0]) == "0.0"
+
+
+def test_sentences_break_between_words_only() -> None:
+    words = ["a slider-crank", "four-bar", "x" * 90, *["one-degree-of-freedom linkage"] * 6]
+    lines = wrap(" ".join(words), "  ").split("\n")
+    assert " ".join(line.removeprefix("  ") for line in lines) == " ".join(words)
+    assert [len(line) for line in lines if len(line) > 80] == [92]
+    assert not lines[0].startswith(" ")
+    assert all(line.startswith("  ") for line in lines[1:])
+    for line, after in pairwise(lines):
+        assert len(line) + 1 + len(after.split()[0]) > 80
 
 
 def four_bar(change: dict[str, Any]) -> da.Mechanism:

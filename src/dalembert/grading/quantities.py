@@ -196,7 +196,7 @@ def component(series: Series, name: str | None) -> Series:
         raise ModelError(
             f"a rotation has no component {name!r}", "give all of it, a row each", ("component",)
         )
-    if name == "direction" and series.values.shape[-1] == 2:
+    if name == "direction" and series.values.shape[1] == 2:
         return Series("angle", np.arctan2(series.values[:, 1], series.values[:, 0]))
     parts = dict(zip("xyz", series.values.T, strict=False)) | {"magnitude": size(series)}
     if name not in parts:
