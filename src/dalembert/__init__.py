@@ -10,11 +10,12 @@ True
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
 
-from dalembert.errors import STATUSES, AnalysisError, DalembertError, ModelError
-
+TYPE_CHECKING = False
+"""Here and in `cli` not typing's own: importing `typing` would be a third of the time of `dalembert --version`."""
 if TYPE_CHECKING:
+    from typing import Any
+
     from dalembert import wrench
     from dalembert.analysis import (
         Mobility,
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
     )
     from dalembert.analysis.methods.superposition import superposition
     from dalembert.analysis.methods.virtual_work import virtual_work
+    from dalembert.errors import STATUSES, AnalysisError, DalembertError, ModelError
     from dalembert.grading.file_answers import check_file
     from dalembert.grading.mistakes import check_answers
     from dalembert.model import (
@@ -132,6 +134,7 @@ _NAMES = {
     "analysis.methods.members": "displaced_inertia inertia_shares members order_of_solution",
     "analysis.methods.superposition": "superposition",
     "analysis.methods.virtual_work": "virtual_work",
+    "errors": "STATUSES AnalysisError DalembertError ModelError",
     "grading.file_answers": "check_file",
     "grading.mistakes": "check_answers",
     "model": (

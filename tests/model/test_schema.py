@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -11,6 +12,7 @@ import pytest
 
 from dalembert.bundled import cases, examples
 from dalembert.model import json_schema, read_file
+from dalembert.model.part import Part
 
 SCHEMA = json_schema()
 
@@ -112,3 +114,16 @@ def test_every_bundled_file_is_one_that_it_describes(name: str) -> None:
 )
 def test_it_tells_what_is_wrong(key: str, value: Any) -> None:
     assert not fits(SCHEMA, {"links": {"ground": {}}, key: value})
+
+
+def parts(kind: type[Part]) -> Iterator[type[Part]]:
+    for each in kind.__subclasses__():
+        yield each
+        yield from parts(each)
+
+
+def test_variables_of_the_caller_have_no_part_in_how_a_part_is_read() -> None:
+    """A schema is built where a kind of part is first used, and pydantic looks there for what annotations name."""
+    for kind in parts(Part):
+        of_the_caller = dict.fromkeys([*vars(sys.modules[kind.__module__]), "object", "Any", "Tree"], 3)
+        assert kind.model_rebuild(force=True, _types_namespace=of_the_caller)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from cyclopts import (
     App,
@@ -17,7 +17,6 @@ from cyclopts import (
 
 from dalembert import __version__
 from dalembert.cli import wrench_command
-from dalembert.cli.help_layout import Hanging
 from dalembert.cli.options import (
     AS_USUAL,
     At,
@@ -39,12 +38,25 @@ from dalembert.cli.options import (
 )
 from dalembert.wording import closest
 
+
+class HelpLayout:
+    """The layout of --help, imported where help is printed: cyclopts' part of it takes as long as reading a model."""
+
+    def __call__(self, console: Any, options: Any, panel: Any) -> None:
+        self.__getattr__("__call__")(console, options, panel)
+
+    def __getattr__(self, name: str) -> Any:
+        from dalembert.cli.help_layout import Hanging
+
+        return getattr(Hanging(), name)
+
+
 app = App(
     name="dalembert",
     version=__version__,
     help="Force analysis of mechanisms: a model file in, motion, reactions and driving efforts out.",
     help_format="plaintext",
-    help_formatter=Hanging(),
+    help_formatter=HelpLayout(),
     default_parameter=Parameter(show_default=False),
     suppress_keyboard_interrupt=False,
     help_epilogue="""Examples:

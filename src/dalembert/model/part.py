@@ -52,7 +52,12 @@ def reading(info: ValidationInfo | None) -> Reading:
 class Part(BaseModel):
     """A part of a description: frozen; in Python bare numbers are SI and radians, texts carry their unit."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", coerce_numbers_to_str=True)
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        coerce_numbers_to_str=True,
+        defer_build=True,  # of thirty kinds of part a file has a few, and a mechanism's schema contains its parts'
+    )
 
     INSTEAD: ClassVar[Mapping[str, str]] = {}
     """Key -> the key that it takes the place of, when it is given a value later."""
@@ -97,7 +102,9 @@ class Part(BaseModel):
         """The keys it may have, as a file writes them."""
         return [field.alias or name for name, field in cls.model_fields.items()]
 
-    @model_serializer(mode="wrap")
+    @model_serializer(
+        mode="wrap", return_type=Tree
+    )  # not the annotation: it is read where the schema is built
     def _tree(self, handler: SerializerFunctionWrapHandler, info: SerializationInfo) -> Tree:
         keys: Tree = handler(self)
         if info.mode != "json":

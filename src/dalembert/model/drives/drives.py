@@ -301,7 +301,9 @@ class Drive(Part):
             if isinstance(value, (tuple, Range, Rise, TimeTable))
         }
 
-    @field_serializer("position", "speed", "acceleration", "law", "effort", "range", when_used="json")
+    @field_serializer(
+        "position", "speed", "acceleration", "law", "effort", "range", when_used="json", return_type=Any
+    )
     def _serialize(self, value: object, info: FieldSerializationInfo) -> object:
         what = info.field_name if info.field_name in TURN else ""
         with in_units(info.context):
