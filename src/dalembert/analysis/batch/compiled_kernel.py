@@ -96,6 +96,12 @@ def _moves(course: Course, dimensions: int) -> Numeric:
     return moves if dimensions > 1 else moves.any()
 
 
+def _products(nodes: Sequence[Node]) -> list[Node]:
+    """Of nodes two by two: not finite where one of them is not, in half as many operations as their squares."""
+    found = list(dict.fromkeys(n for n in nodes if n.level != CONSTANT))
+    return [a * b for a, b in zip(found[::2], found[1::2], strict=False)] + found[len(found) & ~1 :]
+
+
 def _waits(program: Program) -> bool:
     """Whether a program in one register would wait for its own results."""
     return program.size < SMALL and program.size < ABREAST * program.depth
@@ -157,15 +163,15 @@ class Kernel:
         values = sum(len(of) for of in self.nodes.values())
         slope = [] if self.reduce else nodes[values:]
         known = self.trace.course.result is not None
-        finite = () if known else self._finite([n * n for n in nodes[:values]])  # shorter than abs(n)
+        finite = () if known else self._finite(_products(nodes[:values]))
         marks = replace(marks, slips=(*marks.slips, *finite), slope=self._finite([abs(n) for n in slope]))
         return Program(self.trace.catalogue.graph, tuple(nodes), marks)
 
     def _finite(self, nodes: Sequence[Node]) -> tuple[Node, ...]:
-        """Below zero, or no number, where some node, none of them negative, is not finite."""
+        """Below zero, or no number, where some node is not finite, or their sum."""
         graph = self.trace.catalogue.graph
         total = sum((n for n in nodes if n.level != CONSTANT), graph.zero)
-        return () if total is graph.zero else (LARGEST - total,)
+        return () if total is graph.zero else (LARGEST - abs(total),)
 
     @cached_property
     def flat(self) -> list[Node]:
