@@ -27,8 +27,9 @@ from benchmarks.linkages import FOUR_BAR, chain, four_bar
 from tests.kernel.machines import block_in_a_yoke, block_on_a_crank, eight_bar
 
 import dalembert as da
-from dalembert.kernel.emit.machine_code import aligned_array, host_lanes, to_blocks
+from dalembert.kernel.emit.machine_code import host_lanes, to_blocks
 from dalembert.kernel.emit.reductions import width
+from dalembert.kernel.memory import aligned_array
 from dalembert.kernel.parallel_runs import path_array, row_length
 
 CACHE = 5e5

@@ -18,8 +18,9 @@ from dalembert.analysis.batch.kernel_export import plain
 from dalembert.analysis.batch.over_positions import PARTS, reduce_positions
 from dalembert.kernel import parallel_runs
 from dalembert.kernel.emit import c_text, cuda, llvm_text
-from dalembert.kernel.emit.machine_code import aligned_array, compile_module, host_lanes
+from dalembert.kernel.emit.machine_code import compile_module, host_lanes
 from dalembert.kernel.graph import Graph
+from dalembert.kernel.memory import aligned_array, available
 from dalembert.kernel.program import Program
 from tests.kernel.comparing import changed, every_number
 from tests.kernel.machines import KINDS, ROUGH, four_bar
@@ -159,6 +160,118 @@ def test_changing_numbers_does_not_compile_again(monkeypatch: pytest.MonkeyPatch
     for seed in range(20):
         k(changed(k, seed, shape=0.02))
     assert not compilations
+
+
+def test_results_in_memory_used_again_are_the_same() -> None:
+    k = da.compile(four_bar(33), vary=VARY, outputs=OUTPUTS)
+    few = designs(k, 22)
+    expected, values = k(few), np.tile(few, (200, 1))
+    r = k(values)
+    assert k.runner.machine.cache_info().currsize == 1
+    for _ in range(2):  # the first result gives its memory back when the second is there
+        del r
+        r = k(values)
+    assert k.runner.machine.cache_info().currsize == 2  # stores past the cache
+    for output in OUTPUTS:
+        there = r.value(output).reshape(200, *expected.value(output).shape)
+        assert (there == expected.value(output)).all()
+
+
+HOW = [
+    {},
+    {"derivatives": True},
+    {"reduce": "envelope", "derivatives": True},
+    {"positions": [[0.3], [2.0]], "derivatives": True},
+]
+
+
+@pytest.mark.parametrize("how", HOW)
+def test_results_go_into_arrays_that_are_given(how: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    """A few designs at a time; no number where there is no answer there too."""
+    monkeypatch.setattr(parallel_runs, "CACHE", 1 << 15)
+    options = {name: value for name, value in how.items() if name != "positions"}
+    k = da.compile(four_bar(24), vary=VARY, outputs=OUTPUTS, **options)
+    values, given = designs(k, 9), {"positions": how.get("positions")}
+    values[2, 0], values[4, 2] = 5.0, np.nan
+    r = k(values, **given)
+    assert not r.ok.all()
+    expected = r.arrays | {f"gradient.{name}": rate for name, rate in r.gradients.items()}
+    out = {name: np.full(array.shape, -1.0) for name, array in expected.items()}
+    found = k(values, out=out, **given)
+    assert (found.code == r.code).all()
+    for name, array in expected.items():
+        assert np.array_equal(out[name], array, equal_nan=True)
+    assert found.value("effort.O2") is out["effort.O2"]
+
+
+def test_results_go_to_a_file(tmp_path: Path) -> None:
+    k = da.compile(four_bar(24), vary=VARY, outputs=["effort.O2"])
+    values = designs(k, 3)
+    file = np.lib.format.open_memmap(tmp_path / "torque.npy", "w+", shape=(3, 24))
+    k(values, out=file)
+    file.flush()
+    assert (np.load(tmp_path / "torque.npy") == k(values).effort("O2")).all()
+
+
+@pytest.fixture(scope="module")
+def two() -> Any:
+    return da.compile(four_bar(24), vary=VARY, outputs=["effort.O2", "magnitude.A"], lanes=1)
+
+
+ONE = np.zeros((1, 24))
+WRONG_OUT: list[tuple[Any, str]] = [
+    (
+        ONE,
+        "out= is for effort.O2, and there are results of effort.O2, magnitude.A; give an array of each by its name",
+    ),
+    ({"effort.O2": ONE, "magnitude.A": ONE}, "out= has one array for several results; give each its own"),
+    (
+        {"effort.O2": ONE[0], "magnitude.A": ONE},
+        "out= of effort.O2 has shape (24,); give one of shape (1, 24)",
+    ),
+    (
+        {"effort.O2": ONE, "magnitude.A": ONE.astype(np.float32)},
+        "out= of magnitude.A is no array of floats that can be written; give np.empty((1, 24))",
+    ),
+]
+
+
+@pytest.mark.parametrize(("out", "what"), WRONG_OUT)
+def test_arrays_that_do_not_fit_are_refused(out: Any, what: str, two: Any) -> None:
+    with pytest.raises(da.ModelError) as refusal:
+        two(out=out)
+    assert str(refusal.value) == what
+
+
+def test_blocks_are_parts_of_the_whole() -> None:
+    k = da.compile(four_bar(24), vary=VARY, outputs=["effort.O2"])
+    values = designs(k, 7)
+    parts = list(k.blocks(values, size=3))
+    assert [len(part.values) for part in parts] == [3, 3, 1]
+    assert (np.concatenate([part.effort("O2") for part in parts]) == k(values).effort("O2")).all()
+    assert len(list(k.blocks(values))) == 1
+    with pytest.raises(da.ModelError, match="size=0 is no number of size"):
+        k.blocks(values, size=0)
+
+
+@pytest.mark.parametrize("positions", [None, [[0.3], [2.0]]])
+def test_results_larger_than_memory_are_refused(
+    positions: list[list[float]] | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Before anything is computed; the ways that the sentence names are open."""
+    k = da.compile(four_bar(24), vary=VARY, outputs=["effort.O2"])
+    values = designs(k, 40)
+    monkeypatch.setattr("dalembert.analysis.batch.runner.available", lambda: 500.0)
+    monkeypatch.setattr("dalembert.analysis.batch.runner.CHECKED", 0)
+    with pytest.raises(
+        da.ModelError, match=r"40 designs take .* GB, and 5e-07 GB are free; give out= .*blocks"
+    ):
+        k(values, positions=positions)
+    out = np.empty((40, 24 if positions is None else 2))
+    k(values, positions=positions, out=out)
+    assert np.isfinite(out).all()
+    assert len([r.effort("O2") for r in k.blocks(values, size=1, positions=positions)]) == 40
+    assert 0 < available() < np.inf
 
 
 def test_memory_is_that_of_values_and_answers() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import threading
 from collections.abc import Callable, Iterator
@@ -11,10 +12,13 @@ from typing import Any
 import numpy as np
 
 from dalembert.arrays import Array
-from dalembert.kernel.emit.machine_code import Machine, aligned_array, to_blocks
-from dalembert.kernel.program import Program
+from dalembert.kernel.emit.machine_code import Machine, to_blocks
+from dalembert.kernel.memory import aligned_array
 
 Progress = Callable[[int, int], object]
+
+Store = Callable[[slice, Array], object]
+"""Takes the results of some of the designs."""
 
 WORK = 400_000
 """Positions of one part: about two milliseconds, long against a call, short against a person's patience."""
@@ -24,6 +28,8 @@ LEAST = 40_000
 
 def part_size(count: int, positions: int, threads: int | None) -> int:
     """Designs of one part: few enough that every thread has several, so that none waits long for the last."""
+    if count * positions <= min(LEAST, WORK):
+        return max(1, count)
     share = -(-count // (4 * (threads or cores())))
     return min(max(1, WORK // positions), max(share, LEAST // positions))
 
@@ -47,25 +53,38 @@ def row_length(blocks: int, lanes: int) -> int:
     return (blocks | 1) * lanes
 
 
+CACHE = 1 << 19
+"""Bytes of results that stay in the cache until they are stored elsewhere."""
+
+
 def run_grid(
     machine: Machine,
-    program: Program,
     values: Array,
     path: tuple[Array, int],
     channels: int,
-    out: Array,
+    into: Array | tuple[tuple[int, ...], Store],
     code: Array,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> None:
-    """Fill ``out`` and ``code`` (design, ...), design by design over all blocks of positions."""
+    """Fill ``into`` and ``code`` (design, ...), design by design over all blocks of positions. In place of an array the
+    shape of one design's results and what takes them: then they pass through the cache, a few designs at a time."""
     data, blocks = path
 
-    def part(which: slice) -> None:
+    def run(which: slice, out: Array) -> None:
         mine = np.ascontiguousarray(values[which], float)
-        counts = (mine.shape[1], channels, len(mine), blocks)
-        machine(mine, data, out[which], code[which], counts)
+        machine(mine, data, out, code[which], (mine.shape[1], channels, len(mine), blocks))
 
+    def through_cache(which: slice) -> None:
+        shape, store = into
+        designs = max(1, min(which.stop - which.start, CACHE // (8 * math.prod(shape))))
+        few = aligned_array((designs, *shape))
+        for k in range(which.start, which.stop, designs):
+            piece = slice(k, min(k + designs, which.stop))
+            run(piece, few)
+            store(piece, few[: piece.stop - k])
+
+    part = through_cache if isinstance(into, tuple) else lambda which: run(which, into[which])
     in_parts(part, len(values), part_size(len(values), blocks * machine.lanes, threads), threads, progress)
 
 
@@ -75,7 +94,6 @@ PAIR = 16
 
 def run_pairs(
     machine: Machine,
-    program: Program,
     values: Array,
     columns: Array,
     common: Array,
@@ -90,12 +108,12 @@ def run_pairs(
     def part(which: slice) -> None:
         mine = to_blocks(np.asarray(values[which], float), lanes)
         path, blocks = path_array(columns[which], common, lanes, weighted=False)
-        found = aligned_array((blocks, len(program.outputs), lanes))
+        found = aligned_array((blocks, out.shape[1], lanes))
         marks = np.empty((blocks, lanes), np.uint8)
         counts = (values.shape[1], columns.shape[1], 0, blocks)
         machine(mine, path, found, marks, counts)
         count = len(out[which])
-        out[which] = found.swapaxes(1, 2).reshape(-1, len(program.outputs))[:count]
+        out[which] = found.swapaxes(1, 2).reshape(-1, out.shape[1])[:count]
         code[which] = marks.ravel()[:count]
 
     in_parts(part, len(values), part_size(len(values), PAIR, threads), threads, progress)
@@ -106,7 +124,7 @@ def in_parts(
 ) -> None:
     """Call ``part`` on slices of ``count`` things; an interruption leaves after the parts under way."""
     parts = [slice(k, min(k + step, count)) for k in range(0, count, step)]
-    workers = min(threads or cores(), len(parts))
+    workers = 1 if len(parts) < 2 else min(threads or cores(), len(parts))
     if workers <= 1:
         done = 0
         for piece in parts:

@@ -98,7 +98,7 @@ def slopes(
     columns, common = runner.inputs(program, course)
     many = np.repeat(values[None], here.sum(), axis=0)
     out, doubt = runner.at_pairs(program, machine, many, columns[here], common, 1)
-    _, again, rates = runner.by_output(out.T[None], doubt[None])
+    again, rates = runner.by_output(out.T[None])
     largest = max(np.nanmax(np.abs(value), initial=0.0) for value in found.values())
     for name, value in found.items():
         own = max(np.nanmax(np.abs(value), initial=0.0), NOTHING * largest)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from decimal import Decimal
 from numbers import Real
 
@@ -25,6 +26,8 @@ KINDS = {
 
 def numbers(name: str, given: ArrayLike) -> Array:
     """An array of floats; refused is what would lose a part: imaginary parts, units, masks, text, truths."""
+    if type(given) is np.ndarray and given.dtype == float:
+        return given
     if hasattr(given, "units") and hasattr(given, "magnitude"):
         raise ModelError(f"{name} carry units", "give plain numbers, in SI and radians")
     if np.ma.is_masked(given):
@@ -42,6 +45,27 @@ def numbers(name: str, given: ArrayLike) -> Array:
     if what:
         raise ModelError(f"{name} are {what}", "give an array of real numbers, in SI and radians")
     return found
+
+
+def targets(out: Array | Mapping[str, Array], shapes: dict[str, tuple[int, ...]]) -> dict[str, Array]:
+    """The arrays that results go to, by name; one alone stands for that of a single one."""
+    given = out if isinstance(out, Mapping) else {next(iter(shapes)): out}
+    if set(given) != set(shapes):
+        raise ModelError(
+            f"out= is for {', '.join(given)}, and there are results of {', '.join(shapes)}",
+            "give an array of each by its name",
+        )
+    for name, shape in shapes.items():
+        array = given[name]
+        if not isinstance(array, np.ndarray) or array.dtype != float or not array.flags.writeable:
+            raise ModelError(
+                f"out= of {name} is no array of floats that can be written", f"give np.empty({shape})"
+            )
+        if array.shape != shape:
+            raise ModelError(f"out= of {name} has shape {array.shape}", f"give one of shape {shape}")
+    if len({id(array) for array in given.values()}) < len(given):
+        raise ModelError("out= has one array for several results", "give each its own")
+    return {name: np.asarray(given[name]) for name in shapes}
 
 
 def _strange(array: Array) -> str:

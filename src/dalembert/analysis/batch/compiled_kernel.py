@@ -2,24 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from dalembert.analysis.batch import over_positions
-from dalembert.analysis.batch.batch_result import CODES, NUMBERED, BatchResult, mark_overflow, not_finite
-from dalembert.analysis.batch.checked_input import numbers
+from dalembert.analysis.batch.batch_result import (
+    CODES,
+    NUMBERED,
+    BatchResult,
+    among,
+    mark_overflow,
+    not_finite,
+)
+from dalembert.analysis.batch.checked_input import numbers, targets
 from dalembert.analysis.batch.kernel_inputs import Course
 from dalembert.analysis.batch.sides import Sides
 from dalembert.analysis.batch.symbolic_model import geometric
 from dalembert.analysis.batch.traced_analysis import Trace, trace_analysis
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.plane_only import refuse_space
-from dalembert.arrays import Array, Flags, Numeric
+from dalembert.arrays import Array, Flags, Ints, Numeric
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.graph import CONSTANT, Node
@@ -30,6 +37,8 @@ LARGEST = float(np.finfo(float).max)
 """Largest number there is."""
 SMALL = 2000
 """Operations below which the results of two registers side by side still find room in the first cache."""
+BLOCK = 1 << 26
+"""Bytes of the results of a block of designs."""
 ABREAST = 10
 """Operations that could be under way at once, below which two registers side by side are faster than one: the waiting
 of one fills the other. Two units with four cycles each ask for eight."""
@@ -135,6 +144,10 @@ class Kernel:
     @property
     def nominal(self) -> Array:
         """The numbers as the description has them."""
+        return self._nominal.copy()
+
+    @cached_property
+    def _nominal(self) -> Array:
         return np.array([n.value for n in self.trace.numbers])
 
     @cached_property
@@ -201,7 +214,7 @@ class Kernel:
         self.runner.prepare(len(self.trace.course.schedule.position))
 
     def course(self, positions: ArrayLike | None) -> Course:
-        """The mechanism at other positions than the file's."""
+        """The mechanism at other positions than the file's; those of the last call are kept."""
         known = self.trace.course
         if positions is None:
             return known
@@ -209,6 +222,9 @@ class Kernel:
         drives = len(known.schedule.names)
         if given.ndim < 2 and given.size % max(drives, 1) == 0:
             given = given.reshape(-1, drives)
+        last = self._last_course
+        if last and np.array_equal(last[0].schedule.position, given):
+            return last[0]
         if not np.isfinite(given).all():
             raise ModelError("positions are not all finite", "give numbers that are")
         if given.ndim != 2 or given.shape[1] != drives or not len(given):
@@ -221,7 +237,12 @@ class Kernel:
                 raise ModelError(
                     "the drives' speeds change along the file's positions", "leave positions out", ("drives",)
                 )
-        return known.at(given)
+        last[:] = [known.at(given.copy())]
+        return last[0]
+
+    @cached_property
+    def _last_course(self) -> list[Course]:
+        return []
 
     def __call__(
         self,
@@ -231,30 +252,73 @@ class Kernel:
         progress: Callable[[int, int], object] | None = None,
         redo: bool = True,
         device: str = "cpu",
+        out: Array | Mapping[str, Array] | None = None,
     ) -> BatchResult:
         """Answers for many designs.
 
         values: (design, number) in SI in the order of ``numbers``, default the description's own. positions: the
         drives' values (position, drive), default the file's. threads: at most so many, default one a core.
         progress: called with (designs done, designs). redo: ask the general executor where the kernel is not sure.
-        device: ``cpu``, or ``cuda`` for an NVIDIA card through cupy.
+        device: ``cpu``, or ``cuda`` for an NVIDIA card through cupy. out: the array that an output goes to, one on disk
+        by ``np.memmap`` too, or arrays by output (of derivatives by ``gradient.`` and the output).
         """
+        given, course = self._values(values), self.course(positions)
+        return self._answer(given, course, threads, progress, redo, device, out)
+
+    def blocks(
+        self,
+        values: ArrayLike | None = None,
+        size: int | None = None,
+        positions: ArrayLike | None = None,
+        threads: int | None = None,
+        progress: Callable[[int, int], object] | None = None,
+        redo: bool = True,
+        device: str = "cpu",
+    ) -> Iterator[BatchResult]:
+        """Answers for ``size`` designs after ``size``, default as many as take 64 MB: of however many designs no more
+        stand in memory at once. The other arguments are those of a call."""
+        _check_count("size", size)
+        given, course = self._values(values), self.course(positions)
+        each = 1 if self.reduce else len(course.schedule.position)
+        step = size or max(1, BLOCK // (8 * each * len(self.flat)))
+        parts = (given[k : k + step] for k in range(0, len(given), step))
+        return (self._answer(part, course, threads, progress, redo, device, None) for part in parts)
+
+    def _answer(
+        self,
+        given: Array,
+        course: Course,
+        threads: int | None,
+        progress: Callable[[int, int], object] | None,
+        redo: bool,
+        device: str,
+        out: Array | Mapping[str, Array] | None,
+    ) -> BatchResult:
+        from dalembert.analysis.batch.runner import TOO_MUCH, Job
+
         _check_count("threads", threads)
-        given = self._values(values)
-        course = self.course(positions)
         if device not in ("cpu", "cuda"):
             raise ModelError(f"there is no device {device!r}", "there are: cpu, cuda")
+        into = self._targets(out, len(given), len(course.schedule.position))
         try:
-            code, arrays, rates = self.runner(given, course, threads, progress, device)
+            found = Sides(*self.runner(Job(given, course, threads, progress, into), device))
+        except MemoryError:
+            raise ModelError("the results are too large for memory", TOO_MUCH) from None
         except RuntimeError as error:
             if device == "cpu":  # of whoever watches the progress
                 raise
             raise ModelError(f"device {device!r} cannot be used: {error}", 'use device="cpu"') from None
-        code[self._may_change_branch(given)] = CODES.index("undecided")
-        if redo:
-            code[(code == CODES.index("at_rest")) & _moves(course, code.ndim)] = CODES.index("undecided")
-        code[~np.isfinite(given).all(axis=1)] = CODES.index("failed")
-        return self._assemble_result(given, course, code, arrays, rates, redo)
+        code, again = found.code, 0
+        other = self._may_change_branch(given)
+        if other is not None:
+            code[other] = CODES.index("undecided")
+        if not np.isfinite(given).all():
+            code[~np.isfinite(given).all(axis=1)] = CODES.index("failed")
+        if np.count_nonzero(code) or self.reduce is not None:
+            again = self._settle(given, course, found, redo)
+        whole = (self, given, course.schedule.position, code)
+        after = BatchResult(*whole, found.after, found.after_rates) if found.after else None
+        return BatchResult(*whole, found.arrays, found.rates, again, after)
 
     def to_c(self, name: str = "mechanism") -> str:
         """C source, needing nothing but math.h, of a function of one position: numbers, drives' quantities, outputs."""
@@ -268,13 +332,20 @@ class Kernel:
 
         return casadi_function(self, name)
 
-    def _may_change_branch(self, values: Array) -> Flags:
-        """Designs whose motion may be another than the file's, each left to the general executor: those of another
-        `assembly`, and of other geometry where the file's motion passes change points (a parallelogram passes them, its
-        neighbours do not)."""
+    @cached_property
+    def _deciding(self) -> Ints:
+        """Places of the numbers that decide which motion a design has: of `assembly`, and of the geometry where the
+        file's motion passes change points (a parallelogram passes them, its neighbours do not)."""
         flips = self.trace.catalogue.traced.flips
-        moves = [path.startswith("assembly.") or (flips and geometric(path)) for path in self.numbers]
-        return np.asarray((values != self.nominal)[:, moves].any(axis=1))
+        return np.flatnonzero(
+            [path.startswith("assembly.") or (flips and geometric(path)) for path in self.numbers]
+        )
+
+    def _may_change_branch(self, values: Array) -> Flags | None:
+        """Designs whose motion may be another than the file's, each left to the general executor; None for none."""
+        if not self._deciding.size:
+            return None
+        return np.asarray((values != self._nominal)[:, self._deciding].any(axis=1))
 
     def _values(self, values: ArrayLike | None) -> Array:
         count = len(self.trace.numbers)
@@ -288,22 +359,34 @@ class Kernel:
             )
         return given
 
-    def _assemble_result(
-        self,
-        values: Array,
-        course: Course,
-        code: NDArray[np.uint8],
-        arrays: dict[str, Array],
-        rates: dict[str, Array],
-        redo: bool,
-    ) -> BatchResult:
-        if self.reduce is not None:  # a power or a sum may overflow where no value does
-            code[not_finite(code, arrays) & np.isin(code, NUMBERED)] = CODES.index("undecided")
-        undecided = code == CODES.index("undecided")
-        again = np.flatnonzero(undecided.any(axis=tuple(range(1, code.ndim)))) if redo else np.zeros(0, int)
-        found = Sides(code, arrays, rates)
+    def _targets(
+        self, out: Array | Mapping[str, Array] | None, designs: int, positions: int
+    ) -> tuple[dict[str, Array], dict[str, Array]] | None:
+        """The arrays that outputs and derivatives go to, by output; raises ModelError where they do not fit."""
+        if out is None:
+            return None
+        before = (designs,) if self.reduce else (designs, positions)
+        sides = (2,) if self.reduce == "envelope" else ()
+        shapes = {
+            name: before + ((len(nodes),) if len(nodes) > 1 else ()) + sides
+            for name, nodes in self.nodes.items()
+        }
+        slopes = {n: (*shape, len(self.trace.numbers)) for n, shape in shapes.items() if self.derivatives}
+        found = targets(out, shapes | {f"gradient.{n}": shape for n, shape in slopes.items()})
+        return {n: found[n] for n in shapes}, {n: found[f"gradient.{n}"] for n in slopes}
+
+    def _settle(self, values: Array, course: Course, found: Sides, redo: bool) -> int:
+        """Ask the general executor where the kernel is not sure, and leave no number where there is no answer; how many
+        designs were asked about."""
         from dalembert.analysis.batch.careful_path import redone
 
+        code, arrays, rates = found.code, found.arrays, found.rates
+        if redo:
+            code[(code == CODES.index("at_rest")) & _moves(course, code.ndim)] = CODES.index("undecided")
+        if self.reduce is not None:  # a power or a sum may overflow where no value does
+            code[not_finite(code, arrays) & among(code, NUMBERED)] = CODES.index("undecided")
+        undecided = code == CODES.index("undecided")
+        again = np.flatnonzero(undecided.any(axis=tuple(range(1, code.ndim)))) if redo else np.zeros(0, int)
         for d in again:
             redone(self, int(d), values[d], course, undecided[d], found)
             if self.reduce is None:
@@ -311,7 +394,6 @@ class Kernel:
                     mark_overflow(code[d], *({n: a[d] for n, a in of.items()} for of in side))
         if self.reduce is not None:
             mark_overflow(code, arrays, rates)
-        found.blank(~np.isin(code, NUMBERED))
-        whole = (self, values, course.schedule.position, code)
-        after = BatchResult(*whole, found.after, found.after_rates) if found.after else None
-        return BatchResult(*whole, arrays, rates, len(again), after)
+        if np.count_nonzero(code):
+            found.blank(~among(code, NUMBERED))
+        return len(again)

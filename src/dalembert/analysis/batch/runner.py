@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,16 +12,34 @@ from numpy.typing import NDArray
 from dalembert.analysis.batch import over_positions
 from dalembert.analysis.batch.kernel_inputs import Course
 from dalembert.arrays import Array
+from dalembert.errors import ModelError
 from dalembert.kernel.emit import llvm_text
-from dalembert.kernel.emit.machine_code import Machine, aligned_array, compile_module
+from dalembert.kernel.emit.machine_code import Machine, compile_module
 from dalembert.kernel.emit.reductions import PLACED, SUMS, Slots, width
 from dalembert.kernel.graph import CONSTANT, Node
-from dalembert.kernel.parallel_runs import path_array, row_length, run_grid, run_pairs
+from dalembert.kernel.memory import available, result_array
+from dalembert.kernel.parallel_runs import Progress, Store, path_array, row_length, run_grid, run_pairs
 from dalembert.kernel.program import Program
 
-Found = tuple[NDArray[np.uint8], dict[str, Array], dict[str, Array]]
+Arrays = tuple[dict[str, Array], dict[str, Array]]
+"""Outputs, and their gradients, by name."""
+CHECKED = 1 << 27
+"""Bytes of results from which it is asked whether there is room for them."""
+TOO_MUCH = "give out= (arrays on disk by np.memmap), or go through k.blocks(values)"
+"""What to do about results that are."""
 FEW = 16
 """Positions below which the lanes are filled with pairs of a design and a position."""
+
+
+class Job(NamedTuple):
+    """One call: values (design, number), the motion they are taken along, and the arrays that outputs and gradients go
+    into where they are given."""
+
+    values: Array
+    course: Course
+    threads: int | None = None
+    progress: Progress | None = None
+    into: Arrays | None = None
 
 
 class Runner:
@@ -30,7 +48,9 @@ class Runner:
     def __init__(self, kernel: Any) -> None:
         self.k = kernel
         self.machine = cache(self._machine)
-        self.last: tuple[Program, Course, Array, Array] | None = None
+        self.known: dict[int, tuple[Course, Array, Array]] = {}
+        self.path: tuple[Array, Machine, tuple[Array, int]] | None = None
+        self.places = self._places()
 
     def _machine(self, kind: str) -> tuple[Program, Machine, Slots]:
         """Program and machine code of one way to run it."""
@@ -40,9 +60,10 @@ class Runner:
             return self._pairs(k.program([*(n for nodes in k.nodes.values() for n in nodes), *rates]))
         if kind == "pairs":
             return self._pairs(k.program(k.flat))
-        if kind == "grid":
-            program = k.program(k.flat)
-            return program, compile_module(llvm_text.grid(program, k.lanes), k.lanes), ()
+        if kind in ("grid", "past cache"):
+            program = k.program(k.flat) if kind == "grid" else self.machine("grid")[0]
+            text = llvm_text.grid(program, k.lanes, past_cache=kind != "grid")
+            return program, compile_module(text, k.lanes), ()
         nodes, slots = self._reduction_values()
         program = k.program(nodes)
         return program, compile_module(llvm_text.grid(program, k.lanes, slots), k.lanes), slots
@@ -74,11 +95,11 @@ class Runner:
         self.machine(self.way(positions))
 
     def inputs(self, program: Program, course: Course) -> tuple[Array, Array]:
-        """Channels (position, channel) and common inputs that a program uses; those of the last call are kept."""
-        last = self.last
-        if last is None or last[0] is not program or last[1] is not course:
-            self.last = last = program, course, *self._inputs(program, course)
-        return last[2], last[3]
+        """Channels (position, channel) and common inputs that a program uses; those of its last call are kept."""
+        known = self.known.get(id(program))
+        if known is None or known[0] is not course:
+            self.known[id(program)] = known = course, *self._inputs(program, course)
+        return known[1], known[2]
 
     def _inputs(self, program: Program, course: Course) -> tuple[Array, Array]:
         found = self.k.trace.inputs.found
@@ -88,82 +109,80 @@ class Runner:
         return np.stack(columns, axis=1) if columns else np.zeros((count, 0)), common
 
     def __call__(
-        self,
-        values: Array,
-        course: Course,
-        threads: int | None,
-        progress: Callable[[int, int], object] | None,
-        device: str = "cpu",
-    ) -> Found:
+        self, job: Job, device: str = "cpu"
+    ) -> tuple[NDArray[np.uint8], dict[str, Array], dict[str, Array]]:
         """Codes, arrays by output, gradients by output."""
-        few = "grid" if device == "cuda" else self.way(len(course.schedule.position))
+        few = "grid" if device == "cuda" else self.way(len(job.course.schedule.position))
         way = "reduce" if self.k.reduce else few
         program, machine, slots = self.machine(way)
-        columns, common = self.inputs(program, course)
+        columns, common = self.inputs(program, job.course)
+        out: Array | None
         if device == "cuda":
             from dalembert.kernel.emit import cuda
 
-            out, code = cuda.run(program, slots, values, columns, common, progress)
+            out, code = cuda.run(program, slots, job.values, columns, common, job.progress)
         elif way == "pairs":
-            out, code = self._run_all_pairs(values, program, machine, columns, common, threads, progress)
+            out, code = self._run_all_pairs(job, program, machine, columns, common)
         else:
-            out, code = self._run_grid(values, program, machine, slots, columns, common, threads, progress)
-        if way == "reduce":
-            return self._reduced_result(values, course, slots, out, code, len(columns), threads)
-        return self.by_output(out, code)
+            out, code = self._run_grid(job, program, machine, slots, columns, common)
+        if out is None:
+            assert job.into is not None
+            return code, *job.into
+        found = self._reduced_result(job, slots, out, len(columns)) if slots else self.by_output(out)
+        if job.into is None:
+            return code, *found
+        self._store(job, slice(None), found)
+        return code, *job.into
+
+    def _store(self, job: Job, which: slice, found: Arrays) -> None:
+        """Put results of some designs where they go."""
+        assert job.into is not None
+        for parts, wholes in zip(found, job.into, strict=True):
+            for name, part in parts.items():
+                wholes[name][which] = part
 
     def _run_grid(
-        self,
-        values: Array,
-        program: Program,
-        machine: Machine,
-        slots: Slots,
-        columns: Array,
-        common: Array,
-        threads: int | None,
-        progress: Callable[[int, int], object] | None,
-    ) -> tuple[Array, NDArray[np.uint8]]:
-        """Results (design, output, position) or (design, slot), and codes."""
+        self, job: Job, program: Program, machine: Machine, slots: Slots, columns: Array, common: Array
+    ) -> tuple[Array | None, NDArray[np.uint8]]:
+        """Results (design, output, position) or (design, slot), none where they are stored already, and codes."""
         weighted = any(p in SUMS for _, p in slots)
-        path = path_array(columns, common, machine.lanes, weighted)
-        count, row = len(values), row_length(path[1], machine.lanes)
-        shape: tuple[int, ...] = (count, width(slots)) if slots else (count, len(program.outputs), row)
-        out, code = aligned_array(shape), np.empty((count,) if slots else (count, row), np.uint8)
-        channels = columns.shape[1] + weighted
-        run_grid(machine, program, values, path, channels, out, code, threads, progress)
-        if slots:
-            return out, code
-        return out[:, :, : len(columns)], code[:, : len(columns)]
+        kept, positions = self.path, len(columns)
+        if kept is None or kept[0] is not columns or kept[1] is not machine:
+            self.path = kept = columns, machine, path_array(columns, common, machine.lanes, weighted)
+        path = kept[2]
+        row, channels = row_length(path[1], machine.lanes), columns.shape[1] + weighted
+        shape: tuple[int, ...] = (width(slots),) if slots else (len(program.outputs), row)
+        code = np.empty((len(job.values),) if slots else (len(job.values), row), np.uint8)
+        into: Array | tuple[tuple[int, ...], Store]
+        if job.into is None or slots:
+            into, again = result_array((_room(job, shape), *shape))
+            out = into if slots else into[:, :, :positions]
+            machine = self.machine("past cache")[1] if again and not slots else machine
+        else:
+            out = None
+            into = shape, lambda which, found: self._store(job, which, self.by_output(found[..., :positions]))
+        run_grid(machine, job.values, path, channels, into, code, job.threads, job.progress)
+        return out, code if slots else code[:, :positions]
 
     def _run_all_pairs(
-        self,
-        values: Array,
-        program: Program,
-        machine: Machine,
-        columns: Array,
-        common: Array,
-        threads: int | None,
-        progress: Callable[[int, int], object] | None,
-    ) -> tuple[Array, NDArray[np.uint8]]:
+        self, job: Job, program: Program, machine: Machine, columns: Array, common: Array
+    ) -> tuple[Array | None, NDArray[np.uint8]]:
         """Every design at every position, a part of the designs at a time."""
-        designs, count = len(values), len(columns)
-        out = np.empty((designs, len(program.outputs), count))
-        code = np.empty((designs, count), np.uint8)
-        step = max(1, 100_000 // count)
+        designs, count, width = len(job.values), len(columns), len(program.outputs)
+        out = np.empty((_room(job, (width, count)), width, count)) if job.into is None else None
+        code, step = np.empty((designs, count), np.uint8), max(1, 100_000 // count)
         for k in range(0, designs, step):
-            mine = values[k : k + step]
-            found, marks = self.at_pairs(
-                program,
-                machine,
-                np.repeat(mine, count, axis=0),
-                np.tile(columns, (len(mine), 1)),
-                common,
-                threads,
-            )
-            out[k : k + step] = found.reshape(len(mine), count, -1).swapaxes(1, 2)
-            code[k : k + step] = marks.reshape(len(mine), count)
-            if progress is not None:
-                progress(k + len(mine), designs)
+            which = slice(k, min(k + step, designs))
+            mine = np.repeat(job.values[which], count, axis=0)
+            many = np.tile(columns, (which.stop - k, 1))
+            found, marks = self.at_pairs(program, machine, mine, many, common, job.threads)
+            found, code[which] = found.reshape(-1, count, width).swapaxes(1, 2), marks.reshape(-1, count)
+            if out is None:
+                self._store(job, which, self.by_output(found))
+            else:
+                out[which] = found
+            if job.progress is not None:
+                job.progress(which.stop, designs)
         return out, code
 
     def at_pairs(
@@ -177,35 +196,35 @@ class Runner:
     ) -> tuple[Array, NDArray[np.uint8]]:
         """Outputs (pair, output) and codes of pairs."""
         out, code = np.empty((len(values), len(program.outputs))), np.empty(len(values), np.uint8)
-        run_pairs(machine, program, values, columns, common, out, code, threads)
+        run_pairs(machine, values, columns, common, out, code, threads)
         return out, code
 
-    def by_output(self, out: Array, code: NDArray[np.uint8]) -> Found:
-        """Arrays by output: (design, position[, component]) and gradients behind them."""
-        k, arrays, rates, place = self.k, {}, {}, 0
-        for name, nodes in k.nodes.items():
-            part = np.moveaxis(out[:, place : place + len(nodes)], 1, -1)
-            arrays[name] = part[..., 0] if len(nodes) == 1 else part
+    def _places(self) -> tuple[list[tuple[str, int | slice]], list[tuple[str, slice, tuple[int, ...]]]]:
+        """Where each output stands, and its derivatives with their axes."""
+        arrays: list[tuple[str, int | slice]] = []
+        rates: list[tuple[str, slice, tuple[int, ...]]] = []
+        place, n = 0, len(self.k.trace.numbers)
+        for name, nodes in self.k.nodes.items():
+            arrays.append((name, place if len(nodes) == 1 else slice(place, place + len(nodes))))
             place += len(nodes)
-        if k.derivatives:
-            n = len(k.trace.numbers)
-            for name, nodes in k.nodes.items():
-                part = np.moveaxis(out[:, place : place + len(nodes) * n], 1, -1)
-                part = part.reshape((*part.shape[:-1], len(nodes), n))
-                rates[name] = part[..., 0, :] if len(nodes) == 1 else part
-                place += len(nodes) * n
-        return code, arrays, rates
+        for name, nodes in self.k.nodes.items() if self.k.derivatives else ():
+            axes = (n,) if len(nodes) == 1 else (len(nodes), n)
+            rates.append((name, slice(place, place + len(nodes) * n), axes))
+            place += len(nodes) * n
+        return arrays, rates
 
-    def _reduced_result(
-        self,
-        values: Array,
-        course: Course,
-        slots: Slots,
-        out: Array,
-        code: NDArray[np.uint8],
-        count: int,
-        threads: int | None,
-    ) -> Found:
+    def by_output(self, out: Array) -> Arrays:
+        """Results (design, output, position) by output: (design, position[, component]), and gradients behind them."""
+        arrays, rates = {}, {}
+        for name, place in self.places[0]:
+            part = out[:, place]
+            arrays[name] = part.swapaxes(1, 2) if part.ndim > 2 else part
+        for name, places, axes in self.places[1]:
+            part = out[:, places].swapaxes(1, 2)
+            rates[name] = part.reshape((*part.shape[:-1], *axes))
+        return arrays, rates
+
+    def _reduced_result(self, job: Job, slots: Slots, out: Array, count: int) -> Arrays:
         """Arrays by output: (design[, component][, side]) and gradients, from the parts of the reductions."""
         k = self.k
         parts, places, slot = {}, {}, 0
@@ -225,19 +244,30 @@ class Runner:
             arrays[name] = each[0].copy() if len(nodes) == 1 else np.stack(each, axis=1)
             node += len(nodes)
         if not k.derivatives:
-            return code, arrays, {}
-        return code, arrays, slopes(self, values, course, found, parts, places, count, threads)
+            return arrays, {}
+        return arrays, slopes(self, job, found, parts, places, count)
+
+
+def _room(job: Job, each: tuple[int, ...]) -> int:
+    """The number of designs; raises ModelError where their results, of some numbers each, do not go into memory."""
+    size, free = len(job.values) * (8 * math.prod(each) + each[-1]), math.inf
+    if size > CHECKED:
+        free = available()
+    if size > free:
+        raise ModelError(
+            f"results of {len(job.values):,} designs take {size / 1e9:.3g} GB, and {free / 1e9:.3g} GB are free",
+            TOO_MUCH,
+        )
+    return len(job.values)
 
 
 def slopes(
     runner: Runner,
-    values: Array,
-    course: Course,
+    job: Job,
     found: dict[str, range],
     parts: dict[tuple[int, str], Array],
     places: dict[tuple[int, str], Array],
     count: int,
-    threads: int | None,
 ) -> dict[str, Array]:
     """Gradients (design[, component][, side of the envelope], number) of every reduced output."""
     k, out = runner.k, {}
@@ -247,9 +277,9 @@ def slopes(
         each = []
         for m in nodes:
             if k.reduce in ("peak", "envelope"):
-                each.append(_active(runner, values, course, m, places, threads))
+                each.append(_active(runner, job, m, places))
             elif nodes_of[m].level == CONSTANT:
-                each.append(np.zeros((len(values), len(k.trace.numbers))))
+                each.append(np.zeros((len(job.values), len(k.trace.numbers))))
             else:
                 first = flat + m * len(k.trace.numbers)
                 total = np.stack([parts[first + n, "sum"] for n in range(len(k.trace.numbers))], axis=-1)
@@ -267,24 +297,17 @@ def _mean(reduce: str, parts: dict[tuple[int, str], Array], m: int, total: Array
         return np.asarray(total / size if reduce == "rms" else total / size**7)
 
 
-def _active(
-    runner: Runner,
-    values: Array,
-    course: Course,
-    m: int,
-    places: dict[tuple[int, str], Array],
-    threads: int | None,
-) -> Array:
+def _active(runner: Runner, job: Job, m: int, places: dict[tuple[int, str], Array]) -> Array:
     """Gradient of one component at the positions where its reduction stands."""
     k = runner.k
     program, machine, _ = runner.machine("gradient")
-    columns, common = runner.inputs(program, course)
+    columns, common = runner.inputs(program, job.course)
     flat, n = sum(len(nodes) for nodes in k.nodes.values()), len(k.trace.numbers)
     sides = []
     for part in over_positions.with_places(k.reduce):
         place = places[m, part]
         place = np.where(np.isfinite(place) & (place < len(columns)), place, 0).astype(int)
-        out, _ = runner.at_pairs(program, machine, values, columns[place], common, threads)
+        out, _ = runner.at_pairs(program, machine, job.values, columns[place], common, job.threads)
         rate = out[:, flat + m * n : flat + (m + 1) * n]
         sides.append(np.sign(out[:, m])[:, None] * rate if part == "argpeak" else rate)
     return sides[0] if k.reduce == "peak" else np.stack(sides, axis=1)

@@ -59,9 +59,10 @@ class Text:
         place = self.let(f"getelementptr inbounds double, ptr {base}, i64 {offset}")
         return self.let(f"load {self.kind if vector else 'double'}, ptr {place}, align 8")
 
-    def store(self, value: str, base: str, offset: int | str) -> None:
+    def store(self, value: str, base: str, offset: int | str, past_cache: bool = False) -> None:
         place = self.let(f"getelementptr inbounds double, ptr {base}, i64 {offset}")
-        self.put(f"store {self.kind} {value}, ptr {place}, align 8")
+        how = f"align {min(8 * self.lanes, 64)}, !nontemporal !0" if past_cache else "align 8"
+        self.put(f"store {self.kind} {value}, ptr {place}, {how}")
 
     def operation(self, node: Node, a: str, b: str | None) -> str:
         return _OPERATIONS[node.op](self, a, b or "")

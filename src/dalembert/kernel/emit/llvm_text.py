@@ -57,8 +57,9 @@ def _design(t: Text, program: Program, names: dict[int, str], reductions: Reduct
     t.lines += ["start:", "  br label %loop", "loop:"]
 
 
-def grid(program: Program, lanes: int, reduce: Slots = ()) -> str:
-    """Function over designs and blocks of positions: see ``machine.Machine.grid``."""
+def grid(program: Program, lanes: int, reduce: Slots = (), past_cache: bool = False) -> str:
+    """Function over designs and blocks of positions: see ``Machine``. ``past_cache``: results go to memory at once,
+    which for large ones takes half the time, as no line of it is fetched before it is overwritten."""
     t = Text(lanes)
     names = head(t, program)
     channels = [n for n in program.inputs if n.level & POSITION]
@@ -78,7 +79,7 @@ def grid(program: Program, lanes: int, reduce: Slots = ()) -> str:
     else:
         for k, node in enumerate(program.outputs):
             offset = t.let(f"mul i64 %row, {k}")
-            t.store(names[node.index], "%page", t.let(f"add i64 {offset}, %at"))
+            t.store(names[node.index], "%page", t.let(f"add i64 {offset}, %at"), past_cache)
         store_code(t, program, names, t.let("getelementptr inbounds i8, ptr %marks, i64 %at"))
     t.put("%bnext = add nuw i64 %b, 1")
     t.put("%more = icmp ult i64 %bnext, %blocks")
@@ -89,12 +90,18 @@ def grid(program: Program, lanes: int, reduce: Slots = ()) -> str:
     t.put("%dnext = add nuw i64 %d, 1")
     t.put("%again = icmp ult i64 %dnext, %designs")
     t.put("br i1 %again, label %design, label %exit")
-    t.lines += ["exit:", "  ret void", "}"]
+    t.lines += [
+        "exit:",
+        *["  fence seq_cst"] * past_cache,
+        "  ret void",
+        "}",
+        *["!0 = !{i32 1}"] * past_cache,
+    ]
     return module(t, program, reductions.declarations() if reductions else [])
 
 
 def pairs(program: Program, lanes: int) -> str:
-    """Function over blocks of (design, position) pairs: see ``machine.Machine.pairs``."""
+    """Function over blocks of (design, position) pairs: see ``Machine``."""
     t = Text(lanes)
     names = head(t, program)
     t.lines.append(

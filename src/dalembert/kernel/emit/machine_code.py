@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ctypes
-import math
 import platform
 from dataclasses import dataclass, field
 from functools import cache, cached_property
@@ -12,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from dalembert.arrays import Array
+from dalembert.kernel.memory import address
 
 LANES = {"AVX-512": 8, "AVX2": 4, "NEON": 2, "SSE2": 2, "none": 1}
 """Numbers a vector register holds."""
@@ -53,25 +53,12 @@ class Machine:
     def __call__(
         self, values: Array, path: Array, out: Array, code: Array, counts: tuple[int, int, int, int]
     ) -> None:
-        self.function(*(a.__array_interface__["data"][0] for a in (values, path, out, code)), *counts)
+        self.function(address(values), address(path), address(out), address(code), *counts)
 
     @cached_property
     def function(self) -> Any:
         """The function for ctypes: four addresses, four counts."""
         return ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4, *[ctypes.c_int64] * 4)(self.address)
-
-
-def aligned_array(shape: tuple[int, ...]) -> Array:
-    """An empty array that begins at a line of the cache: a register's worth stored across two lines takes twice as
-    long."""
-    count = math.prod(shape)
-    whole = np.empty(count + LINE // 8)
-    first = -whole.__array_interface__["data"][0] % LINE // 8
-    return whole[first : first + count].reshape(shape)
-
-
-LINE = 64
-"""Bytes of a line of the cache."""
 
 
 def compile_module(text: str, lanes: int) -> Machine:

@@ -1,0 +1,89 @@
+"""Memory of results: it begins at a line of the cache, that of large ones is used again, and how much there is."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import os
+from typing import Any, ClassVar
+
+import numpy as np
+
+from dalembert.arrays import Array
+
+LINE = 64
+"""Bytes of a line of the cache."""
+LARGE = 1 << 22
+"""Bytes of a result from which its memory comes from the system page by page."""
+KEPT = 1 << 28
+"""Most bytes that wait for the next result."""
+
+
+class _Pages:
+    """Memory of a large result. When nobody holds that any more it waits for the next one of about its size: to get
+    fresh pages takes three times as long as to compute what stands in them."""
+
+    waiting: ClassVar[list[Array]] = []
+
+    def __init__(self, whole: Array) -> None:
+        self.whole, self.__array_interface__ = whole, whole.__array_interface__
+
+    def __del__(self) -> None:
+        if self.whole.nbytes <= KEPT:
+            self.waiting[:] = [self.whole]
+
+
+def result_array(shape: tuple[int, ...]) -> tuple[Array, bool]:
+    """An array whose values do not matter, beginning at a line of the cache: a register's worth stored across two
+    takes twice as long. And whether its pages, many of them, have been used before."""
+    count = math.prod(shape)
+    size, again = count + LINE // 8, False
+    if 8 * count < LARGE:
+        whole = np.empty(size)
+    else:
+        try:
+            kept = _Pages.waiting.pop()
+            again = size <= kept.size <= 2 * size
+        except IndexError:
+            pass
+        whole = np.asarray(_Pages(kept if again else np.empty(size)))
+    first = -address(whole) % LINE // 8
+    return whole[first : first + count].reshape(shape), again
+
+
+def aligned_array(shape: tuple[int, ...]) -> Array:
+    """An array whose values do not matter, beginning at a line of the cache."""
+    return result_array(shape)[0]
+
+
+def address(array: Any) -> int:
+    """Where an array begins."""
+    try:  # several times as fast
+        return ctypes.addressof(ctypes.c_char.from_buffer(array))
+    except (TypeError, ValueError):  # not to be written to, or empty
+        found: int = array.__array_interface__["data"][0]
+        return found
+
+
+def available() -> float:
+    """Bytes that a result may take: what is free or can be freed, on Linux, within a container's limit; elsewhere all
+    there are, infinite where the system does not say."""
+    found = math.inf
+    if hasattr(os, "sysconf"):
+        found = float(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE"))
+    free = _read("/proc/meminfo").get("MemAvailable:")
+    limit = _read("/sys/fs/cgroup/memory.max", "limit").get("limit")
+    if limit is not None:
+        used = _read("/sys/fs/cgroup/memory.current", "used").get("used", 0)
+        limit += _read("/sys/fs/cgroup/memory.stat").get("inactive_file", 0) - used
+    return min(found, math.inf if free is None else 1024 * free, math.inf if limit is None else limit)
+
+
+def _read(path: str, name: str = "") -> dict[str, int]:
+    """Numbers by name of a file of lines; of one number alone by the name given."""
+    try:
+        with open(path, encoding="ascii") as file:
+            rows = [f"{name} {line}".split() for line in file]
+    except OSError:
+        return {}
+    return {row[0]: int(row[1]) for row in rows if len(row) > 1 and row[1].isdigit()}
