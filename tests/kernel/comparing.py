@@ -11,7 +11,7 @@ from dalembert.analysis.batch.symbolic_model import geometric, with_numbers
 
 NAMES = {
     "links": ("mass", "inertia", "center"),
-    "joints": ("direction", "angle", "radius", "radii", "pressure_angle", "damping"),
+    "joints": ("direction", "angle", "radius", "radii", "pressure_angle", "damping", "axis", "lead"),
     "loads": ("stiffness", "free_length", "free_angle", "damping", "force", "direction", "value", "at"),
     "drives": ("speed", "acceleration", "effort"),
 }
@@ -28,7 +28,19 @@ def every_number(m: Any) -> list[str]:
             out += [f"{group}.{name}.{k}" for k in keys if _varies(getattr(part, k, None)) and not lawful]
             points = getattr(part, "points", {})
             out += [f"{group}.{name}.points.{p}" for p, at in points.items() if _varies(at)]
+            out += [f"{group}.{name}.{path}" for path in _in_space(part)]
     return out + frictional(m) + (["gravity"] if isinstance(m.gravity, tuple) else [])
+
+
+def _in_space(part: Any) -> list[str]:
+    """Axes of a joint's two links, its damping by freedom, and a matrix of inertia."""
+    axes, damping = getattr(part, "axes", None), getattr(part, "damping", None)
+    out = (
+        ["inertia"] if isinstance(getattr(part, "inertia", None), tuple) and _varies(part.inertia[0]) else []
+    )
+    out += [f"damping.{freedom}" for freedom in damping] if isinstance(damping, dict) else []
+    ends = ("i", "j") if hasattr(axes, "i") else ()
+    return out + [f"axes.{e}.{key}" for e in ends for key in "xz" if _varies(getattr(getattr(axes, e), key))]
 
 
 def frictional(m: Any) -> list[str]:

@@ -29,7 +29,6 @@ QUICK = [
 """With friction at rest, in motion and jammed, with forces asked for, and one of each that is refused."""
 
 REFUSALS = (
-    "is for mechanisms of the plane",
     "equilibrium positions cannot be compiled",
     "is a list along the motion",
 )

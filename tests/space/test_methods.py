@@ -352,10 +352,6 @@ def test_slips_in_a_students_figures_are_named() -> None:
     ("ask", "says"),
     [
         (
-            lambda r: da.compile(r.mechanism),
-            "da.compile is for mechanisms of the plane, and this one is in space; ",
-        ),
-        (
             lambda r: da.displaced_inertia(r, "rod"),
             "the displaced inertia force is for mechanisms of the plane, ",
         ),

@@ -74,6 +74,25 @@ def exp(w: Array) -> Array:
     return out
 
 
+def cayley(w: Array) -> Array:
+    """Rotation (..., 9) about the vector w (..., 3) by 2 atan(|w| / 2): by its length, but for the cube of it.
+
+    >>> cayley(np.array([0.0, 0.0, 2.0])).tolist()
+    [0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+    """
+    x, y, z = w[..., 0], w[..., 1], w[..., 2]
+    square = dot(w, w)
+    over = 1.0 / (1.0 + 0.25 * square)
+    half = 0.5 * over
+    out = np.empty((*np.shape(x), 9), w.dtype)
+    for k, u in enumerate((x, y, z)):
+        out[..., 4 * k] = 1.0 - half * (square - u * u)
+    for (k, m), one, two, three in (((1, 3), x, y, z), ((5, 7), y, z, x), ((6, 2), z, x, y)):
+        out[..., k] = half * one * two - over * three
+        out[..., m] = half * one * two + over * three
+    return out
+
+
 def quaternion(r: Array) -> Array:
     """Unit quaternions (..., 4) as x, y, z, w with w not negative: (n sin(t/2), cos(t/2)) of a turn t about n.
 

@@ -86,13 +86,14 @@ class Node:
         return self.graph.unary("abs", self)
 
     def __pow__(self, power: float) -> Node:
-        count = int(power)
-        if count != power or not 0 < abs(count) <= 16:
+        if power == 0.5:
+            return self.sqrt()
+        if power != int(power) or not 0 < abs(power) <= 16:
             raise TypeError(f"a traced value to the power {power}")
         out = self
-        for _ in range(abs(count) - 1):
+        for _ in range(abs(int(power)) - 1):
             out = out * self
-        return out if count > 0 else 1.0 / out
+        return out if power > 0 else 1.0 / out
 
     def sqrt(self) -> Node:
         return self.graph.unary("sqrt", self)
@@ -114,8 +115,7 @@ class Node:
         return self.graph.unary("positive", self)
 
     def larger(self, other: Scalar) -> Node:
-        other = other if type(other) is Node else self.graph.constant(other)
-        return self.graph.binary("max", self, other)
+        return self.graph.binary("max", self, other if type(other) is Node else self.graph.constant(other))
 
     def __and__(self, other: Scalar | Array) -> Node:
         """Both of two flags, which are 0 or 1."""

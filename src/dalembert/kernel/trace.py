@@ -16,15 +16,16 @@ from dalembert.core.equilibrium import Motion as Moving
 from dalembert.core.forcing import Forcing, pair, total_wrench
 from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.geometry import span
-from dalembert.core.layout import Layout, Pose, System
+from dalembert.core.layout import Angle, Layout, Pose, System
 from dalembert.core.linear import Factor
 from dalembert.core.position.first_pose_plane import held_wheels, phase_rows, with_rows
 from dalembert.kernel.elimination import Structural
 from dalembert.kernel.friction_trace import FrictionTrace, trace_friction
-from dalembert.kernel.graph import CONSTANT, Graph, Node, Scalar, trace_array
+from dalembert.kernel.graph import CONSTANT, Graph, Node, Scalar, is_zero, trace_array
 from dalembert.kernel.position.closed_forms import newton_correction, positions
 from dalembert.kernel.position.plane_vectors import Pair
 from dalembert.kernel.position.rigid_parts import Motion, Placed
+from dalembert.kernel.position.space_positions import space_correction, space_positions
 from dalembert.kernel.position.unrolled_newton import solver
 from dalembert.kernel.program import Marks
 
@@ -97,7 +98,9 @@ def trace(p: Problem) -> Traced:
     pose = placed.pose
     moving, rows, factors = motion(layout, pose, p.drives.speed, p.drives.acceleration)
     s, friction = _trace_equilibrium(p, layout, pose, moving, rows, factors)
-    x = friction.x
+    x, idle = friction.x, layout.constraints.idle
+    spins = trace_array(p.graph, x[idle])
+    x[idle] = 0.0
     count, asked = layout.constraints.count, int(p.known.asked.sum())
     effort = p.known.effort[0].astype(object)
     effort[p.known.asked] = x[count : count + asked]
@@ -110,7 +113,7 @@ def trace(p: Problem) -> Traced:
         twist=trace_array(g, moving.twist),
         acceleration=trace_array(g, moving.acceleration),
         force=trace_array(g, force + friction.force),
-        moment=trace_array(g, couple[..., 0] + friction.moment),
+        moment=trace_array(g, couple.reshape(friction.moment.shape) + friction.moment),
         effort=trace_array(g, effort),
         load=trace_array(g, found.load),
         residual=_residual(g, layout, total_wrench(layout, pair(s.unknown, x)), friction.total),
@@ -121,6 +124,7 @@ def trace(p: Problem) -> Traced:
             *_singular(p, factors, s.forces),
             *_short(p, layout, pose),
             *_turn_count_doubt(p, layout, pose),
+            *_unheld(p.graph, layout, spins, friction.total),
         ],
         friction=friction,
         flips=placed.flips,
@@ -141,7 +145,9 @@ def _trace_equilibrium(
     s = statement_of(*sources)
     if p.contacts is None:
         x, total = _multipliers(p, layout, pose, s)
-        return s, FrictionTrace(x, total, np.zeros((layout.joints, 2)), np.zeros(layout.joints), Marks())
+        d = layout.algebra.d
+        none = np.zeros((layout.joints, d)), np.zeros((layout.joints, 3) if d == 3 else layout.joints)
+        return s, FrictionTrace(x, total, *none, Marks())
     still = statement_of(*(kind for kind in sources if kind != "inertia")).w if p.inertia else None
     return s, trace_friction(p.graph, layout, p.contacts, pose, moving, s, still, p.slips, p.reversals)
 
@@ -155,7 +161,8 @@ def _trace_pose(
     turns = {int(r): (_cos(target[r]), _sin(target[r])) for r in np.flatnonzero(layout.constraints.angular)}
     turns |= {count + int(k): (drives.cosine[k], drives.sine[k]) for k in np.flatnonzero(angular)}
     whole = trace_array(p.graph, np.concatenate([target, drives.position]))
-    place = positions if p.slips is None else newton_correction
+    ways = (positions, newton_correction) if layout.algebra.d == 2 else (space_positions, space_correction)
+    place = ways[p.slips is not None]
     return place(Motion(p.graph, layout, whole, turns, path, p.signs))
 
 
@@ -252,10 +259,29 @@ def _turn_count_doubt(p: Problem, layout: Layout, pose: Pose) -> list[Node]:
     """Below zero where a design turns a spring so far from the known motion that its whole turns may be others."""
     if p.slips is not None:
         return []
-    i, j = layout.freedoms.ends
-    known = {row: p.path("turn", int(j[row])) - p.path("turn", int(i[row])) for row in p.margins}
+    if layout.algebra.d == 2:
+        i, j = layout.freedoms.ends
+        known = {row: p.path("turn", int(j[row])) - p.path("turn", int(i[row])) for row in p.margins}
+    else:
+        known = {
+            int(row): p.path("turn", int(place))
+            for f in layout.freedoms.families
+            if isinstance(f, Angle)
+            for row, place in zip(f.row, f.count, strict=True)
+        }
     value = measure(layout.algebra, layout.freedoms, pose)
     return [margin - 2 * abs(value[row] - known[row]) for row, margin in p.margins.items()]
+
+
+HELD = 1e-7
+"""Couple about a line that nothing holds a link about, over its length and the largest load, above which the general
+executor says whether it is none."""
+
+
+def _unheld(graph: Graph, layout: Layout, spins: Array, w: Array) -> list[Node]:
+    """Below zero where loads turn a link about the line of its two ball joints, which nothing holds."""
+    size = HELD * layout.length * _largest(graph, trace_array(graph, w * layout.wrench_scale))
+    return [size - abs(x) for x in spins if not is_zero(x)]
 
 
 def _short(p: Problem, layout: Layout, pose: Pose) -> list[Node]:

@@ -30,6 +30,7 @@ from dalembert.model.quantities.values import (
     vector_text,
 )
 from dalembert.model.quantities.varying import Varying, value_at, varying, varying_schema, varying_tree
+from dalembert.model.quantities.vectors import unit
 from dalembert.wording import quote_value
 
 UNKNOWN: Literal["unknown"] = "unknown"
@@ -249,8 +250,7 @@ class ForceLoad(Directed):
         if isinstance(size, tuple):
             return size
         if isinstance(self.direction, tuple):
-            length = sum(x * x for x in self.direction) ** 0.5
-            return tuple(size * (x / length) for x in self.direction)
+            return tuple(size * x for x in unit(self.direction))
         assert self.direction is not None
         return tuple(size * x for x in unit_vector(self.direction))
 
@@ -280,10 +280,7 @@ class Couple(Directed):
     @property
     def axis(self) -> Vector:
         """Unit vector of a single value in space; 1 in the plane."""
-        if self.direction is None:
-            return (1.0,)
-        length = sum(x * x for x in self.direction) ** 0.5
-        return tuple(x / length for x in self.direction)
+        return (1.0,) if self.direction is None else unit(self.direction)
 
     def moment(self, drives: Mapping[str, Numeric], functions: Functions | None = None) -> Numeric:
         """The moment, N m, at the drives' positions; of an unknown couple, per unit of it."""

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert import errors
-from dalembert.algebra import plane
+from dalembert.algebra import plane, space
 from dalembert.arrays import Array, Flags
 from dalembert.errors import STATUSES, ModelError
 
@@ -135,7 +135,11 @@ class BatchResult:
         link = on or self.kernel.mechanism.joints[joint].links[1]
         if self.kernel.reduce is not None:
             raise ModelError("a reduced reaction has ground axes only", 'leave axes="link" out')
-        return force if link == "ground" else plane.unrotate(plane.rotation(self.angle(link)), force)
+        if link == "ground":
+            return force
+        if self.kernel.mechanism.dimension == 3:
+            return space.unrotate(self.value(f"rotation.{link}"), force)
+        return plane.unrotate(plane.rotation(self.angle(link)), force)
 
     def magnitude(self, joint: str) -> Array:
         """Size of a joint's force."""
@@ -163,6 +167,10 @@ class BatchResult:
     def angle(self, link: str) -> Array:
         """Angle of a link, whole turns counted."""
         return self.value(f"angle.{link}")
+
+    def rotation(self, link: str) -> Array:
+        """Matrix of a link's rotation, row by row in a last axis: from its axes into ground's."""
+        return self.value(f"rotation.{link}")
 
     def speed(self, link: str) -> Array:
         """Angular velocity of a link."""

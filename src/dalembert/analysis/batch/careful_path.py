@@ -139,7 +139,7 @@ def quantity(result: Result, output: str) -> Array:
 
 
 def _magnitude(r: Result, joint: str) -> Array:
-    return np.asarray(np.hypot(*np.moveaxis(r.reaction(joint), -1, 0)))
+    return np.asarray(np.linalg.norm(r.reaction(joint), axis=-1))
 
 
 _KINDS: dict[str, Callable[[Result, str], Array]] = {
@@ -149,6 +149,7 @@ _KINDS: dict[str, Callable[[Result, str], Array]] = {
     "magnitude": _magnitude,
     "moment": lambda r, of: r.reaction_moment(of),
     "angle": lambda r, of: r.angle(of),
+    "rotation": lambda r, of: r.rotation(of),
     "speed": lambda r, of: r.speed(of),
     "acceleration": lambda r, of: r.acceleration(of),
     "position": lambda r, of: r.position(of),

@@ -25,7 +25,6 @@ from dalembert.analysis.batch.sides import Sides
 from dalembert.analysis.batch.symbolic_model import geometric
 from dalembert.analysis.batch.traced_analysis import Trace, trace_analysis
 from dalembert.analysis.one_pass import at_schedule
-from dalembert.analysis.plane_only import refuse_space
 from dalembert.arrays import Array, Flags, Ints, Numeric
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
@@ -53,13 +52,13 @@ def compile(  # noqa: A001
     static: bool = False,
     lanes: int | None = None,
 ) -> Kernel:
-    """An analysis as machine code: for one structure, whatever the numbers at the paths in ``vary``.
+    """An analysis as machine code: for one structure in the plane or in space, whatever the numbers at ``vary``.
 
     outputs: names such as ``effort.O2``, ``reaction.A``, ``angle.coupler``; default all efforts and reactions.
     reduce: over the positions, ``peak``, ``mean``, ``rms``, ``envelope``, ``argpeak``, ``norm8``; default none.
     derivatives: exact ones of every output with respect to every number. static: leave inertia out.
     lanes: values side by side (8 AVX-512, 4 AVX2, 2 NEON, 1 none); default as the processor has them.
-    Raises ModelError for what only the analyses can do (redundancy, unknown positions).
+    Raises ModelError for what only the analyses can do (redundancy, unknown positions, friction in space).
 
     >>> import dalembert as da
     >>> k = da.compile(da.four_bar(), vary=["links.coupler.mass"], outputs=["effort.O2"])
@@ -71,7 +70,6 @@ def compile(  # noqa: A001
     over_positions.check(reduce)
     _check_count("lanes", lanes)
     try:
-        refuse_space(mechanism, "da.compile", "use da.dynamics or da.statics")
         trace = trace_analysis(mechanism, _several(vary), mechanism.has_speeds and not static)
     except ModelError as error:
         raise error.at_source(mechanism.source) from None

@@ -237,13 +237,8 @@ def contact_keys(c: Compiled) -> list[tuple[str, str]]:
 
 def _poses_with_ground(result: Result) -> Pose:
     """Poses of a result, with those of the ground."""
-    count = len(result.status)
-    point, turn, rotation = (a.copy() for a in (result.point_array, result.turn_array, result.rotation_array))
-    return Pose(
-        np.concatenate([point, np.zeros((count, 1, 2))], axis=1),
-        np.concatenate([turn, np.zeros((count, 1))], axis=1),
-        np.concatenate([rotation, np.broadcast_to([1.0, 0.0], (count, 1, 2))], axis=1),
-    )
+    point = np.pad(result.point_array, ((0, 0), (0, 1), (0, 0)))
+    return Pose(point, *result.compiled.layout.algebra.with_ground(result.turn_array, result.rotation_array))
 
 
 def _one(kind: str, c: Course, column: Array) -> Numeric:
@@ -263,14 +258,19 @@ def _known_quantity(c: Course, what: str, which: int) -> Array:
         angle = _line_angle(c, which)
         return np.cos(angle) if what.endswith("cos") else np.sin(angle) if what.endswith("sin") else angle
     pose = c.pose
-    columns: dict[str, Array] = {
-        "x": pose.point[:, which, 0],
-        "y": pose.point[:, which, 1],
-        "turn": pose.turn[:, which],
-        "turn cos": pose.rotation[:, which, 0],
-        "turn sin": pose.rotation[:, which, 1],
+    kind, _, component = what.partition(" ")
+    if component.isdigit():
+        return np.asarray(getattr(pose, kind)[:, which, int(component)])
+    columns = {
+        "x": (pose.point, 0),
+        "y": (pose.point, 1),
+        "turn cos": (pose.rotation, 0),
+        "turn sin": (pose.rotation, 1),
     }
-    return columns[what]
+    if what == "turn":
+        return np.asarray(pose.turn[:, which])
+    array, place = columns[what]
+    return np.asarray(array[:, which, place])
 
 
 def _line_angle(c: Course, row: int) -> Array:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dalembert.algebra import plane
+from dalembert.algebra.protocol import Algebra
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.compile.load_arrays import point_of
 from dalembert.analysis.result.link_motion import place_of
@@ -42,6 +42,11 @@ class Catalogue:
         out = [f"effort.{n}" for n in c.schedule.names] + [f"load.{n}" for n in c.unknown_loads]
         return out + [f"reaction.{j}" for j in c.joints] + [f"moment.{j}" for j in c.joints if j in fixed]
 
+    @property
+    def algebra(self) -> Algebra:
+        """Of the plane, or of space."""
+        return self.compiled.layout.algebra
+
     def drive(self, name: str) -> int:
         return place_of(tuple(self.compiled.schedule.names), name, "drive")
 
@@ -56,8 +61,8 @@ class Catalogue:
 
     def arm(self, link: int, u: ArrayLike) -> Array:
         reference = np.asarray(self.compiled.layout.reference, object)
-        arm: Array = plane.rotate(self.traced.pose.rotation[link], np.asarray(u, object) - reference[link])
-        return arm
+        rotation = self.traced.pose.rotation[link]
+        return self.algebra.rotate(rotation, np.asarray(u, object) - reference[link])
 
     def center(self, name: str) -> Vector:
         return self.compiled.mechanism.center(name)
@@ -68,17 +73,34 @@ class Catalogue:
         return np.asarray(self.traced.pose.point[k] + self.arm(k, u) + origin)
 
     def velocity(self, name: str, u: ArrayLike) -> Array:
-        k = self.link(name)
+        k, g = self.link(name), self.algebra
         twist = self.traced.twist[k]
-        return np.asarray(twist[:2] + plane.spin(twist[2:], self.arm(k, u)))
+        return np.asarray(twist[: g.d] + g.spin(twist[g.d :], self.arm(k, u)))
 
     def acceleration(self, name: str, u: ArrayLike) -> Array:
-        k = self.link(name)
+        (k, g), w = (self.link(name), self.algebra), self.turning("twist", name)
         rate, r = self.traced.acceleration[k], self.arm(k, u)
-        return np.asarray(rate[:2] + plane.spin(rate[2:], r) + plane.centripetal(self.traced.twist[k][2:], r))
+        return np.asarray(rate[: g.d] + g.spin(rate[g.d :], r) + g.centripetal(w, r))
 
+    def turning(self, rates: str, name: str) -> Array:
+        """Angular part of a link's twist or acceleration."""
+        turning: Array = getattr(self.traced, rates)[self.link(name), self.algebra.d :]
+        return turning
 
-ORIGIN = np.zeros(2)
+    def angle(self, name: str) -> Numeric:
+        if self.algebra.d == 3:
+            raise ModelError(f"link {name!r} has no single angle in space", "ask its rotation")
+        return self.traced.pose.turn[self.link(name)]
+
+    def rotation(self, name: str) -> Array:
+        """A link's matrix, row by row."""
+        r = self.traced.pose.rotation[self.link(name)]
+        return r if self.algebra.d == 3 else np.array([r[0], -r[1], r[1], r[0]])
+
+    @property
+    def origin(self) -> Array:
+        """The origin of a link's axes."""
+        return np.zeros(self.algebra.d)
 
 
 def _point(c: Catalogue, of: str) -> tuple[str, Array]:
@@ -88,8 +110,8 @@ def _point(c: Catalogue, of: str) -> tuple[str, Array]:
 
 
 def _magnitude(c: Catalogue, joint: str) -> Node:
-    x, y = c.traced.force[c.joint(joint)]
-    total: Node = (x * x + y * y).sqrt()
+    force = c.traced.force[c.joint(joint)]
+    total: Node = (force * force).sum().sqrt()
     return total
 
 
@@ -99,11 +121,12 @@ KINDS: dict[str, Callable[[Catalogue, str], Numeric]] = {
     "reaction": lambda c, of: c.traced.force[c.joint(of)],
     "magnitude": _magnitude,
     "moment": lambda c, of: c.traced.moment[c.joint(of)],
-    "angle": lambda c, of: c.traced.pose.turn[c.link(of)],
-    "speed": lambda c, of: c.traced.twist[c.link(of), 2],
-    "acceleration": lambda c, of: c.traced.acceleration[c.link(of), 2],
-    "position": lambda c, of: c.place(of, ORIGIN),
-    "velocity": lambda c, of: c.velocity(of, ORIGIN),
+    "angle": lambda c, of: c.angle(of),
+    "rotation": lambda c, of: c.rotation(of),
+    "speed": lambda c, of: c.turning("twist", of),
+    "acceleration": lambda c, of: c.turning("acceleration", of),
+    "position": lambda c, of: c.place(of, c.origin),
+    "velocity": lambda c, of: c.velocity(of, c.origin),
     "center": lambda c, of: c.place(of, c.center(of)),
     "center_velocity": lambda c, of: c.velocity(of, c.center(of)),
     "center_acceleration": lambda c, of: c.acceleration(of, c.center(of)),

@@ -11,7 +11,9 @@ from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, Scalar
 from dalembert.model import Mechanism
 from dalembert.model.paths import set_value, value_at
+from dalembert.model.quantities.figures import unit_vector
 from dalembert.model.quantities.values import Vector
+from dalembert.model.quantities.vectors import length, unit
 
 
 @dataclass(frozen=True)
@@ -27,7 +29,7 @@ class Number:
 
 
 def numbers(m: Mechanism, vary: Iterable[str]) -> tuple[Number, ...]:
-    """The numbers behind dotted paths, vectors as their components `.0` and `.1`."""
+    """The numbers behind dotted paths, vectors as their components `.0`, `.1`, matrices `.0.1`."""
     out: list[Number] = []
     for path in vary:
         value = value_at(m, path.split("."))
@@ -67,6 +69,8 @@ def _numbers(path: str, value: object) -> list[Number]:
         return [Number(path, float(value))]
     if isinstance(value, tuple) and all(isinstance(x, (int, float)) for x in value):
         return [Number(f"{path}.{k}", float(x)) for k, x in enumerate(value)]
+    if keys[-1] == "inertia" and isinstance(value, tuple):  # what stands twice varies once
+        return [Number(f"{path}.{i}.{j}", float(row[j])) for i, row in enumerate(value) for j in range(i, 3)]
     raise ModelError(
         f"{path!r} is no number", "name a number, or a vector of numbers, of the description", keys
     )
@@ -94,10 +98,10 @@ class SymbolicForce:
     on: str
     at: str | Vector
     axes: str
-    components: tuple[Scalar, Scalar]
+    components: tuple[Scalar, ...]
     unknown: bool = False
 
-    def force(self, drives: object) -> tuple[Scalar, Scalar]:
+    def force(self, drives: object) -> tuple[Scalar, ...]:
         return self.components
 
 
@@ -109,10 +113,8 @@ def symbolic(m: Mechanism, where: tuple[Number, ...], graph: Graph, channel: Cha
     """The description on symbols; ``channel(name, varying)`` gives the input of a load that changes with the drives."""
     nodes = [graph.input("number", n.path, n.value) for n in where]
     s = with_numbers(m, where, nodes)
-    if isinstance(m.gravity, tuple) and not m.g_override:
-        gx, gy = s.gravity_vector
-        if isinstance(gx, Node) or isinstance(gy, Node):
-            s = s.model_copy(update={"g_override": (gx * gx + gy * gy + graph.zero).sqrt()})
+    if not m.g_override and any(isinstance(g, Node) for g in s.gravity_vector):
+        s = s.model_copy(update={"g_override": length(s.gravity_vector)})
     loads = {name: _load(name, load, channel) for name, load in s.loads.items()}
     drives = {
         name: d.model_copy(update={"effort": _value(f"drives.{name}.effort", d.effort, channel)})
@@ -127,21 +129,25 @@ def _value(name: str, value: Numeric, channel: Channel) -> Numeric:
 
 
 def _load(name: str, load: Any, channel: Channel) -> object:
+    def node(value: Any) -> Any:
+        if isinstance(value, tuple):
+            return tuple(_value(f"loads.{name}.value.{k}", v, channel) for k, v in enumerate(value))
+        return _value(f"loads.{name}.value", value, channel)
+
     if load.ON == "link" and not load.unknown:
-        return load.model_copy(update={"value": _value(f"loads.{name}.value", load.value, channel)})
+        return load.model_copy(update={"value": node(load.value)})
     if load.ON != "point":
         return load
     if isinstance(load.value, tuple):
-        x, y = (_value(f"loads.{name}.value.{k}", v, channel) for k, v in enumerate(load.value))
-        return SymbolicForce(load.on, load.at, load.axes, (x, y))
-    size = 1.0 if load.unknown else _value(f"loads.{name}.value", load.value, channel)
-    x, y = _direction(load.direction)
-    return SymbolicForce(load.on, load.at, load.axes, (size * x, size * y), unknown=load.unknown)
+        return SymbolicForce(load.on, load.at, load.axes, node(load.value))
+    size = 1.0 if load.unknown else node(load.value)
+    components = tuple(size * x for x in _direction(load.direction))
+    return SymbolicForce(load.on, load.at, load.axes, components, unknown=load.unknown)
 
 
-def _direction(angle: Scalar) -> tuple[Scalar, Scalar]:
-    if isinstance(angle, Node):
-        return angle.cos(), angle.sin()
-    from dalembert.model.quantities.figures import unit_vector
-
-    return unit_vector(angle)
+def _direction(given: Scalar | Vector) -> tuple[Scalar, ...]:
+    if isinstance(given, Node):
+        return given.cos(), given.sin()
+    if isinstance(given, tuple):
+        return unit(given)
+    return unit_vector(given)

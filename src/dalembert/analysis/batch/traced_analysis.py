@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from dalembert.analysis.batch.kernel_inputs import Course, Inputs
 from dalembert.analysis.batch.outputs import Catalogue
 from dalembert.analysis.batch.symbolic_model import Number, geometric, numbers, symbolic
-from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
+from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.degree_of_freedom import check_knowns
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.closure_failure import open_sentence
 from dalembert.arrays import Array
-from dalembert.core.layout import Layout
+from dalembert.core.gear_rows import gearings
+from dalembert.core.layout import Gearing, Idle, Layout
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph
 from dalembert.kernel.trace import Problem, Traced, trace
@@ -44,16 +45,19 @@ def trace_analysis(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Res
     course = Course(m, schedule, solved)
     check_knowns(course.compiled)
     _check(course)
+    where = numbers(m, vary)
+    moved = [n for n in where if geometric(n.path)]
+    if m.dimension == 3:
+        _check_space(course.compiled, moved)
     graph = Graph()
     inputs = Inputs(graph, course)
-    where = numbers(m, vary)
     description = symbolic(m, where, graph, inputs.load)
     drives = inputs.drives(description)
     like = course.followed.compiled
     c, margins = inputs.turns(compile_mechanism(description, _symbolic(schedule, drives.position), like=like))
     problem = Problem(
         graph=graph,
-        layout=c.layout,
+        layout=_with_meshes(c.layout, like.layout),
         forcing=c.forcing,
         known=c.known,
         target=_targets(c.target, like.target, like.layout),
@@ -68,7 +72,7 @@ def trace_analysis(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Res
         signs=inputs.signs,
         slips=None if solved is None else inputs.slips(c),
         reversals=None if solved is None else inputs.reversals(c),
-        margins=margins if any(geometric(n.path) for n in where) else {},
+        margins=margins if moved else {},
         contacts=c.contacts,
     )
     return Trace(course, inputs, where, Catalogue(graph, c, _run(problem)), inertia)
@@ -88,6 +92,33 @@ def _check(course: Course) -> None:
             "free a constraint, or use the analyses, which mark what is unique",
             ("joints",),
         )
+
+
+def _check_space(c: Compiled, moved: list[Number]) -> None:
+    """What is not compiled in space."""
+    if c.contacts is not None:
+        what = "friction in space cannot be compiled"
+        raise ModelError(what, "leave it out, or use da.dynamics or da.statics", ("friction",))
+    layout = c.layout
+    spun = [
+        c.links[j] for f in layout.constraints.families if isinstance(f, Idle) for j in f.j[f.stands == 0]
+    ]
+    wheels = [name for name, joint in c.mechanism.joints.items() if joint.wheels]
+    why = ""
+    if wheels:
+        why = f"the wheels of gear {wheels[0]!r} in space are fitted to each other at the first position"
+    elif spun:
+        why = f"how link {spun[0]!r} is spun follows from its whole motion, as a ball moves along it"
+    if moved and why:
+        what = f"{moved[0].path!r} places joints, and {why}: so it cannot vary"
+        raise ModelError(what, "leave it out, or use da.dynamics or da.statics", moved[0].keys)
+
+
+def _with_meshes(layout: Layout, known: Layout) -> Layout:
+    """The layout with the known one's meshes in space, which are fitted at its first position."""
+    fitted = iter(gearings(known))
+    families = tuple(next(fitted) if isinstance(f, Gearing) else f for f in layout.constraints.families)
+    return replace(layout, constraints=replace(layout.constraints, families=families))
 
 
 def _symbolic(schedule: Schedule, position: Array) -> Schedule:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dalembert.algebra import space
+from dalembert.arrays import Ints
 from dalembert.core.constraints import stack_rows
-from dalembert.core.layout import Layout, Pose, System
+from dalembert.core.layout import Layout, Pose, Rows, System, select_rows
 from dalembert.core.position.newton import displace, gap
 from dalembert.kernel.elimination import Row, Structural, structural
 from dalembert.kernel.graph import Graph, Node, Scalar, is_zero
@@ -38,61 +40,74 @@ class Found:
 
 def newton(m: Motion, guess: Pose, links: list[int], steps: int = STEPS) -> Found:
     """Place some links in so many steps and one; all others stand where the guess has them."""
-    pose = guess
+    m, pose = _block(m, links), guess
     for _ in range(steps):
         pose = _displace(m, pose, _step(m, pose, links), links)
-    still = _detach(m.graph, pose, links)
+    still = _detach(m, pose, links)
     dq = _step(m, still, links)
     pose = _displace(m, still, dq, links)
     last = _size(m.layout, [dq[k] for k in links])
-    far = _size(m.layout, [_difference(pose, guess, k) for k in links])
+    far = _size(m.layout, [_difference(m.layout, pose, guess, k) for k in links])
     return Found(pose, [LAST**2 - last, FAR**2 - far])
+
+
+def _block(m: Motion, links: list[int]) -> Motion:
+    """The conditions of some links among themselves and with those placed already, alone."""
+    stack, moving = m.layout.stack, set(links)
+    i, j = stack.ends
+    kept = [
+        k
+        for k in range(stack.count)
+        if (ends := {int(i[k]), int(j[k])}) & moving and ends <= moving | m.placed
+    ]
+    return replace(m, layout=_with_stack(m.layout, np.array(kept, np.intp)), target=m.target[kept])
+
+
+def _with_stack(layout: Layout, kept: Ints) -> Layout:
+    """The layout with some of its stacked rows as constraints, and no drives."""
+    s = layout.stack
+    rows = Rows(len(kept), s.links, tuple(select_rows(s, kept)), s.joint[kept], s.angular[kept])
+    return replace(layout, constraints=rows, driven=np.zeros(0, np.intp))
 
 
 def _step(m: Motion, pose: Pose, links: list[int]) -> dict[int, list[Scalar]]:
     """Newton step of some links."""
-    layout = m.layout
-    rows = stack_rows(layout, pose)
-    missing = gap(layout, pose, m.target) / layout.row_scale
-    moving = set(links)
-    kept = [
-        k
-        for k in range(len(rows.i))
-        if moving & {int(rows.i[k]), int(rows.j[k])} and _inside(m, rows, k, moving)
-    ]
-    factors = factor_rows(m.graph, rows, kept, links)
-    solution = factors.motion(np.array([missing[k] for k in kept], object))
-    return {link: list(solution[3 * n : 3 * n + 3]) for n, link in enumerate(links)}
+    rows, n = stack_rows(m.layout, pose), m.layout.algebra.n
+    factors = factor_rows(m.graph, m.layout, rows, links)
+    solution = factors.motion(gap(m.layout, pose, m.target) / m.layout.row_scale)
+    return {link: list(solution[n * k : n * (k + 1)]) for k, link in enumerate(links)}
 
 
-def _inside(m: Motion, rows: System, k: int, moving: set[int]) -> bool:
-    """Both ends are moving or placed already."""
-    return all(int(e) in moving or int(e) in m.placed for e in (rows.i[k], rows.j[k]))
-
-
-def factor_rows(graph: Graph, rows: System, kept: list[int], links: list[int]) -> Structural:
-    """Factors of some rows for the displacements of some links."""
-    place = {link: 3 * n for n, link in enumerate(links)}
+def factor_rows(graph: Graph, layout: Layout, rows: System, links: list[int]) -> Structural:
+    """Factors of rows for the displacements of some links."""
+    n = layout.algebra.n
+    place = {link: n * k for k, link in enumerate(links)}
     out: list[Row] = []
-    for k in kept:
+    for k in range(len(rows.i)):
         row: Row = {}
         for link, wrench in ((int(rows.i[k]), rows.on_i[k]), (int(rows.j[k]), rows.on_j[k])):
             if link in place:
                 row |= {place[link] + c: x for c, x in enumerate(wrench) if not is_zero(x)}
         out.append(row)
-    return structural(graph, out, 3 * len(links))
+    return structural(graph, out, n * len(links))
 
 
 def solver(graph: Graph) -> Callable[[Layout, System], Structural]:
     """What the core factors its systems with while it is traced."""
 
     def factor(layout: Layout, rows: System) -> Structural:
-        return factor_rows(graph, rows, list(range(len(rows.i))), list(range(layout.links)))
+        return factor_rows(graph, layout, rows, list(range(layout.links)))
 
     return factor
 
 
 def _displace(m: Motion, pose: Pose, dq: dict[int, list[Scalar]], links: list[int]) -> Pose:
+    if m.layout.algebra.d == 3:
+        point, rotation = pose.point.copy(), pose.rotation.copy()
+        for k in links:
+            point[k] = point[k] + dq[k][:3]
+            rotation[k] = space.compose(space.cayley(np.array(dq[k][3:], object)), rotation[k])
+        return Pose(point, pose.turn, rotation)
     step = np.full((m.layout.links, 3), 0.0, object)
     for link in links:
         step[link] = dq[link]
@@ -102,22 +117,29 @@ def _displace(m: Motion, pose: Pose, dq: dict[int, list[Scalar]], links: list[in
     return after
 
 
-def _detach(graph: Graph, pose: Pose, links: list[int]) -> Pose:
+def _detach(m: Motion, pose: Pose, links: list[int]) -> Pose:
     """The links' poses as constants to derivatives: the last step carries the derivative exactly."""
-    point, turn = pose.point.copy(), pose.turn.copy()
-    rotation = pose.rotation.copy()
+    still = m.graph.without_gradient
+    point, turn, rotation = (a.copy() for a in pose)
     for k in links:
-        point[k] = [graph.without_gradient(x) for x in point[k]]
-        turn[k] = graph.without_gradient(turn[k])
+        point[k] = [still(x) for x in point[k]]
+        if m.layout.algebra.d == 3:
+            rotation[k] = [still(x) for x in rotation[k]]
+            continue
+        turn[k] = still(turn[k])
         rotation[k] = [turn[k].cos(), turn[k].sin()]
     return Pose(point, turn, rotation)
 
 
-def _difference(a: Pose, b: Pose, k: int) -> list[Scalar]:
-    return [*(a.point[k] - b.point[k]), a.turn[k] - b.turn[k]]
+def _difference(layout: Layout, a: Pose, b: Pose, k: int) -> list[Scalar]:
+    """Shifts and turns between two poses of a link; in space the turns as a chord, 2 sin of half the angle."""
+    shift = a.point[k] - b.point[k]
+    if layout.algebra.d == 2:
+        return [*shift, a.turn[k] - b.turn[k]]
+    return [*shift, *(np.sqrt(0.5) * (a.rotation[k] - b.rotation[k]))]
 
 
 def _size(layout: Layout, dq: list[list[Scalar]]) -> Any:
     """Sum of squares of turns, and shifts over the characteristic length."""
-    scale = (1 / layout.length**2, 1 / layout.length**2, 1.0)
-    return sum((s * x * x for step in dq for s, x in zip(scale, step, strict=True)), 0.0)
+    over, d = 1 / layout.length**2, layout.algebra.d
+    return sum(((over if c < d else 1.0) * x * x for step in dq for c, x in enumerate(step)), 0.0)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import Field, ValidationInfo, model_validator
@@ -24,7 +23,7 @@ from dalembert.model.quantities.values import (
     direction_vector,
     value_text,
 )
-from dalembert.model.quantities.vectors import cross, dot
+from dalembert.model.quantities.vectors import cross, dot, unit
 from dalembert.units import quantity
 
 Matrix = tuple[Vector, Vector, Vector]
@@ -46,7 +45,7 @@ class Frame(Part):
             vector = getattr(self, key)
             if vector is not None:
                 at_item(key, direction_vector, vector)
-        if self.x is not None and self.z is not None and abs(dot(_unit(self.x), _unit(self.z))) > RIGHT:
+        if self.x is not None and self.z is not None and abs(dot(unit(self.x), unit(self.z))) > RIGHT:
             raise ModelError("x and z are not at a right angle", "turn one of them, or leave it out")
         return self
 
@@ -235,7 +234,7 @@ def _frame(own: dict[str, Vector], other: dict[str, Vector], main: str) -> Matri
     if first is None:
         return (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
     second = "z" if first == "x" else "x"
-    one = _unit(own[first])
+    one = unit(own[first])
     wanted = [v for part in (own, other) if (v := part.get(second)) is not None]
     two = next(square for v in [*wanted, *_LINK_AXES[second]] if (square := _square(v, one)) is not None)
     x, z = (one, two) if first == "x" else (two, one)
@@ -250,13 +249,8 @@ _LINK_AXES: dict[str, tuple[Vector, ...]] = {
 
 def _square(vector: Vector, axis: Vector) -> Vector | None:
     """The unit vector across an axis nearest to a vector; None where that is nearly along it."""
-    unit = _unit(vector)
-    along = dot(unit, axis)
+    one = unit(vector)
+    along = dot(one, axis)
     if abs(along) > 0.9:
         return None
-    return _unit(tuple(u - along * a for u, a in zip(unit, axis, strict=True)))
-
-
-def _unit(vector: Vector) -> Vector:
-    size = math.hypot(*vector)
-    return tuple(x / size for x in vector)
+    return unit(tuple(u - along * a for u, a in zip(one, axis, strict=True)))

@@ -2,11 +2,24 @@
 
 from __future__ import annotations
 
+import math
+
 Vector = tuple[float, float, float]
 
 
 def dot(a: tuple[float, ...], b: tuple[float, ...]) -> float:
     return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def length(a: tuple[float, ...]) -> float:
+    """Also of symbols, which are no floats."""
+    return math.hypot(*a) if all(isinstance(x, (float, int)) for x in a) else sum(x * x for x in a) ** 0.5
+
+
+def unit(a: tuple[float, ...]) -> tuple[float, ...]:
+    """The vector over its length."""
+    size = length(a)
+    return tuple(x / size for x in a)
 
 
 def cross(a: tuple[float, ...], b: tuple[float, ...]) -> Vector:

@@ -1,0 +1,121 @@
+"""Mechanisms in space: the kernel answers what the general executor answers, whatever numbers of the file vary."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.analysis.batch.careful_path import quantity
+from dalembert.analysis.batch.outputs import KINDS
+from dalembert.analysis.batch.symbolic_model import geometric
+from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
+from dalembert.core.layout import Gearing, Idle
+from dalembert.model import library
+from tests.kernel.comparing import changed, difference, every_number, general
+from tests.kernel.test_redone import both
+from tests.random_space import random_drawing, tree
+from tests.space.machines import oracle
+from tests.space.test_gears import Z, pair, wheel
+from tests.tiers import over_seeds, tiers
+
+TOLERANCE = 1e-10
+
+
+def helical_wheels() -> Any:
+    """Two wheels on parallel axes, whose teeth push them apart and along."""
+    return pair(wheel([0, 0, 0], Z, 0.05), wheel([0.15, 0, 0], Z, 0.1), [0, 0, -10.0], helix_angle=15.0)
+
+
+MACHINES: dict[str, Callable[[], Any]] = {
+    "rssr": lambda: library.rssr(positions=6),
+    "rccc": lambda: library.rccc(positions=6),
+    "rssp": lambda: library.rssp(positions=6),
+    "bennett": lambda: library.bennett(positions=6),
+    "spherical_four_bar": lambda: library.spherical_four_bar(positions=6),
+    "helical wheels": helical_wheels,
+    **{name: lambda name=name: oracle(name) for name in ("rsup", "double_cardan", "gyroscope")},  # type: ignore[misc]
+}
+
+
+def compiled(m: Any) -> Any:
+    """A kernel with every number free but those that would bring a rod's centre off the line of its two balls, which
+    nothing holds it about; and the geometry, where that may not vary."""
+    c = compile_mechanism(m, m.schedule())
+    paths = [path for path in every_number(m) if path.split(".")[1:2] not in [[rod] for rod in c.passive]]
+    kinds = c.layout.constraints.families
+    stuck = any(isinstance(f, Gearing) or (isinstance(f, Idle) and not f.stands.all()) for f in kinds)
+    return da.compile(m, vary=[path for path in paths if not (stuck and geometric(path))], lanes=1)
+
+
+def agrees(m: Any, seed: int = 1) -> Any:
+    """The file's numbers and changed ones have the general executor's answers, which is not asked."""
+    k = compiled(m)
+    r = k(np.stack([k.nominal, changed(k, seed, shape=1e-3)]))
+    for d in range(2):
+        g = general(m, k, r.values[d])
+        assert list(r.status[d]) == list(g.status)
+        assert difference(k, r, d, g) < TOLERANCE
+    return r
+
+
+QUICK = ["rccc", "helical wheels"]
+
+
+@pytest.mark.parametrize("name", tiers(QUICK, sorted(set(MACHINES) - set(QUICK))))
+def test_machines(name: str) -> None:
+    assert agrees(MACHINES[name]()).redone == 0
+
+
+@over_seeds([11], range(300), block=5)
+def test_random_mechanisms(seed: int) -> None:
+    """Of spatial mechanisms without redundant constraints."""
+    agrees(da.mechanism(tree(random_drawing(seed, redundant=False))), seed)
+
+
+def test_every_output() -> None:
+    m = MACHINES["rssr"]()
+    of = {"effort": "O", "load": "", "residual": "", "point": "rod.B"} | dict.fromkeys(
+        ("reaction", "magnitude", "moment"), "A"
+    )
+    names = [".".join(filter(None, (kind, of.get(kind.partition("_")[0], "rod")))) for kind in KINDS]
+    names = [n for n in names if n.partition(".")[0] not in ("load", "angle")]
+    k = da.compile(m, vary=["links.rocker.points.B"], outputs=names, lanes=1)
+    r = k(k.nominal + 0.001)
+    g = general(m, k, r.values[0])
+    for name in names:
+        value = quantity(g, name).reshape(r.value(name)[0].shape)
+        size = np.abs(g.force_array).max() if name == "moment.A" else max(np.abs(value).max(), 1e-3)
+        assert np.abs(r.value(name)[0] - value).max() < 1e-11 * size, name
+    assert r.reaction("A", axes="link")[0] == pytest.approx(
+        g.reaction("A", axes="link"), rel=1e-10, abs=1e-10
+    )
+
+
+def test_derivatives_and_those_from_a_solution(monkeypatch: pytest.MonkeyPatch) -> None:
+    both(oracle("hooke"), monkeypatch)
+
+
+@pytest.mark.parametrize(
+    ("machine", "path", "says"),
+    [
+        (
+            helical_wheels(),
+            "links.b.points.B",
+            "'links.b.points.B.0' places joints, and the wheels of gear 'G' in space are fitted to each other at the "
+            "first position: so it cannot vary; leave it out, or use da.dynamics or da.statics",
+        ),
+        (
+            library.rssr().with_values({"joints.O.friction": {"coefficient": 0.1, "radius": 0.01}}),
+            "links.rod.mass",
+            "friction in space cannot be compiled; leave it out, or use da.dynamics or da.statics",
+        ),
+    ],
+)
+def test_what_is_refused(machine: Any, path: str, says: str) -> None:
+    with pytest.raises(da.ModelError, match=re.escape(says)):
+        da.compile(machine, vary=[path])
