@@ -68,6 +68,13 @@ def test_the_course_of_one_drive_runs_through_its_values_in_order() -> None:
     assert along.limit(along.end, 1.0) == along.end
 
 
+def test_a_course_as_short_as_rounding_leads_nowhere() -> None:
+    c = crank([0, 1e-13])
+    along = course(c.layout, c.targets)
+    assert 0 < along.end < 1e-14
+    assert not any(along.slope(s, side).any() for s in along.s for side in (-1.0, 1.0))
+
+
 def test_the_course_of_two_drives_breaks_where_it_turns() -> None:
     """A turn and a slide: the faster of them is the parameter, the slide over the machine's length."""
     turn, slide = [0, 20, 40, 40, 40, 30], [0.1, 0.1, 0.1, 0.1, 0.3, 0.3]

@@ -54,7 +54,7 @@ class Course:
 
     def slope(self, s: float, side: float) -> Array:
         """Derivative (1, K + D) of the targets by s, on the side of a position that ``side`` has the sign of."""
-        if self.end <= 0:
+        if self.end <= NEAR:
             return np.zeros_like(self.targets[:1])
         after = s < self.end - NEAR if side > 0 else s < NEAR
         high = np.searchsorted(self.s, s + NEAR, "right") if after else np.searchsorted(self.s, s - NEAR)
