@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.degree_of_freedom import check_knowns
+from dalembert.analysis.engine.quick_pass import quick_result
 from dalembert.analysis.friction.friction_equilibrium import FrictionProblem, block_size, friction_equilibrium
 from dalembert.analysis.positions import Positions, positions
 from dalembert.analysis.result.force_arrays import Forces, concatenate_blocks
@@ -23,13 +24,21 @@ from dalembert.core.layout import Pose
 from dalembert.core.position.motion_path import BLOCK
 from dalembert.model import Mechanism, Schedule
 
+Method = Literal["auto", "careful"]
+"""``auto``: by the structure's kept program where every position is surely ok; ``careful``: never so."""
 
-def at_schedule(m: Mechanism, schedule: Schedule, inertia: bool, forces: bool = True) -> Result:
+
+def at_schedule(
+    m: Mechanism, schedule: Schedule, inertia: bool, forces: bool = True, method: Method = "auto"
+) -> Result:
     """Analysis at the positions of a schedule. What overflows or has no value becomes a status, not a warning."""
     with np.errstate(all="ignore"):
         c = compile_mechanism(m, schedule)
         if forces:
             check_knowns(c)
+            quick = quick_result(c, inertia) if method == "auto" else None
+            if quick is not None:
+                return quick
         followed = positions(c)
         if followed.path is None:
             return _nothing(followed, inertia)

@@ -71,7 +71,7 @@ def positions(c: Compiled) -> Positions:
     if mobility.redundant:
         c = replace(c, layout=replace(c.layout, redundant=True))
     motion = path(c.layout, first.pose.at(0), along, start, c.period, c.guess)
-    said = [part for part in (_mode(c, first), _ranges(c, motion)) if part]
+    said = [part for part in (mode_sentence(c, first), _ranges(c, motion)) if part]
     return Positions(wound(c, (place, stood), motion), motion, mobility, "; ".join(said) or None)
 
 
@@ -208,7 +208,7 @@ def _refuse_overdriven(c: Compiled) -> None:
         check_drives(c, free, Mobility(free.freedoms, len(c.schedule.names), free.redundant, ()))
 
 
-def _mode(c: Compiled, found: Modes) -> str | None:
+def mode_sentence(c: Compiled, found: Modes) -> str | None:
     """Which assembly mode was taken, and the others; nothing to say where the file chose it and it is the only one."""
     if found.chosen_by in ("given", "drawn"):
         return None

@@ -243,16 +243,19 @@ def _power(
     """Virtual power of all loads and efforts at unit speed of each drive, over force times velocity; no reactions."""
     if not moving.virtual.shape[-3]:
         return np.zeros_like(largest)
+    power = virtual_power(layout, moving.virtual, unknown, x, w)
+    fastest = np.abs(moving.virtual / layout.wrench_scale).max(axis=(-2, -1), initial=0.0)
+    reference = largest[..., None] * fastest
+    return np.asarray(np.abs(power / np.where(reference > 0, reference, 1.0)).max(axis=-1))
+
+
+def virtual_power(layout: Layout, v: Array, unknown: System, x: Array, w: Array) -> Array:
+    """Virtual power (..., D) of all loads and efforts at unit speed of each drive."""
     count = layout.constraints.count
-    v = moving.virtual
     power = (v[..., :-1, :] * w[..., None, :, :]).sum(axis=(-2, -1))
     asked = unknown.rows(slice(count, None))
     applied = System(*asked[:3], asked.on_i[..., None, :, :], asked.on_j[..., None, :, :])
-    power = power + (rates(applied, v) * x[..., None, count:]).sum(axis=-1)
-    scale = layout.wrench_scale
-    fastest = np.abs(v / scale).max(axis=(-2, -1), initial=0.0)
-    reference = largest[..., None] * fastest
-    return np.asarray(np.abs(power / np.where(reference > 0, reference, 1.0)).max(axis=-1))
+    return np.asarray(power + (rates(applied, v) * x[..., None, count:]).sum(axis=-1))
 
 
 def _screw_rows(g: Algebra, constraints: Rows, pose: Pose, rows: System) -> Iterator[tuple[int, Array]]:

@@ -142,17 +142,24 @@ class Node:
             raise TypeError(f"a traced value that changes along the motion has no truth: {self!r}")
         return float(self.graph.evaluate([self], {})[0])
 
+    def _decide(self, answer: bool, larger: Scalar, smaller: Scalar) -> bool:
+        """An answer, remembered with what is below zero where other numbers would give another one."""
+        margin = larger - smaller if answer else smaller - larger
+        if isinstance(margin, Node) and margin.level != CONSTANT:
+            self.graph.decisions.append(margin)
+        return answer
+
     def __lt__(self, other: Scalar) -> bool:
-        return bool(self._decision() < _number(other))
+        return self._decide(self._decision() < _number(other), other, self)
 
     def __gt__(self, other: Scalar) -> bool:
-        return bool(self._decision() > _number(other))
+        return self._decide(self._decision() > _number(other), self, other)
 
     def __le__(self, other: Scalar) -> bool:
-        return bool(self._decision() <= _number(other))
+        return self._decide(self._decision() <= _number(other), other, self)
 
     def __ge__(self, other: Scalar) -> bool:
-        return bool(self._decision() >= _number(other))
+        return self._decide(self._decision() >= _number(other), self, other)
 
     def __bool__(self) -> bool:
         """Not zero whatever the numbers."""
@@ -179,6 +186,7 @@ class Graph:
         self.names: dict[int, str] = {}
         self.nominal: dict[int, Numeric] = {}
         self.samples: dict[int, Numeric] = {}
+        self.decisions: list[Node] = []
         self.zero, self.one = self.constant(0.0), self.constant(1.0)
 
     def constant(self, value: SupportsFloat) -> Node:

@@ -11,7 +11,16 @@ import numpy as np
 from dalembert.arrays import Array
 from dalembert.core import forcing as fc
 from dalembert.core.constraints import measure
-from dalembert.core.equilibrium import Balance, Known, Statement, known_sources, motion, reactions, statement
+from dalembert.core.equilibrium import (
+    Balance,
+    Known,
+    Statement,
+    known_sources,
+    motion,
+    reactions,
+    statement,
+    virtual_power,
+)
 from dalembert.core.equilibrium import Motion as Moving
 from dalembert.core.forcing import Forcing, pair, total_wrench
 from dalembert.core.friction.contact_equations import Contacts
@@ -74,7 +83,12 @@ class Problem:
 
 @dataclass(frozen=True)
 class Traced:
-    """Everything that can be asked for, as nodes: arrays as in a ``Result`` without the position axis."""
+    """Everything that can be asked for, as nodes: arrays as in a ``Result`` without the position axis.
+
+    closure: those doubts that are squares of what vanishes at a dead centre. unbalanced and loads (L, n): what is left
+    of all wrenches on a link, and those that are no reactions; virtual (D, L+1, n) twists at unit speed of each drive,
+    power (D,) of loads and efforts there.
+    """
 
     pose: Pose
     twist: Array
@@ -84,7 +98,12 @@ class Traced:
     effort: Array
     load: Array
     residual: Node
+    unbalanced: Array
+    loads: Array
+    virtual: Array
+    power: Array
     open: list[Node]
+    closure: list[Node]
     doubt: list[Node]
     friction: FrictionTrace
     flips: bool
@@ -108,6 +127,7 @@ def trace(p: Problem) -> Traced:
     found = Balance(x[:count], effort, x[count + asked :], *(np.zeros(0),) * 3, None, pushed)
     force, couple = reactions(layout, pose, rows, found)
     g = p.graph
+    reacted = total_wrench(layout, pair(s.unknown, x))
     return Traced(
         pose=pose,
         twist=trace_array(g, moving.twist),
@@ -116,8 +136,13 @@ def trace(p: Problem) -> Traced:
         moment=trace_array(g, couple.reshape(friction.moment.shape) + friction.moment),
         effort=trace_array(g, effort),
         load=trace_array(g, found.load),
-        residual=_residual(g, layout, total_wrench(layout, pair(s.unknown, x)), friction.total),
+        residual=_residual(g, layout, reacted, friction.total),
+        unbalanced=trace_array(g, reacted + friction.total),
+        loads=trace_array(g, friction.total),
+        virtual=trace_array(g, moving.virtual),
+        power=trace_array(g, virtual_power(layout, moving.virtual, s.unknown, x, friction.total)),
         open=placed.open,
+        closure=placed.doubt,
         doubt=[
             *apart,
             *placed.doubt,

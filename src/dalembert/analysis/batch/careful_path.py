@@ -117,7 +117,7 @@ def analyse_design(
         return np.full(count, CODES.index("failed"), np.uint8), None
     try:
         design = with_numbers(m, numbers, values.tolist())
-        result = at_schedule(design, _schedule(design, schedule), inertia)
+        result = at_schedule(design, _schedule(design, schedule), inertia, method="careful")
     except DalembertError:
         return np.full(count, CODES.index("failed"), np.uint8), None
     marks = [CODES.index(s) if s in CODES else CODES.index("failed") for s in result.status]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -163,11 +164,10 @@ def characteristic_length(m: Mechanism) -> float:
     for name, joint in m.joints.items():
         for link, u in zip(joint.links, m.joint_points(name), strict=True):
             at.setdefault(link, []).append(tuple(u))
-    for points in at.values():
-        p = np.unique(np.array(points), axis=0)  # distances, not extents: the same in whatever axes
-        spans.append(float(max(np.linalg.norm(p - u, axis=-1).max() for u in p)))
+    for points in at.values():  # distances, not extents: the same in whatever axes
+        spans.append(max(math.dist(u, v) for u in points for v in points))
     spans = [s for s in spans if s > 0]
-    return float(np.mean(spans)) if spans else 1.0
+    return math.fsum(spans) / len(spans) if spans else 1.0
 
 
 def _driven_freedom(m: Mechanism, drive: str) -> tuple[str, str]:

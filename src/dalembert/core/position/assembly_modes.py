@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dalembert.arrays import Array, Ints
+from dalembert.arrays import Array, Flags, Ints
 from dalembert.core.constraints import measure
-from dalembert.core.layout import Layout, Meet, Pose, Rows, Turn
+from dalembert.core.layout import Layout, Meet, Pose, Turn
 from dalembert.core.position.assur_plan import Plan
 from dalembert.core.position.dyads import Laid, offsets, place_ground, place_group, sides
 
@@ -153,21 +153,19 @@ def wrap_angle(angle: Array) -> Array:
 
 def remove_whole_turns(layout: Layout, pose: Pose) -> Pose:
     """Whole turns taken off links whose angle no row of the system counts."""
-    counted = {int(k) for rows in (layout.constraints, layout.freedoms) for k in _counted_links(layout, rows)}
     turn = pose.turn.copy()
-    free = [k for k in range(layout.links) if k not in counted]
+    free = np.flatnonzero(~counted_links(layout))
     turn[..., free] = wrap_angle(turn[..., free])
     return Pose(pose.point, turn, pose.rotation)
 
 
-def _counted_links(layout: Layout, rows: Rows) -> list[int]:
-    driven = set(layout.driven.tolist()) if rows is layout.freedoms else None
-    out: list[int] = []
-    for f in rows.families:
+def counted_links(layout: Layout) -> Flags:
+    """Links (L,) whose whole turns some row of the system counts."""
+    counted = np.zeros(layout.links + 1, bool)
+    for f in layout.stack.families:
         if isinstance(f, Turn):
-            keep = [driven is None or int(k) in driven for k in f.row]
-            out += f.i[keep].tolist() + f.j[keep].tolist()
-    return out
+            counted[f.i] = counted[f.j] = True
+    return counted[:-1]
 
 
 def distinct(layout: Layout, pose: Pose) -> Pose:

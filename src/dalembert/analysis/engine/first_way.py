@@ -1,0 +1,84 @@
+"""Which way every group closes at the first position: as the careful path decides it, by the angles that are given."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from dalembert.analysis.compile.compiled_mechanism import Compiled
+from dalembert.analysis.engine.kept_program import KeptProgram
+from dalembert.analysis.positions import mode_sentence
+from dalembert.arrays import Array
+from dalembert.core.position.assembly_modes import NEAR, wrap_angle
+from dalembert.core.position.first_pose_plane import Guess
+
+AGREES = 1e-6
+"""Difference of rotations above which a pose is another one."""
+
+
+class First(NamedTuple):
+    """The ways of the groups, the links' angles (L,) there, and the sentence on the assembly mode."""
+
+    ways: tuple[float, ...]
+    turn: Array
+    mode: str | None
+
+
+def first_way(k: KeptProgram, c: Compiled, given: list[Any]) -> First | None:
+    """The ways that the careful path takes at the first position; None where something is in doubt there."""
+    return _by_given_angles(k, c, given) or _by_search(k, c, given)
+
+
+def _tried(k: KeptProgram, given: list[Any], ways: Array) -> tuple[Array, Array]:
+    """Cosines and sines (2, L, W) of the first position for ways (G, W), and closure (M, W)."""
+    rotation, closure = k.nodes["rotation"], k.nodes["closure"]
+    out = np.empty((rotation.size + closure.size, ways.shape[1]))
+    with np.errstate(all="ignore"):
+        k.try_ways([*given, *ways], out)
+    return out[: rotation.size].reshape(*rotation.shape, -1), out[rotation.size :]
+
+
+def _by_given_angles(k: KeptProgram, c: Compiled, given: list[Any]) -> First | None:
+    """The ways that were taken when it was traced, where they put all given links near their angles and no others do.
+
+    Every other set of ways differs first in some group, the groups before it standing as they do here.
+    """
+    guess = c.guess
+    assert isinstance(guess, Guess)
+    told = np.isfinite(guess.turn[:-1])
+    if not told.any() or (k.counted & ~k.fixed & ~told).any() or np.isfinite(guess.point[:-1]).any():
+        return None
+    count = len(k.ways)
+    flips = 1.0 - 2.0 * np.eye(count, count + 1, 1)
+    rotation, closure = _tried(k, given, np.array(k.ways)[:, None] * flips)
+    angle = np.arctan2(rotation[1], rotation[0]).T
+    wanted = np.where(told, guess.turn[:-1], angle[0])
+    off = wrap_angle(angle - wanted)
+    if not ((closure[:, 0] >= 0).all() and (off[0] ** 2).sum() < NEAR**2):
+        return None
+    other = np.where(k.last == np.arange(count)[:, None], np.abs(off[1:]) * told, 0.0)
+    if not (other.max(axis=1, initial=0.0) > NEAR).all():
+        return None
+    return First(k.ways, np.where(k.counted, wanted + off[0], angle[0]), None)
+
+
+def _by_search(k: KeptProgram, c: Compiled, given: list[Any]) -> First | None:
+    """The ways of the pose that a search for the first pose finds."""
+    modes = c.guess.modes(c.layout, c.targets[0])
+    if modes is None:
+        return None
+    pose = modes.pose.at(0)
+    stands = pose.rotation[:-1].T[..., None]
+    own = np.array(k.ways)
+    for group in range(len(own)):
+        ways = np.stack([own, own], axis=1)
+        ways[group, 1] *= -1
+        rotation, _ = _tried(k, given, ways)
+        off = np.abs(rotation - stands)[:, k.last == group].max(axis=(0, 1), initial=0.0)
+        if off[1] < off[0]:
+            own = ways[:, 1]
+    rotation, closure = _tried(k, given, own[:, None])
+    if not ((closure >= 0).all() and (np.abs(rotation - stands) < AGREES).all()):
+        return None
+    return First(tuple(own.tolist()), pose.turn[:-1], mode_sentence(c, modes))

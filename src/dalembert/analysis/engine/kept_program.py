@@ -1,0 +1,220 @@
+"""One structure's program: traced once along a known motion, then a function of numbers.
+
+Every way a group closes is an input here, 1 or -1: which one it is, the first pose decides (``first_way``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from dalembert.analysis.compile.compiled_mechanism import Compiled
+from dalembert.analysis.engine.flat_numbers import Numbers, with_nodes
+from dalembert.arrays import Array, Flags, Ints, Numeric
+from dalembert.core.layout import Pose
+from dalembert.core.position.assembly_modes import counted_links
+from dalembert.kernel.emit.numpy_function import numpy_function
+from dalembert.kernel.graph import CONSTANT, INPUTS, Graph, Node, Scalar, trace_array
+from dalembert.kernel.position.plane_vectors import Pair
+from dalembert.kernel.trace import Drives, Problem, Traced, trace
+
+KEPT = (
+    *("closure", "point", "rotation", "turn", "twist", "acceleration"),
+    *("effort", "load", "force", "moment"),
+)
+CHECKS = ("loads", "unbalanced", "virtual", "power", "margin")
+"""What a program computes, in the order of its outputs: what an answer keeps, and what only checks it.
+
+closure: squares of what vanishes at dead centres; these and ``margin`` are negative, or no number, where something is
+in doubt.
+"""
+
+
+@dataclass(frozen=True)
+class KeptProgram:
+    """A traced structure: inputs (numbers, columns, then ways), arrays of nodes by name, and the ways it was traced in.
+
+    ``fixed`` (L,): links whose angle the drives alone give; ``counted``: those whose whole turns some row counts;
+    ``last``: the last way that a link's rotation depends on, -1 for none. ``driven``: the drives whose positions are
+    inputs, which are the first columns.
+    """
+
+    graph: Graph
+    inputs: tuple[Node, ...]
+    nodes: dict[str, Array]
+    ways: tuple[float, ...]
+    fixed: Flags
+    counted: Flags
+    last: Ints
+    driven: tuple[int, ...]
+
+    @cached_property
+    def rows(self) -> dict[str, slice]:
+        """Rows of the outputs of each array."""
+        ends = np.cumsum([0, *(self.nodes[name].size for name in (*KEPT, *CHECKS))]).tolist()
+        return {name: slice(*ends[k : k + 2]) for k, name in enumerate((*KEPT, *CHECKS))}
+
+    @property
+    def kept(self) -> int:
+        """How many outputs an answer keeps."""
+        return self.rows[CHECKS[0]].start
+
+    @property
+    def size(self) -> int:
+        """How many outputs there are."""
+        return self.rows[CHECKS[-1]].stop
+
+    @cached_property
+    def run(self) -> Callable[[Sequence[Numeric], Array], None]:
+        """All outputs at positions."""
+        outputs = [n for name in (*KEPT, *CHECKS) for n in self.nodes[name].ravel()]
+        return numpy_function(self.graph, self.inputs, outputs, many=False)
+
+    @cached_property
+    def try_ways(self) -> Callable[[Sequence[Numeric], Array], None]:
+        """Rotations, then closure, of one position for several ways side by side."""
+        nodes = [n for name in ("rotation", "closure") for n in self.nodes[name].ravel()]
+        return numpy_function(self.graph, self.inputs, nodes, many=True)
+
+    @cached_property
+    def moments(self) -> Flags:
+        """Which rows of forces, moments and loads are moments."""
+        of = [np.zeros(self.nodes["force"].shape, bool), np.ones(self.nodes["moment"].shape, bool)]
+        couples = np.zeros(self.nodes["loads"].shape, bool)
+        couples[..., 2] = True
+        return np.concatenate([a.ravel() for a in (*of, couples)])
+
+    def part(self, name: str, out: Array) -> Array:
+        """One array (P, ...) of outputs (N, P)."""
+        shape = self.nodes[name].shape
+        whole = out[self.rows[name]].reshape(*shape, out.shape[1])
+        return whole.transpose(len(shape), *range(len(shape)))
+
+
+def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) -> KeptProgram | None:
+    """The program of a mechanism whose motion at its positions is known; None where it needs more than its numbers."""
+    graph = Graph()
+    symbols = with_nodes(graph, c, numbers)
+    position, speed, acceleration = symbols.drives
+    angular = c.layout.freedoms.angular[c.layout.driven]
+    cosine, sine = (
+        np.array(
+            [_circular(f, q) if turns else graph.zero for q, turns in zip(position, angular, strict=True)],
+            object,
+        )
+        for f in ("cos", "sin")
+    )
+    drives = Drives(position, cosine, sine, speed, acceleration)
+    known: dict[tuple[str, int], Node] = {}
+    ways = _Ways(graph, pose)
+
+    def path(what: str, which: int) -> Node:
+        if (what, which) not in known:
+            known[what, which] = graph.input("channel", f"known {what} {which}", _known(pose, what, which))
+        return known[what, which]
+
+    symbolic = symbols.compiled
+    problem = Problem(
+        graph=graph,
+        layout=symbolic.layout,
+        forcing=symbolic.forcing,
+        known=symbolic.known,
+        target=symbols.target,
+        drives=drives,
+        first=drives,
+        like=c.layout,
+        like_target=c.targets[0],
+        guess=c.guess,
+        inertia=inertia,
+        path=path,
+        first_path=path,
+        signs=ways,
+        contacts=None,
+        slips=None,
+        reversals=None,
+        margins={},
+    )
+    try:
+        traced = trace(problem)
+    except (ValueError, TypeError, KeyError):  # no closed form, or none that its numbers alone decide
+        return None
+    inputs = (*symbols.inputs, *ways.inputs)
+    found = _kept(graph, inputs, traced, ways, position, c)
+    needs = {
+        n.index for n in graph.order([n for a in found.nodes.values() for n in a.ravel()]) if n.op in INPUTS
+    }
+    return found if needs <= {n.index for n in inputs} else None
+
+
+def _circular(f: str, angle: Scalar) -> Scalar:
+    node: Scalar = getattr(angle, f)()
+    return node
+
+
+def _known(pose: Pose, what: str, which: int) -> Array:
+    columns = {"x": pose.point[:, which, 0], "y": pose.point[:, which, 1], "turn": pose.turn[:, which]}
+    columns |= {"turn cos": pose.rotation[:, which, 0], "turn sin": pose.rotation[:, which, 1]}
+    if what not in columns:
+        raise KeyError(what)
+    return columns[what]
+
+
+class _Ways:
+    """Inputs for the ways that groups close, met one after the other as the trace goes on."""
+
+    def __init__(self, graph: Graph, pose: Pose) -> None:
+        self.graph, self.pose, self.inputs = graph, pose, list[Node]()
+
+    def __call__(self, plus: Pair, minus: Pair, a: int, b: int) -> Node:
+        nodes = [n if isinstance(n, Node) else self.graph.constant(n) for n in (*plus, *minus)]
+        pc, ps, mc, ms = self.graph.evaluate(nodes, {})
+        r = self.pose.rotation
+        cos = r[:, a, 0] * r[:, b, 0] + r[:, a, 1] * r[:, b, 1]
+        sin = r[:, a, 0] * r[:, b, 1] - r[:, a, 1] * r[:, b, 0]
+        nearer = np.hypot(mc - cos, ms - sin) - np.hypot(pc - cos, ps - sin)
+        way = np.sign(np.nanmean(np.sign(nearer)))
+        if not (way * nearer >= 0).all() or way == 0:
+            raise ValueError("the way a group closes changes along the motion")
+        self.inputs.append(self.graph.input("common", f"way {len(self.inputs)}", float(way)))
+        return self.inputs[-1]
+
+
+def _kept(
+    graph: Graph, inputs: tuple[Node, ...], t: Traced, ways: _Ways, position: Array, c: Compiled
+) -> KeptProgram:
+    links = c.layout.links
+    known = {n.index for n in inputs}
+    fixed = np.array([_needs(graph, t.pose.turn[k]) <= known for k in range(links)], bool)
+    closure = {n.index: n for n in t.closure if n.level != CONSTANT}
+    margin = {n.index: n for n in (*t.open, *t.doubt, *graph.decisions) if n.level != CONSTANT}
+    place = {n.index: k for k, n in enumerate(ways.inputs)}
+    depends = [
+        max((place[x] for n in t.pose.rotation[k] for x in _needs(graph, n) if x in place), default=-1)
+        for k in range(links)
+    ]
+    nodes = {
+        "closure": np.array(list(closure.values()), object),
+        "point": t.pose.point[:-1],
+        "rotation": t.pose.rotation[:-1].T,  # cosines, then sines
+        "turn": trace_array(graph, np.where(fixed, t.pose.turn[:-1], 0.0)),
+        "twist": t.twist[:-1],
+        "acceleration": t.acceleration[:-1],
+        **{
+            name: getattr(t, name)
+            for name in ("effort", "load", "force", "moment", "loads", "unbalanced", "power")
+        },
+        "virtual": t.virtual[:, :-1],
+        "margin": np.array([n for k, n in margin.items() if k not in closure], object),
+    }
+    found = tuple(float(graph.nominal[n.index]) for n in ways.inputs)
+    driven = tuple(k for k, q in enumerate(position) if q.op in INPUTS)
+    counted = counted_links(c.layout)
+    return KeptProgram(graph, inputs, nodes, found, fixed, counted, np.array(depends, np.intp), driven)
+
+
+def _needs(graph: Graph, node: Node) -> set[int]:
+    """Inputs behind a node."""
+    return {n.index for n in graph.order([node]) if n.op in INPUTS}
