@@ -5,7 +5,6 @@ Every way a group closes is an input here, 1 or -1: which one it is, the first p
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,10 +12,10 @@ import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.engine.flat_numbers import Numbers, with_nodes
-from dalembert.arrays import Array, Flags, Ints, Numeric
+from dalembert.arrays import Array, Flags, Ints
 from dalembert.core.layout import Pose
 from dalembert.core.position.assembly_modes import counted_links
-from dalembert.kernel.emit.numpy_function import numpy_function
+from dalembert.kernel.emit.numpy_program import NumpyProgram
 from dalembert.kernel.graph import CONSTANT, INPUTS, Graph, Node, Scalar, trace_array
 from dalembert.kernel.position.plane_vectors import Pair
 from dalembert.kernel.trace import Drives, Problem, Traced, trace
@@ -68,16 +67,16 @@ class KeptProgram:
         return self.rows[CHECKS[-1]].stop
 
     @cached_property
-    def run(self) -> Callable[[Sequence[Numeric], Array], None]:
+    def run(self) -> NumpyProgram:
         """All outputs at positions."""
         outputs = [n for name in (*KEPT, *CHECKS) for n in self.nodes[name].ravel()]
-        return numpy_function(self.graph, self.inputs, outputs, many=False)
+        return NumpyProgram(self.graph, self.inputs, outputs)
 
     @cached_property
-    def try_ways(self) -> Callable[[Sequence[Numeric], Array], None]:
+    def try_ways(self) -> NumpyProgram:
         """Rotations, then closure, of one position for several ways side by side."""
         nodes = [n for name in ("rotation", "closure") for n in self.nodes[name].ravel()]
-        return numpy_function(self.graph, self.inputs, nodes, many=True)
+        return NumpyProgram(self.graph, self.inputs, nodes, many=True)
 
     @cached_property
     def moments(self) -> Flags:
@@ -141,12 +140,7 @@ def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) ->
         traced = trace(problem)
     except (ValueError, TypeError, KeyError):  # no closed form, or none that its numbers alone decide
         return None
-    inputs = (*symbols.inputs, *ways.inputs)
-    found = _kept(graph, inputs, traced, ways, position, c)
-    needs = {
-        n.index for n in graph.order([n for a in found.nodes.values() for n in a.ravel()]) if n.op in INPUTS
-    }
-    return found if needs <= {n.index for n in inputs} else None
+    return _kept(graph, (*symbols.inputs, *ways.inputs), traced, ways, position, c)
 
 
 def _circular(f: str, angle: Scalar) -> Scalar:
@@ -184,17 +178,11 @@ class _Ways:
 
 def _kept(
     graph: Graph, inputs: tuple[Node, ...], t: Traced, ways: _Ways, position: Array, c: Compiled
-) -> KeptProgram:
-    links = c.layout.links
-    known = {n.index for n in inputs}
-    fixed = np.array([_needs(graph, t.pose.turn[k]) <= known for k in range(links)], bool)
+) -> KeptProgram | None:
+    needs = _needs(graph, ways.inputs, {n.index for n in inputs})
+    fixed = np.array([needs[n.index] >= 0 for n in t.pose.turn[:-1]], bool)
     closure = {n.index: n for n in t.closure if n.level != CONSTANT}
     margin = {n.index: n for n in (*t.open, *t.doubt, *graph.decisions) if n.level != CONSTANT}
-    place = {n.index: k for k, n in enumerate(ways.inputs)}
-    depends = [
-        max((place[x] for n in t.pose.rotation[k] for x in _needs(graph, n) if x in place), default=-1)
-        for k in range(links)
-    ]
     nodes = {
         "closure": np.array(list(closure.values()), object),
         "point": t.pose.point[:-1],
@@ -209,12 +197,23 @@ def _kept(
         "virtual": t.virtual[:, :-1],
         "margin": np.array([n for k, n in margin.items() if k not in closure], object),
     }
+    if any(needs[n.index] < 0 for a in nodes.values() for n in a.ravel()):
+        return None
+    last = [max(needs[n.index].bit_length() for n in pair) - 1 for pair in t.pose.rotation[:-1]]
     found = tuple(float(graph.nominal[n.index]) for n in ways.inputs)
     driven = tuple(k for k, q in enumerate(position) if q.op in INPUTS)
     counted = counted_links(c.layout)
-    return KeptProgram(graph, inputs, nodes, found, fixed, counted, np.array(depends, np.intp), driven)
+    return KeptProgram(graph, inputs, nodes, found, fixed, counted, np.array(last, np.intp), driven)
 
 
-def _needs(graph: Graph, node: Node) -> set[int]:
-    """Inputs behind a node."""
-    return {n.index for n in graph.order([node]) if n.op in INPUTS}
+def _needs(graph: Graph, ways: list[Node], known: set[int]) -> list[int]:
+    """The ways that each node depends on, as bits; -1 where it needs an input that is not known."""
+    bits = {n.index: 1 << k for k, n in enumerate(ways)}
+    out: list[int] = []
+    for n in graph.nodes:
+        if n.a is not None:
+            a, b = out[n.a.index], out[(n.b or n.a).index]
+            out.append(-1 if a < 0 or b < 0 else a | b)
+        else:
+            out.append(-1 if n.op in INPUTS and n.index not in known else bits.get(n.index, 0))
+    return out

@@ -173,7 +173,7 @@ def _evaluate(
             part = slice(start, start + BLOCK)
             here = work[:, : min(BLOCK, count - start)]
             try:
-                k.run([*single, *columns[:, part], *ways], here)
+                k.run([*single, *_at(columns, part), *ways], here)
             except (ArithmeticError, ValueError):
                 return None
             residual[part], power[part] = _checks(k, c, here)
@@ -182,6 +182,11 @@ def _evaluate(
             if count > BLOCK:
                 out[:, part] = here[: k.kept]
     return _Found(out, residual, power)
+
+
+def _at(columns: Array, part: slice) -> list[Any]:
+    """Columns at some positions; of one position single numbers, which are quicker to compute with."""
+    return list(columns[:, part]) if columns.shape[1] > 1 else columns[:, 0].tolist()
 
 
 def _sure(k: KeptProgram, out: Array) -> bool:

@@ -99,7 +99,10 @@ class Groups(Parts):
     def triples(self) -> bool:
         found = self.between()
         parts = sorted(self.part, key=lambda k: k != self.owner[self.ground])
-        near = {k: {b for pair in found for b in pair if k in pair and b != k} for k in parts}
+        near: dict[int, set[int]] = {k: set() for k in parts}
+        for a, b in found:
+            near[a].add(b)
+            near[b].add(a)
         for a in parts:
             for b, c in combinations(sorted(near[a]), 2):
                 if c in near[b] and self.triple(a, b, c, found):
