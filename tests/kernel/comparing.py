@@ -69,7 +69,8 @@ def changed(k: Any, seed: int, shape: float, rest: float = 0.3) -> np.ndarray:
 def general(m: Any, k: Any, values: np.ndarray) -> Any:
     """The general executor's answer for one design."""
     design = with_numbers(m, k.trace.numbers, values.tolist())
-    return da.dynamics(design) if k.trace.inertia else da.statics(design)
+    run = da.dynamics if k.trace.inertia else da.statics
+    return run(design, method="careful")
 
 
 def difference(k: Any, r: Any, d: int, g: Any) -> float:

@@ -8,7 +8,8 @@ core unchanged.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+import operator
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, SupportsFloat
 
 import numpy as np
@@ -19,6 +20,18 @@ from dalembert.kernel.operations import EVALUATE, not_negative
 INPUTS = ("number", "common", "channel")
 CONSTANT, DESIGN, POSITION = 0, 1, 2
 """What a node depends on, as bits: nothing, the design's numbers, the position of the drives."""
+
+
+def _comparison(compare: Callable[[float, float], bool]) -> Callable[[Node, Scalar], bool]:
+    def decided(self: Node, other: Scalar) -> bool:
+        """The answer, remembered with what is below zero where other numbers would give another one."""
+        answer = compare(self._decision(), other._decision() if type(other) is Node else float(other))
+        margin = self - other if answer == (compare in (operator.gt, operator.ge)) else other - self
+        if margin.level != CONSTANT:
+            self.graph.decisions.append(margin)
+        return answer
+
+    return decided
 
 
 class Node:
@@ -78,9 +91,6 @@ class Node:
 
     def __neg__(self) -> Node:
         return self.graph.neg(self)
-
-    def __pos__(self) -> Node:
-        return self
 
     def __abs__(self) -> Node:
         return self.graph.unary("abs", self)
@@ -142,24 +152,8 @@ class Node:
             raise TypeError(f"a traced value that changes along the motion has no truth: {self!r}")
         return float(self.graph.evaluate([self], {})[0])
 
-    def _decide(self, answer: bool, larger: Scalar, smaller: Scalar) -> bool:
-        """An answer, remembered with what is below zero where other numbers would give another one."""
-        margin = larger - smaller if answer else smaller - larger
-        if isinstance(margin, Node) and margin.level != CONSTANT:
-            self.graph.decisions.append(margin)
-        return answer
-
-    def __lt__(self, other: Scalar) -> bool:
-        return self._decide(self._decision() < _number(other), other, self)
-
-    def __gt__(self, other: Scalar) -> bool:
-        return self._decide(self._decision() > _number(other), self, other)
-
-    def __le__(self, other: Scalar) -> bool:
-        return self._decide(self._decision() <= _number(other), other, self)
-
-    def __ge__(self, other: Scalar) -> bool:
-        return self._decide(self._decision() >= _number(other), self, other)
+    __lt__, __gt__ = _comparison(operator.lt), _comparison(operator.gt)
+    __le__, __ge__ = _comparison(operator.le), _comparison(operator.ge)
 
     def __bool__(self) -> bool:
         """Not zero whatever the numbers."""
@@ -381,10 +375,6 @@ class Graph:
                 if node.b is not None:
                     stack.append(node.b)
         return [needed[k] for k in sorted(needed)]
-
-
-def _number(x: Scalar) -> float:
-    return x._decision() if type(x) is Node else float(x)
 
 
 def is_zero(x: Scalar) -> bool:

@@ -1,5 +1,5 @@
-"""Answers from programs that are kept: one trace a structure, evaluated for any numbers in it at any positions.
+"""Answers from kept programs: a structure is traced once, then evaluated for any numbers in it at any positions.
 
-What comes in is a compiled mechanism, what goes out a ``Result``, or none where the careful path has to look
-(``analysis.one_pass``): where no program is kept yet, the linkage does not close, or something is in doubt.
+In: a compiled mechanism of the plane. Out: a ``Result`` whose positions are all ok, or none where the careful path
+(``analysis.one_pass``) has to look: wheels in mesh, friction, groups without closed form, gaps, dead centres, doubt.
 """

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
-from dalembert.arrays import Array, Ints
+from dalembert.arrays import Array, Flags, Ints, Tree
 from dalembert.core.equilibrium import Known
 from dalembert.core.forcing import Forcing
 from dalembert.core.layout import Rows
@@ -31,7 +31,7 @@ class Numbers(NamedTuple):
     single: Array
     which: Ints
     columns: Array
-    constant: Array  # (C,) value of a column that is 0 throughout, NaN of others
+    constant: Array  # (C,) 0 or NaN where a column is that throughout (never of positions), else 1
 
 
 def flat_numbers(c: Compiled) -> Numbers:
@@ -48,13 +48,26 @@ def flat_numbers(c: Compiled) -> Numbers:
             single.append(array.ravel())
             rows.append(array.shape)
     values = np.concatenate(single)
-    different, which = np.unique(values, return_inverse=True)
-    special = different[np.abs(different) < 2]
+    different, which = _by_first_place(values)
     columns = np.concatenate(along, axis=1).T
     constant = np.where((columns == 0).all(axis=1), 0.0, np.where(np.isnan(columns).all(axis=1), np.nan, 1.0))
-    marks = np.flatnonzero(np.isin(different, (0.0, 1.0, -1.0))).tobytes() if special.size else b""
-    key = (*rows, which.tobytes(), marks, constant.tobytes())
+    constant[: len(c.schedule.names)] = 1.0
+    key = (*rows, which.tobytes(), np.where(_fixed(different), different, 2.0).tobytes(), constant.tobytes())
     return Numbers(key, different, which, columns, constant)
+
+
+def _by_first_place(values: Array) -> tuple[Array, Ints]:
+    """The different values, in the order in which they first occur, and which of them stands at each place."""
+    different, first, which = np.unique(values, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    return different[order], rank[which]
+
+
+def _fixed(different: Array) -> Flags:
+    """Numbers that are part of the structure: 0, 1 and -1."""
+    return np.asarray((different == 0) | (np.abs(different) == 1))
 
 
 def _arrays(c: Compiled) -> Iterator[tuple[Any, Array]]:
@@ -99,15 +112,12 @@ class _Nodes:
         return replace(rows, families=tuple(families))
 
     def forcing(self, forcing: Forcing) -> Forcing:
-        parts = {}
+        parts: Tree = {}
         for part in fields(Forcing):
-            whole = getattr(forcing, part.name)
-            if is_dataclass(whole):
-                parts[part.name] = type(whole)(
-                    **{n: self.array((part.name, n), a) for n, a in vars(whole).items()}
-                )
-            else:
-                parts[part.name] = self.array(part.name, whole)
+            whole: Any = getattr(forcing, part.name)
+            own = vars(whole).items() if is_dataclass(whole) else ()
+            inside = {name: self.array((part.name, name), array) for name, array in own}
+            parts[part.name] = type(whole)(**inside) if inside else self.array(part.name, whole)
         return Forcing(**parts)
 
 
@@ -123,7 +133,7 @@ class Symbols:
 
 def with_nodes(graph: Graph, c: Compiled, numbers: Numbers) -> Symbols:
     """The mechanism with an input in place of every number that is not 0, 1 or -1 (of a column: not 0)."""
-    fixed = np.isin(numbers.single, (0.0, 1.0, -1.0))
+    fixed = _fixed(numbers.single)
     different: list[Node | float] = [
         float(x) if same else graph.input("number", f"number {k}", float(x))
         for k, (x, same) in enumerate(zip(numbers.single, fixed, strict=True))
@@ -150,5 +160,5 @@ def with_nodes(graph: Graph, c: Compiled, numbers: Numbers) -> Symbols:
 
 def values(numbers: Numbers) -> tuple[list[float], Array]:
     """The values of the inputs that ``with_nodes`` makes: numbers, then columns (C, P)."""
-    free = ~np.isin(numbers.single, (0.0, 1.0, -1.0))
+    free = ~_fixed(numbers.single)
     return numbers.single[free].tolist(), numbers.columns[numbers.constant == 1.0]

@@ -59,12 +59,12 @@ class KeptProgram:
     @property
     def kept(self) -> int:
         """How many outputs an answer keeps."""
-        return self.rows[CHECKS[0]].start
+        return int(self.rows[CHECKS[0]].start)
 
     @property
     def size(self) -> int:
         """How many outputs there are."""
-        return self.rows[CHECKS[-1]].stop
+        return int(self.rows[CHECKS[-1]].stop)
 
     @cached_property
     def run(self) -> NumpyProgram:
@@ -169,8 +169,8 @@ class _Ways:
         cos = r[:, a, 0] * r[:, b, 0] + r[:, a, 1] * r[:, b, 1]
         sin = r[:, a, 0] * r[:, b, 1] - r[:, a, 1] * r[:, b, 0]
         nearer = np.hypot(mc - cos, ms - sin) - np.hypot(pc - cos, ps - sin)
-        way = np.sign(np.nanmean(np.sign(nearer)))
-        if not (way * nearer >= 0).all() or way == 0:
+        way = np.sign(np.sign(nearer).sum())
+        if not way * nearer.min() * nearer.max() * way > 0:
             raise ValueError("the way a group closes changes along the motion")
         self.inputs.append(self.graph.input("common", f"way {len(self.inputs)}", float(way)))
         return self.inputs[-1]

@@ -1,0 +1,1 @@
+"""Answers of kept programs beside those of the careful path."""

@@ -1,0 +1,113 @@
+"""The motion of kept programs: which way a linkage closes, whole turns, dead centres between listed positions."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.analysis.engine import quick_pass
+from tests.engine.comparing import both, counted, difference
+
+
+def four_bar(positions: Any, assembly: Any = None, **lengths: float) -> Any:
+    m = da.four_bar(**lengths)
+    changes = {"drives.O2.position": positions}
+    return m.with_values(changes | ({} if assembly is None else {"assembly": assembly}))
+
+
+@pytest.mark.parametrize(
+    ("assembly", "by_program"),
+    [
+        ({"coupler": 0.9, "rocker": 1.7}, True),
+        ({"coupler": -0.9, "rocker": -1.7}, True),  # the other way it closes
+        ({"rocker": -1.7}, True),
+        ({"coupler": 7.2, "rocker": -4.6}, True),  # whole turns further
+        ({"coupler": 0.1, "rocker": 0.2}, True),  # near neither: the nearest
+        ({}, True),
+    ],
+)
+def test_the_way_that_the_careful_path_takes(assembly: dict[str, float], by_program: bool) -> None:
+    m = four_bar((0.3, 0.5, 1.0), assembly)
+    first, again = both(m), both(m)
+    assert first == again
+    assert first[0] < 1e-12
+    assert first[1] == by_program
+
+
+def test_whole_turns_are_counted_through_what_lies_between() -> None:
+    """A drag link, all of whose links turn: three positions over five turns, in no order."""
+    m = four_bar(
+        (0.2, 31.0, -9.0), {"coupler": 1.0, "rocker": 1.2}, ground=0.05, crank=0.2, coupler=0.18, rocker=0.22
+    )
+    off, by_program = both(m)
+    assert off < 1e-11
+    assert by_program
+    assert np.ptp(da.dynamics(m).angle("rocker")) > 30
+
+
+def test_a_dead_centre_between_two_positions_is_noticed() -> None:
+    """A parallelogram passes its change points, where its way of closing changes: not to be jumped over."""
+    parallel = {"ground": 0.3, "crank": 0.1, "coupler": 0.3, "rocker": 0.1}
+    for positions in ((2.5, 3.6), (3.04, 3.24), (3.1, 3.2, 3.3), tuple(np.linspace(0.4, 2.7, 50))):
+        m = four_bar(positions, {"coupler": 0.0, "rocker": positions[0]}, **parallel)
+        off, by_program = both(m)
+        assert off < 1e-9
+        assert by_program == (max(positions) < np.pi)
+
+
+def test_gaps_are_left_to_the_careful_path() -> None:
+    m = da.four_bar(ground=0.3, crank=0.2, coupler=0.15, rocker=0.12, sweep=(-0.5, 0.5))
+    m = m.with_values({"drives.O2.position": tuple(np.linspace(-1.5, 1.5, 30)), "assembly": {"rocker": 1.8}})
+    off, by_program = both(m)
+    assert off < 1e-9
+    assert not by_program
+    assert "not_assembled" in da.dynamics(m).status
+
+
+def test_one_trace_serves_all_numbers_of_a_structure(monkeypatch: pytest.MonkeyPatch) -> None:
+    traced: list[int] = []
+    own = quick_pass.trace_structure
+    monkeypatch.setattr(quick_pass, "STRUCTURES", quick_pass._Structures())
+    monkeypatch.setattr(quick_pass, "trace_structure", lambda *given: traced.append(1) or own(*given))
+    crank = da.slider_crank()
+    for k in range(1, 6):
+        m = crank.with_values(
+            {
+                "links.crank.points.A": (0.0517 + 0.00313 * k, 0.00113 * k),
+                "drives.O2.position": tuple(np.arange(k) * 1.1),
+            }
+        )
+        careful = da.dynamics(m, method="careful")
+        assert difference(da.dynamics(m), careful) < 1e-11
+    assert sum(traced) == 1
+
+
+def test_structures_are_bounded_and_shared_by_threads(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(quick_pass, "KEPT", 2)
+    made = [da.four_bar(), da.slider_crank(), da.toggle_press(), da.whitworth()]
+    alone = [da.dynamics(m, method="careful") for m in made]
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(da.dynamics, made * 4))
+    assert all(difference(r, alone[k % 4]) < 1e-10 for k, r in enumerate(found))
+    assert len(quick_pass.STRUCTURES.found) <= 2
+
+
+def test_residual_and_power_balance_would_show_a_wrong_program(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A program that gives a wrong effort is not believed."""
+    m = da.four_bar()
+    da.dynamics(m)
+    with counted() as ways:
+        evaluate = quick_pass._checks
+
+        def corrupted(k: Any, c: Any, out: Any) -> Any:
+            out[k.rows["unbalanced"].start] += 1e-3 * np.abs(out[k.rows["force"]]).max()
+            return evaluate(k, c, out)
+
+        monkeypatch.setattr(quick_pass, "_checks", corrupted)
+        r = da.dynamics(m)
+    assert ways == [False]
+    assert r.ok.all()
