@@ -22,6 +22,9 @@ def cross(a: Any, b: Any) -> float:
     return float(a[0] * b[1] - a[1] * b[0])
 
 
+POINTS = {"crank": "OA", "rod": "AB", "piston": "B"}
+
+
 @pytest.mark.parametrize("speed", [1.0, -1.0])
 @pytest.mark.parametrize("joint", ["O", "A", "B"])
 def test_turning_and_side_of_a_friction_circle(joint: str, speed: float) -> None:
@@ -34,6 +37,16 @@ def test_turning_and_side_of_a_friction_circle(joint: str, speed: float) -> None
         (arc,) = (i for i in scene.items if isinstance(i, Arc) and i.role == "velocity")
         assert arc.arrow
         assert (arc.end - arc.start) * turning > 0
+        middle, at = (arc.start + arc.end) / 2, r.point(on, joint)[0]
+        away = sum(
+            (v / math.hypot(*v) for v in (r.point(on, n)[0] - at for n in POINTS[on] if n != joint)),
+            np.zeros(2),
+        )
+        off_line = abs(cross(r.reaction(joint, on)[0], (math.cos(middle), math.sin(middle))))
+        assert off_line / math.hypot(*r.reaction(joint, on)[0]) > math.sin(math.radians(54.9))
+        if away.any():
+            assert away @ (math.cos(middle), math.sin(middle)) < -0.5 * math.hypot(*away)
+        assert any("μ = " in t.text for t in scene.texts())
         (arrow,) = (i for i in scene.items if isinstance(i, Arrow) and i.role == "joint-force")
         force = r.reaction(joint, on)[0]
         e = np.subtract(arrow.head, arrow.tail) / math.dist(arrow.head, arrow.tail)

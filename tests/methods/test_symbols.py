@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import re
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,15 +13,32 @@ import dalembert as da
 from dalembert.model.joints.joint_part import JointPart
 from dalembert.model.load_types import SpanLoad
 from dalembert.views.formats.glb import _material
-from dalembert.views.formats.themes import SOLIDS
+from dalembert.views.formats.themes import SOLIDS, THEMES
 from dalembert.views.paper.canvas import Canvas
-from dalembert.views.paper.scene import Arrow, Line
+from dalembert.views.paper.scene import Arrow, Circle, Line
 from dalembert.views.plane.joint_drawings import DRAWINGS
 from dalembert.views.space.camera import CAMERAS
-from dalembert.views.space.solids import Ball
+from dalembert.views.space.solids import Ball, Block
 from dalembert.views.space.space_view import triad
 from dalembert.views.symbols.pair_symbols import SYMBOLS, symbol
-from dalembert.views.symbols.plane_symbols import SPANS, spring, strip_spring
+from dalembert.views.symbols.plane_symbols import (
+    BLOCK,
+    PIN,
+    SPANS,
+    couple,
+    damper,
+    fixed_pin,
+    guide,
+    hatch,
+    mass_center,
+    slider,
+    slot,
+    spring,
+    strip_spring,
+    two_heads,
+    weld,
+    wheel,
+)
 from dalembert.wrench import Force, System
 
 
@@ -68,6 +87,128 @@ def test_balls_of_symbols_are_in_the_middle(kind: str) -> None:
     solids = [s for part in (parts.on_i, parts.on_j) for s in part]
     for ball in (s for s in solids if isinstance(s, Ball)):
         assert ball.center.tolist() == [0, 0, 0]
+
+
+@pytest.mark.parametrize(("kind", "end"), [("weld", 0), ("prismatic", 1), ("screw", 0)])
+def test_blocks_of_symbols_are_in_the_middle(kind: str, end: int) -> None:
+    (block,) = symbol(kind)[end]
+    assert isinstance(block, Block)
+    assert block.center.tolist() == [0, 0, 0]
+
+
+SPOT, ANGLE = (3.0, -2.0), 0.7
+"""Where symbols are drawn, and how they are turned."""
+
+
+def local(points: Any) -> Any:
+    """Places of a symbol in its own axes."""
+    c, s = math.cos(ANGLE), math.sin(ANGLE)
+    return (np.array(points) - SPOT) @ np.array([[c, -s], [s, c]])
+
+
+def check_ground(items: Any, at: Any, side: float, width: float) -> None:
+    """A line of ground about a place, with even strokes on one side that lean one way."""
+    line, *strokes = (local(i.points) for i in items)
+    middle, half = np.array(at), np.array([width / 2, 0.0])
+    assert sorted(line.tolist()) == [pytest.approx(middle - half), pytest.approx(middle + half)]
+    starts, ends = (np.array([s[k] for s in strokes]) for k in (0, 1))
+    assert len(strokes) == max(3, round(width / 1.5))
+    assert starts[:, 1] == pytest.approx(middle[1])
+    assert np.diff(np.sort(starts[:, 0])) == pytest.approx(width / len(strokes))
+    assert abs(starts[:, 0] - middle[0]).max() <= width / 2
+    assert ends - starts == pytest.approx(np.tile([side * 1.2, side * 1.4], (len(strokes), 1)))
+
+
+@pytest.mark.parametrize("width", [2.0, 13.0])
+def test_the_ground_has_its_strokes_on_one_side(width: float) -> None:
+    check_ground(hatch(SPOT, ANGLE, width), (0, 0), -1.0, width)
+    for side in (-1.0, 1.0):
+        check_ground(guide(SPOT, ANGLE, width, side), (0, side * (BLOCK[1] / 2 + 0.25)), side, width)
+
+
+def test_a_pin_on_the_ground_stands_on_its_support() -> None:
+    triangle, *ground, circle = fixed_pin(SPOT, ANGLE - math.pi / 2)
+    assert local(triangle.points) == pytest.approx(np.array([[0, 0], [-2.6, -4.2], [2.6, -4.2]]))
+    check_ground(ground, (0, -4.2), -1.0, 8.4)
+    assert (circle, circle.center) == (Circle(SPOT, PIN, "pin"), SPOT)
+    upright = fixed_pin(SPOT)[0]
+    assert min(y for _, y in upright.points) == pytest.approx(SPOT[1] - 4.2)
+    assert max(y for _, y in upright.points) == pytest.approx(SPOT[1])
+
+
+def test_blocks_slots_and_welds() -> None:
+    (block,), (square,), (slotted,) = slider(SPOT, ANGLE), weld(SPOT), slot(SPOT, ANGLE, 12.0)
+    w, h = BLOCK[0] / 2, BLOCK[1] / 2
+    assert local(block.points) == pytest.approx(np.array([[-w, -h], [w, -h], [w, h], [-w, h]]))
+    assert np.array(square.points) - SPOT == pytest.approx(
+        0.9 * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    )
+    x, y = local(slotted.points).T
+    assert np.hypot(np.maximum(abs(x) - 6.0, 0), y) == pytest.approx(PIN + 0.5)  # round at its ends
+    assert (x.min(), x.max()) == pytest.approx((-6.0 - PIN - 0.5, 6.0 + PIN + 0.5), abs=0.02)
+    around = np.unwrap(np.arctan2(y, x))
+    assert (np.diff(around) > 0).all()
+    assert around[-1] - around[0] < 2 * math.pi
+
+
+def test_a_mass_centre_has_two_dark_quarters_and_a_wheel_a_spoke() -> None:
+    circle, *dark = mass_center(SPOT, 2.0)
+    assert circle == Circle(SPOT, 2.0, "center")
+    for quarter, sign in zip(dark, (1, -1), strict=True):
+        points = sign * (np.array(quarter.points) - SPOT)
+        assert points[0] == pytest.approx((0, 0))
+        assert points.min() == pytest.approx(0, abs=1e-12)
+        assert (points[1], points[-1]) == (pytest.approx((2, 0)), pytest.approx((0, 2), abs=1e-12))
+        assert np.hypot(*points[1:].T) == pytest.approx(2.0)
+    rim, spoke = wheel(SPOT, 5.0, ANGLE)
+    assert rim == Circle(SPOT, 5.0, "pitch")
+    assert local(spoke.points) == pytest.approx(np.array([[0, 0], [5, 0]]))
+
+
+@pytest.mark.parametrize("length", [4.0, 20.0])
+def test_a_damper_has_its_piston_in_its_pot(length: float) -> None:
+    end = (SPOT[0] + length * math.cos(ANGLE), SPOT[1] + length * math.sin(ANGLE))
+    rod, pot, piston, other = (local(i.points) for i in damper(SPOT, end))
+    assert (rod[0], other[-1]) == (pytest.approx((0, 0)), pytest.approx((length, 0)))
+    assert (rod[:, 1], other[:, 1]) == (pytest.approx(0, abs=1e-12), pytest.approx(0, abs=1e-12))
+    assert rod[-1, 0] == pytest.approx(pot[:, 0].min())
+    assert other[0, 0] == pytest.approx(piston[0, 0]) == pytest.approx(piston[1, 0])
+    assert pot[:, 0].min() < piston[0, 0] < pot[:, 0].max() < length
+    assert pot[:, 1] == pytest.approx(-pot[::-1, 1])
+    assert piston[0, 1] == pytest.approx(-piston[1, 1])
+    assert 0.5 * pot[0, 1] < piston[0, 1] < pot[0, 1] == pytest.approx(min(1.6, 0.2 * length))
+
+
+def test_couples_turn_by_their_sign_and_moments_have_two_heads() -> None:
+    for sign in (3.0, -3.0):
+        (arc,) = couple(SPOT, sign, 4.0, "load", "T", 7.0)
+        assert (arc.center, arc.radius, arc.role, arc.of, arc.value, arc.arrow) == (
+            SPOT,
+            4.0,
+            "load",
+            "T",
+            7.0,
+            True,
+        )
+        assert arc.end - arc.start == pytest.approx(math.copysign(math.radians(230), sign))
+        assert (arc.start + arc.end) / 2 == pytest.approx(math.pi / 2)  # it is open below
+    for length in (2.0, 30.0):
+        whole, second = two_heads((1.0, 1.0), (1.0, 1.0 + length), "load", "T", "moment", 5.0)
+        assert (whole.tail, whole.head, whole.kind, whole.value) == ((1, 1), (1, 1 + length), "moment", 5.0)
+        assert second.tail == whole.tail
+        assert second.head == pytest.approx((1, 1 + length - min(2.4, 0.4 * length)))
+        assert (second.kind, second.of, second.value) == ("", "", None)
+
+
+@pytest.mark.parametrize("theme", THEMES)
+def test_looks_are_colours_widths_and_dashes(theme: str) -> None:
+    for role, look in THEMES[theme].items():
+        assert re.fullmatch(r"#([0-9a-f]{3}|[0-9a-f]{6})", look.stroke), role
+        assert re.fullmatch(r"none|#[0-9a-f]{3,6}", look.fill), role
+        assert 0.05 < look.width < 0.8
+        assert all(0.3 < dash < 5 for dash in look.dash)
+        assert look.weight == ("bold" if role == "title" else "normal")
+    assert THEMES[theme].keys() == THEMES["light"].keys()
 
 
 @pytest.mark.parametrize("camera", CAMERAS.values(), ids=list(CAMERAS))
