@@ -76,6 +76,11 @@ class Compiled:
         )
 
     @property
+    def first_target(self) -> Array:
+        """Stacked targets (K + D,) of the first position."""
+        return np.concatenate([self.target, self.schedule.position[0]])
+
+    @property
     def origin(self) -> Array:
         """Ground's reference point."""
         return np.asarray(self.layout.reference[-1])

@@ -25,9 +25,22 @@ class First(NamedTuple):
     mode: str | None
 
 
+REMEMBERED = 32
+"""First poses of a structure that are remembered."""
+
+
 def first_way(k: KeptProgram, c: Compiled, given: list[Any]) -> First | None:
     """The ways that the careful path takes at the first position; None where something is in doubt there."""
-    return _by_given_angles(k, c, given) or _by_search(k, c, given)
+    decisive = np.array([float(given[place]) for place in k.decisive])
+    guess = c.guess
+    assert isinstance(guess, Guess)
+    key = (c.links, decisive.tobytes(), guess.turn.tobytes(), guess.point.tobytes())
+    if key not in k.known:
+        if len(k.known) >= REMEMBERED:
+            k.known.clear()
+        k.known[key] = _by_given_angles(k, guess, given) or _by_search(k, c, given)
+    found: First | None = k.known[key]
+    return found
 
 
 def _tried(k: KeptProgram, given: list[Any], ways: Array) -> tuple[Array, Array]:
@@ -39,13 +52,11 @@ def _tried(k: KeptProgram, given: list[Any], ways: Array) -> tuple[Array, Array]
     return out[: rotation.size].reshape(*rotation.shape, -1), out[rotation.size :]
 
 
-def _by_given_angles(k: KeptProgram, c: Compiled, given: list[Any]) -> First | None:
+def _by_given_angles(k: KeptProgram, guess: Guess, given: list[Any]) -> First | None:
     """The ways that were taken when it was traced, where they put all given links near their angles and no others do.
 
     Every other set of ways differs first in some group, the groups before it standing as they do here.
     """
-    guess = c.guess
-    assert isinstance(guess, Guess)
     told = np.isfinite(guess.turn[:-1])
     if not told.any() or (k.counted & ~k.fixed & ~told).any() or np.isfinite(guess.point[:-1]).any():
         return None
@@ -65,7 +76,7 @@ def _by_given_angles(k: KeptProgram, c: Compiled, given: list[Any]) -> First | N
 
 def _by_search(k: KeptProgram, c: Compiled, given: list[Any]) -> First | None:
     """The ways of the pose that a search for the first pose finds."""
-    modes = c.guess.modes(c.layout, c.targets[0])
+    modes = c.guess.modes(c.layout, c.first_target)
     if modes is None:
         return None
     pose = modes.pose.at(0)

@@ -5,8 +5,9 @@ Every way a group closes is an input here, 1 or -1: which one it is, the first p
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -38,7 +39,7 @@ class KeptProgram:
 
     ``fixed`` (L,): links whose angle the drives alone give; ``counted``: those whose whole turns some row counts;
     ``last``: the last way that a link's rotation depends on, -1 for none. ``driven``: the drives whose positions are
-    inputs, which are the first columns.
+    inputs, which are the first columns. ``known``: first poses found lately, by what decides them.
     """
 
     graph: Graph
@@ -49,6 +50,7 @@ class KeptProgram:
     counted: Flags
     last: Ints
     driven: tuple[int, ...]
+    known: dict[Any, Any] = field(default_factory=dict, compare=False, repr=False)
 
     @cached_property
     def rows(self) -> dict[str, slice]:
@@ -77,6 +79,15 @@ class KeptProgram:
         """Rotations, then closure, of one position for several ways side by side."""
         nodes = [n for name in ("rotation", "closure") for n in self.nodes[name].ravel()]
         return NumpyProgram(self.graph, self.inputs, nodes, many=True)
+
+    @cached_property
+    def decisive(self) -> list[int]:
+        """The places, among the values of the inputs, of those that rotations depend on."""
+        nodes = [n for name in ("rotation", "closure") for n in self.nodes[name].ravel()]
+        needed = {n.index for n in self.graph.order(nodes)}
+        return [
+            k for k, n in enumerate(self.inputs[: len(self.inputs) - len(self.ways)]) if n.index in needed
+        ]
 
     @cached_property
     def moments(self) -> Flags:
@@ -125,7 +136,7 @@ def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) ->
         drives=drives,
         first=drives,
         like=c.layout,
-        like_target=c.targets[0],
+        like_target=c.first_target,
         guess=c.guess,
         inertia=inertia,
         path=path,

@@ -18,7 +18,7 @@ from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.statuses import UNBALANCED
 from dalembert.arrays import Array, Ints
 from dalembert.core.position.first_pose_plane import Guess, phase_rows
-from dalembert.core.position.path_parameter import course
+from dalembert.core.position.path_parameter import walk
 
 KEPT = 64
 """Structures whose programs are kept."""
@@ -32,6 +32,9 @@ lies between two listed positions is looked at too."""
 
 MOST = 20_000
 """Places between the listed positions that are looked at."""
+
+MANY = 500_000
+"""Angles that are counted at once, so that it takes little memory."""
 
 TURN = 1.0
 """Largest turn of a link from place to place, radians: more, and its whole turns are not counted surely."""
@@ -71,14 +74,15 @@ def quick_result(c: Compiled, inertia: bool) -> Result | None:
     key = (inertia, *numbers.key)
     there, program = STRUCTURES.get(key)
     if not there:
-        modes = c.guess.modes(c.layout, c.targets[0])
+        modes = c.guess.modes(c.layout, c.first_target)
         start = numbers._replace(columns=numbers.columns[:, :1])
         program = None if modes is None else trace_structure(c, start, modes.pose.at(slice(0, 1)), inertia)
         STRUCTURES.put(key, program)
     if program is None:
         return None
     single, columns = values(numbers)
-    first = first_way(program, c, [*single, *columns[:, :1]])
+    del numbers  # the answer may be large
+    first = first_way(program, c, [*single, *columns[:, 0].tolist()])
     return None if first is None else _follow(program, c, single, columns, first, inertia)
 
 
@@ -98,32 +102,34 @@ def _suits(c: Compiled) -> bool:
 
 
 class _Walk(NamedTuple):
-    """Places in the order in which a motion meets them: ``order`` of the list's and of those between, ``start`` the
-    first position's, ``between``: targets of the drives there (B, D), and the listed position before each."""
+    """Places in the order in which a motion meets them: ``order`` of the list's and of those between, ``between``: the
+    drives' positions there (B, D), ``before`` the listed position before each."""
 
     order: Ints
-    start: int
     between: Array
     before: Ints
 
 
 def _walk(c: Compiled, step: float) -> _Walk | None:
     """The motion through a list with no step longer than ``step``; None where that would be too many."""
-    count = len(c.targets)
+    drives = c.schedule.position
+    count, none = len(drives), np.zeros(0, np.intp)
     if count == 1:
-        return _Walk(np.zeros(1, np.intp), 0, np.zeros((0, len(c.schedule.names))), np.zeros(0, np.intp))
-    along = course(c.layout, c.targets)
-    way = np.diff(along.s)
-    parts = np.ceil(way / min(step, along.end / FEWEST)) if along.end > 0 else np.zeros(len(way))
+        return _Walk(np.zeros(1, np.intp), drives[:0], none)
+    order, _, s = walk(c.layout, drives)
+    way = np.diff(s)
+    parts = np.ceil(way / min(step, s[-1] / FEWEST)) if s[-1] > 0 else way
     if not (way <= FARTHEST).all() or parts.sum() > MOST + count:
         return None
     more = np.maximum(parts.astype(int) - 1, 0)
     low = np.repeat(np.arange(len(way)), more)
+    if not low.size:
+        return _Walk(order, drives[:0], none)
     share = (np.arange(len(low)) - np.repeat(np.cumsum(more) - more, more) + 1) / (more[low] + 1)
-    drives = along.targets[:, c.layout.constraints.count :]
-    between = drives[low] + share[:, None] * (drives[low + 1] - drives[low])
-    order = np.insert(along.order, low + 1, count + np.arange(len(low)))
-    return _Walk(order, int(np.flatnonzero(order == 0)[0]), between, along.order[low])
+    before = drives[order[low]]
+    between = before + share[:, None] * (drives[order[low + 1]] - before)
+    whole = np.insert(order, low + 1, count + np.arange(len(low)))
+    return _Walk(whole, between, order[low])
 
 
 def _follow(
@@ -131,13 +137,13 @@ def _follow(
 ) -> Result | None:
     """The positions of a list, and in between as close as it takes to be sure that the motion is one."""
     for step in (STEP, STEP / 8, STEP / 64):
-        walk = _walk(c, step)
-        if walk is None:
+        way = _walk(c, step)
+        if way is None:
             return None
-        found = _evaluate(k, c, single, _with_between(k, columns, walk), first.ways)
+        found = _evaluate(k, c, single, _with_between(k, columns, way), first.ways)
         if found is None:
             return None
-        if _count_turns(k, found.out, walk, first.turn) and _steady(k, found.out, walk):
+        if _count_turns(k, found.out, way, first.turn) and _steady(k, found.out, way):
             return _result(k, c, found, first.mode, inertia)
     return None
 
@@ -164,7 +170,7 @@ def _evaluate(
     k: KeptProgram, c: Compiled, single: list[float], columns: Array, ways: tuple[float, ...]
 ) -> _Found | None:
     """All outputs, and the checks of them; None where one fails."""
-    count = columns.shape[1] if len(columns) else len(c.targets)
+    count = columns.shape[1] if len(columns) else c.schedule.count
     residual, power = np.empty(count), np.empty(count)
     work = np.empty((k.size, min(count, BLOCK)))
     out = work[: k.kept] if count <= BLOCK else np.empty((k.kept, count))
@@ -211,32 +217,33 @@ def _checks(k: KeptProgram, c: Compiled, out: Array) -> tuple[Array, Array]:
     return residual, balance.max(axis=0, initial=0.0)
 
 
-def _count_turns(k: KeptProgram, out: Array, walk: _Walk, first: Array) -> bool:
+def _count_turns(k: KeptProgram, out: Array, way: _Walk, first: Array) -> bool:
     """Put in the links' angles, whole turns counted along the motion; not where one of them turns far at a step."""
     free = np.flatnonzero(~k.fixed)
-    rows = k.rows["rotation"].start + free
-    angle = np.arctan2(out[rows + len(k.fixed)], out[rows])
-    walked = angle[:, walk.order]
-    step = np.diff(walked, axis=1)
-    whole = np.rint(step / (2 * np.pi))
-    step -= 2 * np.pi * whole
-    if (np.abs(step) > TURN).any():
-        return False
-    turns = np.concatenate([np.zeros((len(free), 1)), -np.cumsum(whole, axis=1)], axis=1)
-    turns += (np.rint((first[free] - angle[:, 0]) / (2 * np.pi)) - turns[:, walk.start])[:, None]
-    angle[:, walk.order] = walked + 2 * np.pi * turns
-    out[k.rows["turn"].start + free] = angle
+    for links in np.array_split(free, 1 + free.size * len(way.order) // MANY):
+        rows = k.rows["rotation"].start + links
+        angle = np.arctan2(out[rows + len(k.fixed)], out[rows])
+        turns = np.diff(angle[:, way.order], axis=1)
+        step = turns.copy()
+        np.rint(turns / (2 * np.pi), out=turns)
+        step -= 2 * np.pi * turns
+        if (np.abs(step) > TURN).any():
+            return False
+        whole = np.zeros_like(angle)
+        whole[:, way.order[1:]] = -np.cumsum(turns, axis=1)
+        whole += (np.rint((first[links] - angle[:, 0]) / (2 * np.pi)) - whole[:, 0])[:, None]
+        out[k.rows["turn"].start + links] = angle + 2 * np.pi * whole
     return True
 
 
-def _steady(k: KeptProgram, out: Array, walk: _Walk) -> bool:
+def _steady(k: KeptProgram, out: Array, way: _Walk) -> bool:
     """Whether no group passes a dead centre between two places: what vanishes there changes by less than it is."""
-    size = np.sqrt(out[k.rows["closure"]])[:, walk.order]
-    return bool((np.abs(np.diff(size, axis=1)) <= np.minimum(size[:, 1:], size[:, :-1])).all())
+    sizes = (np.sqrt(row)[way.order] for row in out[k.rows["closure"]])
+    return all((np.abs(np.diff(a)) <= np.minimum(a[1:], a[:-1])).all() for a in sizes)
 
 
 def _result(k: KeptProgram, c: Compiled, found: _Found, mode: str | None, inertia: bool) -> Result:
-    count = len(c.targets)
+    count = c.schedule.count
     out = found.out[:, :count]
     names = ("point", "turn", "twist", "acceleration", "force", "moment", "effort", "load")
     arrays: dict[str, Any] = {f"{name}_array": k.part(name, out) for name in names}

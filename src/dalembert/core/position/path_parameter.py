@@ -70,15 +70,19 @@ class Course:
 
 def course(layout: Layout, targets: Array) -> Course:
     """The course through targets (P, K + D)."""
-    drives = targets[:, layout.constraints.count :]
-    order = np.arange(len(targets))
+    order, moves, s = walk(layout, targets[:, layout.constraints.count :])
+    moved = np.diff(s) > 0
+    ways = moves[moved] / np.linalg.norm(moves[moved], axis=1, keepdims=True)
+    corner = (ways[:-1] * ways[1:]).sum(axis=1) < STRAIGHT
+    return Course(order, s, targets[order], np.concatenate([[0.0], s[1:][moved][:-1][corner], s[-1:]]))
+
+
+def walk(layout: Layout, drives: Array) -> tuple[Ints, Array, Array]:
+    """The order (P,) in which positions (P, D) of the drives are met, the moves (P - 1, D) from one to the next in
+    radians and characteristic lengths, and the parameters s (P,)."""
+    order = np.arange(len(drives))
     if drives.shape[1] == 1:
         order = np.argsort(drives[:, 0], kind="stable")
     angular = layout.freedoms.angular[layout.driven]
     moves = np.diff(drives[order], axis=0) * np.where(angular, 1.0, 1 / layout.length)
-    lengths = np.abs(moves).max(axis=1, initial=0.0)
-    s = np.concatenate([[0.0], np.cumsum(lengths)])
-    moved = lengths > 0
-    ways = moves[moved] / np.linalg.norm(moves[moved], axis=1, keepdims=True)
-    corner = (ways[:-1] * ways[1:]).sum(axis=1) < STRAIGHT
-    return Course(order, s, targets[order], np.concatenate([[0.0], s[1:][moved][:-1][corner], s[-1:]]))
+    return order, moves, np.concatenate([[0.0], np.cumsum(np.abs(moves).max(axis=1, initial=0.0))])
