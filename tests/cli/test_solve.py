@@ -181,6 +181,9 @@ loads:
     printed = run("solve", "beam.yaml").out
     assert "redundant: 1 constraint is redundant among joints A, B" in printed
     assert "Not unique; with the least sum of squares:" in printed
+    welded = (folder / "beam.yaml").read_text(encoding="utf-8").replace("B: {type: pin", "B: {type: weld")
+    (folder / "welded.yaml").write_text(welded, encoding="utf-8")
+    assert "2 constraints are redundant among joints A, B:" in run("solve", "welded.yaml").out
 
 
 def test_csv(run: Run, folder: Path) -> None:

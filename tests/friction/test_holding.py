@@ -140,6 +140,8 @@ def test_what_holds_beyond_is_counted_over_positions() -> None:
     m = wedge(0.6, 0.5, 20.0).with_values({"drives.floor.position": [0.1, 0.2, 0.3]})
     said = "With the right history friction can hold values of floor beyond them at each of these positions."
     assert str(da.statics(m).reasons[0]).endswith(said)
+    bare = m.with_values({"loads.W_B.value": [0, "500 * (floor - 0.3)"]})  # nothing presses the wall at 0.3
+    assert str(da.statics(bare).reasons[0]).endswith(said.replace("each of these", "2 of these 3"))
 
 
 @pytest.mark.parametrize("n", [1, 2, 4, 7])

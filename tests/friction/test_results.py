@@ -204,6 +204,8 @@ def test_arrays_with_friction() -> None:
     data = r.to_xarray()
     assert float(data.power_lost.sum()) == pytest.approx(DRIVEN.effort - BARE, rel=1e-9)  # at 1 rad/s
     assert data.friction_force.attrs["units"] == "N"
+    assert data.component.values.tolist() == ["x", "y"]
+    assert "link_axis" not in data.coords
     assert any(name.startswith("friction A on rod") for name in r.to_dataframe().columns)
     rest = da.statics(engine(speed=0.0)).to_xarray()
     assert float(rest.O_low_end[0]) == pytest.approx(DRIVING.effort, rel=1e-9)

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.batch.kernel_inputs import _carry_sign_forward
 from tests.kernel.comparing import changed, difference, every_number, general
 from tests.kernel.machines import KINDS, four_bar, four_bar_tree
 
@@ -89,6 +90,33 @@ def test_statuses(crank: float, rocker: float, angle: float) -> None:
         assert difference(k, r, d, g) < 1e-9
 
 
+def test_reactions_on_either_link() -> None:
+    """As the general executor has them, in both kinds of axes; the mean changes its sign, a size does not."""
+    m = da.bucket(positions=4)
+    joint, (i, j) = "cylinder", m.joints["cylinder"].links
+    outputs = [f"reaction.{joint}", f"moment.{joint}"]
+    r, g = da.compile(m, outputs=[*outputs, f"angle.{i}", f"angle.{j}"])(), da.dynamics(m)
+    mean, peak, both = (da.compile(m, outputs=outputs, reduce=how)() for how in ("mean", "peak", "envelope"))
+    for on in (None, i, j):
+        for axes in ("ground", "link"):
+            expected = g.reaction(joint, on=on, axes=axes)
+            assert r.reaction(joint, on, axes)[0] == pytest.approx(expected, rel=1e-9)
+        assert r.reaction_moment(joint, on)[0] == pytest.approx(g.reaction_moment(joint, on=on), rel=1e-9)
+        assert mean.reaction(joint, on)[0] == pytest.approx(g.reaction(joint, on=on).mean(axis=0), rel=1e-9)
+        assert peak.reaction(joint, on)[0] == pytest.approx(np.abs(g.reaction(joint)).max(axis=0), rel=1e-9)
+    assert both.reaction(joint, j)[0] == pytest.approx(both.reaction(joint)[0])
+    with pytest.raises(da.ModelError, match=f"the envelope is that of the force on '{j}'"):
+        both.reaction(joint, i)
+    with pytest.raises(da.ModelError, match=f"joint '{joint}' does not act on 'boom'; it joins {i} and {j}"):
+        r.reaction(joint, "boom")
+
+
+def test_a_way_of_closing_holds_where_both_coincide() -> None:
+    """Of a dead centre the way is that before it, at the beginning the first that there is."""
+    found = _carry_sign_forward(np.array([0.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 1.0]))
+    assert found.tolist() == [1, 1, 1, 1, -1, -1, -1, 1]
+
+
 def test_other_positions() -> None:
     m = four_bar(12)
     k = da.compile(m)
@@ -144,6 +172,11 @@ def test_more_refusals() -> None:
     ):
         with pytest.raises(da.ModelError, match=text):
             da.compile(m, **arguments)
+    lawful = m.to_tree() | {
+        "drives": {"O2": {"law": {"type": "cycloidal", "from": 0, "to": 90, "duration": 0.5, "count": 9}}}
+    }
+    with pytest.raises(da.ModelError, match=r"'drives\.O2\.speed' follows from the drive's law of motion"):
+        da.compile(da.mechanism(lawful), vary=["drives.O2.speed"])
     k = da.compile(m, outputs=["reaction.A", "angle.coupler"])
     with pytest.raises(da.ModelError, match="there are no axes 'joint'; there are: ground, link"):
         k().reaction("A", axes="joint")

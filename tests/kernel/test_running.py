@@ -17,8 +17,9 @@ import dalembert as da
 from dalembert.analysis.batch.kernel_export import plain
 from dalembert.analysis.batch.over_positions import PARTS, reduce_positions
 from dalembert.kernel import parallel_runs
-from dalembert.kernel.emit import c_text, cuda, llvm_text
+from dalembert.kernel.emit import cuda, llvm_text
 from dalembert.kernel.emit.machine_code import compile_module, host_lanes
+from dalembert.kernel.emit.reductions import width
 from dalembert.kernel.graph import Graph
 from dalembert.kernel.memory import aligned_array, available
 from dalembert.kernel.program import Program
@@ -300,27 +301,55 @@ def pointer(a: np.ndarray) -> ctypes.c_void_p:
     return a.ctypes.data_as(ctypes.c_void_p)
 
 
+class CardOfC:
+    """What stands for cupy and a card: the same text through the C compiler, every thread in turn."""
+
+    uint8, empty = np.uint8, staticmethod(np.empty)
+    asarray = staticmethod(np.ascontiguousarray)
+    asnumpy = staticmethod(np.asarray)
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def RawModule(self, code: str) -> CardOfC:
+        self.library = shared(self.folder, code, "card")
+        return self
+
+    def get_function(self, name: str) -> Any:
+        def entry(blocks: tuple[int], threads: tuple[int], given: tuple[Any, ...]) -> None:
+            *arrays, _, _, designs, positions = given
+            asked = designs if name == "reduced" else designs * positions
+            assert asked <= blocks[0] * threads[0] < asked + threads[0]
+            assert all(a.dtype in (float, np.uint8) for a in arrays)
+            getattr(self.library, name)(
+                *(ctypes.c_longlong(a) if isinstance(a, np.int64) else pointer(a) for a in given)
+            )
+
+        return entry
+
+
 @pytest.mark.parametrize("reduce", [None, "peak", "envelope", "rms"])
 @pytest.mark.parametrize("kind", ["pin-pin-pin", "no closed form", "slots", "slider_crank"])
-def test_the_card_s_text_compiled_as_c(kind: str, reduce: str | None, tmp_path: Path) -> None:
+def test_the_card_s_text_compiled_as_c(
+    kind: str, reduce: str | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The text for CUDA, compiled by the system's C compiler, gives what the machine code gives."""
     m = (KINDS | ROUGH)[kind]()
     drive = next(iter(m.drives))
     k = da.compile(m, vary=["links.ground.points.O2"], outputs=[f"effort.{drive}"], reduce=reduce)
     program, _, slots = k.runner.machine("reduce" if reduce else "grid")
     columns, common = k.runner.inputs(program, k.trace.course)
-    library = shared(tmp_path, cuda.source(program, slots), "card")
-    values = np.ascontiguousarray(k.nominal[None] + np.array([[0.0, 0.0], [1e-3, -2e-3]]))
-    width = c_text.width(slots) if slots else len(program.outputs) * len(columns)
-    out, code = np.zeros((2, width)), np.zeros(2 * len(columns), np.uint8)
-    counts = [ctypes.c_longlong(n) for n in (2, columns.shape[1], 2, len(columns))]
-    entry = library.reduced if slots else library.grid
-    arrays = (values, np.ascontiguousarray(columns), np.append(common, 0.0), out, code)
-    entry(*(pointer(a) for a in arrays), *counts)
+    values = np.ascontiguousarray(k.nominal[None] + np.array([[0.0, 0.0], [1e-3, -2e-3], [0.0, 1e-3]]))
+    monkeypatch.setattr(cuda, "card", lambda: CardOfC(tmp_path))
+    size = width(slots) if slots else len(program.outputs) * len(columns)
+    monkeypatch.setattr(cuda, "PART", 2 * max(size, values.shape[1]))  # two designs at once
+    done: list[tuple[int, int]] = []
+    out, code = cuda.run(program, slots, values, columns, common, lambda *of: done.append(of))
+    assert done == [(2, 3), (3, 3)]
     r = k(values)
     found, expected = out, r.value(f"effort.{drive}")
     assert not r.redone
-    assert (code[: r.code.size] == r.code.ravel()).all()
+    assert (code.reshape(r.code.shape) == r.code).all()
     if reduce == "rms":
         found = np.sqrt(out / len(columns))
     assert np.abs(found.ravel() - expected.ravel()).max() < 1e-11 * np.abs(expected).max()

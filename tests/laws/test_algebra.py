@@ -52,6 +52,7 @@ def test_lines_meet_where_they_are_nearest() -> None:
         assert found[0] == pytest.approx(place, abs=1e-12)
         assert found[1] < 1e-12
         assert meeting_point(at[:1], along[:1]) is None
+        assert meeting_point(at[:1], 0 * along[:1]) is None
         assert meeting_point(at[:2], np.array([along[0], 0 * along[0]])) is None
         assert meeting_point(at, np.repeat(along[:1], 4, axis=0)) is None
     skew = meeting_point(np.array([[0.0, 0, 0], [0, 0, 2]]), np.array([[1.0, 0, 0], [0, 1, 0]]))

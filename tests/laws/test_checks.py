@@ -134,6 +134,13 @@ def test_the_gap_of_virtual_work_is_what_its_effort_is_off(sign: float) -> None:
     assert off.gap == pytest.approx(0.3 / largest)
 
 
+def test_where_nothing_acts_there_are_no_parts() -> None:
+    found = da.superposition(da.statics(da.mechanism(lever(False).to_tree() | {"loads": {}})))
+    assert found.sources == ()
+    assert {len(a) for a in (found.force, found.moment, found.efforts, found.loads)} == {0}
+    assert found.gap.tolist() == [0, 0]
+
+
 def test_the_gap_of_virtual_work_is_what_its_unknown_load_is_off() -> None:
     tree = lever(False).to_tree()
     tree["drives"]["O"] |= {"effort": 5.0}

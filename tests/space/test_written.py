@@ -160,7 +160,7 @@ def test_arrays_are_labelled(tmp_path: Path) -> None:
     r = da.dynamics(oracle("rsur"))
     r.to_netcdf(tmp_path / "r.nc")
     with xarray.open_dataset(tmp_path / "r.nc", engine="h5netcdf") as found:
-        assert list(found["component"].values) == ["x", "y", "z"]
+        assert list(found["component"].values) == list(found["link_axis"].values) == ["x", "y", "z"]
         one = found["reaction_moment"].sel(joint="B", component="y")
         assert np.array_equal(one, r.reaction_moment("B")[:, 1])
         assert found["link_rotation"].dims == ("position", "link", "component", "link_axis")

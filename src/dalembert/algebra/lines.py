@@ -13,7 +13,7 @@ PARALLEL = 1e-6
 def meeting_point(at: Array, along: Array) -> tuple[Array, float] | None:
     """The point nearest to lines through points (N, d) along vectors (N, d), and its largest distance from one.
 
-    Least squares: sum of (1 - e e^T)(p - a) = 0. None where the lines are parallel, or fewer than two.
+    Least squares: sum of (1 - e e^T)(p - a) = 0. None where the lines are parallel, or there are fewer than two.
 
     >>> point, away = meeting_point(np.array([[0.0, 0.0], [4.0, 0.0]]), np.array([[1.0, 1.0], [-1.0, 1.0]]))
     >>> point.round(9), away < 1e-15
@@ -22,7 +22,7 @@ def meeting_point(at: Array, along: Array) -> tuple[Array, float] | None:
     size = np.linalg.norm(along, axis=-1, keepdims=True)
     unit = (along / np.where(size > 0, size, 1.0))[size[:, 0] > 0]
     places = at[size[:, 0] > 0]
-    if len(unit) < 2:
+    if not len(unit):
         return None
     d = at.shape[-1]
     across = np.eye(d) - unit[:, :, None] * unit[:, None, :]

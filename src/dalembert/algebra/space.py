@@ -62,7 +62,7 @@ def exp(w: Array) -> Array:
     small = square < 1e-8
     safe = np.where(small, 1.0, angle)
     s = np.where(small, 1 - square / 6, np.sin(angle) / safe)
-    c = np.where(small, 0.5 - square / 24, (1 - np.cos(angle)) / (safe * safe))
+    c = np.where(small, 0.5, (1 - np.cos(angle)) / (safe * safe))
     x, y, z = w[..., 0], w[..., 1], w[..., 2]
     out = np.empty((*square.shape, 9), w.dtype)
     diagonal = 1 - c * square

@@ -101,7 +101,7 @@ def trace_friction(
     unknown = layout.constraints.count < len(x) and slips is None
 
     def turning(problem: Response, x: Array, w: Array) -> Node:
-        bare = without(graph, contacts, problem)
+        bare = problem.x  # what keeps teeth apart has no power: their centres keep their distance
         flag: Node = -trace_array(graph, power_reversed(layout, s.unknown, moving.twist, w, x, bare)).item()
         return flag
 
@@ -132,15 +132,6 @@ def _trace_contacts(graph: Graph, contacts: Contacts) -> Contacts:
 
 def _nonzero(*nodes: Node) -> tuple[Node, ...]:
     return tuple(n for n in nodes if not is_zero(n))
-
-
-def without(graph: Graph, contacts: Contacts, r: Response) -> Array:
-    """Multipliers without friction; the teeth's separation stays."""
-    if not contacts.fixed.any():
-        return r.x
-    sense = trace_array(graph, np.where(contacts.fixed, -1.0, 0.0))
-    c = trace_array(graph, strength(contacts, 0.0))
-    return multiplier(r, c * trace_slip(graph, contacts, with_strength(r, c), sense)[0])
 
 
 def _at_rest(graph: Graph, open_: Array, bears: Array, largest: Array) -> tuple[tuple[Node, ...], ...]:

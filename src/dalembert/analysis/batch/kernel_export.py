@@ -115,10 +115,7 @@ def casadi_function(k: Kernel, name: str) -> Any:
         from dalembert.kernel.emit import casadi_function
 
         sizes = [(n.replace(".", "_"), len(nodes)) for n, nodes in k.nodes.items()]
-        program = plain(k)
-        count = sum(size for _, size in sizes)
-        alone = Program(program.graph, program.outputs[:count], program.marks)
-        return casadi_function.function(alone, name, len(k.numbers), sizes)
+        return casadi_function.function(plain(k), name, len(k.numbers), sizes)
     except ImportError:
         raise ModelError("casadi is not installed", "pip install 'dalembert[fast]'") from None
     except RuntimeError:

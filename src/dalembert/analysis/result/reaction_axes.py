@@ -97,17 +97,17 @@ def wrench(result: Result, joint: str, on: str | None, axes: Axes, least: bool =
     ``least`` gives least-norm numbers in their places.
     """
     g, k = result.compiled.layout.algebra, result.joints.index(joint)
-    by, to = result.mechanism.joints[joint].links
+    by = result.mechanism.joints[joint].links[0]
     moment = result.moment_array[..., k, None] if g.d == 2 else result.moment_array[..., k, :]
     whole = (-1.0 if on == by else 1.0) * np.concatenate([result.force_array[..., k, :], moment], axis=-1)
     if g.d == 2:
         kept = whole if least else np.where(result.unique(joint), whole, np.nan)
         return to_axes(result, joint, on, axes, kept)
     whole = to_axes(result, joint, on, axes, whole)
-    return whole if least else np.where(unique_in(result, joint, _place(axes, by, on or to)), whole, np.nan)
+    return whole if least else np.where(unique_in(result, joint, _place(axes, by, on)), whole, np.nan)
 
 
-def _place(axes: Axes, by: str, on: str) -> str:
+def _place(axes: Axes, by: str, on: str | None) -> str:
     """The place that axes are of: the ground, the joint, its link i or its link j."""
     return axes if axes != "link" else "i" if on == by else "j"
 
@@ -115,7 +115,7 @@ def _place(axes: Axes, by: str, on: str) -> str:
 def to_axes(result: Result, joint: str, on: str | None, axes: Axes, whole: Array) -> Array:
     """A force (P, d) or wrench (P, n) of a joint on one of its links, default on j, from ground axes to others."""
     by, to = result.mechanism.joints[joint].links
-    place = _place(axes, by, on or to)
+    place = _place(axes, by, on)
     if place == "ground":
         return whole
     if result.compiled.layout.algebra.d == 2:

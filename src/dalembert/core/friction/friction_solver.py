@@ -135,16 +135,15 @@ def newton(
     count = np.zeros(len(sense), np.intp)
     arrived = np.zeros(len(sense), bool)
     r = with_strength(r, c)
-    start, landing, y, ahead = z, z, argument(r, z), np.ones(len(sense))
+    start, y = z, argument(r, z)
+    kink = y if before is None else before
     for k in range(most):
-        kink = y if k or before is None else before
         steep, _ = slope(contacts, kink, _largest(kink))
-        if k == 0 and before is not None:
-            ahead = np.linalg.det(np.nan_to_num(jacobian(r, steep, sense)))
         step = correction(r, steep, sense, z + sense * (steep * y).sum(axis=-2), solve_square)
         z = np.where(arrived[:, None], z, z + step)
-        landing = z if k == 0 else landing
-        y = argument(r, z)
+        if k == 0:
+            first, landing = steep, z
+        kink = y = argument(r, z)
         largest = np.maximum(_largest(y), np.abs(z).max(axis=-1, initial=0.0))
         new = np.abs(z + sense * bearing(contacts, y)).max(axis=-1, initial=0.0)
         now = (new <= ROUNDING * contacts.count * largest) | (
@@ -156,7 +155,10 @@ def newton(
             break
     steep, _ = slope(contacts, y, _largest(y))
     determinant = np.linalg.det(np.nan_to_num(jacobian(r, steep, sense)))
-    near = arrived if before is None else arrived & (ahead > 0) & _goes_on(start, landing, z)
+    near = arrived
+    if before is not None:
+        ahead = np.linalg.det(np.nan_to_num(jacobian(r, first, sense)))
+        near = arrived & (ahead > 0) & _goes_on(start, landing, z)
     return NewtonResult(np.where(arrived[:, None], z, np.nan), arrived, determinant, count, near)
 
 
