@@ -52,6 +52,12 @@ def test_the_processor_s_own_lanes(monkeypatch: pytest.MonkeyPatch) -> None:
     assert (
         da.compile(da.four_bar(), derivatives=True, vary=every).lanes == host_lanes()
     )  # wide enough by itself
+    masses = [
+        f"links.{name}.{what}" for name in ("crank", "coupler", "rocker") for what in ("mass", "inertia")
+    ]
+    assert (
+        da.compile(da.four_bar(), derivatives=True, vary=masses).lanes == host_lanes()
+    )  # waits for its stores
     monkeypatch.setattr(sys.modules["dalembert.analysis.batch.compiled_kernel"], "SMALL", 10)
     assert da.compile(da.four_bar()).lanes == host_lanes()
 

@@ -38,9 +38,13 @@ SMALL = 2000
 """Operations below which the results of two registers side by side still find room in the first cache."""
 BLOCK = 1 << 26
 """Bytes of the results of a block of designs."""
-ABREAST = 10
+ABREAST = 8
 """Operations that could be under way at once, below which two registers side by side are faster than one: the waiting
 of one fills the other. Two units with four cycles each ask for eight."""
+STORED = 32
+"""Outputs beyond which there must be PER_STORE operations for each, or two registers side by side take up to a quarter
+longer: it is the stores that are waited for then."""
+PER_STORE = 12
 
 
 def compile(  # noqa: A001
@@ -111,7 +115,8 @@ def _products(nodes: Sequence[Node]) -> list[Node]:
 
 def _waits(program: Program) -> bool:
     """Whether a program in one register would wait for its own results."""
-    return program.size < SMALL and program.size < ABREAST * program.depth
+    size, stores = program.size, len(program.outputs)
+    return size < min(SMALL, ABREAST * program.depth) and (stores <= STORED or size > PER_STORE * stores)
 
 
 def _host_lanes() -> int:
@@ -312,7 +317,7 @@ class Kernel:
             code[other] = CODES.index("undecided")
         if not np.isfinite(given).all():
             code[~np.isfinite(given).all(axis=1)] = CODES.index("failed")
-        if np.count_nonzero(code) or self.reduce is not None:
+        if np.count_nonzero(code) or not (self.reduce is None or found.finite):
             again = self._settle(given, course, found, redo)
         whole = (self, given, course.schedule.position, code)
         after = BatchResult(*whole, found.after, found.after_rates) if found.after else None

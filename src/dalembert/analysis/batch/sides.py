@@ -20,6 +20,11 @@ class Sides:
     after: dict[str, Array] = field(default_factory=dict)
     after_rates: dict[str, Array] = field(default_factory=dict)
 
+    @property
+    def finite(self) -> bool:
+        """Whether all numbers are."""
+        return all(np.isfinite(a).all() for of in (self.arrays, self.rates) for a in of.values())
+
     def open_after(self) -> None:
         """Begin with the numbers just before."""
         if not self.after:

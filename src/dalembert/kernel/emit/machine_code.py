@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import platform
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -61,8 +61,14 @@ class Machine:
         return ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4, *[ctypes.c_int64] * 4)(self.address)
 
 
+PASSES = ("always_inliner", "instruction_combine", "reassociate", "new_gvn", "instruction_combine")
+"""What of LLVM's level 3 changes one straight list of instructions: a third of its time, and code as fast to 2 %."""
+
+
+@lru_cache(16)
 def compile_module(text: str, lanes: int) -> Machine:
-    """Machine code of one module. A target machine passes into its engine and dies with it, so each has its own."""
+    """Machine code of one module, of the last ones kept. A target machine passes into its engine and dies with it, so
+    each has its own."""
     llvm = _binding()
     module = llvm.parse_assembly(text)
     module.triple = llvm.get_process_triple()
@@ -74,12 +80,10 @@ def compile_module(text: str, lanes: int) -> Machine:
     )
     module.data_layout = str(target.target_data)
     module.verify()
-    tuning = llvm.create_pipeline_tuning_options(speed_level=3)
-    tuning.slp_vectorization = False
-    tuning.loop_vectorization = False
-    tuning.loop_unrolling = False
-    builder = llvm.create_pass_builder(target, tuning)
-    builder.getModulePassManager().run(module, builder)
+    passes = llvm.create_new_module_pass_manager()
+    for name in PASSES:
+        getattr(passes, f"add_{name}_pass")()
+    passes.run(module, llvm.create_pass_builder(target, llvm.create_pipeline_tuning_options(speed_level=3)))
     engine = llvm.create_mcjit_compiler(module, target)
     engine.finalize_object()
     return Machine(lanes, engine.get_function_address("run"), engine, text)
