@@ -13,40 +13,43 @@ from dalembert.arrays import Array
 
 LINE = 64
 """Bytes of a line of the cache."""
-LARGE = 1 << 22
+FRESH = 1 << 17
 """Bytes of a result from which its memory comes from the system page by page."""
+LARGE = 1 << 22
+"""Bytes of a result that no cache holds."""
 KEPT = 1 << 28
-"""Most bytes that wait for the next result."""
+"""Most bytes that wait for the next results."""
 
 
 class _Pages:
-    """Memory of a large result. When nobody holds that any more it waits for the next one of about its size: to get
-    fresh pages takes three times as long as to compute what stands in them."""
+    """Memory of a result. When nobody holds that any more it waits for the next one of about its size: to get fresh
+    pages takes three times as long as to compute what stands in them."""
 
-    waiting: ClassVar[list[Array]] = []
+    waiting: ClassVar[dict[int, Array]] = {}
 
-    def __init__(self, whole: Array) -> None:
-        self.whole, self.__array_interface__ = whole, whole.__array_interface__
+    def __init__(self, size: int) -> None:
+        fits = (key for key, kept in list(self.waiting.items()) if size <= kept.size <= 2 * size)
+        kept = self.waiting.pop(next(fits, 0), None)
+        self.whole, self.again = np.empty(size) if kept is None else kept, kept is not None
+        self.__array_interface__ = self.whole.__array_interface__
 
     def __del__(self) -> None:
-        if self.whole.nbytes <= KEPT:
-            self.waiting[:] = [self.whole]
+        self.waiting[id(self.whole)] = self.whole
+        for key in list(self.waiting):
+            if sum(kept.nbytes for kept in list(self.waiting.values())) > KEPT:
+                self.waiting.pop(key, None)
 
 
 def result_array(shape: tuple[int, ...]) -> tuple[Array, bool]:
     """An array whose values do not matter, beginning at a line of the cache: a register's worth stored across two
-    takes twice as long. And whether its pages, many of them, have been used before."""
+    takes twice as long. And whether it is large and its pages have been used before."""
     count = math.prod(shape)
     size, again = count + LINE // 8, False
-    if 8 * count < LARGE:
+    if 8 * count < FRESH:
         whole = np.empty(size)
     else:
-        try:
-            kept = _Pages.waiting.pop()
-            again = size <= kept.size <= 2 * size
-        except IndexError:
-            pass
-        whole = np.asarray(_Pages(kept if again else np.empty(size)))
+        pages = _Pages(size)
+        whole, again = np.asarray(pages), pages.again and 8 * count >= LARGE
     first = -address(whole) % LINE // 8
     return whole[first : first + count].reshape(shape), again
 

@@ -139,7 +139,8 @@ class Runner:
         assert job.into is not None
         for parts, wholes in zip(found, job.into, strict=True):
             for name, part in parts.items():
-                wholes[name][which] = part
+                for of in np.ndindex(part.shape[2:]):  # components stand side by side there, not here
+                    wholes[name][(which, slice(None), *of)[: part.ndim]] = part[(..., *of)]
 
     def _run_grid(
         self, job: Job, program: Program, machine: Machine, slots: Slots, columns: Array, common: Array
