@@ -175,21 +175,31 @@ def test_the_outline_of_points(points: Any, hull: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("positions", "closed"),
+    ("name", "drive", "positions", "closed"),
     [
-        (range(0, 360, 30), True),
-        (range(30, -330, -30), True),
-        (range(0, 720, 45), True),
-        (range(0, 350, 50), False),
-        (range(0, 180, 15), False),
-        ((0, 10, 20, 30, 40, 30, 20, 10, 0), False),
+        ("four_bar", "O2", range(0, 360, 30), True),
+        ("four_bar", "O2", range(30, -330, -30), True),
+        ("four_bar", "O2", range(0, 720, 45), True),
+        ("four_bar", "O2", [k * 360 / 7 for k in range(7)], False),
+        ("four_bar", "O2", range(0, 180, 15), False),
+        ("four_bar", "O2", (0, 10, 20, 30, 40, 30, 20, 10, 0), False),
+        ("gear_train", "sun_bearing", range(0, 360, 20), False),
+        ("shaker", "S", (0, 1, 2, 3, 4, 3, 2, 1), False),
     ],
-    ids=["turn", "back", "two turns", "seven", "half a turn", "to and fro"],
+    ids=["turn", "back", "two turns", "seven", "half a turn", "to and fro", "planet", "slide"],
 )
-def test_a_motion_is_closed_where_it_comes_round(positions: Any, closed: bool) -> None:
-    m = da.four_bar()
-    r = da.kinematics(m.with_values({"drives.O2.position": [f"{x} deg" for x in positions]}))
+def test_a_motion_is_closed_where_it_comes_round(name: str, drive: str, positions: Any, closed: bool) -> None:
+    m = da.loads(SHAKER) if name == "shaker" else da.load(examples()[name])
+    unit = "mm" if name == "shaker" else "deg"
+    r = da.kinematics(m.with_values({f"drives.{drive}.position": [f"{x} {unit}" for x in positions]}))
     document = solid_model(r).document
     (motion,) = document["animations"]
     count = document["accessors"][motion["samplers"][0]["input"]]["count"]
     assert count == len(r.status) + closed
+
+
+SHAKER = """
+links: {ground: {points: {S: [0, 0]}}, block: {points: {S: [0, 0]}, mass: 1}}
+joints: {S: {type: slider, links: [ground, block]}}
+drives: {S: {position: 0}}
+"""

@@ -1,0 +1,215 @@
+"""What a worked solution says: which sections and sentences there are, and their figures against the answer."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+import pytest
+
+import dalembert as da
+from dalembert.bundled import examples
+from dalembert.reports.formula import latex, plain
+from dalembert.reports.sections.methods import cycle
+from dalembert.reports.sections.motion import inertia_shares
+from dalembert.reports.sheet import Equations, Heading, Paragraph, Sheet, Table
+from dalembert.reports.working import working
+from dalembert.views.paper.canvas import Canvas
+from tests.friction.engines import engine, engine_by_hand
+from tests.methods.space_machines import MACHINES
+from tests.methods.test_space_friction_drawings import solved as rubbing
+from tests.space.test_gears import Z, pair, wheel
+
+
+@pytest.fixture(autouse=True)
+def without_labels(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures are not looked at here."""
+    monkeypatch.setattr(Canvas, "label", lambda *a, **k: None)
+
+
+def words(sheet: Sheet) -> str:
+    return " ".join(b.text for b in sheet.blocks if isinstance(b, (Paragraph, Heading)))
+
+
+def table(sheet: Sheet, head: str) -> Table:
+    (found,) = (b for b in sheet.blocks if isinstance(b, Table) and head in b.heads)
+    return found
+
+
+def lines(sheet: Sheet) -> list[str]:
+    """Equations as they are printed."""
+    some = [w for b in sheet.blocks if isinstance(b, Equations) for w in b.lines]
+    return [" = ".join(plain(t).strip() for t in (w.letters, w.numbers, w.result) if t) for w in some]
+
+
+def figures(text: str) -> list[float]:
+    return [float(x.replace("−", "-")) for x in re.findall(r"−?\d[\d.]*", text)]
+
+
+def test_the_law_of_a_guide_and_what_friction_costs() -> None:
+    """Of the engine at 50 deg: by hand, and in shares of the power put in."""
+    r = da.statics(engine(mu=0.2, guide=0.05))
+    sheet = working(r, methods=())
+    hand = engine_by_hand(mu=0.2, half=0.05)
+    (law,) = (t for t in lines(sheet) if t.startswith("F_f14 = "))
+    letters, numbers, result = law.split(" = ")[1:]
+    assert letters == "μ_guide S_guide"
+    assert figures(numbers) == pytest.approx([0.07, hand.lower + hand.upper], rel=1e-3)
+    assert figures(result)[0] == pytest.approx(0.07 * (hand.lower + hand.upper), rel=1e-3)
+    lost = table(sheet, "of the power put in")
+    assert lost.total
+    assert lost.caption == "What friction takes at this position"
+    power = {row[0]: float(row[1]) for row in lost.rows}
+    assert power.pop("sum") == pytest.approx(sum(power.values()), rel=2e-3)
+    assert power == pytest.approx(
+        {n: float(r.power_lost(n)[0]) for n in "OAB"} | {"guide": float(r.power_lost("guide")[0])}, rel=1e-3
+    )
+    put_in = max(float(r.effort("O")[0]), sum(power.values()) - float(r.effort("O")[0]))
+    for name, _, share in lost.rows:
+        total = sum(power.values()) if name == "sum" else power[name]
+        assert figures(share)[0] == pytest.approx(100 * total / put_in, abs=0.06)
+    found = da.efficiency(r)
+    (said,) = re.findall(r"Efficiency, without inertia: (.*?)\.(?: |$)", words(sheet) + " ")
+    expected = [100 * float(x[0]) for x in (found.forward, found.reverse) if math.isfinite(x[0])]
+    assert figures(said)[: len(expected)] == pytest.approx(expected, abs=0.06)
+
+
+def test_without_friction_nothing_is_said_of_it() -> None:
+    r = da.statics(da.load(examples()["four_bar"]))
+    assert "Friction" not in [b.text for b in working(r, methods=()).blocks if isinstance(b, Heading)]
+
+
+def test_what_has_no_mass_has_no_mass_centre() -> None:
+    rows = {row[0]: row for row in table(working(da.statics(engine()), methods=()), "Mass").rows}
+    assert {row[2:4] for row in rows.values()} == {("massless", "–")}
+    norton = table(working(da.statics(da.load(examples()["four_bar"])), methods=()), "Mass").rows
+    assert [figures(row[2]) for row in norton] == [
+        pytest.approx([m], rel=1e-3) for m in (1.5 / 386, 7.7 / 386, 5.8 / 386)
+    ]
+
+
+def test_a_position_without_an_answer_has_its_reason_only() -> None:
+    tree = engine().to_tree()
+    tree["drives"] = {"guide": {"position": 1.55, "speed": "1 m/s"}}
+    tree["assembly"] = {"crank": 0, "rod": 0}
+    r = da.kinematics(da.mechanism(tree))
+    assert r.status == ("singular",)
+    sheet = working(r)
+    assert sheet.blocks[-2:] == [Heading("No answer"), Paragraph(f"singular: {r.reasons[0]}")]
+    assert "Checks" not in words(sheet)
+
+
+def space(name: str) -> Any:
+    return da.dynamics(da.Mechanism.model_validate(MACHINES[name]))
+
+
+@pytest.mark.parametrize(
+    ("name", "said", "unsaid"),
+    [
+        (
+            "rssr",
+            ["The 18 coordinates of the 3 links satisfy", "In this order: "],
+            ["Teeth", "pitch circles"],
+        ),
+        ("shaft", ["The 6 coordinates of the link satisfy", "All at once: "], ["Teeth", "pitch circles"]),
+    ],
+)
+def test_the_motion_and_order_in_space(name: str, said: list[str], unsaid: list[str]) -> None:
+    found = words(working(space(name), 3, methods=("matrix",)))
+    assert all(part in found for part in said), found
+    assert not any(part in found for part in unsaid)
+
+
+def test_wheels_in_space_are_named_and_press_with_one_force() -> None:
+    r = da.statics(
+        pair(wheel([0, 0, 0], Z, 0.05), wheel([0.15, 0, 0], Z, 0.1), [0, 0, -9.0]).with_values(
+            {"drives.A.position": 0.3}
+        )
+    )
+    found = words(working(r, methods=("matrix",)))
+    assert "The pitch circles of G tie the turns of their wheels." in found
+    assert "Teeth press with one force, along their line of pressure" in found
+    plane = words(working(da.statics(da.load(examples()["gear_train"])), methods=("matrix",)))
+    assert "Teeth press" not in plane
+
+
+@pytest.mark.parametrize(("count", "there"), [(7, False), (8, True)])
+def test_a_cycle_has_eight_positions(count: int, there: bool) -> None:
+    r = da.statics(da.load(examples()["four_bar"]), positions=count)
+    sheet = working(r, methods=())
+    assert ("Over the cycle" in words(sheet)) == there
+    if there:
+        rows = {row[0]: row for row in table(sheet, "Largest").rows}
+        assert list(rows) == ["effort O2", *(f"joint {n}" for n in r.joints)]
+        for n in r.joints:
+            value, where = r.worst("reaction", n)
+            assert figures(rows[f"joint {n}"][1])[0] == pytest.approx(value / 4.4482216152605, rel=1e-3)
+            assert rows[f"joint {n}"][2] == str(where + 1)
+
+
+def test_a_joint_known_at_some_positions_is_in_the_cycle() -> None:
+    m = da.load(examples()["four_bar"]).with_values({"links.coupler.points.B": [0.0, 0.14]})
+    r = da.statics(m, positions=24)
+    assert 0 < sum(s == "ok" for s in r.status) < 24
+    from dalembert.reports.report_context import METHODS, ReportContext
+    from dalembert.views.notation import Notation, Shown
+
+    sheet = Sheet("t")
+    cycle(sheet, ReportContext(r, 0, Shown(r, Notation(), 0), METHODS, "", Notation()))
+    assert [row[0] for row in table(sheet, "Largest").rows][1:] == [f"joint {n}" for n in r.joints]
+
+
+@pytest.mark.parametrize(("speed", "verdict"), [(25.0, "must not be left out"), (0.5, "could be left out")])
+def test_whether_inertia_could_be_left_out(speed: float, verdict: str) -> None:
+    m = da.load(examples()["four_bar"]).with_values({"drives.O2.speed": speed, "drives.O2.acceleration": 0.0})
+    r = da.dynamics(m)
+    sheet = working(r, methods=())
+    (said,) = re.findall(
+        r"Inertia (must not be left out|could be left out): it makes up to (\S+) ?% of", words(sheet)
+    )
+    assert said[0] == verdict
+    assert float(said[1]) == pytest.approx(100 * max(s.share for s in inertia_shares(r)), rel=0.05)
+
+
+@pytest.mark.parametrize("speed", [1.0, -1.0])
+def test_a_cylindrical_bearing_rubs_by_the_size_of_each_part(speed: float) -> None:
+    """The share around the axis is that of a size, whichever way it turns."""
+    r = rubbing("rccc") if speed > 0 else None
+    if r is None:
+        m = rubbing("rccc").mechanism
+        r = da.dynamics(m.with_values({"drives.O.speed": -float(rubbing("rccc").drive_speed("O")[0])}))
+    some = [t for t in lines(working(r, 2, methods=())) if re.match(r"M_f\S* = .*p_t", t)]
+    assert some
+    for text in some:
+        _, letters, numbers, _ = text.split(" = ")
+        assert "|p_t|" in letters
+        assert numbers.count("−") == letters.count("−")
+
+
+def test_one_contact_has_no_number() -> None:
+    r = rubbing("rccc")
+    names = {t.split(" = ")[0] for t in lines(working(r, 2, methods=())) if t.startswith("S_")}
+    for joint in r.joints:
+        own = {n for n in names if re.fullmatch(rf"S_{joint}(,\d)?", n)}
+        assert own in (set(), {f"S_{joint}"}, {f"S_{joint},1", f"S_{joint},2"})
+    assert any("," not in n for n in names)
+
+
+def test_zero_has_no_sign() -> None:
+    beam = da.loads("""
+    links: {ground: {points: {A: [0, 0], B: [2, 0]}}, beam: {points: {A: [0, 0], B: [2, 0], C: [1, 0]}}}
+    joints:
+      A: {type: pin, links: [ground, beam]}
+      B: {type: slot, links: [ground, beam]}
+    loads: {F: {type: force, on: beam, at: C, value: [0, -30]}}
+    """)
+    sheet = working(da.statics(beam), methods=("matrix",))
+    assert any(re.search(r"\\b0\\b", t) or " 0 " in t for t in lines(sheet))
+    assert not any(re.search(r"[−-] ?0(?![.\d])", t) for t in lines(sheet)), lines(sheet)
+
+
+def test_a_lone_quote_is_a_letter() -> None:
+    assert plain('c "ab"').split() == ["c", "ab"]
+    assert plain('"') == '"'
+    assert latex('"') == '"'
