@@ -7,6 +7,8 @@ import resource
 import shutil
 import subprocess
 import sys
+import threading
+import time
 from pathlib import Path
 from typing import Any
 
@@ -155,6 +157,20 @@ def test_interruption(threads: int, monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(KeyboardInterrupt):
         k(values, threads=threads, progress=stop)
     assert len(done) == 1
+
+
+def test_an_error_on_another_thread_is_raised_here() -> None:
+    seen: list[slice] = []
+
+    def part(which: slice) -> None:
+        seen.append(which)
+        time.sleep(1e-3)
+        if threading.current_thread() is not threading.main_thread():
+            raise ValueError("there")
+
+    with pytest.raises(ValueError, match="there"):
+        parallel_runs.in_parts(part, 100, 1, 2, None)
+    assert len(seen) < 100
 
 
 def test_changing_numbers_does_not_compile_again(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 import os
-import threading
+from collections import deque
 from collections.abc import Callable, Iterator
-from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
-from typing import Any
+from threading import Thread
 
 import numpy as np
 
@@ -122,46 +121,39 @@ def run_pairs(
 def in_parts(
     part: Callable[[slice], None], count: int, step: int, threads: int | None, progress: Progress | None
 ) -> None:
-    """Call ``part`` on slices of ``count`` things; an interruption leaves after the parts under way."""
-    parts = [slice(k, min(k + step, count)) for k in range(0, count, step)]
-    workers = 1 if len(parts) < 2 else min(threads or cores(), len(parts))
-    if workers <= 1:
-        done = 0
-        for piece in parts:
-            part(piece)
-            done += piece.stop - piece.start
-            if progress is not None:
-                progress(done, count)
-        return
-    _on_threads(part, iter(parts), workers, count, progress)
+    """Call ``part`` on slices of ``count`` things, here and on other threads, and ``progress`` here; an interruption
+    or an error leaves after the parts under way."""
+    parts = deque(slice(k, min(k + step, count)) for k in range(0, count, step))
+    done = [0] * (1 if len(parts) < 2 else min(threads or cores(), len(parts)))
+    failed: list[BaseException] = []
 
+    def left() -> Iterator[slice]:
+        while not failed:
+            try:
+                yield parts.popleft()
+            except IndexError:
+                return
 
-def _on_threads(
-    part: Callable[[slice], None], parts: Iterator[slice], workers: int, count: int, progress: Progress | None
-) -> None:
-    stop, done = threading.Event(), 0
-    with ThreadPoolExecutor(workers) as pool:
-        pending: dict[Any, slice] = {}
+    def work(who: int) -> None:
         try:
-            while True:
-                while len(pending) < 2 * workers and (piece := next(parts, None)) is not None:
-                    pending[pool.submit(_unless, stop, part, piece)] = piece
-                if not pending:
-                    return
-                for future in wait(pending, return_when=FIRST_COMPLETED).done:
-                    future.result()
-                    piece = pending.pop(future)
-                    done += piece.stop - piece.start
-                if progress is not None:
-                    progress(done, count)
-        except BaseException:
-            stop.set()
-            raise
+            for piece in left():
+                part(piece)
+                done[who] += piece.stop - piece.start
+                if progress is not None and who == 0:
+                    progress(sum(done), count)
+        except BaseException as error:
+            failed.append(error)
 
-
-def _unless(stop: threading.Event, part: Callable[[slice], None], piece: slice) -> None:
-    if not stop.is_set():
-        part(piece)
+    others = [Thread(target=work, args=(who,)) for who in range(1, len(done))]
+    for thread in others:
+        thread.start()
+    work(0)
+    for thread in others:
+        thread.join()
+    if failed:
+        raise failed[0]
+    if others and progress is not None:
+        progress(count, count)
 
 
 def cores() -> int:
