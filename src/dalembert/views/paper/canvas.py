@@ -29,8 +29,8 @@ from dalembert.views.paper.scene import (
 STAGES = ((0.9, 1.6), (2.6, 4.0), (6.0, 8.5), (12.0, 17.0), (24.0, 34.0, 48.0))
 """Distances in mm at which a label is tried, some at a time: a free place near ends the search."""
 
-TAKEN = 1000.0
-"""Cost of a place over a stroke or a text, or whose leader would cross a text."""
+CHEAPEST = (0, 12, 60, None)
+"""Candidates in the order of their cost are looked at some at a time: mostly one of the first dozen is free."""
 
 LEADER = 5.0
 """Distance in mm beyond which a thin line leads from the label to its place."""
@@ -121,19 +121,24 @@ def _outline(item: Item) -> Sequence[Point]:
 
 def crossings(box: Array, pieces: Array) -> Flags:
     """Which straight pieces (S, 2, 2) touch each of some boxes (B, 4): (B, S), by separating axes."""
-    middle, half = (box[:, None, :2] + box[:, None, 2:]) / 2, (box[:, None, 2:] - box[:, None, :2]) / 2
-    c, d = pieces.mean(axis=1) - middle, (pieces[:, 1] - pieces[:, 0]) / 2
-    d = np.broadcast_to(d, c.shape)
-    near = (np.abs(c) <= half + np.abs(d)).all(axis=-1)
-    turn = np.abs(c[..., 0] * d[..., 1] - c[..., 1] * d[..., 0])
-    return np.asarray(near & (turn <= half[..., 0] * np.abs(d[..., 1]) + half[..., 1] * np.abs(d[..., 0])))
+    start, end = pieces[:, 0], pieces[:, 1]
+    low, high = np.minimum(start, end).T - 1e-6, np.maximum(start, end).T + 1e-6
+    left, bottom, right, top = box.T[:, :, None]
+    near = (low[0] <= right) & (high[0] >= left) & (low[1] <= top) & (high[1] >= bottom)
+    b, s = np.nonzero(near)  # few: only they are looked at closely
+    middle, half = (box[:, :2] + box[:, 2:])[b] / 2, (box[:, 2:] - box[:, :2])[b] / 2
+    c, d = (start[s] + end[s]) / 2 - middle, (end[s] - start[s]) / 2
+    turn = np.abs(c[:, 0] * d[:, 1] - c[:, 1] * d[:, 0])
+    inside = (np.abs(c) <= half + np.abs(d)).all(axis=1)
+    near[b, s] = inside & (turn <= half[:, 0] * np.abs(d[:, 1]) + half[:, 1] * np.abs(d[:, 0]))
+    return np.asarray(near)
 
 
 def overlapping(a: Array, b: Array) -> Flags:
     """Which of boxes a (A, 4) and b (B, 4) overlap."""
-    lower = np.maximum(a[:, None, :2], b[None, :, :2])
-    upper = np.minimum(a[:, None, 2:], b[None, :, 2:])
-    return np.asarray((upper > lower).all(axis=-1))
+    (left, bottom, right, top), (lefts, bottoms, rights, tops) = a.T[:, :, None], b.T[:, None, :]
+    across = np.minimum(right, rights) > np.maximum(left, lefts)
+    return across & (np.minimum(top, tops) > np.maximum(bottom, bottoms))  # type: ignore[no-any-return]
 
 
 class _Place(NamedTuple):
@@ -144,6 +149,9 @@ class _Place(NamedTuple):
     box: Array
     near: Array
     gap: float
+
+
+NOWHERE = _Place(math.inf, np.zeros(2), np.zeros(4), np.zeros(2), 0.0)
 
 
 class _Placer:
@@ -157,11 +165,11 @@ class _Placer:
         """The text at its best place, with a leader where that is far; nothing where every place is taken."""
         bold = BOLD if label.role == "title" else 1.0
         room = (bold * text_width(label.text, label.size) / 2 + 0.25, 0.65 * label.size + 0.25)
-        best = _Place(np.inf, np.zeros(2), np.zeros(4), np.zeros(2), 0.0)
+        best = NOWHERE
         for gaps in STAGES:
             if best.cost > gaps[0]:
                 best = min(best, self._best(label, room, gaps), key=lambda place: place.cost)
-        if best.cost >= TAKEN:
+        if best is NOWHERE:
             return []
         x, y = best.at
         lift = 0.07 * label.size if "_{" in label.text else 0.0
@@ -174,23 +182,28 @@ class _Placer:
         return items
 
     def _best(self, label: Label, room: tuple[float, float], gaps: tuple[float, ...]) -> _Place:
-        """The cheapest candidate at some distances: near, in the preferred direction, over nothing."""
+        """The cheapest free candidate at some distances: near, in the preferred direction, over nothing."""
         at, near, gap = _candidates(label, room[0] - 0.25, room[1] - 0.25, gaps)
         box = np.concatenate([at - room, at + room], axis=1)
         cost = gap + self._preference(label, at, near)
-        cost += np.where(crossings(box, self._close(box)).any(axis=1), TAKEN, 0.0)
-        cost += np.where(overlapping(box, self.boxes).any(axis=1), TAKEN, 0.0)
-        if label.leads and gaps[-1] >= LEADER:
-            cost += np.where((gap >= LEADER) & self._is_blocked(near, box), TAKEN, 0.0)
-        k = int(cost.argmin())
-        return _Place(float(cost[k]), at[k], box[k], near[k], float(gap[k]))
+        order, strokes = np.argsort(cost, kind="stable"), self._close(box)
+        for first, last in pairwise(CHEAPEST):
+            free = order[first:last]
+            free = free[~overlapping(box[free], self.boxes).any(axis=1)]
+            free = free[~crossings(box[free], strokes).any(axis=1)]
+            if label.leads and gaps[-1] >= LEADER:
+                free = free[(gap[free] < LEADER) | ~self._is_blocked(near[free], box[free])]
+            if len(free):
+                k = int(free[0])
+                return _Place(float(cost[k]), at[k], box[k], near[k], float(gap[k]))
+        return NOWHERE
 
     def _close(self, box: Array) -> Array:
         """Strokes in the region of some boxes."""
         low, high = box[:, :2].min(axis=0), box[:, 2:].max(axis=0)
-        ends = self.strokes
-        kept = (ends.max(axis=1) >= low).all(axis=1) & (ends.min(axis=1) <= high).all(axis=1)
-        return np.asarray(ends[kept])
+        start, end = self.strokes[:, 0], self.strokes[:, 1]
+        kept = (np.maximum(start, end) >= low) & (np.minimum(start, end) <= high)
+        return np.asarray(self.strokes[kept[:, 0] & kept[:, 1]])
 
     def _is_blocked(self, near: Array, box: Array) -> Flags:
         """Whether the straight way to a candidate crosses a text."""

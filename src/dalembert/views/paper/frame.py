@@ -39,9 +39,8 @@ def fit_frame(points: Iterable[Point | Array], width: float, height: float, fact
 
     ``factor`` is the size of that unit in metres.
     """
-    p = np.array([(float(x), float(y)) for x, y in points if np.isfinite(x) and np.isfinite(y)]).reshape(
-        -1, 2
-    )
+    p = np.array([*points], float).reshape(-1, 2)
+    p = p[np.isfinite(p).all(axis=1)]
     if not len(p):
         return Frame(1.0)
     low, high = p.min(axis=0), p.max(axis=0)

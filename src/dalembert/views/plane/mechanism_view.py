@@ -19,7 +19,7 @@ from dalembert.views.plane.circle_details import draw_circles, with_friction_cir
 from dalembert.views.plane.guide_details import with_rough_guide
 from dalembert.views.plane.joint_drawings import draw_joint
 from dalembert.views.plane.outline import (
-    every_place,
+    every_path,
     link_points,
     link_shape,
     rail,
@@ -122,11 +122,11 @@ def unit_size(r: Result, kind: str, notation: Notation | None = None) -> float:
 
 def whole_frame(r: Result, k: int, width: float, height: float) -> Frame:
     """A frame that holds all positions where there are traces, else this one."""
-    places = every_place(r, k)
+    shown = [k]
     if len(r.status) > 2:
         some = np.unique(np.linspace(0, len(r.status) - 1, 24).astype(int))
-        places += [p for n in some if r.ok[n] for p in every_place(r, int(n))]
-    return fit_frame(places, width, height, unit_size(r, "length"))
+        shown += some[r.ok[some]].tolist()
+    return fit_frame(every_path(r)[:, shown].reshape(-1, 2), width, height, unit_size(r, "length"))
 
 
 def draw_traces(canvas: Canvas, r: Result, frame: Frame) -> None:
@@ -164,7 +164,7 @@ def draw_links(canvas: Canvas, r: Result, k: int, frame: Frame) -> None:
 def canvas_names(canvas: Canvas, r: Result, k: int, frame: Frame, shown: Shown) -> None:
     """Names of joints and links."""
     m = r.mechanism
-    middle = np.mean([frame(p) for p in every_place(r, k)], axis=0)
+    middle = np.mean([frame(p) for p in every_path(r)[:, k]], axis=0)
     for name, joint in m.joints.items():
         at = frame(link_place(r, joint.links[1], m.joint_points(name)[1])[k])
         away = math.atan2(at[1] - middle[1], at[0] - middle[0])

@@ -20,20 +20,26 @@ if TYPE_CHECKING:
     from dalembert.model import Mechanism
 
 
-def link_points(r: Result, link: str, k: int) -> dict[str, tuple[float, float]]:
-    """Places in metres of what a link's shape spans: joints, then points that carry loads."""
+def link_paths(r: Result, link: str) -> dict[str, Array]:
+    """Places (P, 2) in metres of what a link's shape spans: joints, then points that carry loads."""
     m = r.mechanism
-    places: Tree = {}
-    for name, joint in m.joints.items():
+    own = {name: joint for name, joint in m.joints.items() if link in joint.links}
+    places: dict[str, Array] = {}
+    for name, joint in own.items():
         for end, u in zip(joint.links, m.joint_points(name), strict=True):
             if end == link and not _slides_on(joint, end):
-                places.setdefault(name, link_place(r, link, u)[k])
-    for name, joint in m.joints.items():
+                places.setdefault(name, link_place(r, link, u))
+    for name, joint in own.items():
         if joint.apart and joint.links[0] == link != GROUND:
-            places[f"{name} sliding"] = link_place(r, joint.links[1], m.joint_points(name)[1])[k]
+            places[f"{name} sliding"] = link_place(r, joint.links[1], m.joint_points(name)[1])
     for name, at in load_places(m, link).items():
-        places.setdefault(name, link_place(r, link, at)[k])
-    return {name: (float(p[0]), float(p[1])) for name, p in places.items()}
+        places.setdefault(name, link_place(r, link, at))
+    return places
+
+
+def link_points(r: Result, link: str, k: int) -> dict[str, tuple[float, float]]:
+    """The same at one position."""
+    return {name: (float(path[k, 0]), float(path[k, 1])) for name, path in link_paths(r, link).items()}
 
 
 def _slides_on(joint: Joint, link: str) -> bool:
@@ -53,24 +59,28 @@ def load_places(m: Mechanism, link: str) -> Tree:
     return out
 
 
-def every_place(r: Result, k: int) -> list[tuple[float, float]]:
-    """All places of the mechanism at a position, metres."""
-    out = [p for link in (*r.links, GROUND) for p in link_points(r, link, k).values()]
-    out += [tuple(joint_place(r, joint)[k]) for joint in r.joints]
-    out += [tuple(r.center(link)[k]) for link in r.links if r.mechanism.mass(link)]
+def every_path(r: Result) -> Array:
+    """Where all places of the mechanism are (N, P, 2), metres."""
+    out = [path for link in (*r.links, GROUND) for path in link_paths(r, link).values()]
+    out += [joint_place(r, joint) for joint in r.joints]
+    out += [r.center(link) for link in r.links if r.mechanism.mass(link)]
     for name, joint in r.mechanism.joints.items():
-        for _, center, radius in wheels(r, name, joint, k):
-            out += [(center[0] + radius, center[1] + radius), (center[0] - radius, center[1] - radius)]
-    return out
+        for _, center, radius in _wheel_paths(r, name, joint):
+            out += [center + radius, center - radius]
+    return np.array(out).reshape(-1, len(r.status), 2)
+
+
+def _wheel_paths(r: Result, name: str, joint: Any) -> list[tuple[str, Array, float]]:
+    if not joint.wheels:
+        return []
+    both = zip(joint.links, r.mechanism.joint_points(name), joint.pitch_radii, strict=True)
+    return [(link, link_place(r, link, u), float(radius)) for link, u, radius in both if radius]
 
 
 def wheels(r: Result, name: str, joint: Any, k: int) -> list[tuple[str, tuple[float, float], float]]:
     """Pitch circles of wheels in contact: link, centre and radius in metres."""
-    if not joint.wheels:
-        return []
-    both = zip(joint.links, r.mechanism.joint_points(name), joint.pitch_radii, strict=True)
-    found = [(link, link_place(r, link, u)[k], float(radius)) for link, u, radius in both if radius]
-    return [(link, (float(at[0]), float(at[1])), radius) for link, at, radius in found]
+    found = _wheel_paths(r, name, joint)
+    return [(link, (float(path[k, 0]), float(path[k, 1])), radius) for link, path, radius in found]
 
 
 def link_shape(r: Result, link: str, k: int, frame: Frame) -> list[Item]:
