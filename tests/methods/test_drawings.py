@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import json
 import math
+from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.views.charts import chart_scenes
-from dalembert.views.paper.scene import Line, Text
+from dalembert.views.paper.canvas import crossings
+from dalembert.views.paper.scene import Line, Scene, Text
 from dalembert.views.plane.force_polygons import forces_of
 from tests.methods.readable import text_over_lines, text_overlaps
 
@@ -37,6 +40,27 @@ def result(name: str, **options: Any) -> Any:
 def words(scene: Any) -> set[str]:
     """Every text of a drawing."""
     return {item.text for item in scene.items if isinstance(item, Text)}
+
+
+def is_met(box: Any, start: Any, end: Any) -> bool:
+    """Whether a straight piece has a part in a box: what is left of it between each two sides."""
+    first, last = Fraction(0), Fraction(1)
+    for at, to, low, high in zip(start, end, box[:2], box[2:], strict=True):
+        if at == to:
+            first, last = (first, last) if low <= at <= high else (1, 0)
+        else:
+            ways = sorted(Fraction(int(side - at), int(to - at)) for side in (low, high))
+            first, last = max(first, ways[0]), min(last, ways[1])
+    return first <= last
+
+
+def test_a_line_meets_a_box_where_a_part_of_it_is_inside_or_on_a_side() -> None:
+    random = np.random.default_rng(3)
+    places, pieces = random.integers(-6, 7, (2, 50, 2, 2))
+    boxes = np.concatenate([places.min(axis=1), places.max(axis=1) + 1], axis=1)
+    found = crossings(boxes.astype(float), pieces.astype(float))
+    assert 500 < found.sum() < 2000
+    assert found.tolist() == [[is_met(box, *piece) for piece in pieces] for box in boxes]
 
 
 @pytest.mark.parametrize("name", SHOWN)
@@ -173,6 +197,20 @@ def test_animations(kind: str, tmp_path: Path) -> None:
     for scene in animation.frames:
         for arrow in scene.arrows():
             assert arrow.length * animation.scales["force"] == pytest.approx(arrow.value, rel=1e-9)
+
+
+def test_frames_drawn_over_what_stays_still_are_pictures_of_both(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    image = pytest.importorskip("PIL.Image")
+    from dalembert.views.formats.matplotlib_figure import pictures, write_figure
+
+    animation = da.draw.animation(result("four_bar", positions=3))
+    first, *others = animation.frames
+    for frame in others:
+        scene = Scene((*animation.still, *frame.items))
+        write_figure(scene, tmp_path / "whole.png", "dark", 90)
+        picture = pictures(animation.still, [first.items, frame.items], scene.bounds, "dark", 90)[1]
+        assert image.open(tmp_path / "whole.png").convert("RGB").tobytes() == picture.tobytes()
 
 
 def test_an_animation_needs_positions() -> None:

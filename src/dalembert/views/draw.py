@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Literal
 
+from dalembert.analysis.methods.applied_forces import whole_actions
 from dalembert.analysis.plane_only import refuse_space
 from dalembert.analysis.result.position_lookup import PositionChoice, position_at
 from dalembert.views import charts as _charts
@@ -28,7 +29,7 @@ from dalembert.views.only_in_motion import refuse_still
 from dalembert.views.paper.scene import Scene, stack_scenes
 from dalembert.views.plane.displaced_inertia import displaced_inertia_scene
 from dalembert.views.plane.force_polygons import force_chain_scene, force_polygon_scene, lines_of_action_scene
-from dalembert.views.plane.free_body import components_scene, free_body_scene
+from dalembert.views.plane.free_body import components_scene, free_body_scene, free_body_scenes
 from dalembert.views.plane.mechanism_view import mechanism_scene, place_title
 from dalembert.views.plane.velocity_polygons import instant_centers_scene, motion_polygon_scene
 from dalembert.views.space.camera import CAMERAS, Camera
@@ -151,7 +152,7 @@ def free_bodies(
 
     def render(end: Result) -> Scene:
         if seen is None:
-            return stack_scenes([free_body_scene(end, link, k, notation) for link in r.links], title=title)
+            return stack_scenes(free_body_scenes(end, k, notation), title=title)
         return stack_scenes([space_free_body_scene(end, n, k, seen, notation) for n in r.links], title=title)
 
     return _whole(r, k, notation, render, title)
@@ -164,7 +165,8 @@ def force_polygons(r: Result, at: PositionChoice = None, notation: Notation | No
     title = _title(r, k, "Force polygons", notation)
 
     def render(end: Result) -> Scene:
-        scenes = [force_polygon_scene(end, link, k, notation) for link in r.links]
+        some = whole_actions(end)
+        scenes = [force_polygon_scene(end, link, k, notation, some=some) for link in r.links]
         return stack_scenes([*scenes, force_chain_scene(end, k, notation)], title=title)
 
     return _whole(r, k, notation, render, title)

@@ -18,11 +18,11 @@ from dalembert.analysis.friction.friction_circles import NOTHING
 from dalembert.analysis.friction.joint_friction import friction_circle_radius
 from dalembert.analysis.methods.applied_forces import (
     Action,
-    actions,
+    joint_actions,
     magnitude,
     on_link,
+    other_actions,
     slide_direction,
-    whole_actions,
 )
 from dalembert.analysis.plane_only import refuse_space
 from dalembert.arrays import Array
@@ -138,7 +138,8 @@ def members(r: Result, limit: float = NOTHING) -> dict[str, Member]:
     >>> {name: member.kind for name, member in found.items()}
     {'crank': 'two-force with couple', 'coupler': 'two-force', 'rocker': 'three-force'}
     """
-    everything, split = whole_actions(r), actions(r)
+    others = other_actions(r)
+    everything, split = (*joint_actions(r, split=False), *others), (*joint_actions(r), *others)
     largest = max((float(np.nanmax(magnitude(a.force), initial=0.0)) for a in everything), default=0.0)
     floor = limit * largest
     return {

@@ -90,23 +90,17 @@ class Animation:
                 self._write_pictures(temporary, kind[1:], theme)
 
     def _write_pictures(self, path: Path, kind: str, theme: str) -> None:
-        from io import BytesIO
-
         from PIL import Image
 
-        from dalembert.views.formats.matplotlib_figure import png_bytes
+        from dalembert.views.formats.matplotlib_figure import pictures
 
-        bounds = self.bounds
-        pictures = [
-            Image.open(BytesIO(png_bytes(Scene((*self.still, *f.items)), theme, 90, bounds))).convert("RGB")
-            for f in self.frames
-        ]
+        shown = pictures(self.still, [f.items for f in self.frames], self.bounds, theme)
         if kind == "gif":
-            palette = pictures[0].quantize(64)
-            pictures = [p.quantize(64, palette=palette, dither=Image.Dither.NONE) for p in pictures]
+            palette = shown[0].quantize(64)
+            shown = [p.quantize(64, palette=palette, dither=Image.Dither.NONE) for p in shown]
         each = round(1000 * self.seconds / len(self.frames))
-        pictures[0].save(
-            path, format=kind.upper(), save_all=True, append_images=pictures[1:], duration=each, loop=0
+        shown[0].save(
+            path, format=kind.upper(), save_all=True, append_images=shown[1:], duration=each, loop=0
         )
 
     def _repr_html_(self) -> str:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from dalembert.arrays import Array, Tree
@@ -20,55 +20,74 @@ POINT = 72 / 25.4
 """Points in a millimetre."""
 
 
-def write_figure(scene: Scene, path: str | Path, theme: str = "light", dpi: int = 200) -> None:
-    """Write a PDF or a PNG, to scale."""
-    path = Path(path)
-    metadata: Tree = {"Title": scene.title} if path.suffix != ".png" else {}
-    if path.suffix == ".pdf":
-        metadata["CreationDate"] = None
-    _save(scene, theme, scene.bounds, path, dpi=dpi, metadata=metadata, format=path.suffix[1:])
-
-
-def png_bytes(scene: Scene, theme: str = "light", dpi: int = 110, bounds: Box | None = None) -> bytes:
-    """A PNG picture; ``bounds`` in mm keep the frames of an animation alike."""
-    out = BytesIO()
-    _save(scene, theme, bounds or scene.bounds, out, dpi=dpi, format="png")
-    return out.getvalue()
-
-
 SETTINGS = {"pdf.fonttype": 42, "text.hinting": "none"}
 """Fonts as such in a PDF; letters as wide in a PNG as they are, for what stands behind others is placed by that."""
 
 
-def _save(scene: Scene, theme: str, bounds: Box, target: Any, **options: Any) -> None:
+def write_figure(scene: Scene, path: str | Path, theme: str = "light", dpi: int = 200) -> None:
+    """Write a PDF or a PNG, to scale."""
     import matplotlib
 
+    path = Path(path)
+    metadata: Tree = {"Title": scene.title} if path.suffix != ".png" else {}
+    if path.suffix == ".pdf":
+        metadata["CreationDate"] = None
     with matplotlib.rc_context(SETTINGS):
-        _figure(scene, theme, bounds).savefig(target, **options)
+        painter = _Painter(scene.bounds, theme, dpi)
+        for artist in painter.artists(scene.items):
+            painter.figure.add_artist(artist)
+        painter.figure.savefig(path, dpi=dpi, metadata=metadata, format=path.suffix[1:])
 
 
-def _figure(scene: Scene, theme: str, bounds: Box) -> Any:
-    from matplotlib.figure import Figure
+def pictures(
+    still: Sequence[Item], frames: Iterable[Sequence[Item]], bounds: Box, theme: str = "light", dpi: int = 90
+) -> list[Any]:
+    """Pictures of PIL: the items of each frame over those that stay still, drawn once; ``bounds`` in mm."""
+    import matplotlib
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from PIL import Image
 
-    left, bottom, right, top = bounds
-    left, bottom, right, top = left - MARGIN, bottom - MARGIN, right + MARGIN, top + MARGIN
-    paper = BACKGROUND[theme]
-    figure = Figure(figsize=((right - left) / 25.4, (top - bottom) / 25.4), facecolor=paper)
-    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0), frameon=False)
-    axes.set_xlim(left, right)
-    axes.set_ylim(bottom, top)
-    axes.set_axis_off()
-    painter = _Painter(axes, theme)
-    for item in scene.items:
-        painter.item(item)
-    return figure
+    with matplotlib.rc_context(SETTINGS):
+        painter = _Painter(bounds, theme, dpi)
+        figure, canvas = painter.figure, FigureCanvasAgg(painter.figure)
+        for artist in painter.artists(still):
+            figure.add_artist(artist)
+        canvas.draw()
+        behind, out = canvas.copy_from_bbox(figure.bbox), []
+        for items in frames:
+            canvas.restore_region(behind)
+            for artist in painter.artists(items):
+                figure.draw_artist(artist)
+            out.append(Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB"))
+    return out
 
 
 class _Painter:
-    """Primitives to artists, in drawing order."""
+    """Primitives to artists of a figure, in drawing order; without axes, which would cost more than what is drawn."""
 
-    def __init__(self, axes: Any, theme: str) -> None:
-        self.axes, self.looks, self.order = axes, THEMES[theme], 1
+    def __init__(self, bounds: Box, theme: str, dpi: int) -> None:
+        from matplotlib.figure import Figure
+        from matplotlib.transforms import Bbox, BboxTransformFrom, BboxTransformTo
+
+        left, bottom, right, top = bounds
+        left, bottom, right, top = left - MARGIN, bottom - MARGIN, right + MARGIN, top + MARGIN
+        size = ((right - left) / 25.4, (top - bottom) / 25.4)
+        self.figure = Figure(figsize=size, dpi=dpi, facecolor=BACKGROUND[theme])
+        paper = BboxTransformFrom(Bbox.from_extents(left, bottom, right, top))
+        self.transform = paper + BboxTransformTo(self.figure.bbox)
+        self.looks, self.order = THEMES[theme], 1
+        self._out: list[Any] = []
+
+    def artists(self, items: Iterable[Item]) -> list[Any]:
+        """What the items look like."""
+        self._out = []
+        for item in items:
+            self.item(item)
+        return self._out
+
+    def _add(self, artist: Any) -> None:
+        artist.set(figure=self.figure, transform=self.transform, zorder=self.order)
+        self._out.append(artist)
 
     def item(self, item: Item) -> None:
         if isinstance(item, Group):
@@ -102,51 +121,40 @@ class _Painter:
         from matplotlib.lines import Line2D
 
         x, y = zip(*points, strict=True)
-        style: Any = (0, [d * POINT for d in look.dash]) if look.dash else "-"
-        line = Line2D(
-            x, y, color=look.stroke, linewidth=look.width * POINT, zorder=self.order, solid_capstyle="round"
-        )
-        line.set_linestyle((0, [d / look.width for d in look.dash]) if look.dash else style)
-        self.axes.add_line(line)
+        dash: Any = (0, [d / look.width for d in look.dash]) if look.dash else "-"
+        width = look.width * POINT
+        self._add(Line2D(x, y, color=look.stroke, linewidth=width, linestyle=dash, solid_capstyle="round"))
 
     def area(self, points: ArrayLike, look: Look) -> None:
         from matplotlib.patches import Polygon as Patch
 
-        self.axes.add_patch(
-            Patch(
-                points,
-                closed=True,
-                facecolor=look.fill,
-                edgecolor=look.stroke,
-                linewidth=look.width * POINT,
-                zorder=self.order,
-                joinstyle="round",
-            )
-        )
+        colors = {"facecolor": look.fill, "edgecolor": look.stroke}
+        self._add(Patch(points, closed=True, linewidth=look.width * POINT, joinstyle="round", **colors))
 
     def head(self, points: ArrayLike, look: Look) -> None:
         from matplotlib.patches import Polygon as Patch
 
         if points:
-            self.axes.add_patch(
-                Patch(points, closed=True, facecolor=look.stroke, linewidth=0, zorder=self.order)
-            )
+            self._add(Patch(points, closed=True, facecolor=look.stroke, linewidth=0))
 
     def text(self, t: Text, look: Look) -> None:
+        from matplotlib.text import Text as Letters
+
         bold = BOLD if look.weight != "normal" else 1.0
         left, base = t.box[0], t.at[1] - 0.36 * t.size
         for piece in pieces(t.text):
             size = t.size * (SMALL if piece.level else 1.0)
-            self.axes.text(
-                left,
-                base + piece.level * 0.28 * t.size,
-                piece.text.replace("$", r"\$"),
-                fontsize=size * POINT,
-                color=look.stroke,
-                fontweight=look.weight,
-                fontfamily="DejaVu Sans",
-                verticalalignment="baseline",
-                zorder=self.order,
+            self._add(
+                Letters(
+                    left,
+                    base + piece.level * 0.28 * t.size,
+                    piece.text.replace("$", r"\$"),
+                    fontsize=size * POINT,
+                    color=look.stroke,
+                    fontweight=look.weight,
+                    fontfamily="DejaVu Sans",
+                    verticalalignment="baseline",
+                )
             )
             left += size * letters_width(piece.text) * bold
 

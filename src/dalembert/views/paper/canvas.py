@@ -122,16 +122,15 @@ def _outline(item: Item) -> Sequence[Point]:
 def crossings(box: Array, pieces: Array) -> Flags:
     """Which straight pieces (S, 2, 2) touch each of some boxes (B, 4): (B, S), by separating axes."""
     start, end = pieces[:, 0], pieces[:, 1]
-    low, high = np.minimum(start, end).T - 1e-6, np.maximum(start, end).T + 1e-6
+    low, high = np.minimum(start, end).T, np.maximum(start, end).T
     left, bottom, right, top = box.T[:, :, None]
-    near = (low[0] <= right) & (high[0] >= left) & (low[1] <= top) & (high[1] >= bottom)
-    b, s = np.nonzero(near)  # few: only they are looked at closely
-    middle, half = (box[:, :2] + box[:, 2:])[b] / 2, (box[:, 2:] - box[:, :2])[b] / 2
-    c, d = (start[s] + end[s]) / 2 - middle, (end[s] - start[s]) / 2
+    met = (low[0] <= right) & (high[0] >= left) & (low[1] <= top) & (high[1] >= bottom)
+    b, s = np.nonzero(met)  # few: only of them it is asked whether the box is beside the piece's line
+    c, half = (start[s] + end[s] - box[b, :2] - box[b, 2:]) / 2, (box[b, 2:] - box[b, :2]) / 2
+    d = (end - start)[s]
     turn = np.abs(c[:, 0] * d[:, 1] - c[:, 1] * d[:, 0])
-    inside = (np.abs(c) <= half + np.abs(d)).all(axis=1)
-    near[b, s] = inside & (turn <= half[:, 0] * np.abs(d[:, 1]) + half[:, 1] * np.abs(d[:, 0]))
-    return np.asarray(near)
+    met[b, s] = turn <= half[:, 0] * np.abs(d[:, 1]) + half[:, 1] * np.abs(d[:, 0])
+    return np.asarray(met)
 
 
 def overlapping(a: Array, b: Array) -> Flags:

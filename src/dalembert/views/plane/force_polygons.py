@@ -66,12 +66,17 @@ def forces_of(some: Sequence[Action], link: str, k: int, floor: float = 1e-9) ->
 
 
 def force_polygon_scene(
-    r: Result, link: str, k: int, notation: Notation | None = None, case: str | None = None
+    r: Result,
+    link: str,
+    k: int,
+    notation: Notation | None = None,
+    case: str | None = None,
+    some: tuple[Action, ...] | None = None,
 ) -> Scene:
     """The forces on a link head to tail; the gap between end and start is the residual."""
     shown = Shown(r, notation or Notation(), k)
     found = has_reactions(r, link, k)
-    mine = forces_of(case_actions(r, case), link, k) if found else []
+    mine = forces_of(some or case_actions(r, case), link, k) if found else []
     per_mm = force_scale(
         [float(np.hypot(*a.force[k])) for a in mine], LONGEST, unit_size(r, "force", shown.notation)
     )
@@ -162,7 +167,8 @@ def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case:
     placed: dict[str, tuple[Point, Point]] = {}
     worst, bottom = 0.0, 0.0
     everything: list[Action] = []
-    for link in _order(r):
+    order = _order(r)
+    for link in order:
         mine = forces_of(some, link, k) if has_reactions(r, link, k) else []
         shared = next((a for a in mine if a.kind == "joint" and a.of in placed), None)
         if shared is not None:
@@ -177,8 +183,8 @@ def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case:
         placed |= {name: edge for name, edge in edges.items() if name not in placed}
         worst, everything = max(worst, gap), [*everything, *mine]
     notes, scales = scale_notes(shown, None, per_mm)
-    order = " → ".join(shown.heading(link) for link in _order(r))
-    text = f"Order of solution: {order}. A force shared by two polygons is drawn once."
+    names = " → ".join(map(shown.heading, order))
+    text = f"Order of solution: {names}. A force shared by two polygons is drawn once."
     return canvas.scene(
         "Force polygons of the chain" + (f": {case} alone" if case else ""),
         notes=[text, f"{notes[0]}; {_gap_text(worst, everything, k)}", *doubts(r, k, r.joints)],

@@ -10,7 +10,7 @@ import numpy as np
 from dalembert.analysis.friction.friction_circles import friction_circles
 from dalembert.analysis.friction.lines_of_action import acting_lines
 from dalembert.analysis.methods.applied_forces import Action, joint_place, on_link, whole_actions
-from dalembert.analysis.methods.members import components_along, members
+from dalembert.analysis.methods.members import Member, components_along, members
 from dalembert.views.notation import Notation, Shown, own_name
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.details import detail_scenes, with_details
@@ -31,8 +31,19 @@ LONGEST = 26.0
 """Largest force of a set of free bodies, mm."""
 
 
+def free_body_scenes(r: Result, k: int, notation: Notation | None = None) -> list[Scene]:
+    """Every link as a free body, at one force scale."""
+    some, found = acting_lines(r, k), members(r)
+    return [free_body_scene(r, link, k, notation, some, found[link]) for link in r.links]
+
+
 def free_body_scene(
-    r: Result, link: str, k: int, notation: Notation | None = None, some: tuple[Action, ...] | None = None
+    r: Result,
+    link: str,
+    k: int,
+    notation: Notation | None = None,
+    some: tuple[Action, ...] | None = None,
+    member: Member | None = None,
 ) -> Scene:
     """One link with all joint forces, loads, weights, inertia forces and couples at a position."""
     shown = Shown(r, notation or Notation(), k)
@@ -45,7 +56,7 @@ def free_body_scene(
     mine = list(on_link(everything, link))
     per_mm = draw_actions(canvas, r, mine, k, frame, shown, LONGEST, common_scale(r, everything, k, shown))
     notes, scales = scale_notes(shown, frame, per_mm)
-    member = members(r)[link]
+    member = member or members(r)[link]
     kind = " ".join(
         part for part in (member.kind, "member", member.state(k) and f"in {member.state(k)}") if part
     )
