@@ -248,6 +248,36 @@ def test_lines_that_meet(seed: int, d: int) -> None:
         assert arrangement(s) == "general"
 
 
+@pytest.mark.parametrize("size", [1e-4, 1.0, 1e4])
+@pytest.mark.parametrize(("part", "meet"), [(1e-11, True), (1e-7, False)])
+def test_what_is_nothing_is_told_by_the_size_of_the_system(size: float, part: float, meet: bool) -> None:
+    """Lines through one point, on one line or in one plane, of which one is off by a part of the system's length;
+    forces that add to nothing but for a part of the largest. What has no size does not count."""
+    off = np.array([0.0, part])
+    none = Force([0, 0], size * off)
+    two = [Force([0, -2], [size, 0]), Force([2, 0], [0, size])]
+    through = System(none, *two, Force([1, 1], size * (off - 1)))
+    assert (concurrency(through) is not None) == meet
+    assert arrangement(through) == ("concurrent" if meet else "general")
+    assert concurrency(System(none, two[0])) is None
+    assert concurrency(System(*two)) == pytest.approx([size, size])
+    along = System(
+        none, Force([-1, 0], [0, 0]), Force([3, 0], -size * off - [size, 0]), Force([1, 0], [size / 9, 0])
+    )
+    assert arrangement(along) == ("collinear" if meet else "parallel")
+    flat = [Force([*f.vector, 0], [*f.at, 0]) for f in (*two, Force([1, 1], [0, 5 * size]))]
+    assert arrangement(System(*flat, Force([0, 1, 0], [0, 0, -part * size]))) == (
+        "coplanar" if meet else "general"
+    )
+    for sign in (-size, size):
+        none_left = System(none, Force([0, sign * (1 - part)], [size, 0]), Force([0, -sign], [3 * size, 0]))
+        if meet:
+            with pytest.raises(AnalysisError, match="add to zero"):
+                parallel_center(none_left)
+        else:
+            assert parallel_center(none_left)[0] == pytest.approx(size * (2 + part) / part)
+
+
 @each
 def test_arrangements(seed: int) -> None:
     turn, shift = rotation(seed), point(seed, 3)

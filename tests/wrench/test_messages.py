@@ -74,6 +74,8 @@ def test_no_centre() -> None:
         parallel_center(System(plane, Force([0, 1])))
     with pytest.raises(AnalysisError, match="The parallel forces add to zero, so they have no centre"):
         parallel_center(System(plane, Force([-1, 0])))
+    with pytest.raises(AnalysisError, match="The parallel forces add to zero"):
+        parallel_center(System(Force([1e-12, 0], at=[0, 2]), plane, Force([-1, 0], at=[0, 1])))
 
 
 def test_sentences_of_equilibrium() -> None:
