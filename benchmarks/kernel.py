@@ -131,6 +131,21 @@ def four_bars() -> None:
     print(f"    compile {compiling(m, list(FOUR_BAR)) * 1e3:.0f} ms")
 
 
+def calls(designs: int = 1400) -> None:
+    """Whole calls, with everything around the machine code, on one thread: one design, and more than a cache holds."""
+    k = da.compile(da.four_bar(), vary=["links.coupler.mass", "links.crank.points.A"])
+    print(f"calls: one design at 72 positions {timed(lambda: k(threads=1), repeat=2000)[0] * 1e6:.0f} us")
+    for outputs in (None, ["effort.O2"]):
+        k = da.compile(four_bar(), vary=list(FOUR_BAR), outputs=outputs)
+        values = np.repeat(k.nominal[None], designs, axis=0)
+        out = {name: np.array(array) for name, array in k(values).arrays.items()}
+        ways = (lambda k=k, v=values: k(v, threads=1), lambda k=k, v=values, o=out: k(v, threads=1, out=o))
+        call, given = (t / designs / 720 * 1e9 for t in timed(*ways, repeat=20))
+        print(
+            f"    {designs} designs, {len(k.flat)} output(s): {call:.2f} ns a position; by out= {given:.2f}"
+        )
+
+
 def chains() -> None:
     print("chains of a crank and two-link groups, every reaction and the torque:")
     for groups in (1, 2, 3, 5, 9):
@@ -199,6 +214,7 @@ def main() -> None:
     parser.add_argument("--designs", type=int, default=1_000_000)
     designs = parser.parse_args().designs
     four_bars()
+    calls()
     chains()
     groups()
     study(designs)

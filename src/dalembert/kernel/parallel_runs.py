@@ -123,6 +123,11 @@ def in_parts(
 ) -> None:
     """Call ``part`` on slices of ``count`` things, here and on other threads, and ``progress`` here; an interruption
     or an error leaves after the parts under way."""
+    if 0 < count <= step:
+        part(slice(0, count))
+        if progress is not None:
+            progress(count, count)
+        return
     parts = deque(slice(k, min(k + step, count)) for k in range(0, count, step))
     done = [0] * (1 if len(parts) < 2 else min(threads or cores(), len(parts)))
     failed: list[BaseException] = []

@@ -283,7 +283,7 @@ class Kernel:
         _check_count("size", size)
         given, course = self._values(values), self.course(positions)
         each = 1 if self.reduce else len(course.schedule.position)
-        step = size or max(1, BLOCK // (8 * each * len(self.flat)))
+        step = size or max(1, BLOCK // (8 * each * max(1, len(self.flat))))
         parts = (given[k : k + step] for k in range(0, len(given), step))
         return (self._answer(part, course, threads, progress, redo, device, None) for part in parts)
 
@@ -297,15 +297,15 @@ class Kernel:
         device: str,
         out: Array | Mapping[str, Array] | None,
     ) -> BatchResult:
-        from dalembert.analysis.batch.runner import TOO_MUCH, Job
-
         _check_count("threads", threads)
         if device not in ("cpu", "cuda"):
             raise ModelError(f"there is no device {device!r}", "there are: cpu, cuda")
         into = self._targets(out, len(given), len(course.schedule.position))
         try:
-            found = Sides(*self.runner(Job(given, course, threads, progress, into), device))
+            found = Sides(*self.runner(device, given, course, threads, progress, into))
         except MemoryError:
+            from dalembert.analysis.batch.runner import TOO_MUCH
+
             raise ModelError("the results are too large for memory", TOO_MUCH) from None
         except RuntimeError as error:
             if device == "cpu":  # of whoever watches the progress

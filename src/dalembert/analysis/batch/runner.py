@@ -25,7 +25,8 @@ Arrays = tuple[dict[str, Array], dict[str, Array]]
 """Outputs, and their gradients, by name."""
 CHECKED = 1 << 27
 """Bytes of results from which it is asked whether there is room for them."""
-TOO_MUCH = "give out= (arrays on disk by np.memmap), or go through k.blocks(values)"
+BY_BLOCKS = "go through k.blocks(values)"
+TOO_MUCH = f"give out= (arrays on disk by np.memmap), or {BY_BLOCKS}"
 """What to do about results that are."""
 FEW = 16
 """Positions below which the lanes are filled with pairs of a design and a position."""
@@ -37,9 +38,9 @@ class Job(NamedTuple):
 
     values: Array
     course: Course
-    threads: int | None = None
-    progress: Progress | None = None
-    into: Arrays | None = None
+    threads: int | None
+    progress: Progress | None
+    into: Arrays | None
 
 
 class Runner:
@@ -109,9 +110,10 @@ class Runner:
         return np.stack(columns, axis=1) if columns else np.zeros((count, 0)), common
 
     def __call__(
-        self, job: Job, device: str = "cpu"
+        self, device: str, *call: Any
     ) -> tuple[NDArray[np.uint8], dict[str, Array], dict[str, Array]]:
-        """Codes, arrays by output, gradients by output."""
+        """Codes, arrays by output, gradients by output, of what makes a ``Job``."""
+        job = Job(*call)
         few = "grid" if device == "cuda" else self.way(len(job.course.schedule.position))
         way = "reduce" if self.k.reduce else few
         program, machine, slots = self.machine(way)
@@ -146,7 +148,7 @@ class Runner:
         self, job: Job, program: Program, machine: Machine, slots: Slots, columns: Array, common: Array
     ) -> tuple[Array | None, NDArray[np.uint8]]:
         """Results (design, output, position) or (design, slot), none where they are stored already, and codes."""
-        weighted = any(p in SUMS for _, p in slots)
+        weighted = bool(slots) and any(p in SUMS for _, p in slots)
         kept, positions = self.path, len(columns)
         if kept is None or kept[0] is not columns or kept[1] is not machine:
             self.path = kept = columns, machine, path_array(columns, common, machine.lanes, weighted)
@@ -257,7 +259,7 @@ def _room(job: Job, each: tuple[int, ...]) -> int:
     if size > free:
         raise ModelError(
             f"results of {len(job.values):,} designs take {size / 1e9:.3g} GB, and {free / 1e9:.3g} GB are free",
-            TOO_MUCH,
+            TOO_MUCH if len(each) > 1 else BY_BLOCKS,  # what is reduced passes through memory whole
         )
     return len(job.values)
 
