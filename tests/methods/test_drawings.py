@@ -15,6 +15,7 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import cases, examples
+from dalembert.cli import main
 from dalembert.views.charts import chart_scenes
 from dalembert.views.paper.canvas import crossings
 from dalembert.views.paper.scene import Line, Scene, Text
@@ -213,6 +214,13 @@ def test_frames_drawn_over_what_stays_still_are_pictures_of_both(tmp_path: Path)
         assert image.open(tmp_path / "whole.png").convert("RGB").tobytes() == picture.tobytes()
 
 
+def test_the_command_writes_an_animation(tmp_path: Path) -> None:
+    out = tmp_path / "a.svg"
+    asked = ["draw", str(examples()["four_bar"]), "-o", str(out), "--view", "animation", "--positions", "3"]
+    assert main(asked) == 0
+    assert "animate" in out.read_text(encoding="utf-8") or "@keyframes" in out.read_text(encoding="utf-8")
+
+
 def test_an_animation_needs_positions() -> None:
     with pytest.raises(da.ModelError, match="an animation needs two positions; ask for more"):
         da.draw.animation(result("four_bar"))
@@ -259,8 +267,6 @@ def test_positions_by_number_and_by_value() -> None:
 
 
 def test_the_command_goes_to_a_position(tmp_path: Path) -> None:
-    from dalembert.cli import main
-
     path = tmp_path / "a.svg"
     given = ["draw", str(examples()["four_bar"]), "--view", "mechanism", "--at", "90deg", "-o", str(path)]
     assert main(given) == 0

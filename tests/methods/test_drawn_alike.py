@@ -116,6 +116,7 @@ def plane_machine(s: Seen, friction: bool = False, **units: str) -> Any:
                     "links": ["crank", "pinion"],
                     "at": ["O", "V"],
                     "radii": [0.1, 0.07],
+                    "pressure_angle": 20 if friction else 0,
                 },
             },
             "drives": {

@@ -6,10 +6,12 @@ import math
 import re
 from typing import Any
 
+import numpy as np
 import pytest
 
 import dalembert as da
 from dalembert.bundled import examples
+from dalembert.cli.method_text import superposition_text, virtual_work_answer
 from dalembert.reports.formula import latex, plain
 from dalembert.reports.sections.methods import cycle
 from dalembert.reports.sections.motion import inertia_shares
@@ -18,6 +20,7 @@ from dalembert.reports.working import working
 from dalembert.views.paper.canvas import Canvas
 from tests.friction.engines import engine, engine_by_hand
 from tests.methods.space_machines import MACHINES
+from tests.methods.test_drawn_alike import LARGE, SMALL, Seen, plane_machine
 from tests.methods.test_space_friction_drawings import solved as rubbing
 from tests.space.test_gears import Z, pair, wheel
 
@@ -205,7 +208,7 @@ def test_zero_has_no_sign() -> None:
     loads: {F: {type: force, on: beam, at: C, value: [0, -30]}}
     """)
     sheet = working(da.statics(beam), methods=("matrix",))
-    assert any(re.search(r"\\b0\\b", t) or " 0 " in t for t in lines(sheet))
+    assert any(re.search(r"\b0\b", t) or " 0 " in t for t in lines(sheet))
     assert not any(re.search(r"[−-] ?0(?![.\d])", t) for t in lines(sheet)), lines(sheet)
 
 
@@ -213,3 +216,61 @@ def test_a_lone_quote_is_a_letter() -> None:
     assert plain('c "ab"').split() == ["c", "ab"]
     assert plain('"') == '"'
     assert latex('"') == '"'
+
+
+def without_units(text: str) -> list[str]:
+    """Words as with small units, without what rounding leaves."""
+    text = re.sub(r"gravity \[.*?\]", "gravity", " ".join(text.split()))
+    text = re.sub(r"balance: 0|\d(\.\d)?e-\d\d", "rest", text).replace("balance: rest", "rest")
+    return text.replace("km", "mm").replace("kN", "mN").split()
+
+
+def said(r: Any) -> list[str]:
+    """Everything that is printed of a result's methods."""
+    alone = [] if r.friction is not None else [superposition_text(r, "file")]
+    return [str(da.report(r)), virtual_work_answer(r, "file")[1], *alone]
+
+
+@pytest.mark.parametrize("friction", [False, True])
+def test_the_same_words_are_printed_in_larger_units(friction: bool) -> None:
+    small, large = (da.dynamics(plane_machine(Seen(), friction, **units)) for units in (SMALL, LARGE))
+    for text, other in zip(said(small), said(large), strict=True):
+        assert without_units(other) == without_units(text)
+
+
+def test_superposition_prints_every_part_and_their_sum() -> None:
+    """In the file's units or SI; of several positions the first that has an answer."""
+    m = da.load(examples()["four_bar"])
+    for r, where in ((da.dynamics(m), ""), (da.dynamics(m, positions=3), " at position 1 of 3")):
+        parts = da.superposition(r)
+        for units, force, moment in (("file", 4.4482216152605, 4.4482216152605 * 0.0254), ("SI", 1.0, 1.0)):
+            title, _, *rows = superposition_text(r, units).split("\n")
+            assert title == f"Superposition{where}"
+            printed: dict[str, list[float]] = {}
+            for name, *numbers in (re.split(r"  +", row) for row in rows):
+                if name in (*parts.sources, "sum"):
+                    printed.setdefault(name, []).extend(float(x) for x in numbers)
+            assert list(printed) == [*parts.sources, "sum"]
+            every = np.column_stack(
+                [parts.efforts[:, 0, 0] / moment, parts.force[:, 0].reshape(len(parts.sources), -1) / force]
+            )
+            for row, numbers in zip([*every, every.sum(axis=0)], printed.values(), strict=True):
+                assert numbers == pytest.approx(row, rel=1e-4, abs=1e-9)
+
+
+def test_powers_are_rounded_beside_what_acts_at_the_machines_length() -> None:
+    """Of a very long crank with a large couple a small force is no rounding; of several the position is said."""
+    crank = da.loads("""
+    links: {ground: {points: {O: [0, 0]}}, crank: {points: {O: [0, 0], A: [1e6, 0]}}}
+    joints: {O: {type: pin, links: [ground, crank]}}
+    drives: {O: {position: 0}}
+    loads:
+      F: {type: force, on: crank, at: A, value: [0, 123]}
+      T: {type: couple, on: crank, value: 1e9}
+    """)
+    found = virtual_work_answer(da.statics(crank), "SI")[1]
+    (row,) = (line.split() for line in found.split("\n") if line.startswith("F "))
+    assert [float(x) for x in row[1:3]] == [0.0, 123.0]
+    assert found.startswith("Virtual work\n")
+    three = da.statics(crank.with_values({"drives.O.position": [0.0, 0.1, 0.2]}))
+    assert virtual_work_answer(three, "SI")[1].startswith("Virtual work at position 1 of 3\n")

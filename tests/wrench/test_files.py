@@ -142,6 +142,20 @@ def test_command_in_space(here: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert "About O at (1.00000, 0, 0) m" in capsys.readouterr()[0]
 
 
+def test_command_in_the_files_units_or_si(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (here / "pipe.yaml").write_text(
+        "units: {length: in, force: lbf}\nforces:\n  F: {at: [10, 0], value: [0, -20]}\n",
+        encoding="utf-8",
+    )
+    found = {}
+    for units in ([], ["--units", "file"], ["--units", "si"]):
+        assert main(["wrench", "pipe.yaml", *units]) == 0
+        found[" ".join(units)] = capsys.readouterr()[0]
+    assert found[""] == found["--units file"]
+    said = {"": ("= 20.00 lbf", "−200.0\n", "lbf·in"), "--units si": ("= 88.96 N", "−22.60\n", "N·m")}
+    assert all(part in found[units] for units, parts in said.items() for part in parts)
+
+
 def test_command_refused(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["wrench", "box.yaml", "--about", "D"]) == 2
     assert capsys.readouterr()[1] == "the system has no point 'D'; choose among A, B, C, E\n"

@@ -27,10 +27,13 @@ def mesh(r: Result, k: int, joint: str, shown: Shown) -> tuple[str, list[Working
     wheels = [*zip(described.links, signed_radii(described), strict=True)]
     line = _Line(r, k, joint)
     out = []
-    rates = (
-        ("omega", "angular_speed", line.speed, link_speed),
-        ("alpha", "angular_acceleration", line.acceleration, _link_acceleration),
-    )
+    rates = [
+        (letter, kind, rate if abs(rate) > shown.least[kind] else 0.0, of)
+        for letter, kind, rate, of in (
+            ("omega", "angular_speed", line.speed, link_speed),
+            ("alpha", "angular_acceleration", line.acceleration, _link_acceleration),
+        )
+    ]
     for letter, kind, turning, of in rates:
         letters, numbers, values = [], [], []
         for link, radius in wheels:
@@ -47,7 +50,7 @@ def mesh(r: Result, k: int, joint: str, shown: Shown) -> tuple[str, list[Working
             sums = " + ".join(letters), " + ".join(numbers), math.fsum(values), largest
             out.append(zero_sum(*sums, shown, "length", "/s" if letter == "omega" else "/s²"))
     words = f"Mesh {joint}: the pitch circles roll on each other"
-    if line.speed or line.acceleration:
+    if any(rate for _, _, rate, _ in rates):
         parts = [f"${letter}_{{c}}$ = {shown.text(kind, rate)}" for letter, kind, rate, _ in rates if rate]
         words += f", seen from the line of centres, of which {' and '.join(parts)}"
     words += ", rates in radians" if any(shown.size(kind) != 1 for _, kind, *_ in rates) else ""

@@ -158,7 +158,7 @@ class Vector:
         self.arm = s.arm(a.at[s.k])
         if self.plane:
             self.couple = [s.shown.value("moment", float(couple[0]))]
-            self.forced = bool(a.force.any()) or a.kind == "joint"
+            self.forced = bool((np.abs(a.force) > s.floors[0]).any()) or a.kind == "joint"
         else:
             self.couple = s.vector(s.shown.size("moment"), couple, 1)
             self.forced = bool(force.any()) or unknown == "force"
