@@ -273,29 +273,25 @@ class Kernel:
         values: ArrayLike | None = None,
         size: int | None = None,
         positions: ArrayLike | None = None,
-        threads: int | None = None,
-        progress: Callable[[int, int], object] | None = None,
-        redo: bool = True,
-        device: str = "cpu",
+        **options: Any,
     ) -> Iterator[BatchResult]:
         """Answers for ``size`` designs after ``size``, default as many as take 64 MB: of however many designs no more
-        stand in memory at once. The other arguments are those of a call."""
+        stand in memory at once. ``options`` are the other arguments of a call."""
         _check_count("size", size)
         given, course = self._values(values), self.course(positions)
-        each = 1 if self.reduce else len(course.schedule.position)
-        step = size or max(1, BLOCK // (8 * each * max(1, len(self.flat))))
-        parts = (given[k : k + step] for k in range(0, len(given), step))
-        return (self._answer(part, course, threads, progress, redo, device, None) for part in parts)
+        each = 8 * max(1, len(self.flat)) * (1 if self.reduce else len(course.schedule.position))
+        step = size or max(1, BLOCK // each)
+        return (self._answer(given[k : k + step], course, **options) for k in range(0, len(given), step))
 
     def _answer(
         self,
         given: Array,
         course: Course,
-        threads: int | None,
-        progress: Callable[[int, int], object] | None,
-        redo: bool,
-        device: str,
-        out: Array | Mapping[str, Array] | None,
+        threads: int | None = None,
+        progress: Callable[[int, int], object] | None = None,
+        redo: bool = True,
+        device: str = "cpu",
+        out: Array | Mapping[str, Array] | None = None,
     ) -> BatchResult:
         _check_count("threads", threads)
         if device not in ("cpu", "cuda"):
