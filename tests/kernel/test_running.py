@@ -60,7 +60,7 @@ def test_the_processor_s_own_lanes(monkeypatch: pytest.MonkeyPatch) -> None:
     assert (
         da.compile(da.four_bar(), derivatives=True, vary=masses).lanes == host_lanes()
     )  # waits for its stores
-    monkeypatch.setattr(sys.modules["dalembert.analysis.batch.compiled_kernel"], "SMALL", 10)
+    monkeypatch.setattr("dalembert.kernel.program.SMALL", 10)
     assert da.compile(da.four_bar()).lanes == host_lanes()
 
 

@@ -11,6 +11,16 @@ from dalembert.kernel.graph import CONSTANT, INPUTS, POSITION, Graph, Node
 SLOW = {"inv": 6, "rsqrt": 7, "sqrt": 8, "sin": 15, "cos": 15, "atan2": 30, "neg": 0, "detach": 0}
 """How long operations take that are no addition or product, in additions."""
 
+SMALL = 2000
+"""Operations below which the results of two registers side by side still find room in the first cache."""
+ABREAST = 8
+"""Operations that could be under way at once, below which two registers side by side are faster than one: the waiting
+of one fills the other. Two units with four cycles each ask for eight."""
+STORED = 32
+"""Outputs beyond which there must be PER_STORE operations for each, or two registers side by side take up to a quarter
+longer: it is the stores that are waited for then."""
+PER_STORE = 12
+
 CODES = {"open": 1, "doubt": 2, "rest": 3, "jam": 7, "locked": 9, "slope": 12}
 """The mark of a position, the first of these that applies, else 0; of many positions the first too."""
 
@@ -137,3 +147,9 @@ class Program:
     def size(self) -> int:
         """Scalar operations a position."""
         return sum(1 for n in self.position if n.op not in ("neg", "detach"))
+
+    @property
+    def waits(self) -> bool:
+        """Whether a program in one register would wait for its own results."""
+        size, stores = self.size, len(self.outputs)
+        return size < min(SMALL, ABREAST * self.depth) and (stores <= STORED or size > PER_STORE * stores)

@@ -34,17 +34,8 @@ from dalembert.model import Mechanism
 
 LARGEST = float(np.finfo(float).max)
 """Largest number there is."""
-SMALL = 2000
-"""Operations below which the results of two registers side by side still find room in the first cache."""
 BLOCK = 1 << 26
 """Bytes of the results of a block of designs."""
-ABREAST = 8
-"""Operations that could be under way at once, below which two registers side by side are faster than one: the waiting
-of one fills the other. Two units with four cycles each ask for eight."""
-STORED = 32
-"""Outputs beyond which there must be PER_STORE operations for each, or two registers side by side take up to a quarter
-longer: it is the stores that are waited for then."""
-PER_STORE = 12
 
 
 def compile(  # noqa: A001
@@ -83,7 +74,7 @@ def compile(  # noqa: A001
             "the place of a peak has no derivative", 'leave derivatives out, or reduce by "peak"'
         )
     kernel = Kernel(mechanism, trace, names, reduce, derivatives, lanes or _host_lanes())
-    if lanes is None and _waits(kernel.program(kernel.flat)):
+    if lanes is None and kernel.program(kernel.flat).waits:
         kernel = replace(kernel, lanes=2 * kernel.lanes)
     kernel.warm()
     return kernel
@@ -111,12 +102,6 @@ def _products(nodes: Sequence[Node]) -> list[Node]:
     """Of nodes two by two: not finite where one of them is not, in half as many operations as their squares."""
     found = list(dict.fromkeys(n for n in nodes if n.level != CONSTANT))
     return [a * b for a, b in zip(found[::2], found[1::2], strict=False)] + found[len(found) & ~1 :]
-
-
-def _waits(program: Program) -> bool:
-    """Whether a program in one register would wait for its own results."""
-    size, stores = program.size, len(program.outputs)
-    return size < min(SMALL, ABREAST * program.depth) and (stores <= STORED or size > PER_STORE * stores)
 
 
 def _host_lanes() -> int:
