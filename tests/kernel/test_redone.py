@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -21,10 +22,12 @@ from tests.random_mechanisms import random_case, tree
 from tests.tiers import tiers
 
 
-def both(m: Any, monkeypatch: pytest.MonkeyPatch, reduce: str | None = None) -> None:
+def both(
+    m: Any, monkeypatch: pytest.MonkeyPatch, reduce: str | None = None, vary: Sequence[str] = ()
+) -> None:
     """The program's own derivatives, exact by the complex step, and those from the general executor's solutions."""
     outputs = [f"effort.{next(iter(m.drives))}", f"magnitude.{next(iter(m.joints))}"]
-    k = da.compile(m, vary=every_number(m), outputs=outputs, derivatives=True, reduce=reduce)
+    k = da.compile(m, vary=vary or every_number(m), outputs=outputs, derivatives=True, reduce=reduce)
     own = k(redo=False)
     monkeypatch.setattr(Kernel, "_may_change_branch", lambda self, values: np.ones(len(values), bool))
     other = k()

@@ -63,7 +63,7 @@ def agrees(m: Any, seed: int = 1) -> Any:
     return r
 
 
-QUICK = ["rccc", "helical wheels"]
+QUICK = ["rssp", "rccc", "helical wheels"]
 
 
 @pytest.mark.parametrize("name", tiers(QUICK, sorted(set(MACHINES) - set(QUICK))))
@@ -97,7 +97,8 @@ def test_every_output() -> None:
 
 
 def test_derivatives_and_those_from_a_solution(monkeypatch: pytest.MonkeyPatch) -> None:
-    both(oracle("hooke"), monkeypatch)
+    vary = ["links.crank.points.A", "joints.C.axis", "links.rocker.mass", "drives.O.speed"]
+    both(library.rssr(positions=4), monkeypatch, vary=vary)
 
 
 @pytest.mark.parametrize(
@@ -119,3 +120,18 @@ def test_derivatives_and_those_from_a_solution(monkeypatch: pytest.MonkeyPatch) 
 def test_what_is_refused(machine: Any, path: str, says: str) -> None:
     with pytest.raises(da.ModelError, match=re.escape(says)):
         da.compile(machine, vary=[path])
+
+
+def test_where_a_rod_does_not_reach() -> None:
+    """Told by the closed form, of a turning link and of a sliding one."""
+    for m, path, value in (
+        (library.rssr(), "links.crank.points.A", 0.15),
+        (library.rssp(), "links.crank.points.A", 0.25),
+    ):
+        k = da.compile(m, vary=[path], outputs=["effort.O"], lanes=1)
+        r = k([[value, 0.0, 0.0]])
+        g = general(m, k, r.values[0])
+        assert {"ok", "not_assembled"} == set(g.status)
+        assert list(r.status[0]) == list(g.status)
+        assert r.redone == 0
+        assert r.effort("O")[0] == pytest.approx(g.effort("O"), rel=1e-10, nan_ok=True)

@@ -32,7 +32,6 @@ from dalembert.kernel.elimination import Structural
 from dalembert.kernel.friction_trace import FrictionTrace, trace_friction
 from dalembert.kernel.graph import CONSTANT, Graph, Node, Scalar, is_zero, trace_array
 from dalembert.kernel.position.closed_forms import newton_correction, positions
-from dalembert.kernel.position.plane_vectors import Pair
 from dalembert.kernel.position.rigid_parts import Motion, Placed
 from dalembert.kernel.position.space_positions import space_correction, space_positions
 from dalembert.kernel.position.unrolled_newton import solver
@@ -74,7 +73,7 @@ class Problem:
     inertia: bool
     path: Callable[[str, int], Node]
     first_path: Callable[[str, int], Node]
-    signs: Callable[[Pair, Pair, int, int], Scalar]
+    signs: Callable[[tuple[Scalar, ...], tuple[Scalar, ...], int, int], Scalar]
     contacts: Contacts | None
     slips: Array | None
     reversals: Array | None

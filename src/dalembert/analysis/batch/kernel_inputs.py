@@ -16,7 +16,6 @@ from dalembert.arrays import Array, Numeric, Tree
 from dalembert.core.friction.contact_equations import bearing
 from dalembert.core.layout import Pose
 from dalembert.kernel.graph import POSITION, Graph, Node, Scalar
-from dalembert.kernel.position.plane_vectors import Pair
 from dalembert.kernel.trace import Drives
 from dalembert.model import Mechanism, Schedule
 
@@ -190,7 +189,7 @@ class Inputs:
         forcing = replace(c.forcing, resistances=replace(own, turns=turns))
         return replace(c, forcing=forcing), margins
 
-    def signs(self, plus: Pair, minus: Pair, a: int, b: int) -> Scalar:
+    def signs(self, plus: tuple[Scalar, ...], minus: tuple[Scalar, ...], a: int, b: int) -> Scalar:
         """Which of two rotations of link b against link a the known motion has: 1 or -1, or an input if it changes."""
         kind = "channel" if any(n.level & POSITION for n in plus if isinstance(n, Node)) else "common"
         signs = self._signs(self.course, kind, plus, minus, a, b)
@@ -201,18 +200,28 @@ class Inputs:
             "channel", name, lambda c: _carry_sign_forward(self._signs(c, kind, plus, minus, a, b))
         )
 
-    def _signs(self, c: Course, kind: str, plus: Pair, minus: Pair, a: int, b: int) -> Array:
+    def _signs(
+        self, c: Course, kind: str, plus: tuple[Scalar, ...], minus: tuple[Scalar, ...], a: int, b: int
+    ) -> Array:
         values = {} if c is self.course else {n.index: f(c) for n, f in self.found.items()}
         nodes = [n if isinstance(n, Node) else self.graph.constant(n) for n in (*plus, *minus)]
-        pc, ps, mc, ms = self.graph.evaluate(nodes, values)
-        r = c.pose.rotation
+        ways = np.array(np.broadcast_arrays(*self.graph.evaluate(nodes, values)))
+        known = _place(c.pose, len(plus), a, b)
+        if kind == "common":
+            known = known[:, [c.first]]
+        off = [np.linalg.norm(way - known, axis=0) for way in np.split(ways.reshape(2 * len(plus), -1), 2)]
+        gain = np.nan_to_num(off[1] - off[0])
+        return np.where(np.abs(gain) > 1e-5 * np.nanmax(np.abs(known)), np.sign(gain), 0.0)
+
+
+def _place(pose: Pose, components: int, a: int, b: int) -> Array:
+    """What is compared of a motion (component, P): the turn of link b against a (2), b's point (3) or its rotation."""
+    r = pose.rotation
+    if components == 2:
         cos = r[:, a, 0] * r[:, b, 0] + r[:, a, 1] * r[:, b, 1]
         sin = r[:, a, 0] * r[:, b, 1] - r[:, a, 1] * r[:, b, 0]
-        if kind == "common":
-            cos, sin = cos[[c.first]], sin[[c.first]]
-        off = [np.hypot(x - cos, y - sin) for x, y in ((pc, ps), (mc, ms))]
-        gain = np.nan_to_num(np.broadcast_to(off[1] - off[0], cos.shape))
-        return np.where(np.abs(gain) > 1e-5, np.sign(gain), 0.0)
+        return np.stack([cos, sin])
+    return np.asarray((pose.point if components == 3 else r)[:, b].T)
 
 
 def _turns(course: Course, place: int) -> Array:

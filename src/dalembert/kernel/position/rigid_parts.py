@@ -34,13 +34,29 @@ class Placed:
     doubt: list[Node] = field(default_factory=list)
     flips: bool = False
 
+    def root(self, graph: Graph, square: Scalar, scale: Scalar) -> Scalar:
+        """Square root of what is negative where the linkage does not close; its inverse is computed with it."""
+        if not isinstance(square, Node):
+            square = graph.constant(square)
+        if square.level == CONSTANT:
+            return square.sqrt()
+        small = DEAD * scale
+        self.open.append(square + small)
+        self.doubt.append(square - small)
+        inverse = graph.unary("rsqrt", square)
+        root = square * inverse
+        graph.assume_equal(root * root, square)
+        graph.assume_equal(1.0 / root, inverse)
+        return root
+
 
 @dataclass
 class Motion:
     """What positions are traced from: targets (K + D,) with their cosines and sines, and the known motion.
 
     ``path`` gives one quantity of the known motion, that of the mechanism with the file's numbers, as an input;
-    ``signs`` says which of two relative rotations of two links it has.
+    ``signs`` says which of two relative rotations of two links it has; in space which of two rotations, or points, of
+    the second, in ground axes.
     """
 
     graph: Graph
@@ -48,7 +64,7 @@ class Motion:
     target: Array
     turns: dict[int, Pair]
     path: Callable[[str, int], Node]
-    signs: Callable[[Pair, Pair, int, int], Scalar]
+    signs: Callable[[tuple[Scalar, ...], tuple[Scalar, ...], int, int], Scalar]
     placed: set[int] = field(default_factory=set)
 
 
@@ -153,19 +169,8 @@ class Parts:
         return r
 
     def root(self, square: Scalar, scale: Scalar) -> Scalar:
-        """Square root of what is negative where the linkage does not close; its inverse is computed with it."""
-        if not isinstance(square, Node):
-            square = self.graph.constant(square)
-        if square.level == CONSTANT:
-            return square.sqrt()
-        small = DEAD * scale
-        self.out.open.append(square + small)
-        self.out.doubt.append(square - small)
-        inverse = self.graph.unary("rsqrt", square)
-        root = square * inverse
-        self.graph.assume_equal(root * root, square)
-        self.graph.assume_equal(1.0 / root, inverse)
-        return root
+        """Square root of what is negative where the linkage does not close."""
+        return self.out.root(self.graph, square, scale)
 
     def add_doubt(self, margin: Scalar) -> None:
         """Below zero the general executor must look."""
