@@ -105,7 +105,7 @@ def test_a_speed_that_was_zero_is_written_with_its_unit() -> None:
     old = FOUR_BAR.replace("speed: 25 rad/s", "speed: 0")
     assert old != FOUR_BAR
     other = loads(old).with_values({"drives.O2.speed": math.pi / 2})
-    assert "speed: 90 deg/s," in str(other)
+    assert str(other) == old.replace("speed: 0", "speed: 90 deg/s")
     assert loads(str(other)) == other
     added = loads(FOUR_BAR).with_values(
         {"links.crank.points": {"O2": [0, 0], "A": [0.127, 0], "X": [0.0254, 0.3]}}
