@@ -111,7 +111,8 @@ def total_wrench(layout: Layout, *sources: Source) -> Array:
     out = np.zeros((*lead, layout.links + 1, layout.algebra.n), np.result_type(*(s.wrench for s in sources)))
     for source in sources:
         if len(source.link) > MANY:
-            np.add.at(np.moveaxis(out, -2, 0), source.link, np.moveaxis(source.wrench, -2, 0))
+            whole = np.broadcast_to(source.wrench, (*lead, *source.wrench.shape[-2:]))
+            np.add.at(np.moveaxis(out, -2, 0), source.link, np.moveaxis(whole, -2, 0))
             continue
         for k, link in enumerate(source.link):
             out[..., link, :] += source.wrench[..., k, :]

@@ -31,16 +31,25 @@ REMEMBERED = 32
 
 def first_way(k: KeptProgram, c: Compiled, given: list[Any]) -> First | None:
     """The ways that the careful path takes at the first position; None where something is in doubt there."""
-    decisive = np.array([float(given[place]) for place in k.decisive])
-    guess = c.guess
-    assert isinstance(guess, Guess)
-    key = (c.links, decisive.tobytes(), guess.turn.tobytes(), guess.point.tobytes())
+    key = _key(k, c, given)
     if key not in k.known:
-        if len(k.known) >= REMEMBERED:
-            k.known.clear()
-        k.known[key] = _by_given_angles(k, guess, given) or _by_search(k, c, given)
+        remember(k, c, given, _by_given_angles(k, c, given) or _by_search(k, c, given))
     found: First | None = k.known[key]
     return found
+
+
+def remember(k: KeptProgram, c: Compiled, given: list[Any], first: First | None) -> None:
+    """Keep what was found for the next analysis that starts from the same pose."""
+    if len(k.known) >= REMEMBERED:
+        k.known.clear()
+    k.known[_key(k, c, given)] = first
+
+
+def _key(k: KeptProgram, c: Compiled, given: list[Any]) -> tuple[Any, ...]:
+    """All that decides a first pose, and names it."""
+    guess = c.guess
+    assert isinstance(guess, Guess)
+    return c.links, tuple(given[place] for place in k.decisive), guess.turn.tobytes(), guess.point.tobytes()
 
 
 def _tried(k: KeptProgram, given: list[Any], ways: Array) -> tuple[Array, Array]:
@@ -52,11 +61,13 @@ def _tried(k: KeptProgram, given: list[Any], ways: Array) -> tuple[Array, Array]
     return out[: rotation.size].reshape(*rotation.shape, -1), out[rotation.size :]
 
 
-def _by_given_angles(k: KeptProgram, guess: Guess, given: list[Any]) -> First | None:
+def _by_given_angles(k: KeptProgram, c: Compiled, given: list[Any]) -> First | None:
     """The ways that were taken when it was traced, where they put all given links near their angles and no others do.
 
     Every other set of ways differs first in some group, the groups before it standing as they do here.
     """
+    guess = c.guess
+    assert isinstance(guess, Guess)
     told = np.isfinite(guess.turn[:-1])
     if not told.any() or (k.counted & ~k.fixed & ~told).any() or np.isfinite(guess.point[:-1]).any():
         return None

@@ -104,9 +104,14 @@ class KeptProgram:
         return whole.transpose(len(shape), *range(len(shape)))
 
 
+class DeadCentreError(Exception):
+    """Raised where both ways of a group are one: a structure is traced in another pose."""
+
+
 def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) -> KeptProgram | None:
-    """The program of a mechanism whose motion at its positions is known; None where it needs more than its numbers."""
+    """The program of a mechanism whose first pose (1, L+1, ...) is known; None where it needs more than its numbers."""
     graph = Graph()
+    numbers = numbers._replace(columns=numbers.columns[:, :1])
     symbols = with_nodes(graph, c, numbers)
     position, speed, acceleration = symbols.drives
     angular = c.layout.freedoms.angular[c.layout.driven]
@@ -180,10 +185,9 @@ class _Ways:
         cos = r[:, a, 0] * r[:, b, 0] + r[:, a, 1] * r[:, b, 1]
         sin = r[:, a, 0] * r[:, b, 1] - r[:, a, 1] * r[:, b, 0]
         nearer = np.hypot(mc - cos, ms - sin) - np.hypot(pc - cos, ps - sin)
-        way = np.sign(np.sign(nearer).sum())
-        if not way * nearer.min() * nearer.max() * way > 0:
-            raise ValueError("the way a group closes changes along the motion")
-        self.inputs.append(self.graph.input("common", f"way {len(self.inputs)}", float(way)))
+        if not abs(nearer[0]) > 0:
+            raise DeadCentreError
+        self.inputs.append(self.graph.input("common", f"way {len(self.inputs)}", float(np.sign(nearer[0]))))
         return self.inputs[-1]
 
 

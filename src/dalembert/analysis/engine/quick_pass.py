@@ -10,10 +10,10 @@ import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.degree_of_freedom import Mobility
-from dalembert.analysis.engine.first_way import First, first_way
+from dalembert.analysis.engine.first_way import First, first_way, remember
 from dalembert.analysis.engine.flat_numbers import flat_numbers, values
-from dalembert.analysis.engine.kept_program import KeptProgram, trace_structure
-from dalembert.analysis.positions import FARTHEST
+from dalembert.analysis.engine.kept_program import DeadCentreError, KeptProgram, trace_structure
+from dalembert.analysis.positions import FARTHEST, mode_sentence
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.statuses import UNBALANCED
 from dalembert.arrays import Array, Ints
@@ -71,19 +71,23 @@ def quick_result(c: Compiled, inertia: bool) -> Result | None:
     if not _suits(c):
         return None
     numbers = flat_numbers(c)
-    key = (inertia, *numbers.key)
+    single, columns = values(numbers)
+    key, given = (inertia, *numbers.key), [*single, *columns[:, 0].tolist()]
     there, program = STRUCTURES.get(key)
     if not there:
         modes = c.guess.modes(c.layout, c.first_target)
-        start = numbers._replace(columns=numbers.columns[:, :1])
-        program = None if modes is None else trace_structure(c, start, modes.pose.at(slice(0, 1)), inertia)
+        if modes is None:
+            return None
+        try:
+            program = trace_structure(c, numbers, modes.pose.at(slice(0, 1)), inertia)
+        except DeadCentreError:
+            return None
+        if program is not None:
+            remember(program, c, given, First(program.ways, modes.pose.turn[0, :-1], mode_sentence(c, modes)))
         STRUCTURES.put(key, program)
-    if program is None:
-        return None
-    single, columns = values(numbers)
     del numbers  # the answer may be large
-    first = first_way(program, c, [*single, *columns[:, 0].tolist()])
-    return None if first is None else _follow(program, c, single, columns, first, inertia)
+    first = None if program is None else first_way(program, c, given)
+    return None if first is None or program is None else _follow(program, c, single, columns, first, inertia)
 
 
 def _suits(c: Compiled) -> bool:
