@@ -43,20 +43,36 @@ LARGEST = 1e150
 """Rates whose squares are numbers."""
 
 
+FEW_LINKS, FEW_POSITIONS = 8, 50
+"""A structure of more links met for the first time, at fewer positions, takes less time on the careful path than to
+trace: it is traced when it is met again."""
+
+
+class _Met:
+    """Stands for a program where a structure was met once."""
+
+
+MET = _Met()
+
+
+Kept = KeptProgram | _Met | None
+"""A program, or none where a structure has none."""
+
+
 class _Structures:
     """Programs by structure, those used last; one lock for all threads."""
 
     def __init__(self) -> None:
-        self.lock, self.found = Lock(), OrderedDict[Any, KeptProgram | None]()
+        self.lock, self.found = Lock(), OrderedDict[Any, Kept]()
 
-    def get(self, key: Any) -> tuple[bool, KeptProgram | None]:
+    def get(self, key: Any) -> tuple[bool, Kept]:
         with self.lock:
             there = key in self.found
             if there:
                 self.found.move_to_end(key)
             return there, self.found.get(key)
 
-    def put(self, key: Any, program: KeptProgram | None) -> None:
+    def put(self, key: Any, program: Kept) -> None:
         with self.lock:
             self.found[key] = program
             while len(self.found) > KEPT:
@@ -74,7 +90,10 @@ def quick_result(c: Compiled, inertia: bool) -> Result | None:
     single, columns = values(numbers)
     key, given = (inertia, *numbers.key), [*single, *columns[:, 0].tolist()]
     there, program = STRUCTURES.get(key)
-    if not there:
+    if not there and c.layout.links > FEW_LINKS and c.schedule.count < FEW_POSITIONS:
+        STRUCTURES.put(key, MET)
+        return None
+    if not there or isinstance(program, _Met):
         modes = c.guess.modes(c.layout, c.first_target)
         if modes is None:
             return None

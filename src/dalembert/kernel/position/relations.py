@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from dalembert.arrays import Array
 from dalembert.core.layout import Along, Distance, Layout, Meet, Mesh, Turn
-from dalembert.kernel.graph import Scalar, is_zero
+from dalembert.kernel.graph import Node, Scalar, is_zero
+from dalembert.kernel.position import plane_vectors as v
 from dalembert.kernel.position.plane_vectors import Pair
 
 
@@ -46,4 +47,26 @@ def relations(layout: Layout, target: Array, turns: dict[int, Pair]) -> list[Rel
             radii = (f.ri[k], f.rj[k]) if isinstance(f, Mesh) else NONE
             i, j, goal, turn = int(f.i[k]), int(f.j[k]), target[rows[0]], turns.get(rows[0], NONE)
             out.append(Relation(kind, i, j, ui, uj, axis, goal, turn, radii, rows))
-    return out
+    return _driven_slides(out)
+
+
+def _driven_slides(found: list[Relation]) -> list[Relation]:
+    """Two slides of one point hold it where they meet: that of a slot along its line, and across it."""
+    out: dict[object, Relation] = {}
+    for k, r in enumerate(found):
+        key = (r.i, r.j, *map(_same, (*r.ui, *r.uj))) if r.kind == "along" else k
+        first = out.get(key)
+        if first is None:
+            out[key] = r
+            continue
+        (a, s), (b, t) = (first.axis, first.target), (r.axis, r.target)
+        over = 1.0 / v.cross(a, b)
+        shift = (over * (s * b[1] - t * a[1]), over * (t * a[0] - s * b[0]))
+        rows = (*first.rows, *r.rows)
+        out[key] = replace(first, kind="meet", ui=v.plus(r.ui, shift), axis=NONE, target=0.0, rows=rows)
+    return list(out.values())
+
+
+def _same(x: Scalar) -> object:
+    """What two values have in common that are the same, whatever the numbers."""
+    return x.index if isinstance(x, Node) and x.op != "const" else ("number", float(x))
