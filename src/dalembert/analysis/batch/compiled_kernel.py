@@ -300,7 +300,7 @@ class Kernel:
             code[~np.isfinite(given).all(axis=1)] = CODES.index("failed")
         if np.count_nonzero(code) or not (self.reduce is None or found.finite):
             again = self._settle(given, course, found, redo)
-        whole = (self, given, course.schedule.position, code)
+        whole = (self, given, course.schedule.position.copy(), code)
         after = BatchResult(*whole, found.after, found.after_rates) if found.after else None
         return BatchResult(*whole, found.arrays, found.rates, again, after)
 
