@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -28,17 +29,17 @@ class Camera:
     azimuth: float = math.pi / 4
     elevation: float = math.atan(1 / math.sqrt(2))
 
-    @property
+    @cached_property
     def right(self) -> Array:
         """Unit vector to the right of the paper."""
         return np.array([-math.sin(self.azimuth), math.cos(self.azimuth), 0.0])
 
-    @property
+    @cached_property
     def up(self) -> Array:
         """Unit vector up the paper."""
         return np.cross(self.eye, self.right)
 
-    @property
+    @cached_property
     def eye(self) -> Array:
         """Unit vector from the origin to the eye."""
         flat = math.cos(self.elevation)
@@ -46,9 +47,13 @@ class Camera:
             [flat * math.cos(self.azimuth), flat * math.sin(self.azimuth), math.sin(self.elevation)]
         )
 
+    @cached_property
+    def _paper(self) -> Array:
+        return np.stack([self.right, self.up], axis=-1)
+
     def __call__(self, points: ArrayLike) -> Array:
         """Places (..., 3) on paper (..., 2); vectors too, for the camera is linear."""
-        return np.asarray(np.asarray(points, float) @ np.stack([self.right, self.up], axis=-1))
+        return np.asarray(np.asarray(points, float) @ self._paper)
 
     def depth(self, points: ArrayLike) -> Array:
         """How near to the eye places (..., 3) are: larger is nearer."""
