@@ -12,7 +12,10 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
 from dalembert.arrays import Array
+from dalembert.core.layout import Pose
+from dalembert.core.position.motion_path import _add_turns
 from dalembert.model.library import bennett
 from tests.tiers import over
 
@@ -208,6 +211,31 @@ def test_wheels_keep_their_phase_behind_a_gap(ratio: float) -> None:
     np.testing.assert_allclose((other - other[0])[ok] * ratio, -turned[ok], atol=1e-9)
     assert not ok.all()
     assert ok[-1] or ratio not in (0.5, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("second", "third", "whole"), [(0.05, 0.1, (-2, 1)), (0.15, 0.1, (0, 0)), (0.1, 0.4, (-1, 0))]
+)
+def test_wheels_that_come_round_in_whole_turns_are_counted_further(
+    second: float, third: float, whole: tuple[int, int]
+) -> None:
+    """Of a train whose first wheel, of 0.1 m, is driven once round; a wheel behind one that does not stays."""
+    at = np.cumsum([0.0, 0.1 + second, second + third])
+    wheels = ("one", "two", "three")
+    tree: dict[str, Any] = {
+        "links": {"ground": {"points": {w: [x, 0.0] for w, x in zip(wheels, at, strict=True)}}},
+        "joints": {w: {"type": "pin", "links": ["ground", w]} for w in wheels},
+        "drives": {"one": {"position": [0, 10]}},
+    }
+    tree["links"] |= {w: {"points": {w: [0.0, 0.0]}} for w in wheels}
+    for i, j, radii in (("one", "two", [0.1, second]), ("two", "three", [second, third])):
+        tree["joints"][i + j] = {"type": "gear", "links": [i, j], "at": [i, j], "radii": radii}
+    m = da.mechanism(tree)
+    c = compile_mechanism(m, m.schedule())
+    pose = Pose(*(np.zeros(shape) for shape in ((4, 2), (4,), (4, 2))))
+    more = np.zeros(c.layout.stack.count)
+    more[-1] = 2 * pi
+    assert _add_turns(c.layout, pose, more).turn / (2 * pi) == pytest.approx([1, *whole, 0])
 
 
 def blocked(rng: np.random.Generator) -> tuple[float, float, float, float]:

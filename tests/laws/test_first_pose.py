@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from benchmarks.linkages import chain
+from benchmarks.linkages import chain, pin
 
 import dalembert as da
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
+from dalembert.arrays import Array
 from dalembert.bundled import examples
+from dalembert.core.position import first_pose_plane
 from dalembert.core.position.assur_plan import plan
+from dalembert.core.position.newton import gap
 from tests.random_mechanisms import Drawing, pose_array, tree
 from tests.random_mechanisms.groups import driven, dyad, single, welded
 from tests.tiers import over
@@ -66,6 +69,91 @@ def test_wheels_turn_where_their_links_do_not_close_at_angle_0() -> None:
     assert np.linalg.norm(r.point("coupler", "B") - r.point("rocker", "B")) < 1e-9
 
 
+@pytest.mark.parametrize(("stated", "angle"), [({}, 0.0), ({"wheel": 33}, 33.0)])
+def test_in_every_way_of_closing_a_wheel_stands_as_stated(stated: dict[str, float], angle: float) -> None:
+    """A planet on a rocker: the teeth have no phase of their own at the first position, so each way is found once."""
+    m = da.mechanism(
+        {
+            "links": {
+                "ground": {"points": {"O": [0, 0], "R": [0.3, 0]}},
+                "crank": {"points": {"O": [0, 0], "A": [0.1, 0]}},
+                "coupler": {"points": {"A": [0, 0], "B": [0.25, 0]}},
+                "rocker": {"points": {"R": [0, 0], "B": [0.2, 0]}},
+                "wheel": {"points": {"B": [0, 0]}, "mass": 1, "center": [0.1, 0.05]},
+                "sun": {"points": {"R": [0, 0]}},
+            },
+            "joints": {
+                "O": pin("ground", "crank"),
+                "A": pin("crank", "coupler"),
+                "B": pin("coupler", "rocker"),
+                "R": pin("ground", "rocker"),
+                "axle": pin("rocker", "wheel", ["B", "B"]),
+                "fixed": {"type": "weld", "links": ["ground", "sun"], "at": ["R", "R"]},
+                "teeth": {"type": "gear", "links": ["sun", "wheel"], "at": ["R", "B"], "radii": [0.12, 0.08]},
+            },
+            "drives": {"O": {"position": 40}},
+            "assembly": stated,
+        }
+    )
+    c = compile_mechanism(m, m.schedule())
+    found = c.guess.modes(c.layout, c.targets[0])
+    assert found is not None
+    turn = dict(zip(c.links, found.pose.turn.T, strict=False))
+    span = 0.3 - 0.1 * np.exp(1j * np.radians(40))
+    at_r = np.arccos((0.2**2 + abs(span) ** 2 - 0.25**2) / (2 * 0.2 * abs(span)))
+    ways = np.angle(-span) + np.array([1, -1]) * at_r
+    assert np.sort(turn["rocker"]) == pytest.approx(np.sort(np.angle(np.exp(1j * ways))))
+    assert turn["wheel"] == pytest.approx([np.radians(angle)] * 2)
+
+
+def trammel(size: float, **stated: float) -> Compiled:
+    """A rod between blocks on two slides across each other; its angle is that of cos -0.6."""
+    m = da.mechanism(
+        {
+            "links": {
+                "ground": {"points": {"O": [0, 0]}},
+                "a": {"points": {"A": [0, 0]}},
+                "b": {"points": {"B": [0, 0]}},
+                "rod": {"points": {"A": [0, 0], "B": [0.5 * size, 0]}},
+            },
+            "joints": {
+                "x": {"type": "slider", "links": ["ground", "a"], "at": ["O", "A"]},
+                "y": {"type": "slider", "links": ["ground", "b"], "at": ["O", "B"], "direction": 90},
+                "A": pin("a", "rod"),
+                "B": pin("b", "rod"),
+            },
+            "drives": {"x": {"position": 0.3 * size}},
+            "assembly": stated,
+        }
+    )
+    return compile_mechanism(m, m.schedule())
+
+
+def test_where_the_angles_are_right_the_first_start_closes() -> None:
+    """Whatever is assumed of the slides: at given angles they are the solution of linear equations."""
+    c = trammel(1.0, rod=np.degrees(np.arccos(-0.6)))
+    start = c.guess.start(c.layout, c.targets[0])
+    assert gap(c.layout, start.at(None), c.targets[:1]) == pytest.approx(0, abs=1e-14)
+    assert start.point[c.links.index("b")] == pytest.approx([0, 0.4])
+
+
+def test_starts_grow_with_the_machine(monkeypatch: pytest.MonkeyPatch) -> None:
+    starts: list[Array] = []
+    own = first_pose_plane._closing
+    monkeypatch.setattr(first_pose_plane, "plan", lambda layout: None)
+    monkeypatch.setattr(first_pose_plane, "FEW", 0)
+    monkeypatch.setattr(
+        first_pose_plane, "_closing", lambda *given: [starts.append(given[1].point), own(*given)][1]
+    )
+    for size in (1.0, 1000.0):
+        c = trammel(size)
+        found = c.guess.modes(c.layout, c.targets[0])
+        assert found is not None
+        assert np.cos(found.pose.turn[:, c.links.index("rod")]) == pytest.approx([-0.6, -0.6])
+    assert starts[1] == pytest.approx(1000 * starts[0])
+    assert np.ptp(starts[0], axis=0).max() > 0.5
+
+
 def described(seed: int) -> tuple[Drawing, Compiled]:
     """A drawing of groups that have closed forms, and its description without an assembly."""
     rng = np.random.default_rng(seed)
@@ -97,3 +185,15 @@ def test_the_drawn_pose_is_one_of_the_ways_found(seed: int) -> None:
     off = np.abs(origin - drawn[:, :2]).max(axis=(1, 2))
     turned = np.abs(np.exp(1j * found.pose.turn[:, :-1]) - np.exp(1j * drawn[:, 2])).max(axis=1)
     assert np.maximum(off, turned).min() < 1e-9
+
+
+def test_starts_are_spread_evenly() -> None:
+    """Angles over the whole turn, slides from -2 to 3 lengths."""
+    angles, slides = first_pose_plane._spread(64, 4, 6)
+    unit = np.concatenate([(angles + np.pi) / (2 * np.pi), (slides + 2) / 5], axis=1)
+    assert (angles.shape, slides.shape) == ((64, 4), (64, 6))
+    assert unit[0] == pytest.approx(0.5)
+    assert unit.min() >= 0
+    assert unit.max() <= 1
+    gaps = np.diff(np.sort(np.concatenate([unit, [[0.0] * 10, [1.0] * 10]]), axis=0), axis=0)
+    assert gaps.max() < 0.2

@@ -10,6 +10,7 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import examples
+from dalembert.core.friction.rod_spin import STEEPEST, solve_spins
 from dalembert.model.description import mechanism
 
 PIN = {"coefficient": 0.2, "radius": "8 mm"}
@@ -186,6 +187,35 @@ def test_a_rod_between_two_balls_spins_as_their_friction_lets_it() -> None:
     assert all((r.power_lost(name) > 0).all() for name in "ABO")
     more = (r.effort("O") - bare.effort("O")) * r.drive_speed("O")
     assert lost == pytest.approx(more, rel=1e-9)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_spins_are_where_the_moments_about_the_rods_vanish(count: int) -> None:
+    """Moments that fall with each rod's spin, less with the others'; a jump as friction has one; none that vanish."""
+    rng, calls = np.random.default_rng(count), []
+    root = rng.uniform(-1.5, 1.5, (5, count))
+    others = np.eye(count) + 0.1 * rng.uniform(-1, 1, (count, count))
+
+    def moment(phi: np.ndarray) -> np.ndarray:
+        calls.append(phi)
+        off = phi - root
+        return -np.asarray((off + off**3) @ others)
+
+    assert solve_spins(root.shape, moment) == pytest.approx(root, abs=1e-13)
+    assert len(calls) < 80 * count
+
+    def partly(phi: np.ndarray) -> np.ndarray:
+        left = moment(phi)
+        left[0, 0] = 1.0  # that rod turns whatever its spin
+        return left
+
+    found = solve_spins(root.shape, partly)
+    assert found[1:] == pytest.approx(root[1:], abs=1e-13)
+    assert (found[0, 0], *partly(found)[0, 1:]) == pytest.approx([0.0] * count, abs=1e-12)
+    jump = solve_spins((5, 1), lambda phi: np.where(phi < root[:, :1], 2.0, -1.0))
+    assert jump == pytest.approx(root[:, :1], abs=1e-13)
+    for never in (lambda phi: 1 + 0 * phi, lambda phi: phi + STEEPEST, lambda phi: 0 * phi):
+        assert solve_spins((5, 1), never).tolist() == [[0.0]] * 5
 
 
 @pytest.mark.parametrize("speed", ["1 rad/s", "0 rad/s"])

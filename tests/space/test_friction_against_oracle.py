@@ -123,13 +123,28 @@ def test_a_cycle_that_jams_ends_at_the_same_scale_of_friction() -> None:
     assert b.scale[jammed] == pytest.approx(r.friction.critical[jammed], abs=1e-5)  # type: ignore[union-attr]
 
 
-@pytest.mark.long
-def test_a_rod_that_jams_between_its_balls() -> None:
+def jamming_rod() -> tuple[Any, Array]:
     """Circles that reach along most of the rod, which spins as friction lets it on the way to the branch's end."""
     tree, _, path = rough_machines.machine("rssr")
     tree = deepcopy(tree)
     for joint in "AB":
         tree["joints"][joint]["friction"] = {"coefficient": 0.6, "radius": 0.3, "circle": "tan"}
+    return tree, path
+
+
+def test_a_rod_jams_between_its_balls_at_a_scale_of_friction() -> None:
+    """At a position beside those of the long test, with the scale that the independent equations have there."""
+    tree, _ = jamming_rod()
+    tree["drives"]["O"]["position"] = 115.0
+    r = da.statics(da.mechanism(tree))
+    assert r.status == ("jammed",)
+    assert r.friction.critical == pytest.approx([0.94163], abs=2e-5)  # type: ignore[union-attr]
+
+
+@pytest.mark.long
+def test_a_rod_that_jams_between_its_balls() -> None:
+    tree, path = jamming_rod()
+    tree["drives"]["O"]["position"]["count"], path = 12, path[::2]
     r, m = da.statics(da.mechanism(tree)), natural.Machine(tree)
     b = rubbing.solve(m, natural.solve(m, path, False), False, smallest=1e-7)
     jammed = ~solved(r)

@@ -3,7 +3,7 @@
 A rod that could spin about the line of its two ball joints is set to no spin. Friction in the balls decides it: their
 couples, against the relative angular velocities, must leave nothing about the line, which nothing else holds. That
 moment falls as the spin grows, so there is one spin, or none where the loads turn the rod more than friction holds.
-It is found by secants and bisection, of several rods in turn and then together; where friction has several solutions,
+It is found by secants and bisection, of several rods in turn and then by Newton; where friction has several solutions,
 by continuation from no friction. The spin's own inertia about the line is left out.
 
 s   spin, tan(phi) times the fastest rate of the rod's balls
@@ -35,9 +35,6 @@ SETTLED = 1e-14
 
 SWEEPS = 8
 """Times that every rod is settled while the others spin as they do: its couples change the others' forces little."""
-
-NEAR, SECANTS = 1e-4, 12
-"""First step and number of the secants of all rods together."""
 
 FIRST, ENDED = 0.01, 1e-8
 """First step of the scale of friction of a branch with spinning rods, and the one below which it has ended."""
@@ -114,18 +111,22 @@ def solve_spins(shape: tuple[int, ...], moment: Callable[[Array], Array]) -> Arr
 
 
 def _together(moment: Callable[[Array], Array], phi: Array) -> tuple[Array, Flags]:
-    """Secants of all rods at once from close by, and the positions where they arrive; elsewhere what was given."""
-    last, here = phi + NEAR, moment(phi)
-    before, new, size = moment(last), phi, np.full(phi.shape[:-1], np.inf)
-    for _ in range(SECANTS):
-        with np.errstate(all="ignore"):
-            step = np.nan_to_num(here * (new - last) / (here - before), posinf=0.0, neginf=0.0)
-        last, before, new = new, here, np.clip(new - step, -STEEPEST, STEEPEST)
-        here, size = moment(new), np.abs(step).max(axis=-1)
-        if (size < SETTLED).all():
-            break
-    arrived = size < 10 * SETTLED
+    """All rods at once by Newton from close by, and the positions where they arrive; elsewhere what was given."""
+    new, change, _ = _newton(moment, phi)
+    arrived = (np.abs(change) < ALMOST).all(axis=-1) & (np.abs(new) < STEEPEST).all(axis=-1)
     return np.where(arrived[..., None], new, phi), arrived
+
+
+def _newton(moment: Callable[[Array], Array], phi: Array) -> tuple[Array, Array, Array]:
+    """Spins by Newton on their moments, the last change, and the derivatives (..., k, k), which are differences."""
+    for _ in range(SPUN):
+        here = moment(phi)
+        steep = np.stack([(moment(phi + CLOSE * e) - here) / CLOSE for e in np.eye(phi.shape[-1])], axis=-1)
+        change = solve_square(steep, -here)
+        phi = phi + np.nan_to_num(np.clip(change, -FAR, FAR))
+        if not (np.abs(change) >= SETTLED).any():  # NaN where no spin changes a moment
+            break
+    return phi, change, steep
 
 
 def _of_one(moment: Callable[[Array], Array], phi: Array, n: int) -> Callable[[Array], Array]:
@@ -200,15 +201,7 @@ def _nested_newton(
     moment: Callable[[Array], tuple[NewtonResult, Array]], phi: Array, largest: Array
 ) -> tuple[NewtonResult, Array, Array]:
     """Newton on friction within Newton on the spins, whose derivatives are differences; sign of their determinant."""
-    for _ in range(SPUN):
-        _, here = moment(phi)
-        steep = np.stack(
-            [(moment(phi + CLOSE * e)[1] - here) / CLOSE for e in np.eye(phi.shape[-1])], axis=-1
-        )
-        change = np.nan_to_num(solve_square(steep, -here))
-        phi = phi + np.clip(change, -FAR, FAR)
-        if (np.abs(change) < SETTLED).all():
-            break
+    phi, change, steep = _newton(lambda phi: moment(phi)[1], phi)
     found, left = moment(phi)
     balanced = np.abs(left).max(axis=-1) <= ALMOST * largest
     arrived = found.arrived & balanced & (np.abs(change).max(axis=-1) < ALMOST)
