@@ -16,7 +16,7 @@ NAMES = {
     "drives": ("speed", "acceleration", "effort"),
 }
 
-FRICTION = ("coefficient", "static", "radius", "guide", "half_height", "arm")
+FRICTION = ("coefficient", "static", "radius", "guide", "half_height", "arm", "thrust_radius", "thread_angle")
 
 
 def every_number(m: Any) -> list[str]:

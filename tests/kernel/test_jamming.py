@@ -19,12 +19,13 @@ from tests.kernel.comparing import general
 MANY = 400
 
 
-def some_contacts(count: int, signed: int) -> Any:
-    """Contacts of which so many have a force with a sign; the proof reads nothing else of them."""
+def some_contacts(count: int, signed: int, balls: bool = False) -> Any:
+    """Contacts of which so many have a force with a sign, or all those of balls; the proof reads nothing else."""
     m = cycle("four_bar", 1)
     known = compile_mechanism(m, m.schedule()).contacts
     assert known is not None
-    return replace(known, signed=np.arange(count) < signed, joint=np.zeros(count, np.intp))
+    every = np.full(count, balls)
+    return replace(known, signed=np.arange(count) < signed, ball=every, joint=np.zeros(count, np.intp))
 
 
 def proofs(contacts: Any, y: np.ndarray, h: np.ndarray, sense: np.ndarray) -> np.ndarray:
@@ -42,12 +43,12 @@ def proofs(contacts: Any, y: np.ndarray, h: np.ndarray, sense: np.ndarray) -> np
     return np.asarray(graph.evaluate([node], {})[0] < 0)
 
 
-@pytest.mark.parametrize("signed", [0, 1])
+@pytest.mark.parametrize(("signed", "balls"), [(0, False), (1, False), (0, True)])
 @pytest.mark.parametrize("count", [1, 2, 4])
-def test_where_there_is_a_solution_no_jam_is_proved(count: int, signed: int) -> None:
+def test_where_there_is_a_solution_no_jam_is_proved(count: int, signed: int, balls: bool) -> None:
     """Random strong couplings with loads made for a solution: S = |y| is chosen, then y0 = y - H z."""
     rng = np.random.default_rng(count)
-    contacts = some_contacts(count, min(signed, count - 1))
+    contacts = some_contacts(count, min(signed, count - 1), balls)
     sense = rng.choice([-1.0, 1.0], (count, MANY))
     h = rng.normal(size=(3, count, count, MANY)) * rng.choice([0.5, 3.0, 30.0], MANY)
     y = rng.normal(size=(3, count, MANY)) * np.exp(rng.normal(size=(count, MANY)))

@@ -176,14 +176,19 @@ def test_how_little_a_slide_that_reverses_may_carry(across: float, turned: float
 
 
 def test_the_bound_of_a_length() -> None:
-    """It is above the length, by no more than a twelfth, and nothing below the tilting force is one."""
+    """It is above the length, by no more than a twelfth, and nothing below the tilting force is one; of the three
+    components of a ball's force by no more than a sixth."""
+    pin, ball = np.zeros(1, bool), np.ones(1, bool)
     angle = np.linspace(0, 2 * np.pi, 721)
     h = np.zeros((3, 1, 721))
     h[0, 0], h[1, 0] = np.cos(angle), np.sin(angle)
-    assert (lever(h) >= 1).all()
-    assert lever(h).max() < 1.09
+    assert (lever(h, pin) >= 1).all()
+    assert lever(h, pin).max() < 1.09
     h[2] = 5.0
-    assert (lever(h) == 5).all()
+    assert (lever(h, pin) == 5).all()
+    h = np.random.default_rng(1).normal(size=(3, 1, 1000))
+    over = lever(h, ball) / np.linalg.norm(h, axis=0)
+    assert 1 <= over.min() < over.max() < 1.17
 
 
 def kite(scale: float) -> Any:

@@ -20,6 +20,7 @@ from tests.kernel.comparing import changed, difference, every_number, general
 from tests.kernel.test_redone import both
 from tests.random_space import random_drawing, tree
 from tests.space.machines import oracle
+from tests.space.rough import rough
 from tests.space.test_gears import Z, pair, wheel
 from tests.tiers import over_seeds, tiers
 
@@ -77,6 +78,25 @@ def test_random_mechanisms(seed: int) -> None:
     agrees(da.mechanism(tree(random_drawing(seed, redundant=False))), seed)
 
 
+FEW = [42, 43]
+"""With a thread and a pin, and with a ball, pins and a collar."""
+
+
+@over_seeds(FEW, range(200), block=10)
+def test_friction(seed: int) -> None:
+    """Of journals, collars, guides, balls and threads, but for rods whose spin it decides."""
+    m = rough(seed, most=0.3)
+    c = compile_mechanism(m, m.schedule())
+    families = c.contacts.rows.families if c.contacts is not None else ()
+    ends = {int(end) for f in families for end in (*f.i, *f.j)}
+    if any(c.links.index(rod) in ends for rod in c.passive):
+        with pytest.raises(da.ModelError, match="spins in its balls follows from their friction"):
+            compiled(m)
+        return
+    r = agrees(m, seed)
+    assert seed not in FEW or r.redone == 0
+
+
 def test_every_output() -> None:
     m = MACHINES["rssr"]()
     of = {"effort": "O", "load": "", "residual": "", "point": "rod.B"} | dict.fromkeys(
@@ -111,9 +131,10 @@ def test_derivatives_and_those_from_a_solution(monkeypatch: pytest.MonkeyPatch) 
             "first position: so it cannot vary; leave it out, or use da.dynamics or da.statics",
         ),
         (
-            library.rssr().with_values({"joints.O.friction": {"coefficient": 0.1, "radius": 0.01}}),
-            "links.rod.mass",
-            "friction in space cannot be compiled; leave it out, or use da.dynamics or da.statics",
+            rough(0),
+            "gravity",
+            "how fast rod 'L3' spins in its balls follows from their friction, so it cannot be compiled; leave that "
+            "friction out, or use da.dynamics or da.statics",
         ),
     ],
 )
@@ -123,15 +144,22 @@ def test_what_is_refused(machine: Any, path: str, says: str) -> None:
 
 
 def test_where_a_rod_does_not_reach() -> None:
-    """Told by the closed form, of a turning link and of a sliding one."""
-    for m, path, value in (
-        (library.rssr(), "links.crank.points.A", 0.15),
-        (library.rssp(), "links.crank.points.A", 0.25),
-    ):
-        k = da.compile(m, vary=[path], outputs=["effort.O"], lanes=1)
-        r = k([[value, 0.0, 0.0]])
-        g = general(m, k, r.values[0])
-        assert {"ok", "not_assembled"} == set(g.status)
-        assert list(r.status[0]) == list(g.status)
-        assert r.redone == 0
-        assert r.effort("O")[0] == pytest.approx(g.effort("O"), rel=1e-10, nan_ok=True)
+    """Told by the closed form: of a link that turns as the general executor tells it, of one that slides where the rod
+    is shorter than the way from the crank to the line."""
+    k = da.compile(
+        m := library.rssr(positions=24), vary=["links.crank.points.A"], outputs=["effort.O"], lanes=1
+    )
+    r = k([[0.15, 0.0, 0.0]])
+    g = general(m, k, r.values[0])
+    assert {"ok", "not_assembled"} == set(g.status)
+    assert list(r.status[0]) == list(g.status)
+    assert r.effort("O")[0] == pytest.approx(g.effort("O"), rel=1e-10, nan_ok=True)
+    k = da.compile(library.rssp(positions=24), vary=["links.crank.points.A"], outputs=["effort.O"], lanes=1)
+    s = k([[0.25, 0.0, 0.0]])
+    turn = s.positions[:, 0]
+    way = np.stack([0.25 * np.cos(turn), 0.25 * np.sin(turn), 0 * turn], axis=1) - [0.1, 0.05, 0.03]
+    line = np.array([1.0, 0.2, 0.3])
+    far = np.linalg.norm(np.cross(way, line), axis=1) / np.linalg.norm(line) > 0.25
+    assert 0 < far.sum() < 24
+    assert list(s.status[0]) == ["not_assembled" if out else "ok" for out in far]
+    assert r.redone == s.redone == 0

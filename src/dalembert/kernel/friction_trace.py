@@ -95,7 +95,7 @@ def trace_friction(
         moves = 1.0 - np.abs(reversals)
         open_: Any = moves * trace_array(graph, state.open)
         state = state._replace(sense=reversals + moves * state.sense, open=open_)
-    sense, c = trace_array(graph, state.sense), trace_array(graph, strength(contacts, 1.0))
+    sense, c = trace_array(graph, state.sense), trace_array(graph, strength(contacts, 1.0, sense=state.sense))
     z, bears, marks = trace_slip(graph, contacts, with_strength(r, c), sense, slips)
     x = multiplier(r, c * z)
     unknown = layout.constraints.count < len(x) and slips is None
@@ -125,7 +125,7 @@ def trace_friction(
 
 
 def _trace_contacts(graph: Graph, contacts: Contacts) -> Contacts:
-    names = ("read", "lever", "coefficient", "resting", "reach", "viscous")
+    names = ("read", "lever", "coefficient", "resting", "reach", "viscous", "reckoned")
     numbers: Tree = {name: trace_array(graph, getattr(contacts, name)) for name in names}
     return replace(contacts, **numbers)
 
@@ -162,7 +162,7 @@ def trace_slip(
         k = np.array(sorted(block))
         others = sorted({b for a in block for b in needs[a]} - set(block))
         y = argument(r._replace(y=r.y[:, k], h=r.h[:, k][:, :, others]), z[others])
-        part = replace(contacts, signed=contacts.signed[k])
+        part = replace(contacts, signed=contacts.signed[k], ball=contacts.ball[k])
         known = graph.one
         for b in others:
             known = known * right.get(b, graph.one)
@@ -172,7 +172,7 @@ def trace_slip(
             right |= dict.fromkeys(block, known)
             continue
         inner = r._replace(y=y, h=r.h[:, k][:, :, k])
-        rough, sure = _contraction(graph, inner.h, sense[k])
+        rough, sure = _contraction(graph, lever(inner.h, part.ball), sense[k])
         start = None if slips is None else slips[k]
         z[k], bears[k], last = _newton(graph, part, inner, sense[k], largest, sure, start)
         doubt.append(last)
@@ -192,12 +192,11 @@ def _varying(nodes: list[Node]) -> tuple[Node, ...]:
     return tuple(n for n in nodes if n.level != CONSTANT or not n.value >= 0)
 
 
-def _contraction(graph: Graph, h: Array, sense: Array) -> tuple[Node, Node]:
+def _contraction(graph: Graph, bound: Array, sense: Array) -> tuple[Node, Node]:
     """Above zero where the fixed point is surely a contraction: then it is the only one, at any smaller scale too.
 
     First by the sums of the rows of its matrix, without signs, then by those of a power of it.
     """
-    bound = lever(h)
     moves, reached = np.abs(sense), np.abs(sense)
     bounds = []
     for _ in range(POWER):

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Flags
 from dalembert.core.branchless import larger
 from dalembert.core.friction.contact_equations import Contacts, Response, bearing, slope
 from dalembert.kernel.graph import Graph, Node, trace_array
@@ -32,11 +32,17 @@ LEAST = 1e-30
 """In place of 1 - |K_bb| where that is not above zero."""
 
 
-def lever(h: Array) -> Array:
+def lever(h: Array, ball: Flags) -> Array:
     """Bound (E, E) of the change of S with each z, from H (3, E, E) without signs: a length is at most 0.586 of the
     larger of its components and 0.415 of both."""
-    first, second, tilting = np.abs(h)
-    return larger(0.586 * larger(first, second) + 0.415 * (first + second), tilting)
+    first, second, third = np.abs(h)
+    force = _length(first, second)
+    whole = _length(force, third) if ball.any() else force
+    return np.where(ball[:, None], whole, larger(force, third))
+
+
+def _length(a: Array, b: Array) -> Array:
+    return np.asarray(0.586 * larger(a, b) + 0.415 * (a + b))
 
 
 def jams(graph: Graph, contacts: Contacts, r: Response, sense: Array) -> Node:
@@ -50,7 +56,7 @@ def jams(graph: Graph, contacts: Contacts, r: Response, sense: Array) -> Node:
     w = trace_array(graph, np.ones(len(s)))
     for _ in range(TIMES):
         w = trace_array(graph, larger(w @ pull, 0.0))
-    return _prove(graph, w, w @ pull, (e * y0).sum(axis=0), bearing(contacts, y0), lever(k))
+    return _prove(graph, w, w @ pull, (e * y0).sum(axis=0), bearing(contacts, y0), lever(k, contacts.ball))
 
 
 def _without_signed(graph: Graph, contacts: Contacts, y: Array, k: Array) -> tuple[Contacts, Array, Array]:
@@ -65,7 +71,7 @@ def _without_signed(graph: Graph, contacts: Contacts, y: Array, k: Array) -> tup
         k = k + own[:, :, None] * (over * row)
         k[:, :, a] = graph.zero
     kept = np.flatnonzero(~signed)
-    contacts = replace(contacts, signed=signed[kept])
+    contacts = replace(contacts, signed=signed[kept], ball=contacts.ball[kept])
     return contacts, trace_array(graph, y[:, kept]), trace_array(graph, k[:, kept][:, :, kept])
 
 

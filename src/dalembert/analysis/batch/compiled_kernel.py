@@ -53,7 +53,7 @@ def compile(  # noqa: A001
     reduce: over the positions, ``peak``, ``mean``, ``rms``, ``envelope``, ``argpeak``, ``norm8``; default none.
     derivatives: exact ones of every output with respect to every number. static: leave inertia out.
     lanes: values side by side (8 AVX-512, 4 AVX2, 2 NEON, 1 none); default as the processor has them.
-    Raises ModelError for what only the analyses can do (redundancy, unknown positions, friction in space).
+    Raises ModelError for what only the analyses can do (redundancy, unknown positions).
 
     >>> import dalembert as da
     >>> k = da.compile(da.four_bar(), vary=["links.coupler.mass"], outputs=["effort.O2"])

@@ -238,10 +238,12 @@ def _margin(course: Course, place: int) -> Array:
 
 
 def contact_keys(c: Compiled) -> list[tuple[str, str]]:
-    """Joint and kind of each contact."""
-    if c.contacts is None:
-        return []
-    return [(c.joints[k], kind) for k, kind in zip(c.contacts.joint, c.contacts.kind, strict=True)]
+    """Joint and kind of each contact, numbered from the second of a kind in a joint on."""
+    keys: list[tuple[str, str]] = []
+    for k, kind in zip(c.contacts.joint, c.contacts.kind, strict=True) if c.contacts is not None else ():
+        same = sum(joint == c.joints[k] and name.split()[0] == kind for joint, name in keys)
+        keys.append((c.joints[k], f"{kind} {same + 1}" if same else kind))
+    return keys
 
 
 def _poses_with_ground(result: Result) -> Pose:

@@ -96,9 +96,12 @@ def _check(course: Course) -> None:
 
 def _check_space(c: Compiled, moved: list[Number]) -> None:
     """What is not compiled in space."""
-    if c.contacts is not None:
-        what = "friction in space cannot be compiled"
-        raise ModelError(what, "leave it out, or use da.dynamics or da.statics", ("friction",))
+    links = dict(enumerate(c.links))
+    for f in c.contacts.rows.families if c.contacts is not None else ():
+        rods = [links[end] for end in (*f.i, *f.j) if links.get(end) in c.passive]
+        if rods:
+            what = f"how fast rod {rods[0]!r} spins in its balls follows from their friction, so it cannot be compiled"
+            raise ModelError(what, "leave that friction out, or use da.dynamics or da.statics", ("joints",))
     layout = c.layout
     spun = [
         c.links[j] for f in layout.constraints.families if isinstance(f, Idle) for j in f.j[f.stands == 0]

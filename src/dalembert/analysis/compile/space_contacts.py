@@ -84,13 +84,14 @@ def _screw(joint: Any, at: Geometry, sine: bool) -> Iterator[Contact]:
     """Along the helix at the mean radius: the thread's normal force, and the force across the axis."""
     f = joint.friction
     rise = joint.lead / (2 * math.pi)
-    climb = math.atan2(abs(rise), f.radius)
+    size = (rise * rise + f.radius * f.radius) ** 0.5
+    climb, across = abs(rise) / size, f.radius / size  # sine and cosine of the helix's angle
     pitch = f.radius * f.radius / rise
     numbers = {"ui": at.ui, "uj": at.uj, "pitch": pitch, "count": 0}
     row = (Helix, {**numbers, "a": at.on_i[0], "b": at.on_i[1], "p": at.on_j[1]})
-    gain = 1 / (math.cos(climb) * math.cos(f.thread_angle or 0.0))
-    yield Contact("thread", row, ({"Fx": gain},), math.sin(climb))
-    yield Contact("pin", row, ({"Fy": 1.0}, {"Fz": 1.0}), math.sin(climb))
+    gain = 1 / (across * np.cos(f.thread_angle or 0.0))
+    yield Contact("thread", row, ({"Fx": gain},), climb)
+    yield Contact("pin", row, ({"Fy": 1.0}, {"Fz": 1.0}), climb)
 
 
 KINDS: Kinds = {

@@ -178,18 +178,18 @@ def _slip(contacts: Contacts, rate: Array) -> Array:
 
 def sign(contacts: Contacts, value: Array, none: Flags) -> Array:
     """Sign of each value (..., E), 0 where ``none``; of a group of contacts its direction, a unit vector."""
-    value = np.where(none, 0.0, value)
+    value = where(none, 0.0, value)
     if not contacts.grouped:
-        return np.sign(value)
-    size = np.sqrt((value * value) @ _together(contacts))
-    return np.asarray(value / np.where(size > 0, size, 1.0))
+        return branchless.sign(value)
+    size = root((value * value) @ _together(contacts))
+    return np.asarray(value / where(above(size, 0.0), size, 1.0))
 
 
 def group_moves(contacts: Contacts, moves: Flags) -> Flags:
     """Whether a contact (..., E), or another of its group, moves."""
     if not contacts.grouped:
         return moves
-    return np.asarray(moves.astype(float) @ _together(contacts) > 0)
+    return above(moves @ _together(contacts), 0.0)
 
 
 def _together(contacts: Contacts) -> Array:
@@ -216,7 +216,7 @@ def strength(
     friction = np.where(contacts.circle, mu / root(1 + mu * mu), mu)
     if sense is not None and contacts.around.any():
         turning = (mu * sense * (contacts.around & contacts.rows.angular)) ** 2 @ _together(contacts)
-        friction = friction / np.sqrt(1 + turning)
+        friction = friction / root(1 + turning)
     return np.asarray(contacts.lever * np.where(contacts.fixed, 1.0, friction))
 
 
@@ -323,8 +323,8 @@ def slope(contacts: Contacts, y: Array, largest: Array) -> tuple[Array, Array]:
 def _round_slope(contacts: Contacts, y: Array, least: Array) -> tuple[Array, Array]:
     """Derivative of the size of a force of two or three components, and the size."""
     y = y * np.where(np.arange(3)[:, None] < 2, True, contacts.ball)
-    size = np.sqrt((y * y).sum(axis=-2))
-    return y / np.maximum(size, least)[..., None, :], size
+    size = root((y * y).sum(axis=-2))
+    return y / larger(size, least)[..., None, :], size
 
 
 def argument(r: Response, cz: Array) -> Array:
