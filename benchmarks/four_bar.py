@@ -4,9 +4,10 @@ Method. Both solve the same crank-rocker with masses, inertia, gravity, a force 
 rocker at the same positions, everything a student asks for: all rates, all reactions, the input torque. The script is
 what a competent student writes: closed-form kinematics and the nine equations filled and solved in a loop over the
 positions. dalembert is called as a user calls it on a description already loaded (``da.dynamics(m)``), with an
-`assembly` read off a drawing to a degree, after one warming call. Each is repeated, in turns; medians and their ratio
-are printed, and the largest difference of torques. A third row is a student who knows numpy's batches: everything
-over arrays, one stacked solve.
+`assembly` read off a drawing to a degree, after one warming call; further rows are a structure met for the first time
+(its kept program forgotten before each call), other numbers in each call (the crank's mass), and the careful path. Each
+is repeated, in turns; medians and their ratio are printed, and the largest difference of torques. The last row is a
+student who knows numpy's batches: everything over arrays, one stacked solve.
 
     python benchmarks/four_bar.py [--repeat 15]
 """
@@ -169,8 +170,19 @@ def compare(count: int, repeat: int) -> None:
     angles = np.linspace(0, 2 * np.pi, count, endpoint=False)
     gap = np.max(np.abs(da.dynamics(m).effort("O2") - student(angles)[:, 8]))
     print(f"{count} positions; torques differ by at most {gap:.1e} N m")
+    from dalembert.analysis.engine.quick_pass import STRUCTURES
+
+    others = iter([m.with_values({"links.crank.mass": M2 + 0.01 * k}) for k in range(1, 1000)])
+
+    def met_first() -> object:
+        STRUCTURES.found.clear()
+        return da.dynamics(m)
+
     calls = {
         "dalembert": lambda: da.dynamics(m),
+        "other numbers": lambda: da.dynamics(next(others)),
+        "met for the first time": met_first,
+        "careful path": lambda: da.dynamics(m, method="careful"),
         "student's loop": lambda: student(angles),
         "student with batches": lambda: batched_student(angles),
     }
@@ -178,13 +190,14 @@ def compare(count: int, repeat: int) -> None:
     for name, seconds in found.items():
         share = seconds / found["dalembert"]
         each = f"{seconds * 1e3:10.3f} ms  {seconds / count * 1e6:8.3f} us a position"
-        print(f"  {name:21} {each}  {share:7.2f} x dalembert")
+        print(f"  {name:22} {each}  {share:7.2f} x dalembert")
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--repeat", type=int, default=15)
     repeat = parser.parse_args().repeat
+    compare(1, repeat)
     compare(720, repeat)
     compare(100_000, max(3, repeat // 5))
 
