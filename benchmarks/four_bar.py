@@ -170,7 +170,7 @@ def compare(count: int, repeat: int) -> None:
     angles = np.linspace(0, 2 * np.pi, count, endpoint=False)
     gap = np.max(np.abs(da.dynamics(m).effort("O2") - student(angles)[:, 8]))
     print(f"{count} positions; torques differ by at most {gap:.1e} N m")
-    from dalembert.analysis.engine.quick_pass import STRUCTURES
+    from dalembert.analysis.engine.structures import STRUCTURES
 
     others = iter([m.with_values({"links.crank.mass": M2 + 0.01 * k}) for k in range(1, 1000)])
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.engine import quick_pass
+from dalembert.analysis.engine import quick_pass, structures
 from tests.engine.comparing import both, counted, difference
 
 
@@ -70,9 +70,9 @@ def test_gaps_are_left_to_the_careful_path() -> None:
 
 def test_one_trace_serves_all_numbers_of_a_structure(monkeypatch: pytest.MonkeyPatch) -> None:
     traced: list[int] = []
-    own = quick_pass.trace_structure
-    monkeypatch.setattr(quick_pass, "STRUCTURES", quick_pass._Structures())
-    monkeypatch.setattr(quick_pass, "trace_structure", lambda *given: traced.append(1) or own(*given))
+    own = structures.trace_structure
+    monkeypatch.setattr(structures, "STRUCTURES", structures.Structures())
+    monkeypatch.setattr(structures, "trace_structure", lambda *given: traced.append(1) or own(*given))
     crank = da.slider_crank()
     for k in range(1, 6):
         m = crank.with_values(
@@ -87,13 +87,13 @@ def test_one_trace_serves_all_numbers_of_a_structure(monkeypatch: pytest.MonkeyP
 
 
 def test_structures_are_bounded_and_shared_by_threads(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(quick_pass, "KEPT", 2)
+    monkeypatch.setattr(structures, "KEPT", 2)
     made = [da.four_bar(), da.slider_crank(), da.toggle_press(), da.whitworth()]
     alone = [da.dynamics(m, method="careful") for m in made]
     with ThreadPoolExecutor(4) as pool:
         found = list(pool.map(da.dynamics, made * 4))
     assert all(difference(r, alone[k % 4]) < 1e-10 for k, r in enumerate(found))
-    assert len(quick_pass.STRUCTURES.found) <= 2
+    assert len(structures.STRUCTURES.found) <= 2
 
 
 def test_residual_and_power_balance_would_show_a_wrong_program(monkeypatch: pytest.MonkeyPatch) -> None:

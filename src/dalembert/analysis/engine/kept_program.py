@@ -18,18 +18,15 @@ from dalembert.core.layout import Pose
 from dalembert.core.position.assembly_modes import counted_links
 from dalembert.kernel.emit.numpy_program import NumpyProgram
 from dalembert.kernel.graph import CONSTANT, INPUTS, Graph, Node, Scalar, trace_array
-from dalembert.kernel.position.plane_vectors import Pair
 from dalembert.kernel.trace import Drives, Problem, Traced, trace
 
-KEPT = (
-    *("closure", "point", "rotation", "turn", "twist", "acceleration"),
-    *("effort", "load", "force", "moment"),
-)
+POSE = ("closure", "point", "rotation", "turn")
+KEPT = (*POSE, "twist", "acceleration", "effort", "load", "force", "moment")
 CHECKS = ("loads", "unbalanced", "virtual", "power", "margin")
-"""What a program computes, in the order of its outputs: what an answer keeps, and what only checks it.
+"""What a program computes, in the order of its outputs: the pose, all that an answer keeps, and what only checks it.
 
-closure: squares of what vanishes at dead centres; these and ``margin`` are negative, or no number, where something is
-in doubt.
+closure: first squares of what vanishes at dead centres, then what else must hold for the pose; these and ``margin`` are
+negative, or no number, where something is in doubt.
 """
 
 
@@ -37,15 +34,18 @@ in doubt.
 class KeptProgram:
     """A traced structure: inputs (numbers, columns, then ways), arrays of nodes by name, and the ways it was traced in.
 
-    ``fixed`` (L,): links whose angle the drives alone give; ``counted``: those whose whole turns some row counts;
-    ``last``: the last way that a link's rotation depends on, -1 for none. ``driven``: the drives whose positions are
-    inputs, which are the first columns. ``known``: first poses found lately, by what decides them.
+    squares: how many rows of closure are such. whole: it gives more than the pose; not so where turns of springs are to
+    be counted. fixed (L,): links whose angle the drives alone give; counted: those whose whole turns some row counts;
+    last: the last way that a link's rotation depends on, -1 for none. driven: the drives whose positions are inputs,
+    which are the first columns. known: first poses found lately, by what decides them.
     """
 
     graph: Graph
     inputs: tuple[Node, ...]
     nodes: dict[str, Array]
     ways: tuple[float, ...]
+    squares: int
+    whole: bool
     fixed: Flags
     counted: Flags
     last: Ints
@@ -57,6 +57,11 @@ class KeptProgram:
         """Rows of the outputs of each array."""
         ends = np.cumsum([0, *(self.nodes[name].size for name in (*KEPT, *CHECKS))]).tolist()
         return {name: slice(*ends[k : k + 2]) for k, name in enumerate((*KEPT, *CHECKS))}
+
+    @property
+    def pose(self) -> int:
+        """How many outputs a pose has."""
+        return int(self.rows[POSE[-1]].stop)
 
     @property
     def kept(self) -> int:
@@ -71,20 +76,25 @@ class KeptProgram:
     @cached_property
     def run(self) -> NumpyProgram:
         """All outputs at positions."""
-        outputs = [n for name in (*KEPT, *CHECKS) for n in self.nodes[name].ravel()]
-        return NumpyProgram(self.graph, self.inputs, outputs)
+        return NumpyProgram(self.graph, self.inputs, self._outputs(*KEPT, *CHECKS))
+
+    @cached_property
+    def run_pose(self) -> NumpyProgram:
+        """The outputs of the pose at positions."""
+        return NumpyProgram(self.graph, self.inputs, self._outputs(*POSE))
+
+    def _outputs(self, *names: str) -> list[Node]:
+        return [n for name in names for n in self.nodes[name].ravel()]
 
     @cached_property
     def try_ways(self) -> NumpyProgram:
         """Rotations, then closure, of one position for several ways side by side."""
-        nodes = [n for name in ("rotation", "closure") for n in self.nodes[name].ravel()]
-        return NumpyProgram(self.graph, self.inputs, nodes, many=True)
+        return NumpyProgram(self.graph, self.inputs, self._outputs("rotation", "closure"), many=True)
 
     @cached_property
     def decisive(self) -> list[int]:
         """The places, among the values of the inputs, of those that rotations depend on."""
-        nodes = [n for name in ("rotation", "closure") for n in self.nodes[name].ravel()]
-        needed = {n.index for n in self.graph.order(nodes)}
+        needed = {n.index for n in self.graph.order(self._outputs("rotation", "closure"))}
         return [
             k for k, n in enumerate(self.inputs[: len(self.inputs) - len(self.ways)]) if n.index in needed
         ]
@@ -178,7 +188,7 @@ class _Ways:
     def __init__(self, graph: Graph, pose: Pose) -> None:
         self.graph, self.pose, self.inputs = graph, pose, list[Node]()
 
-    def __call__(self, plus: Pair, minus: Pair, a: int, b: int) -> Node:
+    def __call__(self, plus: tuple[Scalar, ...], minus: tuple[Scalar, ...], a: int, b: int) -> Node:
         nodes = [n if isinstance(n, Node) else self.graph.constant(n) for n in (*plus, *minus)]
         pc, ps, mc, ms = self.graph.evaluate(nodes, {})
         r = self.pose.rotation
@@ -196,8 +206,9 @@ def _kept(
 ) -> KeptProgram | None:
     needs = _needs(graph, ways.inputs, {n.index for n in inputs})
     fixed = np.array([needs[n.index] >= 0 for n in t.pose.turn[:-1]], bool)
-    closure = {n.index: n for n in t.closure if n.level != CONSTANT}
-    margin = {n.index: n for n in (*t.open, *t.doubt, *graph.decisions) if n.level != CONSTANT}
+    squares = {n.index: n for n in t.closure if n.level != CONSTANT}
+    closure = squares | {n.index: n for n in (*t.open, *graph.decisions) if n.level != CONSTANT}
+    margin = {n.index: n for n in t.doubt if n.level != CONSTANT}
     nodes = {
         "closure": np.array(list(closure.values()), object),
         "point": t.pose.point[:-1],
@@ -212,13 +223,24 @@ def _kept(
         "virtual": t.virtual[:, :-1],
         "margin": np.array([n for k, n in margin.items() if k not in closure], object),
     }
-    if any(needs[n.index] < 0 for a in nodes.values() for n in a.ravel()):
+    known_all = {name: all(needs[n.index] >= 0 for n in a.ravel()) for name, a in nodes.items()}
+    if not all(known_all[name] for name in POSE):
         return None
     last = [max(needs[n.index].bit_length() for n in pair) - 1 for pair in t.pose.rotation[:-1]]
     found = tuple(float(graph.nominal[n.index]) for n in ways.inputs)
     driven = tuple(k for k, q in enumerate(position) if q.op in INPUTS)
-    counted = counted_links(c.layout)
-    return KeptProgram(graph, inputs, nodes, found, fixed, counted, np.array(last, np.intp), driven)
+    return KeptProgram(
+        graph=graph,
+        inputs=inputs,
+        nodes=nodes,
+        ways=found,
+        squares=len(squares),
+        whole=all(known_all.values()),
+        fixed=fixed,
+        counted=counted_links(c.layout),
+        last=np.array(last, np.intp),
+        driven=driven,
+    )
 
 
 def _needs(graph: Graph, ways: list[Node], known: set[int]) -> list[int]:

@@ -1,0 +1,92 @@
+"""A motion through a list of positions, looked at as closely as it takes to be sure that it is one."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from dalembert.analysis.compile.compiled_mechanism import Compiled
+from dalembert.analysis.engine.kept_program import KeptProgram
+from dalembert.analysis.positions import FARTHEST
+from dalembert.arrays import Array, Ints
+from dalembert.core.position.path_parameter import walk
+
+STEP, FEWEST = 0.2, 8
+"""Longest way of the drives between two places, radians or lengths, and how many steps a motion has at least: what
+lies between two listed positions is looked at too."""
+
+MOST = 20_000
+"""Places between the listed positions that are looked at."""
+
+MANY = 500_000
+"""Angles that are counted at once, so that it takes little memory."""
+
+TURN = 1.0
+"""Largest turn of a link from place to place, radians: more, and its whole turns are not counted surely."""
+
+
+class Walk(NamedTuple):
+    """Places in the order in which a motion meets them: ``order`` of the list's and of those between, ``between``: the
+    drives' positions there (B, D), ``before`` the listed position before each."""
+
+    order: Ints
+    between: Array
+    before: Ints
+
+
+def walk_through(c: Compiled, step: float) -> Walk | None:
+    """The motion through a list with no step longer than ``step``; None where that would be too many."""
+    drives = c.schedule.position
+    count, none = len(drives), np.zeros(0, np.intp)
+    if count == 1:
+        return Walk(np.zeros(1, np.intp), drives[:0], none)
+    order, _, s = walk(c.layout, drives)
+    way = np.diff(s)
+    parts = np.ceil(way / min(step, s[-1] / FEWEST)) if s[-1] > 0 else way
+    if not (way <= FARTHEST).all() or parts.sum() > MOST + count:
+        return None
+    more = np.maximum(parts.astype(int) - 1, 0)
+    low = np.repeat(np.arange(len(way)), more)
+    if not low.size:
+        return Walk(order, drives[:0], none)
+    share = (np.arange(len(low)) - np.repeat(np.cumsum(more) - more, more) + 1) / (more[low] + 1)
+    before = drives[order[low]]
+    between = before + share[:, None] * (drives[order[low + 1]] - before)
+    whole = np.insert(order, low + 1, count + np.arange(len(low)))
+    return Walk(whole, between, order[low])
+
+
+def with_between(k: KeptProgram, columns: Array, walk: Walk) -> Array:
+    """Columns of the inputs with those of the places in between: drives' positions, else as at the one before."""
+    if not len(walk.between):
+        return columns
+    more = columns[:, walk.before]
+    for row, place in enumerate(k.driven):
+        more[row] = walk.between[:, place]
+    return np.concatenate([columns, more], axis=1)
+
+
+def count_turns(k: KeptProgram, out: Array, way: Walk, first: Array) -> bool:
+    """Put in the links' angles, whole turns counted along the motion; not where one of them turns far at a step."""
+    free = np.flatnonzero(~k.fixed)
+    for links in np.array_split(free, 1 + free.size * len(way.order) // MANY):
+        rows = k.rows["rotation"].start + links
+        angle = np.arctan2(out[rows + len(k.fixed)], out[rows])
+        turns = np.diff(angle[:, way.order], axis=1)
+        step = turns.copy()
+        np.rint(turns / (2 * np.pi), out=turns)
+        step -= 2 * np.pi * turns
+        if (np.abs(step) > TURN).any():
+            return False
+        whole = np.zeros_like(angle)
+        whole[:, way.order[1:]] = -np.cumsum(turns, axis=1)
+        whole += (np.rint((first[links] - angle[:, 0]) / (2 * np.pi)) - whole[:, 0])[:, None]
+        out[k.rows["turn"].start + links] = angle + 2 * np.pi * whole
+    return True
+
+
+def is_steady(k: KeptProgram, out: Array, way: Walk) -> bool:
+    """Whether no group passes a dead centre between two places: what vanishes there changes by less than it is."""
+    sizes = (np.sqrt(row)[way.order] for row in out[: k.squares])
+    return all((np.abs(np.diff(a)) <= np.minimum(a[1:], a[:-1])).all() for a in sizes)
