@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.analysis.friction.lines_of_action import acting_lines
+from dalembert.analysis.friction.lines_of_action import FaceForce, acting_lines, close_by
 from dalembert.analysis.methods.applied_forces import magnitude, on_link
 from dalembert.bundled import cases
 from dalembert.views.paper.scene import Circle, Line, Scene
@@ -51,6 +51,13 @@ def test_reactions_on_their_own_lines_balance(seed: int) -> None:
             size = largest * max(far, r.compiled.layout.length)
             assert np.hypot(*force) < 1e-9 * largest
             assert abs(moment) < 1e-9 * max(size, *(abs(float(a.couple[k])) for a in mine))
+
+
+@pytest.mark.parametrize(("part", "near"), [(0.9, True), (-0.9, True), (1.1, False), (-1.1, False)])
+def test_a_face_that_bears_beyond_the_machine_is_far(part: float, near: bool) -> None:
+    r, none = da.statics(collar(0.05)), np.zeros((1, 2))
+    away = np.array([part * r.compiled.layout.length])
+    assert close_by(r, FaceForce("", none, away, none, none), 0) is near
 
 
 def test_pins_and_guides_have_no_couple_left() -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.core.friction import holding_range
 from dalembert.core.friction.linear_programmes import furthest
 from tests.friction.engines import engine, pushed_slider
 from tests.friction.oracle import resting
@@ -61,9 +62,16 @@ def wedge_effort(floor: float, wall: float, slope: float, below: float = 20.0, a
 
 
 @pytest.mark.parametrize(("floor", "wall", "slope"), [(0.6, 0.5, 20.0), (0.2, 0.5, 30.0), (0.9, 0.3, 40.0)])
-def test_a_wedge_holds_more_after_it_came_back(floor: float, wall: float, slope: float) -> None:
+def test_a_wedge_holds_more_after_it_came_back(
+    floor: float, wall: float, slope: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Going forward B comes down and the wall carries a part of it; after going back the wall presses it down."""
+    programmes: list[object] = []
+    monkeypatch.setattr(
+        holding_range, "furthest", lambda *given: programmes.append(given) or furthest(*given)
+    )
     r = da.statics(wedge(floor, wall, slope))
+    assert len(programmes) <= 6  # no more once nothing is gained
     forward, back = wedge_effort(floor, -wall, slope), wedge_effort(-floor, wall, slope)
     assert r.interval("floor")[0] == pytest.approx((back, forward), rel=1e-12)
     pressed = max(forward, wedge_effort(floor, wall, slope))

@@ -357,6 +357,41 @@ def test_a_contact_that_stays_at_rest_counts_where_it_carries_something() -> Non
     assert "No relative motion in" in loaded.reasons[0]
 
 
+@pytest.mark.parametrize("load", [100.0, -100.0])
+def test_a_contact_at_rest_that_carries_rounding_carries_nothing(load: float) -> None:
+    """Beside a block that slides, pressed down or up: 0.1 + 0.2 - 0.3 N on the pin of a bar that is held."""
+    parts = {
+        f"F{k}": {"type": "force", "on": "bar", "at": "Q", "value": [f, 0]}
+        for k, f in enumerate((0.1, 0.2, -0.3))
+    }
+    tree = {
+        "links": {
+            "ground": {"points": {"O": [0, 0], "P": [0.5, 0.5], "Q": [0.8, 0.5]}},
+            "block": {"points": {"B": [0, 0]}},
+            "bar": {"points": {"P": [0, 0], "Q": [0.3, 0]}},
+        },
+        "joints": {
+            "floor": {
+                "type": "slider",
+                "links": ["ground", "block"],
+                "at": ["O", "B"],
+                "friction": {"coefficient": 0.2},
+            },
+            "P": {
+                "type": "pin",
+                "links": ["ground", "bar"],
+                "friction": {"coefficient": 0.1, "radius": 0.01},
+            },
+            "Q": {"type": "slot", "links": ["ground", "bar"], "direction": 0.0},
+        },
+        "drives": {"floor": {"position": 0.1, "speed": 1}},
+        "loads": {"load": {"type": "force", "on": "block", "at": "B", "value": [0, load]}} | parts,
+    }
+    r = da.statics(da.mechanism(tree))
+    assert r.status == ("ok",)
+    assert r.effort("floor") == pytest.approx([20.0])
+
+
 def test_both_sides_are_one_where_nothing_reverses() -> None:
     """A contact that stays at rest and carries nothing leaves them their numbers."""
     r = with_bar(0.0, [50, 0, 60])

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import copy
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.batch.careful_path import _schedule
 from dalembert.analysis.batch.kernel_inputs import _carry_sign_forward
 from tests.kernel.comparing import changed, difference, every_number, general
 from tests.kernel.machines import KINDS, four_bar, four_bar_tree
@@ -109,6 +111,24 @@ def test_reactions_on_either_link() -> None:
         both.reaction(joint, i)
     with pytest.raises(da.ModelError, match=f"joint '{joint}' does not act on 'boom'; it joins {i} and {j}"):
         r.reaction(joint, "boom")
+
+
+def test_a_design_keeps_its_own_speeds() -> None:
+    """At as many positions as it has itself all of them, at others the first."""
+    drive = {
+        "position": [0, 10, 20],
+        "speed": ["1 rad/s", "2 rad/s", "4 rad/s"],
+        "acceleration": ["3 rad/s^2", "2 rad/s^2", "1 rad/s^2"],
+    }
+    m = da.mechanism(da.four_bar().to_tree() | {"drives": {"O2": drive}})
+    for count, speeds in ((3, [1, 2, 4]), (4, [1] * 4)):
+        own = m.schedule()
+        asked = replace(own, position=np.zeros((count, 1)))
+        found = _schedule(m, asked)
+        assert found.speed[:, 0] == pytest.approx(speeds)
+        assert found.acceleration[:, 0] == pytest.approx(
+            own.acceleration[: 3 if count == 3 else 1, 0] * np.ones(count)
+        )
 
 
 def test_a_way_of_closing_holds_where_both_coincide() -> None:

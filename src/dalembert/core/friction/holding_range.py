@@ -131,7 +131,7 @@ def _scale(contacts: Contacts, r: Response) -> _Rest:
     c = strength(contacts, 1.0, True)
     size = np.abs(r.y).max(axis=(-2, -1), initial=0.0)
     size = np.where(size > 0, size, 1.0)
-    unit = np.where(c != 0, np.abs(c), 1.0)
+    unit = np.where(c != 0, c, 1.0)
     part = r._replace(y=r.y / size[:, None, None], change=r.change * unit * size[:, None, None])
     own = np.flatnonzero(~contacts.fixed & ~contacts.signed & (c > 0))
     return _Rest(contacts, with_strength(part, np.broadcast_to(unit, (len(size), len(unit)))), c / unit, own)
