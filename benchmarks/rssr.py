@@ -1,14 +1,15 @@
 """A spatial four-bar RSSR over a cycle: dalembert's Python call against multibody programs, one thread, same run.
 
 Method. All are asked for the driving torque of the same crank-rocker with masses, inertias and gravity at the same
-positions, at a steady speed. dalembert is called as a user calls it on a description already loaded
-(``da.dynamics(m)``, which gives all reactions too), after one warming call. Pinocchio, MuJoCo and Drake compute trees:
-their users open the loop at one ball, close it by Newton's method with the programs' Jacobians position by position
-(from the position before), and find the torque and the three forces of the cut from the programs' inverse dynamics:
-the same few lines around each of them. Exudyn simulates: its user holds the crank's speed, starts from consistent
-velocities (ours) and reads the torque of the constraint, one implicit step a position; only its solver is timed, and
-its torque is as good as the step. Their torques are compared with ours first. Medians of wall and of processor time
-over the repeats, in turns; those not installed are named.
+positions, at a steady speed. dalembert's kernel (``da.compile``) answers 100 designs of other numbers at once, all
+reactions and the torque, positions with them; its time is that of the call over the positions. dalembert is called as
+a user calls it on a description already loaded (``da.dynamics(m)``, which gives all reactions too), after one warming
+call. Pinocchio, MuJoCo and Drake compute trees: their users open the loop at one ball, close it by Newton's method
+with the programs' Jacobians position by position (from the position before), and find the torque and the three forces
+of the cut from the programs' inverse dynamics: the same few lines around each of them. Exudyn simulates: its user
+holds the crank's speed, starts from consistent velocities (ours) and reads the torque of the constraint, one implicit
+step a position; only its solver is timed, and its torque is as good as the step. Their torques are compared with ours
+first. Medians of wall and of processor time over the repeats, in turns; those not installed are named.
 
     python benchmarks/rssr.py [--repeat 15]
 """
@@ -361,6 +362,31 @@ def medians(ways: dict[str, Callable[[], Any]], repeat: int) -> dict[str, tuple[
     return {name: (median(w for w, _ in x), median(c for _, c in x)) for name, x in spent.items()}
 
 
+DESIGNS = 100
+FREE = (
+    *("links.crank.points.A", "links.rocker.points.B", "links.ground.points.C", "joints.C.axis"),
+    *(f"links.{name}.mass" for name in MASS),
+    *("links.crank.center", "links.rocker.center", "drives.O.speed"),
+)
+"""What varies from design to design: 22 numbers, most of the geometry among them."""
+
+
+def kernel(m: Any, expected: Any, repeat: int) -> None:
+    """The compiled analysis of many designs, one thread."""
+    import dalembert as da
+
+    k = da.compile(m, vary=FREE)
+    off = np.max(np.abs(k().effort("O") - expected)) / np.max(np.abs(expected))
+    part = np.random.default_rng(1).uniform(-0.05, 0.05, (DESIGNS, len(k.numbers)))
+    r = k(k.nominal * (1 + part), threads=1)
+    found = medians({"kernel": lambda: k(r.values, threads=1)}, repeat)["kernel"][0]
+    size, redone = k.program(k.flat).size, r.redone
+    print(
+        f"kernel: torque differs by {off:.1e} of the largest; {size} operations a position, {redone} designs redone"
+    )
+    print(f"kernel, {DESIGNS} designs: {found / DESIGNS / COUNT * 1e6:.0f} ns a position")
+
+
 def main() -> None:
     import dalembert as da
 
@@ -371,6 +397,7 @@ def main() -> None:
     r = da.dynamics(m)
     assert all(r.ok), r.problems()
     expected, turns = r.effort("O"), 2 * np.pi * np.arange(COUNT) / COUNT
+    kernel(m, expected, repeat)
     ways: dict[str, Callable[[], Any]] = {"dalembert": lambda: da.dynamics(m)}
     for kind in (Pinocchio, Mujoco, Drake):
         try:

@@ -35,9 +35,8 @@ def every_number(m: Any) -> list[str]:
 def _in_space(part: Any) -> list[str]:
     """Axes of a joint's two links, its damping by freedom, and a matrix of inertia."""
     axes, damping = getattr(part, "axes", None), getattr(part, "damping", None)
-    out = (
-        ["inertia"] if isinstance(getattr(part, "inertia", None), tuple) and _varies(part.inertia[0]) else []
-    )
+    inertia = getattr(part, "inertia", None)
+    out = ["inertia"] if isinstance(inertia, tuple) and isinstance(inertia[0], tuple) else []
     out += [f"damping.{freedom}" for freedom in damping] if isinstance(damping, dict) else []
     ends = ("i", "j") if hasattr(axes, "i") else ()
     return out + [f"axes.{e}.{key}" for e in ends for key in "xz" if _varies(getattr(getattr(axes, e), key))]

@@ -1,9 +1,9 @@
 """Positions of traced mechanisms in space: link after link from the drives, Newton for what closes in loops.
 
-Where no number of the geometry varies, the known motion is the solution. Else a rod between two balls is a distance
-between their centres, and stands where they do. The other links fall into blocks, each placed once those before it are:
-one that its joint and its drives hold directly, one that turns or slides and is held at a distance in closed form, the
-rest by unrolled Newton steps from the known motion.
+A rod between two balls is a distance between their centres, and stands where they do. The other links fall into blocks,
+each placed once those before it are: one that its joint and its drives hold directly, one that turns or slides and is
+held at a distance in closed form, the rest by unrolled Newton steps from the known motion. That is the solution where
+no number of the geometry varies: then it stands in place of any steps.
 """
 
 from __future__ import annotations
@@ -46,9 +46,8 @@ def varies(layout: Layout, target: Array) -> bool:
 
 def space_positions(m: Motion, steps: int = STEPS) -> Placed:
     """Poses of all links from the drives' positions."""
-    out = Placed(known_pose(m))
-    if not varies(m.layout, m.target):
-        return out
+    known, moves = known_pose(m), varies(m.layout, m.target)
+    out = Placed(Pose(*(a.copy() for a in known)))
     m.placed = {m.layout.links}
     rods, m = without_rods(m)
     for links in blocks(m.layout):
@@ -58,6 +57,8 @@ def space_positions(m: Motion, steps: int = STEPS) -> Placed:
             found = closed_form(m, out, links[0], rows)
         if found is not None:
             out.pose.point[links[0]], out.pose.rotation[links[0]] = found
+        elif not moves:
+            return Placed(known)
         else:
             closed = newton(m, out.pose, links, steps)
             out.pose, out.doubt = closed.pose, [*out.doubt, *closed.doubt]
