@@ -146,6 +146,7 @@ def test_instant_centers_of_the_four_bar() -> None:
     assert found["ground", "crank"] == pytest.approx((0.0, 0.0), abs=1e-12)
     p = found["ground", "coupler"]
     assert p is not None
+    assert all(place is not None for place in found.values())
     a, b, o4 = r.point("crank", "A")[0], r.point("coupler", "B")[0], (19 * 0.0254, 0.0)
     assert a[0] * p[1] - a[1] * p[0] == pytest.approx(0.0, abs=1e-9)
     assert (b[0] - o4[0]) * (p[1] - o4[1]) == pytest.approx((b[1] - o4[1]) * (p[0] - o4[0]), abs=1e-9)

@@ -130,6 +130,7 @@ def test_panels_stand_in_rows_below_each_other() -> None:
     assert whole.title == "all"
     assert whole.scales == {"a: force": 30, "b: force": 40, "c: force": 50, "d: force": 120}
     assert whole.numbers == {"a": {"n": 10}, "b": {"n": 25}, "c": {"n": 5}, "d": {"n": 8}}
+    assert stack_scenes([sheet(120, 8, "a")], width=100.0).bounds == (0, -8, 120, 0)
     exact = stack_scenes([sheet(47, 5, "a"), sheet(47, 5, "b")], gap=6.0, width=100.0)
     assert exact.bounds == pytest.approx((0, -5, 100, 0))
 
@@ -148,6 +149,7 @@ def test_boxes_that_strokes_and_boxes_touch() -> None:
     }
     found = crossings(boxes, np.array(list(strokes), float))
     assert found.T.tolist() == list(strokes.values())
+    assert crossings(boxes, np.array(list(strokes), float)[:, ::-1]).T.tolist() == list(strokes.values())
     other = np.array([[3.0, 1.0, 11.0, 5.0], [4.0, 0.0, 10.0, 2.0], [1.0, 0.5, 2.0, 1.0]])
     assert overlapping(boxes, other).tolist() == [[True, False, True], [True, False, False]]
 

@@ -11,7 +11,7 @@ import pytest
 import dalembert as da
 from dalembert.analysis.methods.applied_forces import Action
 from dalembert.bundled import examples
-from dalembert.views.formats.glb import solid_model
+from dalembert.views.formats.glb import _extent, solid_model
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import FINE, Frame, round_up
@@ -27,7 +27,10 @@ from dalembert.views.plane.force_polygons import (
 from dalembert.views.plane.mechanism_view import draw_actions
 from dalembert.views.plane.outline import convex
 from dalembert.views.space import journal_details
+from dalembert.views.space.link_solids import Mount, _symbol
+from dalembert.views.space.solids import Block
 from tests.friction.engines import engine
+from tests.methods.space_machines import solved as solved_in_space
 from tests.methods.test_space_friction_drawings import solved
 
 SPAN = (0.0, 0.0, 100.0, 60.0)
@@ -203,3 +206,41 @@ links: {ground: {points: {S: [0, 0]}}, block: {points: {S: [0, 0]}, mass: 1}}
 joints: {S: {type: slider, links: [ground, block]}}
 drives: {S: {position: 0}}
 """
+
+
+def test_what_acts_is_drawn_as_asked() -> None:
+    r = da.dynamics(da.load(examples()["four_bar"]).with_values({"gravity": "standard"}))
+    roles = [
+        {i.role for i in da.draw.mechanism(r, forces=f).items if isinstance(i, (Arrow, Arc))}
+        for f in (False, True)
+    ]
+    assert roles == [{"load", "effort"}, {"load", "effort", "weight", "inertia"}]
+
+
+def test_symbols_are_as_large_as_the_longer_side_of_the_machine_says() -> None:
+    r = da.statics(da.load(examples()["four_bar"]))
+    points = [r.point(link, n)[0] for link in r.links for n in r.mechanism.points(link)]
+    assert _extent(r, np.array([0])) == pytest.approx(np.ptp([*points, (0.0, 0.0)], axis=0).max())
+
+
+@pytest.mark.parametrize(("low", "high"), [((2, 0, 0), (5, 0, 0)), ((-5, 0, 0), (-2, 0, 0))])
+def test_a_rail_on_a_moving_link_begins_at_its_point(low: Any, high: Any) -> None:
+    r = solved_in_space("slider_crank")
+    size = 0.001
+    one = Mount(
+        "prismatic",
+        ("rod", "slider"),
+        (np.zeros(3),) * 2,
+        (np.eye(3),) * 2,
+        np.array(low) * size,
+        np.array(high) * size,
+    )
+    (rail,) = _symbol(r, one, size).on_i
+    assert isinstance(rail, Block)
+    ends = [rail.center[0] - rail.half[0], rail.center[0] + rail.half[0]]
+    assert ends == pytest.approx([min(0, low[0]) - 5.0, max(0, high[0]) + 5.0])
+
+
+def test_an_animation_shows_the_paths_that_are_described() -> None:
+    r = da.statics(da.load(examples()["four_bar"]), positions=8)
+    assert any(i.role == "trace" for i in da.draw.animation(r).still)

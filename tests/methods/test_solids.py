@@ -90,6 +90,17 @@ def test_a_tube_is_the_side_of_its_cylinder_and_a_thread_winds_about_its_bar() -
     assert off.max() == pytest.approx(1.5 + 1.5 * WIRE * 0.8, rel=0.02)
 
 
+def test_a_bar_has_the_corners_that_it_needs() -> None:
+    assert len(mesh(BODIES["bar"][0], 0.8).points) == 2 * (AROUND + 1) + 2 * (AROUND + 1)
+
+
+def test_a_sleeve_is_painted_over_what_runs_in_it() -> None:
+    """In one piece, as near as its nearer end; other bars piece by piece at their middles."""
+    sleeve, bar = Cylinder(AT, BAR, 1.5, "sleeve", whole=True), Cylinder(AT, BAR, 0.5, "bar")
+    roles = [i.role.split("-")[0] for i in paint([sleeve, bar], EYE)]
+    assert roles == sorted(roles)  # all of the bar, then the sleeve
+
+
 def areas(items: Any) -> dict[str, float]:
     """Painted area of each role, outlines either way round."""
     out: dict[str, float] = {}

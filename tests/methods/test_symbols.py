@@ -18,9 +18,10 @@ from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.scene import Arrow, Circle, Line
 from dalembert.views.plane.joint_drawings import DRAWINGS
 from dalembert.views.space.camera import CAMERAS
-from dalembert.views.space.solids import Ball, Block
+from dalembert.views.space.solids import Ball, Block, Cylinder, Pane, Wire
 from dalembert.views.space.space_view import triad
-from dalembert.views.symbols.pair_symbols import SYMBOLS, symbol
+from dalembert.views.space.triangles import mesh
+from dalembert.views.symbols.pair_symbols import BALL, SYMBOLS, Setting, symbol
 from dalembert.views.symbols.plane_symbols import (
     BLOCK,
     PIN,
@@ -94,6 +95,30 @@ def test_blocks_of_symbols_are_in_the_middle(kind: str, end: int) -> None:
     (block,) = symbol(kind)[end]
     assert isinstance(block, Block)
     assert block.center.tolist() == [0, 0, 0]
+
+
+def test_balls_touch_their_panes_and_pegs_are_amid_their_slots() -> None:
+    slides = Setting(low=np.array([-3.0, -2.0, -1.0]), high=np.array([4.0, 5.0, 6.0]))
+    panes = symbol("sphere_between_planes", slides).on_i
+    assert [set(p.corners[:, 0]) for p in panes if isinstance(p, Pane)] == [{-BALL}, {BALL}]
+    for pane in (p for p in panes if isinstance(p, Pane)):
+        assert pane.corners.min(axis=0)[1:].tolist() == [-6.5, -5.5]
+        assert pane.corners.max(axis=0)[1:].tolist() == [9.5, 10.5]
+    for kind in ("slotted_sphere", "slotted_sphere_in_cylinder"):
+        parts = symbol(kind, slides)
+        (peg,) = (p for p in parts.on_j if isinstance(p, Cylinder))
+        wires = [p.points for p in parts.on_i if isinstance(p, Wire)]
+        e = peg.end / np.linalg.norm(peg.end)
+        assert len(wires) == 2
+        middle = np.mean(wires, axis=0)
+        across_x = middle.mean(axis=0) * [kind == "slotted_sphere", 1, 1]
+        assert np.cross(across_x, e) == pytest.approx(np.zeros(3), abs=1e-9)
+        assert across_x @ e > 1.0
+        assert np.linalg.norm(np.ptp(middle, axis=0)) > BALL
+    for kind in ("prismatic", "cylindrical", "sphere_in_cylinder", "slotted_cylinder"):
+        reach = np.concatenate([mesh(s, 1.0).points for s in symbol(kind, slides).on_i])[:, 0]
+        assert reach.min() + 3.0 == pytest.approx(-(reach.max() - 4.0))
+        assert reach.max() > 4.0 + 3.0
 
 
 SPOT, ANGLE = (3.0, -2.0), 0.7

@@ -11,12 +11,15 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import examples
+from dalembert.units import Units
 from dalembert.views.force_system import (
+    Drawing,
     clip_line,
     force_system_polygon_scene,
     force_system_scene,
     reduced_scene,
 )
+from dalembert.views.notation import Figures, Notation
 from dalembert.views.paper.lettering import text_width
 from dalembert.views.paper.scene import Arc, Circle, Line
 from dalembert.views.space.camera import CAMERAS, Camera
@@ -277,6 +280,12 @@ def test_one_line_of_forces_in_space_is_a_single_force() -> None:
     )
     left = System(Force([0, 5], at=[-3, -2]), Force([1, 0], at=[-3 - 1e-12, -4]))
     assert any("(−3.000, −" in t.text for t in reduced_scene(left, [-3.0, -4.0]).texts())
+
+
+def test_coordinates_that_are_rounding_beside_others_are_zero() -> None:
+    drawing = Drawing(System(*PLATE), Figures(Units(), Notation()), None)
+    assert drawing.coordinates(np.array([-1e12, -1.0])) == "(−1.000e+12, 0) m"
+    assert drawing.coordinates(np.array([1e-12, -1.0])) == "(0, −1.000) m"
 
 
 def test_what_is_far_off_is_said() -> None:
