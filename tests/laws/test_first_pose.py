@@ -10,6 +10,7 @@ import dalembert as da
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.arrays import Array
 from dalembert.bundled import examples
+from dalembert.core.layout import Meet
 from dalembert.core.position import first_pose_plane
 from dalembert.core.position.assur_plan import plan
 from dalembert.core.position.newton import gap
@@ -135,6 +136,28 @@ def test_where_the_angles_are_right_the_first_start_closes() -> None:
     start = c.guess.start(c.layout, c.targets[0])
     assert gap(c.layout, start.at(None), c.targets[:1]) == pytest.approx(0, abs=1e-14)
     assert start.point[c.links.index("b")] == pytest.approx([0, 0.4])
+
+
+def test_links_are_laid_down_with_their_pins_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without the fit of what is left over: a pin that two placed links have already may stay open."""
+    monkeypatch.setattr(first_pose_plane, "FEW", 0)
+    for links in (["a", "rod"], ["rod", "a"]):
+        tree = trammel(1.0, rod=40.0).mechanism.to_tree()
+        tree["links"]["rod"] = {
+            "points": {"A": [0.1, 0.2], "B": [0.6, -0.1]},
+            "mass": 1,
+            "center": [0.3, 0.3],
+        }
+        tree["joints"]["A"]["links"], tree["joints"]["B"]["links"] = (
+            links,
+            ["b" if k == "a" else k for k in links],
+        )
+        m = da.mechanism(tree)
+        c = compile_mechanism(m, m.schedule())
+        missing = gap(c.layout, c.guess.start(c.layout, c.targets[0]).at(None), c.targets[:1])[0]
+        pins = [f.row.ravel() for f in c.layout.stack.families if isinstance(f, Meet)]
+        assert missing[np.concatenate(pins)] == pytest.approx(0, abs=1e-14)
+        assert np.abs(missing).max() > 0.01
 
 
 def test_starts_grow_with_the_machine(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -18,8 +18,10 @@ from dalembert.core.position.continuation import (
     STEP,
     Nodes,
     Station,
+    _bend,
     _passes,
     _safe,
+    _setting,
     interpolate,
     march,
 )
@@ -174,6 +176,25 @@ def test_a_step_stays_clear_of_the_singular_pose_that_two_stations_foresee(sign:
     close = [standing(5.0, sign * 0.2), standing(5.0 + way * 0.1, sign * 1e-6)]
     assert _safe(close) == pytest.approx(1e-6 / 2 + STEP.through_singular, rel=1e-4)
     assert _safe(ahead[:1]) == _safe([ahead[0], standing(6.0, sign * 0.4)]) == np.inf
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_a_bend_is_told_by_the_faster_rate(sign: float) -> None:
+    """Over 0.5 of the way a turn at rates 1 and 3 goes 1.0 by their mean; 1.3 is 0.3 off, the faster would go 1.5."""
+    c = crank([0, 90])
+    at = _setting(c.layout, course(c.layout, c.targets))
+    stations = []
+    for s, turn, rate in ((1.0, 0.2, 1.0), (1.5, 1.5, 3.0)):
+        pose = Pose(np.zeros((2, 2)), np.array([sign * turn, 0]), plane.rotation(np.array([sign * turn, 0])))
+        moving = np.array([[0, 0, sign * rate], [0, 0, 0]])
+        stations.append(Station(s, pose, moving, 1.0, None, 0.0))
+    first, second = stations
+    assert _bend(at, first, second) == pytest.approx(0.3 / 1.5)
+    assert _bend(at, second, first) == pytest.approx(0.3 / 1.5)
+    shifted = second._replace(pose=second.pose._replace(point=np.array([[0.0, -2.0], [0, 0]])))
+    assert _bend(at, first, shifted) == pytest.approx(2.0 / c.layout.length / 1.5)
+    swapped = first._replace(rate=second.rate), second._replace(rate=first.rate)
+    assert _bend(at, *swapped) == pytest.approx(0.3 / 1.5)
 
 
 def test_a_smooth_motion_is_marched_with_the_longest_steps() -> None:

@@ -50,8 +50,7 @@ def groups(layout: Layout, pose: Pose) -> list[Group]:
     if layout.stack.count < layout.unknowns or layout.unknowns > LARGEST:
         return []
     j = _scaled_jacobian(layout, pose)
-    filled = np.abs(j).max(axis=0)
-    filled = filled > NOTHING * filled.max()
+    filled = np.abs(j).max(axis=0) > NOTHING
     every = np.arange(layout.stack.count)
     choices = [every] if layout.square else [_independent(j[0], every), _independent(j[0], every[::-1])]
     found: list[Group] = []

@@ -328,10 +328,10 @@ def _bend(at: _Setting, a: Station, b: Station) -> float:
     way = g.coordinates(*b.pose) - g.coordinates(*a.pose)
     first = step * g.coordinate_rates(a.pose.rotation, a.rate)
     second = step * g.coordinate_rates(b.pose.rotation, b.rate)
-    both = np.abs(np.stack([way - (first + second) / 2, np.maximum(np.abs(first), np.abs(second))]))
-    shift, turn = both[..., : g.d].max(axis=(1, 2)) / at.layout.length, both[..., g.d :][:, at.turned]
-    off, fastest = np.maximum(shift, turn.max(axis=(1, 2), initial=0.0))
-    return float(off / max(fastest, 1e-300))
+    all_ = np.abs(np.stack([way - (first + second) / 2, first, second]))
+    shift, turn = all_[..., : g.d].max(axis=(1, 2)) / at.layout.length, all_[..., g.d :][:, at.turned]
+    off, *rates = np.maximum(shift, turn.max(axis=(1, 2), initial=0.0))
+    return float(off / max(*rates, 1e-300))
 
 
 def _is_far(layout: Layout, before: Pose, after: Pose) -> bool:
