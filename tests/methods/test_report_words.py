@@ -274,3 +274,47 @@ def test_powers_are_rounded_beside_what_acts_at_the_machines_length() -> None:
     assert found.startswith("Virtual work\n")
     three = da.statics(crank.with_values({"drives.O.position": [0.0, 0.1, 0.2]}))
     assert virtual_work_answer(three, "SI")[1].startswith("Virtual work at position 1 of 3\n")
+
+
+def test_of_inertia_off_the_diagonal_the_sign_is_said() -> None:
+    minus = "off the diagonal J holds the products with a minus"
+    for name, there in (("shaft", True), ("rssr", False)):
+        captions = [b.caption for b in working(space(name), 3, methods=()).blocks if isinstance(b, Table)]
+        assert any(minus in c for c in captions) == there
+
+
+def test_moments_clockwise_are_of_the_plane() -> None:
+    clockwise = da.Notation(torque=-1)
+    with pytest.raises(da.ModelError, match="moments cannot be counted clockwise in space"):
+        working(space("rssr"), 3, methods=(), notation=clockwise)
+    assert working(da.statics(engine()), methods=(), notation=clockwise).blocks
+
+
+@pytest.mark.parametrize(("angle", "there"), [("rad", False), ("deg", True)])
+def test_rates_of_a_mesh_are_in_radians(angle: str, there: bool) -> None:
+    tree = da.load(examples()["gear_train"]).to_tree()
+    tree["units"] = {"length": "mm", "angle": angle, "angular_speed": "rad/s" if angle == "rad" else "deg/s"}
+    tree["drives"]["sun_bearing"]["position"] = "10 deg"
+    tree.pop("answers")
+    sheet = working(da.dynamics(da.mechanism(tree)), methods=())
+    meshes = [b.text for b in sheet.blocks if isinstance(b, Paragraph) and b.text.startswith("Mesh ")]
+    assert len(meshes) == 2
+    assert all((", rates in radians" in text) == there for text in meshes)
+
+
+def test_every_part_of_superposition_in_space_has_one_column() -> None:
+    sheet = working(space("rssr"), 3, methods=("superposition",))
+    tables = [b for b in sheet.blocks if isinstance(b, Table) and b.heads[0] == "Source"]
+    heads = [head for b in tables for head in b.heads[1:]]
+    assert len(heads) == len(set(heads)) >= 13
+    assert all(b.total and b.rows[-1][0] == "sum" for b in tables)
+
+
+def test_powers_in_space_are_those_of_a_moving_position() -> None:
+    r = space("rssr")
+    moving = working(r, 3, methods=("virtual-work",))
+    powers = table(moving, "Power put in by")
+    values = {row[0]: figures(row[1])[0] for row in powers.rows}
+    assert values.pop("sum") == pytest.approx(0.0, abs=1e-6)
+    assert set(values) >= {"drives", "loads", "inertia", "weights"}
+    assert values["drives"] == pytest.approx(float(r.effort("A")[2] * r.drive_speed("A")[2]) * 1e3, rel=1e-3)
