@@ -102,7 +102,12 @@ def _modes(layout: Layout, free: Layout, target: Array, guess: Guess) -> Modes |
         if not given.any() and distance(layout, pose, drawn)[0] < SAME:
             return Modes(remove_whole_turns(layout, pose), "drawn")
     start = pose.at(0) if missing[0] <= CLOSED * layout.length else None
-    return _search_modes(layout, free, target, Wanted(guess.turn, guess.point, start), guess)
+    found = _search_modes(layout, free, target, Wanted(guess.turn, guess.point, start), guess)
+    if found is None or not given.any():
+        return found
+    off = np.abs(wrap_angle(found.pose.turn[:, :-1] - guess.turn[:-1])[:, given]).max(axis=1)
+    alone = off[0] < NEAR and (off[1:] > NEAR).all()
+    return found._replace(chosen_by="given") if alone else found
 
 
 def tree_pose(layout: Layout, target: Array, guess: Guess) -> Pose:
