@@ -16,10 +16,10 @@ ANGLES = [1e-12, 1e-7, 5e-5, 2e-4, 0.3, 2.0, np.pi - 1e-3, np.pi - 5e-5, np.pi -
 def test_rotations_about_any_axis(angle: float) -> None:
     """Rodrigues' formula, its series near no turn, quaternions, and the way back near half a turn."""
     rng = np.random.default_rng(1)
-    for axis in [*np.eye(3), *-np.eye(3), *rng.normal(size=(8, 3))]:
-        w = angle * axis / np.linalg.norm(axis)
+    axes = np.array([*np.eye(3), *-np.eye(3), *rng.normal(size=(8, 3))])
+    turns = angle * axes / np.linalg.norm(axes, axis=1, keepdims=True)
+    for w, r in zip(turns, space.exp(turns), strict=True):
         expected = Rotation.from_rotvec(w)
-        r = space.exp(w)
         assert r.reshape(3, 3) == pytest.approx(expected.as_matrix(), abs=2e-15)
         q = expected.as_quat()
         assert space.quaternion(r) == pytest.approx(q if q[3] >= 0 else -q, abs=2e-15)

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.friction.efficiency import load_rate
 from dalembert.analysis.methods.applied_forces import state
 from dalembert.bundled import examples
 from dalembert.core.equilibrium import check_equilibrium, known_sources, statement
@@ -149,6 +150,18 @@ def test_the_gap_of_virtual_work_is_what_its_unknown_load_is_off() -> None:
     found = da.virtual_work(da.statics(da.mechanism(tree)))
     assert found.load[0] == pytest.approx([2.5])
     assert replace(found, load=found.load - 0.5).gap == pytest.approx([0.5 / 5.0])
+
+
+@pytest.mark.parametrize("space", [False, True])
+def test_the_rate_of_a_couple_is_the_turning_of_its_link(space: bool) -> None:
+    tree = lever(space).to_tree()
+    tree["drives"]["O"] |= {"position": [0, 90], "effort": 5.0}
+    tree["loads"]["T"] = {"type": "couple", "on": "bar", "value": "unknown"}
+    if space:
+        tree["loads"]["T"]["direction"] = [0, 0, 1]
+    r = da.statics(da.mechanism(tree))
+    assert load_rate(r, "T") == pytest.approx([1, 1])
+    assert r.unknown_load("T") == pytest.approx([FORCE * LENGTH - 5, -5])
 
 
 @BOTH

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from dalembert.analysis.compile.pair_table import local_axes
+from dalembert.analysis.compile.pair_table import _with_pin, local_axes
 from dalembert.arrays import Array
 from dalembert.core.constraints import drift, measure, system
 from dalembert.model.joints.pairs import AXES, PAIRS
@@ -118,3 +118,15 @@ def _swapped(rows: Any, at: Array, c: Any, pose: Any, twist: Array) -> Array:
     """Rates of rows whose j is the ground are told by their wrench on i."""
     on_i = system(c.layout.algebra, rows, pose).on_i[0] @ twist
     return np.where(rows.ends[1] == 1, on_i, at)
+
+
+@pytest.mark.parametrize("place", [1, 2])
+@pytest.mark.parametrize("other", [[1.0, 2.0, 3.0], [0.0, 0.6, 0.8], [0.0, -0.6, -0.8 + 1e-6]])
+def test_axes_of_a_pin_are_square_whatever_the_other_pin(place: int, other: list[float]) -> None:
+    """Also where the other pin is in line with it, so that any direction across will do."""
+    pin, unit = np.array([0.0, 0.6, 0.8]), np.array(other) / np.linalg.norm(other)
+    axes = _with_pin(pin, place, unit)
+    assert axes @ axes.T == pytest.approx(np.eye(3), abs=1e-12)
+    assert np.linalg.det(axes) == pytest.approx(1)
+    assert axes[place] == pytest.approx(pin)
+    assert axes[0] @ unit == pytest.approx(0, abs=1e-5)
