@@ -107,12 +107,22 @@ def _block(c: Compiled, whole: Pose, part: slice, inertia: bool, forces: bool) -
 
 
 def _no_forces(c: Compiled, count: int) -> Forces:
-    def nan(*shape: int) -> Array:
-        return np.full((count, *shape), np.nan)
+    layout = c.layout
+    return Forces(
+        force=_nan(count, layout.joints, layout.algebra.d),
+        moment=_nan(count, layout.joints, *_couple_shape(c)),
+        effort=_nan(count, len(layout.driven)),
+        load=_nan(count, len(c.unknown_loads)),
+        residual=_nan(count),
+        power_balance=_nan(count),
+        rcond=_nan(count),
+        unique=None,
+        unique_unknowns=None,
+    )
 
-    layout, unknown = c.layout, len(c.unknown_loads)
-    reactions = nan(layout.joints, layout.algebra.d), nan(layout.joints, *_couple_shape(c))
-    return Forces(*reactions, nan(len(layout.driven)), nan(unknown), nan(), nan(), nan(), None, None)
+
+def _nan(*shape: int) -> Array:
+    return np.full(shape, np.nan)
 
 
 def _couple_shape(c: Compiled) -> tuple[int, ...]:
@@ -194,15 +204,10 @@ def _result(
 def _nothing(followed: Positions, inertia: bool) -> Result:
     """No position closes."""
     c = followed.compiled
-    g, count, links, joints = c.layout.algebra, len(c.targets), len(c.links), len(c.joints)
-
-    def nan(*shape: int) -> Array:
-        return np.full((count, *shape), np.nan)
-
+    g, count, links = c.layout.algebra, len(c.targets), len(c.links)
     sentence = open_sentence(c, None, np.arange(count))
     turn, rotation = (np.full_like(a, np.nan) for a in g.reference_rotation(count, links))
-    reactions = nan(joints, g.d), nan(joints, *_couple_shape(c))
-    arrays = (nan(links, g.d), turn, rotation, nan(links, g.n), nan(links, g.n), *reactions)
-    unknowns = (nan(len(c.schedule.names)), nan(len(c.unknown_loads)), nan(), nan())
+    none = _no_forces(c, count)[:6]
+    motion = (_nan(count, links, g.d), turn, rotation, _nan(count, links, g.n), _nan(count, links, g.n))
     status = ("not_assembled",) * count
-    return Result(c, inertia, None, None, status, (sentence,) * count, *arrays, *unknowns)
+    return Result(c, inertia, None, None, status, (sentence,) * count, *motion, *none)
