@@ -113,7 +113,7 @@ def solve_spins(shape: tuple[int, ...], moment: Callable[[Array], Array]) -> Arr
 def _together(moment: Callable[[Array], Array], phi: Array) -> tuple[Array, Flags]:
     """All rods at once by Newton from close by, and the positions where they arrive; elsewhere what was given."""
     new, change, _ = _newton(moment, phi)
-    arrived = (np.abs(change) < ALMOST).all(axis=-1) & (np.abs(new) < STEEPEST).all(axis=-1)
+    arrived = np.asarray(((np.abs(change) < ALMOST) & (np.abs(new) < STEEPEST)).all(axis=-1))
     return np.where(arrived[..., None], new, phi), arrived
 
 
