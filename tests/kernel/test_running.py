@@ -157,6 +157,15 @@ def test_threads_parts_and_progress(threads: int, monkeypatch: pytest.MonkeyPatc
     assert len(seen) > 10 or threads > 1
 
 
+@pytest.mark.parametrize(
+    ("designs", "positions", "part"),
+    [(0, 100, 1), (400, 100, 400), (401, 100, 400), (10_000, 100, 625), (10**6, 100, 4000), (10, 10**6, 1)],
+)
+def test_how_many_designs_are_one_part(designs: int, positions: int, part: int) -> None:
+    """All where they are few, else a quarter of each of four threads' share, but 40,000 to 400,000 positions."""
+    assert parallel_runs.part_size(designs, positions, 4) == part
+
+
 @pytest.mark.parametrize("threads", [1, 2])
 def test_interruption(threads: int, monkeypatch: pytest.MonkeyPatch) -> None:
     k = da.compile(four_bar(24), vary=VARY, outputs=OUTPUTS, reduce="peak")

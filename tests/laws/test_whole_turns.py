@@ -411,3 +411,27 @@ def test_two_drives_count_straight_from_where_they_stand_at_0() -> None:
             assert alone.effort_array[0] == pytest.approx(together.effort_array[k], rel=1e-9)
             compared += 1
     assert compared > 2
+
+
+def test_only_free_turns_start_within_half_a_turn() -> None:
+    """A driven turn is what is asked for, and a slide has no turns: here it is 10 m long."""
+    tree = {
+        "links": {
+            "ground": {"points": {"O": [0, 0]}},
+            "crank": {"points": {"O": [0, 0], "A": [10, 0]}},
+            "guide": {"points": {"O": [0, 0]}},
+            "block": {"points": {"A": [0, 0]}},
+        },
+        "joints": {
+            "O": {"type": "pin", "links": ["ground", "crank"]},
+            "G": {"type": "pin", "links": ["ground", "guide"], "at": ["O", "O"]},
+            "A": {"type": "pin", "links": ["crank", "block"]},
+            "slide": {"type": "slider", "links": ["guide", "block"], "at": ["O", "A"]},
+        },
+        "drives": {"O": {"position": [400, 410]}},
+        "assembly": {"guide": 40},
+    }
+    r = da.kinematics(da.mechanism(tree))
+    assert r.freedom("O", "turn")[0] == pytest.approx(np.radians([400, 410]))
+    assert r.freedom("slide", "slide")[0] == pytest.approx([10, 10])
+    assert r.freedom("G", "turn")[0] == pytest.approx(np.radians([40, 50]))
