@@ -11,10 +11,12 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import examples
+from dalembert.cli import check_command, main
 from dalembert.cli.method_text import superposition_text, virtual_work_answer
 from dalembert.reports.formula import latex, plain
 from dalembert.reports.sections.methods import cycle
 from dalembert.reports.sections.motion import inertia_shares
+from dalembert.reports.sections.sources import _tables
 from dalembert.reports.sheet import Equations, Heading, Paragraph, Sheet, Table
 from dalembert.reports.working import working
 from dalembert.views.paper.canvas import Canvas
@@ -308,6 +310,9 @@ def test_every_part_of_superposition_in_space_has_one_column() -> None:
     heads = [head for b in tables for head in b.heads[1:]]
     assert len(heads) == len(set(heads)) >= 13
     assert all(b.total and b.rows[-1][0] == "sum" for b in tables)
+    many: Any = list(range(21))
+    assert _tables(["e"], many, 3) == [["e", *range(6)], [*range(6, 15)], [*range(15, 18)]]  # type: ignore[list-item]
+    assert _tables(["e"], many, 2) == [["e", *range(8)]]  # type: ignore[list-item]
 
 
 def test_powers_in_space_are_those_of_a_moving_position() -> None:
@@ -318,3 +323,19 @@ def test_powers_in_space_are_those_of_a_moving_position() -> None:
     assert values.pop("sum") == pytest.approx(0.0, abs=1e-6)
     assert set(values) >= {"drives", "loads", "inertia", "weights"}
     assert values["drives"] == pytest.approx(float(r.effort("A")[2] * r.drive_speed("A")[2]) * 1e3, rel=1e-3)
+
+
+def test_joint_moments_in_space_are_split_too_and_gaps_are_of_solved_positions() -> None:
+    heads = superposition_text(space("rssr"), "SI").split()
+    assert {"mx", "my", "mz"} <= set(heads)
+    m = da.load(examples()["four_bar"]).with_values({"links.coupler.points.B": [0.0, 0.14]})
+    words = " ".join(virtual_work_answer(da.statics(m, positions=24), "SI")[1].split())
+    assert "The matrix answer agrees within " in words
+
+
+@pytest.mark.parametrize("without", [False, True])
+def test_files_are_checked_with_or_without_friction(without: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[bool] = []
+    monkeypatch.setattr(check_command, "check_files", lambda *a, friction, **k: asked.append(friction) or 0)
+    assert main(["check", str(examples()["four_bar"]), *(["--no-friction"] if without else [])]) == 0
+    assert asked == [not without]
