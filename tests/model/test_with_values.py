@@ -6,6 +6,7 @@ import pytest
 
 from dalembert.errors import ModelError
 from dalembert.model import ForceLoad, loads
+from dalembert.model.library import rssr
 from tests.model.parts import FOUR_BAR
 
 M = loads(FOUR_BAR, name="four.yaml")
@@ -88,3 +89,12 @@ def test_a_wrong_path_or_value(path: str, value: object, says: str) -> None:
     with pytest.raises(ModelError) as caught:
         M.with_values({path: value})
     assert str(caught.value) == says
+
+
+def test_keys_of_a_joint_that_has_no_damping() -> None:
+    """A ball has no damping to be replaced with the rest of it."""
+    m = rssr().with_values({"joints.A.friction": {"coefficient": 0.1, "radius": 0.01}})
+    friction = m.joints["A"].friction
+    assert (friction.coefficient, friction.radius) == (0.1, 0.01)
+    with pytest.raises(ModelError, match="no freedom about one axis to damp"):
+        m.with_values({"joints.A.damping": 0.2})

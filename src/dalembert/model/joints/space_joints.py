@@ -63,6 +63,8 @@ class Dampings(Value):
     def read(self, value: object, info: ValidationInfo) -> dict[str, float]:
         rules, kind = reading(info), str(info.data.get("type"))
         freedoms = PAIRS[kind].damped if kind in PAIRS else ()
+        if not freedoms and value == {}:  # as it is without the key
+            return {}
         if not freedoms:
             raise ModelError("this joint has no freedom about one axis to damp", "leave it out")
         keys = value if isinstance(value, dict) else {freedoms[0]: value}
