@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -14,12 +15,15 @@ from dalembert.bundled import examples
 from dalembert.cli import check_command, main
 from dalembert.cli.method_text import superposition_text, virtual_work_answer
 from dalembert.reports.formula import latex, plain
+from dalembert.reports.sections import friction, given
 from dalembert.reports.sections.methods import cycle
 from dalembert.reports.sections.motion import inertia_shares
 from dalembert.reports.sections.sources import _tables
 from dalembert.reports.sheet import Equations, Heading, Paragraph, Sheet, Table
 from dalembert.reports.working import working
+from dalembert.views import charts, draw
 from dalembert.views.paper.canvas import Canvas
+from dalembert.views.paper.scene import Scene
 from tests.friction.engines import engine, engine_by_hand
 from tests.methods.space_machines import MACHINES
 from tests.methods.test_drawn_alike import LARGE, SMALL, Seen, plane_machine
@@ -28,8 +32,16 @@ from tests.space.test_gears import Z, pair, wheel
 
 
 @pytest.fixture(autouse=True)
-def without_labels(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Pictures are not looked at here."""
+def without_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They are not looked at here."""
+    for name in ("free_body", "lines_of_action", "force_polygon", "force_chain", "displaced_inertia"):
+        monkeypatch.setattr(draw, name, lambda *a, **k: Scene(()))
+    for name in ("velocity_polygon", "acceleration_polygon", "instant_centers", "mechanism"):
+        monkeypatch.setattr(draw, name, lambda *a, **k: Scene(()))
+    monkeypatch.setattr(charts, "effort_chart", lambda *a, **k: [])
+    monkeypatch.setattr(charts, "reaction_chart", lambda *a, **k: Scene(()))
+    monkeypatch.setattr(given, "given_picture", lambda *a: Scene(()))
+    monkeypatch.setattr(friction, "friction_pictures", lambda *a: [])
     monkeypatch.setattr(Canvas, "label", lambda *a, **k: None)
 
 
@@ -105,6 +117,7 @@ def test_a_position_without_an_answer_has_its_reason_only() -> None:
     assert "Checks" not in words(sheet)
 
 
+@cache
 def space(name: str) -> Any:
     return da.dynamics(da.Mechanism.model_validate(MACHINES[name]))
 
