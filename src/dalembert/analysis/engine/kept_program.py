@@ -166,6 +166,7 @@ def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) ->
         traced = trace(problem)
     except (ValueError, TypeError, KeyError):  # no closed form, or none that its numbers alone decide
         return None
+    graph.samples.clear()
     return _kept(graph, (*symbols.inputs, *ways.inputs), traced, ways, position, c)
 
 

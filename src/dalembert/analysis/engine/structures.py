@@ -16,8 +16,8 @@ from dalembert.analysis.positions import mode_sentence
 from dalembert.arrays import Array
 from dalembert.core.position.first_pose_plane import Guess, phase_rows
 
-KEPT = 64
-"""Structures whose programs are kept."""
+KEPT = 500_000
+"""Operations of all programs that are kept: so many take about 200 MB."""
 
 FEW_LINKS, FEW_POSITIONS = 8, 50
 """A structure of more links met for the first time, at fewer positions, takes less time on the careful path than to
@@ -51,8 +51,13 @@ class Structures:
     def put(self, key: Any, program: Kept) -> None:
         with self.lock:
             self.found[key] = program
-            while len(self.found) > KEPT:
-                self.found.popitem(last=False)
+            size = sum(map(_size, self.found.values()))
+            while size > KEPT and len(self.found) > 1:
+                size -= _size(self.found.popitem(last=False)[1])
+
+
+def _size(program: Kept) -> int:
+    return len(program.graph.nodes) if isinstance(program, KeptProgram) else 1
 
 
 STRUCTURES = Structures()
