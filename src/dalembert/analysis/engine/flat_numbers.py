@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, is_dataclass, replace
 from typing import Any, NamedTuple
@@ -36,7 +37,8 @@ class Numbers(NamedTuple):
 
 def flat_numbers(c: Compiled) -> Numbers:
     """The numbers of a mechanism of the plane, in the order of ``with_nodes``."""
-    rows: list[Any] = [c.layout.links, c.layout.joints, c.layout.driven.tobytes()]
+    size = round(math.log10(c.layout.length))  # what is small is told by numbers of a structure of this size
+    rows: list[Any] = [size, c.layout.links, c.layout.joints, c.layout.driven.tobytes()]
     single, along = [c.target], [c.schedule.position, c.schedule.speed, c.schedule.acceleration]
     for name, array in _arrays(c):
         if array.dtype.kind != "f":
