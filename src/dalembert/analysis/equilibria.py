@@ -116,25 +116,27 @@ def select_positions(result: Result, where: Ints) -> Result:
 
 
 def _crossings(scan: _Scan, q: Array, g: Array, scale: float) -> Array:
-    """Roots between neighbours of different sign, all refined together (bisection steered by the secant)."""
+    """Roots between neighbours of different sign, all refined together.
+
+    By secants that keep the root between them (Illinois: of an end that stays twice, half the value counts), every
+    fourth step halving the interval, where a pole is no root.
+    """
     exact = q[g == 0]
     k = np.flatnonzero(g[:-1] * g[1:] < 0)
     a, b, ga, gb = q[k].copy(), q[k + 1].copy(), g[k].copy(), g[k + 1].copy()
-    for step in range(STEPS):
-        if not k.size or np.all(np.abs(b - a) <= 4e-16 * np.maximum(np.abs(a), 1e-3)):
-            break
-        x = (
-            (a + b) / 2
-            if step % 3 == 2
-            else np.clip(a - ga * (b - a) / (gb - ga), np.minimum(a, b), np.maximum(a, b))
-        )
+    fa, fb, side, x = ga.copy(), gb.copy(), np.zeros(len(k)), a.copy()
+    for step in range(STEPS if k.size else 0):
+        middle, secant = (a + b) / 2, a - fa * (b - a) / (fb - fa)
+        before, x = x, middle if step % 4 == 3 else np.clip(secant, np.minimum(a, b), np.maximum(a, b))
         gx, _ = scan.excess(x)
         gx = np.where(np.isfinite(gx), gx, ga)
         left = gx * ga > 0
-        a, ga = np.where(left, x, a), np.where(left, gx, ga)
-        b, gb = np.where(left, b, x), np.where(left, gb, gx)
-        if np.all(gx == 0):
-            a = b = x
+        a, ga, b, gb = np.where(left, (x, gx, b, gb), (a, ga, x, gx))
+        fa = np.where(left, gx, np.where(side < 0, fa / 2, fa))
+        fb = np.where(left, np.where(side > 0, fb / 2, fb), gx)
+        side = np.where(left, 1.0, -1.0)
+        still = np.minimum(np.abs(b - a), np.abs(x - before)) <= 4e-16 * np.maximum(np.abs(x), 1e-3)
+        if np.all(still | (gx == 0)):
             break
     roots = np.where(np.abs(ga) < np.abs(gb), a, b)
     poles = np.minimum(np.abs(ga), np.abs(gb)) > 1e-6 * scale
