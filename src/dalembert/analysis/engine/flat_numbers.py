@@ -60,11 +60,9 @@ def flat_numbers(c: Compiled) -> Numbers:
 
 def _by_first_place(values: Array) -> tuple[Array, Ints]:
     """The different values, in the order in which they first occur, and which of them stands at each place."""
-    different, first, which = np.unique(values, return_index=True, return_inverse=True)
-    order = np.argsort(first)
-    rank = np.empty_like(order)
-    rank[order] = np.arange(len(order))
-    return different[order], rank[which]
+    places: dict[float, int] = {}
+    which = [places.setdefault(x, len(places)) for x in values.tolist()]
+    return np.array(list(places)), np.array(which, np.intp)
 
 
 def _fixed(different: Array) -> Flags:
@@ -80,15 +78,14 @@ def _arrays(c: Compiled) -> Iterator[tuple[Any, Array]]:
         for f in side.families:
             for name, array in vars(f).items():
                 yield (type(f).__name__, name), array
-    for part in fields(Forcing):
-        whole = getattr(c.forcing, part.name)
-        if is_dataclass(whole):
-            for name, array in vars(whole).items():
-                yield (part.name, name), array
+    for part, whole in vars(c.forcing).items():
+        if isinstance(whole, np.ndarray):
+            yield part, whole
         else:
-            yield part.name, whole
-    for part in fields(Known):
-        yield ("known", part.name), getattr(c.known, part.name)
+            for name, array in vars(whole).items():
+                yield (part, name), array
+    for name, array in vars(c.known).items():
+        yield ("known", name), array
 
 
 class _Nodes:

@@ -70,9 +70,14 @@ def with_between(k: KeptProgram, columns: Array, walk: Walk) -> Array:
 def count_turns(k: KeptProgram, out: Array, way: Walk, first: Array) -> bool:
     """Put in the links' angles, whole turns counted along the motion; not where one of them turns far at a step."""
     free = np.flatnonzero(~k.fixed)
-    for links in np.array_split(free, 1 + free.size * len(way.order) // MANY):
+    at_once = max(1, MANY // len(way.order))
+    for start in range(0, len(free), at_once):
+        links = free[start : start + at_once]
         rows = k.rows["rotation"].start + links
         angle = np.arctan2(out[rows + len(k.fixed)], out[rows])
+        if len(way.order) == 1:
+            out[k.rows["turn"].start + links] = first[links, None]
+            continue
         turns = np.diff(angle[:, way.order], axis=1)
         step = turns.copy()
         np.rint(turns / (2 * np.pi), out=turns)
@@ -88,5 +93,7 @@ def count_turns(k: KeptProgram, out: Array, way: Walk, first: Array) -> bool:
 
 def is_steady(k: KeptProgram, out: Array, way: Walk) -> bool:
     """Whether no group passes a dead centre between two places: what vanishes there changes by less than it is."""
+    if len(way.order) == 1:
+        return True
     sizes = (np.sqrt(row)[way.order] for row in out[: k.squares])
     return all((np.abs(np.diff(a)) <= np.minimum(a[1:], a[:-1])).all() for a in sizes)
