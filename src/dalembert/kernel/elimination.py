@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from dalembert.arrays import Array
+from dalembert.core.position.assur_groups import block_triangular, match_columns, strong_components
 from dalembert.kernel.graph import Graph, Node, Scalar, is_zero, unit_value
 
 Row = dict[int, Scalar]
@@ -240,61 +241,22 @@ def _blocks(rows: dict[int, Row]) -> list[tuple[list[int], list[int]]]:
     names, columns = sorted(rows), sorted({c for row in rows.values() for c in row})
     if len(names) != len(columns):
         raise ValueError("structurally singular")
-    match = maximum_matching({r: set(rows[r]) for r in names})
-    if len(match) != len(names):
+    place = {c: k for k, c in enumerate(columns)}
+    blocks = block_triangular([[place[c] for c in rows[r]] for r in names], len(columns))
+    if blocks is None:
         raise ValueError("structurally singular")
-    owner = {c: r for r, c in match.items()}
-    graph = {r: {owner[c] for c in rows[r] if owner[c] != r} for r in names}
-    return [(sorted(group), sorted(match[r] for r in group)) for group in components(graph)]
+    return [(sorted(names[r] for r in group), [columns[c] for c in own]) for group, own in blocks]
 
 
 def maximum_matching(wants: dict[int, set[int]]) -> dict[int, int]:
-    """A largest matching of rows to columns (augmenting paths)."""
-    owner: dict[int, int] = {}
-
-    def find(r: int, seen: set[int]) -> bool:
-        for c in sorted(wants[r]):
-            if c not in seen:
-                seen.add(c)
-                if c not in owner or find(owner[c], seen):
-                    owner[c] = r
-                    return True
-        return False
-
-    for r in wants:
-        find(r, set())
-    return {r: c for c, r in owner.items()}
+    """A largest matching of rows to columns."""
+    own = match_columns([sorted(columns) for columns in wants.values()])
+    return {r: c for r, c in zip(wants, own, strict=True) if c >= 0}
 
 
 def components(graph: dict[int, set[int]]) -> list[list[int]]:
-    """Strongly connected parts, those that need nothing else first (Tarjan)."""
-    number: dict[int, int] = {}
-    low: dict[int, int] = {}
-    stack: list[int] = []
-    on: set[int] = set()
-    out: list[list[int]] = []
-
-    def visit(v: int) -> None:
-        number[v] = low[v] = len(number)
-        stack.append(v)
-        on.add(v)
-        for w in sorted(graph[v]):
-            if w not in number:
-                visit(w)
-                low[v] = min(low[v], low[w])
-            elif w in on:
-                low[v] = min(low[v], number[w])
-        if low[v] == number[v]:
-            part = []
-            while True:
-                w = stack.pop()
-                on.discard(w)
-                part.append(w)
-                if w == v:
-                    break
-            out.append(part)
-
-    for v in graph:
-        if v not in number:
-            visit(v)
-    return out
+    """Strongly connected parts, those that need nothing else first."""
+    names = list(graph)
+    place = {name: k for k, name in enumerate(names)}
+    found = strong_components([[place[other] for other in sorted(graph[name])] for name in names])
+    return [[names[k] for k in part] for part in found]

@@ -128,16 +128,16 @@ def block_triangular(rows: list[list[int]], columns: int) -> list[tuple[list[int
     >>> block_triangular([[0], [0, 1, 2], [1, 2]], 3)
     [([0], [0]), ([1, 2], [1, 2])]
     """
-    own = _match_columns(rows) if len(rows) == columns else None
-    if own is None:
+    own = match_columns(rows) if len(rows) == columns else [-1]
+    if -1 in own:
         return None
     owner = {column: row for row, column in enumerate(own)}
     needed = [[owner[column] for column in row] for row in rows]
-    return [(block, sorted(own[row] for row in block)) for block in _together(needed)]
+    return [(block, sorted(own[row] for row in block)) for block in strong_components(needed)]
 
 
-def _match_columns(rows: list[list[int]]) -> list[int] | None:
-    """A column of its own for each row, by augmenting paths; None where there are not enough."""
+def match_columns(rows: list[list[int]]) -> list[int]:
+    """A column of its own for each row, by augmenting paths, for as many rows as can have one; -1 for the others."""
     own: list[int] = [-1] * len(rows)
     owner: dict[int, int] = {}
     for start in range(len(rows)):
@@ -153,12 +153,10 @@ def _match_columns(rows: list[list[int]]) -> list[int] | None:
         while free >= 0:
             row = came[free]
             own[row], owner[free], free = free, row, own[row]
-        if own[start] < 0:
-            return None
     return own
 
 
-def _together(needed: list[list[int]]) -> list[list[int]]:
+def strong_components(needed: list[list[int]]) -> list[list[int]]:
     """Strongly connected components of a graph, each behind those that it needs."""
     order: dict[int, int] = {}
     low: dict[int, int] = {}
