@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
 from dalembert.analysis.engine import quick_pass, structures
+from dalembert.analysis.engine.walk import walk_through
 from tests.engine.comparing import both, counted, difference
 
 
@@ -112,3 +114,18 @@ def test_residual_and_power_balance_would_show_a_wrong_program(monkeypatch: pyte
         r = da.dynamics(m)
     assert ways == [False]
     assert r.ok.all()
+
+
+def test_places_between_listed_positions_are_even() -> None:
+    """No step of the drive is longer than 0.2 rad, nor an eighth of the whole way."""
+    m = four_bar((3.0, 0.0, 1.0))
+    c = compile_mechanism(m, m.schedule())
+    way = walk_through(c, 0.2)
+    assert way is not None
+    every = np.concatenate([c.schedule.position[:, 0], way.between[:, 0]])[way.order]
+    steps = np.diff(every)
+    assert steps == pytest.approx([1 / 5] * 5 + [2 / 10] * 10)
+    assert set(way.before) == {1, 2}  # the list's places of 0 and 1
+    short = walk_through(compile_mechanism(m2 := four_bar((0.0, 0.4)), m2.schedule()), 0.2)
+    assert short is not None
+    assert len(short.between) == 7

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.kernel.derivatives import gradients
+from dalembert.kernel.graph import Graph
 from tests.kernel.comparing import every_number
 from tests.kernel.complex_step import slopes
 from tests.kernel.machines import KINDS, four_bar
@@ -69,3 +71,23 @@ def test_random_mechanisms(seed: int) -> None:
         rounding = 1e-13 * value / max(abs(k.nominal[n]), 2e-2)
         off = np.abs(slope[:, 0] - exact[:, n])[right].max(initial=0.0)
         assert off <= 1e-9 * np.abs(exact[right, n]).max(initial=0.0) + rounding, name
+
+
+@pytest.mark.parametrize(
+    "op", ["add", "sub", "mul", "atan2", "max", "neg", "inv", "sqrt", "rsqrt", "abs", "sin", "cos"]
+)
+def test_every_operation(op: str) -> None:
+    """By central differences, on both sides of where two are equal."""
+    for a, b in ((0.7, 0.4), (0.3, 1.2)):
+        graph = Graph()
+        x, y = graph.input("number", "x", a), graph.input("number", "y", b)
+        two = op in ("add", "sub", "mul", "atan2", "max")
+        out = graph.again(op, x, y if two else None)
+        found = [float(graph.evaluate([n], {})[0]) for n in gradients(graph, [out], [x, y])[0]]
+
+        def value(p: float, q: float, out: Any = out, places: Any = (x.index, y.index)) -> float:
+            return float(out.graph.evaluate([out], dict(zip(places, (p, q), strict=True)))[0])
+
+        h = 1e-6
+        expected = [value(a + h, b) - value(a - h, b), value(a, b + h) - value(a, b - h)]
+        assert found == pytest.approx(np.array(expected) / (2 * h), abs=1e-9)
