@@ -11,6 +11,7 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis import one_pass
+from dalembert.analysis.result.result import Result
 
 ARRAYS = (
     *("point_array", "turn_array", "rotation_array", "twist_array", "acceleration_array"),
@@ -22,15 +23,15 @@ ARRAYS = (
 def counted() -> Iterator[list[bool]]:
     """For each analysis in here, whether a kept program has answered it."""
     ways: list[bool] = []
-    own = one_pass.quick_result
+    own = one_pass.quick_answer
 
-    def quick_result(*given: Any) -> Any:
+    def quick_answer(*given: Any) -> Any:
         found = own(*given)
-        ways.append(found is not None)
+        ways.append(isinstance(found, Result))
         return found
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(one_pass, "quick_result", quick_result)
+        patch.setattr(one_pass, "quick_answer", quick_answer)
         yield ways
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.degree_of_freedom import check_knowns
-from dalembert.analysis.engine.quick_pass import quick_positions, quick_result
+from dalembert.analysis.engine.quick_pass import quick_answer
 from dalembert.analysis.friction.friction_equilibrium import FrictionProblem, block_size, friction_equilibrium
 from dalembert.analysis.positions import Positions, positions
 from dalembert.analysis.result.force_arrays import Forces, concatenate_blocks
@@ -36,10 +36,10 @@ def at_schedule(
         c = compile_mechanism(m, schedule)
         if forces:
             check_knowns(c)
-            quick = quick_result(c, inertia) if method == "auto" else None
-            if quick is not None:
-                return quick
-        followed = (quick_positions(c) if method == "auto" else None) or positions(c)
+        quick = quick_answer(c, inertia, forces) if method == "auto" else None
+        if isinstance(quick, Result):
+            return quick
+        followed = quick or positions(c)
         if followed.path is None:
             return _nothing(followed, inertia)
         moved, found = _blocks(followed.compiled, followed.path.pose, inertia, forces)

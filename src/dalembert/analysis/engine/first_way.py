@@ -32,9 +32,10 @@ REMEMBERED = 32
 def first_way(k: KeptProgram, c: Compiled, given: list[Any]) -> First | None:
     """The ways that the careful path takes at the first position; None where something is in doubt there."""
     key = _key(k, c, given)
-    if key not in k.known:
-        remember(k, c, given, _by_given_angles(k, c, given) or _by_search(k, c, given))
-    found: First | None = k.known[key]
+    found: First | None = k.known.get(key)
+    if found is None and key not in k.known:
+        found = _by_given_angles(k, c, given) or _by_search(k, c, given)
+        remember(k, c, given, found)
     return found
 
 

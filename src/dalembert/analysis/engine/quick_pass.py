@@ -26,23 +26,20 @@ LARGEST = 1e150
 """Rates whose squares are numbers."""
 
 
-def quick_result(c: Compiled, inertia: bool) -> Result | None:
-    """The answer of a mechanism of the plane at its positions, every one of them ok; None where some may not be."""
-    if c.contacts is not None or c.layout.compliance is not None:
-        return None
+def quick_answer(c: Compiled, inertia: bool, forces: bool) -> Result | Positions | None:
+    """The answer of a mechanism of the plane at its positions, all of them ok; its motion where no forces are asked for,
+    or its program gives none; None where some position may not be ok."""
     found = ready(c, inertia)
-    if found is None or not found.program.whole:
+    if found is None:
         return None
-    outputs = _follow(found, c)
-    return None if outputs is None else _result(found, c, outputs, inertia)
+    whole = found.program.whole and c.contacts is None and c.layout.compliance is None
+    outputs = _follow(found, c, pose_only=not (forces and whole))
+    if outputs is None:
+        return None
+    return _result(found, c, outputs, inertia) if forces and whole else _positions(found, c, outputs)
 
 
-def quick_positions(c: Compiled) -> Positions | None:
-    """The motion of a mechanism of the plane that closes at all its positions; None where it may not."""
-    found = ready(c, inertia=True)
-    outputs = None if found is None else _follow(found, c, pose_only=True)
-    if found is None or outputs is None:
-        return None
+def _positions(found: Ready, c: Compiled, outputs: _Outputs) -> Positions:
     k, count = found.program, c.schedule.count
     out = outputs.out[:, :count]
     parts = k.part("point", out), k.part("turn", out), k.part("rotation", out).swapaxes(1, 2)
@@ -60,7 +57,7 @@ class _Outputs(NamedTuple):
     power: Array
 
 
-def _follow(r: Ready, c: Compiled, pose_only: bool = False) -> _Outputs | None:
+def _follow(r: Ready, c: Compiled, pose_only: bool) -> _Outputs | None:
     """The positions of a list, and in between as close as it takes to be sure that the motion is one."""
     k = r.program
     for step in (STEP, STEP / 8, STEP / 64):
