@@ -27,8 +27,8 @@ LARGEST = 1e150
 
 
 def quick_answer(c: Compiled, inertia: bool, forces: bool) -> Result | Positions | None:
-    """The answer of a mechanism of the plane at its positions, all of them ok; its motion where no forces are asked for,
-    or its program gives none; None where some position may not be ok."""
+    """The answer of a mechanism of the plane, every position ok; its motion where no forces are asked for, or where its
+    program gives none; None where some position may not be ok."""
     found = ready(c, inertia)
     if found is None:
         return None
