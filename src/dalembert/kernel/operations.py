@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable
 from typing import Any
 
@@ -10,10 +11,10 @@ import numpy as np
 from dalembert.arrays import Numeric
 
 EVALUATE: dict[str, Callable[..., Numeric]] = {
-    "add": lambda a, b: a + b,
-    "sub": lambda a, b: a - b,
-    "mul": lambda a, b: a * b,
-    "neg": lambda a: -a,
+    "add": operator.add,
+    "sub": operator.sub,
+    "mul": operator.mul,
+    "neg": operator.neg,
     "inv": lambda a: np.divide(1.0, a),
     "sqrt": np.sqrt,
     "rsqrt": lambda a: np.divide(1.0, np.sqrt(a)),

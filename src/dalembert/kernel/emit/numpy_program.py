@@ -3,55 +3,25 @@
 from __future__ import annotations
 
 import math
-import operator
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import numpy as np
-
 from dalembert.arrays import Array, Numeric
 from dalembert.kernel.graph import INPUTS, POSITION, Graph, Node
+from dalembert.kernel.operations import EVALUATE
 
-Operation = Callable[[Any, Any], Numeric]
-
-MANY: dict[str, Operation] = {
-    "add": operator.add,
-    "sub": operator.sub,
-    "mul": operator.mul,
-    "neg": lambda a, _: -a,
-    "inv": lambda a, _: 1.0 / a,
-    "abs": lambda a, _: abs(a),
-    "detach": lambda a, _: a,
-    "positive": lambda a, _: (a > 0) * 1.0,
-    "rsqrt": lambda a, _: 1.0 / np.sqrt(a),
-    "atan2": np.arctan2,
-    "max": np.maximum,
-    "min": np.minimum,
-}
-"""Operations of arrays; those of one argument are given another that they leave."""
-MANY |= {
-    "sqrt": lambda a, _: np.sqrt(a),
-    "sin": lambda a, _: np.sin(a),
-    "cos": lambda a, _: np.cos(a),
-    "tan": lambda a, _: np.tan(a),
-    "asin": lambda a, _: np.arcsin(a),
-    "acos": lambda a, _: np.arccos(a),
-    "exp": lambda a, _: np.exp(a),
-    "log": lambda a, _: np.log(a),
-    "rint": lambda a, _: np.rint(a),
-    "sign": lambda a, _: np.sign(a),
-}
-
-ONE: dict[str, Operation] = MANY | {
-    "sqrt": lambda a, _: math.sqrt(a),
-    "rsqrt": lambda a, _: 1.0 / math.sqrt(a),
-    "sin": lambda a, _: math.sin(a),
-    "cos": lambda a, _: math.cos(a),
+SINGLE: dict[str, Callable[..., Numeric]] = EVALUATE | {
+    "inv": lambda a: 1.0 / a,
+    "sqrt": math.sqrt,
+    "rsqrt": lambda a: 1.0 / math.sqrt(a),
+    "abs": abs,
+    "sin": math.sin,
+    "cos": math.cos,
     "atan2": math.atan2,
     "max": max,
     "min": min,
 }
-"""Of single numbers; some raise ArithmeticError or ValueError where numpy gives inf or nan."""
+"""Operations of single numbers; some raise ArithmeticError or ValueError where numpy gives inf or nan."""
 
 
 class NumpyProgram:
@@ -70,7 +40,7 @@ class NumpyProgram:
         wanted: dict[int, list[int]] = {}
         for k, node in enumerate(outputs):
             wanted.setdefault(node.index, []).append(k)
-        self.steps: list[tuple[Operation, int, int, int]] = []
+        self.steps: list[tuple[Callable[..., Numeric], int, int, int]] = []
         self.fills: list[tuple[int, int]] = []
         free: list[int] = []
         for n in order:
@@ -87,8 +57,8 @@ class NumpyProgram:
                     free.append(len(self.start))
                     self.start.append(None)
                 place[n.index] = free.pop()
-                operations = MANY if many or n.level & POSITION else ONE
-                self.steps.append((operations[n.op], a, b, place[n.index]))
+                operations = EVALUATE if many or n.level & POSITION else SINGLE
+                self.steps.append((operations[n.op], a, -1 if n.b is None else b, place[n.index]))
             self.fills += [(row, place[n.index]) for row in wanted.get(n.index, ())]
 
     def __call__(self, given: Sequence[Numeric], out: Array) -> None:
@@ -96,6 +66,6 @@ class NumpyProgram:
         v = self.start.copy()
         v[: len(given)] = given
         for operation, a, b, c in self.steps:
-            v[c] = operation(v[a], v[b])
+            v[c] = operation(v[a]) if b < 0 else operation(v[a], v[b])
         for row, place in self.fills:
             out[row] = v[place]
