@@ -22,9 +22,6 @@ from dalembert.core.position.motion_path import Path
 BLOCK = 1024
 """Positions computed at once: their values stay in the cache."""
 
-LARGEST = 1e150
-"""Rates whose squares are numbers."""
-
 
 def quick_answer(c: Compiled, inertia: bool, forces: bool) -> Result | Positions | None:
     """The answer of a mechanism of the plane, every position ok; its motion where no forces are asked for, or where its
@@ -42,9 +39,8 @@ def quick_answer(c: Compiled, inertia: bool, forces: bool) -> Result | Positions
 def _positions(found: Ready, c: Compiled, outputs: _Outputs) -> Positions:
     k, count = found.program, c.schedule.count
     out = outputs.out[:, :count]
-    parts = k.part("point", out), k.part("turn", out), k.part("rotation", out).swapaxes(1, 2)
-    ground = (np.zeros((count, 1, 2)), np.zeros((count, 1)), np.broadcast_to([1.0, 0.0], (count, 1, 2)))
-    pose = Pose(*(np.concatenate(pair, axis=1) for pair in zip(parts, ground, strict=True)))
+    turned = c.layout.algebra.with_ground(k.part("turn", out), k.part("rotation", out).swapaxes(1, 2))
+    pose = Pose(np.pad(k.part("point", out), ((0, 0), (0, 1), (0, 0))), *turned)
     path = Path(pose, np.ones(count, bool), np.zeros(count, np.intp))
     return Positions(wound(c, (0, pose.at(0)), path), path, _mobility(c), found.first.mode)
 
@@ -104,10 +100,9 @@ def _at(columns: Array, part: slice) -> list[Any]:
 
 
 def _sure(k: KeptProgram, out: Array) -> bool:
-    """Whether rates are no larger than can be squared, and nothing says that a position is in doubt."""
+    """Whether the squares of rates are numbers, and nothing says that a position is in doubt."""
     rates = out[k.rows["twist"]]
-    fast = np.maximum(rates.max(initial=0.0), -rates.min(initial=0.0))
-    return bool(fast < LARGEST and (out[k.rows["margin"]] >= 0).all())
+    return bool(np.isfinite((rates * rates).sum()) and (out[k.rows["margin"]] >= 0).all())
 
 
 def _checks(k: KeptProgram, c: Compiled, out: Array) -> tuple[Array, Array]:
