@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -31,6 +31,9 @@ from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.graph import CONSTANT, Node
 from dalembert.kernel.program import Program
 from dalembert.model import Mechanism
+
+if TYPE_CHECKING:
+    from dalembert.analysis.batch.kernel_export import WasmModule
 
 LARGEST = float(np.finfo(float).max)
 """Largest number there is."""
@@ -309,6 +312,15 @@ class Kernel:
         from dalembert.analysis.batch.kernel_export import c_source
 
         return c_source(self, name)
+
+    def to_wasm(self, row: int | None = None) -> WasmModule:
+        """WebAssembly of many positions, in need of nothing: numbers, drives' quantities, outputs, marks.
+
+        row: positions that one call may have at most, default as many as the file has. Raises ModelError if reduced.
+        """
+        from dalembert.analysis.batch.kernel_export import wasm_module
+
+        return wasm_module(self, row)
 
     def to_casadi(self, name: str = "mechanism") -> Any:
         """casadi Function of (values, inputs) with the outputs by name; raises ModelError without casadi."""

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import fields
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.arrays import Tree
+from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.kernel.emit import c_text
+from dalembert.kernel.emit.wasm.module import LANES, emit_wasm
 from dalembert.kernel.graph import Graph, Node, Scalar
 from dalembert.kernel.program import Marks, Program
 from dalembert.model.quantities.expressions import Expression
@@ -106,6 +107,44 @@ def output_names(k: Kernel) -> list[str]:
     if k.derivatives:
         out += [f"d {p} / d {n}" for names in parts.values() for p in names for n in k.numbers]
     return out
+
+
+@dataclass(frozen=True)
+class WasmModule:
+    """A program of a mechanism as WebAssembly: ``run(values, path, out, blocks)`` in its own exported ``memory``.
+
+    ``run`` takes addresses in bytes: values (number), path (channel, row), out (output, row), all f64, the mark of each
+    position as one more output behind the others (0: right, else a place in ``STATUS_CODES``); blocks: half of the
+    positions, rounded up. Memory is free from ``heap`` on; ``row`` positions are the room between two rows. SI and
+    radians.
+    """
+
+    code: bytes = field(repr=False)
+    heap: int
+    row: int
+    numbers: tuple[str, ...]
+    channels: tuple[str, ...]
+    outputs: tuple[str, ...]
+
+
+def wasm_module(k: Kernel, row: int | None) -> WasmModule:
+    """The plain program as WebAssembly."""
+    _refuse_reduced(k)
+    count = len(k.trace.course.schedule.position) if row is None else row
+    program = plain(k)
+    row = count + count % LANES
+    code, heap = emit_wasm(program, row)
+    channels = tuple(program.graph.names[n.index] for n in program.inputs_in_use("channel"))
+    return WasmModule(code, heap, row, k.numbers, channels, tuple(output_names(k)))
+
+
+def wasm_channels(k: Kernel, row: int) -> Array:
+    """What ``path`` holds (channel, row) for the file's positions; behind them the last is repeated."""
+    course, found = k.trace.course, k.trace.inputs.found
+    count = len(course.schedule.position)
+    nodes = plain(k).inputs_in_use("channel")
+    values = [np.broadcast_to(np.asarray(found[n](course), float), count) for n in nodes]
+    return np.array([np.pad(a, (0, row - count), mode="edge") for a in values]).reshape(len(nodes), row)
 
 
 def casadi_function(k: Kernel, name: str) -> Any:

@@ -1,4 +1,4 @@
-"""A program as text or code: LLVM, C, CUDA, casadi; compiled and called.
+"""A program as text or code: LLVM, C, CUDA, casadi, WebAssembly; compiled and called.
 
 In: a ``Program``. Out: functions over arrays.
 Imports ``kernel``.
