@@ -21,7 +21,7 @@ MOST = 15
 
 BASE = {"arrays", "errors", "wording", "printing", "unit_names", "units", "saving", "bundled"}
 ANALYSIS = BASE | {"algebra", "core", "kernel", "model", "analysis"}
-SHOWN = ANALYSIS - {"core", "kernel"} | {"wrench"}
+SHOWN = ANALYSIS - {"core", "kernel"} | {"wrench", "machine"}
 MAY_IMPORT = {
     **{name: set[str]() for name in ("arrays", "errors", "wording", "printing", "bundled")},
     **dict.fromkeys(("saving", "unit_names", "units"), BASE),
@@ -33,9 +33,11 @@ MAY_IMPORT = {
     "kernel.emit": {"arrays", "kernel"},
     "model": BASE | {"model"},
     "analysis": ANALYSIS,
+    "analysis.result": ANALYSIS | {"machine"},  # Result.harmonics asks for the shaking force
     "analysis.output": BASE | {"algebra", "model", "analysis"},
     "grading": BASE | {"core", "model", "analysis", "grading"},
     "wrench": BASE | {"algebra", "model", "analysis", "wrench"},
+    "machine": ANALYSIS | {"machine"},
     "views": SHOWN | {"views"},
     "views.symbols": SHOWN | {"views.paper", "views.space", "views.symbols"},
     "reports": SHOWN | {"views", "reports"},
@@ -51,8 +53,10 @@ FACADES = {
     "model.description",
     "views.paper.scene",
     "analysis.batch.compiled_kernel",
+    "machine.shaking",
 }
-"""Result, Mechanism, Scene and Kernel: their methods call what is built on them, by imports inside the methods."""
+"""Result, Mechanism, Scene, Kernel, and the answers of `machine`, which print themselves: their methods call what is
+built on them, by imports inside the methods."""
 
 
 def room(path: Path) -> str:

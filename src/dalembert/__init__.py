@@ -45,6 +45,8 @@ if TYPE_CHECKING:
     from dalembert.errors import STATUSES, AnalysisError, DalembertError, ModelError
     from dalembert.grading.file_answers import check_file
     from dalembert.grading.mistakes import check_answers
+    from dalembert.machine.harmonics import harmonics
+    from dalembert.machine.shaking import shaking
     from dalembert.model import (
         Answer,
         Box,
@@ -143,6 +145,8 @@ _NAMES = {
         "Rise Rolling SlenderBar Slider Slot SlotFriction SpaceJoint Sphere Spring StlMesh Table "
         "TimeTable TorsionDamper TorsionSpring Tube Weld convert json_schema load loads mechanism"
     ),
+    "machine.harmonics": "harmonics",
+    "machine.shaking": "shaking",
     "model.library": (
         "bennett bevel_differential bucket crank_shaper double_cardan five_bar four_bar hooke_joint "
         "inverted_slider_crank rccc rotating_shaft rssp rssr scissor scotch_yoke slider_crank "
@@ -228,6 +232,7 @@ __all__ = [
     "four_bar",
     "friction_circles",
     "guide_contact",
+    "harmonics",
     "hooke_joint",
     "inertia_shares",
     "inverted_slider_crank",
@@ -248,6 +253,7 @@ __all__ = [
     "rssr",
     "scissor",
     "scotch_yoke",
+    "shaking",
     "slider_crank",
     "solve",
     "spherical_four_bar",

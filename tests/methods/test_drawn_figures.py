@@ -11,7 +11,8 @@ import pytest
 
 import dalembert as da
 from dalembert.bundled import cases
-from dalembert.views.charts import shaking_chart, shaking_force
+from dalembert.machine.shaking import shaking_force
+from dalembert.views.charts import shaking_chart
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.scene import Arc, Arrow
 from dalembert.views.plane.circle_details import pin_detail

@@ -15,8 +15,8 @@ import pytest
 import dalembert as da
 from dalembert.algebra import space
 from dalembert.arrays import Array
+from dalembert.machine.shaking import shaking_force
 from dalembert.model.joints.pairs import PAIRS
-from dalembert.views.charts import shaking_force
 from dalembert.views.paper.scene import Line, Polygon
 from dalembert.views.space.camera import CAMERAS, Camera
 from dalembert.views.space.link_solids import link_solids, mount, pose

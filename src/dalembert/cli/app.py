@@ -16,7 +16,7 @@ from cyclopts import (
 )
 
 from dalembert import __version__
-from dalembert.cli import wrench_command
+from dalembert.cli import machine_commands, wrench_command
 from dalembert.cli.options import (
     AS_USUAL,
     At,
@@ -342,6 +342,7 @@ def joints(
 
 
 app.command(wrench_command.wrench, help_epilogue=wrench_command.EXAMPLES)
+app.command(machine_commands.shake, help_epilogue=machine_commands.SHAKE)
 
 
 def command_line_error(error: CycloptsError, arguments: list[str]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import Field, ValidationInfo, model_validator
+from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
@@ -159,8 +159,21 @@ class LoadPart(Part):
 class Directed(LoadPart):
     """A load along a direction, or a vector, which needs none."""
 
+    by: Name | None = Field(
+        None,
+        description="ground: what exerts it stands on the ground, which takes the opposite, as a cylinder's head does "
+        "of the gas: no part of the shaking force; left out, it comes from outside",
+    )
     if TYPE_CHECKING:
         value: Varying | tuple[Varying, ...] | Literal["unknown"]
+
+    @field_validator("by")
+    @classmethod
+    def _by_the_ground(cls, by: str | None) -> str | None:
+        if by not in (None, "ground"):
+            remedy = "write by: ground, or leave it out; between two links, write a second load on the other"
+            raise ModelError(f"a load is exerted by the ground or from outside, not by {by!r}", remedy)
+        return by
 
     @property
     def unknown(self) -> bool:

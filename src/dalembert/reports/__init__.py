@@ -62,13 +62,14 @@ class Report:
 
 
 def report(
-    r: Result | System,
+    r: Result | System | Any,
     at: Any = None,
     methods: Any = None,
     notation: Notation | None = None,
     about: str = "",
 ) -> Report:
-    """The worked solution of one position of a result, or of a force system of `da.wrench`.
+    """The worked solution of one position of a result, of a force system of `da.wrench`, or of an answer of machine
+    design (`da.shaking`, `da.balance`, `da.flywheel`), of which ``notation`` alone is asked.
 
     ``methods``: some of `matrix`, `graphical` (in the plane), `superposition`, `virtual-work`; all by default.
     ``about``: a joint to take moments about where a link has it; one that is not there is a ModelError. Of a force
@@ -80,6 +81,10 @@ def report(
         from dalembert.reports.sections.force_system_solution import force_system_sheet
 
         return Report(force_system_sheet(r, at, notation))
+    if not hasattr(r, "joints"):
+        from dalembert.reports.machine_sections import machine_sheet
+
+        return Report(machine_sheet(r, notation))
     from dalembert.errors import ModelError
     from dalembert.reports.report_context import METHODS
     from dalembert.reports.working import working

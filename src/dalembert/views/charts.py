@@ -13,6 +13,7 @@ from dalembert.analysis.methods.applied_forces import magnitude
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.arrays import Array, Flags
+from dalembert.machine.shaking import shaking_force
 from dalembert.views.notation import Notation, Shown, pretty
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import round_up
@@ -247,23 +248,12 @@ def polar_chart(
 
 
 def shaking_chart(r: Result, notation: Notation | None = None) -> Scene:
-    """Hodograph of the shaking force, all that the joints exert on the ground; in space its components."""
+    """Hodograph of the shaking force, all that the machine exerts on the ground; in space its components."""
     shown = Shown(r, notation or Notation())
     total, title = stepped_series(r, shaking_force) * shown.value("force", 1.0), "Shaking force on the ground"
     if r.mechanism.dimension == 3:
         return vector_chart(r, total, "force", title, shown)
     return polar_scene({"shaking force": total}, shown.unit("force"), title)
-
-
-def shaking_force(r: Result) -> Array:
-    """Sum of the joints' forces on the ground (P, d), N: unique also where the single forces are not."""
-    d = r.mechanism.dimension
-    total = np.zeros((len(r.status), d))
-    for joint in r.joints:
-        if "ground" in r.mechanism.joints[joint].links:
-            force, least = r.reaction(joint, on="ground"), r.least_norm(joint, on="ground")[:, :d]
-            total += np.where(np.isfinite(force), force, least)
-    return total
 
 
 def chart_scenes(r: Result, notation: Notation | None = None) -> list[Scene]:
@@ -309,4 +299,4 @@ def _largest(vectors: Array) -> float:
     return float(sizes[np.isfinite(sizes)].max(initial=0.0))
 
 
-__all__ = ["chart_scenes", "curves_scene", "polar_scene", "pretty", "shaking_force", "ticks"]
+__all__ = ["chart_scenes", "curves_scene", "polar_scene", "pretty", "ticks"]

@@ -14,7 +14,7 @@ first drive; the first solved position by default.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from dalembert.analysis.methods.applied_forces import whole_actions
 from dalembert.analysis.plane_only import refuse_space
@@ -221,6 +221,13 @@ def force_system(
     )
 
 
+def machine(answer: Any, notation: Notation | None = None) -> Scene:
+    """What an answer of machine design shows over the cycle: of `da.shaking`, `da.balance` or `da.flywheel`."""
+    from dalembert.views.machine import scenes_of
+
+    return stack_scenes(scenes_of(answer, notation), title=answer.result.mechanism.title, width=270.0)
+
+
 def motion(r: Result, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
     """Velocity and acceleration polygons and instant centres."""
     refuse_space(r.mechanism, "a velocity polygon", FREE_BODIES)
@@ -342,6 +349,7 @@ __all__ = [
     "joint",
     "joints",
     "lines_of_action",
+    "machine",
     "mechanism",
     "motion",
     "solid_model",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.degree_of_freedom import Mobility
     from dalembert.analysis.result.force_arrays import Friction
     from dalembert.analysis.result.reaction_axes import Axes
+    from dalembert.machine.harmonics import Harmonics
     from dalembert.model import Schedule
 
 
@@ -264,6 +265,15 @@ class Result(LinkMotion):
         from dalembert.analysis.result.joint_freedoms import freedom_motion
 
         return freedom_motion(self, joint, kind)
+
+    def harmonics(self, of: str, orders: int | Sequence[float] = 4) -> Harmonics:
+        """Harmonics over whole turns of the first drive: of `shaking`, `shaking moment`, or a column of the outputs.
+
+        A column by its name, or without the component for its vector: `effort O2`, `reaction A on rod`.
+        """
+        from dalembert.machine.output.by_name import harmonics_of
+
+        return harmonics_of(self, of, orders)
 
     # summaries and files
 

@@ -220,6 +220,12 @@ class Drive(Part):
         None, description="in space: the axis of a spherical joint's turn"
     )
 
+    by: Literal["outside"] | None = Field(
+        None,
+        description="outside: its effort comes from outside the frame and counts in the shaking moment; left out, the "
+        "ground or the link i takes the opposite",
+    )
+
     @property
     def unknown(self) -> bool:
         """Whether its position is asked for."""

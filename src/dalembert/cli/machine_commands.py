@@ -1,0 +1,162 @@
+"""`dalembert shake`: machine design on top of the analysis; what its commands have in common."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from cyclopts import Parameter
+
+from dalembert.cli.options import Force, ModelFile, NoFriction, Positions, Static, Theme, target, with_help
+from dalembert.errors import ModelError
+
+if TYPE_CHECKING:
+    from dalembert.analysis import Result
+    from dalembert.model import Mechanism
+
+ENOUGH = 72
+"""Positions over a turn where the file has a single one."""
+
+
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Outputs:
+    """What an answer is written to."""
+
+    json: Annotated[
+        Path | None, target("Write everything as JSON to this file; - prints it, and nothing else.")
+    ] = None
+    csv: Annotated[
+        Path | None, target("Write a table, one row a position; - prints it, and nothing else.")
+    ] = None
+    drawing: Annotated[Path | None, with_help("Draw it to this file: .svg, .pdf, .png or .dxf.")] = None
+    report: Annotated[
+        Path | None, with_help("Write the worked solution to this file: .pdf, .html, .tex or .txt.")
+    ] = None
+    units: Annotated[
+        Literal["si", "file"] | None,
+        with_help("Units of what is printed (default: those of the file) and written (default: si)."),
+    ] = None
+    theme: Theme = "light"
+    force: Force = False
+
+    def check(self, file: Path) -> None:
+        """Refused before the work, not behind it."""
+        from dalembert.saving import check_new
+
+        if str(self.json) == "-" and str(self.csv) == "-":
+            raise ModelError("--json - and --csv - both ask for the screen", "name a file for one of them")
+        taken = {file.resolve()}
+        for path in (self.json, self.csv, self.drawing, self.report):
+            if path is None or str(path) == "-":
+                continue
+            if path.resolve() in taken:
+                raise ModelError(f"{path} is named twice", "name another file")
+            taken.add(path.resolve())
+            check_new(path, self.force)
+
+    def deliver(self, answer: Any, text: Callable[[Literal["SI", "file"]], str]) -> None:
+        """Print and write an answer of ``machine``."""
+        from dalembert.machine.output import written
+        from dalembert.saving import new_file
+
+        units: Literal["SI", "file"] = "file" if self.units == "file" else "SI"
+        silent = False
+        for path, write in ((self.json, written.write_json), (self.csv, written.write_csv)):
+            if str(path) == "-":
+                write(answer, sys.stdout, units)
+                silent = True
+            elif path is not None:
+                with (
+                    new_file(path, self.force) as new,
+                    open(new, "w", encoding="utf-8", newline="") as stream,
+                ):
+                    write(answer, stream, units)
+        if not silent:
+            print(text("SI" if self.units == "si" else "file"))
+        self._draw(answer)
+        for path in (self.json, self.csv, self.drawing, self.report):
+            if path is not None and str(path) != "-":
+                print(f"Written: {path}", file=sys.stderr)
+
+    def _draw(self, answer: Any) -> None:
+        if self.drawing is not None or self.report is not None:
+            from dalembert.views import draw
+
+            notation = draw.Notation(units="SI" if self.units == "si" else "file")
+            if self.drawing is not None:
+                draw.machine(answer, notation).save(self.drawing, self.force, self.theme)
+            if self.report is not None:
+                from dalembert.reports import report
+
+                report(answer, notation=notation).save(self.report, self.force)
+
+
+NO_OUTPUTS = Outputs()
+
+
+def over_a_turn(m: Mechanism, positions: int | None) -> int | None:
+    """The number of positions: a whole turn where the file has a single one."""
+    one = m.drives and m.schedule().unknown is None and len(m.schedule().position) == 1
+    return ENOUGH if positions is None and one and any(d.turns for d in m.drives.values()) else positions
+
+
+def solve_over_a_turn(file: Path, static: bool, positions: int | None, friction: bool) -> Result:
+    """The analysis of a file."""
+    from dalembert.analysis import solve
+    from dalembert.cli.model_argument import load_model
+
+    m = load_model(file, friction)
+    return solve(m, static=static, positions=over_a_turn(m, positions))
+
+
+def shake(
+    file: ModelFile,
+    /,
+    *,
+    about: Annotated[
+        str | None,
+        target(
+            'Point to take moments about: a joint or point of the ground, or "[x, y]"; default its first joint.'
+        ),
+    ] = None,
+    links: Annotated[
+        list[str] | None, Parameter(negative=(), help="Links to count, one or more (default: all).")
+    ] = None,
+    orders: Annotated[int, Parameter(help="Highest order of the harmonics.")] = 4,
+    static: Static = False,
+    positions: Positions = None,
+    no_friction: NoFriction = False,
+    out: Outputs = NO_OUTPUTS,
+) -> int:
+    """Shaking force and moment of FILE: what the machine exerts on its foundation, and the harmonics."""
+    import numpy as np
+
+    from dalembert.machine.output.shaking_text import shaking_text
+    from dalembert.machine.shaking import shaking
+
+    out.check(file)
+    result = solve_over_a_turn(file, static, positions, not no_friction)
+    found = shaking(result, _point(result.mechanism, about), links)
+    out.deliver(found, lambda units: shaking_text(found, units, orders))
+    return int(not np.isfinite(found.force).all())
+
+
+SHAKE = """Examples:
+  dalembert shake engine.yaml
+  dalembert shake engine.yaml --about O2 --orders 6 --drawing shaking.svg
+  dalembert shake four_bar.yaml --links coupler rocker --csv shaking.csv"""
+
+
+def _point(m: Mechanism, about: str | None) -> str | Sequence[float] | None:
+    """A vector in the units of the file, or a name."""
+    if about is None or not about.lstrip().startswith("["):
+        return about
+    from dalembert.model.part import Reading
+    from dalembert.model.paths import as_in_file
+    from dalembert.model.quantities.values import vector
+
+    return vector(as_in_file(about), "length", Reading(m.units.of_texts(), dimension=m.dimension))

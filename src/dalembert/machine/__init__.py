@@ -1,0 +1,12 @@
+"""Machine design on top of the force analysis: what a machine does to its foundation, and what is chosen by it.
+
+In: a ``Result``, or a description. Out: numbers by name, each with its check. Imports ``analysis`` and what it imports;
+no pictures (``views/machine``), no worked letters (``reports/machine_sections``), no command (``cli``).
+
+shaking    force and moment on the ground, two ways; harmonics of any output; even positions over whole turns
+balance/   counterweights under bounds, proved best; rotors; engines beside the books' series
+flywheel/  the energy curve, size of a flywheel, and the exact speed over the cycle with it
+motion/    (to come) motion under forces: the equation of motion, simulation, events
+members/   (to come) forces inside links, stresses, pins and bearings, choice of a motor
+output/    what all answers of this room have in common: columns, record, table
+"""

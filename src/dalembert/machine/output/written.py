@@ -1,0 +1,91 @@
+"""Answers of this room written out: one row a position (CSV), one mapping with everything (JSON)."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from collections.abc import Iterator
+from typing import IO, TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from dalembert.analysis.output.columns import Column, Scale, UnitChoice, scale
+from dalembert.analysis.output.json_record import nan_to_none
+from dalembert.arrays import Array, Tree
+from dalembert.units import KINDS
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+
+class Answer(Protocol):
+    """What an answer of this room offers to the writers."""
+
+    @property
+    def result(self) -> Result:
+        """The analysis it comes from."""
+
+    def columns(self) -> Iterator[Column]:
+        """Its numbers over the positions."""
+
+    def record(self, to: Scale) -> Tree:
+        """Its other numbers by name."""
+
+
+def to_dict(answer: Answer, units: UnitChoice = "SI") -> Tree:
+    """Everything of an answer, in SI or in the units of the file; None where there is no value."""
+    r, to = answer.result, scale(answer.result, units)
+    named = [(c.name, nan_to_none(np.asarray(to(c.kind, c.values)))) for c in answer.columns()]
+    rows = zip(*(values for _, values in named), strict=True)
+    return {
+        "dalembert": 1,
+        "title": r.mechanism.title,
+        "units": "SI" if units == "SI" else {kind: to.text(kind) for kind in KINDS if to.text(kind)},
+        "assumptions": dict(r.assumptions),
+        **known(answer.record(to)),
+        "positions": [dict(zip([name for name, _ in named], row, strict=True)) for row in rows],
+    }
+
+
+def known(value: object) -> Tree:
+    """A tree with plain numbers: arrays as lists, None for what is not finite."""
+    made: object = value
+    if isinstance(value, dict):
+        made = {key: known(item) for key, item in value.items()}
+    elif isinstance(value, (list, tuple, np.ndarray)):
+        made = [known(item) for item in value]
+    elif isinstance(value, (float, np.floating)):
+        made = float(value) if math.isfinite(value) else None
+    elif isinstance(value, (np.integer, np.bool_)):
+        made = value.item()
+    return made  # type: ignore[return-value]
+
+
+def write_json(answer: Answer, stream: IO[str], units: UnitChoice = "SI") -> None:
+    """The record into an open text file."""
+    json.dump(to_dict(answer, units), stream, indent=2, allow_nan=False)
+    stream.write("\n")
+
+
+def write_csv(answer: Answer, stream: IO[str], units: UnitChoice = "SI") -> None:
+    """One row a position into an open text file; an empty field where there is no value."""
+    to = scale(answer.result, units)
+    some = list(answer.columns())
+    heads = [f"{c.name} [{to.text(c.kind)}]" if to.text(c.kind) else c.name for c in some]
+    lists = [nan_to_none(np.asarray(to(c.kind, c.values))) for c in some]
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(["position", *heads])
+    writer.writerows([k, *row] for k, row in enumerate(zip(*lists, strict=True), 1))
+
+
+def rms(values: Array) -> float:
+    """Root of the mean square of numbers (P,) or of the lengths of vectors (P, d)."""
+    return float(np.sqrt((np.reshape(values, (len(values), -1)) ** 2).sum(axis=1).mean()))
+
+
+def greatest(values: Array) -> tuple[float, int]:
+    """Largest size of numbers (P,) or vectors (P, d), and the position (from 0) of it."""
+    sizes = np.sqrt((np.reshape(values, (len(values), -1)) ** 2).sum(axis=1))
+    k = int(np.nanargmax(sizes)) if np.isfinite(sizes).any() else 0
+    return float(sizes[k]), k

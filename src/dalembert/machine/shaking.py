@@ -1,0 +1,198 @@
+"""Shaking force and moment: what a machine exerts on its foundation, by momentum and by its reactions.
+
+F_s = W + F_ext - dp/dt and M_s = M_W + M_ext - dH/dt need no reaction, so that they are unique where reactions are not;
+the sum of all that joints, drives, springs and dampers do to the ground is the same, and the difference is the check.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.analysis.methods.applied_forces import (
+    Action,
+    effort_actions,
+    joint_actions,
+    known_actions,
+    magnitude,
+    unknown_load_actions,
+)
+from dalembert.analysis.output.columns import Column, Scale, drive_kinds, parts
+from dalembert.arrays import Array, Tree
+from dalembert.errors import ModelError
+from dalembert.machine.harmonics import Harmonics, harmonics
+from dalembert.model import GROUND
+from dalembert.wording import closest
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+CAUSES = {"inertia": "inertia", "weight": "weight", "load": "external", "effort": "external"}
+"""Kind of an action that reaches the ground through the machine -> the part of the shaking force it is."""
+
+About = str | Sequence[float] | Array | None
+"""A fixed point: a joint with the ground, a point of the ground, or a vector in ground axes (m)."""
+
+Wrench = tuple[Array, Array]
+
+
+@dataclass(frozen=True)
+class Shaking:
+    """Force (P, d) and moment (P,), in space (P, 3), that some links exert on all else, about a fixed point (d,).
+
+    ``parts``: the same by cause: `inertia`, `weight`, `external`. ``residual`` (P,): difference to what the joints,
+    drives, springs and dampers carry, over the largest force of the cycle; NaN where these have no value.
+    """
+
+    result: Result = field(repr=False)
+    links: tuple[str, ...]
+    about: str
+    point: Array
+    force: Array = field(repr=False)
+    moment: Array = field(repr=False)
+    parts: dict[str, Wrench] = field(repr=False)
+    residual: Array = field(repr=False)
+
+    @property
+    def whole(self) -> bool:
+        """Whether all links are counted: then it is what the ground feels."""
+        return len(self.links) == len(self.result.links)
+
+    def harmonics(self, orders: int | Sequence[float] = 4, of: str = "force") -> Harmonics:
+        """Harmonics of the `force` or the `moment` over whole turns of the first drive."""
+        r = self.result
+        if not r.drives:
+            raise ModelError(
+                "harmonics are taken over the turn of a drive, and there is none", "drive a joint"
+            )
+        return harmonics(getattr(self, of), r.drive_position(r.drives[0]), orders)
+
+    def columns(self) -> Iterator[Column]:
+        """Every number: the first drives' positions, force and moment, and their parts."""
+        r = self.result
+        for drive in r.drives:
+            yield Column(f"drive {drive}", drive_kinds(r, drive)["position"], r.drive_position(drive))
+        whole = {"shaking": (self.force, self.moment)}
+        for name, (force, moment) in (whole | self.parts).items():
+            for axis, values in parts(force):
+                yield Column(f"{name} force{axis}", "force", values)
+            for axis, values in parts(moment):
+                yield Column(f"{name} moment{axis}", "moment", values)
+        yield Column("residual", "number", self.residual)
+
+    def record(self, to: Scale) -> Tree:
+        """Its other numbers by name, in the units of a scale."""
+        return {
+            "shaking": {
+                "links": self.links,
+                "about": self.about,
+                "point": to("length", self.point),
+                "whole": self.whole,
+            }
+        }
+
+    def __str__(self) -> str:
+        """What `dalembert shake` prints."""
+        from dalembert.machine.output.shaking_text import shaking_text
+
+        return shaking_text(self)
+
+
+def shaking(r: Result, about: About = None, links: Iterable[str] | None = None) -> Shaking:
+    """Shaking force and moment of a machine, or of some links of it, at every position.
+
+    F_s = W + F_ext - sum m a_G, M_s(P) = sum of the moments of these about P, less sum (I alpha + w x I w), with P the
+    point ``about``: by default the first joint with the ground. N and N m, ground axes. A load is external; one whose
+    opposite acts on the ground has `by: ground` and does not count, neither does a drive's effort, but one `by:
+    outside`. Norton, Design of Machinery, section 11.8.
+
+    >>> import dalembert as da
+    >>> from dalembert.bundled import cases
+    >>> s = da.shaking(da.dynamics(da.load(cases()["4b-02-norton-11-3-shaking-force"])), about="O2")
+    >>> s.force.round(2), float(s.moment[0].round(4)), bool(s.residual.max() < 1e-12)
+    (array([[613.33, 134.05]]), 35.391, True)
+    """
+    chosen = _chosen(r, links)
+    name, point = fixed_point(r, about)
+    loads, carried = _actions(r, chosen)
+    causes = {
+        part: _sum(r, [a for a in loads if CAUSES[a.kind] == part], point)
+        for part in dict.fromkeys(CAUSES.values())
+    }
+    force, moment = (np.sum([w[k] for w in causes.values()], axis=0) for k in (0, 1))
+    through = _sum(r, carried, point)
+    return Shaking(r, chosen, name, point, force, moment, causes, _gap(r, (force, moment), through, loads))
+
+
+def _chosen(r: Result, links: Iterable[str] | None) -> tuple[str, ...]:
+    asked = r.links if links is None else tuple([links] if isinstance(links, str) else links)
+    for link in asked:
+        if link not in r.links:
+            raise ModelError(f"there is no moving link {link!r}", closest(link, list(r.links)))
+    return tuple(link for link in r.links if link in asked)
+
+
+def fixed_point(r: Result, about: About) -> tuple[str, Array]:
+    """Name and place (d,) of a fixed point."""
+    m, d = r.mechanism, r.mechanism.dimension
+    joints = {n: m.joint_points(n)[j.links.index(GROUND)] for n, j in m.joints.items() if GROUND in j.links}
+    points = m.points(GROUND) if GROUND in m.links else {}
+    if about is None:
+        about = next(iter(joints), (0.0,) * d)
+    if isinstance(about, str):
+        if about not in joints and about not in points:
+            raise ModelError(
+                f"{about!r} is no joint with the ground and no point of it",
+                closest(about, [*joints, *points]),
+            )
+        return about, np.array(joints[about] if about in joints else points[about], float)
+    place = np.array(about, float)
+    if place.shape != (d,) or not np.isfinite(place).all():
+        raise ModelError(f"{about} is no point", f"give {d} numbers, in metres")
+    return f"({', '.join(f'{x:g}' for x in place)}) m", place
+
+
+def _actions(r: Result, links: tuple[str, ...]) -> tuple[list[Action], list[Action]]:
+    """What reaches the links from outside and by their inertia; what joins them to all else."""
+    loads: list[Action] = []
+    carried = list(joint_actions(r, split=False))
+    for a in (*known_actions(r), *unknown_load_actions(r), *effort_actions(r)):
+        exerted = getattr(_part(r, a), "by", None)
+        outside = exerted == "outside" if a.kind == "effort" else a.kind in CAUSES and exerted != GROUND
+        (loads if outside else carried).append(a)
+    return [a for a in loads if a.link in links], [a for a in carried if a.link in links]
+
+
+def _part(r: Result, a: Action) -> Any:
+    """The load or drive that an action is of."""
+    named: Tree = {"load": r.mechanism.loads, "effort": r.mechanism.drives}
+    return named.get(a.kind, {}).get(a.of)
+
+
+def _sum(r: Result, some: Sequence[Action], point: Array) -> Wrench:
+    """Sum of forces, and of their moments about a fixed point."""
+    count, d = len(r.status), r.mechanism.dimension
+    force = sum((a.force for a in some), np.zeros((count, d)))
+    moment = sum((a.moment(point) for a in some), np.zeros((count, 3) if d == 3 else count))
+    return np.asarray(force), np.asarray(moment)
+
+
+def _gap(r: Result, found: Wrench, through: Wrench, loads: Sequence[Action]) -> Array:
+    """Difference of both ways at each position, over the largest single force of the cycle."""
+    length = r.compiled.layout.length
+    sizes = [magnitude(a.force) for a in loads] + [_size(a.couple) / length for a in loads]
+    largest = max((float(np.nanmax(s, initial=0.0)) for s in sizes), default=0.0) or 1.0
+    force, moment = (a + b for a, b in zip(found, through, strict=True))
+    return np.maximum(_size(force), _size(moment) / length) / largest
+
+
+def _size(values: Array) -> Array:
+    return np.abs(values) if values.ndim == 1 else magnitude(values)
+
+
+def shaking_force(r: Result) -> Array:
+    """Force of the whole machine on the ground (P, d), N."""
+    return shaking(r).force

@@ -1,0 +1,21 @@
+"""Sections of the worked solution for answers of machine design, in letters and numbers.
+
+In: an answer of ``machine``, a notation. Out: a ``Sheet``. Imports ``machine``, ``views``.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from dalembert.reports.sheet import Sheet
+from dalembert.views.notation import Notation
+
+
+def machine_sheet(answer: Any, notation: Notation | None = None) -> Sheet:
+    """The worked solution of an answer, by what it is."""
+    from dalembert.reports.machine_sections.shaking_section import shaking_section
+
+    m = answer.result.mechanism
+    sheet = Sheet(m.title or "Machine", m.source_text)
+    shaking_section(sheet, answer, notation or Notation())
+    return sheet

@@ -1,0 +1,1 @@
+"""Machine design: shaking forces, balance, flywheels."""
