@@ -5,13 +5,13 @@ from __future__ import annotations
 import pytest
 
 import dalembert as da
-from dalembert.reports.sections.given import _measures
 from dalembert.reports.sections.sources import _tables
 from dalembert.reports.sheet import Equations, Sheet, Table
 from dalembert.reports.space_sections.space_closure import closing_lines
 from dalembert.reports.working import working
 from dalembert.reports.writers.latex_writer import _table
 from dalembert.views.notation import Notation, Shown
+from dalembert.views.stated import joint_measures
 from tests.methods.space_machines import solved
 
 
@@ -75,6 +75,6 @@ def test_loops_close_in_lengths_and_where_it_moves_in_both_rates(moving: bool, o
     ],
     ids=lambda given: getattr(given, "type", ""),
 )
-def test_joints_are_given_with_their_measures(joint: object, words: str) -> None:
+def test_joints_are_given_with_theirjoint_measures(joint: object, words: str) -> None:
     """Only teeth have a pitch; a wheel on a line has one radius."""
-    assert _measures(Shown(solved("rssr"), Notation()), joint) == words
+    assert joint_measures(Shown(solved("rssr"), Notation()), joint) == words

@@ -129,7 +129,8 @@ def solve(
     help_epilogue="""Examples:
   dalembert draw four_bar.yaml -o four_bar.svg
   dalembert draw four_bar.yaml --view force-polygons --at 60deg -o polygons.pdf
-  dalembert draw four_bar.yaml --view charts --positions 72 -o charts.png"""
+  dalembert draw four_bar.yaml --view charts --positions 72 -o charts.png
+  dalembert draw four_bar.yaml --question -o question.svg"""
 )
 def draw(
     file: ModelFile,
@@ -164,13 +165,17 @@ def draw(
     theme: Theme = "light",
     camera: Seen = None,
     names: Names = False,
+    question: Annotated[
+        bool, flag("The mechanism with what is given alone: no efforts, no reactions, nothing computed.")
+    ] = False,
     no_friction: NoFriction = False,
     force: Force = False,
 ) -> int:
     """Draw FILE to scale: the mechanism, free bodies, force polygons, charts."""
-    from dalembert.cli.draw_command import draw_file
+    from dalembert.cli.draw_command import draw_file, question_view
 
-    return draw_file(file, output, view, at, positions, static, theme, names, force, not no_friction, camera)
+    which = question_view(view) if question else view
+    return draw_file(file, output, which, at, positions, static, theme, names, force, not no_friction, camera)
 
 
 @app.command(

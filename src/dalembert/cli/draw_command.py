@@ -64,6 +64,13 @@ def draw_file(
     return _announce(result, output)
 
 
+def question_view(view: str) -> str:
+    """The view of `--question`, which draws the mechanism."""
+    if view not in ("all", "mechanism"):
+        raise ModelError(f"--question draws the mechanism, and not {view}", "leave out --view")
+    return "question"
+
+
 def camera_at(text: str | None) -> str | tuple[float, float] | None:
     """A camera by its name, or by azimuth and elevation in degrees."""
     if text is None or "," not in text:

@@ -12,7 +12,9 @@ from dalembert.views.space.space_mechanism import space_mechanism_scene
 
 
 def given_picture(c: ReportContext) -> Scene:
-    """The mechanism with its loads, without friction."""
+    """The mechanism with its loads, without friction; of a question without what is asked for."""
+    if c.question:
+        return draw.question(c.r, c.k + 1, c.notation, data=False)
     if c.r.mechanism.dimension == 3:
         return space_mechanism_scene(c.r, c.k, ISOMETRIC, c.notation, friction=False)
     return mechanism_scene(c.r, c.k, c.notation, friction=False)

@@ -16,7 +16,10 @@ METHODS: tuple[Method, ...] = ("matrix", "graphical", "superposition", "virtual-
 
 @dataclass(frozen=True)
 class ReportContext:
-    """What a report is about: the result, the position, the reader's notation, and the methods shown."""
+    """What a report is about: the result, the position, the reader's notation, and the methods shown.
+
+    ``question``: only what is stated is shown, and nothing that was computed.
+    """
 
     r: Result
     k: int
@@ -24,6 +27,7 @@ class ReportContext:
     methods: tuple[Method, ...] = METHODS
     about: str = ""
     notation: Notation = field(default_factory=Notation)
+    question: bool = False
 
 
 def as_formula(sign: str) -> str:

@@ -32,6 +32,7 @@ from dalembert.views.plane.force_polygons import force_chain_scene, force_polygo
 from dalembert.views.plane.free_body import components_scene, free_body_scene, free_body_scenes
 from dalembert.views.plane.mechanism_view import mechanism_scene, place_title
 from dalembert.views.plane.velocity_polygons import instant_centers_scene, motion_polygon_scene
+from dalembert.views.question import question_scene
 from dalembert.views.space.camera import CAMERAS, Camera
 from dalembert.views.space.space_free_body import space_free_body_scene
 from dalembert.views.space.space_mechanism import space_mechanism_scene
@@ -47,7 +48,7 @@ if TYPE_CHECKING:
 FREE_BODIES = "draw its free bodies"
 """What there is in space in place of drawings of the plane."""
 
-View = Literal["mechanism", "free-bodies", "force-polygons", "charts", "motion", "all"]
+View = Literal["mechanism", "free-bodies", "force-polygons", "charts", "motion", "question", "all"]
 
 
 def mechanism(
@@ -69,6 +70,21 @@ def mechanism(
         return space_mechanism_scene(end, k, seen, notation, forces)
 
     return _whole(r, k, notation, render)
+
+
+def question(
+    r: Result,
+    at: PositionChoice = None,
+    notation: Notation | None = None,
+    camera: Sighted = None,
+    data: bool = True,
+) -> Scene:
+    """The figure of a question: the mechanism with what is given, by name and value, and nothing that was computed.
+
+    Efforts and unknown loads are arrows without a number, all of one length, in their positive sense; there are no
+    reactions, and no equilibrium position is drawn. ``data`` writes below it what the problem states.
+    """
+    return question_scene(r, position_at(r, at), notation, _camera(r, camera), data)
 
 
 def free_body(
@@ -274,6 +290,8 @@ def view(
     """What `dalembert draw --view` writes."""
     if which == "mechanism":
         return mechanism(r, at, notation, camera=camera)
+    if which == "question":
+        return question(r, at, notation, camera)
     if which == "free-bodies":
         return free_bodies(r, at, notation, camera)
     one = {
@@ -352,6 +370,7 @@ __all__ = [
     "machine",
     "mechanism",
     "motion",
+    "question",
     "solid_model",
     "superposition",
     "velocity_polygon",

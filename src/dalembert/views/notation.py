@@ -184,9 +184,9 @@ class Figures:
         """A round number with its unit, as a scale has."""
         return f"{self.value(kind, value):.6g} {self.unit(kind)}"
 
-    def polar(self, force: tuple[float, float]) -> str:
+    def polar(self, vector: tuple[float, float], kind: str = "force") -> str:
         """A vector as magnitude and direction."""
-        return f"{self.text('force', math.hypot(*force))} ∠ {self.notation.direction(*force)}°"
+        return f"{self.text(kind, math.hypot(*vector))} ∠ {self.notation.direction(*vector)}°"
 
     def symbol(self, a: Action) -> str:
         """Sign of an action: its own name."""

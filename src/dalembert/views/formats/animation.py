@@ -184,7 +184,7 @@ def _in_space(r: Result, which: Array, some: list[Action], shown: Shown, camera:
     for k in map(int, which):
         canvas = Canvas()
         drawn.draw_machine(canvas, r, k, s)
-        arrows = Arrows(canvas, r, s, shown, some, which, LONGEST, values=False)
+        arrows = Arrows(canvas, r, s, shown, some, which, LONGEST, values=None)
         for a in some:
             arrows.action(a, k)
         frames.append((k, canvas.scene(heading=False)))

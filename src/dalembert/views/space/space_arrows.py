@@ -30,7 +30,8 @@ LONGEST = 22.0
 class Arrows:
     """Forces as arrows and moments as arrows with two heads, each by its scale.
 
-    ``at``: the position, or positions, whose largest force and moment are ``longest`` mm.
+    ``at``: the position, or positions, whose largest force and moment are ``longest`` mm. ``values`` False writes
+    names alone, None nothing.
     """
 
     def __init__(
@@ -42,7 +43,7 @@ class Arrows:
         some: list[Action],
         at: Index,
         longest: float = LONGEST,
-        values: bool = True,
+        values: bool | None = True,
     ) -> None:
         self.canvas, self.r, self.s, self.shown, self.values = canvas, r, s, shown, values
         self.sizes = [_largest([a.force[at] for a in some]), _largest([a.couple[at] for a in some])]
@@ -66,12 +67,17 @@ class Arrows:
         place, role = self.s(a.at[k]), role_of(a.kind)
         force, couple = np.linalg.norm(a.force[k]), np.linalg.norm(a.couple[k])
         if float(force) > self.floor[0]:
-            text = f"{self.shown.symbol(a)} = {self.shown.text('force', float(force))}" if self.values else ""
+            text = self._text(self.shown.symbol(a), "force", float(force))
             self.vector(place, a.force[k], role, a.of, text, inward=pushes(self.r, a, k))
         if float(couple) > self.floor[1]:
-            size = self.shown.text("moment", float(couple))
-            text = f"{self.shown.turning_symbol(a)} = {size}" if self.values else ""
+            text = self._text(self.shown.turning_symbol(a), "moment", float(couple))
             self.vector(place, a.couple[k], role, a.of, text, turning=True)
+
+    def _text(self, name: str, kind: str, size: float) -> str:
+        """What is written beside an arrow."""
+        if not self.values:
+            return "" if self.values is None else name
+        return f"{name} = {self.shown.text(kind, size)}"
 
     def vector(
         self, at: Point, v: Array, role: str, of: str, text: str, turning: bool = False, inward: bool = False

@@ -1,0 +1,89 @@
+"""Question figures and data: the same whatever the answer is, with what the problem states."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.bundled import cases, examples
+from dalembert.cli import main
+from dalembert.reports.report_context import METHODS, ReportContext
+from dalembert.reports.sections.given import knowns
+from dalembert.reports.sheet import Sheet
+from dalembert.reports.writers.plain_writer import plain_text
+from dalembert.views.notation import Shown
+from dalembert.views.stated import as_given
+from tests.tiers import tiers
+
+FRICTION = "seed-002-7a-engine-friction-circles"
+
+
+def falsified(r: da.Result) -> da.Result:
+    """The result with other answers: efforts, unknown loads and reactions changed, in sense too."""
+    asked = [r.mechanism.drives[d].effort is None for d in r.drives]
+    return replace(
+        r,
+        effort_array=np.where(asked, 1.0 - 3.0 * r.effort_array, r.effort_array),
+        load_array=2.0 - 5.0 * r.load_array,
+        force_array=-7.0 * r.force_array,
+        moment_array=1.0 - r.moment_array,
+    )
+
+
+def sheet_text(r: da.Result) -> str:
+    sheet, notation = Sheet("question"), as_given(None)
+    knowns(sheet, ReportContext(r, 0, Shown(r, notation), METHODS, "", notation, question=True))
+    return plain_text(sheet)
+
+
+SHOWN = ("four_bar", "rssr", "balance_position", "two_drives", FRICTION)
+
+
+@pytest.mark.parametrize("name", tiers(SHOWN, [n for n in examples() if n not in SHOWN]))
+def test_a_question_shows_nothing_of_the_answer(name: str) -> None:
+    r = da.solve(da.load((examples() | cases())[name]))
+    wrong = falsified(r)
+    assert da.draw.question(wrong, 1).to_dict() == da.draw.question(r, 1).to_dict()
+    assert sheet_text(wrong) == sheet_text(r)
+
+
+def test_it_states_what_is_given() -> None:
+    r = da.dynamics(da.load(examples()["four_bar"]))
+    said = [t.text for t in da.draw.question(r).texts()]
+    assert {"F_{P} = 80 lbf", "T_{4} = 120 lbf·in", "T_{12}"} <= set(said)
+    whole = " ".join(said)
+    assert "Drive O2: 60°, 25 rad/s, −40 rad/s²." in whole
+    assert "weight 5.8 lbf, centre (5, 0); inertia 0.8" in whole
+    assert "F_{P}: 80 lbf ∠ −30° on 3 coupler at P." in whole
+    (asked,) = [a for a in da.draw.question(r).flat() if getattr(a, "of", "") == "O2"]
+    assert asked.value is None or asked.value == 1.0
+
+
+def test_equilibria_are_not_drawn_where_they_are() -> None:
+    r = da.solve(da.load(examples()["balance_position"]))
+    scene = da.draw.question(r)
+    assert scene.title == r.mechanism.title
+    words = " ".join(t.text for t in scene.texts())
+    assert "another position than those asked for" in words
+    assert "position unknown, effort 0" in words
+    assert not any(f"{np.degrees(x):.1f}"[:4] in words for x in r.drive_position("O"))
+    assert scene.to_dict()["items"] != da.draw.mechanism(r).to_dict()["items"]
+
+
+@pytest.mark.parametrize("name", tiers([], sorted(cases())[::3]))
+def test_cases_as_questions(name: str) -> None:
+    r = da.solve(da.load(cases()[name]))
+    assert da.draw.question(falsified(r)).to_dict() == da.draw.question(r).to_dict()
+
+
+def test_the_command_refuses_another_view(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = str(examples()["four_bar"])
+    out = str(tmp_path / "q.svg")
+    assert main(["draw", file, "--question", "-o", out]) == 0
+    assert "80 lbf" in Path(out).read_text(encoding="utf-8")
+    assert main(["draw", file, "--question", "--view", "motion", "-o", f"{tmp_path}/m.svg"]) == 2
+    assert "--question draws the mechanism, and not motion" in capsys.readouterr().err
