@@ -76,8 +76,15 @@ def table(heads: Sequence[str], rows: Iterable[Sequence[str]], left: int = 1) ->
     return "\n".join([*map(line, over), rule, *map(line, body)])
 
 
-def tables(heads: Sequence[str], rows: Iterable[Sequence[str]], left: int, width: int = WIDTH) -> str:
-    """The same, continued below in further tables with the left columns repeated where one is too wide."""
+def tables(
+    heads: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    left: int,
+    width: int = WIDTH,
+    together: Sequence[int] = (),
+) -> str:
+    """The same, continued below in further tables with the left columns repeated where one is too wide; ``together``:
+    how many columns at a time stay side by side, one by one if not given."""
     body = [list(row) for row in rows]
     wide = [
         max([len(line) for line in head.split("\n")] + [len(row[k]) for row in body])
@@ -85,13 +92,14 @@ def tables(heads: Sequence[str], rows: Iterable[Sequence[str]], left: int, width
     ]
     fixed = sum(wide[:left]) + GAP * (left - 1)
     parts: list[list[int]] = [[]]
-    room = width - fixed
-    for k in range(left, len(heads)):
-        if parts[-1] and room < wide[k] + GAP:
+    room, k = width - fixed, left
+    for many in together or [1] * (len(heads) - left):
+        need = sum(w + GAP for w in wide[k : k + many])
+        if parts[-1] and room < need:
             parts.append([])
             room = width - fixed
-        parts[-1].append(k)
-        room -= wide[k] + GAP
+        parts[-1] += range(k, k + many)
+        room, k = room - need, k + many
     first = list(range(left))
     chosen = [first + part for part in parts]
     return "\n\n".join(

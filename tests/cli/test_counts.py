@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -104,13 +105,23 @@ def test_what_is_only_rounding_is_0_in_the_tables_of_methods(run: Run, folder: P
 
 def test_the_parts_of_superposition_add_up_as_printed(run: Run, folder: Path) -> None:
     printed = run("solve", "four_bar.yaml", "--method", "superposition").out.partition("Superposition")[2]
-    tables = [part.splitlines()[3:] for part in printed.split("\n\n") if "---" in part]
-    for rows in tables:
-        wide = len(rows[-1].split()) - 1
-        numbers = np.array([row.split()[-wide:] for row in rows], float)
-        assert (numbers < 0).any()
-        assert numbers[:-1].sum(axis=0) == pytest.approx(numbers[-1], abs=1e-3 * np.abs(numbers).max())
-    assert len(tables) == 2
+    tables = [part.splitlines() for part in printed.split("\n\n") if "---" in part]
+    seen = ""
+    for heads, _, _, *rows in tables:
+        names = re.split(r"  +", heads)[1:]
+        numbers = np.array([re.split(r"  +", row)[1:] for row in rows])
+        for name, column in zip(names, numbers.T, strict=True):
+            if re.fullmatch(r"O2|\w+ [xym]", name):
+                some = column.astype(float)
+                assert some[:-1].sum() == pytest.approx(some[-1], abs=1e-3 * np.abs(some).max())
+                seen += name
+            elif name.startswith("|"):
+                n = names.index(name)
+                x, y = numbers[:, n - 2 : n].astype(float).T
+                assert np.hypot(x, y) == pytest.approx(column.astype(float), rel=1e-4)
+                angle = [float(a) if a != "-" else 0.0 for a in numbers[:, n + 1]]
+                assert np.degrees(np.arctan2(y, x)) == pytest.approx(angle, abs=0.01)
+    assert seen == "O2O2 xO2 yA xA yB xB yO4 xO4 y"
 
 
 def test_where_nothing_acts_methods_say_so(run: Run, folder: Path) -> None:

@@ -162,12 +162,24 @@ def _sums(reader: Reader, heads: list[str], rows: Cells, columns: slice = slice(
 
 
 def _superposition(reader: Reader, heads: list[str], rows: Cells) -> None:
-    _sums(reader, heads, rows)
-    for sign, cell in zip(heads[1:], rows[-1][1:], strict=True):
-        found = number(reader, cell)
+    """Numbers sum up; the components of a force have the size and direction beside them."""
+    sizes = [k for k, head in enumerate(heads) if head.startswith("|")]
+    added = [k for k in range(1, len(heads)) if k not in sizes and heads[k] != "angle °"]
+    for k in added:
+        _sums(reader, heads, rows, slice(k, k + 1))
+        found = number(reader, rows[-1][k])
         assert found is not None
-        if sign in reader.known:
-            reader.learn(sign, found, f"sum of the superposition: {sign} = {cell}")
+        if heads[k] in reader.known:
+            reader.learn(heads[k], found, f"sum of the superposition: {heads[k]} = {rows[-1][k]}")
+    for k in sizes:
+        d = 2 if heads[k + 1 : k + 2] == ["angle °"] else 3
+        for row in rows:
+            force, whole = vector(reader, row[k - d : k]), number(reader, row[k])
+            assert force is not None
+            assert whole is not None
+            reader.angle = float(row[k + 1].replace("−", "-")) if d == 2 and row[k + 1] != "–" else None
+            reader.agree(force, whole, str(row))
+            reader.angle = None
 
 
 def _work(reader: Reader, heads: list[str], rows: Cells) -> None:

@@ -33,24 +33,16 @@ def test_every_table_that_ends_with_a_sum_sets_it_apart() -> None:
 
 
 @pytest.mark.parametrize(
-    ("efforts", "forces", "dimension", "widths"),
-    [
-        (1, 30, 3, [7, 9, 3]),
-        (2, 30, 3, [8, 9, 3]),
-        (3, 6, 3, [9]),
-        (12, 4, 3, [12, 4]),
-        (1, 30, 2, [9]),
-        (0, 4, 2, [4]),
-    ],
+    ("efforts", "joints", "each", "widths"),
+    [(1, 4, 4, [9, 8]), (2, 3, 4, [6, 8]), (0, 2, 4, [8]), (12, 1, 4, [12, 4]), (1, 2, 5, [6, 5])],
 )
 def test_wide_tables_are_divided_by_whole_joints(
-    efforts: int, forces: int, dimension: int, widths: list[int]
+    efforts: int, joints: int, each: int, widths: list[int]
 ) -> None:
-    one, other = [("E", 0, 0)] * efforts, [("F", k, 0) for k in range(forces)]
-    found = _tables(one, other, dimension)  # type: ignore[arg-type]
+    one, other = [("E", 0, 0)] * efforts, [[("F", k, n) for n in range(each)] for k in range(joints)]
+    found = _tables([one, *other])  # type: ignore[list-item]
     assert [len(columns) for columns in found] == widths
-    some = [c for columns in found for c in columns]
-    assert some == [*one, *other][: len(some)]
+    assert [c for columns in found for c in columns] == [*one, *(c for group in other for c in group)]
 
 
 @pytest.mark.parametrize(("moving", "orders"), [(False, 1), (True, 3)])

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dalembert.analysis.friction.joint_friction import unknown_names
+from dalembert.analysis.methods.applied_forces import magnitude
+from dalembert.analysis.methods.superposition import directions, with_sum
 from dalembert.analysis.output.columns import UnitChoice, drive_kinds, load_kind, unknown_kinds
 from dalembert.analysis.output.summary.printed_units import Printed, print_scale, significant
 from dalembert.arrays import Array
@@ -27,21 +30,21 @@ def superposition_text(result: Result, units: UnitChoice) -> str:
     parts, to, k = superposition(result), print_scale(result, units), _first(result)
     if not parts.sources:
         return f"Superposition\n\n{NOTHING_ACTS}: all forces are 0."
-    rows = []
-    floor = _rounding(result, [(kind, values[:, k]) for _, values, kind in _quantities(parts, to)])
-    for n, source in [*enumerate(parts.sources), (None, "sum")]:
-        row = [str(source)]
-        for _, values, kind in _quantities(parts, to):
-            total = float(np.sum(values[:, k] if n is None else values[n : n + 1, k]))
-            row.append(number(total * to(kind, 1.0) if abs(total) > floor[kind] else 0.0, 5))
-        rows.append(row)
-    heads = [f"{name}\n[{to.text(kind)}]" for name, _, kind in _quantities(parts, to)]
+    groups = _quantities(parts, k)
+    of_each = [quantity for group in groups for quantity in group]
+    floor = _rounding(result, [(kind, values[:-1]) for _, values, kind in of_each if kind != "angle"])
+    rows = [
+        [source, *(_part(to, kind, float(values[n]), floor) for _, values, kind in of_each)]
+        for n, source in enumerate([*parts.sources, "sum"])
+    ]
+    heads = ["source", *(f"{name}\n[{to.text(kind)}]" for name, _, kind in of_each)]
+    split = tables(heads, rows, 1, together=[len(group) for group in groups])
     gap = float(np.nanmax(parts.gap, initial=0.0))
     words = (
         f"Joint forces are those on j. The parts sum to the whole within {remainder(gap, 1)} of the largest."
     )
     where = f" at position {k + 1} of {len(result.status)}" if len(result.status) > 1 else ""
-    return f"Superposition{where}\n\n{_split(['source', *heads], rows)}\n\n{wrap(words)}"
+    return f"Superposition{where}\n\n{split}\n\n{wrap(words)}"
 
 
 def _rounding(result: Result, quantities: list[tuple[str, Array]]) -> dict[str, float]:
@@ -59,28 +62,34 @@ NOTHING = 1e-12
 """Part of the largest below which a number is rounding."""
 
 
-def _split(heads: list[str], rows: list[list[str]]) -> str:
-    """Six columns of numbers at a time."""
-    blocks = []
-    for start in range(1, len(heads), 6):
-        part = [0, *range(start, min(start + 6, len(heads)))]
-        blocks.append(table([heads[n] for n in part], [[row[n] for n in part] for row in rows]))
-    return "\n\n".join(blocks)
+def _part(to: Printed, kind: str, value: float, floor: dict[str, float]) -> str:
+    """A part in the reader's unit; rounding is 0, and the direction of nothing a dash."""
+    if kind == "angle":
+        return number(to(kind, value), 5) if math.isfinite(value) else "-"
+    return number(value * to(kind, 1.0) if abs(value) > floor[kind] else 0.0, 5)
 
 
-def _quantities(parts: Superposition, to: Printed) -> list[tuple[str, Array, str]]:
-    """Name, values (S, P) and kind of every number that is split."""
+Quantity = tuple[str, Array, str]
+"""Name, the parts (S,) of a number with their sum behind them, and its kind."""
+
+
+def _quantities(parts: Superposition, k: int) -> list[list[Quantity]]:
+    """Every number that is split, at a position: the efforts and unknown loads, then joint by joint."""
     r = parts.result
-    out = [(d, parts.efforts[..., n], drive_kinds(r, d)["effort"]) for n, d in enumerate(r.drives)]
-    out += [(u, parts.loads[..., n], load_kind(r, u)) for n, u in enumerate(r.unknown_loads)]
+    efforts = [(d, parts.efforts[:, k, n], drive_kinds(r, d)["effort"]) for n, d in enumerate(r.drives)]
+    efforts += [(u, parts.loads[:, k, n], load_kind(r, u)) for n, u in enumerate(r.unknown_loads)]
+    out = [[(name, with_sum(values), kind) for name, values, kind in efforts]]
     for n, joint in enumerate(r.joints):
-        force, moment = parts.force[:, :, n], parts.moment[:, :, n]
-        out += [(f"{joint} {axis}", force[..., c], "force") for c, axis in zip_axes(force)]
-        if moment.ndim == 2 and np.any(moment):
-            out.append((f"{joint} m", moment, "moment"))
-        elif moment.ndim == 3 and np.any(moment):
-            out += [(f"{joint} m{axis}", moment[..., c], "moment") for c, axis in zip_axes(moment)]
-    return out
+        force, moment = with_sum(parts.force[:, k, n]), with_sum(parts.moment[:, k, n])
+        out.append([(f"{joint} {axis}", force[:, c], "force") for c, axis in zip_axes(force)])
+        out[-1].append((f"|{joint}|", magnitude(force), "force"))
+        if force.shape[-1] == 2:
+            out[-1].append((f"dir. {joint}", directions(force), "angle"))
+        if moment.ndim == 1 and np.any(moment):
+            out[-1].append((f"{joint} m", moment, "moment"))
+        elif moment.ndim == 2 and np.any(moment):
+            out[-1] += [(f"{joint} m{axis}", moment[:, c], "moment") for c, axis in zip_axes(moment)]
+    return [group for group in out if group]
 
 
 def zip_axes(vectors: Array) -> list[tuple[int, str]]:

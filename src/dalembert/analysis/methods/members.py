@@ -24,6 +24,8 @@ from dalembert.analysis.methods.applied_forces import (
     other_actions,
     slide_direction,
 )
+from dalembert.analysis.output.columns import drive_kinds
+from dalembert.analysis.output.rounding import PART, sizes
 from dalembert.analysis.plane_only import refuse_space
 from dalembert.arrays import Array
 
@@ -337,15 +339,18 @@ def components_along(r: Result, a: Action, k: int) -> tuple[float, float]:
 def inertia_shares(r: Result) -> tuple[Share, ...]:
     """How much of every effort and joint force is inertia's, over the cycle, the largest first.
 
-    Where forces add it is inertia's part of the superposition, else the difference to the answer without inertia.
+    Where forces add it is inertia's part of the superposition, else the difference to the answer without inertia. What
+    is only rounding beside the largest force or moment is left out: nothing has a share in it.
     """
     efforts, forces = _parts_of_inertia(r)
+    rounding = {kind: PART * float(np.nanmax(size, initial=0.0)) for kind, size in sizes(r).items()}
     out = []
     for k, drive in enumerate(r.drives):
-        out.append(_share(drive, "effort", np.abs(r.effort_array[:, k]), np.abs(efforts[:, k])))
+        share = _share(drive, "effort", np.abs(r.effort_array[:, k]), np.abs(efforts[:, k]))
+        out += [share] if share.whole > rounding[drive_kinds(r, drive)["effort"]] else []
     for k, joint in enumerate(r.joints):
-        whole, part = magnitude(r.force_array[:, k, :]), magnitude(forces[:, k, :])
-        out.append(_share(joint, "reaction", whole, part))
+        share = _share(joint, "reaction", magnitude(r.force_array[:, k, :]), magnitude(forces[:, k, :]))
+        out += [share] if share.whole > rounding["force"] else []
     return tuple(sorted(out, key=lambda s: -s.share))
 
 

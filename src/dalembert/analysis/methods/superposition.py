@@ -22,6 +22,22 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
+def with_sum(parts: Array) -> Array:
+    """Parts (S, ...) with their sum as one more behind them (S + 1, ...)."""
+    return np.concatenate([parts, parts.sum(axis=0, keepdims=True)])
+
+
+def directions(parts: Array) -> Array:
+    """Angles (S,) of forces of the plane (S, 2), rad; nan of one that is only rounding beside the largest.
+
+    >>> np.rad2deg(directions(np.array([[0.0, 2.0], [-3.0, -1e-17], [0.0, 0.0]]))).tolist()
+    [90.0, 180.0, nan]
+    """
+    size = np.hypot(*parts.T)
+    x, y = np.where(np.abs(parts) > 1e-12 * size[:, None], parts, 0.0).T
+    return np.asarray(np.where(size > 1e-12 * size.max(initial=0.0), np.arctan2(y, x), np.nan))
+
+
 @dataclass(frozen=True)
 class Superposition:
     """Parts of the answer, one a source, that sum to the whole; the order of ``sources`` is the arrays' first axis."""

@@ -102,14 +102,15 @@ def units_of_inertia(sheet: Sheet, c: ReportContext) -> None:
 def shares(sheet: Sheet, c: ReportContext) -> None:
     """Whether inertia could be left out."""
     found = inertia_shares(c.r)
-    if found:
-        least = max(s.share for s in found)
-        worst, share = found[0], Notation(figures=2).percent(least if least > PART else 0.0)
-        said = "could be left out" if least < 0.05 else "must not be left out"
-        sheet.text(
-            f"Inertia {said}: it makes up to {share} of the largest {worst.quantity} of {worst.of}"
-            f"{' over the cycle' if len(c.r.status) > 1 else ''}."
-        )
+    if not found:
+        return
+    worst, many = found[0], " over the cycle" if len(c.r.status) > 1 else ""
+    if not worst.share > PART:
+        sheet.text(f"Inertia could be left out: no mass is accelerated{many}.")
+        return
+    said = "could be left out" if worst.share < 0.05 else "must not be left out"
+    share = Notation(figures=2).percent(worst.share)
+    sheet.text(f"Inertia {said}: it makes up to {share} of the largest {worst.quantity} of {worst.of}{many}.")
 
 
 def _inertia_lines(c: ReportContext, link: str) -> list[Working]:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.methods.applied_forces import Action, actions
+from dalembert.analysis.methods.applied_forces import Action, actions, magnitude
+from dalembert.analysis.methods.superposition import directions, with_sum
+from dalembert.analysis.methods.superposition import superposition as split
 from dalembert.analysis.output.columns import drive_kinds, load_kind
 from dalembert.analysis.output.rounding import PART
 from dalembert.arrays import Array
@@ -24,13 +27,17 @@ if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 Column = tuple[str, Array, str]
-"""Sign, parts by source (S,), and kind of one number."""
+"""Head, the parts (S,) of one number with their sum behind them, and its kind."""
+
+WIDEST = 9
+"""Columns of numbers in one table."""
+
+MOST = 8
+"""Joints that are split."""
 
 
 def superposition(sheet: Sheet, c: ReportContext) -> None:
     """Tables of the efforts and joint forces by source; in the plane the chain's polygon for each load."""
-    from dalembert.analysis.methods.superposition import superposition as split
-
     r, shown, k = c.r, c.shown, c.k
     try:
         parts = split(r)
@@ -42,46 +49,69 @@ def superposition(sheet: Sheet, c: ReportContext) -> None:
         return
     sheet.heading("Superposition")
     efforts: list[Column] = [
-        (shown_name(c, "effort", d), parts.efforts[:, k, n], drive_kinds(r, d)["effort"])
+        (
+            as_formula(shown_name(c, "effort", d)),
+            with_sum(parts.efforts[:, k, n]),
+            drive_kinds(r, d)["effort"],
+        )
         for n, d in enumerate(r.drives)
     ]
-    efforts += [(own_name(u), parts.loads[:, k, n], load_kind(r, u)) for n, u in enumerate(r.unknown_loads)]
-    forces: list[Column] = []
-    for n, joint in enumerate(r.joints):
-        sign = shown.reaction(joint, r.mechanism.joints[joint].links[1])
-        for axis in range(r.mechanism.dimension):
-            forces.append((along(sign, "xyz"[axis]), parts.force[:, k, n, axis], "force"))
+    efforts += [
+        (as_formula(own_name(u)), with_sum(parts.loads[:, k, n]), load_kind(r, u))
+        for n, u in enumerate(r.unknown_loads)
+    ]
+    forces = [_columns(c, joint, with_sum(parts.force[:, k, n])) for n, joint in enumerate(r.joints[:MOST])]
     units = f"Forces in {shown.unit('force')}{in_ground(c)}, couples in {shown.unit('moment')}"
-    tables, gap = _tables(efforts, forces, r.mechanism.dimension), remainder(float(parts.gap[k]))
+    tables, gap = _tables([efforts, *forces]), remainder(float(parts.gap[k]))
     for n, columns in enumerate(tables):
         caption = (
             f"{units}; the parts sum to the whole within {gap}" if n == len(tables) - 1 else in_ground(c)[2:]
         )
-        heads = ["Source", *(f"{as_formula(name)}" for name, _, _ in columns)]
+        heads = ["Source", *(name for name, _, _ in columns)]
         sheet.table(heads, _rows(c, parts.sources, columns), caption, total=True)
+    if len(r.joints) > MOST:
+        sheet.text(f"Of its {len(r.joints)} joints these are the first {MOST}.")
     external = [s for s in parts.sources if s in r.mechanism.loads]
     if 2 <= len(external) <= 4 and "graphical" in c.methods and r.mechanism.dimension == 2:
         sheet.figure(*(draw.force_chain(r, k + 1, c.notation, case=s) for s in external))
 
 
-def _tables(efforts: list[Column], forces: list[Column], dimension: int) -> list[list[Column]]:
-    """Columns side by side: in the plane the first nine; in space all of up to six joints, whole joints a table."""
-    if dimension == 2:
-        return [[*efforts, *forces[:10]][:9]]
-    first = max(0, (9 - len(efforts)) // 3 * 3)
-    out = [[*efforts, *forces[:first]]]
-    return [*out, *(forces[n : min(n + 9, 18)] for n in range(first, min(len(forces), 18), 9))]
+def _columns(c: ReportContext, joint: str, force: Array) -> list[Column]:
+    """Components of a joint's force, its size, and in the plane its direction."""
+    sign = c.shown.reaction(joint, c.r.mechanism.joints[joint].links[1])
+    out: list[Column] = [
+        (as_formula(along(sign, axis)), part, "force") for axis, part in zip("xyz", force.T, strict=False)
+    ]
+    out.append((f"$|{sign}|$", magnitude(force), "force"))
+    return [*out, ("angle °", directions(force), "direction")] if force.shape[-1] == 2 else out
+
+
+def _tables(groups: list[list[Column]]) -> list[list[Column]]:
+    """Columns side by side, those of a joint in one table."""
+    out: list[list[Column]] = [[]]
+    for group in groups:
+        if out[-1] and len(out[-1]) + len(group) > WIDEST:
+            out.append([])
+        out[-1] += group
+    return out
 
 
 def _rows(c: ReportContext, sources: tuple[str, ...], columns: list[Column]) -> list[list[str]]:
     """A row a source and the sum; rounding is 0."""
     rows = [
-        [source_sign(c, s), *(c.shown.number(kind, float(v[n])) for _, v, kind in columns)]
+        [source_sign(c, s), *(_part(c, kind, float(v[n])) for _, v, kind in columns)]
         for n, s in enumerate(sources)
         if c.r.mechanism.dimension == 2
         or any(abs(float(v[n])) > c.shown.least[kind] for _, v, kind in columns)
     ]
-    return [*rows, ["sum", *(c.shown.number(kind, float(v.sum())) for _, v, kind in columns)]]
+    return [*rows, ["sum", *(_part(c, kind, float(v[-1])) for _, v, kind in columns)]]
+
+
+def _part(c: ReportContext, kind: str, value: float) -> str:
+    """A number of a table; the direction of nothing is a dash."""
+    if kind == "direction":
+        return c.notation.degrees(value) if math.isfinite(value) else "–"
+    return c.shown.number(kind, value)
 
 
 def shown_name(c: ReportContext, kind: str, of: str) -> str:
