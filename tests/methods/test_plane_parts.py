@@ -43,7 +43,7 @@ NAMES = ("a", "b", "c", "d")
         ((10, 20), (90, 50), ((10, 20), (90, 50)), ("P", "Q")),
         ((10, 20), (10, 220), ((10, 20), (10, 60)), ("P", "Q (beyond the drawing)")),
         ((-190, 0), (10, 0), ((-30, 0), (10, 0)), ("P (beyond the drawing)", "Q")),
-        ((158, 10), (162, 10), ((158, 10), (162, 10)), ("P", "Q (beyond the drawing)")),
+        ((148, 10), (152, 10), ((148, 10), (152, 10)), ("P", "Q (beyond the drawing)")),
         ((200, 0), (10, 300), None, ("P (beyond the drawing)", "Q (beyond the drawing)")),
     ],
 )
@@ -134,9 +134,9 @@ def test_a_free_body_has_room_for_its_friction_circles_and_its_guide() -> None:
     ends = {"crank": "OA", "rod": "AB"}
     for link, joints in ends.items():
         low, high = (np.array([np.add(place[j], s * radius[j]) for j in joints]) for s in (-1, 1))
-        need = (high.max(axis=0) - low.min(axis=0)) / (46.0, 40.0)
+        need = (high.max(axis=0) - low.min(axis=0)) / (40.0, 34.0)
         assert per_mm[link] == pytest.approx(round_up(float(need.max()), FINE))
-    assert per_mm["piston"] == pytest.approx(round_up(3.0 / 46.0, FINE))
+    assert per_mm["piston"] == pytest.approx(round_up(3.0 / 40.0, FINE))
 
 
 @pytest.mark.parametrize("speed", [1.0, -1.0])

@@ -16,6 +16,9 @@ from dalembert.views.paper.scene import Scene
 WIDTH = 176.0
 """Width of the text in mm."""
 
+GAP = 3.0
+"""Between drawings side by side, mm."""
+
 
 def typst_bytes(sheet: Sheet, kind: str) -> bytes:
     """The report as `pdf` or `html`."""
@@ -58,19 +61,37 @@ def _block(b: Block, pictures: dict[str, bytes]) -> Tree:
             **{n: [typst(c) for c in getattr(b, n)] for n in ("unknowns", "right", "values")},
         }
     assert isinstance(b, Figure)
-    return {"kind": "figure", "caption": b.caption, "files": _pictures(b.scenes, pictures)}
+    caption = " ".join([*filter(None, [b.caption]), *map(_printed_smaller, b.scenes)]).strip()
+    return {"kind": "figure", "caption": caption, "files": _pictures(b.scenes, pictures)}
 
 
 def _rich(text: str) -> list[str]:
     return write_mixed(text, typst, str)
 
 
+def _width(scene: Scene) -> float:
+    """Width of a drawing's file in mm."""
+    left, _, right, _ = scene.bounds
+    return right - left + 2 * MARGIN
+
+
+def _printed_smaller(scene: Scene) -> str:
+    """That a drawing wider than the page is not at the scales it states."""
+    part = 100 * WIDTH / max(_width(scene), WIDTH)
+    return f"{scene.title}: printed at {part:.0f} % of its scales." if part < 100 and scene.scales else ""
+
+
 def _pictures(scenes: tuple[Scene, ...], pictures: dict[str, bytes]) -> list[Tree]:
-    out = []
-    scale = 0.82 if len(scenes) > 1 else 0.95
+    """The files of drawings in their true size, those side by side that fit: each in the first row with room."""
+    rows: list[list[tuple[float, Scene]]] = []
     for scene in scenes:
+        width = _width(scene)
+        row = next((row for row in rows if sum(w + GAP for w, _ in row) + width <= WIDTH), None)
+        rows += [] if row is not None else [[]]
+        (rows[-1] if row is None else row).append((width, scene))
+    out = []
+    for width, scene in (picture for row in rows for picture in row):
         name = f"figure-{len(pictures) + 1}.svg"
         pictures[name] = scene.to_svg().encode()
-        left, _, right, _ = scene.bounds
-        out.append({"name": name, "width": round(right - left + 2 * MARGIN, 2), "scale": scale})
+        out.append({"name": name, "width": round(min(width, WIDTH), 2)})
     return out

@@ -29,7 +29,7 @@ def displaced_inertia_scene(r: Result, link: str, k: int, notation: Notation | N
         tuple(g),
         *([tuple(at)] if _has_acceleration(r, link, k, shown) else []),
     ]
-    frame = fit_frame(places, 46.0, 40.0, unit_size(r, "length", shown.notation))
+    frame = fit_frame(places, 40.0, 34.0, unit_size(r, "length", shown.notation))
     canvas = Canvas()
     canvas.add(*link_shape(r, link, k, frame))
     for name, place in link_points(r, link, k).items():

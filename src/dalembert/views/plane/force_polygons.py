@@ -21,7 +21,7 @@ from dalembert.analysis.methods.applied_forces import (
 )
 from dalembert.analysis.methods.members import concurrency, members, order_of_solution
 from dalembert.printing import remainder
-from dalembert.views.notation import Figures, Notation, Shown
+from dalembert.views.notation import Figures, Notation, Shown, own_name
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import Frame, force_scale
 from dalembert.views.paper.scene import Arrow, Circle, Line, Point, Polygon, Scene
@@ -39,7 +39,7 @@ from dalembert.views.unknown_forces import doubts, has_reactions, on_one
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
-LONGEST = 42.0
+LONGEST = 36.0
 """Largest force of a polygon, mm."""
 
 
@@ -82,7 +82,7 @@ def force_polygon_scene(
     )
     canvas = Canvas()
     gap = draw_polygon(canvas, mine, k, shown, per_mm, (0.0, 0.0))[1]
-    heading = f"Force polygon of link {shown.heading(link)}" + (f": {case} alone" if case else "")
+    heading = f"Force polygon of link {shown.heading(link)}" + (f": {own_name(case)} alone" if case else "")
     if not mine:
         canvas.label("no forces" if found else "forces not known", (0.0, 0.0))
     notes, scales = scale_notes(shown, None, per_mm)
@@ -162,7 +162,7 @@ def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case:
     shown = Shown(r, notation or Notation(), k)
     some = case_actions(r, case)
     sizes = [float(np.hypot(*a.force[k])) for a in some if a.link != "ground"]
-    per_mm = force_scale(sizes, 60.0, unit_size(r, "force", shown.notation))
+    per_mm = force_scale(sizes, 50.0, unit_size(r, "force", shown.notation))
     canvas = Canvas()
     placed: dict[str, tuple[Point, Point]] = {}
     worst, bottom = 0.0, 0.0
@@ -186,7 +186,7 @@ def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case:
     names = " → ".join(map(shown.heading, order))
     text = f"Order of solution: {names}. A force shared by two polygons is drawn once."
     return canvas.scene(
-        "Force polygons of the chain" + (f": {case} alone" if case else ""),
+        "Force polygons of the chain" + (f": {own_name(case)} alone" if case else ""),
         notes=[text, f"{notes[0]}; {_gap_text(worst, everything, k)}", *doubts(r, k, r.joints)],
         scales=scales,
         numbers=_numbers(worst, everything, k),
@@ -215,7 +215,7 @@ def lines_of_action_scene(
     shown = Shown(r, notation or Notation(), k)
     some = acting_lines(r, k) if case is None else case_actions(r, case)
     mine = forces_of(some, link, k)
-    frame = whole_frame(r, k, 90.0, 70.0)
+    frame = whole_frame(r, k, 76.0, 58.0)
     canvas = Canvas()
     draw_links(canvas, r, k, frame)
     for name in with_friction_circle(r, [a.of for a in mine if a.kind == "joint"]):
@@ -225,9 +225,9 @@ def lines_of_action_scene(
     for a in mine:
         canvas.add(Line(_through(frame(a.at[k]), a.force[k], span), "construction"))
     flat = [replace(a, couple=np.zeros_like(a.couple)) for a in mine]
-    per_mm = draw_actions(canvas, r, flat, k, frame, shown, 24.0)
+    per_mm = draw_actions(canvas, r, flat, k, frame, shown, 20.0)
     texts, scales = scale_notes(shown, frame, per_mm)
-    heading = f"Lines of action on link {shown.heading(link)}" + (f": {case} alone" if case else "")
+    heading = f"Lines of action on link {shown.heading(link)}" + (f": {own_name(case)} alone" if case else "")
     return canvas.scene(heading, notes=[*notes, *texts, *doubts(r, k, on_one(r, link))], scales=scales)
 
 
@@ -257,13 +257,13 @@ def _two_meetings(
     """The points where four lines meet in pairs, and the line through them as far as the drawing reaches."""
     ends, words = [], []
     for name, at, other in (("P", p, q), ("Q", q, p)):
-        inside = _inside(at, span, 60.0)
+        inside = _inside(at, span, 50.0)
         _mark(canvas, at, span, name)
         words.append(name if inside else f"{name} (beyond the drawing)")
         far = math.dist(p, q)
         part = 1.0 if inside or far < 40.0 else 40.0 / far
         ends.append((other[0] + part * (at[0] - other[0]), other[1] + part * (at[1] - other[1])))
-    if any(_inside(at, span, 60.0) for at in (p, q)):
+    if any(_inside(at, span, 50.0) for at in (p, q)):
         canvas.add(Line((ends[0], ends[1]), "resultant"))
     first, second = f"{names[0]}, {names[1]} meet in {words[0]}", f"{names[2]}, {names[3]} in {words[1]}"
     return [f"{first}, {second}; PQ carries both resultants."]
@@ -302,7 +302,7 @@ def dimension(canvas: Canvas, a: Point, b: Point, text: str) -> None:
 
 
 def _mark(canvas: Canvas, at: Point, span: tuple[float, ...], name: str) -> None:
-    if _inside(at, span, 60.0):
+    if _inside(at, span, 50.0):
         canvas.add(Circle(at, 0.8, "mark"))
         canvas.label(name, at, size=3.2, role="title")
 

@@ -27,7 +27,7 @@ from dalembert.views.unknown_forces import doubts, on_one
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
-LONGEST = 26.0
+LONGEST = 22.0
 """Largest force of a set of free bodies, mm."""
 
 
@@ -89,7 +89,7 @@ def _frame(r: Result, link: str, k: int, shown: Shown, some: tuple[Action, ...])
         places += [(x - radius, y - radius), (x + radius, y + radius)]
     for name in with_rough_guide(r, [n for n in r.joints if r.mechanism.joints[n].links[1] == link]):
         places += guide_corners(r, name, k)
-    return fit_frame(places, 46.0, 40.0, unit_size(r, "length", shown.notation))
+    return fit_frame(places, 40.0, 34.0, unit_size(r, "length", shown.notation))
 
 
 def _own_wheels(r: Result, link: str, k: int) -> list[tuple[tuple[float, float], float]]:

@@ -142,7 +142,7 @@ def _center(ta: Array, pa: Array, tb: Array, pb: Array) -> tuple[float, float] |
 def instant_centers_scene(r: Result, k: int, notation: Notation | None = None) -> Scene:
     """The mechanism with the instant centres of its links and the lines on which three of them lie."""
     shown = Shown(r, notation or Notation(), k)
-    frame = whole_frame(r, k, 90.0, 70.0)
+    frame = whole_frame(r, k, 76.0, 58.0)
     canvas = Canvas()
     draw_links(canvas, r, k, frame)
     span = Scene(tuple(canvas.items)).bounds
