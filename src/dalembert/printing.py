@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
 WIDTH = 80
 GAP = 2
@@ -105,6 +106,29 @@ def tables(
     return "\n\n".join(
         table([heads[k] for k in ks], [[row[k] for k in ks] for row in body], left) for ks in chosen
     )
+
+
+class Table(NamedTuple):
+    """A table before it is text: heads, cells as text, how many columns are aligned left, a note under it.
+
+    >>> print(Table(["joint", "x"], [["A", "1"]], note="in N"))
+    joint  x
+    --------
+    A      1
+    in N
+    """
+
+    heads: Sequence[str]
+    rows: Sequence[Sequence[str]]
+    left: int = 1
+    note: str = ""
+
+    def __str__(self) -> str:
+        return tables(self.heads, self.rows, self.left) + (f"\n{self.note}" if self.note else "")
+
+
+Part = str | Table
+"""A part of what a person reads: sentences or a table."""
 
 
 def wrap(sentence: str, indent: str = "") -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
 
@@ -29,6 +29,9 @@ from dalembert.model.quantities.values import JsonSchema, Name, Scalar, Value, V
 from dalembert.model.stated_answers import Answer
 from dalembert.units import ALSO_CALLED, BASES, KINDS, Units, file_units
 from dalembert.wording import quote_value
+
+if TYPE_CHECKING:
+    from dalembert.views.paper.scene import Scene
 
 
 class UnitsValue(Value):
@@ -163,6 +166,17 @@ class Mechanism(Part):
         links = len({*self.links} - {GROUND})
         drives = f"driven by {', '.join(self.drives)}" if self.drives else "no drive"
         return f"<Mechanism {self.title!r}: {links} moving links, {len(self.joints)} joints, {drives}>"
+
+    def _repr_html_(self) -> str:
+        from dalembert.notebook.html_views import mechanism_html
+
+        return mechanism_html(self)
+
+    def draw(self, positions: int | None = None) -> Scene:
+        """The mechanism at its first position, with the paths of its points; ``da.draw`` has the other drawings."""
+        from dalembert.notebook.html_views import first_pose
+
+        return first_pose(self, positions)
 
     @property
     def source(self) -> Source | None:

@@ -78,6 +78,11 @@ class Part(BaseModel):
 
         __init__.__pydantic_base_init__ = True
 
+    def __dir__(self) -> list[str]:
+        """Its own words, without those of the library that checks it: what an editor completes."""
+        taken = set(dir(Part))
+        return [name for name in super().__dir__() if name not in taken or name.startswith("__")]
+
     @classmethod
     def _rules(cls, keys: Mapping[str, object]) -> Reading:
         return PYTHON

@@ -146,6 +146,11 @@ class System:
         where = "plane" if self.dimension == 2 else "space"
         return f"System({len(self.forces)} forces and {len(self.couples)} couples in {where})"
 
+    def _repr_html_(self) -> str:
+        from dalembert.notebook.html_views import system_html
+
+        return system_html(self)
+
     # its size
 
     @property

@@ -5,7 +5,7 @@ It gives no derivatives: those are one step of the compiled equations from its s
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -18,6 +18,7 @@ from dalembert.analysis.batch.kernel_inputs import Course
 from dalembert.analysis.batch.sides import Sides
 from dalembert.analysis.batch.symbolic_model import Number, with_numbers
 from dalembert.analysis.one_pass import at_schedule
+from dalembert.analysis.result.named_quantities import quantity as read_quantity
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
 from dalembert.errors import DalembertError
@@ -133,32 +134,5 @@ def _schedule(design: Mechanism, schedule: Schedule) -> Schedule:
 
 def quantity(result: Result, output: str) -> Array:
     """One output of a result (position, component)."""
-    kind, _, of = output.partition(".")
-    found = np.asarray(_KINDS[kind](result, of))
+    found = read_quantity(result, output).values
     return found.reshape(len(found), -1)
-
-
-def _magnitude(r: Result, joint: str) -> Array:
-    return np.asarray(np.linalg.norm(r.reaction(joint), axis=-1))
-
-
-_KINDS: dict[str, Callable[[Result, str], Array]] = {
-    "effort": lambda r, of: r.effort(of),
-    "load": lambda r, of: r.unknown_load(of),
-    "reaction": lambda r, of: r.reaction(of),
-    "magnitude": _magnitude,
-    "moment": lambda r, of: r.reaction_moment(of),
-    "angle": lambda r, of: r.angle(of),
-    "rotation": lambda r, of: r.rotation(of),
-    "speed": lambda r, of: r.speed(of),
-    "acceleration": lambda r, of: r.acceleration(of),
-    "position": lambda r, of: r.position(of),
-    "velocity": lambda r, of: r.velocity(of),
-    "center": lambda r, of: r.center(of),
-    "center_velocity": lambda r, of: r.center_velocity(of),
-    "center_acceleration": lambda r, of: r.center_acceleration(of),
-    "point": lambda r, of: r.point(*of.split(".", 1)),
-    "point_velocity": lambda r, of: r.point_velocity(*of.split(".", 1)),
-    "point_acceleration": lambda r, of: r.point_acceleration(*of.split(".", 1)),
-    "residual": lambda r, of: r.residual,
-}

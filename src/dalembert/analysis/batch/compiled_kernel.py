@@ -127,6 +127,11 @@ class Kernel:
     derivatives: bool
     lanes: int
 
+    def _repr_html_(self) -> str:
+        from dalembert.notebook.html_views import kernel_html
+
+        return kernel_html(self)
+
     @property
     def numbers(self) -> tuple[str, ...]:
         """Paths of the numbers, one a column of the values."""

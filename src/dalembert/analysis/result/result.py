@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -22,9 +22,13 @@ if TYPE_CHECKING:
     from dalembert.analysis.compile.compiled_mechanism import Compiled
     from dalembert.analysis.degree_of_freedom import Mobility
     from dalembert.analysis.result.force_arrays import Friction
+    from dalembert.analysis.result.position_lookup import PositionChoice
     from dalembert.analysis.result.reaction_axes import Axes
     from dalembert.machine.harmonics import Harmonics
     from dalembert.model import Schedule
+    from dalembert.views.draw import View
+    from dalembert.views.notation import Notation
+    from dalembert.views.paper.scene import Scene
 
 
 @dataclass(frozen=True, repr=False)
@@ -70,6 +74,53 @@ class Result(LinkMotion):
     def __repr__(self) -> str:
         counts = ", ".join(f"{self.status.count(s)} {s}" for s in dict.fromkeys(self.status))
         return f"<Result of {self.mechanism.title or 'a mechanism'!r}: positions {counts}>"
+
+    def _repr_html_(self) -> str:
+        from dalembert.notebook.html_views import result_html
+
+        return result_html(self)
+
+    # by name, and drawn
+
+    def __getitem__(self, name: str) -> Array:
+        """A quantity by its name, SI: ``r["effort.O2"]``, ``r["reaction.A"]``, ``r["reaction.A.x"]``."""
+        from dalembert.analysis.result.named_quantities import quantity
+
+        return quantity(self, name).values
+
+    __iter__ = None  # a result is no sequence
+
+    def _ipython_key_completions_(self) -> list[str]:
+        from dalembert.analysis.result.named_quantities import quantity_names
+
+        return quantity_names(self)
+
+    def plot(
+        self, *names: str, ax: Any = None, against: str | None = None, notation: Notation | None = None
+    ) -> Any:
+        """Curves of quantities over the cycle, ``r.plot("effort.O2")``: a Scene, or drawn on matplotlib's ``ax``.
+
+        Of a vector all components and its size; against the first drive or a quantity. Without names the efforts.
+        """
+        from dalembert.notebook.plots import plot
+
+        return plot(self, names, ax, against, notation)
+
+    def polar(
+        self, *joints: str, axes: Axes = "ground", ax: Any = None, notation: Notation | None = None
+    ) -> Any:
+        """Polar diagram of joint forces on each joint's j: a Scene, or drawn on matplotlib's ``ax``."""
+        from dalembert.notebook.plots import polar
+
+        return polar(self, joints, axes, ax, notation)
+
+    def draw(
+        self, view: View = "mechanism", at: PositionChoice = None, notation: Notation | None = None
+    ) -> Scene:
+        """A drawing: the mechanism, free-bodies, force-polygons, charts, motion or all; ``da.draw`` has them singly."""
+        from dalembert.views import draw as drawings
+
+        return drawings.view(self, view, at, notation)
 
     # what was asked
 

@@ -27,7 +27,7 @@ def page(bounds: Box, title: str, theme: str, drawn: Callable[[Writer], str]) ->
     prefix = theme[0]
     writer = Writer(left - MARGIN, top + MARGIN, prefix)
     body = drawn(writer)
-    style = "".join(_rule(prefix, role, THEMES[theme][role]) for role in sorted(writer.roles))
+    style = "".join(rule(prefix, role, THEMES[theme][role]) for role in sorted(writer.roles))
     paper = BACKGROUND[theme]
     back = f'<rect width="{width:.2f}" height="{height:.2f}" fill="{paper}"/>'
     return (
@@ -37,7 +37,8 @@ def page(bounds: Box, title: str, theme: str, drawn: Callable[[Writer], str]) ->
     )
 
 
-def _rule(prefix: str, role: str, look: Look) -> str:
+def rule(prefix: str, role: str, look: Look) -> str:
+    """How a role looks: its lines, letters and heads."""
     bold = ";font-weight:bold" if look.weight != "normal" else ""
     dash = f";stroke-dasharray:{' '.join(f'{d:g}' for d in look.dash)}" if look.dash else ""
     stroke = f".{prefix}-{role}{{stroke:{look.stroke};stroke-width:{look.width:g};fill:{look.fill}{dash}"

@@ -27,7 +27,7 @@ from dalembert.analysis.output.summary.printed_in_space import (
     space_link_tables,
     space_reaction_tables,
 )
-from dalembert.analysis.output.summary.printed_series import position_tables, where
+from dalembert.analysis.output.summary.printed_series import MORE, position_tables, where
 from dalembert.analysis.output.summary.printed_units import (
     Printed,
     motion_only,
@@ -38,7 +38,7 @@ from dalembert.analysis.output.summary.printed_units import (
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.arrays import Array
 from dalembert.errors import SOLVED
-from dalembert.printing import number, remainder, round_components, table, tables, with_unit, wrap
+from dalembert.printing import Part, Table, number, remainder, round_components, with_unit, wrap
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -48,15 +48,23 @@ def answer_text(
     result: Result, units: UnitChoice = "file", axes: Axes = "ground", every: bool = False
 ) -> str:
     """The whole answer as text."""
+    parts = [heading(result), *answer_parts(result, units, axes, every)]
+    return "\n\n".join(str(part) for part in parts if part)
+
+
+def answer_parts(
+    result: Result, units: UnitChoice = "file", axes: Axes = "ground", every: bool = False, more: str = MORE
+) -> list[Part]:
+    """What stands under the heading, in order: tables, and sentences that may be empty; ``more`` says where all
+    positions are."""
     to = print_scale(result, units)
-    parts = [heading(result)]
+    parts: list[Part] = []
     if len(result.status) == 1:
         parts += _one(result, to, axes)
     else:
-        parts += position_tables(result, to, axes, every)
+        parts += position_tables(result, to, axes, every, more)
     parts += [reversals_text(result, to), problems_text(result, to)]
-    parts += [wrap(branch_note(result)), checks_text(result)]
-    return "\n\n".join(part for part in parts if part)
+    return [*parts, wrap(branch_note(result)), checks_text(result)]
 
 
 def heading(result: Result) -> str:
@@ -78,7 +86,7 @@ def _sentence(text: str) -> str:
 # one position
 
 
-def _one(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
+def _one(result: Result, to: Printed, axes: Axes) -> Iterator[Part]:
     status = result.status[0]
     if result.drives:
         yield _drive_table(result, to)
@@ -92,16 +100,16 @@ def _one(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
     elif result.joints and not without_reactions(result):
         for side, words in zip(result.sides, ("Just before:", "Just after:"), strict=False):
             yield from [words] if result.reverses[0] else []
-            yield _reactions(side, to, axes)
+            yield from _reactions(side, to, axes)
             if friction_known:
                 yield friction_table(side, to)
     if status != "at_rest" and friction_known:
         yield wrap(efficiency_note(result))
     if result.links:
-        yield (_link_tables if in_plane(result) else space_link_tables)(result, to)
+        yield from [_link_table(result, to)] if in_plane(result) else space_link_tables(result, to)
 
 
-def _drive_table(result: Result, to: Printed) -> str:
+def _drive_table(result: Result, to: Printed) -> Table:
     rows = []
     for drive in result.drives:
         kinds = drive_kinds(result, drive)
@@ -125,10 +133,10 @@ def _drive_table(result: Result, to: Printed) -> str:
         *([] if motion_only(result) else ["effort"]),
         *(["stability"] if result.stability else []),
     ]
-    return tables(heads, rows, 1)
+    return Table(heads, rows, 1)
 
 
-def _load_table(result: Result, to: Printed) -> str:
+def _load_table(result: Result, to: Printed) -> Table:
     def value(name: str) -> str:
         if there := open_text(result, name, to):
             return there
@@ -138,20 +146,20 @@ def _load_table(result: Result, to: Printed) -> str:
         )
 
     rows = [[name, value(name)] for name in result.unknown_loads]
-    return table(["unknown load", "value"], rows)
+    return Table(["unknown load", "value"], rows)
 
 
-def _ends(result: Result, to: Printed, axes: Axes) -> Iterator[str]:
+def _ends(result: Result, to: Printed, axes: Axes) -> Iterator[Part]:
     """Reactions at both ends of each unknown that friction leaves open."""
     for name, ends in zip(unknown_kinds(result), result.ends, strict=True):
         for which, end in zip(("low", "high"), ends, strict=True):
             yield f"At the {which} end of {name}:"
-            yield _reactions(end, to, axes)
+            yield from _reactions(end, to, axes)
 
 
-def _reactions(result: Result, to: Printed, axes: Axes) -> str:
+def _reactions(result: Result, to: Printed, axes: Axes) -> Iterator[Part]:
     if in_plane(result):
-        return _reaction_table(result, to, axes)
+        return _reaction_tables(result, to, axes)
     sized = [
         r._replace(
             force=significant(result, "force", r.force[0]),
@@ -162,7 +170,7 @@ def _reactions(result: Result, to: Printed, axes: Axes) -> str:
     return space_reaction_tables(sized, to, axes)
 
 
-def _reaction_table(result: Result, to: Printed, axes: Axes) -> str:
+def _reaction_tables(result: Result, to: Printed, axes: Axes) -> Iterator[Part]:
     force, moment, angle = to.text("force"), to.text("moment"), to.text("angle")
     heads = ["joint", "by i", "on j", f"F_ij x\n{force}", f"F_ij y\n{force}", f"|F_ij|\n{force}"]
     heads += [f"direction\n{angle}", f"moment\n{moment}"]
@@ -174,10 +182,9 @@ def _reaction_table(result: Result, to: Printed, axes: Axes) -> str:
             least.append([r.joint, r.by, r.on, *_wrench(r.least_norm[0, :2], r.least_norm[0, 2], to)])
     where = "ground axes" if axes == "ground" else "the axes of link j"
     note = f"F_ij is the force by link i on link j, in {where}; moments about j's point of the joint."
-    shown = f"{tables(heads, rows, 3)}\n{wrap(note)}"
+    yield Table(heads, rows, 3, wrap(note))
     if least:
-        shown += f"\n\n{NOT_UNIQUE}\n\n" + tables(heads, least, 3)
-    return shown
+        yield from (NOT_UNIQUE, Table(heads, least, 3))
 
 
 def _wrench(force: Array, moment: float, to: Printed) -> list[str]:
@@ -192,7 +199,7 @@ def _largest(values: Array) -> float:
     return float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0
 
 
-def _link_tables(result: Result, to: Printed) -> str:
+def _link_table(result: Result, to: Printed) -> Table:
     def of_all(question: Callable[[str], Array]) -> Array:
         return np.array([np.atleast_1d(question(link)[0]) for link in result.links])
 
@@ -209,7 +216,7 @@ def _link_tables(result: Result, to: Printed) -> str:
         size = 1.0 if kind == "angle" else _largest(values)
         for row, vector in zip(cells, values, strict=True):
             row += [number(float(v), 5) for v in to(kind, np.array(round_components(vector, size)))]
-    return tables(heads, cells, 1)
+    return Table(heads, cells, 1)
 
 
 # what did not work, and how far the rest can be trusted

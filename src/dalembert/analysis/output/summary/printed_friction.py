@@ -10,7 +10,7 @@ from dalembert.analysis.compile.contacts import coefficient
 from dalembert.analysis.friction.joint_friction import bears_on_faces, friction_circle_radius, guide_contact
 from dalembert.analysis.output.columns import Scale, friction_joints, unknown_kinds
 from dalembert.analysis.output.summary.printed_units import Printed, significant
-from dalembert.printing import number, tables, with_unit
+from dalembert.printing import Part, Table, number, with_unit
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -85,7 +85,7 @@ def efficiency_note(result: Result) -> str:
     return f"Efficiency, without inertia: {'; '.join(parts)}." if parts else ""
 
 
-def cycle_text(result: Result, to: Printed) -> str:
+def cycle_table(result: Result, to: Printed) -> Part:
     """What each joint's friction takes over all positions, and the efficiency."""
     from dalembert.analysis.friction.efficiency import efficiency
 
@@ -103,10 +103,10 @@ def cycle_text(result: Result, to: Printed) -> str:
     heads = ["friction over\nthe positions", f"work lost\n{to.text('moment')}", "of the work\nput in"]
     cycle = 0.0 if abs(found.cycle) < NOTHING else 100 * found.cycle
     words = f"Efficiency over the positions, inertia and all: {number(cycle, 4)} %."
-    return f"{tables(heads, rows, 1)}\n{words}"
+    return Table(heads, rows, 1, words)
 
 
-def friction_table(result: Result, to: Printed) -> str:
+def friction_table(result: Result, to: Printed) -> Table:
     """Friction force, couple and lost power of each joint at the first position, and how guides bear."""
     heads = ["friction", "on j", f"force\n{to.text('force')}", f"couple\n{to.text('moment')}"]
     heads += [f"power lost\n{to.text('power')}", "law"]
@@ -120,7 +120,7 @@ def friction_table(result: Result, to: Printed) -> str:
         bears = guide_contact(result, joint).mode[0] if bears_on_faces(result, joint) else ""
         law = ", ".join(part for part in (friction_text(result, joint, to), bears) if part)
         rows.append([joint, part.links[1], number(force), number(couple), number(lost), law])
-    return tables(heads, rows, 2)
+    return Table(heads, rows, 2)
 
 
 def friction_text(result: Result, joint: str, to: Scale) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from dalembert.algebra.space import angle_and_axis
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.arrays import Array
-from dalembert.printing import number, round_components, tables, wrap
+from dalembert.printing import Part, Table, number, round_components, wrap
 
 if TYPE_CHECKING:
     from dalembert.analysis.output.columns import Reaction
@@ -27,28 +27,28 @@ AXES: dict[Axes, str] = {
 }
 
 
-def space_reaction_tables(reactions: Sequence[Reaction], to: Printed, axes: Axes) -> str:
+def space_reaction_tables(reactions: Sequence[Reaction], to: Printed, axes: Axes) -> Iterator[Part]:
     """Forces, then moments, of reactions at one position (3,); what is not unique also with the least norm."""
     note = f"F_ij and M_ij are by link i on link j, in {AXES[axes]}; moments about j's point of the joint."
-    shown = f"{_tables(reactions, to)}\n{wrap(note)}"
+    yield from _tables(reactions, to, wrap(note))
     least = [
         r._replace(force=r.least_norm[0, :3], moment=r.least_norm[0, 3:])
         for r in reactions
         if r.least_norm is not None and np.isfinite(r.least_norm[0]).any()
     ]
-    return f"{shown}\n\n{NOT_UNIQUE}\n\n{_tables(least, to)}" if least else shown
+    if least:
+        yield NOT_UNIQUE
+        yield from _tables(least, to)
 
 
-def _tables(reactions: Sequence[Reaction], to: Printed) -> str:
-    parts = []
+def _tables(reactions: Sequence[Reaction], to: Printed, note: str = "") -> Iterator[Table]:
     for letter, kind in (("F", "force"), ("M", "moment")):
         heads = [
             f"{head}\n{to.text(kind)}"
             for head in (*(f"{letter}_ij {axis}" for axis in "xyz"), f"|{letter}_ij|")
         ]
         rows = [[r.joint, r.by, r.on, *_components_and_size(to(kind, getattr(r, kind)))] for r in reactions]
-        parts.append(tables(["joint", "by i", "on j", *heads], rows, 3))
-    return "\n\n".join(parts)
+        yield Table(["joint", "by i", "on j", *heads], rows, 3, note if kind == "moment" else "")
 
 
 def _components_and_size(vector: Array) -> list[str]:
@@ -57,7 +57,7 @@ def _components_and_size(vector: Array) -> list[str]:
     return [number(v) for v in (*components, math.hypot(*components))]
 
 
-def space_link_tables(result: Result, to: Printed) -> str:
+def space_link_tables(result: Result, to: Printed) -> Iterator[Table]:
     """How every link is turned, where its mass centre is, and their rates, at the first position."""
     turned = [f"turned\n{to.text('angle')}", "about x", "y", "z", *_heads("center", to.text("length"))]
     rates = (("speed", "angular_speed"), ("acceler.", "angular_acceleration"))
@@ -82,9 +82,9 @@ def space_link_tables(result: Result, to: Printed) -> str:
         for row, part in zip(rows, parts, strict=True):
             row.append([link, *(number(v, 5) for v in part)])
     heads = (turned, turning, _heads("acc. of center", to.text("acceleration")))
-    shown = [tables(["link", *head], part, 1) for head, part in zip(heads, rows, strict=True)]
-    note = "Links are turned from ground's axes about the axis shown; vectors are in ground axes."
-    return "\n\n".join(shown) + f"\n{wrap(note)}"
+    note = wrap("Links are turned from ground's axes about the axis shown; vectors are in ground axes.")
+    for head, cells, under in zip(heads, rows, ("", "", note), strict=True):
+        yield Table(["link", *head], cells, 1, under)
 
 
 def _heads(name: str, unit: str) -> list[str]:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from dalembert.analysis.output.columns import drive_kinds, in_plane, load_kind, reactions
-from dalembert.analysis.output.summary.printed_friction import cycle_text, with_ends
+from dalembert.analysis.output.summary.printed_friction import cycle_table, with_ends
 from dalembert.analysis.output.summary.printed_units import (
     Printed,
     motion_only,
@@ -17,7 +17,7 @@ from dalembert.analysis.output.summary.printed_units import (
 )
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.arrays import Array
-from dalembert.printing import number, tables
+from dalembert.printing import Part, Table, number
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -26,7 +26,10 @@ MANY = 12
 """Positions that are printed without `--all`."""
 
 
-def position_tables(result: Result, to: Printed, axes: Axes, every: bool) -> Iterator[str]:
+MORE = "--all prints every one, --csv FILE writes them"
+
+
+def position_tables(result: Result, to: Printed, axes: Axes, every: bool, more: str = MORE) -> Iterator[Part]:
     """The table of the positions, or of some of many; the largest and smallest values; what friction takes."""
     count = len(result.status)
     shown = (
@@ -50,14 +53,14 @@ def position_tables(result: Result, to: Printed, axes: Axes, every: bool) -> Ite
             rows.append(["", "after", *stability, *[""] * len(result.drives), *behind])
     first = ["no.", *(["status"] if marked else []), *(["stability"] if result.stability else [])]
     drives = len(result.drives)
-    yield tables([*first, *heads], rows, len(first) + drives)
+    yield Table([*first, *heads], rows, len(first) + drives)
     if len(shown) < count:
-        yield f"{len(shown)} of {count} positions are shown; --all prints every one, --csv FILE writes them."
+        yield f"{len(shown)} of {count} positions are shown; {more}."
     if any(r.least_norm is not None and np.isfinite(r.least_norm).any() for r in reactions(result, axes)):
         yield "Least-norm values of what is not unique: --csv, --json, or a single position."
     if count > 2:
         yield _peak_table(result, to, axes)
-        yield cycle_text(result, to)
+        yield cycle_table(result, to)
 
 
 def _series(result: Result, to: Printed, axes: Axes) -> tuple[list[str], list[Array]]:
@@ -107,23 +110,40 @@ def _sizes(name: str, vectors: Array) -> list[tuple[str, Array]]:
     return [(f"{name} {axis}", vectors[:, k]) for k, axis in enumerate("xyz") if known[k]]
 
 
-def _peak_table(result: Result, to: Printed, axes: Axes) -> str:
-    """Largest and smallest value of each effort, unknown load and reaction, and where."""
+class Extreme(NamedTuple):
+    """The largest and the smallest value of something over the positions, and the positions (from 0) they are at."""
+
+    name: str
+    unit: str
+    largest: float
+    most: int
+    smallest: float
+    least: int
+
+
+def extremes(result: Result, to: Printed, axes: Axes = "ground") -> Iterator[Extreme]:
+    """Of each effort, unknown load and reaction, both sides of reversals counted; where only the motion is known, of
+    the links' angles and rates."""
     drives = len(result.drives)
     heads, *sides = _series(result.before, to, axes)
     sides += [] if result.after is None else [_series(result.after, to, axes)[1]]
-    rows = []
     for head, *series in zip(heads[drives:], *(values[drives:] for values in sides), strict=True):
         low, high = np.fmin.reduce(series), np.fmax.reduce(series)
         if np.isfinite(low).any():
-            name, unit = head.split("\n")
             least, most = int(np.nanargmin(low)), int(np.nanargmax(high))
-            cells = [number(float(high[most])), _place_text(result, to, most), number(float(low[least]))]
-            rows.append([name, unit, *cells, _place_text(result, to, least)])
-    shown = tables(["over the positions", "unit", "largest", "at", "smallest", "at"], rows, 2) if rows else ""
-    return shown + (
-        "\n* one side of a reversal" if any("*" in cell for row in rows for cell in row[3::2]) else ""
-    )
+            name, unit = head.split("\n")
+            yield Extreme(name, unit, float(high[most]), most, float(low[least]), least)
+
+
+def _peak_table(result: Result, to: Printed, axes: Axes) -> Part:
+    """Largest and smallest value of each effort, unknown load and reaction, and where."""
+    rows = []
+    for e in extremes(result, to, axes):
+        largest = [number(e.largest), _place_text(result, to, e.most)]
+        rows.append([e.name, e.unit, *largest, number(e.smallest), _place_text(result, to, e.least)])
+    marked = any("*" in cell for row in rows for cell in row[3::2])
+    heads = ["over the positions", "unit", "largest", "at", "smallest", "at"]
+    return Table(heads, rows, 2, "* one side of a reversal" if marked else "") if rows else ""
 
 
 def _place_text(result: Result, to: Printed, position: int) -> str:

@@ -1,0 +1,133 @@
+"""What a notebook shows of each thing: tables with units, what became of the positions, a drawing."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.output.columns import Scale
+from dalembert.arrays import Array
+from dalembert.notebook.html_card import card
+from dalembert.printing import Part, Table, number, with_unit
+
+if TYPE_CHECKING:
+    from dalembert.analysis.batch.compiled_kernel import Kernel
+    from dalembert.analysis.result.result import Result
+    from dalembert.model import Mechanism
+    from dalembert.views.paper.scene import Scene
+    from dalembert.wrench import System
+
+MOST_DRAWN = 60
+"""Links of a mechanism that is drawn beside its tables; a larger one is drawn when asked."""
+MOST_POSITIONS = 2000
+"""Positions along which a card's drawing traces points."""
+
+
+def result_html(r: Result) -> str:
+    """Title, assumptions, tables, statuses as sentences, and the mechanism."""
+    from dalembert.analysis.output.summary.printed_answer import answer_parts, heading
+    from dalembert.views import draw
+
+    _, *lines = heading(r).replace("\n  ", " ").split("\n") if r.mechanism.title else ("", heading(r))
+    drawn = [] if _large(r.mechanism) or len(r.status) > MOST_POSITIONS else [lambda: draw.mechanism(r)]
+    return card(
+        r.mechanism.title or "Result", *lines, *answer_parts(r, more="to_dataframe() has every one"), *drawn
+    )
+
+
+def _large(m: Mechanism) -> bool:
+    return len(m.links) > MOST_DRAWN
+
+
+def mechanism_html(m: Mechanism) -> str:
+    """Links with mass properties, joints, drives and loads, and the drawing at the first position."""
+    to = Scale(m.units)
+    heads = ["link", *(f"{n}\n{to.text(k)}" for n, k in (("mass", "mass"), ("center", "length")))]
+    links = Table([*heads, f"inertia\n{to.text('inertia')}", "points"], [_link(m, n, to) for n in m.links], 1)
+    joints = Table(
+        ["joint", "type", "links"], [[n, j.type, ", ".join(j.links)] for n, j in m.joints.items()], 3
+    )
+    parts: list[Part] = [m.source_text, links, joints]
+    if m.drives:
+        parts.append(
+            Table(["drive", "of joint", "from", "to", "positions"], [_drive(m, n) for n in m.drives], 2)
+        )
+    if m.loads:
+        parts.append(Table(["load", "type"], [[n, load.type] for n, load in m.loads.items()], 2))
+    return card(m.title or "Mechanism", *parts, *([] if _large(m) else [m.draw]))
+
+
+def _link(m: Mechanism, link: str, to: Scale) -> list[str]:
+    center = ", ".join(number(float(to("length", c)), 4) for c in m.center(link))
+    inertia = np.asarray(m.inertia(link) or 0.0, float)
+    size = float(to("inertia", inertia)) if inertia.ndim == 0 else float("nan")
+    shown = number(size, 4) if inertia.ndim == 0 else "matrix"
+    if not m.mass(link):
+        center = ""
+    return [link, number(float(to("mass", m.mass(link))), 4), center, shown, ", ".join(m.points(link))]
+
+
+def _drive(m: Mechanism, name: str) -> list[str]:
+    schedule, to = m.schedule(), Scale(m.units)
+    kind = "angle" if m.drives[name].turns else "length"
+    path = to(kind, schedule.position[:, list(schedule.names).index(name)])
+    ends = [with_unit(float(end), to.text(kind)) for end in path[[0, -1]]]
+    return [name, m.drive_joint(name), *ends, str(len(path))]
+
+
+def first_pose(m: Mechanism, positions: int | None = None) -> Scene:
+    """The mechanism drawn at its first position that closes, with the paths of its points."""
+    from dalembert.analysis import kinematics
+    from dalembert.views import draw
+
+    return draw.mechanism(kinematics(m, positions))
+
+
+def kernel_html(k: Kernel) -> str:
+    """The numbers that vary with their values in the description, the outputs, what is asked of them."""
+    numbers = Table(
+        ["number", "as described, SI"], [[p, number(v)] for p, v in zip(k.numbers, k.nominal, strict=True)]
+    )
+    about = [
+        f"positions: {len(k.trace.course.schedule.position)}",
+        "with inertia" if k.trace.inertia else "static",
+        f"reduced over them: {k.reduce}" if k.reduce else "every position answered",
+        *(["exact derivatives"] if k.derivatives else []),
+        f"{k.lanes} values side by side",
+    ]
+    outputs = f"Outputs: {', '.join(k.outputs)}."
+    return card(f"Kernel of {k.mechanism.title or 'a mechanism'}", "; ".join(about) + ".", numbers, outputs)
+
+
+def system_html(s: System) -> str:
+    """Forces with their points, couples, the sum of all, and the drawing."""
+    from dalembert.views import draw
+    from dalembert.wrench.forces import Couple
+
+    to, axes = Scale(s.units), "xyz"[: s.dimension]
+    units = (to.text("force"), to.text("length"), to.text("moment"))
+    heads = ["part", *(f"F {a}\n{units[0]}" for a in axes), *(f"at {a}\n{units[1]}" for a in axes)]
+    heads += [f"M {a}\n{units[2]}" for a in axes] if s.dimension == 3 else [f"M\n{units[2]}"]
+    blank = [""] * s.dimension
+    rows = []
+    for name, part in zip(s.names, s.parts, strict=True):
+        if isinstance(part, Couple):
+            rows.append([name, *blank, *blank, *_cells(to("moment", part.vector))])
+        else:
+            rows.append([name, *_cells(to("force", part.vector)), *_cells(to("length", part.at)), ""])
+    total = s.reduced()
+    sums = [
+        *_cells(to("force", total.force)),
+        *_cells(to("length", total.at)),
+        *_cells(to("moment", total.vector)),
+    ]
+    rows = [[*row, *[""] * (len(heads) - len(row))] for row in [*rows, ["sum at the origin", *sums]]]
+    words = f"It reduces to: {s.kind()}. {s.equilibrium().sentence}"
+    return card(
+        s.title or "Force system", s.source, Table(heads, rows, 1), words, lambda: draw.force_system(s)
+    )
+
+
+def _cells(vector: Array) -> list[str]:
+    return [number(float(v)) for v in np.ravel(vector)]

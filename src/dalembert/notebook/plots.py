@@ -1,0 +1,131 @@
+"""`r.plot("effort.O2")` and `r.polar("A")`: quantities by name as a drawing, or on axes of matplotlib."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from operator import methodcaller
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from dalembert.analysis.plane_only import refuse_space
+from dalembert.analysis.result.named_quantities import quantity
+from dalembert.analysis.result.reaction_axes import Axes
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.model import GROUND
+from dalembert.views.charts import along, curves_scene, polar_chart, stepped_series
+from dalembert.views.notation import Notation, Shown
+from dalembert.views.only_in_motion import refuse_still
+from dalembert.views.paper.scene import stack_scenes
+from dalembert.wording import closest
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+
+class Curves(NamedTuple):
+    """Curves against one axis, in the units that its labels name."""
+
+    x: Array
+    x_label: str
+    angle: bool
+    series: Mapping[str, Array]
+    y_label: str
+    title: str
+
+    def draw(self, ax: Any = None) -> Any:
+        """A Scene; on axes of matplotlib these axes. Where there is no value the curve has a gap."""
+        if ax is None:
+            return curves_scene(self.x, self.series, self.x_label, self.y_label, self.title, self.angle)
+        for name, curve in self.series.items():
+            ax.plot(self.x, curve, label=name)
+        ax.set(xlabel=self.x_label, ylabel=self.y_label)
+        if len(self.series) > 1:
+            ax.legend()
+        return ax
+
+
+def plot(r: Result, names: Sequence[str], ax: Any, against: str | None, notation: Notation | None) -> Any:
+    """Curves of quantities; those of different kinds in panels of one Scene."""
+    refuse_still(r, "a plot")
+    shown = Shown(r, notation or Notation())
+    x, x_label, angle = along(r, shown) if against is None else _against(r, against, shown)
+    panels: dict[str, dict[str, Array]] = {}
+    for name in names or [*(f"effort.{d}" for d in r.drives), *(f"load.{n}" for n in r.unknown_loads)]:
+        kind = quantity(r, name).kind
+        values = stepped_series(r, methodcaller("__getitem__", name))
+        panels.setdefault(kind, {}).update(_parts(name, values * shown.value(kind, 1.0)))
+    curves = [
+        Curves(x, x_label, angle, series, label(kind, shown.unit(kind)), ", ".join(_whole(series)))
+        for kind, series in panels.items()
+    ]
+    if ax is None:
+        scenes = [one.draw() for one in curves]
+        return scenes[0] if len(scenes) == 1 else stack_scenes(scenes, title=r.mechanism.title, width=0.0)
+    if len(curves) > 1:
+        raise ModelError(f"{' and '.join(panels)} have no unit in common", "give each axes of its own")
+    return curves[0].draw(ax)
+
+
+def _against(r: Result, name: str, shown: Shown) -> tuple[Array, str, bool]:
+    kind, values = quantity(r, name)
+    if values.ndim > 1:
+        raise ModelError(f"{name} is no single number to plot against", f"name a component: {name}.x")
+    stepped = stepped_series(r, methodcaller("__getitem__", name))
+    unit = shown.unit(kind)
+    return stepped * shown.value(kind, 1.0), f"{name} in {unit}", unit == "°"
+
+
+def label(kind: str, unit: str) -> str:
+    """'Angular speed in rad/s'."""
+    word = "Torque" if kind == "moment" else kind.replace("_", " ").capitalize()
+    return f"{word} in {unit}" if unit else word
+
+
+def _parts(name: str, values: Array) -> dict[str, Array]:
+    """Curves of a number, or of a vector's components and its size."""
+    if values.ndim == 1:
+        return {name: values}
+    if values.ndim > 2:
+        raise ModelError(f"{name} is a matrix and no curve", "plot angles or speeds")
+    parts = dict(zip("xyz", values.T, strict=False)) | {"magnitude": np.linalg.norm(values, axis=-1)}
+    return {f"{name}.{part}": curve for part, curve in parts.items()}
+
+
+def _whole(names: Mapping[str, Array]) -> list[str]:
+    """Quantities without their components, each once."""
+    return list(
+        dict.fromkeys(
+            name.removesuffix(".magnitude").removesuffix(".x")
+            for name in names
+            if name[-2:] not in (".y", ".z")
+        )
+    )
+
+
+def polar(r: Result, joints: Sequence[str], axes: Axes, ax: Any, notation: Notation | None) -> Any:
+    """Ends of joint forces over the cycle."""
+    refuse_space(r.mechanism, "a polar diagram", "plot its components: r.plot('reaction.NAME')")
+    refuse_still(r, "a polar diagram")
+    for joint in joints:
+        if joint not in r.joints:
+            raise ModelError(f"there is no joint {joint!r}", closest(joint, list(r.joints)))
+    chosen = list(joints) or [j for j in r.joints if r.mechanism.joints[j].hinge][:6]
+    if ax is None:
+        return polar_chart(r, chosen, axes, notation)
+    shown = Shown(r, notation or Notation())
+    for joint in chosen:
+        i, j = r.mechanism.joints[joint].links
+        on = i if axes == "link" and j == GROUND else j
+        path = stepped_series(r, methodcaller("reaction", joint, on=on, axes=axes))
+        x, y = (path * shown.value("force", 1.0)).T
+        whole = ax.name == "polar"
+        ax.plot(*((np.arctan2(y, x), np.hypot(x, y)) if whole else (x, y)), label=joint)
+    unit = shown.unit("force")
+    if ax.name != "polar":
+        ax.set(xlabel=f"Force x in {unit}", ylabel=f"Force y in {unit}", aspect="equal")
+    else:
+        ax.set(title=f"Force in {unit}")
+    ax.legend()
+    return ax
