@@ -187,8 +187,8 @@ def test_the_grammar_is_named() -> None:
     with pytest.raises(ModelError) as caught:
         Expression("O2.real")
     assert str(caught.value) == (
-        "'O2.real' ends with '.real', which has no place there; an expression is made of numbers, drives' names, pi, "
-        "+ - * / ^, brackets and sin cos tan asin acos atan atan2 sqrt exp log abs sign min max"
+        "'O2.real' ends with '.real', which has no place there; an expression is made of numbers, names of drives "
+        "and parameters, pi, + - * / ^, brackets and sin cos tan asin acos atan atan2 sqrt exp log abs sign min max"
     )
 
 

@@ -20,7 +20,6 @@ from dalembert.model.quantities.values import (
     vector,
     vector_schema,
 )
-from dalembert.units import quantity
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,12 +46,12 @@ class PoseValue(Value):
                 mapping(value, ["position", "axis", "angle"], ""), type(rules)(rules.units, {}, 3)
             )
         if not isinstance(value, (list, tuple)):
-            return quantity(value, "angle", rules.units)
+            return rules.quantity(value, "angle")
         if len(value) != 3:
             raise ModelError(f"a list of {len(value)} is no pose", "write an angle, or [x, y, angle]")
         kinds = ("length", "length", "angle")
         x, y, angle = (
-            at_item(i, quantity, item, kind, rules.units)
+            at_item(i, rules.quantity, item, kind)
             for i, (item, kind) in enumerate(zip(value, kinds, strict=True))
         )
         return x, y, angle
@@ -91,5 +90,5 @@ def _in_space(keys: Mapping[str, object], rules: Reading) -> SpacePose:
     return SpacePose(
         at_item("position", vector, keys.get("position", (0.0, 0.0, 0.0)), "length", rules),
         at_item("axis", _axis, keys.get("axis", (0.0, 0.0, 1.0)), rules),
-        at_item("angle", quantity, keys.get("angle", 0.0), "angle", rules.units),
+        at_item("angle", rules.quantity, keys.get("angle", 0.0), "angle"),
     )

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
-from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
+from pydantic import Field, PrivateAttr, field_validator, model_validator
 
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
@@ -24,43 +25,26 @@ from dalembert.model.links.link import CENTER, GROUND, Link
 from dalembert.model.links.shapes import MassProperties
 from dalembert.model.load_types import Load, SpanLoad
 from dalembert.model.part import Part, Reading
-from dalembert.model.paths import as_in_file, fields, latest, replace_value
-from dalembert.model.quantities.values import JsonSchema, Name, Scalar, Value, Vector, at_item
+from dalembert.model.paths import (
+    as_in_file,
+    fields,
+    latest,
+    parameter_name,
+    replace_value,
+    unused_parameters,
+    used_parameters,
+    with_dependents,
+)
+from dalembert.model.quantities.dependent_numbers import with_new
+from dalembert.model.quantities.parameters import Parameter, change_parameters, read_parameters
+from dalembert.model.quantities.units_and_parameters import ParametersValue, UnitsValue
+from dalembert.model.quantities.values import Name, Scalar, Vector, at_item
 from dalembert.model.stated_answers import Answer
-from dalembert.units import ALSO_CALLED, BASES, KINDS, Units, file_units
+from dalembert.units import Units, file_units
 from dalembert.wording import quote_value
 
 if TYPE_CHECKING:
     from dalembert.views.paper.scene import Scene
-
-
-class UnitsValue(Value):
-    """The file's units."""
-
-    def read(self, value: object, info: ValidationInfo) -> Units:
-        return file_units(value)
-
-    def write(self, value: Units) -> object:
-        return value.tree()
-
-    def json_schema(self) -> JsonSchema:
-        said = {"length": "m", "force": "N", "mass": "kg", "time": "s", "angle": "deg"}
-        return {
-            "type": "object",
-            "properties": {
-                key: {"type": "string", "description": f"unit of bare numbers; default {unit}"}
-                for key, unit in said.items()
-            }
-            | {
-                key: {
-                    "type": "string",
-                    "description": f"unit of bare numbers; default a product of these ({KINDS[kind].si})",
-                }
-                for key, kind in ({kind: kind for kind in KINDS} | ALSO_CALLED).items()
-                if kind not in (*BASES, "number")
-            },
-            "additionalProperties": False,
-        }
 
 
 class Mechanism(Part):
@@ -94,6 +78,10 @@ class Mechanism(Part):
         alias="g",
         description="acceleration by which weights are divided; default gravity's, or 9.80665 m/s^2",
     )
+    parameters: Annotated[Mapping[str, Parameter], ParametersValue()] = Field(
+        default_factory=dict,
+        description="named quantities, expressions of one another, of which any quantity may be an expression",
+    )
     links: dict[Name, Link] = Field(description="the rigid bodies; ground is the fixed one")
     joints: dict[Name, Joint] = Field(default_factory=dict, description="how they are connected")
     drives: dict[Name, Drive] = Field(default_factory=dict, description="what is prescribed")
@@ -109,7 +97,7 @@ class Mechanism(Part):
 
     @classmethod
     def _rules(cls, keys: Mapping[str, object]) -> Reading:
-        return Reading(None, drive_freedoms(keys), 3 if keys.get("space") == "space" else 2)
+        return _reading(keys, None)
 
     @classmethod
     def model_validate(cls, obj: object, *, context: Any = None, **options: Any) -> Self:
@@ -144,6 +132,7 @@ class Mechanism(Part):
         from dalembert.model.plane_checks import problems
 
         found = problems(self)
+        found += unused_parameters(self)
         if found:
             raise together(found)
         return self
@@ -272,14 +261,23 @@ class Mechanism(Part):
         """Another mechanism with some values replaced, each named by its path.
 
         Numbers are SI and radians; texts are read as the file reads them: `"3 @ 30"`, `"[1 in, 20]"`, `"60"` in its
-        units. Raises ModelError for a path that does not exist.
+        units. A parameter goes by its name, and everything that follows from it is computed again; a value that
+        follows from parameters is, once replaced by its own path, a number like others (and a parameter that nothing
+        uses any more is left out). Raises ModelError for a path that does not exist.
         """
-        found, rules = self, self._later_rules()
         given = {path: as_in_file(value, path) for path, value in values.items()}
-        for path, value in given.items():
-            found = replace_value(found, path.split("."), value, rules)
+        named = {path: name for path in given if (name := parameter_name(path, self.parameters))}
+        rules = self._later_rules({name: given[path] for path, name in named.items()})
+        found = self
+        if named:
+            new = {name: p.value for name, p in rules.parameters.items()}
+            found = with_dependents(self, lambda leaf: with_new(leaf, new), rules)
+        for path in given.keys() - named.keys():
+            found = replace_value(found, path.split("."), given[path], rules)
+        rules = replace(rules, parameters=used_parameters(found, rules.parameters))
         changed = Mechanism.model_validate(fields(found), context=rules)
-        changed._source, changed._changes = self._source, latest(self._changes, given)
+        paths = {f"parameters.{named[path]}" if path in named else path: given[path] for path in given}
+        changed._source, changed._changes = self._source, latest(self._changes, paths)
         return changed
 
     @property
@@ -287,11 +285,15 @@ class Mechanism(Part):
         """Path -> value of what `with_values` has replaced since the mechanism was read."""
         return self._changes
 
-    def _later_rules(self) -> Reading:
-        """The rules by which values are read that come later."""
+    def _later_rules(self, parameters: Mapping[str, object]) -> Reading:
+        """The rules by which values are read that come later, with other values of parameters."""
         freedoms = drive_freedoms({"drives": self.drives, "joints": self.joints})
         folder = self._source.folder if self._source else ""
-        return Reading(self.units.of_texts(), freedoms, self.dimension, folder)
+        units = self.units.of_texts()
+        known = (
+            change_parameters(self.parameters, parameters, units, freedoms) if parameters else self.parameters
+        )
+        return Reading(units, freedoms, self.dimension, folder, known)
 
     def to_tree(self) -> Tree:
         """The description as a file's tree, every quantity as text with its SI unit; reads back equal."""
@@ -310,8 +312,14 @@ class Mechanism(Part):
 
 def file_rules(tree: Mapping[str, object], folder: str = "") -> Reading:
     """The rules of a file: its own units, its drives' freedoms, plane or space, and where it is."""
-    units = at_item("units", file_units, tree.get("units", {}))
-    return Reading(units, drive_freedoms(tree), 3 if tree.get("space") == "space" else 2, folder)
+    return _reading(tree, at_item("units", file_units, tree.get("units", {})), folder)
+
+
+def _reading(tree: Mapping[str, object], units: Units | None, folder: str = "") -> Reading:
+    freedoms, given = drive_freedoms(tree), tree.get("parameters") or {}
+    drives = dict.fromkeys((str(name) for name, _ in _items(tree.get("drives"))), "turn") | freedoms
+    known = read_parameters(given, units, drives, Mechanism.keys()) if given else {}
+    return Reading(units, freedoms, 3 if tree.get("space") == "space" else 2, folder, known)
 
 
 def mechanism(tree: Mapping[str, object], source: Source | None = None) -> Mechanism:

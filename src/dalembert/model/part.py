@@ -20,7 +20,9 @@ from pydantic import (
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.files.messages import UnknownKey, translate
-from dalembert.units import Units
+from dalembert.model.quantities.dependent_numbers import Dependent
+from dalembert.model.quantities.parameters import Parameters, of_parameters, refuse_other_names, uses
+from dalembert.units import Units, quantity
 from dalembert.wording import closest, quote_value
 
 
@@ -32,12 +34,30 @@ class Reading:
     freedoms:  of each drive, `turn` or `slide`: whether an angle or a length is meant
     dimension: components of a vector; None takes 2 and 3
     folder:    that other files are named from; empty is the current one
+    parameters: of the file, by name
     """
 
     units: Units | None = None
     freedoms: Mapping[str, str] = field(default_factory=dict)
     dimension: int | None = None
     folder: str = ""
+    parameters: Parameters = field(default_factory=dict)
+
+    def quantity(self, value: object, kind: str) -> float:
+        """The SI value of a number, a text with its unit, or an expression of parameters."""
+        if isinstance(value, Dependent):
+            return value if value.names <= self.parameters.keys() else float(value)
+        if not self.parameters or not isinstance(value, str):
+            return quantity(value, kind, self.units)
+        if uses(value, self.parameters):
+            found = of_parameters(value, kind, self.units, self.parameters, {})
+            assert isinstance(found, float)
+            return found
+        try:
+            return quantity(value, kind, self.units)
+        except ModelError:
+            refuse_other_names(value, self.parameters)
+            raise
 
 
 PYTHON = Reading()

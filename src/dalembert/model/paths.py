@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import dataclasses
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from dalembert.errors import ModelError
 from dalembert.model.part import Part, Reading
+from dalembert.model.quantities.dependent_numbers import Dependent, parameters_of
+from dalembert.model.quantities.expressions import Expression
+from dalembert.model.quantities.parameters import Parameter, Parameters
 from dalembert.wording import closest
 
 
@@ -31,6 +35,95 @@ def replace_value(
     raise ModelError(
         f"the path {'.'.join([*here, *rest])!r} goes into a single value", "leave out its end", walked
     )
+
+
+Leaf = float | Expression
+"""A number, or a quantity that changes along the motion, which follows from parameters."""
+
+
+def dependents(part: object, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Leaf]]:
+    """Path and value of everything in a description that follows from its parameters."""
+    if isinstance(part, Dependent) or (isinstance(part, Expression) and part.parameters):
+        yield path, part
+    for key, value in _inside(part):
+        yield from dependents(value, (*path, key))
+
+
+def with_dependents(
+    part: Any, change: Callable[[Any], Any], rules: Reading | None, walked: tuple[str, ...] = ()
+) -> Any:
+    """The part with `change` of each value that follows from parameters; checked by the rules, if there are any."""
+    if isinstance(part, (Dependent, Expression)):
+        return change(part)
+    new = {}
+    for key, value in _inside(part):
+        found = with_dependents(value, change, rules, (*walked, key))
+        if found is not value:
+            new[key] = found
+    if not new:
+        return part
+    if isinstance(part, Mapping):
+        return {**part, **new}
+    if isinstance(part, tuple):
+        return tuple(new.get(str(i), value) for i, value in enumerate(part))
+    if not isinstance(part, Part):
+        return dataclasses.replace(part, **new)
+    if rules is None or not walked:
+        return part.model_copy(update={_field(part, key, walked): value for key, value in new.items()})
+    try:
+        return type(part).model_validate({**fields(part), **new}, context=rules)
+    except ModelError as error:
+        where = (*walked, *error.path)
+        raise ModelError(f"{'.'.join(walked)}: {error.what}", error.remedy, where) from None
+
+
+def parameter_name(path: str, given: Parameters) -> str:
+    """The parameter that a path names: `r`, `parameters.r` or `parameters.r.value`; empty for another path."""
+    keys = path.split(".")
+    name = keys[1] if keys[0] == "parameters" and len(keys) > 1 else keys[0]
+    whole = keys in ([name], ["parameters", name], ["parameters", name, "value"])
+    if keys[0] == "parameters" and not (whole and name in given):
+        raise ModelError(
+            f"the path {path!r} names no parameter's value", closest(name, list(given)), ("parameters",)
+        )
+    return name if whole and name in given else ""
+
+
+def used_parameters(m: Any, given: Parameters) -> dict[str, Parameter]:
+    """The parameters that something in a description follows from, and those that these follow from."""
+    waiting = {name for _, leaf in dependents(m) for name in parameters_of(leaf)} if given else set()
+    used: set[str] = set()
+    while waiting:
+        used |= waiting
+        waiting = {name for known in waiting for name in parameters_of(given[known].value)} - used
+    return {name: p for name, p in given.items() if name in used}
+
+
+def unused_parameters(m: Any) -> list[ModelError]:
+    """A sentence on each parameter that nothing uses."""
+    used = used_parameters(m, m.parameters)
+    return [
+        ModelError(
+            f"nothing uses the parameter {name!r}",
+            "use it in a quantity, or leave it out",
+            ("parameters", name),
+        )
+        for name in m.parameters
+        if name not in used
+    ]
+
+
+def _inside(part: object) -> Iterable[tuple[str, Any]]:
+    """Keys and values of what may have numbers in it."""
+    if isinstance(part, Part):
+        return [(key, value) for key, value in fields(part).items() if key != "parameters"]
+    if isinstance(part, Mapping):
+        return part.items()
+    if isinstance(part, tuple):
+        return [(str(i), value) for i, value in enumerate(part)]
+    if dataclasses.is_dataclass(part) and not isinstance(part, (type, Expression)):
+        return [(field.name, getattr(part, field.name)) for field in dataclasses.fields(part)]
+    return ()
 
 
 WORDS = ("title", "source", "why")

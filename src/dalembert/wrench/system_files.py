@@ -8,12 +8,13 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import Field, ValidationInfo, model_validator
 
 from dalembert.errors import ModelError
-from dalembert.model.description import UnitsValue, file_rules
+from dalembert.model.description import file_rules
 from dalembert.model.drives.driven_freedoms import refuse_empty
 from dalembert.model.files.model_files import FilePath, read_file, read_text
 from dalembert.model.files.source import Source
 from dalembert.model.load_types import Spot
 from dalembert.model.part import Part, reading
+from dalembert.model.quantities.units_and_parameters import UnitsValue
 from dalembert.model.quantities.values import (
     Components,
     JsonSchema,

@@ -72,7 +72,7 @@ class PositionValue(DriveValue):
             return _range(value, kind, rules)
         if isinstance(value, (list, tuple)):
             return numbers(value, kind, rules)
-        return quantity(value, kind, rules.units)
+        return rules.quantity(value, kind)
 
     def json_schema(self) -> JsonSchema:
         steps = {
@@ -93,7 +93,7 @@ def _range(value: Mapping[str, object], kind: str, rules: Reading) -> Range:
     for key in ("from", "to", "count"):
         if key not in value:
             raise ModelError(f"the key {key!r} is missing", f"write {EXAMPLE}")
-    start, stop = (at_item(key, quantity, value[key], kind, rules.units) for key in ("from", "to"))
+    start, stop = (at_item(key, rules.quantity, value[key], kind) for key in ("from", "to"))
     return Range(start, stop, at_item("count", count, value["count"]))
 
 
@@ -108,7 +108,7 @@ class RateValue(DriveValue):
             return 0.0
         if isinstance(value, (list, tuple)):
             return numbers(value, kind, rules)
-        return quantity(value, kind, rules.units)
+        return rules.quantity(value, kind)
 
     def json_schema(self) -> JsonSchema:
         return {"anyOf": [NUMBER_OR_TEXT, {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 1}]}

@@ -18,7 +18,6 @@ from dalembert.model.quantities.values import (
     numbers,
     value_text,
 )
-from dalembert.units import quantity
 from dalembert.wording import closest, quote_value
 
 RISES = ("harmonic", "cycloidal", "polynomial345")
@@ -135,8 +134,8 @@ def law(value: object, kind: str, rules: Reading) -> Law:
 
 def _rise(value: Mapping[str, object], kind: str, rules: Reading) -> Rise:
     _require(value, ["type", "from", "to", "duration", "count"], EXAMPLES["rise"])
-    start, stop = (at_item(key, quantity, value[key], kind, rules.units) for key in ("from", "to"))
-    duration = at_item("duration", quantity, value["duration"], "time", rules.units)
+    start, stop = (at_item(key, rules.quantity, value[key], kind) for key in ("from", "to"))
+    duration = at_item("duration", rules.quantity, value["duration"], "time")
     at_item("duration", check_sign, duration, value["duration"], "positive")
     return Rise(str(value["type"]), start, stop, duration, at_item("count", count, value["count"], 2))
 

@@ -102,6 +102,8 @@ def _value(
     m: Mechanism, tree: object, dumped: object, keys: list[str], given: object, said: bool = True
 ) -> Iterator[tuple[Path, object]]:
     """A change as paths and values of the tree; `said`: a text given is written as it is."""
+    if keys[0] == "parameters" and len(keys) == 2 and isinstance(_at(tree, tuple(keys), None), Mapping):
+        keys, dumped = [*keys, "value"], _with_values(dumped, keys[1])
     path, old = _path_to_text(tree, keys)
     while keys[len(path) - 1].isdigit() and _at(dumped, path, REMOVED) is REMOVED:  # it is written otherwise
         path, old = path[:-1], _at(tree, path[:-1], None)
@@ -122,6 +124,13 @@ def _value(
         if "inertia" in keys and len(path) == 5:  # a product of inertia stands in two places
             other = (*path[:3], path[4], path[3])
             yield other, _value_text(m, text, _at(dumped, other, given), _at(tree, other, None))
+
+
+def _with_values(dumped: Any, name: str) -> Tree:
+    """The tree with a parameter as a mapping, as its file has it."""
+    said = dumped["parameters"][name]
+    whole_ = said if isinstance(said, Mapping) else {"value": said}
+    return {**dumped, "parameters": {**dumped["parameters"], name: whole_}}
 
 
 def _path_to_text(tree: object, keys: list[str]) -> tuple[Path, object]:

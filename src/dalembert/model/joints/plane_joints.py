@@ -25,7 +25,6 @@ from dalembert.model.quantities.values import (
     numbers,
     value_text,
 )
-from dalembert.units import quantity
 
 
 class TwoNumbers(Value):
@@ -59,7 +58,7 @@ class SlotDamping(Value):
         keys = value if isinstance(value, Mapping) else {"slide": value}
         mapping(keys, ["slide", "turn"], "{slide: 30, turn: 0.2}")
         found = (
-            at_item(key, quantity, keys.get(key, 0.0), kind, rules.units)
+            at_item(key, rules.quantity, keys.get(key, 0.0), kind)
             for key, kind in (("slide", "damping"), ("turn", "torsion_damping"))
         )
         slide, turn = (check_sign(number, number, "not negative") for number in found)

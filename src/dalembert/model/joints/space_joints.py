@@ -24,7 +24,6 @@ from dalembert.model.quantities.values import (
     value_text,
 )
 from dalembert.model.quantities.vectors import cross, dot, unit
-from dalembert.units import quantity
 
 Matrix = tuple[Vector, Vector, Vector]
 """Three axes, a vector each."""
@@ -73,7 +72,7 @@ class Dampings(Value):
         mapping(keys, list(freedoms), f"{{{freedoms[0]}: 0.2}}")
         kinds = {key: "damping" if key.startswith("slide") else "torsion_damping" for key in keys}
         return {
-            key: check_sign(at_item(key, quantity, item, kinds[key], rules.units), item, "not negative")
+            key: check_sign(at_item(key, rules.quantity, item, kinds[key]), item, "not negative")
             for key, item in keys.items()
         }
 

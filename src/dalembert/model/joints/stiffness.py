@@ -17,7 +17,6 @@ from dalembert.model.quantities.values import (
     numbers,
     value_text,
 )
-from dalembert.units import quantity
 
 AXES = ", or [x, y, z] for the joint's own axes (of a joint that turns in two ways those of its link i)"
 
@@ -31,7 +30,7 @@ class Stiffnesses(Value):
     def read(self, value: object, info: ValidationInfo) -> float | tuple[float, ...]:
         rules = reading(info)
         if not isinstance(value, (list, tuple)):
-            return check_sign(quantity(value, self.kind, rules.units), value, "positive")
+            return check_sign(rules.quantity(value, self.kind), value, "positive")
         if rules.dimension == 2 or len(value) != 3:
             what = f"a list of {len(value)} is no stiffness"
             raise ModelError(what, "write one number" + ("" if rules.dimension == 2 else AXES))

@@ -36,7 +36,6 @@ from dalembert.model.quantities.values import (
     vector_schema,
     vector_text,
 )
-from dalembert.units import quantity
 from dalembert.wording import closest, quote_value
 
 CENTER = "center"
@@ -96,7 +95,7 @@ class InertiaValue(Value):
     def read(self, value: object, info: ValidationInfo) -> Inertia:
         rules = reading(info)
         if not isinstance(value, (list, tuple)):
-            return check_sign(quantity(value, "inertia", rules.units), value, "not negative")
+            return check_sign(rules.quantity(value, "inertia"), value, "not negative")
         if rules.dimension == 2:
             remedy = "in the plane, write inertia: 0.02; in space, space: space at the top"
             raise ModelError(f"{quote_value(value)} stands where one number is needed", remedy)

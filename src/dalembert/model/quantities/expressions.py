@@ -4,7 +4,9 @@ sum     = product {("+" | "-") product}
 product = sign {("*" | "/") sign}
 sign    = {"+" | "-"} power
 power   = atom [("^" | "**") sign]          the exponent: a number from -16 to 16, without drives
-atom    = NUMBER | "pi" | DRIVE | FUNCTION "(" sum {"," sum} ")" | "(" sum ")"
+atom    = NUMBER | "pi" | NAME | FUNCTION "(" sum {"," sum} ")" | "(" sum ")"
+
+NAME is a drive or a parameter of the file; in an expression of parameters a NUMBER may have a unit: `r + 5 mm`.
 """
 
 from __future__ import annotations
@@ -12,17 +14,17 @@ from __future__ import annotations
 import math
 import operator
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
-from dalembert.unit_names import unit
+from dalembert.unit_names import NONE, SYMBOLS, unit
 from dalembert.wording import closest, quote_value
 
 GRAMMAR = (
-    "an expression is made of numbers, drives' names, pi, + - * / ^, brackets and sin cos tan asin acos atan "
-    "atan2 sqrt exp log abs sign min max"
+    "an expression is made of numbers, names of drives and parameters, pi, + - * / ^, brackets and sin cos tan asin "
+    "acos atan atan2 sqrt exp log abs sign min max"
 )
 ARGUMENTS = dict.fromkeys(
     ["sin", "cos", "tan", "asin", "acos", "atan", "sqrt", "exp", "log", "abs", "sign"], 1
@@ -50,7 +52,11 @@ RANKS = {"+": 1, "-": 1, "*": 2, "/": 2, "^": 4}
 
 @dataclass(frozen=True, slots=True)
 class Number:
+    """A number, in SI where it was written with a unit; `dimension` is that of its unit, `pi` may be an angle."""
+
     value: float
+    text: str = ""
+    dimension: tuple[float, float, float, float | None] = NONE
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,10 +85,13 @@ class Expression:
 
     text: str
     unit: str = ""
+    parameters: tuple[tuple[str, Numeric], ...] | None = field(default=None, repr=False)
+    """The parameters it uses and their SI values; with them a number may have a unit."""
     tree: Tree = field(init=False, compare=False, repr=False)
 
     def __post_init__(self) -> None:
-        tree, rest = parse_expression(self.text)
+        known = None if self.parameters is None else [name for name, _ in self.parameters]
+        tree, rest = parse_expression(self.text, known)
         if rest:
             raise ModelError(
                 f"{quote_value(self.text)} ends with {quote_value(rest)}, which has no place there", GRAMMAR
@@ -97,11 +106,12 @@ class Expression:
     @property
     def names(self) -> frozenset[str]:
         """The drives it uses."""
-        return frozenset(node.name for node in nodes(self.tree) if isinstance(node, Name))
+        return names_in(self.tree) - {name for name, _ in self.parameters or ()}
 
     def at(self, drives: Mapping[str, Numeric], functions: Functions | None = None) -> Numeric:
         """The SI value at the drives' positions; `functions` replaces numpy's, for values of another kind."""
         scale = unit(self.unit) if self.unit else None
+        drives = {**drives, **dict(self.parameters)} if self.parameters else drives
         value = evaluate(self.tree, drives, functions) if functions else self._of_numbers(drives)
         return value if scale is None else scale.si(value)
 
@@ -162,6 +172,11 @@ def _apply(sign: str, a: Numeric, b: Numeric) -> Numeric:
     return OPERATORS[sign](a, b)
 
 
+def names_in(tree: Tree) -> frozenset[str]:
+    """The names of drives and parameters in a tree."""
+    return frozenset(node.name for node in nodes(tree) if isinstance(node, Name))
+
+
 def nodes(tree: Tree) -> Iterator[Tree]:
     """The tree and everything in it."""
     yield tree
@@ -177,7 +192,7 @@ def expression_text(tree: Tree, rank: int = 0) -> str:
     '2*(O2 + 1)^2'
     """
     if isinstance(tree, Number):
-        return (
+        return tree.text or (
             format(tree.value, ".17g")
             if tree.value != round(tree.value, 12)
             else repr(tree.value).removesuffix(".0")
@@ -203,13 +218,20 @@ _TOKEN = re.compile(
 )
 
 
-def parse_expression(text: str) -> tuple[Tree, str]:
-    """The tree of the longest expression that the text begins with, and the text left over."""
+_UNIT = re.compile(r"\s*([^\W\d_]+|[°%])(\s*(?:\^|\*\*)\s*-?[1-6])?")
+_MORE = re.compile(r"\s*[*/·]" + _UNIT.pattern + r"(?!\w|\s*\()")
+
+
+def parse_expression(text: str, parameters: Iterable[str] | None = None) -> tuple[Tree, str]:
+    """The tree of the longest expression that the text begins with, and the text left over.
+
+    With `parameters`, names or none, a number may have a unit behind it.
+    """
     if len(text) > LONGEST:
         raise ModelError(
             f"an expression of {len(text)} characters is too long", f"at most {LONGEST}; use a table instead"
         )
-    parser = _Parser(text.replace("\u2212", "-"))
+    parser = _Parser(text.replace("\u2212", "-"), None if parameters is None else frozenset(parameters))
     tree = parser.sum(0)
     return tree, text[parser.place :].strip()
 
@@ -217,8 +239,9 @@ def parse_expression(text: str) -> tuple[Tree, str]:
 class _Parser:
     """Recursive descent over the grammar at the head of this file."""
 
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, parameters: frozenset[str] | None) -> None:
         self.text, self.place, self.operations = text, 0, 0
+        self.parameters = parameters
 
     def peek(self) -> re.Match[str] | None:
         return _TOKEN.match(self.text, self.place)
@@ -284,10 +307,28 @@ class _Parser:
             raise self.refusal()
         self.place = match.end()
         if match["number"]:
-            return Number(_finite(match["number"]))
+            return self.number(match["number"])
         if match["sign"]:
             return self.close_bracket(self.sum(depth + 1))
         return self.parse_name(match["name"], depth)
+
+    def number(self, digits: str) -> Number:
+        """A number, with the unit behind it in an expression of parameters."""
+        value, start = _finite(digits), self.place
+        match = _UNIT.match(self.text, start) if self.parameters is not None else None
+        if match is None or self.parameters is None:
+            return Number(value)
+        if match[1] in self.parameters:
+            raise ModelError(
+                f"{quote_value(self.text)} has a number beside the parameter {match[1]!r}",
+                f"write {digits}*{match[1]}",
+            )
+        while match and (match.start() == start or match[1] in SYMBOLS):
+            self.place = match.end()
+            match = _MORE.match(self.text, self.place)
+        name = self.text[start : self.place].strip()
+        named = unit(name)
+        return Number(named.si(value), f"{digits} {name}", named.dimension)
 
     def parse_name(self, name: str, depth: int) -> Tree:
         call = self.sign_among(("(",))
@@ -296,7 +337,7 @@ class _Parser:
         if call:
             return self.parse_call(name, depth)
         if name in CONSTANTS:
-            return Number(CONSTANTS[name])
+            return Number(CONSTANTS[name], name if self.parameters is not None else "", (0, 0, 0, None))
         if name in ARGUMENTS:
             raise ModelError(f"the function {name} stands without its brackets", f"write {name}(...)")
         if "__" in name:

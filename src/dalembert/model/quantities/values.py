@@ -12,10 +12,12 @@ from pydantic_core import CoreSchema, core_schema
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.part import Reading, reading
+from dalembert.model.quantities.dependent_numbers import Dependent, dependent_text, polar_components
 from dalembert.model.quantities.expressions import parse_expression
 from dalembert.model.quantities.figures import FILE_UNITS, in_units, plain, plain_vector, unit_vector, whole
+from dalembert.model.quantities.parameters import uses
 from dalembert.unit_names import unit
-from dalembert.units import KINDS, NUMBER, quantity, text
+from dalembert.units import KINDS, NUMBER, text
 from dalembert.wording import quote_value
 
 Vector = tuple[float, ...]
@@ -60,7 +62,7 @@ class Scalar(Value):
         self.kind, self.sign = kind, sign
 
     def read(self, value: object, info: ValidationInfo) -> float:
-        return check_sign(quantity(value, self.kind, reading(info).units), value, self.sign)
+        return check_sign(reading(info).quantity(value, self.kind), value, self.sign)
 
     def write(self, value: float) -> object:
         return value_text(value, self.kind)
@@ -83,6 +85,8 @@ def check_sign(number: float, value: object, sign: str) -> float:
 def value_text(number: float, kind: str) -> object:
     """The number with its SI unit as text, or as a file in the units of the moment has it; a plain number as it is."""
     units = FILE_UNITS.get()
+    if isinstance(number, Dependent):
+        return dependent_text(number, kind)
     if units is None:
         return text(number, kind) if KINDS[kind].si else number
     return plain(number, kind, units) if KINDS[kind].si else whole(number)
@@ -91,7 +95,12 @@ def value_text(number: float, kind: str) -> object:
 def vector_text(vector: Vector, kind: str) -> object:
     """The components, or polar text, as `value_text` has them."""
     units = FILE_UNITS.get()
-    return [value_text(x, kind) for x in vector] if units is None else plain_vector(vector, kind, units)
+    dependent = any(isinstance(x, Dependent) for x in vector)
+    return (
+        [value_text(x, kind) for x in vector]
+        if units is None or dependent
+        else plain_vector(vector, kind, units)
+    )
 
 
 class Components(Value):
@@ -134,11 +143,13 @@ def vector(value: object, kind: str, rules: Reading) -> Vector:
     """
     if isinstance(value, str) and "@" in value:
         radius, angle = polar(value, kind, rules)
+        size = rules.quantity(radius, kind)
+        if isinstance(size, Dependent) or isinstance(angle, Dependent):
+            return polar_components(size, angle, kind)
         x, y = unit_vector(angle)
-        size = quantity(radius, kind, rules.units)
         return size * x, size * y
     items = check_vector(value, rules, "[x, y] or polar text r @ angle")
-    return tuple(at_item(i, quantity, item, kind, rules.units) for i, item in enumerate(items))
+    return tuple(at_item(i, rules.quantity, item, kind) for i, item in enumerate(items))
 
 
 def at_item(index: int | str, function: Callable[..., T], *arguments: object) -> T:
@@ -176,15 +187,17 @@ def polar(value: str, kind: str, rules: Reading) -> tuple[str, float]:
             f"{quote_value(value)} is no polar vector", "write r @ angle, for example 3 @ 30 deg"
         )
     match = re.fullmatch(rf"({NUMBER})\s*(.*)", angle.replace("\u2212", "-"))
+    if uses(angle, rules.parameters):
+        return radius, rules.quantity(angle, "angle")
     if match and match[2] and unit(match[2]).dimension == KINDS[kind].dimension:
         if not re.fullmatch(NUMBER, radius) and parse_expression(radius)[1]:
             raise ModelError(
                 f"{quote_value(value)} has two units of {KINDS[kind].phrase[2:].strip()}",
                 "leave one of them out",
             )
-        return f"{radius} {match[2]}", quantity(match[1], "angle", rules.units)
+        return f"{radius} {match[2]}", rules.quantity(match[1], "angle")
     try:
-        return radius, quantity(angle, "angle", rules.units)
+        return radius, rules.quantity(angle, "angle")
     except ModelError:
         if match is None:
             raise
@@ -200,7 +213,7 @@ def numbers(value: object, kind: str, rules: Reading) -> tuple[float, ...]:
         raise ModelError(f"{quote_value(value)} stands where a list is needed", "write [..., ...]")
     if not value:
         raise ModelError("an empty list stands where values are needed", "write [..., ...]")
-    return tuple(at_item(i, quantity, item, kind, rules.units) for i, item in enumerate(value))
+    return tuple(at_item(i, rules.quantity, item, kind) for i, item in enumerate(value))
 
 
 def name(value: object) -> str:

@@ -9,8 +9,10 @@ from collections.abc import Mapping
 from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
 from dalembert.model.part import Reading, mapping
+from dalembert.model.quantities.dependent_numbers import expression_with_unit
 from dalembert.model.quantities.expressions import Expression, Functions, parse_expression
 from dalembert.model.quantities.figures import FILE_UNITS
+from dalembert.model.quantities.parameters import of_parameters, uses
 from dalembert.model.quantities.tables import SLACK, Table
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
@@ -65,15 +67,17 @@ def varying(value: object, kind: str, rules: Reading) -> Varying:
     >>> varying("2*sin(O2) kN", "force", Reading())
     Expression(text='2*sin(O2)', unit='kN')
     """
-    if isinstance(value, Expression) and (value.unit or KINDS[kind].si):
+    if isinstance(value, Expression) and value.parameters is None and (value.unit or KINDS[kind].si):
         check_unit(value.unit, kind)
     if isinstance(value, (Expression, Table)):
         return value
     if isinstance(value, Mapping):
         return _map_values(value, kind, rules)
+    if uses(value, rules.parameters):
+        return of_parameters(str(value), kind, rules.units, rules.parameters, rules.freedoms)
     if isinstance(value, str) and _is_expression(value):
         return expression(value, kind, rules)
-    return quantity(value, kind, rules.units)
+    return rules.quantity(value, kind)
 
 
 def _is_expression(value: str) -> bool:
@@ -149,7 +153,7 @@ def _period(value: object, along: str, x: tuple[float, ...], rules: Reading) -> 
     if value is False:
         return None
     if value is not True:
-        return quantity(value, along, rules.units)
+        return rules.quantity(value, along)
     span = x[-1] - x[0]
     if along == "length":
         return span
@@ -159,6 +163,8 @@ def _period(value: object, along: str, x: tuple[float, ...], rules: Reading) -> 
 
 def varying_tree(value: Varying, kind: str) -> object:
     """The value as it stands in a file, in SI, units said."""
+    if isinstance(value, Expression) and value.parameters is not None:
+        return expression_with_unit(value, kind)
     if isinstance(value, Expression):
         units = FILE_UNITS.get()
         if units is not None and _is_expression(value.text):

@@ -1,0 +1,93 @@
+"""Numbers that follow from parameters by an expression, which they keep."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from dalembert.arrays import Numeric
+from dalembert.model.quantities.expressions import Expression, Functions, Name, names_in
+from dalembert.model.quantities.figures import FILE_UNITS, unit_vector
+from dalembert.units import KINDS
+
+
+class Dependent(float):
+    """A number that follows from parameters by an expression; in all else the number itself.
+
+    >>> r = Dependent(Expression("2*r", parameters=(("r", 0.045),)))
+    >>> r, r.expression.text
+    (0.09, '2*r')
+    """
+
+    __slots__ = ("expression",)
+    expression: Expression
+
+    def __new__(cls, expression: Expression) -> Dependent:
+        found = super().__new__(cls, float(expression.at({})))
+        found.expression = expression
+        return found
+
+    def __reduce__(self) -> tuple[type[Dependent], tuple[Expression]]:
+        return Dependent, (self.expression,)
+
+    @property
+    def names(self) -> frozenset[str]:
+        """The parameters it follows from."""
+        return names_in(self.expression.tree)
+
+
+def dependent_text(number: Dependent, kind: str = "") -> str:
+    """The expression that a number follows from, as it stands in a file."""
+    return expression_with_unit(number.expression, kind)
+
+
+def expression_with_unit(e: Expression, kind: str = "") -> str:
+    """An expression of parameters, with a unit where it has one that is not the file's."""
+    units = FILE_UNITS.get()
+    bare = not e.unit or (units is not None and kind != "" and e.unit == units.text(kind))
+    return e.text if bare else f"({e.text}) {e.unit}"
+
+
+def polar_components(size: float, angle: float, kind: str) -> tuple[float, float]:
+    """The components of a vector of which the length or the angle follows from parameters."""
+    used = [part.expression.parameters or () for part in (size, angle) if isinstance(part, Dependent)]
+    given = tuple(dict(pair for pairs in used for pair in pairs).items())
+    length, turn, found = _factor(size, kind), _factor(angle, "angle"), list[float]()
+    for function, known in zip(("cos", "sin"), unit_vector(angle), strict=True):
+        if isinstance(angle, Dependent):
+            found.append(Dependent(Expression(f"{length}*{function}({turn})", "", given)))
+        elif known in (0.0, 1.0):
+            found.append(size if known else 0.0)
+        else:
+            found.append(Dependent(Expression(f"{length}*{known!r}", "", given)))
+    return found[0], found[1]
+
+
+def _factor(number: float, kind: str) -> str:
+    """A number as a factor of an expression of parameters."""
+    if not isinstance(number, Dependent):
+        return f"{number!r} {KINDS[kind].si}"
+    e = number.expression
+    text = e.text if isinstance(e.tree, Name) else f"({e.text})"
+    return f"{text}*1 {e.unit}" if e.unit else text
+
+
+def parameters_of(value: object) -> tuple[str, ...]:
+    """The parameters that a value follows from by its own expression."""
+    e = value.expression if isinstance(value, Dependent) else value
+    return tuple(name for name, _ in e.parameters or ()) if isinstance(e, Expression) else ()
+
+
+def with_new(leaf: Any, values: Mapping[str, Numeric], functions: Functions | None = None) -> Any:
+    """A number or expression that follows from parameters with their new values; any other as it is.
+
+    With `functions`, those of symbols, a number becomes the value they give.
+    """
+    e = leaf.expression if isinstance(leaf, Dependent) else leaf
+    if not isinstance(e, Expression) or not e.parameters or all(values[n] is v for n, v in e.parameters):
+        return leaf
+    new = replace(e, parameters=tuple((n, values[n]) for n, _ in e.parameters))
+    if leaf is e:
+        return new
+    return new.at({}, functions) if functions else Dependent(new)

@@ -1,0 +1,342 @@
+"""Named parameters of a file, and the numbers that follow from them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+
+from dalembert.arrays import Numeric
+from dalembert.errors import ModelError
+from dalembert.model.quantities.dependent_numbers import Dependent, dependent_text, with_new
+from dalembert.model.quantities.dimensions import (
+    OF_TURN,
+    Powers,
+    dimension,
+    is_bare,
+    kind_of_dimension,
+    phrase,
+    si_unit,
+)
+from dalembert.model.quantities.expressions import (
+    ARGUMENTS,
+    CONSTANTS,
+    Expression,
+    Functions,
+    names_in,
+    parse_expression,
+)
+from dalembert.model.quantities.figures import shortest, whole
+from dalembert.unit_names import NONE, ONE, SYMBOLS, unit
+from dalembert.units import KINDS, NUMBER, REFUSED_BARE, Units, check_unit, quantity
+from dalembert.wording import closest, quote_value
+
+RESERVED = ("none", "standard", "unknown", "nan", "inf", "infinity")
+"""Words that mean something else where a quantity stands."""
+KEYS = ("value", "about", "range")
+_WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """A named quantity of a file.
+
+    value:     SI; of an expression of other parameters a number that keeps the expression
+    dimension: powers of length, mass, time and angle
+    unit:      the unit it was written in; of an expression the file's
+    about:     what it is, in words
+    range:     between which values it makes sense, SI
+    """
+
+    value: float
+    dimension: Powers
+    unit: str = ""
+    about: str = ""
+    range: tuple[float, float] | None = None
+
+    @property
+    def kind(self) -> str | None:
+        """The kind of quantity it is, such as `length`; None where it has no name of its own."""
+        return kind_of_dimension(self.dimension)
+
+    def in_unit(self, number: float | None = None) -> float:
+        """Its value, or another SI number, in its own unit.
+
+        >>> Parameter(0.045, (1, 0, 0, 0), "mm").in_unit()
+        45.0
+        """
+        number = self.value if number is None else number
+        return unit(self.unit).of_si(number) if self.unit else float(number)
+
+    def tree(self) -> object:
+        """As it stands in a file."""
+        value = dependent_text(self.value) if isinstance(self.value, Dependent) else self._text(self.value)
+        beside = {"about": self.about} if self.about else {}
+        ends = {"range": [self._text(x) for x in self.range]} if self.range else {}
+        return {"value": value, **beside, **ends} if beside or ends else value
+
+    def _text(self, number: float) -> object:
+        found = shortest(number, unit(self.unit)) if self.unit else whole(number)
+        if found is None:
+            return f"{number!r} {si_unit(self.dimension)}"
+        return f"{found} {self.unit}" if self.unit else found
+
+
+Parameters = Mapping[str, Parameter]
+
+
+def uses(value: object, names: Mapping[str, object]) -> bool:
+    """Whether a text has one of the names in it."""
+    return isinstance(value, str) and any(word in names for word in _WORD.findall(value))
+
+
+def of_parameters(
+    text: str, kind: str, units: Units | None, given: Parameters, drives: Mapping[str, str]
+) -> float | Expression:
+    """The number that an expression of parameters gives; with drives in it, the expression.
+
+    A plain number that it comes to is in the file's unit, as a bare number is. Raises ModelError where it is another
+    kind of quantity.
+    """
+    found, of = _read(text, given, drives)
+    if found.unit:
+        check_unit(found.unit, kind)
+    elif is_bare(of, kind, text):
+        if units is not None and units.refuses_bare(kind):
+            raise ModelError(
+                f"{quote_value(text)} is {KINDS[kind].phrase} without a unit",
+                f"write ({text}) with its unit behind it: {REFUSED_BARE[kind]}",
+            )
+        found = replace(found, unit=units.text(kind) if units else KINDS[kind].si)
+    return found if found.names else Dependent(found)
+
+
+def _read(text: str, given: Parameters, drives: Mapping[str, str]) -> tuple[Expression, Powers | None]:
+    """An expression and its dimension; a unit behind it is that of a plain number."""
+    tree, rest = parse_expression(text, given)
+    names = names_in(tree)
+    refuse_unknown(text, names, given, drives)
+    of = dimension(
+        tree, {n: p.dimension for n, p in given.items()} | {n: OF_TURN[d] for n, d in drives.items()}
+    )
+    if rest and re.match(r"[^\W\d]|[°%]", rest):
+        named = unit(rest)
+        text = text.strip()[: -len(rest)].strip()
+        if of is not None and (any(of[:3]) or of[3]):
+            raise ModelError(
+                f"{quote_value(text)} is {phrase(of)} by itself, and has the unit {rest!r} behind it",
+                "leave the unit out",
+            )
+        return _expression(text, given, rest), named.dimension
+    return _expression(text, given), of
+
+
+def _expression(text: str, given: Parameters, name: str = "") -> Expression:
+    names = sorted(set(_WORD.findall(text)) & given.keys())
+    return Expression(text, name, tuple((name, given[name].value) for name in names))
+
+
+def refuse_unknown(
+    text: object, names: frozenset[str], given: Mapping[str, object], drives: Mapping[str, str]
+) -> None:
+    """Raise ModelError for a name in an expression that is neither a parameter nor a drive."""
+    for name in sorted(names - {*given, *drives}):
+        raise ModelError(
+            f"{quote_value(text)} uses {name!r}, which is no parameter", closest(name, [*given, *drives])
+        )
+
+
+def refuse_other_names(text: str, given: Parameters) -> None:
+    """Raise ModelError where a text is an expression, of names that are no parameters."""
+    try:
+        names = names_in(parse_expression(text, given)[0])
+    except ModelError:
+        return
+    refuse_unknown(text, names, given, {})
+
+
+def read_parameters(
+    tree: object, units: Units | None, drives: Mapping[str, str], keys: Sequence[str] = ()
+) -> dict[str, Parameter]:
+    """The parameters that a file's `parameters` says.
+
+    keys: the file's own, which no parameter may be called. Raises ModelError for a cycle, an unknown name, a name
+    that means something else, and quantities that do not fit together.
+
+    >>> found = read_parameters({"area": "pi*bore^2/4", "bore": "80 mm"}, None, {})
+    >>> found["area"].value, found["area"].unit, found["bore"].in_unit()
+    (0.005026548245743669, 'm^2', 80.0)
+    """
+    if not isinstance(tree, Mapping):
+        raise ModelError(
+            f"{quote_value(tree)} stands where a mapping is needed", "write {r: 45 mm}", ("parameters",)
+        )
+    found: dict[str, Parameter] = {}
+    for name in tree:
+        with _parameter_path(name):
+            _check_name(name, drives, keys)
+    for name in tree:
+        _resolve(name, tree, units, found, ())
+    return {name: found[name] for name in tree}
+
+
+@contextmanager
+def _parameter_path(name: object) -> Iterator[None]:
+    """What is wrong inside is wrong with the parameter."""
+    try:
+        yield
+    except ModelError as error:
+        path = ("parameters", str(name), *error.path)
+        raise ModelError(f"parameter {name!r}: {error.what}", error.remedy, path) from None
+
+
+def _check_name(name: object, drives: Mapping[str, str], keys: Sequence[str]) -> None:
+    means = {
+        **dict.fromkeys(RESERVED, "a word of the file"),
+        **dict.fromkeys(keys, "a key of the file"),
+        **dict.fromkeys(SYMBOLS, "a unit"),
+        **dict.fromkeys(ARGUMENTS, "a function"),
+        **dict.fromkeys(CONSTANTS, "a constant"),
+        **dict.fromkeys(drives, "a drive"),
+    }
+    if not isinstance(name, str) or not re.fullmatch(r"[^\W\d]\w*", name) or "__" in name:
+        raise ModelError(
+            "it has no name for an expression", "write a word of letters, digits and _, as in rod_length"
+        )
+    if name in means:
+        raise ModelError(f"its name is that of {means[name]}", f"call it otherwise, for example {name}_1")
+
+
+def _resolve(
+    name: str,
+    tree: Mapping[str, object],
+    units: Units | None,
+    found: dict[str, Parameter],
+    way: tuple[str, ...],
+) -> None:
+    """Find a parameter, after those it follows from."""
+    if name in found:
+        return
+    if name in way:
+        with _parameter_path(name):
+            circle = " from ".join([*way[way.index(name) :], name])
+            raise ModelError(f"it follows from itself: {circle}", "give one of them a value")
+    for other in _WORD.findall(_text(tree[name])):
+        if other in tree:
+            _resolve(other, tree, units, found, (*way, name))
+    with _parameter_path(name):
+        found[name] = _parameter(tree[name], units, found, tree)
+
+
+def _text(said: object) -> str:
+    """The expression that a parameter may be."""
+    if isinstance(said, Parameter):
+        return said.value.expression.text if isinstance(said.value, Dependent) else ""
+    text = said.get("value") if isinstance(said, Mapping) else said
+    return text if isinstance(text, str) else ""
+
+
+def _parameter(said: object, units: Units | None, found: Parameters, tree: Mapping[str, object]) -> Parameter:
+    if isinstance(said, Parameter):
+        return replace(said, value=with_new(said.value, values_of(found, {})))
+    if not isinstance(said, Mapping):
+        return _value(said, units, found, tree)
+    for key in said:
+        if key not in KEYS:
+            raise ModelError(f"there is no key {quote_value(key)}", closest(str(key), list(KEYS)), (key,))
+    if "value" not in said:
+        raise ModelError("the key 'value' is missing", "write {value: 45 mm, about: ...}")
+    try:
+        of = _value(said["value"], units, found, tree)
+    except ModelError as error:
+        raise ModelError(error.what, error.remedy, ("value",)) from None
+    if not isinstance(about := said.get("about", ""), str):
+        raise ModelError(f"{quote_value(about)} is no text", "put it in quotes", ("about",))
+    return replace(of, about=about, range=_range(said.get("range"), of, units))
+
+
+def _value(said: object, units: Units | None, found: Parameters, tree: Mapping[str, object]) -> Parameter:
+    if not isinstance(said, str):
+        return Parameter(quantity(said, "number"), NONE)
+    match = re.fullmatch(rf"\s*((?>{NUMBER}))\s*(|[^\W\d].*|[°%].*)\s*", said.replace("\u2212", "-"))
+    if match and not uses(match[2], tree):
+        try:
+            named = unit(match[2].strip()) if match[2] else ONE
+        except ModelError:
+            if re.fullmatch(r"[\w°%]*", match[2]):
+                raise
+        else:
+            return Parameter(named.si(float(match[1])), named.dimension, match[2].strip())
+    refuse_unknown(said, names_in(parse_expression(said, tree)[0]), tree, {})
+    expression, of = _read(said, found, {})
+    of = of or NONE
+    kind = kind_of_dimension(of)
+    name = expression.unit or (si_unit(of) if not kind else units.text(kind) if units else KINDS[kind].si)
+    return Parameter(Dependent(expression), of, name)
+
+
+def _range(said: object, of: Parameter, units: Units | None) -> tuple[float, float] | None:
+    if said is None:
+        return None
+    example = f"write range: [{of._text(of.value / 2)}, {of._text(of.value * 2)}]"
+    if not isinstance(said, (list, tuple)) or len(said) != 2:
+        raise ModelError(f"{quote_value(said)} is no range", example, ("range",))
+    low, high = (_like(_value(x, units, {}, {}), x, of, units).value for x in said)
+    if not low < high:
+        raise ModelError("a range is two increasing values", example, ("range",))
+    return low, high
+
+
+def _like(new: Parameter, said: object, of: Parameter, units: Units | None) -> Parameter:
+    """A new value of a parameter, of the same dimension; a bare number is in the file's unit."""
+    a, b = new.dimension, of.dimension
+    if a[:3] == b[:3] and (a[3] == b[3] or None in (a[3], b[3])):
+        return new
+    if not any(a) and of.kind and not isinstance(new.value, Dependent):
+        return replace(of, value=quantity(said, of.kind, units))
+    raise ModelError(
+        f"{quote_value(said)} is {phrase(a)}, and {phrase(b)} is needed",
+        f"write for example {of._text(of.value)}",
+    )
+
+
+def change_parameters(
+    given: Parameters, changes: Mapping[str, object], units: Units, drives: Mapping[str, str]
+) -> dict[str, Parameter]:
+    """The parameters with other values for some: numbers in SI, or texts as the file has them."""
+    tree: dict[str, object] = dict(given)
+    for name, value in changes.items():
+        if name not in given:
+            raise ModelError(f"there is no parameter {name!r}", closest(name, list(given)), ("parameters",))
+        tree[name] = value if isinstance(value, str) else replace(given[name], value=_finite(name, value))
+    found = read_parameters(tree, units, drives)
+    for name, value in changes.items():
+        if isinstance(value, str):
+            with _parameter_path(name):
+                of = given[name]
+                found[name] = replace(_like(found[name], value, of, units), about=of.about, range=of.range)
+    return read_parameters(found, units, drives)
+
+
+def _finite(name: str, value: object) -> float:
+    with _parameter_path(name):
+        return quantity(value, "number")
+
+
+def values_of(
+    given: Parameters, changes: Mapping[str, Numeric], functions: Functions | None = None
+) -> dict[str, Numeric]:
+    """SI values of all parameters where some have other ones, numbers or symbols."""
+    found = dict(changes)
+
+    def value(name: str) -> Numeric:
+        if name not in found:
+            own = given[name].value
+            if isinstance(own, Dependent):
+                needed = {n: value(n) for n, _ in own.expression.parameters or ()}
+                own = with_new(own, needed, functions)
+            found[name] = own
+        return found[name]
+
+    return {name: value(name) for name in given}

@@ -1,0 +1,68 @@
+"""What a file says before its parts: units of bare numbers, and named parameters."""
+
+from __future__ import annotations
+
+from pydantic import ValidationInfo
+
+from dalembert.model.part import reading
+from dalembert.model.quantities.parameters import Parameters
+from dalembert.model.quantities.values import NUMBER_OR_TEXT, JsonSchema, Value
+from dalembert.units import ALSO_CALLED, BASES, KINDS, Units, file_units
+
+
+class UnitsValue(Value):
+    """The file's units."""
+
+    def read(self, value: object, info: ValidationInfo) -> Units:
+        return file_units(value)
+
+    def write(self, value: Units) -> object:
+        return value.tree()
+
+    def json_schema(self) -> JsonSchema:
+        said = {"length": "m", "force": "N", "mass": "kg", "time": "s", "angle": "deg"}
+        return {
+            "type": "object",
+            "properties": {
+                key: {"type": "string", "description": f"unit of bare numbers; default {unit}"}
+                for key, unit in said.items()
+            }
+            | {
+                key: {
+                    "type": "string",
+                    "description": f"unit of bare numbers; default a product of these ({KINDS[kind].si})",
+                }
+                for key, kind in ({kind: kind for kind in KINDS} | ALSO_CALLED).items()
+                if kind not in (*BASES, "number")
+            },
+            "additionalProperties": False,
+        }
+
+
+class ParametersValue(Value):
+    """The file's parameters, which were read before anything else."""
+
+    def read(self, value: object, info: ValidationInfo) -> Parameters:
+        return reading(info).parameters
+
+    def write(self, value: Parameters) -> object:
+        return {name: parameter.tree() for name, parameter in value.items()}
+
+    def json_schema(self) -> JsonSchema:
+        said = {
+            "type": "object",
+            "properties": {
+                "value": NUMBER_OR_TEXT | {"description": "a quantity, or an expression of other parameters"},
+                "about": {"type": "string", "description": "what it is"},
+                "range": {
+                    "type": "array",
+                    "items": NUMBER_OR_TEXT,
+                    "minItems": 2,
+                    "maxItems": 2,
+                    "description": "between which values it makes sense",
+                },
+            },
+            "required": ["value"],
+            "additionalProperties": False,
+        }
+        return {"type": "object", "additionalProperties": {"anyOf": [NUMBER_OR_TEXT, said]}}
