@@ -42,8 +42,9 @@ MAY_IMPORT = {
     "views.symbols": SHOWN | {"views.paper", "views.space", "views.symbols"},
     "reports": SHOWN | {"views", "reports"},
     "notebook": SHOWN | {"views", "notebook"},
-    "cli": SHOWN | {"", "grading", "views", "reports", "cli"},
-    "__init__": SHOWN | {"grading", "views", "reports"},
+    "page": SHOWN | {"", "core", "kernel", "views", "page"},
+    "cli": SHOWN | {"", "grading", "views", "reports", "page", "cli"},
+    "__init__": SHOWN | {"grading", "views", "reports", "page"},
     "__main__": {"cli"},
 }
 """Room (or file beside them) -> rooms that its files may import, with the rooms inside these; a room that is not named

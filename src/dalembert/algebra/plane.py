@@ -131,6 +131,10 @@ def apart(a: Array, b: Array, turn_a: Array, turn_b: Array) -> Array:
 def with_ground(turn: Array, r: Array) -> tuple[Array, Array]:
     """Angles and rotations of the moving links and of the ground."""
     turn = np.concatenate([turn, np.zeros_like(turn[..., :1])], axis=-1)
+    if turn.dtype == object:  # traced: their cosines are known, and not of angles
+        return turn, np.concatenate(
+            [r, np.broadcast_to(rotation(np.zeros(1)), (*r.shape[:-2], 1, 2))], axis=-2
+        )
     return turn, rotation(turn)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -31,9 +31,6 @@ from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.graph import CONSTANT, Node
 from dalembert.kernel.program import Program
 from dalembert.model import Mechanism
-
-if TYPE_CHECKING:
-    from dalembert.analysis.batch.kernel_export import WasmModule
 
 LARGEST = float(np.finfo(float).max)
 """Largest number there is."""
@@ -166,10 +163,11 @@ class Kernel:
         inputs = {n.value: n for n in graph.nodes if n.op == "number"}
         return [inputs[k] for k in range(len(self.trace.numbers))]
 
-    def program(self, nodes: Sequence[Node]) -> Program:
+    def program(self, nodes: Sequence[Node], values: int | None = None) -> Program:
+        """The program of some outputs: first values (default as many as are asked for), then derivatives."""
         found = self.trace.catalogue.traced
         marks = replace(found.friction.marks, open=tuple(found.open), doubt=tuple(found.doubt))
-        values = sum(len(of) for of in self.nodes.values())
+        values = sum(len(of) for of in self.nodes.values()) if values is None else values
         slope = [] if self.reduce else nodes[values:]
         known = self.trace.course.result is not None
         finite = () if known else self._finite(_products(nodes[:values]))
@@ -318,8 +316,8 @@ class Kernel:
 
         return c_source(self, name)
 
-    def to_wasm(self, row: int | None = None) -> WasmModule:
-        """WebAssembly of many positions, in need of nothing: numbers, drives' quantities, outputs, marks.
+    def to_wasm(self, row: int | None = None) -> Any:
+        """`WasmModule`: WebAssembly of many positions, in need of nothing: numbers, drives' quantities, outputs, marks.
 
         row: positions that one call may have at most, default as many as the file has. Raises ModelError if reduced.
         """

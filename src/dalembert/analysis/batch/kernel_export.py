@@ -21,8 +21,11 @@ if TYPE_CHECKING:
     from dalembert.analysis.batch.compiled_kernel import Kernel
 
 
-def plain(k: Kernel) -> Program:
-    """The program with the drives' own quantities as inputs: cosines and expressions are computed inside."""
+def plain(k: Kernel, nodes: list[Node] | None = None, marked: bool = True) -> Program:
+    """The program with the drives' own quantities as inputs: cosines and expressions are computed inside.
+
+    nodes: other outputs than those asked for. marked: with what says whether they are right.
+    """
     graph, inputs = k.trace.catalogue.graph, k.trace.inputs
     places: dict[int, Node] = {}
     names = k.trace.course.schedule.names
@@ -36,7 +39,8 @@ def plain(k: Kernel) -> Program:
             places[node.index] = value if isinstance(value, Node) else graph.constant(value)
         elif kind == "common" or (what == "counted" and np.ptp(inputs.found[node](k.trace.course)) == 0):
             places[node.index] = graph.constant(np.ravel(inputs.found[node](k.trace.course))[0])
-    program = k.program(k.flat)
+    program = k.program(k.flat) if nodes is None else k.program(nodes, len(nodes))
+    program = program if marked else Program(graph, program.outputs)
     groups = [program.outputs, *(getattr(program.marks, f.name) for f in fields(Marks))]
     found = iter(graph.substitute([n for group in groups for n in group], places))
     outputs, *marks = (tuple(next(found) for _ in group) for group in groups)

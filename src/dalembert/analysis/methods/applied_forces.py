@@ -165,8 +165,8 @@ def joint_place(r: Result, joint: str) -> Array:
     if r.mechanism.dimension == 3:
         return _pitch_point(r, joint)
     if described.wheels == 1:
-        angle = link_angle(r, i) + float(described.direction)
-        return pj + float(described.radius) * np.stack([np.sin(angle), -np.cos(angle)], axis=-1)
+        angle = link_angle(r, i) + described.direction
+        return np.asarray(pj + described.radius * np.stack([np.sin(angle), -np.cos(angle)], axis=-1))
     pi = link_place(r, i, ui)
     ri, rj = signed_radii(described)
     return np.asarray(pi + (pj - pi) * (ri / (ri + rj)))
@@ -184,8 +184,8 @@ def _pitch_point(r: Result, joint: str) -> Array:
 def link_place(r: Result, link: str, u: Sequence[float] | Array) -> Array:
     """A point of any link, ground included (P, d)."""
     if link == GROUND:
-        return np.broadcast_to(np.asarray(u, float), (len(r.status), len(u)))
-    return r._place(link, np.asarray(u, float))
+        return np.broadcast_to(np.asarray(u), (len(r.status), len(u)))
+    return r._place(link, np.asarray(u))
 
 
 def link_angle(r: Result, link: str) -> Array:

@@ -111,12 +111,12 @@ def _circular_slot(s: Spot) -> list[Item]:
     pin = float(angle[s.k]) + here
     middle = (s.at[0] - radius * math.cos(pin), s.at[1] - radius * math.sin(pin))
     return [
-        *_round_slot(middle, radius, low, min(high, low + 2 * math.pi), _on_ground(s)),
+        *round_slot(middle, radius, low, min(high, low + 2 * math.pi), _on_ground(s)),
         *plane_symbols.pin(s.at),
     ]
 
 
-def _round_slot(middle: Point, radius: float, low: float, high: float, ground: bool) -> list[Item]:
+def round_slot(middle: Point, radius: float, low: float, high: float, ground: bool) -> list[Item]:
     """A slot between two angles about its centre, round at its ends; strokes outside it on the ground."""
     half, ways = plane_symbols.PIN + 0.5, np.linspace(low, high, 2 + int((high - low) / 0.04))
     outside, inside = Arc(middle, radius + half, low, high), Arc(middle, max(radius - half, 0.0), low, high)

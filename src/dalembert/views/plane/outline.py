@@ -65,12 +65,12 @@ def every_path(r: Result) -> Array:
     out += [joint_place(r, joint) for joint in r.joints]
     out += [r.center(link) for link in r.links if r.mechanism.mass(link)]
     for name, joint in r.mechanism.joints.items():
-        for _, center, radius in _wheel_paths(r, name, joint):
+        for _, center, radius in wheel_paths(r, name, joint):
             out += [center + radius, center - radius]
     return np.array(out).reshape(-1, len(r.status), 2)
 
 
-def _wheel_paths(r: Result, name: str, joint: Any) -> list[tuple[str, Array, float]]:
+def wheel_paths(r: Result, name: str, joint: Any) -> list[tuple[str, Array, float]]:
     if not joint.wheels:
         return []
     both = zip(joint.links, r.mechanism.joint_points(name), joint.pitch_radii, strict=True)
@@ -79,7 +79,7 @@ def _wheel_paths(r: Result, name: str, joint: Any) -> list[tuple[str, Array, flo
 
 def wheels(r: Result, name: str, joint: Any, k: int) -> list[tuple[str, tuple[float, float], float]]:
     """Pitch circles of wheels in contact: link, centre and radius in metres."""
-    found = _wheel_paths(r, name, joint)
+    found = wheel_paths(r, name, joint)
     return [(link, (float(path[k, 0]), float(path[k, 1])), radius) for link, path, radius in found]
 
 

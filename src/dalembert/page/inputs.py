@@ -1,0 +1,313 @@
+"""What a reader of the page may change: the drive, every number of the description, and what is dragged."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dalembert.analysis.batch.compiled_kernel import Kernel
+from dalembert.analysis.output.columns import drive_kinds
+from dalembert.arrays import Array, Tree
+from dalembert.model import GROUND, Mechanism
+from dalembert.model.quantities.tables import Table
+from dalembert.page.boards import Boards
+from dalembert.units import KINDS
+
+KIND_OF = {
+    "points": "length",
+    "center": "length",
+    "mass": "mass",
+    "inertia": "inertia",
+    "direction": "angle",
+    "radius": "length",
+    "coefficient": "number",
+    "free_length": "length",
+    "free_angle": "angle",
+}
+"""Key of a number -> its kind, where that is always the same."""
+
+
+def numbers_of(m: Mechanism) -> list[str]:
+    """Paths of the numbers that a reader may change: geometry, masses, loads, friction, speeds."""
+    return [path for path, value in _candidates(m) if _plain(value) and not _follows(m, path)]
+
+
+def _candidates(m: Mechanism) -> Iterator[tuple[str, object]]:
+    for name, link in m.links.items():
+        yield from ((f"links.{name}.points.{p}", m.point(name, p)) for p in link.points)
+        if name != GROUND and m.mass(name):
+            yield from ((f"links.{name}.{key}", getattr(link, key)) for key in ("mass", "center", "inertia"))
+    for name, joint in m.joints.items():
+        friction = getattr(joint, "friction", None) if m.friction.enabled else None
+        yield from (
+            (f"joints.{name}.friction.{k}", getattr(friction, k, None)) for k in ("coefficient", "radius")
+        )
+        yield f"joints.{name}.direction", getattr(joint, "direction", None)
+    for name, load in m.loads.items():
+        if not load.unknown:
+            keys = ("value", "direction", "stiffness", "free_length", "free_angle", "damping", "force")
+            yield from ((f"loads.{name}.{key}", getattr(load, key, None)) for key in keys)
+    if m.friction.enabled:
+        yield "friction.coefficient", m.friction.coefficient
+    for name, d in m.drives.items():
+        if d.law is None:
+            rates = [
+                (f"drives.{name}.{key}", getattr(d, key)) for key in ("speed", "acceleration") if d.moves
+            ]
+            yield from (one for one in rates if isinstance(one[1], float))
+
+
+def _plain(value: object) -> bool:
+    if isinstance(value, tuple):
+        return bool(value) and all(isinstance(x, float) for x in value)
+    return isinstance(value, float)
+
+
+def _follows(m: Mechanism, path: str) -> bool:
+    """Whether another number says it: weight beside mass, a point from another, a shape's inertia."""
+    keys = path.split(".")
+    if keys[0] != "links":
+        return False
+    link: Any = m.links[keys[1]]
+    if keys[2] == "points":
+        return not isinstance(link.points[keys[3]], tuple)
+    return getattr(link, "shape", None) is not None
+
+
+def kind_of(m: Mechanism, path: str) -> str:
+    """The kind of the number at a path."""
+    group, name, *_ = keys = path.split(".")
+    if group == "drives":
+        return ("angular_" if m.drives[name].turns else "") + keys[2]
+    if group == "loads" and keys[2] in ("value", "force"):
+        return "moment" if m.loads[name].ON == "link" else "force"
+    if group == "loads" and keys[2] in ("stiffness", "damping"):
+        return ("torsion_" if m.loads[name].ON == "turn" else "") + keys[2]
+    return next((KIND_OF[key] for key in keys[1:] if key in KIND_OF), "number")
+
+
+AXES = ("x", "y", "z")
+
+
+def label(path: str) -> str:
+    """A path as a reader says it: 'crank: point A, x'."""
+    group, name, *rest = path.split(".")
+    words = [AXES[int(w)] if w.isdigit() else w.replace("_", " ") for w in rest]
+    if words[:1] == ["points"]:
+        words = [f"point {words[1]}", *words[2:]]
+    if group == "friction":
+        return "friction: coefficient"
+    return f"{name}: {', '.join(words)}" if words else name
+
+
+def number_fields(b: Boards, k: Kernel) -> list[Tree]:
+    """Every number with its path, words, SI value, unit and size of that unit."""
+    out = []
+    for n in k.trace.numbers:
+        kind = kind_of(b.known.mechanism, n.path)
+        out.append(
+            {
+                "path": n.path,
+                "label": label(n.path),
+                "value": n.value,
+                "unit": b.shown.unit(kind),
+                "size": b.shown.size(kind),
+            }
+        )
+    return out
+
+
+def drive_fields(b: Boards) -> list[Tree]:
+    """Each drive with its positions and where its joint stands."""
+    out = []
+    for name in b.known.drives:
+        kind = drive_kinds(b.known, name)["position"]
+        joint = b.known.mechanism.drive_joint(name)
+        link = b.known.mechanism.joints[joint].links[1]
+        out.append(
+            {
+                "name": name,
+                "unit": b.shown.unit(kind),
+                "size": b.shown.size(kind),
+                "position": series(b.known.drive_position(name)),
+                "turns": kind == "angle",
+                "p": b.items.at(joint),
+                "link": link,
+            }
+        )
+    return out
+
+
+def handles(b: Boards, k: Kernel) -> list[Tree]:
+    """What can be dragged: joints, mass centres, other points of links, tips of loads, directions of slides.
+
+    ``n``: the places of the numbers that change. ``at`` and ``e``: rows of the origin and x axis of their axes.
+    """
+    found = _Handles(b, {n.path: i for i, n in enumerate(k.trace.numbers)})
+    return [*found.joints(), *found.points(), *found.loads(), *found.directions()]
+
+
+class _Handles:
+    def __init__(self, b: Boards, places: dict[str, int]) -> None:
+        self.b, self.places, self.m = b, places, b.rows.r.mechanism
+        self.taken: set[str] = set()
+
+    def _numbers(self, path: str) -> list[int] | None:
+        if f"{path}.0" in self.places:
+            return [self.places[f"{path}.{i}"] for i in range(2)]
+        return None
+
+    def _end(self, link: str, path: str) -> Tree | None:
+        n = self._numbers(path)
+        if n is None:
+            return None
+        return {"n": n, "at": self.b.rows.place(link, (0.0, 0.0)), "e": self.b.rows.axis(link)}
+
+    def joints(self) -> Iterator[Tree]:
+        """A hinge is drawn elsewhere at the same pose: its points in both links change.
+
+        A link that otherwise only slides, as a piston, keeps its point, so that its pin stays where it was in it.
+        """
+        for name, joint in self.m.joints.items():
+            names = joint.point_names(name)
+            paths = [f"links.{link}.points.{p}" for link, p in zip(joint.links, names, strict=True)]
+            self.taken.update(paths)
+            if not joint.hinge:
+                continue
+            own = [
+                (link, path)
+                for link, path in zip(joint.links, paths, strict=True)
+                if not self._slides(link, name)
+            ]
+            ends = [end for link, path in own if (end := self._end(link, path))]
+            if ends:
+                yield {"kind": "joint", "name": name, "p": self.b.items.at(name), "ends": ends}
+
+    def _slides(self, link: str, hinge: str) -> bool:
+        others = [j for n, j in self.m.joints.items() if link in j.links and n != hinge]
+        return link != GROUND and bool(others) and all(j.apart for j in others)
+
+    def points(self) -> Iterator[Tree]:
+        for link, part in self.m.links.items():
+            for point in part.points:
+                path = f"links.{link}.points.{point}"
+                end = None if path in self.taken else self._end(link, path)
+                if end:
+                    at = self.b.rows.place(link, self.m.point(link, point))
+                    yield {"kind": "point", "name": f"{link}.{point}", "p": at, "ends": [end]}
+            end = self._end(link, f"links.{link}.center")
+            if end:
+                at = self.b.rows.place(link, self.m.center(link))
+                yield {"kind": "center", "name": f"{link}: mass centre", "p": at, "ends": [end]}
+
+    def loads(self) -> Iterator[Tree]:
+        """The tip of a force whose size and direction are numbers."""
+        for a in self.b.actions:
+            if a.kind != "load" or a.of not in self.m.loads or self.m.loads[a.of].ON != "point":
+                continue
+            load: Any = self.b.known.mechanism.loads[a.of]
+            e = self.b.rows.axis(load.on if load.axes == "link" else GROUND)
+            more: Tree = {
+                "kind": "load",
+                "name": a.of,
+                "p": self.b.rows.vector(a.at[0]),
+                "f": self.b.rows.vector(a.force[0]),
+            }
+            pair, size = self._numbers(f"loads.{a.of}.value"), self.places.get(f"loads.{a.of}.value")
+            turn = self.places.get(f"loads.{a.of}.direction")
+            if pair:
+                yield more | {"e": e, "components": pair}
+            elif size is not None:
+                yield more | {"e": e, "size": size} | ({} if turn is None else {"direction": turn})
+
+    def directions(self) -> Iterator[Tree]:
+        for name, joint in self.m.joints.items():
+            place = self.places.get(f"joints.{name}.direction")
+            if place is not None:
+                yield {
+                    "kind": "direction",
+                    "name": name,
+                    "p": self.b.rows.place(joint.links[0], self.m.joint_points(name)[0]),
+                    "along": self.b.rows.direction(name),
+                    "direction": place,
+                    "e": self.b.rows.axis(joint.links[0]),
+                }
+
+
+def channel_fields(k: Kernel, names: dict[int, str], channels: list[Any]) -> list[Tree]:
+    """What the kernel is given along the positions: values, and tables by their pieces, so that the page has them
+    exactly between the positions too."""
+    course, inputs = k.trace.course, k.trace.inputs
+    count, out = len(course.schedule.position), []
+    for n in channels:
+        values = np.broadcast_to(np.asarray(inputs.found[n](course), float), (count,))
+        field: Tree = {"name": names[n.index], "values": series(values)}
+        varying = inputs.varying.get(names[n.index])
+        if isinstance(varying, Table):
+            breaks, pieces = varying.pieces()
+            field["table"] = {
+                "drive": varying.against,
+                "breaks": floats(breaks),
+                "pieces": floats(pieces),
+                "order": len(pieces),
+                "period": varying.period,
+            }
+        out.append(field)
+    return out
+
+
+JUMPS = ("counted", "way", "speed", "acceleration", "known reversal")
+"""Beginnings of channels that are right at the listed positions only, where they change."""
+
+
+def only_at_positions(k: Kernel, names: dict[int, str], channels: list[Any]) -> bool:
+    """Whether the page may stop only at the listed positions: some input is not known in between."""
+    course, found = k.trace.course, k.trace.inputs.found
+    return any(
+        names[n.index].startswith(JUMPS) and float(np.ptp(np.asarray(found[n](course), float))) > 0
+        for n in channels
+    )
+
+
+def template(m: Mechanism, k: Kernel) -> list[str]:
+    """The text of a model file between the numbers, in their order, with those in SI: '... mass: ', ' kg\\n...'.
+
+    Each part but the first begins behind a number; ``order`` is that of ``k.numbers`` as they come in the text.
+    """
+    from dalembert.model.files.model_files import tree_text
+
+    tree = m.to_tree()
+    for i, n in enumerate(k.trace.numbers):
+        _put(tree, n.keys, f"@@{i}@@ {KINDS[kind_of(m, n.path)].si}".strip(), m)
+    return tree_text(tree).split("@@")
+
+
+def _put(tree: Any, keys: list[str], text: str, m: Mechanism) -> None:
+    *way, last = keys
+    if last.isdigit() and not isinstance(_at(tree, way), list):
+        _put(tree, way, [0, 0], m)  # type: ignore[arg-type]
+    holder = _at(tree, way)
+    holder[int(last) if isinstance(holder, list) else last] = text
+
+
+def _at(tree: Any, keys: list[str]) -> Any:
+    for key in keys:
+        tree = tree[int(key) if isinstance(tree, list) else key]
+    return tree
+
+
+def series(values: Array) -> Tree | str:
+    """Numbers along the positions: first, step and count where they are even, else their bytes."""
+    even = np.linspace(values[0], values[-1], len(values))
+    if len(values) > 3 and np.abs(values - even).max() <= 4 * np.spacing(np.abs(values).max()):
+        return {"from": float(values[0]), "to": float(values[-1]), "count": len(values)}
+    return floats(values)
+
+
+def floats(values: ArrayLike) -> str:
+    """Numbers as text: their bytes, little endian."""
+    return base64.b64encode(np.asarray(values, "<f8").tobytes()).decode()

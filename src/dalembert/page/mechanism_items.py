@@ -1,0 +1,214 @@
+"""Links, joints, springs, mass centres and traces of the plane as items of a drawing that follow the kernel's rows.
+
+What is rigid is drawn once by the views' symbols about the origin, and put in place by the rows of a point (``p``) and
+of a direction (``e``); a hull follows several points, a span two.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from dalembert.analysis.friction.joint_friction import bearing_contact, friction_circle_radius
+from dalembert.analysis.methods.applied_forces import joint_place, link_angle, link_place
+from dalembert.analysis.result.result import Result
+from dalembert.arrays import Array, Tree
+from dalembert.core.friction.contact_equations import strength
+from dalembert.model import GROUND
+from dalembert.page.rows import Rows
+from dalembert.page.symbolic_result import SymbolicResult
+from dalembert.views.formats.svg import Writer
+from dalembert.views.paper.frame import Frame
+from dalembert.views.paper.scene import Item
+from dalembert.views.plane.joint_drawings import round_slot
+from dalembert.views.plane.outline import link_paths, wheel_paths
+from dalembert.views.symbols import plane_symbols
+
+SPAN = 20.0
+"""Length in mm at which springs and dampers are drawn; the page stretches them."""
+
+
+@dataclass
+class Items:
+    """Draws parts of a mechanism: ``r`` in nodes, ``known`` the same in the file's numbers, both of one structure."""
+
+    r: SymbolicResult
+    known: Result
+    rows: Rows
+    frame: Frame
+    roles: set[str] = field(default_factory=set)
+
+    @property
+    def mechanism(self) -> Any:
+        return self.r.mechanism
+
+    def markup(self, items: Sequence[Item]) -> str:
+        """SVG of symbols about the origin."""
+        writer = Writer(0.0, 0.0, "l")
+        out = "".join(map(writer.item, items))
+        self.roles |= writer.roles
+        return out
+
+    def symbol(self, items: Sequence[Item], at: list[int], along: list[int] | None = None) -> Tree:
+        return {"t": "symbol", "svg": self.markup(items), "p": at} | ({"e": along} if along else {})
+
+    def path(self, kind: str, role: str, points: list[list[int]], **more: Any) -> Tree:
+        self.roles.add(role)
+        return {"t": kind, "role": role, "p": points} | more
+
+    def corners(self, link: str) -> list[list[int]]:
+        """Rows of the points that a link's shape spans, each once."""
+        paths = [self.rows.vector(path[0]) for path in link_paths(self.r, link).values()]
+        return [list(p) for p in dict.fromkeys(map(tuple, paths))]
+
+    def link(self, link: str) -> list[Tree]:
+        """A link's outline, or a line from its only joint to its mass centre; rails of blocks on it."""
+        out, points = [], self.corners(link)
+        if len(points) == 1 and self.known.mechanism.mass(link):
+            points.append(self.rows.place(link, self.mechanism.center(link)))
+        for name, joint in self.mechanism.joints.items():
+            if joint.guides and joint.links[0] == link:
+                both = zip(joint.links, self.mechanism.joint_points(name), strict=True)
+                out.append(self.path("path", "link", [self.rows.place(n, u) for n, u in both]))
+        self.roles |= {"link-area"}
+        return [*out, self.path("hull", "link", points, link=link)]
+
+    def spans(self) -> list[Tree]:
+        """Springs and dampers between their two points."""
+        out = []
+        for name, load in self.mechanism.loads_on("span").items():
+            ends = [(link, self.rows.place(link, u)) for link, u in self.mechanism.load_points(name)]
+            svg = self.markup(plane_symbols.SPANS[load.type]((0.0, 0.0), (SPAN, 0.0)))
+            out.append({"t": "span", "svg": svg, "length": SPAN, "p": [at for _, at in ends], "load": name})
+            for link, at in ends:
+                fixed = link == GROUND
+                out.append(self.symbol((plane_symbols.fixed_pin if fixed else plane_symbols.pin)((0, 0)), at))
+        return out
+
+    def joint(self, name: str, link: str | None = None) -> list[Tree]:
+        """A joint's symbol; with ``link`` on that link's free body, where there is no ground."""
+        joint = self.mechanism.joints[name]
+        if link is not None and joint.apart and link != joint.links[1]:
+            return []
+        return SYMBOLS[joint.type](self, name, link)
+
+    def at(self, name: str) -> list[int]:
+        """Rows of j's point of a joint."""
+        return self.rows.place(self.mechanism.joints[name].links[1], self.mechanism.joint_points(name)[1])
+
+    def center(self, link: str) -> list[Tree]:
+        """A mass centre, where there is mass."""
+        if not self.known.mechanism.mass(link):
+            return []
+        return [
+            self.symbol(plane_symbols.mass_center((0, 0)), self.rows.place(link, self.mechanism.center(link)))
+        ]
+
+    def traces(self) -> list[Tree]:
+        """Paths of moving joints over the cycle."""
+        out = []
+        for name, joint in self.mechanism.joints.items():
+            if not (GROUND in joint.links and joint.hinge):
+                out.append(self.path("trace", "trace", [self.at(name)], joint=name))
+        return out
+
+    def circles(self, joints: Sequence[str]) -> list[Tree]:
+        """Friction circles to scale."""
+        out = []
+        for name in joints:
+            radius = self.circle_radius(name)
+            if radius is not None:
+                self.roles.add("friction-circle")
+                at = self.rows.vector(joint_place(self.r, name)[0])
+                out.append({"t": "circle", "role": "friction-circle", "p": at, "r": self.rows.of(radius)})
+        return out
+
+    def circle_radius(self, name: str) -> Any:
+        """Radius of a pin's friction circle, a node; None without."""
+        contacts = self.r.compiled.contacts
+        if contacts is None or not friction_circle_radius(self.known, name):
+            return None
+        return strength(contacts, 1.0)[bearing_contact(self.known, name, "pin")]
+
+
+def _pin(d: Items, name: str, link: str | None) -> list[Tree]:
+    fixed = link is None and GROUND in d.mechanism.joints[name].links
+    return [d.symbol((plane_symbols.fixed_pin if fixed else plane_symbols.pin)((0, 0)), d.at(name))]
+
+
+def _slider(d: Items, name: str, link: str | None) -> list[Tree]:
+    e, at, out = d.rows.direction(name), d.at(name), []
+    if link is None and GROUND in d.mechanism.joints[name].links:
+        out.append(d.symbol(plane_symbols.guide((0, 0), 0.0, 13.0), at, e))
+    return [*out, d.symbol(plane_symbols.slider((0, 0), 0.0), at, e)]
+
+
+def _slot(d: Items, name: str, link: str | None) -> list[Tree]:
+    """As long as its slide over the file's cycle, with a little room."""
+    joint, pin = d.mechanism.joints[name], d.symbol(plane_symbols.pin((0, 0)), d.at(name))
+    if link is not None:
+        return [pin]
+    low, high = _span(d.known.freedom(name, "slide")[0])
+    room = min(0.08 * d.known.compiled.layout.length, 12.0 * d.frame.per_mm)
+    length, middle = d.frame.length(high - low + 2 * room), d.frame.length((high + low) / 2)
+    ground = plane_symbols.guide((middle, 0), 0.0, length + 8.0) if GROUND in joint.links else []
+    start = d.rows.place(joint.links[0], d.mechanism.joint_points(name)[0])
+    items = [*ground, *plane_symbols.slot((middle, 0), 0.0, length)]
+    return [d.symbol(items, start, d.rows.direction(name)), pin]
+
+
+def _span(values: Array) -> tuple[float, float]:
+    known = values[np.isfinite(values)]
+    return (float(known.min()), float(known.max())) if known.size else (0.0, 0.0)
+
+
+def _circular_slot(d: Items, name: str, link: str | None) -> list[Tree]:
+    """As long as the way of its pin over the file's cycle, in the axes of the link it is in."""
+    pin = d.symbol(plane_symbols.pin((0, 0)), d.at(name))
+    if link is not None:
+        return [pin]
+    m = d.known.mechanism
+    joint: Any = m.joints[name]
+    ends = [link_place(d.known, n, u) for n, u in zip(joint.links, m.joint_points(name), strict=True)]
+    angle = np.arctan2(*(ends[1] - ends[0]).T[::-1]) - link_angle(d.known, joint.links[0])
+    low, high = _span(np.unwrap(angle[np.isfinite(angle)]))
+    radius = d.frame.length(joint.radius)
+    room = 3.0 / radius
+    items = round_slot(
+        (0.0, 0.0), radius, low - room, min(high + room, low - room + 2 * math.pi), GROUND in joint.links
+    )
+    start = d.rows.place(joint.links[0], d.mechanism.joint_points(name)[0])
+    return [d.symbol(items, start, d.rows.axis(joint.links[0])), pin]
+
+
+def _weld(d: Items, name: str, link: str | None) -> list[Tree]:
+    return [d.symbol(plane_symbols.weld((0, 0)), d.at(name))]
+
+
+def _wheels(d: Items, name: str, link: str | None) -> list[Tree]:
+    out = []
+    points = dict(zip(d.mechanism.joints[name].links, d.mechanism.joint_points(name), strict=True))
+    for on, _, radius in wheel_paths(d.known, name, d.known.mechanism.joints[name])[::-1]:
+        if link in (None, on):
+            wheel = plane_symbols.wheel((0, 0), d.frame.length(radius), 0.0)
+            out.append(d.symbol(wheel, d.rows.place(on, points[on]), d.rows.axis(on)))
+    if d.mechanism.joints[name].wheels == 1 and link is None:
+        at = d.rows.vector(joint_place(d.r, name)[0])
+        out.append(d.symbol(plane_symbols.hatch((0, 0), 0.0, 22.0), at, d.rows.direction(name)))
+    return out
+
+
+SYMBOLS: dict[str, Callable[[Items, str, str | None], list[Tree]]] = {
+    "pin": _pin,
+    "slider": _slider,
+    "slot": _slot,
+    "circular_slot": _circular_slot,
+    "weld": _weld,
+    "gear": _wheels,
+    "rolling": _wheels,
+}
+"""Type of joint -> its items; as ``views.plane.joint_drawings.DRAWINGS``."""

@@ -1,0 +1,164 @@
+"""Everything a page needs of one mechanism, as data: see ``web/src/data.ts`` for its form."""
+
+from __future__ import annotations
+
+import base64
+import zlib
+from collections.abc import Sequence
+
+import dalembert
+from dalembert.analysis.batch.compiled_kernel import Kernel
+from dalembert.analysis.batch.kernel_export import plain
+from dalembert.analysis.batch.traced_analysis import trace_analysis
+from dalembert.analysis.one_pass import at_schedule
+from dalembert.arrays import Tree
+from dalembert.errors import STATUSES, ModelError
+from dalembert.kernel.derivatives import gradients
+from dalembert.kernel.emit.wasm.module import LANES, emit_wasm
+from dalembert.kernel.graph import Node
+from dalembert.kernel.program import Program
+from dalembert.model import Mechanism
+from dalembert.page.boards import Boards
+from dalembert.page.inputs import (
+    channel_fields,
+    drive_fields,
+    handles,
+    number_fields,
+    numbers_of,
+    only_at_positions,
+    template,
+)
+from dalembert.page.rows import Rows
+from dalembert.page.sweep import with_cycle
+from dalembert.page.symbolic_result import symbolic_actions, symbolic_result
+from dalembert.views.formats.svg import rule
+from dalembert.views.formats.themes import THEMES
+
+FORMAT = "dalembert-page/1"
+GRADIENT = 12_000
+"""Bytes of the module of derivatives above which the page goes without."""
+UNITS = ("length", "force", "moment", "angle", "angular_speed", "angular_acceleration")
+UNDECIDED = "The numbers may be poor here: near a dead centre, or friction may jam. Ask dalembert solve."
+ALWAYS = (
+    "text",
+    "note",
+    "title",
+    "axis",
+    "grid",
+    "leader",
+    "construction",
+    "line-of-action",
+    "gap",
+    "mark",
+    "faint",
+)
+"""Roles that the page itself draws with."""
+
+
+def page_data(m: Mechanism, static: bool = False) -> Tree:
+    """The data of a page; raises ModelError for what only the analyses can do.
+
+    static: leave inertia out.
+    """
+    if m.dimension == 3:
+        raise ModelError("pages of spatial mechanisms are not there yet", "draw it, or make an animation")
+    m = with_cycle(m)
+    inertia = m.has_speeds and not static
+    k = _kernel(m, inertia)
+    r = symbolic_result(k)
+    known = at_schedule(m, k.trace.course.schedule, inertia)
+    rows = Rows(k.trace.catalogue.graph, r)
+    b = Boards(known, rows, symbolic_actions(r, k))
+    views: Tree = {
+        "mechanism": b.mechanism(),
+        "bodies": b.free_bodies(),
+        "polygons": {"force": b.scale(42.0), "links": b.polygons()},
+        "charts": b.charts(),
+        "table": b.table(),
+    }
+    dragged = handles(b, k)
+    drives = drive_fields(b)
+    names, channels = k.trace.catalogue.graph.names, []
+    program = plain(k, rows.nodes)
+    data: Tree = {
+        "format": FORMAT,
+        "version": dalembert.__version__,
+        "title": m.title or "A mechanism",
+        "source": m.source_text,
+        "units": {kind: {"unit": b.shown.unit(kind), "size": b.shown.size(kind)} for kind in UNITS},
+        "kernel": _module(program, len(k.trace.course.schedule.position)),
+        "numbers": number_fields(b, k),
+        "template": template(m, k),
+        "drives": drives,
+        "handles": dragged,
+        "views": views,
+        "statuses": _sentences(),
+        "assumptions": known.assumptions,
+        "style": {theme: _style(b, theme) for theme in ("light", "dark")},
+    }
+    gradient = _gradient(k, b, views["charts"])
+    if gradient is not None:
+        data["gradient"] = gradient["fields"]
+        channels = gradient["channels"]
+    channels = list(dict.fromkeys([*program.inputs_in_use("channel"), *channels]))
+    data["channels"] = channel_fields(k, names, channels)
+    data["only_at_positions"] = only_at_positions(k, names, channels)
+    return data
+
+
+def _kernel(m: Mechanism, inertia: bool) -> Kernel:
+    """The kernel with every number free that the trace takes as such; no machine code is made."""
+    try:
+        trace = trace_analysis(m, numbers_of(m), inertia)
+    except ModelError as error:
+        raise error.at_source(m.source) from None
+    return Kernel(m, trace, (), None, False, LANES)
+
+
+def _module(program: Program, count: int) -> Tree:
+    row = count + count % LANES
+    code, heap = emit_wasm(program, row)
+    names = program.graph.names
+    return {
+        "wasm": base64.b64encode(zlib.compress(code, 9)).decode(),
+        "heap": heap,
+        "row": row,
+        "count": count,
+        "outputs": len(program.outputs),
+        "channels": [names[n.index] for n in program.inputs_in_use("channel")],
+    }
+
+
+def _gradient(k: Kernel, b: Boards, charts: Sequence[Tree]) -> Tree | None:
+    """Derivatives of the curves by the numbers that are dragged, at one position; as many as find room."""
+    wanted = sorted({n for h in handles(b, k) for end in h.get("ends", ()) for n in end["n"]})
+    curves = [curve["row"] for chart in charts for curve in chart["curves"]]
+    inputs = [k.number_nodes[n] for n in wanted]
+    while wanted and curves:
+        found = gradients(b.rows.graph, [b.rows.nodes[row] for row in curves], inputs)
+        nodes: list[Node] = [n for one in found for n in one]
+        program = plain(k, nodes, marked=False)
+        module = _module(program, LANES)
+        if len(module["wasm"]) * 3 // 4 <= GRADIENT:
+            fields = module | {"curves": curves, "numbers": wanted}
+            return {"fields": fields, "channels": program.inputs_in_use("channel")}
+        curves = curves[: len(curves) // 2]
+    return None
+
+
+def _sentences() -> Tree:
+    """Sentence and remedy by the mark of a position."""
+    from dalembert.analysis.batch.batch_result import CODES
+
+    out: Tree = {}
+    for code, status in enumerate(CODES):
+        known = STATUSES.get(status)
+        if known is not None and code:
+            out[str(code)] = {"status": status, "sentence": f"{known.sentence} {known.remedy}".strip()}
+    return out | {str(CODES.index("undecided")): {"status": "undecided", "sentence": UNDECIDED}}
+
+
+def _style(b: Boards, theme: str) -> str:
+    """CSS of the roles in use."""
+    roles = sorted((b.items.roles | set(ALWAYS)) & set(THEMES[theme]))
+    return "".join(rule("l", role, THEMES[theme][role]) for role in roles)

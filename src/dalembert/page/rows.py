@@ -1,0 +1,62 @@
+"""The numbers that a page shows, each a row of the kernel's outputs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from dalembert.arrays import Numeric
+from dalembert.kernel.graph import Graph, Node, trace_array
+from dalembert.model import GROUND
+from dalembert.page.symbolic_result import SymbolicResult
+
+
+@dataclass
+class Rows:
+    """Nodes in the order in which they were asked for, each once."""
+
+    graph: Graph
+    r: SymbolicResult
+    nodes: list[Node] = field(default_factory=list)
+    places: dict[int, int] = field(default_factory=dict)
+
+    def of(self, x: Numeric) -> int:
+        """The row of a number or node."""
+        node = x if isinstance(x, Node) else self.graph.constant(x)
+        if node.index not in self.places:
+            self.places[node.index] = len(self.nodes)
+            self.nodes.append(node)
+        return self.places[node.index]
+
+    def vector(self, v: Sequence[Numeric]) -> list[int]:
+        """The rows of a vector's components."""
+        return [self.of(x) for x in v]
+
+    def place(self, link: str, u: Sequence[Numeric]) -> list[int]:
+        """The rows of a point of a link, given in its axes."""
+        if link == GROUND:
+            return self.vector(u)
+        return self.vector(self.r._place(link, np.asarray(u))[0])
+
+    def axis(self, link: str) -> list[int]:
+        """The rows of the unit vector along a link's x axis."""
+        return self.vector(self.axis_nodes(link))
+
+    def axis_nodes(self, link: str) -> Sequence[Numeric]:
+        """The unit vector along a link's x axis."""
+        x: Sequence[Numeric] = (1.0, 0.0)
+        return x if link == GROUND else self.r.rotation_array[0, self.r.links.index(link)]
+
+    def direction(self, joint: str) -> list[int]:
+        """The rows of the unit vector along a joint's slide."""
+        return self.vector(self.direction_nodes(joint))
+
+    def direction_nodes(self, joint: str) -> tuple[Numeric, Numeric]:
+        """The unit vector along a joint's slide, ground axes."""
+        j = self.r.mechanism.joints[joint]
+        angle: Numeric = trace_array(self.graph, getattr(j, "direction", None) or 0.0)[()]
+        cos, sin = angle.cos(), angle.sin()
+        c, s = self.axis_nodes(j.links[0])
+        return c * cos - s * sin, s * cos + c * sin

@@ -1,0 +1,70 @@
+"""A cycle for a mechanism whose file has one position: its first drive goes as far as the linkage closes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from dalembert.analysis.batch.compiled_kernel import Kernel
+from dalembert.analysis.batch.kernel_export import plain
+from dalembert.analysis.batch.traced_analysis import trace_analysis
+from dalembert.arrays import Array, Flags
+from dalembert.errors import ModelError
+from dalembert.model import Mechanism
+from dalembert.model.drives.drives import Range
+
+TURN, STROKE = 72, 40
+"""Steps of a full turn and of a slide."""
+NEAR = 1e-4
+"""Part of the way at which the motion beside the file's position is traced."""
+
+
+def with_cycle(m: Mechanism) -> Mechanism:
+    """The mechanism with its first drive going a turn, or its slide to both sides, where the file has one position.
+
+    Where the linkage does not close all the way, as far as it does; the file's own position is one of those taken.
+    """
+    single = {name: d for name, d in m.drives.items() if isinstance(d.position, float)}
+    steady = all(isinstance(d.speed, float) and isinstance(d.acceleration, float) for d in single.values())
+    if not m.drives or len(single) < len(m.drives) or not steady:
+        return m
+    name, d = next(iter(single.items()))
+    assert isinstance(d.position, float)
+    if d.turns:
+        ways = d.position + np.linspace(0, 2 * np.pi, TURN + 1) - np.pi
+    else:
+        ways = d.position + np.linspace(-1, 1, STROKE + 1) * 0.25 * _reach(m)
+    own = len(ways) // 2
+    closes = _closing(m, name, ways, own)
+    if closes.all() and d.turns:
+        return _over(m, name, d.position, d.position + 2 * np.pi, TURN)
+    low = own - int(np.argmin([*closes[own::-1], False])) + 1
+    high = own + int(np.argmin([*closes[own:], False])) - 1
+    return _over(m, name, ways[low], ways[high], high - low + 1) if high > low else m
+
+
+def _over(m: Mechanism, drive: str, low: float, high: float, count: int) -> Mechanism:
+    return m.with_values({f"drives.{drive}.position": Range(float(low), float(high), count)})
+
+
+def _closing(m: Mechanism, drive: str, ways: Array, own: int) -> Flags:
+    """Where the linkage closes on the file's own way; everywhere where only its following can tell."""
+    step = NEAR * (ways[-1] - ways[0])
+    try:
+        trace = trace_analysis(_over(m, drive, ways[own] - step, ways[own] + step, 3), (), False)
+    except ModelError:
+        return np.asarray(np.arange(len(ways)) == own)
+    program = plain(Kernel(m, trace, (), None, False, 1), [], marked=True)
+    channels = program.inputs_in_use("channel")
+    graph = program.graph
+    if [graph.names[n.index] for n in channels] != [f"position {drive}"]:
+        return np.ones(len(ways), bool)
+    tests = graph.evaluate(program.marks.open, {channels[0].index: ways})
+    return np.asarray(np.array([np.broadcast_to(np.asarray(t) >= 0, len(ways)) for t in tests]).all(axis=0))
+
+
+def _reach(m: Mechanism) -> float:
+    """The largest distance of a link's points from its origin, m."""
+    points = [m.point(name, point) for name, link in m.links.items() for point in link.points]
+    return max((math.hypot(*p) for p in points), default=1.0)

@@ -1,0 +1,70 @@
+"""A result of one position whose numbers are nodes of a trace: what reads a result gives formulas, not figures."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from dalembert.analysis.batch.compiled_kernel import Kernel
+from dalembert.analysis.methods.applied_forces import (
+    Action,
+    State,
+    effort_actions,
+    joint_actions,
+    known_actions,
+    unknown_load_actions,
+)
+from dalembert.analysis.result.force_arrays import Friction
+from dalembert.analysis.result.result import Result
+from dalembert.arrays import Array
+from dalembert.core.equilibrium import Motion
+from dalembert.core.layout import Pose
+
+
+class SymbolicResult(Result):
+    """What a kernel computes, as a result: (1, ...) arrays of nodes. Dry friction stands in the reactions."""
+
+    def friction_force(self, joint: str, on: str | None = None) -> Array:
+        return np.zeros((1, self._d))
+
+    def friction_moment(self, joint: str, on: str | None = None) -> Array:
+        return np.zeros(1 if self._d == 2 else (1, 3))
+
+
+def symbolic_result(k: Kernel) -> SymbolicResult:
+    """The result of a kernel's trace."""
+    c, t = k.trace.catalogue.compiled, k.trace.catalogue.traced
+    moving = slice(0, len(c.links))
+    rub: Any = object()  # only its being there is asked
+    friction: Friction | None = rub if c.contacts is not None else None
+    return SymbolicResult(
+        compiled=c,
+        inertia=k.trace.inertia,
+        mobility=None,
+        mode=None,
+        status=("ok",),
+        reasons=(None,),
+        point_array=t.pose.point[None, moving],
+        turn_array=t.pose.turn[None, moving],
+        rotation_array=t.pose.rotation[None, moving],
+        twist_array=t.twist[None, moving],
+        acceleration_array=t.acceleration[None, moving],
+        force_array=t.force[None],
+        moment_array=t.moment[None],
+        effort_array=t.effort[None],
+        load_array=t.load[None],
+        residual=np.array([t.residual]),
+        power_balance=np.zeros(1),
+        friction=friction,
+    )
+
+
+def symbolic_actions(r: SymbolicResult, k: Kernel) -> tuple[Action, ...]:
+    """Everything on every link, in nodes, as ``whole_actions`` of a result."""
+    t = k.trace.catalogue.traced
+    pose = Pose(*(a[None] for a in (t.pose.point, t.pose.turn, t.pose.rotation)))
+    nothing: Any = None  # virtual velocities, rows and factors are not asked
+    moving = Motion(t.twist[None], t.acceleration[None], nothing, nothing)
+    known = known_actions(r, State(pose, moving, nothing, nothing))
+    return (*joint_actions(r, split=False), *effort_actions(r), *known, *unknown_load_actions(r))

@@ -1,0 +1,117 @@
+"""The numbers of a page are those of the analyses, through its own WebAssembly and nothing else."""
+
+from __future__ import annotations
+
+import base64
+import json
+import zlib
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.analysis.batch.kernel_export import WasmModule
+from dalembert.analysis.methods.applied_forces import whole_actions
+from dalembert.bundled import cases, examples
+from dalembert.page.page_data import page_data
+from dalembert.page.sweep import with_cycle
+from tests.kernel.wasm_runs import run_wasm
+from tests.tiers import tiers
+
+FILES = {**cases(), **examples()}
+PLANE = sorted(name for name, path in FILES.items() if "space: space" not in path.read_text(encoding="utf-8"))
+QUICK = ["four_bar", "fr-01-pulley-on-a-fixed-shaft", "scissor_lift"]
+REFUSED = {"balance_position", "vw-02-drum-with-spring-and-weight"}
+"""Their positions are asked for."""
+
+
+def series(given: Any, count: int) -> Any:
+    if isinstance(given, dict):
+        return np.linspace(given["from"], given["to"], given["count"])
+    return np.frombuffer(base64.b64decode(given), "<f8")
+
+
+def run_page(data: Any) -> Any:
+    """Rows (output, position), the marks last, of the page's own numbers and channels."""
+    k = data["kernel"]
+    code = zlib.decompress(base64.b64decode(k["wasm"]))
+    module = WasmModule(code, k["heap"], k["row"], (), tuple(k["channels"]), ("",) * k["outputs"])
+    there = {c["name"]: series(c["values"], k["count"]) for c in data["channels"]}
+    path = [np.pad(there[name], (0, k["row"] - k["count"]), mode="edge") for name in k["channels"]]
+    values = [n["value"] for n in data["numbers"]]
+    return run_wasm(module, values, np.array(path))[:, : k["count"]]
+
+
+@pytest.mark.parametrize("name", tiers(QUICK, sorted(set(PLANE) - set(QUICK) - REFUSED)))
+def test_every_number_is_that_of_the_analyses(name: str) -> None:
+    m = da.load(FILES[name])
+    data = json.loads(json.dumps(page_data(m)))
+    out = run_page(data)
+    swept = with_cycle(m)
+    r = da.dynamics(swept) if m.has_speeds else da.statics(swept)
+    right = r.ok & np.isin(out[-1], (0, 9))
+    there = {(a.of, a.kind, a.link): [] for a in whole_actions(r)}
+    for a in whole_actions(r):
+        there[a.of, a.kind, a.link].append(a)
+    largest = max((np.abs(a.force[right]).max(initial=0) for some in there.values() for a in some), default=0)
+    reach = max(np.abs(r.point_array[right]).max(initial=0.0), 1e-3)
+    seen = 0
+    for arrow in data["views"]["mechanism"]["arrows"]:
+        some = there[arrow["of"], arrow["kind"], arrow["link"]]
+        rows = arrow["f"] if arrow["t"] == "force" else [arrow["m"]]
+        found = out[rows][:, right]
+        values = [a.force.T if arrow["t"] == "force" else a.couple[None] for a in some]
+        off = min(np.abs(v[:, right] - found).max(initial=0.0) for v in values)
+        assert off <= 1e-9 * max(largest, largest * reach, 1e-9)
+        at = min(np.abs(a.at.T[:, right] - out[arrow["p"]][:, right]).max(initial=0.0) for a in some)
+        assert at < 1e-9 * reach
+        seen += 1
+    for chart in data["views"]["charts"]:
+        for curve in chart["curves"]:
+            kind, _, of = curve["of"].partition(".")
+            exact = {
+                "effort": lambda of=of: r.effort(of),
+                "load": lambda of=of: r.unknown_load(of),
+                "magnitude": lambda of=of: np.hypot(*r.reaction(of).T),
+            }[kind]()
+            assert out[curve["row"]][right] == pytest.approx(
+                exact[right], rel=1e-9, abs=1e-9 * max(largest, 1e-6)
+            )
+    assert seen or not largest
+    assert set(out[-1][[s == "ok" for s in r.status]]) <= {0.0, 2.0}
+
+
+def test_equations_of_a_free_body_add_up() -> None:
+    data = page_data(da.load(FILES["four_bar"]))
+    out = run_page(data)
+    for body in data["views"]["bodies"]:
+        terms = body["equations"]["terms"]
+        for rows in ([t["f"][0] for t in terms], [t["f"][1] for t in terms], [t["m"] for t in terms]):
+            assert np.abs(out[rows].sum(axis=0)).max() < 1e-11 * np.abs(out[rows]).max()
+
+
+def test_saved_text_is_the_mechanism() -> None:
+    for name in ("four_bar", "engine", "quick_return"):
+        m = da.load(FILES[name])
+        data = page_data(m)
+        parts, values = data["template"], [n["value"] for n in data["numbers"]]
+        text = "".join(part if i % 2 == 0 else repr(values[int(part)]) for i, part in enumerate(parts))
+        again, swept = da.loads(text), with_cycle(m)
+        a, b = (da.dynamics(x) if m.has_speeds else da.statics(x) for x in (swept, again))
+        assert a.effort_array == pytest.approx(b.effort_array, rel=1e-9)
+
+
+def test_a_gradient_is_that_of_the_kernel() -> None:
+    m = with_cycle(da.load(FILES["four_bar"]))
+    data = page_data(m)
+    g, path = data["gradient"], [n["path"] for n in data["numbers"]]
+    code = zlib.decompress(base64.b64decode(g["wasm"]))
+    module = WasmModule(code, g["heap"], 2, (), tuple(g["channels"]), ("",) * g["outputs"])
+    at = 5
+    there = {c["name"]: series(c["values"], data["kernel"]["count"])[at] for c in data["channels"]}
+    values = [n["value"] for n in data["numbers"]]
+    out = run_wasm(module, values, np.array([[there[n]] * 2 for n in g["channels"]]))[:-1, 0]
+    varied = [path[n].rsplit(".", 1)[0] for n in g["numbers"][::2]]
+    k = da.compile(m, vary=varied, outputs=["effort.O2"], derivatives=True, lanes=1)
+    assert out[: len(g["numbers"])] == pytest.approx(k().gradient("effort.O2")[0, at], rel=1e-9)
