@@ -16,7 +16,7 @@ from dalembert.analysis.output.summary.printed_answer import checks_text
 from dalembert.cli import main
 from dalembert.grading.file_answers import check
 from dalembert.reports.working import working
-from dalembert.views.charts import effort_chart, polar_chart, reaction_chart, stepped_series
+from dalembert.views.charts import effort_chart, polar_chart, reaction_charts, stepped_series
 from tests.friction import four_stroke
 from tests.friction.engines import engine
 from tests.friction.four_stroke import FILE
@@ -259,7 +259,7 @@ def test_charts_draw_the_jump() -> None:
     assert curve.points[0][0] == curve.points[1][0]
     assert curve.points[0][1] > curve.points[1][1]
     sizes = [np.hypot(*side.reaction("B")[0]) for side in r.sides]
-    assert reaction_chart(r).numbers["B"][:2] == pytest.approx(sizes, rel=1e-12)
+    assert reaction_charts(r)[0].numbers["B"][:2] == pytest.approx(sizes, rel=1e-12)
     (scene,) = effort_chart(
         da.dynamics(four_stroke.engine().with_values({"drives.O.speed": -four_stroke.SPEED}))
     )

@@ -16,9 +16,9 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
-from dalembert.views.charts import chart_scenes
+from dalembert.views.charts import chart_scenes, effort_chart, mean_effort, polar_chart
 from dalembert.views.paper.canvas import crossings
-from dalembert.views.paper.scene import Line, Scene, Text
+from dalembert.views.paper.scene import Circle, Line, Polygon, Scene, Text
 from dalembert.views.plane.force_polygons import forces_of
 from tests.methods.readable import text_over_lines, text_overlaps
 
@@ -342,6 +342,58 @@ def test_a_trace_has_a_gap_where_the_linkage_does_not_close() -> None:
     step = 0.3 * 2 * math.pi / 90
     reach = max(math.dist(*pair) for t in traces for pair in pairwise(t.points))
     assert reach < 2.5 * step / (da.draw.mechanism(r).scales["length"])
+
+
+def test_a_chart_reaches_as_far_as_its_data_and_is_grey_where_there_is_no_answer() -> None:
+    m = da.load(examples()["four_bar"]).with_values({"links.crank.points.A": [0.3, 0.0]})
+    r = da.dynamics(m, positions=90)
+    x, effort = np.degrees(r.drive_position("O2")), r.effort("O2")
+    (scene,) = effort_chart(r)
+    band = next(i for i in scene.items if isinstance(i, Polygon) and i.role == "missing-fill")
+    per_mm = (float(np.nanmax(x)) + 4.0 - float(np.nanmin(x))) / 84.0  # whole turns: the beginning once more
+    known = np.flatnonzero(np.isfinite(effort))
+    gap = int(np.flatnonzero(np.diff(known) > 1)[0])
+    edges = [(float(x[known[k]]) - float(x[0])) / per_mm for k in (gap, gap + 1)]
+    assert [band.points[0][0], band.points[1][0]] == pytest.approx(edges, abs=1e-9)
+    runs = [i for i in scene.items if isinstance(i, Line) and i.role == "curve-1" and len(i.points) > 2]
+    assert [run.points[-1][0] for run in runs] == pytest.approx([edges[0], 84.0], abs=1e-9)
+    assert "no answer" in words(scene)
+    assert not any(word.startswith("mean") for word in words(scene))
+
+
+def test_the_mean_torque_is_the_work_over_the_cycle() -> None:
+    """Of 90 to 800 degrees the axis has no room beyond them, and the mean is the integral over the travel."""
+    m = da.load(examples()["engine"])
+    whole = da.dynamics(m, positions=72)
+    assert mean_effort(whole, "O2") == pytest.approx(float(whole.effort("O2").mean()), rel=1e-12)
+    turns = np.radians(np.linspace(90.0, 800.0, 143))
+    part = da.dynamics(m.with_values({"drives.O2.position": turns.tolist()}))
+    work = np.trapezoid(part.effort("O2"), turns)
+    assert mean_effort(part, "O2") == pytest.approx(work / (turns[-1] - turns[0]), rel=1e-12)
+    (scene,) = effort_chart(part)
+    curve = next(i for i in scene.items if isinstance(i, Line) and i.role == "curve-1")
+    assert (curve.points[0][0], curve.points[-1][0]) == pytest.approx((0.0, 84.0))
+    back = [0.1, 0.5, 0.9, 0.5, 0.1]
+    assert mean_effort(da.statics(m.with_values({"drives.O2.position": back})), "O2") is None
+
+
+def test_a_polar_diagram_is_closed_only_by_a_cycle_and_marked_with_the_drives_positions() -> None:
+    def path(r: da.Result) -> Line:
+        items = polar_chart(r, ["A"]).items
+        return max((i for i in items if getattr(i, "role", "") == "curve-1"), key=lambda i: len(i.points))
+
+    m = da.load(examples()["four_bar"])
+    whole = path(da.dynamics(m, positions=36))
+    assert len(whole.points) == 37
+    assert whole.points[0] == whole.points[-1]
+    part = da.dynamics(m.with_values({"drives.O2.position": np.radians(range(60, 181, 5)).tolist()}))
+    assert len(path(part).points) == 25
+    scene = polar_chart(part, ["A"])
+    marks = [i.center for i in scene.items if isinstance(i, Circle) and i.role == "mark"]
+    at = {k: path(part).points[(k - 60) // 5] for k in range(60, 181, 10)}
+    assert marks
+    assert all(min(math.dist(mark, place) for place in at.values()) < 1e-9 for mark in marks)
+    assert {f"{k}°" for k in at} >= {w for w in words(scene) if w.endswith("°")} != set()
 
 
 def test_a_slot_is_named_where_its_pin_is() -> None:

@@ -38,7 +38,7 @@ def without_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("velocity_polygon", "acceleration_polygon", "instant_centers", "mechanism"):
         monkeypatch.setattr(draw, name, lambda *a, **k: Scene(()))
     monkeypatch.setattr(charts, "effort_chart", lambda *a, **k: [])
-    monkeypatch.setattr(charts, "reaction_chart", lambda *a, **k: Scene(()))
+    monkeypatch.setattr(charts, "reaction_charts", lambda *a, **k: [])
     monkeypatch.setattr(given, "given_picture", lambda *a: Scene(()))
     monkeypatch.setattr(friction, "friction_pictures", lambda *a: [])
     monkeypatch.setattr(Canvas, "label", lambda *a, **k: None)

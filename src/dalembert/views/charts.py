@@ -1,9 +1,9 @@
-"""Curves over the cycle and polar diagrams, as scenes with axes."""
+"""Charts of a result: efforts and joint forces over the cycle, polar diagrams, the shaking force."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from operator import methodcaller
 from typing import TYPE_CHECKING
 
@@ -13,100 +13,19 @@ from dalembert.analysis.methods.applied_forces import magnitude
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.arrays import Array, Flags
+from dalembert.errors import ModelError
+from dalembert.machine.harmonics import whole_turns
 from dalembert.machine.shaking import shaking_force
 from dalembert.views.notation import Notation, Shown, pretty
-from dalembert.views.paper.canvas import Canvas
-from dalembert.views.paper.frame import round_up
-from dalembert.views.paper.scene import Circle, Line, Point, Scene, Text
+from dalembert.views.paper.diagrams import Marks, curves_scene, inner_ticks, polar_scene, ticks
+from dalembert.views.paper.scene import Scene
 from dalembert.views.space.space_view import NOTHING
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
-SIZE = (84.0, 52.0)
-
-
-def ticks(low: float, high: float, most: int = 6, angle: bool = False) -> list[float]:
-    """Round values that cover a range.
-
-    >>> ticks(0.0, 360.0, 7, True)
-    [0.0, 60.0, 120.0, 180.0, 240.0, 300.0, 360.0]
-    """
-    if not high > low:
-        low, high = low - 1.0, high + 1.0
-    step = round_up((high - low) / most)
-    if angle:
-        step = next(
-            (s for s in (5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0) if (high - low) / s <= most), 360.0
-        )
-    first = math.floor(low / step + 1e-9)
-    last = math.ceil(high / step - 1e-9)
-    return [float(f"{n * step:.10g}") for n in range(first, last + 1)]
-
-
-def curves_scene(
-    x: Array, series: Mapping[str, Array], x_label: str, y_label: str, title: str = "", angle: bool = False
-) -> Scene:
-    """Curves against one axis, each with its name at its end or in a legend."""
-    canvas = Canvas()
-    values = np.concatenate([np.asarray(v, float) for v in series.values()])
-    values = values[np.isfinite(values)]
-    low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 1.0)
-    x_ticks = ticks(float(np.nanmin(x)), float(np.nanmax(x)), 6, angle)
-    y_ticks = ticks(min(low, 0.0), max(high, 0.0))
-    to = _axes(canvas, x_ticks, y_ticks, x_label, y_label)
-    for n, (name, curve) in enumerate(series.items()):
-        role = f"curve-{n % 6 + 1}"
-        for run in _runs(x, curve):
-            canvas.add(Line(tuple(to(a, b) for a, b in run), role))
-        _legend(canvas, n, name, role)
-    return canvas.scene(title, numbers={name: [float(v) for v in curve] for name, curve in series.items()})
-
-
-def _axes(
-    canvas: Canvas, xs: list[float], ys: list[float], x_label: str, y_label: str
-) -> Callable[[float, float], Point]:
-    width, height = SIZE
-
-    def to(a: float, b: float) -> Point:
-        return (
-            width * (float(a) - xs[0]) / (xs[-1] - xs[0]),
-            height * (float(b) - ys[0]) / (ys[-1] - ys[0]),
-        )
-
-    for x in xs:
-        px = to(x, ys[0])[0]
-        canvas.add(Line(((px, 0.0), (px, height)), "grid"))
-        canvas.add(Text((px, -3.2), _tick(x), 2.6, "note"))
-    for y in ys:
-        py = to(xs[0], y)[1]
-        canvas.add(Line(((0.0, py), (width, py)), "axis" if y == 0 else "grid"))
-        canvas.add(Text((-1.5, py), _tick(y), 2.6, "note", "end"))
-    canvas.add(Line(((0.0, height), (0.0, 0.0), (width, 0.0)), "axis"))
-    canvas.add(Text((width / 2, -7.6), x_label, 2.8, "note"))
-    canvas.add(Text((-1.5, height + 4.2), y_label, 2.8, "note", "start"))
-    return to
-
-
-def _tick(value: float) -> str:
-    return f"{value:g}".replace("-", "−")
-
-
-def _legend(canvas: Canvas, n: int, name: str, role: str) -> None:
-    y = SIZE[1] - 2.0 - 4.6 * n
-    canvas.add(Line(((SIZE[0] + 3.0, y), (SIZE[0] + 10.0, y)), role))
-    canvas.add(Text((SIZE[0] + 11.5, y), name, 2.8, "text", "start"))
-
-
-def _runs(x: Array, y: Array) -> list[list[tuple[float, float]]]:
-    """Pieces without gaps."""
-    out: list[list[tuple[float, float]]] = [[]]
-    for a, b in zip(x, y, strict=True):
-        if math.isfinite(b) and math.isfinite(a):
-            out[-1].append((float(a), float(b)))
-        elif out[-1]:
-            out.append([])
-    return [run for run in out if len(run) > 1]
+MOST = 6
+"""Curves of one chart that can be told apart."""
 
 
 def stepped_series(r: Result, read: Callable[[Result], Array]) -> Array:
@@ -147,7 +66,7 @@ def along(r: Result, shown: Shown) -> tuple[Array, str, bool]:
 
 
 def effort_chart(r: Result, notation: Notation | None = None) -> list[Scene]:
-    """Efforts over the cycle, torques and forces apart."""
+    """Efforts over the cycle with the mean of each, torques and forces apart."""
     shown = Shown(r, notation or Notation())
     x, label, angle = along(r, shown)
     out = []
@@ -155,29 +74,51 @@ def effort_chart(r: Result, notation: Notation | None = None) -> list[Scene]:
         names = [d for d in r.drives if drive_kinds(r, d)["effort"] == kind]
         efforts = {d: stepped_series(r, methodcaller("effort", d)) for d in names}
         series = {d: np.array([shown.value(kind, v) for v in values]) for d, values in efforts.items()}
+        means = {d: mean_effort(r, d) for d in names}
+        levels = {
+            f"mean of {d}: {shown.number(kind, v)}": shown.value(kind, v)
+            for d, v in means.items()
+            if v is not None
+        }
         if series:
-            word = "Torque" if kind == "moment" else "Force"
-            out.append(curves_scene(x, series, label, f"{word} in {shown.unit(kind)}", "Drive effort", angle))
+            y_label = f"{'Torque' if kind == 'moment' else 'Force'} in {shown.unit(kind)}"
+            out.append(curves_scene(x, series, label, y_label, "Drive effort", angle, levels))
     return out
 
 
-def reaction_chart(r: Result, notation: Notation | None = None) -> Scene:
-    """Magnitudes of all joint forces over the cycle."""
-    shown = Shown(r, notation or Notation())
-    x, label, angle = along(r, shown)
-    unit = shown.unit("force")
-    size = 1 / shown.value("force", 1.0)
-    series = {n: magnitude(stepped_series(r, methodcaller("reaction", n))) / size for n in r.joints}
-    return curves_scene(x, series, label, f"Joint force in {unit}", "Joint forces", angle)
+def mean_effort(r: Result, drive: str) -> float | None:
+    """Work of a drive's effort over its travel, trapezoid by trapezoid (N m or N); None where an effort is not known,
+    or the drive comes back to where it was. Over whole turns the last piece leads to the first position again."""
+    effort = stepped_series(r, methodcaller("effort", drive))
+    place = stepped_series(r, methodcaller("drive_position", drive))
+    if len(place) > 2 and drive_kinds(r, drive)["effort"] == "moment":
+        try:
+            whole = math.copysign(2 * math.pi * whole_turns(r.drive_position(drive)), place[-1] - place[0])
+            effort, place = np.append(effort, effort[0]), np.append(place, place[0] + whole)
+        except ModelError:
+            pass
+    travel = float(place[-1] - place[0])
+    if not np.isfinite(effort).all() or abs(travel) <= 1e-9 * float(np.ptp(place)):
+        return None
+    return float(np.trapezoid(effort, place)) / travel
 
 
-def moment_chart(r: Result, joints: Sequence[str], notation: Notation | None = None) -> Scene:
-    """In space: magnitudes of joint moments over the cycle."""
+def reaction_charts(r: Result, notation: Notation | None = None, joints: Sequence[str] = ()) -> list[Scene]:
+    """Magnitudes of joint forces over the cycle, six joints a chart."""
+    return _size_charts(r, "force", joints or r.joints, notation)
+
+
+def _size_charts(r: Result, kind: str, joints: Sequence[str], notation: Notation | None) -> list[Scene]:
     shown = Shown(r, notation or Notation())
     x, label, angle = along(r, shown)
-    size = shown.size("moment")
-    series = {n: magnitude(stepped_series(r, methodcaller("reaction_moment", n))) / size for n in joints}
-    return curves_scene(x, series, label, f"Joint moment in {shown.unit('moment')}", "Joint moments", angle)
+    read = "reaction" if kind == "force" else "reaction_moment"
+    out = []
+    for first in range(0, len(joints), MOST):
+        some = joints[first : first + MOST]
+        sizes = {n: magnitude(stepped_series(r, methodcaller(read, n))) / shown.size(kind) for n in some}
+        y_label = f"Joint {kind} in {shown.unit(kind)}"
+        out.append(curves_scene(x, sizes, label, y_label, f"Joint {kind}s", angle))
+    return out
 
 
 def components_chart(r: Result, joint: str, notation: Notation | None = None) -> Scene:
@@ -206,45 +147,39 @@ def vector_chart(r: Result, vectors: Array, kind: str, title: str, shown: Shown)
     return curves_scene(x, series, label, f"{kind.capitalize()} in {shown.unit(kind)}", title, angle)
 
 
-def polar_scene(paths: Mapping[str, Array], unit: str, title: str, radius: float = 34.0) -> Scene:
-    """Hodographs: ends of force vectors over the cycle, circles of equal magnitude around the pole."""
-    canvas = Canvas()
-    largest = max((float(np.nanmax(np.hypot(*p.T), initial=0.0)) for p in paths.values()), default=1.0) or 1.0
-    step = round_up(largest / 3)
-    rings = math.ceil(largest / step - 1e-9)
-    scale = radius / (rings * step)
-    reach = radius + 3.0
-    canvas.add(Line(((-reach, 0.0), (reach, 0.0)), "axis"), Line(((0.0, -reach), (0.0, reach)), "axis"))
-    for n in range(1, rings + 1):
-        canvas.add(Circle((0.0, 0.0), n * step * scale, "grid"))
-    for n, (name, path) in enumerate(paths.items()):
-        points = [(float(x) * scale, float(y) * scale) for x, y in path if math.isfinite(x)]
-        if len(points) > 1:
-            canvas.add(Line((*points, points[0]), f"curve-{n % 6 + 1}"))
-            canvas.label(name, *points[:: max(1, len(points) // 12)], size=2.8)
-    for n in range(1, rings + 1):
-        r = n * step * scale
-        spots = [(r * math.cos(a), r * math.sin(a)) for a in np.arange(16) * math.pi / 8 + 0.2]
-        canvas.label(_tick(n * step), *spots, size=2.4, role="note", leads=False)
-    canvas.label("x", (reach, 0.0), prefer=0.0, size=2.8, role="note", leads=False)
-    canvas.label("y", (0.0, reach), prefer=math.pi / 2, size=2.8, role="note", leads=False)
-    return canvas.scene(title, notes=[f"Circles in {unit}"], scales={"force": 1 / scale})
+def crank_marks(r: Result, shown: Shown) -> Marks:
+    """Positions nearest to round values of the first drive, with those values, for polar diagrams."""
+    if not r.drives:
+        return ()
+    x, label, angle = along(r, shown)
+    known = x[np.isfinite(x)]
+    if known.size < 3:
+        return ()
+    low, high, step = float(known.min()), float(known.max()), float(np.nanmax(np.abs(np.diff(x))))
+    unit = "°" if angle else f" {label.rpartition(' in ')[2]}"
+    marks = [(int(np.nanargmin(np.abs(x - t))), t) for t in inner_ticks(low, high, 12, angle)]
+    return [(k, f"{t:g}{unit}".replace("-", "−")) for k, t in marks if abs(float(x[k]) - t) <= 0.51 * step]
 
 
 def polar_chart(
     r: Result, joints: Sequence[str], axes: str = "ground", notation: Notation | None = None
 ) -> Scene:
-    """Polar diagrams of joint forces in ground axes, or in the axes of the link (where a bearing wears)."""
+    """Polar diagrams of joint forces in ground axes, or in the axes of the link (where a bearing wears), with the first
+    drive's positions marked."""
     shown = Shown(r, notation or Notation())
     unit = shown.value("force", 1.0)
-    paths = {}
+    paths, title = {}, "Joint forces"
     seen: Axes = "link" if axes == "link" else "ground"
     for joint in joints:
         i, j = r.mechanism.joints[joint].links
         on = j if axes == "ground" or j != "ground" else i
         paths[joint] = stepped_series(r, methodcaller("reaction", joint, on=on, axes=seen)) * unit
-    where = "ground axes" if axes == "ground" else "axes of the link"
-    return polar_scene(paths, shown.unit("force"), f"Joint forces in {where}")
+        title = f"Joint {joint} on link {shown.heading(on)}" if len(joints) == 1 else title
+    where = (
+        "ground axes" if axes == "ground" else "the link's axes" if len(joints) == 1 else "axes of the link"
+    )
+    marks = crank_marks(r, shown)
+    return polar_scene(paths, shown.unit("force"), f"{title}, {where}", marks=marks)
 
 
 def shaking_chart(r: Result, notation: Notation | None = None) -> Scene:
@@ -253,7 +188,7 @@ def shaking_chart(r: Result, notation: Notation | None = None) -> Scene:
     total, title = stepped_series(r, shaking_force) * shown.value("force", 1.0), "Shaking force on the ground"
     if r.mechanism.dimension == 3:
         return vector_chart(r, total, "force", title, shown)
-    return polar_scene({"shaking force": total}, shown.unit("force"), title)
+    return polar_scene({"shaking force": total}, shown.unit("force"), title, marks=crank_marks(r, shown))
 
 
 def chart_scenes(r: Result, notation: Notation | None = None) -> list[Scene]:
@@ -262,11 +197,10 @@ def chart_scenes(r: Result, notation: Notation | None = None) -> list[Scene]:
     if r.mechanism.dimension == 3:
         return _space_charts(r, shown)
     loaded = [j for j in r.joints if np.nanmax(magnitude(r.reaction(j)), initial=0.0) > 0]
-    out = [*effort_chart(r, shown), reaction_chart(r, shown)]
+    out = [*effort_chart(r, shown), *reaction_charts(r, shown)]
     out += [components_chart(r, j, shown) for j in loaded]
     pins = [j for j in loaded if r.mechanism.joints[j].hinge][:6]
-    if pins:
-        out += [polar_chart(r, pins, "ground", shown), polar_chart(r, pins, "link", shown)]
+    out += [polar_chart(r, [pin], axes, shown) for pin in pins for axes in ("ground", "link")]
     return [*out, shaking_chart(r, shown)]
 
 
@@ -279,8 +213,8 @@ def _space_charts(r: Result, notation: Notation) -> list[Scene]:
     loaded = [j for j, (f, _) in sizes.items() if f > NOTHING * max(force, moment / length)]
     turned = [j for j, (_, m) in sizes.items() if m > NOTHING * max(moment, force * length)]
     out = effort_chart(r, notation)
-    out += [reaction_chart(r, notation)] if loaded else []
-    out += [moment_chart(r, turned, notation)] if turned else []
+    out += reaction_charts(r, notation) if loaded else []
+    out += _size_charts(r, "moment", turned, notation)
     for j in r.joints:
         out += [components_chart(r, j, notation)] if j in loaded else []
         out += [moment_components_chart(r, j, notation)] if j in turned else []

@@ -43,7 +43,7 @@ def cycle(sheet: Sheet, c: ReportContext) -> None:
     sheet.heading("Over the cycle")
     known = [j for j in r.joints if np.isfinite(r.reaction(j)).all(axis=-1).any()]
     sheet.figure(
-        *charts.effort_chart(r, c.notation), *([charts.reaction_chart(r, c.notation)] if known else [])
+        *charts.effort_chart(r, c.notation), *(charts.reaction_charts(r, c.notation) if known else [])
     )
     rows = []
     for d in r.drives:

@@ -60,6 +60,8 @@ _LIGHT: dict[str, Look] = {
     "dimension": Look(GREY, 0.18, (), GREY),
     "axis": Look(GREY, 0.25),
     "grid": Look("#d5dbe1", 0.15),
+    "level": Look(GREY, 0.3, (5.0, 0.8, 0.8, 0.8)),
+    "missing-fill": Look("#eef1f4", 0.1, (), "#eef1f4"),
     "curve-1": Look("#1c56a8", 0.45),
     "curve-2": Look("#c1272d", 0.45, (2.0, 0.8)),
     "curve-3": Look("#1a7f4b", 0.45, (0.7, 0.7)),

@@ -8,7 +8,7 @@ from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.machine.harmonics import Harmonics
 from dalembert.machine.shaking import Shaking
-from dalembert.views.charts import along, curves_scene, polar_scene, vector_chart
+from dalembert.views.charts import along, crank_marks, curves_scene, polar_scene, vector_chart
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.only_in_motion import refuse_still
 from dalembert.views.paper.canvas import Canvas
@@ -25,7 +25,8 @@ def shaking_scenes(s: Shaking, notation: Notation | None = None) -> list[Scene]:
     whose = "on the ground" if s.whole else f"of {', '.join(s.links)}"
     out = []
     if r.mechanism.dimension == 2:
-        out.append(polar_scene({"force": force}, shown.unit("force"), f"Shaking force {whose}"))
+        marks = crank_marks(r, shown)
+        out.append(polar_scene({"force": force}, shown.unit("force"), f"Shaking force {whose}", marks=marks))
     out.append(vector_chart(r, force, "force", f"Shaking force {whose}", shown))
     x, label, angle = along(r, shown)
     about = f"Shaking moment about {s.about}"

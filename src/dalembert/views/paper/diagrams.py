@@ -1,0 +1,239 @@
+"""Curves over an axis and polar diagrams, as scenes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags
+from dalembert.errors import ModelError
+from dalembert.machine.harmonics import whole_turns
+from dalembert.views.paper.canvas import Canvas
+from dalembert.views.paper.frame import round_up
+from dalembert.views.paper.lettering import Box
+from dalembert.views.paper.scene import Circle, Line, Point, Polygon, Scene, Text
+
+SIZE = (84.0, 52.0)
+"""Of the field of a chart, mm."""
+
+Marks = Sequence[tuple[int, str]]
+"""Numbers of positions, and what stands beside them."""
+
+
+def ticks(low: float, high: float, most: int = 6, angle: bool = False) -> list[float]:
+    """Round values that cover a range.
+
+    >>> ticks(0.0, 360.0, 7, True)
+    [0.0, 60.0, 120.0, 180.0, 240.0, 300.0, 360.0]
+    """
+    if not high > low:
+        low, high = low - 1.0, high + 1.0
+    step = round_up((high - low) / most)
+    if angle:
+        step = next(
+            (s for s in (5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0) if (high - low) / s <= most), 360.0
+        )
+    first = math.floor(low / step + 1e-9)
+    last = math.ceil(high / step - 1e-9)
+    return [float(f"{n * step:.10g}") for n in range(first, last + 1)]
+
+
+def inner_ticks(low: float, high: float, most: int = 6, angle: bool = False) -> list[float]:
+    """Round values within a range.
+
+    >>> inner_ticks(90.0, 805.0, 6, True)
+    [180.0, 360.0, 540.0, 720.0]
+    """
+    slack = 1e-9 * (high - low)
+    return [t for t in ticks(low, high, most, angle) if low - slack <= t <= high + slack]
+
+
+def curves_scene(
+    x: Array,
+    series: Mapping[str, Array],
+    x_label: str,
+    y_label: str,
+    title: str = "",
+    angle: bool = False,
+    levels: Mapping[str, float] | None = None,
+) -> Scene:
+    """Curves against one axis with a legend; ``levels`` are lines across. Where none has a value it is grey."""
+    canvas, levels = Canvas(), levels or {}
+    places, curves = _whole_cycle(np.asarray(x, float), series) if angle else (np.asarray(x, float), series)
+    low, high = _reach(np.concatenate([*curves.values(), [*levels.values()]]))
+    known = places[np.isfinite(places)]
+    left, right = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
+    left, right = (left, right) if right > left else (left - 1.0, right + 1.0)
+    y_ticks = ticks(low, high)
+    to = _scale((left, right), (y_ticks[0], y_ticks[-1]))
+    missing = _missing(places, np.any([np.isfinite(v) for v in curves.values()], axis=0))
+    for a, b in missing:
+        corners = ((a, y_ticks[0]), (b, y_ticks[0]), (b, y_ticks[-1]), (a, y_ticks[-1]))
+        canvas.add(Polygon(tuple(to(*p) for p in corners), "missing-fill"))
+    _axes(canvas, to, inner_ticks(left, right, 6, angle), y_ticks, x_label, y_label)
+    for n, (name, curve) in enumerate(curves.items()):
+        role = f"curve-{n % 6 + 1}"
+        for run in _runs(places, curve):
+            line = tuple(to(a, b) for a, b in run)
+            canvas.add(Line(line, role) if len(line) > 1 else Circle(line[0], 0.4, role))
+        _legend(canvas, n, name, role)
+    for n, (name, value) in enumerate(levels.items(), len(curves)):
+        canvas.add(Line((to(left, value), to(right, value)), "level"))
+        _legend(canvas, n, name, "level")
+    if missing:
+        _legend(canvas, len(curves) + len(levels), "no answer", "missing-fill")
+    return canvas.scene(title, numbers={name: [float(v) for v in curve] for name, curve in series.items()})
+
+
+def _whole_cycle(x: Array, series: Mapping[str, Array]) -> tuple[Array, Mapping[str, Array]]:
+    """Angles (degrees) that cover whole turns with their beginning once more at the end."""
+    try:
+        turns = whole_turns(np.radians(x))
+    except ModelError:
+        return x, series
+    end = x[0] + math.copysign(360.0 * turns, x[-1] - x[0])
+    return np.append(x, end), {name: np.append(v, v[0]) for name, v in series.items()}
+
+
+def _reach(values: Array) -> tuple[float, float]:
+    """The range of an axis: that of its values, with zero where they come near it beside how far they spread.
+
+    >>> _reach(np.array([10500.0, 12500.0])), _reach(np.array([800.0, 2500.0]))
+    ((10500.0, 12500.0), (0.0, 2500.0))
+    """
+    known = values[np.isfinite(values)]
+    low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
+    near = min(abs(low), abs(high)) <= 2.0 * (high - low) or high == low
+    return (min(low, 0.0), max(high, 0.0)) if near or low * high <= 0 else (low, high)
+
+
+def _missing(x: Array, known: Flags) -> list[tuple[float, float]]:
+    """Parts of the axis between places that are known, in which some are not."""
+    there = np.flatnonzero(known)
+    if not there.size:
+        return [(float(np.nanmin(x)), float(np.nanmax(x)))] if np.isfinite(x).any() else []
+    edges = [0, *there.tolist(), len(x) - 1]
+    steps = [(a, b) for a, b in pairwise(edges) if b - a > 1 or not (known[a] and known[b])]
+    return [(float(x[a]), float(x[b])) for a, b in steps if x[a] != x[b]]
+
+
+def _scale(x: tuple[float, float], y: tuple[float, float]) -> Callable[[float, float], Point]:
+    """From values to the field of a chart."""
+
+    def to(a: float, b: float) -> Point:
+        return SIZE[0] * (float(a) - x[0]) / (x[1] - x[0]), SIZE[1] * (float(b) - y[0]) / (y[1] - y[0])
+
+    return to
+
+
+def _axes(
+    canvas: Canvas,
+    to: Callable[[float, float], Point],
+    xs: list[float],
+    ys: list[float],
+    x_label: str,
+    y_label: str,
+) -> None:
+    width, height = SIZE
+    for x in xs:
+        px = to(x, ys[0])[0]
+        canvas.add(Line(((px, 0.0), (px, height)), "grid"))
+        canvas.add(Text((px, -3.2), _tick(x), 2.6, "note"))
+    for y in ys:
+        py = to(0.0, y)[1]
+        canvas.add(Line(((0.0, py), (width, py)), "axis" if y == 0 else "grid"))
+        canvas.add(Text((-1.5, py), _tick(y), 2.6, "note", "end"))
+    canvas.add(Line(((0.0, height), (0.0, 0.0), (width, 0.0)), "axis"))
+    canvas.add(Text((width / 2, -7.6), x_label, 2.8, "note"))
+    canvas.add(Text((-1.5, height + 4.2), y_label, 2.8, "note", "start"))
+
+
+def _tick(value: float) -> str:
+    return f"{value:g}".replace("-", "−")
+
+
+def _legend(canvas: Canvas, n: int, name: str, role: str) -> None:
+    y, left, right = SIZE[1] - 2.0 - 4.6 * n, SIZE[0] + 3.0, SIZE[0] + 10.0
+    if role.endswith("-fill"):
+        corners = ((left, y - 1.4), (right, y - 1.4), (right, y + 1.4), (left, y + 1.4))
+        canvas.add(Polygon(corners, role))
+    else:
+        canvas.add(Line(((left, y), (right, y)), role))
+    canvas.add(Text((right + 1.5, y), name, 2.8, "text", "start"))
+
+
+def _runs(x: Array, y: Array) -> list[list[tuple[float, float]]]:
+    """Pieces without gaps."""
+    out: list[list[tuple[float, float]]] = [[]]
+    for a, b in zip(x, y, strict=True):
+        if math.isfinite(b) and math.isfinite(a):
+            out[-1].append((float(a), float(b)))
+        elif out[-1]:
+            out.append([])
+    return [run for run in out if run]
+
+
+def polar_scene(
+    paths: Mapping[str, Array], unit: str, title: str, size: float = 62.0, marks: Marks = ()
+) -> Scene:
+    """Hodographs: ends of force vectors over the cycle around the pole, with circles of equal magnitude as far as the
+    paths reach; ``marks`` of some positions. A path is joined to its beginning only where its ends are as near as its
+    steps."""
+    canvas, everything = Canvas(), np.concatenate([*paths.values(), np.zeros((1, 2))])
+    known = everything[np.isfinite(everything).all(axis=1)]
+    low, high = known.min(axis=0), known.max(axis=0)
+    widest = float((high - low).max()) or 1.0
+    step, scale = round_up(float(np.hypot(*known.T).max()) / 4), size / widest
+    left, bottom = (float(v) for v in low * scale - 0.1 * size)
+    right, top = (float(v) for v in high * scale + 0.1 * size)
+    canvas.add(Line(((left, 0.0), (right, 0.0)), "axis"), Line(((0.0, bottom), (0.0, top)), "axis"))
+    rings = [
+        n * step * scale for n in range(1, 10) if n * step * scale <= math.dist((left, bottom), (right, top))
+    ]
+    for radius in rings:
+        for run in _ring(radius, (left, bottom, right, top)):
+            canvas.add(Line(run, "grid"))
+    for n, (name, path) in enumerate(paths.items()):
+        _draw_path(canvas, path * scale, f"curve-{n % 6 + 1}", marks)
+        points = [(float(x), float(y)) for x, y in path * scale if math.isfinite(x)]
+        if points and len(paths) > 1:
+            canvas.label(name, *points[:: max(1, len(points) // 12)], size=2.8)
+    for n, radius in enumerate(rings, 1):
+        spots = [p for run in _ring(radius, (left, bottom, right, top)) for p in run[2:-2:6]]
+        if spots:
+            canvas.label(_tick(n * step), *spots, size=2.4, role="note", leads=False)
+    canvas.label("x", (right, 0.0), prefer=0.0, size=2.8, role="note", leads=False)
+    canvas.label("y", (0.0, top), prefer=math.pi / 2, size=2.8, role="note", leads=False)
+    return canvas.scene(title, notes=[f"Circles in {unit}"], scales={"force": 1 / scale})
+
+
+def _ring(radius: float, window: Box) -> list[tuple[Point, ...]]:
+    """The parts of a circle about the pole that are in a window."""
+    turn = np.linspace(0.0, 2 * math.pi, 145)
+    x, y = radius * np.cos(turn), radius * np.sin(turn)
+    inside = (x >= window[0]) & (y >= window[1]) & (x <= window[2]) & (y <= window[3])
+    runs = _runs(np.where(inside, x, math.nan), y)
+    if len(runs) > 1 and inside[0]:  # the first and the last piece are one
+        runs = [*runs[1:-1], [*runs[-1], *runs[0][1:]]]
+    return [tuple(run) for run in runs if len(run) > 1]
+
+
+def _draw_path(canvas: Canvas, path: Array, role: str, marks: Marks) -> None:
+    """A path in mm in pieces without gaps, with marks that stand apart from one another."""
+    runs = _runs(*path.T)
+    steps = np.hypot(*np.diff(path, axis=0).T)
+    whole = len(runs) == 1 and len(runs[0]) == len(path) > 2
+    if whole and math.dist(runs[0][0], runs[0][-1]) <= 2.0 * float(steps.max()):
+        runs = [[*runs[0], runs[0][0]]]
+    for run in runs:
+        canvas.add(Line(tuple(run), role) if len(run) > 1 else Circle(run[0], 0.4, role))
+    told: list[Point] = []
+    for k, text in marks:
+        at = (float(path[k, 0]), float(path[k, 1]))
+        if math.isfinite(at[0]) and all(math.dist(at, other) > 3.0 for other in told):
+            told.append(at)
+            canvas.add(Circle(at, 0.5, "mark"))
+            canvas.label(text, at, prefer=math.atan2(at[1], at[0]), size=2.3, role="note")
