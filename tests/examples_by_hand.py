@@ -44,6 +44,29 @@ def effort(
     return total
 
 
+def pump() -> list[object]:
+    """Stroke 60, rod 120, bore 50 mm; steel; 500 rpm; SI inside: the file's parameters by hand."""
+    r, rod_length, bore, w = 0.03, 0.12, 0.05, 500 * 2 * pi / 60
+    area, d = pi * bore**2 / 4, bore / 4
+    piston_mass, rod_mass = 7850 * area * bore / 2, 7850 * pi * d**2 / 4 * rod_length
+
+    def piston(t: mpf) -> mpf:
+        return r * mp.cos(t) + mp.sqrt(rod_length**2 - (r * mp.sin(t)) ** 2)
+
+    def lean(t: mpf) -> mpf:
+        return -mp.asin(r * mp.sin(t) / rod_length)
+
+    def rod(t: mpf) -> mpf:
+        return r * mp.expj(t) + rod_length / 2 * mp.expj(lean(t))
+
+    def torque(t: float, pressure: float) -> float:
+        inertia = rod_mass * (rod_length**2 / 12 + d**2 / 16)
+        forces = [(complex(-pressure * area), piston)]
+        return effort(t, w, 0.0, [(piston_mass, piston), (rod_mass, rod)], [(inertia, lean)], forces)
+
+    return [torque(radians(60), 0.0), torque(radians(270), 6e6)]
+
+
 def engine() -> list[object]:
     """Crank 45, rod 150 mm; 3000 rpm; SI inside."""
     r, rod_length, w, c = 0.045, 0.150, 100 * pi, 0.045
@@ -298,6 +321,7 @@ EXAMPLES: dict[str, Callable[[], list[object]]] = {
     example.__name__: example
     for example in (
         engine,
+        pump,
         quick_return,
         toggle_press,
         scissor_lift,

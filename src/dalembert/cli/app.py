@@ -18,16 +18,18 @@ from cyclopts import (
 from dalembert import __version__
 from dalembert.cli import machine_commands, wrench_command
 from dalembert.cli.options import (
+    AS_IN_FILE,
     AS_USUAL,
     At,
+    Changes,
     Force,
     ModelFile,
     Names,
     NewFile,
-    NoFriction,
     Positions,
     ReactionAxes,
     Seen,
+    Set,
     Static,
     Style,
     Theme,
@@ -106,7 +108,7 @@ def solve(
         ReactionAxes,
         with_help("Axes of the reactions: ground, the link they act on, in space the joint's own."),
     ] = "ground",
-    no_friction: NoFriction = False,
+    changes: Changes = AS_IN_FILE,
     other_solutions: Annotated[
         bool,
         flag(
@@ -120,9 +122,7 @@ def solve(
     from dalembert.cli.solve_command import Wanted, solve_file
 
     wanted = Wanted(json, csv, xlsx, netcdf, units, axes, every, force, other_solutions)
-    return solve_file(
-        file, wanted, static=static, positions=positions, method=method, friction=not no_friction
-    )
+    return solve_file(file, wanted, static=static, positions=positions, method=method, changes=changes)
 
 
 @app.command(
@@ -168,14 +168,14 @@ def draw(
     question: Annotated[
         bool, flag("The mechanism with what is given alone: no efforts, no reactions, nothing computed.")
     ] = False,
-    no_friction: NoFriction = False,
+    changes: Changes = AS_IN_FILE,
     force: Force = False,
 ) -> int:
     """Draw FILE to scale: the mechanism, free bodies, force polygons, charts."""
     from dalembert.cli.draw_command import draw_file, question_view
 
     which = question_view(view) if question else view
-    return draw_file(file, output, which, at, positions, static, theme, names, force, not no_friction, camera)
+    return draw_file(file, output, which, at, positions, static, theme, names, force, changes, camera)
 
 
 @app.command(
@@ -201,15 +201,13 @@ def report(
     ] = None,
     style: Style = AS_USUAL,
     about: Annotated[str, with_help("Joint to take moments about, where a link has it.")] = "",
-    no_friction: NoFriction = False,
+    changes: Changes = AS_IN_FILE,
     force: Force = False,
 ) -> int:
     """Write the worked solution of FILE, step by step, with its drawings."""
     from dalembert.cli.draw_command import write_report
 
-    return write_report(
-        file, output, at, positions, static, method, style.notation(), about, force, not no_friction
-    )
+    return write_report(file, output, at, positions, static, method, style.notation(), about, force, changes)
 
 
 @app.command(
@@ -223,12 +221,12 @@ def check(
         bool,
         flag("Print every answer of many files, not only one line a file and what disagrees.", "--all"),
     ] = False,
-    no_friction: NoFriction = False,
+    changes: Changes = AS_IN_FILE,
 ) -> int:
     """Compare the answers that stand in model files with what is computed."""
     from dalembert.cli.check_command import check_files
 
-    return check_files(files, every=every, friction=not no_friction)
+    return check_files(files, every=every, changes=changes)
 
 
 @app.command(
@@ -248,12 +246,12 @@ def check_answers(
     *,
     interactive: Annotated[bool, flag("Ask for them one by one.")] = False,
     static: Static = False,
-    no_friction: NoFriction = False,
+    changes: Changes = AS_IN_FILE,
 ) -> int:
     """Compare your own figures with what is computed, and name the mistake that explains a difference."""
     from dalembert.cli.check_answers_command import grade_answers
 
-    return grade_answers(file, answers, interactive, static, not no_friction)
+    return grade_answers(file, answers, interactive, static, changes)
 
 
 @app.command(help_epilogue="Examples:\n  dalembert validate\n  dalembert validate > qualification.txt")
@@ -296,12 +294,13 @@ def convert(
     /,
     *,
     output: Annotated[Path, output("File to write; its ending names the format.")],
+    set: Set = None,  # noqa: A002
     force: Force = False,
 ) -> int:
     """Write a model file in another format: .yaml, .json or .toml."""
     from dalembert.cli.describe_commands import convert_file
 
-    return convert_file(file, output, force)
+    return convert_file(file, output, set or [], force)
 
 
 @app.command(

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from dalembert.arrays import Tree
+from dalembert.cli.options import AS_IN_FILE, Changes
 from dalembert.errors import ModelError
 from dalembert.printing import table
 
@@ -15,14 +16,14 @@ if TYPE_CHECKING:
 
 
 def grade_answers(
-    file: Path, answers: Path | None, interactive: bool, static: bool, friction: bool = True
+    file: Path, answers: Path | None, interactive: bool, static: bool, changes: Changes = AS_IN_FILE
 ) -> int:
     """Compare figures with what is computed; 1 where one is not right."""
     from dalembert.cli.model_argument import load_model
     from dalembert.grading.mistakes import check_answers, figures
     from dalembert.model.files.model_files import read_file
 
-    m = load_model(file, friction)
+    m = load_model(file, changes)
     if interactive:
         tree: object = _ask_figures(m, static)
     elif answers is None:

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from dalembert.cli.options import AS_IN_FILE, Changes
 from dalembert.errors import DalembertError, ModelError
 from dalembert.printing import table, wrap
 
@@ -18,12 +19,12 @@ if TYPE_CHECKING:
 ENDINGS = (".yaml", ".yml", ".json", ".toml")
 
 
-def check_files(files: Sequence[Path], every: bool, friction: bool = True) -> int:
+def check_files(files: Sequence[Path], every: bool, changes: Changes = AS_IN_FILE) -> int:
     """Compare the answers of files and folders; 1 where one disagrees, 2 where a file is wrong."""
     if not files:
         raise ModelError("check needs a file or a folder", "for example: dalembert check four_bar.yaml")
     found = list(_model_files(files))
-    rows, wrong = _compare(found, friction)
+    rows, wrong = _compare(found, changes)
     if rows or not wrong:
         print(_text(rows, every or len(found) == 1))
     return 2 if wrong else 0 if all(row.ok for row in rows) else 1
@@ -57,7 +58,7 @@ def _model_files(named: Iterable[Path]) -> Iterator[Path]:
             yield path
 
 
-def _compare(files: Sequence[Path], friction: bool = True) -> tuple[list[Row], int]:
+def _compare(files: Sequence[Path], changes: Changes = AS_IN_FILE) -> tuple[list[Row], int]:
     """Rows of all files, and how many files are wrong; what is wrong is said at once."""
     from dalembert.cli.model_argument import load_model
     from dalembert.grading.file_answers import check
@@ -68,7 +69,7 @@ def _compare(files: Sequence[Path], friction: bool = True) -> tuple[list[Row], i
         for path in files:
             step(path.name)
             try:
-                rows += check(load_model(path, friction), path.stem)
+                rows += check(load_model(path, changes), path.stem)
             except DalembertError as error:
                 print(error, file=sys.stderr)
                 wrong += 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 from dalembert.errors import ModelError
@@ -86,12 +87,16 @@ def _title(path: Path) -> str:
     return ""
 
 
-def convert_file(file: Path, output: Path, force: bool) -> int:
-    """Write a model file in the format that the ending of the output names."""
-    from dalembert.model import convert
+def convert_file(file: Path, output: Path, settings: Sequence[str], force: bool) -> int:
+    """Write a model file in the format that the ending of the output names, with other values."""
+    from dalembert.cli.model_argument import with_settings
+    from dalembert.model import convert, load
 
     check_new(output, force)
-    convert(file, output, overwrite=force)
+    if settings:
+        with_settings(load(file), settings).save(output, overwrite=force)
+    else:
+        convert(file, output, overwrite=force)
     print(f"Written: {output}")
     return 0
 

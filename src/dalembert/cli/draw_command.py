@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from dalembert.arrays import Tree
+from dalembert.cli.options import AS_IN_FILE, Changes
 from dalembert.errors import ModelError
 from dalembert.saving import check_new
 
@@ -33,7 +34,7 @@ def draw_file(
     theme: Literal["light", "dark", "print"],
     names: bool,
     force: bool,
-    friction: bool = True,
+    changes: Changes = AS_IN_FILE,
     camera: str | None = None,
 ) -> int:
     """Draw a file; 1 where some position has a status other than ok."""
@@ -50,7 +51,7 @@ def draw_file(
             "write .svg, .pdf or .png, or ask for --view animation",
         )
     check_new(output, force)
-    m = load_model(file, friction)
+    m = load_model(file, changes)
     if positions is None and (view == "charts" or _moves(view, output)):
         positions = _enough(m, 36 if _moves(view, output) else 72)
     result, at = _solve_at(m, at, static, positions)
@@ -92,14 +93,14 @@ def write_report(
     notation: Notation | None,
     about: str,
     force: bool,
-    friction: bool = True,
+    changes: Changes = AS_IN_FILE,
 ) -> int:
     """Write the worked solution; 1 where some position has a status other than ok."""
     from dalembert.cli.model_argument import load_model
     from dalembert.reports import report
 
     check_new(output, force)
-    result, at = _solve_at(load_model(file, friction), at, static, positions)
+    result, at = _solve_at(load_model(file, changes), at, static, positions)
     report(result, at, methods, notation, about).save(output, force)
     return _announce(result, output)
 

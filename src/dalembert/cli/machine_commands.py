@@ -10,7 +10,17 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
-from dalembert.cli.options import Force, ModelFile, NoFriction, Positions, Static, Theme, target, with_help
+from dalembert.cli.options import (
+    AS_IN_FILE,
+    Changes,
+    Force,
+    ModelFile,
+    Positions,
+    Static,
+    Theme,
+    target,
+    with_help,
+)
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
@@ -104,12 +114,12 @@ def over_a_turn(m: Mechanism, positions: int | None) -> int | None:
     return ENOUGH if positions is None and one and any(d.turns for d in m.drives.values()) else positions
 
 
-def solve_over_a_turn(file: Path, static: bool, positions: int | None, friction: bool) -> Result:
+def solve_over_a_turn(file: Path, static: bool, positions: int | None, changes: Changes) -> Result:
     """The analysis of a file."""
     from dalembert.analysis import solve
     from dalembert.cli.model_argument import load_model
 
-    m = load_model(file, friction)
+    m = load_model(file, changes)
     return solve(m, static=static, positions=over_a_turn(m, positions))
 
 
@@ -129,7 +139,7 @@ def shake(
     orders: Annotated[int, Parameter(help="Highest order of the harmonics.")] = 4,
     static: Static = False,
     positions: Positions = None,
-    no_friction: NoFriction = False,
+    changes: Changes = AS_IN_FILE,
     out: Outputs = NO_OUTPUTS,
 ) -> int:
     """Shaking force and moment of FILE: what the machine exerts on its foundation, and the harmonics."""
@@ -139,7 +149,7 @@ def shake(
     from dalembert.machine.shaking import shaking
 
     out.check(file)
-    result = solve_over_a_turn(file, static, positions, not no_friction)
+    result = solve_over_a_turn(file, static, positions, changes)
     found = shaking(result, _point(result.mechanism, about), links)
     out.deliver(found, lambda units: shaking_text(found, units, orders))
     return int(not np.isfinite(found.force).all())

@@ -80,6 +80,13 @@ Theme = Annotated[
 Figures = Annotated[int, Parameter(converter=whole(1, 15), help="Significant figures.")]
 Static = Annotated[bool, flag("Leave inertia out, even where the file has speeds.")]
 NoFriction = Annotated[bool, flag("Leave friction out.")]
+Set = Annotated[
+    list[str] | None,
+    Parameter(
+        negative=(),
+        help="Another value of a parameter or any number: --set r=50mm --set links.rod.mass=2kg; repeatable.",
+    ),
+]
 Names = Annotated[bool, flag("Write links by their names, not by number.")]
 Force = Annotated[bool, flag("Overwrite files that exist.")]
 
@@ -121,4 +128,14 @@ class Style:
         )
 
 
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Changes:
+    """What is otherwise than the model file says."""
+
+    no_friction: NoFriction = False
+    set: Set = None
+
+
 AS_USUAL = Style()
+AS_IN_FILE = Changes()

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
+from dalembert.cli.options import Changes
 from dalembert.errors import ModelError
 from dalembert.saving import check_installed, check_new
 
@@ -60,11 +61,11 @@ class Wanted(NamedTuple):
 
 
 def solve_file(
-    file: Path, wanted: Wanted, *, static: bool, positions: int | None, method: str, friction: bool
+    file: Path, wanted: Wanted, *, static: bool, positions: int | None, method: str, changes: Changes
 ) -> int:
     """Analyse a file, print or write the answer; 1 where some position has a status other than ok."""
     _check_targets(file, wanted)
-    result = _result(file, static, positions, friction)
+    result = _result(file, static, positions, changes)
     shown, more = by_method(method, result, wanted.printed_units)
     if wanted.others:
         from dalembert.cli.method_text import other_solutions_text
@@ -111,11 +112,11 @@ def _check_ending(kind: str, path: Path) -> None:
             )
 
 
-def _result(file: Path, static: bool, positions: int | None, friction: bool) -> Result:
+def _result(file: Path, static: bool, positions: int | None, changes: Changes) -> Result:
     from dalembert.analysis import solve
     from dalembert.cli.model_argument import load_model
 
-    m = load_model(file, friction)
+    m = load_model(file, changes)
     with _waiting(f"Solving {file}"):
         return solve(m, static=static, positions=positions)
 

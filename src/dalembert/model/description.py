@@ -266,7 +266,7 @@ class Mechanism(Part):
         uses any more is left out). Raises ModelError for a path that does not exist.
         """
         given = {path: as_in_file(value, path) for path, value in values.items()}
-        named = {path: name for path in given if (name := parameter_name(path, self.parameters))}
+        named = {path: name for path in given if (name := parameter_name(path, self.parameters, self.keys()))}
         rules = self._later_rules({name: given[path] for path, name in named.items()})
         found = self
         if named:

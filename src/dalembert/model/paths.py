@@ -77,9 +77,14 @@ def with_dependents(
         raise ModelError(f"{'.'.join(walked)}: {error.what}", error.remedy, where) from None
 
 
-def parameter_name(path: str, given: Parameters) -> str:
-    """The parameter that a path names: `r`, `parameters.r` or `parameters.r.value`; empty for another path."""
+def parameter_name(path: str, given: Parameters, others: Sequence[str]) -> str:
+    """The parameter that a path names: `r`, `parameters.r` or `parameters.r.value`; empty for another path.
+
+    Raises ModelError for a single word that is neither a parameter nor one of the others, which are a file's keys.
+    """
     keys = path.split(".")
+    if given and len(keys) == 1 and path not in (*given, *others):
+        raise ModelError(f"there is no parameter {path!r}", closest(path, list(given)), ("parameters",))
     name = keys[1] if keys[0] == "parameters" and len(keys) > 1 else keys[0]
     whole = keys in ([name], ["parameters", name], ["parameters", name, "value"])
     if keys[0] == "parameters" and not (whole and name in given):

@@ -1,0 +1,63 @@
+"""`--set`: other values of parameters and of any number, on every command that reads a model file."""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+from pathlib import Path
+
+import pytest
+
+import dalembert as da
+from dalembert.bundled import examples
+from tests.cli.conftest import Run
+
+
+@pytest.fixture(autouse=True)
+def _pump(folder: Path) -> None:
+    shutil.copy(examples()["pump"], folder / "pump.yaml")
+
+
+def test_solve_with_other_values(run: Run) -> None:
+    ran = run("solve", "pump.yaml", "--set", "stroke=80mm", "--set", "links.rod.mass = 2 kg", "--json", "-")
+    efforts = [p["efforts"]["O"] for p in json.loads(ran.out)["positions"]]
+    m = da.load("pump.yaml").with_values({"stroke": 0.08, "links.rod.mass": 2.0})
+    assert efforts == pytest.approx(da.dynamics(m).effort("O").tolist(), abs=1e-9)
+    assert math.dist(*m.links["crank"].points.values()) == pytest.approx(0.04)
+
+
+@pytest.mark.parametrize("target", ["out.toml", "out.yaml"])
+def test_convert_keeps_parameters(run: Run, target: str) -> None:
+    assert run("convert", "pump.yaml", "-o", target, "--set", "ratio=5").status == 0
+    assert da.load(target) == da.load("pump.yaml").with_values({"ratio": 5})
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["draw", "pump.yaml", "-o", "pump.svg", "--view", "mechanism"],
+        ["report", "pump.yaml", "-o", "pump.txt", "--at", "60deg"],
+        ["check", "pump.yaml"],
+        ["shake", "pump.yaml"],
+    ],
+)
+def test_every_command_that_reads_a_file(run: Run, command: list[str]) -> None:
+    ran = run(*command, "--set", "densty=1 kg/m^3")
+    assert ran.status == 2
+    assert "--set densty=1 kg/m^3: there is no parameter 'densty'; did you mean 'density'?" in ran.err
+    assert run(*command, "--set", "density=7850 kg/m^3").status == 0
+
+
+@pytest.mark.parametrize(
+    ("setting", "says"),
+    [
+        ("stroke=2 kg", "--set stroke=2 kg: parameter 'stroke': '2 kg' is a mass, and a length is needed"),
+        ("stroke", "--set stroke says no value; write NAME=VALUE, for example --set r=50mm"),
+        ("links.rod.mas=2", "--set links.rod.mas=2: there is no 'mas' in links.rod"),
+        ("density=-1", "--set density=-1: links.rod: mass: "),
+    ],
+)
+def test_a_wrong_setting_is_told(run: Run, setting: str, says: str) -> None:
+    ran = run("solve", "pump.yaml", "--set", setting)
+    assert (ran.status, ran.err[: len(says)]) == (2, says)
