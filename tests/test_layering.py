@@ -55,6 +55,7 @@ FACADES = {
     "model.description",
     "views.paper.scene",
     "analysis.batch.compiled_kernel",
+    "machine.flywheel.flywheels",
     "machine.shaking",
     "wrench.system",
 }

@@ -45,6 +45,8 @@ if TYPE_CHECKING:
     from dalembert.errors import STATUSES, AnalysisError, DalembertError, ModelError
     from dalembert.grading.file_answers import check_file
     from dalembert.grading.mistakes import check_answers
+    from dalembert.machine.flywheel.flywheel_size import FlywheelSize, flywheel_size
+    from dalembert.machine.flywheel.flywheels import flywheel
     from dalembert.machine.harmonics import harmonics
     from dalembert.machine.shaking import shaking
     from dalembert.model import (
@@ -145,6 +147,8 @@ _NAMES = {
         "Rise Rolling SlenderBar Slider Slot SlotFriction SpaceJoint Sphere Spring StlMesh Table "
         "TimeTable TorsionDamper TorsionSpring Tube Weld convert json_schema load loads mechanism"
     ),
+    "machine.flywheel.flywheel_size": "FlywheelSize flywheel_size",
+    "machine.flywheel.flywheels": "flywheel",
     "machine.harmonics": "harmonics",
     "machine.shaking": "shaking",
     "model.library": (
@@ -179,6 +183,7 @@ __all__ = [
     "Damper",
     "Drive",
     "Expression",
+    "FlywheelSize",
     "ForceLoad",
     "FrictionDefaults",
     "Gear",
@@ -228,6 +233,8 @@ __all__ = [
     "efficiency",
     "five_bar",
     "fixed_point",
+    "flywheel",
+    "flywheel_size",
     "forces_on",
     "four_bar",
     "friction_circles",

@@ -347,6 +347,7 @@ def joints(
 
 app.command(wrench_command.wrench, help_epilogue=wrench_command.EXAMPLES)
 app.command(machine_commands.shake, help_epilogue=machine_commands.SHAKE)
+app.command(machine_commands.flywheel, help_epilogue=machine_commands.FLYWHEEL)
 
 
 def command_line_error(error: CycloptsError, arguments: list[str]) -> str:

@@ -1,4 +1,4 @@
-"""`dalembert shake`: machine design on top of the analysis; what its commands have in common."""
+"""`dalembert shake`, `flywheel`: machine design on top of the analysis; what its commands have in common."""
 
 from __future__ import annotations
 
@@ -159,6 +159,42 @@ SHAKE = """Examples:
   dalembert shake engine.yaml
   dalembert shake engine.yaml --about O2 --orders 6 --drawing shaking.svg
   dalembert shake four_bar.yaml --links coupler rocker --csv shaking.csv"""
+
+
+def flywheel(
+    file: ModelFile,
+    /,
+    *,
+    cs: Annotated[
+        float | None, Parameter(name="--Cs", help="Fluctuation of speed to allow: (greatest - least) / mean.")
+    ] = None,
+    inertia: Annotated[
+        str | None, with_help("Inertia of a flywheel that is there, such as 3.5kg*m^2.")
+    ] = None,
+    static: Static = False,
+    positions: Positions = None,
+    no_friction: NoFriction = False,
+    out: Outputs = NO_OUTPUTS,
+) -> int:
+    """Flywheel of FILE: energy curve, inertia from Cs or back, and the exact speed over the cycle."""
+    from dalembert.machine.flywheel import flywheels
+    from dalembert.machine.output.flywheel_text import flywheel_text
+    from dalembert.units import file_units, quantity
+
+    out.check(file)
+    result = solve_over_a_turn(file, static, positions, not no_friction)
+    given = None if inertia is None else quantity(inertia, "inertia", file_units(result.mechanism.units))
+    try:
+        found = flywheels.flywheel(result, None, cs, given)
+    except ModelError as error:
+        raise error.at_source(result.mechanism.source) from None
+    out.deliver(found, lambda units: flywheel_text(found, units))
+    return 0
+
+
+FLYWHEEL = """Examples:
+  dalembert flywheel engine.yaml --Cs 0.02
+  dalembert flywheel press.yaml --inertia 12kg*m^2 --drawing speed.svg --report flywheel.pdf"""
 
 
 def _point(m: Mechanism, about: str | None) -> str | Sequence[float] | None:

@@ -13,9 +13,12 @@ from dalembert.views.notation import Notation
 
 def machine_sheet(answer: Any, notation: Notation | None = None) -> Sheet:
     """The worked solution of an answer, by what it is."""
+    from dalembert.machine.flywheel.flywheels import Flywheel
+    from dalembert.reports.machine_sections.flywheel_section import flywheel_section
     from dalembert.reports.machine_sections.shaking_section import shaking_section
 
     m = answer.result.mechanism
     sheet = Sheet(m.title or "Machine", m.source_text)
-    shaking_section(sheet, answer, notation or Notation())
+    write = flywheel_section if isinstance(answer, Flywheel) else shaking_section
+    write(sheet, answer, notation or Notation())
     return sheet

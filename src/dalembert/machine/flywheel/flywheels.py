@@ -1,0 +1,155 @@
+"""The flywheel of a machine: what the book says, and what its speed then does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.output.columns import Column, Scale
+from dalembert.arrays import Array, Tree
+from dalembert.errors import AnalysisError
+from dalembert.machine.flywheel.flywheel_size import FlywheelSize, flywheel_size
+from dalembert.machine.flywheel.legendre_panels import resolve
+from dalembert.machine.flywheel.speed_fluctuation import SpeedFluctuation, inertia_for, speed_fluctuation
+from dalembert.machine.flywheel.turning_moment import TurningMoment
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+
+@dataclass(frozen=True)
+class Flywheel:
+    """Energy curve of a drive at steady speed, the flywheel by the book's rule, and the exact speed with it.
+
+    ``torque`` (P,) effort of the drive, ``energy`` (P,) E(q) = int (T - T_m) dq from the first position, both at the
+    positions of the result; ``zeros`` where T = T_m and ``energies`` E there; ``own`` the mean of the machine's own
+    reduced inertia J over angle. ``exact``: the speed with the book's flywheel; ``exact_size``: the flywheel with which
+    the exact C_s is the one asked for (None where the inertia was given, or where it cannot be had). Where E is
+    greatest the machine has asked most, and is slowest.
+    """
+
+    result: Result = field(repr=False)
+    drive: str
+    size: FlywheelSize
+    mean: float
+    torque: Array = field(repr=False)
+    energy: Array = field(repr=False)
+    zeros: Array
+    energies: Array
+    own: float
+    exact: SpeedFluctuation | None = field(repr=False)
+    exact_size: SpeedFluctuation | None = field(repr=False)
+    reason: str = ""
+
+    @property
+    def inertia(self) -> float:
+        """I of the book's flywheel, kg m2."""
+        return self.size.inertia
+
+    @property
+    def slowest(self) -> float:
+        """Angle of the least speed by the energy curve, rad; NaN where the speed does not change."""
+        return float(self.zeros[np.argmax(self.energies)]) if len(self.zeros) else float("nan")
+
+    @property
+    def fastest(self) -> float:
+        """Angle of the greatest speed by the energy curve, rad."""
+        return float(self.zeros[np.argmin(self.energies)]) if len(self.zeros) else float("nan")
+
+    @property
+    def coefficient_of_energy(self) -> float:
+        """dE over the work of one period, of the mean torque."""
+        q = self.result.drive_position(self.drive)
+        work = abs(self.mean * len(q) * (q[1] - q[0]))
+        return self.size.energy / work if work > 1e-9 * self.size.energy else float("nan")
+
+    def columns(self) -> Iterator[Column]:
+        """Angle, effort and energy over the positions, with the exact speed."""
+        r = self.result
+        yield Column(f"drive {self.drive}", "angle", r.drive_position(self.drive))
+        yield Column("effort", "moment", self.torque)
+        yield Column("energy", "energy", self.energy)
+        if self.exact is not None:
+            speed = np.interp(np.sort(r.drive_position(self.drive)), self.exact.angle, self.exact.speed)
+            order = np.argsort(np.argsort(r.drive_position(self.drive)))
+            yield Column("speed", "angular_speed", speed[order])
+
+    def record(self, to: Scale) -> Tree:
+        """Its other numbers by name, in the units of a scale."""
+        low, high = self.size.limits
+        book = {
+            "mean_torque": to("moment", self.mean),
+            "pulses": [to("energy", p) for p in self.size.pulses],
+            "energy_fluctuation": to("energy", self.size.energy),
+            "coefficient_of_energy": self.coefficient_of_energy,
+            "Cs": self.size.fluctuation,
+            "inertia": to("inertia", self.size.inertia),
+            "speed": [to("angular_speed", w) for w in (low, high)],
+            "slowest": to("angle", self.slowest),
+            "fastest": to("angle", self.fastest),
+            "own_inertia": to("inertia", self.own),
+        }
+        exact = {
+            name: _speed_record(s, to) for name, s in (("exact", self.exact), ("for_Cs", self.exact_size))
+        }
+        return {"flywheel": {"drive": self.drive, **book, **exact, "reason": self.reason or None}}
+
+    def __str__(self) -> str:
+        """What `dalembert flywheel` prints."""
+        from dalembert.machine.output.flywheel_text import flywheel_text
+
+        return flywheel_text(self)
+
+
+def _speed_record(s: SpeedFluctuation | None, to: Scale) -> Tree | None:
+    if s is None:
+        return None
+    return {
+        "inertia": to("inertia", s.inertia),
+        "Cs": s.fluctuation,
+        "speed": [to("angular_speed", w) for w, _ in (s.least, s.greatest)],
+        "at": [to("angle", q) for _, q in (s.least, s.greatest)],
+        "residual": s.residual,
+    }
+
+
+def flywheel(
+    r: Result,
+    drive: str | None = None,
+    Cs: float | None = None,
+    inertia: float | None = None,
+) -> Flywheel:
+    """The flywheel of a machine that turns steadily over whole turns, by the C_s it shall have or by its inertia.
+
+    E(q) = int (T - T_m) dq of the drive's effort T, dE its greatest less its least value, at the zeros of T - T_m on
+    the continuous curve; I = dE / (C_s w^2). That I leaves the links' own inertia out: the exact
+    speed (`exact`) counts it, and `exact_size` is the flywheel by it. Raises ModelError where the positions are no even
+    whole turns, the speed is not one, or there are several drives; AnalysisError where a position has no answer.
+
+    >>> import dalembert as da
+    >>> from dalembert.bundled import examples
+    >>> f = da.flywheel(da.dynamics(da.load(examples()["engine"]), positions=144), Cs=0.02)
+    >>> round(f.size.energy, 2), round(f.inertia, 5), round(f.exact_size.inertia, 5)
+    (441.64, 0.22374, 0.21434)
+    """
+    t = TurningMoment(r, drive)
+    panels, torque = resolve(lambda q: t.effort(q, t.speed, inertia=r.inertia), t.edges)
+    mean = panels.mean(torque)
+    zeros, energies = panels.zeros(torque - mean)
+    pulses = np.diff(np.append(energies, energies[:1])) if len(zeros) > 1 else np.zeros(0)
+    size = flywheel_size([*pulses], t.speed, Cs, inertia)
+    starts = panels.antiderivative(torque - mean)[1]
+    curve = np.interp(r.drive_position(t.drive), np.append(panels.low, t.edges[-1]), starts)
+    own = t.inertia(panels.points.ravel()).reshape(torque.shape)
+    mean_own = panels.mean(own)
+    exact, for_cs, reason = None, None, ""
+    try:
+        exact = speed_fluctuation(t, panels, own, size.inertia)
+        for_cs = inertia_for(t, panels, own, Cs, size.inertia - mean_own) if Cs is not None else None
+    except AnalysisError as error:
+        reason = str(error)
+    parts = (r.effort(t.drive), curve - curve[0], zeros, energies - curve[0], mean_own)
+    return Flywheel(r, t.drive, size, mean, *parts, exact, for_cs, reason)

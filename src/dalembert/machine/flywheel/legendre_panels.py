@@ -1,0 +1,128 @@
+"""Curves over a period as pieces of Legendre polynomials, halved until they are true: kinks and jumps included.
+
+On a panel [a, b] the values at Gauss's points give coefficients c_k of P_k, exact integrals from a, and zeros. A panel
+is halved while its last coefficients say that it is not resolved, and its width that it matters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.polynomial import legendre
+
+from dalembert.arrays import Array
+
+POINTS = 12
+"""Points of Gauss a panel."""
+RESOLVED = 1e-13
+"""Error of the integral over a panel that is let be, of that of the curve's size over the period."""
+MOST_HALVINGS = 45
+
+NODES, _ = legendre.leggauss(POINTS)
+TO_COEFFICIENTS = np.linalg.inv(legendre.legvander(NODES, POINTS - 1))
+
+
+@dataclass(frozen=True)
+class Panels:
+    """Panels [low, low + width] (K,) that follow each other, and the points in them (K, n)."""
+
+    low: Array
+    width: Array
+
+    @cached_property
+    def points(self) -> Array:
+        """Gauss's points of every panel."""
+        return self.low[:, None] + self.width[:, None] * (NODES + 1) / 2
+
+    @property
+    def period(self) -> float:
+        """Their length together."""
+        return float(self.width.sum())
+
+    def coefficients(self, values: Array) -> Array:
+        """Legendre coefficients (n, K) of values at the points (K, n)."""
+        return np.asarray(TO_COEFFICIENTS @ values.T)
+
+    def integrals(self, values: Array) -> Array:
+        """Integral over each panel (K,)."""
+        return np.asarray(self.width * self.coefficients(values)[0])
+
+    def mean(self, values: Array) -> float:
+        """Mean over the period."""
+        return float(self.integrals(values).sum() / self.period)
+
+    def antiderivative(self, values: Array) -> tuple[Array, Array]:
+        """Integral from the period's begin at the points (K, n), and at the panels' begins and the end (K + 1,)."""
+        c = self.coefficients(values)
+        inside = legendre.legval(NODES, legendre.legint(c, lbnd=-1)) * self.width[:, None] / 2
+        starts = np.concatenate([[0.0], np.cumsum(self.integrals(values))])
+        return starts[:-1, None] + inside, starts
+
+    def derivative(self, values: Array) -> Array:
+        """Derivative at the points (K, n)."""
+        return np.asarray(legendre.legval(NODES, legendre.legder(self.coefficients(values)))) * (
+            2 / self.width[:, None]
+        )
+
+    def zeros(self, values: Array) -> tuple[Array, Array]:
+        """Where a curve changes its sign, in order, and its integral from the period's begin up to there."""
+        c = self.coefficients(values)
+        starts = self.antiderivative(values)[1]
+        ends = legendre.legval(np.array([-1.0, 1.0]), c)
+        signs = np.sign(np.column_stack([ends[:, :1], values, ends[:, 1:]]))
+        at, area = [], []
+        for k in np.flatnonzero((signs != signs[:, :1]).any(axis=1)):
+            roots = legendre.legroots(c[:, k])
+            real = np.sort(roots.real[(np.abs(roots.imag) < 1e-9) & (roots.real >= -1) & (roots.real < 1)])
+            whole = legendre.legint(c[:, k], lbnd=-1)
+            at += list(self.low[k] + self.width[k] * (real + 1) / 2)
+            area += list(starts[k] + legendre.legval(real, whole) * self.width[k] / 2)
+        for k in np.flatnonzero(
+            np.sign(ends[:-1, 1]) * np.sign(ends[1:, 0]) < 0
+        ):  # a jump between two panels
+            at.append(float(self.low[k + 1]))
+            area.append(float(starts[k + 1]))
+        order = np.argsort(at, kind="stable")
+        return np.array(at)[order], np.array(area)[order]
+
+    def extremes(self, values: Array) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Least and greatest value with where they are, on the curve itself."""
+        slopes = self.derivative(values)
+        found = [(float(v), float(q)) for q, v in zip(self.points.ravel(), values.ravel(), strict=True)]
+        c = self.coefficients(values)
+        for k in np.flatnonzero((np.sign(slopes) != np.sign(slopes[:, :1])).any(axis=1)):
+            roots = legendre.legroots(legendre.legder(c[:, k]))
+            inside = roots.real[(np.abs(roots.imag) < 1e-9) & (np.abs(roots.real) <= 1)]
+            found += [
+                (float(legendre.legval(x, c[:, k])), float(self.low[k] + self.width[k] * (x + 1) / 2))
+                for x in inside
+            ]
+        ends = np.asarray(legendre.legval(np.array([-1.0, 1.0]), c))
+        found += [(float(v), float(a)) for v, a in zip(ends[:, 0], self.low, strict=True)]
+        found += [(float(v), float(b)) for v, b in zip(ends[:, 1], self.low + self.width, strict=True)]
+        return min(found), max(found)
+
+
+def resolve(curve: Callable[[Array], Array], edges: Array) -> tuple[Panels, Array]:
+    """Panels between edges (K + 1,), halved until a curve is resolved on each, and its values at their points."""
+    low, width = edges[:-1], np.diff(edges)
+    period = float(width.sum())
+    kept: list[tuple[float, float, Array]] = []
+    for depth in range(MOST_HALVINGS + 1):
+        panels = Panels(low, width)
+        values = curve(panels.points.ravel()).reshape(panels.points.shape)
+        size = max([float(np.abs(values).max(initial=0.0)), *(float(np.abs(v).max()) for *_, v in kept)])
+        tail = np.abs(panels.coefficients(values)[-3:]).max(axis=0) * width / period
+        true = (tail <= RESOLVED * size) | (depth == MOST_HALVINGS)
+        kept += [
+            (float(a), float(w), v) for a, w, v in zip(low[true], width[true], values[true], strict=True)
+        ]
+        if true.all():
+            break
+        half = width[~true] / 2
+        low, width = np.concatenate([low[~true], low[~true] + half]), np.concatenate([half, half])
+    kept.sort(key=lambda panel: panel[0])
+    return Panels(*(np.array([p[k] for p in kept]) for k in (0, 1))), np.array([v for *_, v in kept])

@@ -1,0 +1,89 @@
+"""A flywheel as a person reads it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from dalembert.analysis.output.columns import UnitChoice
+from dalembert.analysis.output.summary.printed_units import Printed, print_scale
+from dalembert.machine.flywheel.speed_fluctuation import SpeedFluctuation
+from dalembert.machine.output.shaking_text import heading
+from dalembert.printing import number, remainder, table, wrap
+
+if TYPE_CHECKING:
+    from dalembert.machine.flywheel.flywheels import Flywheel
+
+
+def flywheel_text(f: Flywheel, units: UnitChoice = "file") -> str:
+    """The energy curve, the book's flywheel, the exact speed and how far both differ."""
+    to = print_scale(f.result, units)
+    energy, angle = to.text("energy"), to.text("angle")
+    rows = []
+    for k, (q, e) in enumerate(zip(f.zeros, f.energies, strict=True)):
+        mark = "slowest" if q == f.slowest else "fastest" if q == f.fastest else ""
+        rows.append([*(number(float(to(kind, v))) for kind, v in (("angle", q), ("energy", e))), mark])
+        rows[-1].insert(2, number(float(to("energy", f.size.pulses[k]))))
+    pulses = table([f"{f.drive}\n{angle}", f"energy\n{energy}", f"pulse after\n{energy}", "speed"], rows, 0)
+    words = (
+        f"The effort of {f.drive} at steady speed has the mean {_text(to, 'moment', f.mean)}; where it crosses "
+        "the mean, E is the energy asked for above it since the first position, the pulses are the areas between."
+    )
+    blocks = [
+        heading(f.result),
+        wrap(words),
+        pulses if rows else "It never differs from its mean: no flywheel is needed.",
+    ]
+    blocks.append(_sizes(f, to))
+    blocks.append(wrap(comparison(f, lambda kind, value: _text(to, kind, value))))
+    return "\n\n".join(blocks)
+
+
+def _sizes(f: Flywheel, to: Printed) -> str:
+    low, high = f.size.limits
+    rows = [["by dE / (Cs w^2)", *_cells(to, f.size.inertia, f.size.fluctuation, low, high)]]
+    some = (("its exact speed", f.exact), ("for that Cs, exact", f.exact_size))
+    rows += [
+        [name, *_cells(to, s.inertia, s.fluctuation, s.least[0], s.greatest[0])] for name, s in some if s
+    ]
+    unit = to.text("angular_speed")
+    heads = ["flywheel", f"inertia\n{to.text('inertia')}", "Cs", f"least speed\n{unit}", f"greatest\n{unit}"]
+    share = f.coefficient_of_energy
+    work = f", {number(100 * share, 4)} % of the work of the cycle" if math.isfinite(share) else ""
+    return f"dE = {_text(to, 'energy', f.size.energy)}{work}\n\n{table(heads, rows)}"
+
+
+def _cells(to: Printed, inertia: float, fluctuation: float, low: float, high: float) -> list[str]:
+    speeds = [number(float(to("angular_speed", w))) for w in (low, high)]
+    return [number(float(to("inertia", inertia))), number(fluctuation, 5), *speeds]
+
+
+def comparison(f: Flywheel, text: Callable[[str, float], str]) -> str:
+    """What the book's rule leaves out, in a sentence."""
+    if f.exact is None:
+        return f"No exact speed: {f.reason}."
+    said = (
+        f"The links have an inertia of their own of {text('inertia', f.own)} on the mean, as seen from {f.drive}, "
+        f"which dE / (Cs w^2) leaves out: with that flywheel Cs is {number(f.exact.fluctuation, 5)}"
+        f"{_percent(f.exact, f.size.fluctuation)}. "
+    )
+    if f.exact_size is not None:
+        rule = f.size.inertia - f.own
+        said += f"For the Cs asked for {text('inertia', f.exact_size.inertia)} will do" + (
+            f"; the rule less the links' own inertia says {text('inertia', rule)}. " if rule > 0 else ". "
+        )
+    elif f.reason:
+        said += f"The flywheel for just that Cs is not found: {f.reason}. "
+    return f"{said}The exact motion, prescribed, asks for a constant torque within {remainder(f.exact.residual)}."
+
+
+def _percent(s: SpeedFluctuation, asked: float) -> str:
+    if not asked:
+        return ""
+    off = 100 * (s.fluctuation / asked - 1)
+    return f", {number(abs(off), 3)} % {'more' if off > 0 else 'less'}"
+
+
+def _text(to: Printed, kind: str, value: float) -> str:
+    return f"{number(float(to(kind, value)))} {to.text(kind)}"

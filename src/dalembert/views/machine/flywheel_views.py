@@ -1,0 +1,36 @@
+"""The turning-moment diagram with its mean, the energy curve, and the exact speed with the flywheel."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dalembert.machine.flywheel.flywheels import Flywheel
+from dalembert.views.charts import curves_scene
+from dalembert.views.notation import Notation, Shown
+from dalembert.views.paper.scene import Scene
+
+
+def flywheel_scenes(f: Flywheel, notation: Notation | None = None) -> list[Scene]:
+    """Effort and mean, energy, speeds: each over the period."""
+    shown = Shown(f.result, notation or Notation())
+    q = f.result.drive_position(f.drive)
+    x, unit = q / shown.size("angle"), shown.unit("angle")
+    label = f"{f.drive} in {unit}"
+    torque = f.torque / shown.size("moment")
+    series = {"effort": torque, "mean": np.full_like(torque, f.mean / shown.size("moment"))}
+    out = [curves_scene(x, series, label, f"Torque in {shown.unit('moment')}", "Turning moment", unit == "°")]
+    energy = {"E": f.energy / shown.size("energy")}
+    out.append(
+        curves_scene(
+            x, energy, label, f"Energy in {shown.unit('energy')}", "Energy above the mean", unit == "°"
+        )
+    )
+    if f.exact is not None:
+        some = {"book's flywheel": f.exact} | ({"exact for Cs": f.exact_size} if f.exact_size else {})
+        percent = {
+            n: 100 * (np.interp(np.sort(q), s.angle, s.speed) / abs(f.size.speed) - 1)
+            for n, s in some.items()
+        }
+        title = "Speed off its mean"
+        out.append(curves_scene(np.sort(x), percent, label, "Speed off its mean in %", title, unit == "°"))
+    return out
