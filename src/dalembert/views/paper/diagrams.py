@@ -99,15 +99,16 @@ def _whole_cycle(x: Array, series: Mapping[str, Array]) -> tuple[Array, Mapping[
 
 
 def _reach(values: Array) -> tuple[float, float]:
-    """The range of an axis: that of its values, with zero where they come near it beside how far they spread.
+    """The range of an axis: that of its values, with zero where they come near it beside how far they spread, or hardly
+    spread at all.
 
     >>> _reach(np.array([10500.0, 12500.0])), _reach(np.array([800.0, 2500.0]))
     ((10500.0, 12500.0), (0.0, 2500.0))
     """
     known = values[np.isfinite(values)]
     low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
-    near = min(abs(low), abs(high)) <= 2.0 * (high - low) or high == low
-    return (min(low, 0.0), max(high, 0.0)) if near or low * high <= 0 else (low, high)
+    spread, near, far = high - low, min(abs(low), abs(high)), max(abs(low), abs(high))
+    return (low, high) if 0.01 * far < spread < 0.5 * near else (min(low, 0.0), max(high, 0.0))
 
 
 def _missing(x: Array, known: Flags) -> list[tuple[float, float]]:
