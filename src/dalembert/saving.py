@@ -7,11 +7,15 @@ import secrets
 import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from tempfile import gettempdir
 from typing import IO
 
 from dalembert.errors import DalembertError, ModelError
+
+DATA_FOLDER: ContextVar[str] = ContextVar("DATA_FOLDER", default="")
+"""A folder besides a model file's own that its tables may be read from; empty is none."""
 
 
 def check_installed(package: str, what: str, extra: str = "results") -> None:

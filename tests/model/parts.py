@@ -55,21 +55,22 @@ TEXTS = ("500*sin(O)", "-O^2 + 3*cos(O/2)", "max(O, S)*1e-3", "(2)")
 
 
 @st.composite
-def tables(draw: st.DrawFn, against: str = "O") -> Table:
-    """A table that a file can carry."""
+def tables(draw: st.DrawFn, against: str = "O", of: str = "") -> Table:
+    """A table that a file can carry; `of` is the kind of y, which its factor makes another of."""
     x = sorted(draw(st.sets(st.floats(-3.0, 3.0), min_size=2, max_size=5)))
     y = draw(st.lists(numbers, min_size=len(x), max_size=len(x)))
     kind = draw(st.sampled_from(["linear", "cubic"]))
     period = draw(st.sampled_from([None, 6.283185307179586, 7.5]))
-    return Table(against, tuple(x), tuple(y), kind, period)
+    times, of = draw(st.sampled_from([(1.0, ""), (0.3, ""), (-0.005, of)]))
+    return Table(against, tuple(x), tuple(y), kind, period, times=times, shift=draw(st.floats(-7, 7)), of=of)
 
 
-def varying(*units: str) -> st.SearchStrategy[Any]:
+def varying(of: str, *units: str) -> st.SearchStrategy[Any]:
     """A number, an expression in one of the units, or a table."""
-    return numbers | st.builds(Expression, st.sampled_from(TEXTS), st.sampled_from(units)) | tables()
+    return numbers | st.builds(Expression, st.sampled_from(TEXTS), st.sampled_from(units)) | tables(of=of)
 
 
-forces, moments = varying("N", "lbf", "kN"), varying("N*m", "lbf*in")
+forces, moments = varying("pressure", "N", "lbf", "kN"), varying("force", "N*m", "lbf*in")
 
 
 @st.composite

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
+from dalembert.analysis.compile.pose_loads import with_pose_loads
 from dalembert.analysis.compile.torsion_turns import wound
 from dalembert.analysis.degree_of_freedom import Mobility, check_drives, mobility_at
 from dalembert.analysis.status.closure_failure import drive_text
@@ -72,7 +73,8 @@ def positions(c: Compiled) -> Positions:
         c = replace(c, layout=replace(c.layout, redundant=True))
     motion = path(c.layout, first.pose.at(0), along, start, c.period, c.guess)
     said = [part for part in (mode_sentence(c, first), _ranges(c, motion)) if part]
-    return Positions(wound(c, (place, stood), motion), motion, mobility, "; ".join(said) or None)
+    c = with_pose_loads(wound(c, (place, stood), motion), motion)
+    return Positions(c, motion, mobility, "; ".join(said) or None)
 
 
 def _first(c: Compiled) -> tuple[int, Modes] | None:

@@ -67,7 +67,10 @@ def _run(arguments: list[str]) -> int:
 
     from dalembert.cli.app import app, command_line_error
     from dalembert.errors import AnalysisError, DalembertError
+    from dalembert.saving import DATA_FOLDER
 
+    arguments, folder = _data_folder(arguments)
+    token = DATA_FOLDER.set(folder)
     try:
         status = app(
             _name_streams(arguments), exit_on_error=False, print_error=False, result_action="return_value"
@@ -85,7 +88,19 @@ def _run(arguments: list[str]) -> int:
         if error.filename is None:  # of a stream that is open: standard output
             raise
         return _refuse(f"{error.filename}: {(error.strerror or str(error)).lower()}")
+    finally:
+        DATA_FOLDER.reset(token)
     return int(status or 0)
+
+
+def _data_folder(arguments: list[str]) -> tuple[list[str], str]:
+    """The arguments without `--data FOLDER`, which every command takes, and the folder."""
+    for k, argument in enumerate(arguments):
+        option, sign, value = argument.partition("=")
+        if option == "--data" and (sign or arguments[k + 1 : k + 2]):
+            rest = arguments[k + 1 :] if sign else arguments[k + 2 :]
+            return [*arguments[:k], *rest], value or arguments[k + 1]
+    return arguments, ""
 
 
 def _name_streams(arguments: list[str]) -> list[str]:

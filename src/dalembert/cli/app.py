@@ -67,6 +67,8 @@ app = App(
   dalembert solve four_bar.yaml --positions 72 --csv four_bar.csv
   dalembert solve --help
 
+With --data FOLDER, tables of any command's FILE may be read from there too, not only beside it.
+
 Exit status: 0 all positions solved; 1 some position is not; 2 the file or the command line is wrong.""",
 )
 

@@ -78,6 +78,7 @@ class Problem:
     slips: Array | None
     reversals: Array | None
     margins: dict[int, Node]
+    at_pose: Callable[[Forcing, Pose], Forcing] | None = None  # of loads that go by the pose
 
 
 @dataclass(frozen=True)
@@ -114,6 +115,8 @@ def trace(p: Problem) -> Traced:
     target, apart = _with_phase(p, layout)
     placed = _trace_pose(p, layout, target, p.drives, p.path)
     pose = placed.pose
+    if p.at_pose is not None:
+        p = replace(p, forcing=p.at_pose(p.forcing, pose))
     moving, rows, factors = motion(layout, pose, p.drives.speed, p.drives.acceleration)
     s, friction = _trace_equilibrium(p, layout, pose, moving, rows, factors)
     x, idle = friction.x, layout.constraints.idle

@@ -11,9 +11,10 @@ from dalembert.model.description import Mechanism, mechanism
 from dalembert.model.drives.drives import Drive, Range
 from dalembert.model.drives.laws import Rise, TimeTable
 from dalembert.model.drives.schedule import Schedule
+from dalembert.model.files.conversion import convert
 from dalembert.model.files.json_schema import json_schema
 from dalembert.model.files.messages import ModelErrors
-from dalembert.model.files.model_files import convert, load, loads, read_file, read_text, save_tree, tree_text
+from dalembert.model.files.model_files import load, loads, read_file, read_text, save_tree, tree_text
 from dalembert.model.joints.friction_keys import (
     FrictionDefaults,
     GearFriction,

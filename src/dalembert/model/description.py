@@ -288,12 +288,13 @@ class Mechanism(Part):
     def _later_rules(self, parameters: Mapping[str, object]) -> Reading:
         """The rules by which values are read that come later, with other values of parameters."""
         freedoms = drive_freedoms({"drives": self.drives, "joints": self.joints})
-        folder = self._source.folder if self._source else ""
+        source = self._source
+        folder, data = (source.folder, source.data) if source else ("", "")
         units = self.units.of_texts()
         known = (
             change_parameters(self.parameters, parameters, units, freedoms) if parameters else self.parameters
         )
-        return Reading(units, freedoms, self.dimension, folder, known)
+        return Reading(units, freedoms, self.dimension, folder, known, data)
 
     def to_tree(self) -> Tree:
         """The description as a file's tree, every quantity as text with its SI unit; reads back equal."""
@@ -302,24 +303,25 @@ class Mechanism(Part):
     def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
         """Write it to a .yaml, .json or .toml file; raises ModelError if there is one and not `overwrite`.
 
-        What came from a file is written as its author wrote it: only the characters of changed values change.
+        What came from a file is written as its author wrote it: only the characters of changed values change. Tables
+        whose columns are in a file of the same folder stay there; in another folder they are written out.
         """
         from dalembert.model.files.model_files import format_of, save_text
         from dalembert.model.files.rewriting import text_of
 
-        save_text(text_of(self, format_of(path)), path, overwrite)
+        save_text(text_of(self, format_of(path), os.path.dirname(path)), path, overwrite)
 
 
-def file_rules(tree: Mapping[str, object], folder: str = "") -> Reading:
-    """The rules of a file: its own units, its drives' freedoms, plane or space, and where it is."""
-    return _reading(tree, at_item("units", file_units, tree.get("units", {})), folder)
+def file_rules(tree: Mapping[str, object], folder: str = "", data: str = "") -> Reading:
+    """The rules of a file: its own units, its drives' freedoms, plane or space, and where it and its data are."""
+    return _reading(tree, at_item("units", file_units, tree.get("units", {})), folder, data)
 
 
-def _reading(tree: Mapping[str, object], units: Units | None, folder: str = "") -> Reading:
+def _reading(tree: Mapping[str, object], units: Units | None, folder: str = "", data: str = "") -> Reading:
     freedoms, given = drive_freedoms(tree), tree.get("parameters") or {}
     drives = dict.fromkeys((str(name) for name, _ in _items(tree.get("drives"))), "turn") | freedoms
     known = read_parameters(given, units, drives, Mechanism.keys()) if given else {}
-    return Reading(units, freedoms, 3 if tree.get("space") == "space" else 2, folder, known)
+    return Reading(units, freedoms, 3 if tree.get("space") == "space" else 2, folder, known, data)
 
 
 def mechanism(tree: Mapping[str, object], source: Source | None = None) -> Mechanism:
@@ -338,8 +340,8 @@ def mechanism(tree: Mapping[str, object], source: Source | None = None) -> Mecha
             raise ModelError(
                 "this is a file of forces and couples", "use dalembert wrench, or da.wrench.load"
             )
-        folder = source.folder if source else ""
-        found = Mechanism.model_validate(tree, context=file_rules(tree, folder))
+        folders = (source.folder, source.data) if source else ()
+        found = Mechanism.model_validate(tree, context=file_rules(tree, *folders))
     except ModelError as error:
         raise error.at_source(source) from None
     found._source = source

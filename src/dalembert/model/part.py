@@ -35,6 +35,7 @@ class Reading:
     dimension: components of a vector; None takes 2 and 3
     folder:    that other files are named from; empty is the current one
     parameters: of the file, by name
+    data:      another folder that columns may be read from
     """
 
     units: Units | None = None
@@ -42,6 +43,7 @@ class Reading:
     dimension: int | None = None
     folder: str = ""
     parameters: Parameters = field(default_factory=dict)
+    data: str = ""
 
     def quantity(self, value: object, kind: str) -> float:
         """The SI value of a number, a text with its unit, or an expression of parameters."""

@@ -11,6 +11,7 @@ from dalembert.model.part import Part, Reading
 from dalembert.model.quantities.dependent_numbers import Dependent, parameters_of
 from dalembert.model.quantities.expressions import Expression
 from dalembert.model.quantities.parameters import Parameter, Parameters
+from dalembert.model.quantities.tables import Table
 from dalembert.wording import closest
 
 
@@ -224,12 +225,14 @@ def value_at(part: object, keys: Sequence[str], walked: tuple[str, ...] = ()) ->
     if isinstance(part, tuple):
         _require_known(keys[0], [str(i) for i in range(len(part))], here)
         return value_at(part[int(keys[0])], keys[1:], here)
+    if isinstance(part, Table) and list(keys) == ["times"]:
+        return part.times
     raise ModelError(
         f"the path {'.'.join([*here, *keys[1:]])!r} goes into a single value", "leave out its end", walked
     )
 
 
-def set_value(part: Any, keys: Sequence[str], value: object, walked: tuple[str, ...] = ()) -> Any:
+def set_value(part: Any, keys: Sequence[str], value: Any, walked: tuple[str, ...] = ()) -> Any:
     """The part with any value at an existing path, unchecked: also a symbol in place of a number."""
     if not keys:
         return value
@@ -240,6 +243,8 @@ def set_value(part: Any, keys: Sequence[str], value: object, walked: tuple[str, 
     if isinstance(part, Mapping):
         _require_known(keys[0], list(part), here)
         return {**part, keys[0]: set_value(part[keys[0]], keys[1:], value, here)}
+    if isinstance(part, Table):
+        return dataclasses.replace(part, times=value)
     index = int(keys[0])
     changed = (*part[:index], set_value(part[index], keys[1:], value, here), *part[index + 1 :])
     return _mirror(changed, keys) if walked[-1:] == ("inertia",) else changed

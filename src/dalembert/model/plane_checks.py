@@ -9,6 +9,7 @@ from dalembert.errors import ModelError
 from dalembert.model.joints.joint_part import JointPart
 from dalembert.model.links.link import CENTER, GROUND, Link, Offset
 from dalembert.model.load_types import Couple, ForceLoad, SpanLoad, TurnLoad
+from dalembert.model.quantities.coordinates import TIME, along_of, parts
 from dalembert.model.quantities.expressions import ARGUMENTS, CONSTANTS, Expression
 from dalembert.model.quantities.tables import Table
 from dalembert.model.quantities.varying import Varying
@@ -203,16 +204,50 @@ def _varying(m: Mechanism, value: Varying, what: str, path: tuple[str | int, ...
             path,
         )
     for name in sorted(value.names - set(drives)):
-        yield ModelError(f"{what} uses {name!r}, which is no drive", _drive_remedy(name, drives), path)
-    if isinstance(value, Table) and value.against in m.drives:
-        along = "angle" if m.drives[value.against].turns else "length"
-        if along != value.along:
-            yield ModelError(
-                f"{what} is a table whose x are {value.along}s, and the position of drive {value.against!r} is "
-                f"{'an angle' if along == 'angle' else 'a length'}",
-                "give x with units of that kind",
-                (*path, "x"),
-            )
+        yield from _coordinate(m, name, what, path)
+    drive_kinds = {name: "turn" if drive.turns else "slide" for name, drive in m.drives.items()}
+    along = along_of(value.against, drive_kinds) if isinstance(value, Table) else ""
+    if isinstance(value, Table) and along and along != value.along:
+        one = {"angle": "an angle", "length": "a length", "time": "a time"}
+        is_drive = value.against in m.drives
+        yield ModelError(
+            f"{what} is a table whose x are {value.along}s, and "
+            f"{'the position of drive ' if is_drive else ''}{value.against!r} is {one[along]}",
+            "give x with units of that kind",
+            (*path, "x"),
+        )
+
+
+def _coordinate(m: Mechanism, name: str, what: str, path: tuple[str | int, ...]) -> Iterator[ModelError]:
+    """Whether a name that is no drive is time, or a coordinate that there is."""
+    found = parts(name)
+    if found is None and name != TIME:
+        remedy = _drive_remedy(name, list(m.drives))
+        yield ModelError(f"{what} uses {name!r}, which is no drive", remedy, path)
+    elif path[0] == "drives" and found:
+        remedy = "an effort goes by drives and time: write it as a load, or against a drive"
+        yield ModelError(f"{what} uses {name!r}", remedy, path)
+    elif found is None:
+        if not any(drive.law is not None for drive in m.drives.values()):
+            remedy = "give a drive a law, which says when it is where, or go by the drive"
+            yield ModelError(f"{what} goes by time, and no drive has a law of motion", remedy, path)
+    elif found[0] == "links":
+        if found[1] == GROUND or m.dimension == 3:
+            why = "which does not turn" if found[1] == GROUND else "which in space is no one number"
+            yield ModelError(f"{what} uses {name!r}, {why}", "write joints.NAME.turn", path)
+        yield from _link(m, found[1], what, path)
+    elif found[1] not in m.joints:
+        remedy = closest(found[1], list(m.joints))
+        yield ModelError(f"{what} uses the joint {found[1]!r}, which is not there", remedy, path)
+    elif found[2] not in m.joints[found[1]].freedoms:
+        freedoms = " or ".join(m.joints[found[1]].freedoms) or "none"
+        yield ModelError(
+            f"{what} uses {name!r}, and the freedoms of that joint are {freedoms}", "name one", path
+        )
+    elif m.joints[found[1]].ball:
+        yield ModelError(
+            f"{what} uses {name!r}, of a joint that turns any way", "drive it, and name the drive", path
+        )
 
 
 def _drive_remedy(name: str, drives: list[str]) -> str:

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.arrays import Array, Tree
+from dalembert.analysis.batch.symbolic_model import functions
+from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.kernel.emit import c_text
 from dalembert.kernel.emit.wasm.module import LANES, emit_wasm
-from dalembert.kernel.graph import Graph, Node, Scalar
+from dalembert.kernel.graph import Node
 from dalembert.kernel.program import Marks, Program
 from dalembert.model.quantities.expressions import Expression
 
@@ -34,7 +34,7 @@ def plain(k: Kernel, nodes: list[Node] | None = None, marked: bool = True) -> Pr
         what, _, of = name.partition(" ")
         if kind == "channel" and what in ("cos", "sin") and of in raw:
             places[node.index] = raw[of].cos() if what == "cos" else raw[of].sin()
-        elif name in inputs.varying and isinstance(inputs.varying[name], Expression):
+        elif isinstance(inputs.varying.get(name), Expression) and inputs.varying[name].names <= raw.keys():
             value = inputs.varying[name].at(raw, functions(graph))
             places[node.index] = value if isinstance(value, Node) else graph.constant(value)
         elif kind == "common" or (what == "counted" and np.ptp(inputs.found[node](k.trace.course)) == 0):
@@ -45,25 +45,6 @@ def plain(k: Kernel, nodes: list[Node] | None = None, marked: bool = True) -> Pr
     found = iter(graph.substitute([n for group in groups for n in group], places))
     outputs, *marks = (tuple(next(found) for _ in group) for group in groups)
     return Program(graph, outputs, Marks(*marks))
-
-
-def functions(graph: Graph) -> Tree:
-    """The functions of expressions for nodes."""
-
-    def node(x: Scalar) -> Node:
-        return x if isinstance(x, Node) else graph.constant(x)
-
-    def one(op: str) -> Callable[[Scalar], Node]:
-        return lambda x: graph.unary(op, node(x))
-
-    def two(op: str) -> Callable[[Scalar, Scalar], Node]:
-        return lambda x, y: graph.binary(op, node(x), node(y))
-
-    out: dict[str, Callable[..., Node]] = {
-        name: one(name) for name in ("sin", "cos", "tan", "asin", "acos", "sqrt", "exp", "log", "abs", "sign")
-    }
-    out |= {name: two(name) for name in ("atan2", "min", "max")}
-    return out | {"atan": lambda x: graph.binary("atan2", node(x), graph.one)}
 
 
 _LETTERS = "use letters, digits and single _, a letter first"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import Any
@@ -10,11 +10,13 @@ from typing import Any
 import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
+from dalembert.analysis.compile.pose_loads import TIME, coordinates
 from dalembert.analysis.positions import Positions, positions
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Numeric, Tree
 from dalembert.core.friction.contact_equations import bearing
 from dalembert.core.layout import Pose
+from dalembert.errors import ModelError
 from dalembert.kernel.graph import POSITION, Graph, Node, Scalar
 from dalembert.kernel.trace import Drives
 from dalembert.model import Mechanism, Schedule
@@ -60,9 +62,17 @@ class Course:
         path = self.followed.path
         return int(np.argmax(path.reached)) if path is not None else 0
 
-    @property
-    def drives(self) -> dict[str, Array]:
-        return {name: self.schedule.position[:, k] for k, name in enumerate(self.schedule.names)}
+    def going_by(self, names: Iterable[str]) -> Tree:
+        """What a changing quantity goes by (P,): drives, time, and the pose, the motion being known."""
+        found: Tree = {name: self.schedule.position[:, k] for k, name in enumerate(self.schedule.names)}
+        if TIME in names and TIME not in found and self.schedule.time is None:
+            raise ModelError(
+                "a load goes by time, which positions given to the kernel do not have", "leave them out"
+            )
+        by_pose = [name for name in names if "." in name]
+        at = coordinates(self.compiled, self.pose, by_pose) if by_pose else {}
+        at = {name: np.where(np.isfinite(values), values, values[self.first]) for name, values in at.items()}
+        return {TIME: self.schedule.time, **found, **at}
 
     @cached_property
     def slips(self) -> dict[tuple[str, str], Array]:
@@ -146,8 +156,14 @@ class Inputs:
         """A load that changes with the drives."""
         self.varying[name] = varying
         return self.make(
-            "channel", name, lambda c: np.broadcast_to(varying.at(c.drives), (len(c.schedule.position),))
+            "channel",
+            name,
+            lambda c: np.broadcast_to(varying.at(c.going_by(varying.names)), (len(c.schedule.position),)),
         )
+
+    def time(self) -> Node:
+        """Time, of a law of motion."""
+        return self.make("channel", TIME, lambda c: c.going_by((TIME,))[TIME])
 
     def path(self, kind: str) -> Callable[[str, int], Node]:
         """Quantities of the known motion."""

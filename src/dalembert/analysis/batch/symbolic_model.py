@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
-from dalembert.arrays import Numeric
+from dalembert.arrays import Numeric, Tree
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, Scalar
 from dalembert.model import Mechanism
 from dalembert.model.paths import set_value, value_at
 from dalembert.model.quantities.figures import unit_vector
+from dalembert.model.quantities.tables import Table
 from dalembert.model.quantities.values import Vector
 from dalembert.model.quantities.vectors import length, unit
 
@@ -125,6 +126,8 @@ def symbolic(m: Mechanism, where: tuple[Number, ...], graph: Graph, channel: Cha
 
 def _value(name: str, value: Numeric, channel: Channel) -> Numeric:
     """A number or symbol as it is, else the input that stands for its value along the motion."""
+    if isinstance(value, Table) and isinstance(value.times, Node):
+        return channel(name, replace(value, times=1.0)) * value.times
     return channel(name, value) if hasattr(value, "at") else value
 
 
@@ -151,3 +154,22 @@ def _direction(given: Scalar | Vector) -> tuple[Scalar, ...]:
     if isinstance(given, tuple):
         return unit(given)
     return unit_vector(given)
+
+
+def functions(graph: Graph) -> Tree:
+    """The functions of expressions for nodes."""
+
+    def node(x: Scalar) -> Node:
+        return x if isinstance(x, Node) else graph.constant(x)
+
+    def one(op: str) -> Callable[[Scalar], Node]:
+        return lambda x: graph.unary(op, node(x))
+
+    def two(op: str) -> Callable[[Scalar, Scalar], Node]:
+        return lambda x, y: graph.binary(op, node(x), node(y))
+
+    out: dict[str, Callable[..., Node]] = {
+        name: one(name) for name in ("sin", "cos", "tan", "asin", "acos", "sqrt", "exp", "log", "abs", "sign")
+    }
+    out |= {name: two(name) for name in ("atan2", "min", "max")}
+    return out | {"atan": lambda x: graph.binary("atan2", node(x), graph.one)}

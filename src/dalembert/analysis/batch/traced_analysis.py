@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from dalembert.analysis.batch.kernel_inputs import Course, Inputs
 from dalembert.analysis.batch.outputs import Catalogue
-from dalembert.analysis.batch.symbolic_model import Number, geometric, numbers, symbolic
+from dalembert.analysis.batch.symbolic_model import Number, functions, geometric, numbers, symbolic
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
+from dalembert.analysis.compile.pose_loads import TIME, coordinates
 from dalembert.analysis.degree_of_freedom import check_knowns
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.closure_failure import open_sentence
 from dalembert.arrays import Array
+from dalembert.core.forcing import Forcing
 from dalembert.core.gear_rows import gearings
-from dalembert.core.layout import Gearing, Idle, Layout
+from dalembert.core.layout import Gearing, Idle, Layout, Pose
 from dalembert.errors import ModelError
-from dalembert.kernel.graph import Graph
+from dalembert.kernel.graph import Graph, Node, trace_array
 from dalembert.kernel.trace import Problem, Traced, trace
 from dalembert.model import Mechanism, Schedule
 
@@ -74,8 +76,47 @@ def trace_analysis(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Res
         reversals=None if solved is None else inputs.reversals(c),
         margins=margins if moved else {},
         contacts=c.contacts,
+        at_pose=_pose_loads(inputs, c, moved),
     )
     return Trace(course, inputs, where, Catalogue(graph, c, _run(problem)), inertia)
+
+
+def _pose_loads(
+    inputs: Inputs, c: Compiled, moved: list[Number]
+) -> Callable[[Forcing, Pose], Forcing] | None:
+    """Loads that are expressions of the pose as nodes of it; tables are taken at the known motion."""
+    graph, names = inputs.graph, c.schedule.names
+    by_pose = {k: v for k, v in inputs.varying.items() if any("." in name for name in v.names)}
+    tables = {name: v.against for name, v in by_pose.items() if hasattr(v, "against")}
+    for name, against in tables.items() if moved else ():
+        what = f"{name} is a table against {against}, which {moved[0].path!r} moves: so that cannot vary"
+        raise ModelError(
+            what, "leave it out, or write the load as an expression, or against a drive", name.split(".")
+        )
+    if len(by_pose) == len(tables):
+        return None
+
+    def at_pose(forcing: Forcing, pose: Pose) -> Forcing:
+        drives = dict(zip(names, c.schedule.position[0], strict=True))
+        places = {}
+        for name in by_pose.keys() - tables.keys():
+            at = coordinates(c, pose, by_pose[name].names)
+            time = {TIME: inputs.time()} if TIME in by_pose[name].names else {}
+            value = by_pose[name].at({**time, **drives, **at}, functions(graph))
+            places[inputs.named["channel", name].index] = value
+        forces, couples = forcing.forces, forcing.couples
+        return replace(
+            forcing,
+            forces=replace(forces, value=_substituted(graph, forces.value, places)),
+            couples=replace(couples, value=_substituted(graph, couples.value, places)),
+        )
+
+    return at_pose
+
+
+def _substituted(graph: Graph, array: Array, places: dict[int, Node]) -> Array:
+    found = graph.substitute(list(trace_array(graph, array).ravel()), places)
+    return np.array(list(found), object).reshape(array.shape)
 
 
 def _check(course: Course) -> None:

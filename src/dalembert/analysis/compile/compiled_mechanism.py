@@ -22,6 +22,8 @@ from dalembert.core.position.first_pose_plane import Guess
 from dalembert.core.position.first_pose_space import Drawing
 from dalembert.errors import ModelError
 from dalembert.model import GROUND, Mechanism, Schedule
+from dalembert.model.load_types import Directed
+from dalembert.model.quantities.coordinates import TIME
 from dalembert.model.quantities.values import Vector
 
 
@@ -65,6 +67,7 @@ class Compiled:
     contacts: Contacts | None  # of the joints with friction; None without
     geometries: tuple[Geometry, ...] = ()  # of the joints, in space
     passive: tuple[str, ...] = ()  # links whose spin moves nothing else, set to none
+    pose_names: tuple[str, ...] = ()  # what loads go by that is known once the motion is
     counts: tuple[Count, ...] = ()  # of the whole turns of torsion springs, once the motion is known
 
     @cached_property
@@ -131,9 +134,9 @@ def compile_mechanism(
         reference=reference,
         compliance=jointing.compliance(fixed),
     )
-    drives = {name: schedule.position[:, k] for k, name in enumerate(schedule.names)}
     unknown = tuple(name for name, load in m.loads.items() if load.unknown)
-    setting = Setting(m, g, index, reference, names, drives, len(schedule.position))
+    pose_names, standing = _without_pose_loads(m)
+    setting = Setting(standing, g, index, reference, names, _drives(schedule), len(schedule.position))
     return Compiled(
         mechanism=m,
         schedule=schedule,
@@ -149,7 +152,37 @@ def compile_mechanism(
         contacts=jointing.contacts(fixed),
         geometries=jointing.geometries,
         passive=jointing.passive,
+        pose_names=pose_names,
     )
+
+
+def setting_of(c: Compiled) -> Setting:
+    """What the loads of a compiled mechanism were compiled in."""
+    index = {name: k for k, name in enumerate(c.links)} | {GROUND: len(c.links)}
+    count = len(c.schedule.position)
+    drives = _drives(c.schedule)
+    return Setting(c.mechanism, c.layout.algebra, index, c.layout.reference, list(c.freedoms), drives, count)
+
+
+def _drives(schedule: Schedule) -> dict[str, Array]:
+    """What changing quantities may go by: time, where a law says it, and the drives' positions."""
+    time = {} if schedule.time is None else {TIME: schedule.time}
+    return time | {name: schedule.position[:, k] for k, name in enumerate(schedule.names)}
+
+
+def _without_pose_loads(m: Mechanism) -> tuple[tuple[str, ...], Mechanism]:
+    """What loads go by that only the pose says, and the mechanism with 1 in place of their values."""
+    found: dict[str, None] = {}
+    loads = {}
+    for name, load in m.loads.items():
+        if not isinstance(load, Directed):
+            continue
+        used = [n for value in load.varying for n in getattr(value, "names", ()) if "." in n]
+        if used:
+            one = tuple(1.0 for _ in load.value) if isinstance(load.value, tuple) else 1.0
+            found |= dict.fromkeys(used)
+            loads[name] = load.model_copy(update={"value": one})
+    return tuple(sorted(found)), m.model_copy(update={"loads": {**m.loads, **loads}}) if loads else m
 
 
 def _references(m: Mechanism, index: dict[str, int]) -> Array:

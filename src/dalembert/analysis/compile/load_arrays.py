@@ -43,9 +43,15 @@ def point_of(m: Mechanism, link: str, at: str | Vector, path: tuple[str | int, .
     raise ModelError(f"link {link!r} has no point {at!r}", f"it has {', '.join(points) or 'none'}", path)
 
 
+def load_forces(s: Setting) -> tuple[Forces, Couples]:
+    """The loads that are forces and couples."""
+    return _forces(s, _known_on(s.m, "point")), _couples(s, _known_on(s.m, "link"))
+
+
 def forcing(s: Setting) -> Forcing:
     """Everything that loads the links, but for the drives' efforts."""
     m, g = s.m, s.g
+    forces, couples = load_forces(s)
     links = [name for name in m.links if name != "ground"]
     centers = [np.subtract(m.center(k), s.reference[s.index[k]]) for k in links]
     return Forcing(
@@ -55,8 +61,8 @@ def forcing(s: Setting) -> Forcing:
             inertia=numbers([_inertia(m, k) for k in links]).reshape(len(links), -1),
             gravity=np.array(m.gravity_vector),
         ),
-        forces=_forces(s, _known_on(m, "point")),
-        couples=_couples(s, _known_on(m, "link")),
+        forces=forces,
+        couples=couples,
         springs=_springs(s),
         resistances=_resistances(s),
         separation=numbers(_mesh_tangents(m)),

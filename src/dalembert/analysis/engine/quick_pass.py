@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
+from dalembert.analysis.compile.pose_loads import with_pose_loads
 from dalembert.analysis.compile.torsion_turns import wound
 from dalembert.analysis.degree_of_freedom import Mobility
 from dalembert.analysis.engine.kept_program import KeptProgram
@@ -29,7 +30,7 @@ def quick_answer(c: Compiled, inertia: bool, forces: bool) -> Result | Positions
     found = ready(c, inertia)
     if found is None:
         return None
-    whole = found.program.whole and c.contacts is None and c.layout.compliance is None
+    whole = found.program.whole and c.contacts is None and c.layout.compliance is None and not c.pose_names
     outputs = _follow(found, c, pose_only=not (forces and whole))
     if outputs is None:
         return None
@@ -42,7 +43,8 @@ def _positions(found: Ready, c: Compiled, outputs: _Outputs) -> Positions:
     turned = c.layout.algebra.with_ground(k.part("turn", out), k.part("rotation", out).swapaxes(1, 2))
     pose = Pose(np.pad(k.part("point", out), ((0, 0), (0, 1), (0, 0))), *turned)
     path = Path(pose, np.ones(count, bool), np.zeros(count, np.intp))
-    return Positions(wound(c, (0, pose.at(0)), path), path, _mobility(c), found.first.mode)
+    c = with_pose_loads(wound(c, (0, pose.at(0)), path), path)
+    return Positions(c, path, _mobility(c), found.first.mode)
 
 
 class _Outputs(NamedTuple):

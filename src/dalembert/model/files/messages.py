@@ -115,9 +115,12 @@ def _of_ours(inner: ModelError, path: Path) -> tuple[int, ModelError]:
     if isinstance(inner, UnknownKey):
         where = f" in {place(path)}" if path else ""
         return 0, ModelError(inner.what + where, inner.remedy, path + inner.path)
+    whole = path + inner.path
+    if inner.file:  # another file, which the description names there
+        what = f"{inner.what} (read for {place(path)})" if path else inner.what
+        return 2, ModelError(what, inner.remedy, whole, inner.file, inner.line)
     if not path:
         return 1, inner
-    whole = path + inner.path
     return 2, ModelError(f"{place(whole)}: {inner.what}", inner.remedy, whole)
 
 

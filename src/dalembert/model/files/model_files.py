@@ -7,13 +7,14 @@ import os
 import re
 import sys
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from dalembert.errors import ModelError
 from dalembert.model.description import Mechanism, mechanism
 from dalembert.model.files.source import STANDARD_INPUT, Lines, Source, is_stream
-from dalembert.saving import new_file
+from dalembert.saving import DATA_FOLDER, new_file
 from dalembert.wording import nearest
 
 LARGEST = 1_000_000
@@ -24,9 +25,13 @@ FORMATS = {".yaml": "yaml", ".yml": "yaml", ".json": "json", ".toml": "toml"}
 FilePath = str | os.PathLike[str]
 
 
-def load(path: FilePath) -> Mechanism:
-    """The mechanism of a .yaml, .json or .toml file; raises ModelError with file and line."""
-    return mechanism(*read_file(path))
+def load(path: FilePath, data: FilePath = "") -> Mechanism:
+    """The mechanism of a .yaml, .json or .toml file; raises ModelError with file and line.
+
+    Tables may come from text files in its folder; from those in the folder ``data`` too.
+    """
+    tree, source = read_file(path)
+    return mechanism(tree, replace(source, data=os.fspath(data)) if data else source)
 
 
 def loads(text: str, form: str = "yaml", name: str = "text") -> Mechanism:
@@ -61,7 +66,7 @@ def read_text(text: str, form: str = "yaml", name: str = "text") -> tuple[Any, S
         raise ModelError(
             "the file is empty", "begin with links: and joints:, or with `dalembert new`", (), name, 1
         )
-    return tree, Source(name, lines, text, form)
+    return tree, Source(name, lines, text, form, DATA_FOLDER.get())
 
 
 def _yaml(text: str) -> tuple[object, Callable[[], Lines]]:
@@ -191,16 +196,6 @@ def format_of(path: FilePath) -> str:
             f"{os.fspath(path)} is named like no model file", "end its name with .yaml, .json or .toml"
         )
     return FORMATS[suffix]
-
-
-def convert(path: FilePath, target: FilePath, overwrite: bool = False) -> None:
-    """Write a model file in another format, keeping the user's own units, texts and order of keys.
-
-    The mechanism is read first, so that nothing wrong is converted. Comments are not kept.
-    """
-    tree, source = read_file(path)
-    mechanism(tree, source)
-    save_tree({key: value for key, value in tree.items() if value is not None}, target, overwrite)
 
 
 def save_tree(tree: Mapping[str, object], path: FilePath, overwrite: bool = False) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from copy import deepcopy
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from dalembert.arrays import Tree
@@ -20,6 +22,7 @@ from dalembert.model.quantities.figures import (
     whole,
     with_own_unit,
 )
+from dalembert.model.quantities.written_tables import FILE_FOLDER
 from dalembert.units import NUMBER, Units
 
 if TYPE_CHECKING:
@@ -29,8 +32,20 @@ ROUNDS = 3
 """What an anchor hands on changes with it, so that others get their own value back in a second round."""
 
 
-def text_of(m: Mechanism, form: str) -> str:
-    """The text of a model file in a format: that of the mechanism's own file as far as there is one."""
+def text_of(m: Mechanism, form: str, folder: str | None = None) -> str:
+    """The text of a model file in a format: that of the mechanism's own file as far as there is one.
+
+    Columns of another file stay there if it is in the ``folder`` of the text (default: that of the mechanism's own).
+    """
+    own_folder = m.source.folder if m.source is not None else ""
+    token = FILE_FOLDER.set(own_folder if folder is None else folder)
+    try:
+        return _text_of(m, form)
+    finally:
+        FILE_FOLDER.reset(token)
+
+
+def _text_of(m: Mechanism, form: str) -> str:
     from dalembert.model.files.model_files import read_text, tree_text
 
     own = _own_text(m, m.source) if m.source is not None and m.source.text else None
@@ -60,17 +75,48 @@ def _own_text(m: Mechanism, source: Source) -> str | None:
     mark = "\ufeff" if source.text.startswith("\ufeff") else ""
     text = source.text.removeprefix(mark)
     tree = read_text(text, source.form, source.name)[0]
-    values = dict(_values(m, tree))
+    values = dict(_values(m, tree)) | dict(listed_columns(m, tree))
     for _ in range(ROUNDS):
         try:
             changed = splice(text, source.form, values)
-            read = mechanism(*read_text(changed, source.form, source.name))
+            anew, where = read_text(changed, source.form, source.name)
+            read = mechanism(anew, replace(where, data=source.data))
         except (ValueError, LookupError, AssertionError):
             return None
         if read == m:
             return mark + changed
         values |= dict(_differences(m, read, tree))
     return None
+
+
+def listed_columns(m: Mechanism, tree: object) -> Iterator[tuple[Path, object]]:
+    """Tables whose columns are in a file that is not beside the text to be written, written out."""
+    written = file_tree(m)
+    for part in ("loads", "drives"):
+        for path in _tables_from_files(_at(tree, (part,), None), (part,)):
+            found = _at(written, (part, str(path[1]), *path[2:]), None)
+            if isinstance(found, Mapping) and "file" not in found:
+                yield path, found
+
+
+def in_folder(m: Mechanism, tree: Mapping[str, object], folder: str) -> Tree:
+    """The tree of a mechanism's file for a file in another folder: columns that are not there are written out."""
+    changed: Tree = deepcopy(dict(tree))
+    token = FILE_FOLDER.set(folder)
+    try:
+        for path, value in listed_columns(m, tree):
+            _at(changed, path[:-1], {})[path[-1]] = value
+    finally:
+        FILE_FOLDER.reset(token)
+    return changed
+
+
+def _tables_from_files(tree: object, path: Path) -> Iterator[Path]:
+    if isinstance(tree, Mapping) and "file" in tree:
+        yield path
+    elif isinstance(tree, (Mapping, list)):
+        for key, value in tree.items() if isinstance(tree, Mapping) else enumerate(tree):
+            yield from _tables_from_files(value, (*path, key))
 
 
 def _values(m: Mechanism, tree: Mapping[str, object]) -> Iterator[tuple[Path, object]]:

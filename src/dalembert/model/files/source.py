@@ -38,6 +38,8 @@ class Source:
     find: Callable[[], Lines] = field(repr=False, compare=False)
     text: str = field(default="", repr=False)
     form: str = "yaml"
+    data: str = ""
+    """Another folder that columns of numbers may be read from."""
 
     @property
     def folder(self) -> str:

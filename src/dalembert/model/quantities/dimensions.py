@@ -20,7 +20,7 @@ from dalembert.wording import quote_value
 Powers = tuple[float, float, float, float | None]
 EITHER: Powers = (0, 0, 0, None)
 """A number of radians: an angle, or no unit."""
-OF_TURN = {"turn": EITHER, "slide": (1, 0, 0, 0)}
+OF_TURN = {"turn": EITHER, "slide": (1, 0, 0, 0), "time": (0, 0, 1, 0)}
 """Freedom of a drive -> dimension of its position."""
 
 

@@ -6,7 +6,8 @@ sign    = {"+" | "-"} power
 power   = atom [("^" | "**") sign]          the exponent: a number from -16 to 16, without drives
 atom    = NUMBER | "pi" | NAME | FUNCTION "(" sum {"," sum} ")" | "(" sum ")"
 
-NAME is a drive or a parameter of the file; in an expression of parameters a NUMBER may have a unit: `r + 5 mm`.
+NAME is a drive, a coordinate (`time`, `links.rod.angle`) or a parameter of the file;
+in an expression of parameters a NUMBER may have a unit: `r + 5 mm`.
 """
 
 from __future__ import annotations
@@ -105,7 +106,7 @@ class Expression:
 
     @property
     def names(self) -> frozenset[str]:
-        """The drives it uses."""
+        """The drives and coordinates (`time`, `links.rod.angle`) it uses."""
         return names_in(self.tree) - {name for name, _ in self.parameters or ()}
 
     def at(self, drives: Mapping[str, Numeric], functions: Functions | None = None) -> Numeric:
@@ -214,7 +215,7 @@ def expression_text(tree: Tree, rank: int = 0) -> str:
 
 
 _TOKEN = re.compile(
-    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[^\W\d]\w*)|(?P<sign>\*\*|[-+*/^(),]))"
+    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)|(?P<name>[^\W\d]\w*(?:\.\w+\.\w+)?)|(?P<sign>\*\*|[-+*/^(),]))"
 )
 
 

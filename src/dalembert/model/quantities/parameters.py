@@ -32,7 +32,7 @@ from dalembert.unit_names import NONE, ONE, SYMBOLS, unit
 from dalembert.units import KINDS, NUMBER, REFUSED_BARE, Units, check_unit, quantity
 from dalembert.wording import closest, quote_value
 
-RESERVED = ("none", "standard", "unknown", "nan", "inf", "infinity")
+RESERVED = ("none", "standard", "unknown", "nan", "inf", "infinity", "time")
 """Words that mean something else where a quantity stands."""
 KEYS = ("value", "about", "range")
 _WORD = re.compile(r"(?<![\w.])[^\W\d]\w*")

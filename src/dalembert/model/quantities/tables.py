@@ -1,9 +1,9 @@
-"""Quantities given as a table against a drive's position: linear or a cubic spline, periodic if said so."""
+"""Quantities given as a table against where the machine is, or time: linear or a cubic spline, periodic if said so."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from numpy.typing import ArrayLike
 
@@ -11,15 +11,29 @@ from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
 from dalembert.model.quantities.expressions import Functions
 
+UNITS = {"angle": "deg", "length": "m", "time": "s"}
+"""Kind of a table's x -> the unit in which messages say it."""
+
 SLACK = 1e-9
 """Relative to the table's span: how far outside its ends a position is still taken as the end."""
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
-    """A quantity known at positions `x` of the drive `against` (radians or metres), SI values `y`.
+class ColumnFile:
+    """Two columns of a file: its name as written, the keys that say which, and the folder the name is relative to."""
 
-    Outside its ends a table has no value; with a `period` it repeats.
+    written: str
+    keys: Mapping[str, object]
+    folder: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """A quantity known at `x` of `against` (radians, metres or seconds): SI values `y`, times a factor.
+
+    ``against`` is a drive, `time`, `links.NAME.angle` or a freedom of a joint, `joints.NAME.slide`. Outside its ends a
+    table has no value; with a `period` it repeats. With a `shift` it comes so much later. ``of`` is the kind of y where
+    ``times`` makes another of it, a pressure times an area; ``file`` is where the columns came from.
 
     >>> Table("O2", (0.0, 1.0, 2.0), (0.0, 10.0, 0.0)).at({"O2": 0.25})
     np.float64(2.5)
@@ -31,13 +45,17 @@ class Table:
     interpolate: str = "linear"
     period: float | None = None
     along: str = "angle"
+    times: float = 1.0
+    shift: float = 0.0
+    of: str = ""
+    file: ColumnFile | None = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
         _check(self)
 
     @property
     def names(self) -> frozenset[str]:
-        """The drive it is against."""
+        """What it is against."""
         return frozenset((self.against,))
 
     def closed(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -66,13 +84,14 @@ class Table:
             raise ModelError(f"a table is against {self.against!r}, which is no drive")
         if functions is not None:
             return functions["table"](self, drives[self.against])
-        return self._of_numbers(drives[self.against])
+        value = self._of_numbers(drives[self.against])
+        return value if self.times == 1.0 else self.times * value
 
     def _of_numbers(self, position: ArrayLike) -> Numeric:
         import numpy as np
 
         breaks, coefficients = self.pieces()
-        place = self._inside(np.asarray(position, float), breaks[0], breaks[-1])
+        place = self._inside(np.asarray(position, float) - self.shift, breaks[0], breaks[-1])
         piece = np.clip(np.searchsorted(breaks, place, "right") - 1, 0, len(breaks) - 2)
         step, value = place - breaks[piece], np.zeros(place.shape)
         for row in coefficients:
@@ -87,9 +106,12 @@ class Table:
         slack = SLACK * (high - low)
         outside = (position < low - slack) | (position > high + slack)
         if outside.any():
+            first, last, here = (
+                self._describe(x + self.shift) for x in (low, high, position[outside].ravel()[0])
+            )
+            what = "" if "." in self.against or self.along == "time" else "the drive "
             raise ModelError(
-                f"a table goes from {self._describe(low)} to {self._describe(high)} of the drive {self.against!r}, "
-                f"which is at {self._describe(position[outside].ravel()[0])}",
+                f"a table goes from {first} to {last} of {what}{self.against!r}, which is at {here}",
                 "give the table more points, make it periodic, or give the drive a smaller range",
             )
         return np.clip(position, low, high)
@@ -97,7 +119,8 @@ class Table:
     def _describe(self, position: float) -> str:
         import math
 
-        return f"{math.degrees(position):.6g} deg" if self.along == "angle" else f"{position:.6g} m"
+        number = math.degrees(position) if self.along == "angle" else position
+        return f"{number:.6g} {UNITS[self.along]}"
 
 
 def _check(table: Table) -> None:

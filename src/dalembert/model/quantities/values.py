@@ -157,7 +157,8 @@ def at_item(index: int | str, function: Callable[..., T], *arguments: object) ->
     try:
         return function(*arguments)
     except ModelError as error:
-        raise type(error)(error.what, error.remedy, (index, *error.path)) from None
+        path = (index, *error.path)
+        raise type(error)(error.what, error.remedy, path, error.file, error.line) from None
 
 
 def check_vector(value: object, rules: Reading, example: str) -> Sequence[object]:

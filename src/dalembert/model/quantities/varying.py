@@ -2,27 +2,26 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Mapping
 
 from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
 from dalembert.model.part import Reading, mapping
+from dalembert.model.quantities.coordinates import going_by
 from dalembert.model.quantities.dependent_numbers import expression_with_unit
 from dalembert.model.quantities.expressions import Expression, Functions, parse_expression
 from dalembert.model.quantities.figures import FILE_UNITS
 from dalembert.model.quantities.parameters import of_parameters, uses
-from dalembert.model.quantities.tables import SLACK, Table
+from dalembert.model.quantities.tables import Table
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
     JsonSchema,
     at_item,
-    name,
-    numbers,
     value_text,
 )
-from dalembert.units import KINDS, NUMBER, check_unit, quantity
+from dalembert.model.quantities.written_tables import table, table_schema, table_tree
+from dalembert.units import KINDS, NUMBER, check_unit
 from dalembert.wording import quote_value
 
 Varying = float | Expression | Table
@@ -30,35 +29,19 @@ Varying = float | Expression | Table
 
 
 def varying_schema() -> JsonSchema:
-    table = {
-        "type": "object",
-        "properties": {
-            "against": {"type": "string", "description": "the drive whose position x is"},
-            "x": {
-                "type": "array",
-                "items": NUMBER_OR_TEXT,
-                "description": "positions of the drive, increasing",
-            },
-            "y": {"type": "array", "items": NUMBER_OR_TEXT, "description": "values there, one for each x"},
-            "interpolate": {"enum": ["linear", "cubic"], "description": "between the points; default linear"},
-            "periodic": {
-                "type": ["boolean", "number", "string"],
-                "description": "true: after a turn, or the whole turns x goes over (a slide: all of x); or the period",
-            },
-        },
-        "required": ["against", "x", "y"],
-        "additionalProperties": False,
-    }
     expression = {
         "type": "object",
         "properties": {
-            "expression": {"type": "string", "description": "in the drives' names, radians and metres"},
+            "expression": {
+                "type": "string",
+                "description": "in the drives' names, time, links.NAME.angle, joints.NAME.slide: SI and radians",
+            },
             "unit": {"type": "string", "description": "of its result; default the file's"},
         },
         "required": ["expression"],
         "additionalProperties": False,
     }
-    return {"anyOf": [NUMBER_OR_TEXT, table, expression]}
+    return {"anyOf": [NUMBER_OR_TEXT, table_schema(), expression]}
 
 
 def varying(value: object, kind: str, rules: Reading) -> Varying:
@@ -74,7 +57,8 @@ def varying(value: object, kind: str, rules: Reading) -> Varying:
     if isinstance(value, Mapping):
         return _map_values(value, kind, rules)
     if uses(value, rules.parameters):
-        return of_parameters(str(value), kind, rules.units, rules.parameters, rules.freedoms)
+        going = going_by(str(value)) | dict(rules.freedoms)
+        return of_parameters(str(value), kind, rules.units, rules.parameters, going)
     if isinstance(value, str) and _is_expression(value):
         return expression(value, kind, rules)
     return rules.quantity(value, kind)
@@ -115,50 +99,7 @@ def _map_values(value: Mapping[str, object], kind: str, rules: Reading) -> Varyi
                 f"{quote_value(unit_text)} is no unit", f"write {KINDS[kind].si}, for example", ("unit",)
             )
         return at_item("expression", expression, keys["expression"], kind, rules, unit_text)
-    return _table(value, kind, rules)
-
-
-def _table(value: Mapping[str, object], kind: str, rules: Reading) -> Table:
-    example = "{against: O2, x: [...], y: [...]}"
-    keys = mapping(value, ["against", "x", "y", "interpolate", "periodic"], example)
-    for key in ("against", "x", "y"):
-        if key not in keys:
-            raise ModelError(f"the key {key!r} of a table is missing", f"write {example}")
-    against = at_item("against", name, keys["against"])
-    along = _along(keys["x"], rules.freedoms.get(against))
-    x = at_item("x", numbers, keys["x"], along, rules)
-    return Table(
-        against,
-        x,
-        at_item("y", numbers, keys["y"], kind, rules),
-        keys.get("interpolate", "linear"),
-        at_item("periodic", _period, keys.get("periodic", False), along, x, rules),
-        along,
-    )
-
-
-def _along(x: object, freedom: str | None) -> str:
-    """Whether a table's x are angles or lengths: the drive's freedom says; without one, their unit."""
-    if freedom:
-        return "length" if (freedom or "").startswith("slide") else "angle"
-    first = x[0] if isinstance(x, (list, tuple)) and x else 0
-    try:
-        quantity(first, "angle")
-    except ModelError:
-        return "length"
-    return "angle"
-
-
-def _period(value: object, along: str, x: tuple[float, ...], rules: Reading) -> float | None:
-    if value is False:
-        return None
-    if value is not True:
-        return rules.quantity(value, along)
-    span = x[-1] - x[0]
-    if along == "length":
-        return span
-    turns = max(round(span / (2 * math.pi)), 1)
-    return span if abs(span - 2 * math.pi * turns) <= SLACK * span else 2 * math.pi
+    return table(value, kind, rules)
 
 
 def varying_tree(value: Varying, kind: str) -> object:
@@ -171,16 +112,7 @@ def varying_tree(value: Varying, kind: str) -> object:
             return value.text if value.unit == units.text(kind) else f"{value.text} {value.unit}"
         return {"expression": value.text, "unit": value.unit} if value.unit else {"expression": value.text}
     if isinstance(value, Table):
-        tree: dict[str, object] = {
-            "against": value.against,
-            "x": [value_text(x, value.along) for x in value.x],
-            "y": [value_text(y, kind) for y in value.y],
-        }
-        if value.interpolate != "linear":
-            tree["interpolate"] = value.interpolate
-        if value.period is not None:
-            tree["periodic"] = value_text(value.period, value.along)
-        return tree
+        return table_tree(value, kind)
     return value_text(value, kind)
 
 

@@ -1,0 +1,199 @@
+"""Columns of numbers in a text file beside a model file: commas, semicolons or tabs between them, and a head.
+
+Messages name the file and the line. A file is read as text, whole, and only from the model's folder or one allowed.
+"""
+
+from __future__ import annotations
+
+import csv
+import math
+import os
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from dalembert.errors import ModelError
+from dalembert.model.part import Reading
+from dalembert.units import NUMBER
+from dalembert.wording import closest, quote_value
+
+LARGEST, MOST = 10_000_000, 100_000
+"""Bytes and rows of a file."""
+
+ENDINGS = (".csv", ".tsv", ".txt")
+_HEAD = re.compile(r"(?P<name>.*?)\s*(?:\[(?P<unit>[^]]*)\]|\((?P<other>[^)]*)\))?")
+_DECIMAL_COMMA = re.compile(r"([+-]?\d*),(\d+(?:[eE][+-]?\d+)?)")
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """Numbers of a column as they stand, each with its line; the unit that the head (on its line) states."""
+
+    name: str
+    unit: str
+    head: int
+    values: tuple[float, ...]
+    lines: tuple[int, ...]
+
+
+def read_columns(file: str, asked: Sequence[str | int], rules: Reading) -> list[Column]:
+    """The columns asked for, by names in the head or numbers from 1; raises ModelError with file and line."""
+    path = find_file(file, rules)
+    file = os.path.join(rules.folder, file)
+    text = _text(path, file)
+    rows = [
+        (n, line) for n, line in enumerate(text.split("\n"), 1) if line.strip() and line.strip()[0] != "#"
+    ]
+    if len(rows) > MOST:
+        raise _error(f"more than {MOST} rows", "leave every second row out, or more", file, rows[MOST][0])
+    cells = _Cells(file, rows)
+    heads = cells.heads()
+    places = [_place(column, k, heads, cells) for k, column in enumerate(asked)]
+    numbers = [cells.numbers(place, heads[place][0]) for place in places]
+    lines = tuple(n for n, _ in cells.rows)
+    return [Column(*heads[k], cells.head, x, lines) for k, x in zip(places, numbers, strict=True)]
+
+
+def find_file(file: str, rules: Reading) -> Path:
+    """Where the file is: in the model's folder, or in the other one that is allowed, links resolved."""
+    if not isinstance(file, str) or not file.lower().endswith(ENDINGS):
+        raise ModelError(
+            f"{quote_value(file)} is no file of columns", f"name one that ends in {', '.join(ENDINGS)}"
+        )
+    try:
+        folders = [
+            Path(folder or ".").resolve()
+            for folder in dict.fromkeys((rules.folder, rules.data or rules.folder))
+        ]
+        inside = [
+            path
+            for path in ((folder / file).resolve() for folder in folders)
+            if any(path.is_relative_to(allowed) for allowed in folders)
+        ]
+        found = next((path for path in inside if path.exists()), None)
+    except (OSError, ValueError, RuntimeError):
+        raise ModelError(f"{quote_value(file)} is no path of a file", "check the name") from None
+    if not inside:
+        raise ModelError(
+            f"the file {file!r} is outside the model file's folder",
+            "put it there, or allow its folder: --data FOLDER, in Python da.load(..., data=FOLDER)",
+        )
+    if found is None:
+        raise ModelError(f"there is no file {file!r}", "check the name; it is relative to the model file")
+    return found
+
+
+def _text(path: Path, file: str) -> str:
+    try:
+        if not path.is_file():
+            raise _error("no ordinary file", "name a text file of columns", file, 1)
+        with path.open("rb") as stream:
+            content = stream.read(LARGEST + 1)
+    except OSError as error:
+        raise _error(f"it cannot be read: {error.strerror}", "check its permissions", file, 1) from None
+    if len(content) > LARGEST:
+        raise _error(f"more than {LARGEST} bytes", "leave every second row out, or more", file, 1)
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        text, at = "", error.start
+    else:
+        at = text.find("\0")
+    if at >= 0:
+        raise _error("not UTF-8 text", "save it as text, CSV UTF-8", file, content[:at].count(b"\n") + 1)
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _error(what: str, remedy: str, file: str, line: int) -> ModelError:
+    return ModelError(what, remedy, (), file, line)
+
+
+class _Cells:
+    """The rows of a file, cut into cells; ``head`` is the line of the head, or of the first row."""
+
+    def __init__(self, file: str, rows: list[tuple[int, str]]) -> None:
+        self.file = file
+        if not rows:
+            raise _error("it has no rows", "give it a head and one row for each point", file, 1)
+        first = rows[0][1]
+        self.between = next((sign for sign in "\t;," if sign in first), "")
+        self.rows = [(n, self._cut(n, line)) for n, line in rows]
+        self.head, self.width = self.rows[0][0], len(self.rows[0][1])
+
+    def _cut(self, n: int, line: str) -> list[str]:
+        if not self.between:
+            return line.split()
+        line = re.sub(r'" +(?=[,;\t])', '"', line.strip(" "))
+        try:
+            cut = next(csv.reader([line], delimiter=self.between, skipinitialspace=True, strict=True))
+        except csv.Error as error:
+            raise _error(f"it cannot be read: {error}", "close its quotes", self.file, n) from None
+        return [cell.strip() for cell in cut]
+
+    def heads(self) -> list[tuple[str, str]]:
+        """Name and unit of each column, taken off the rows; empty without a head. Units may have a row of their own."""
+        first = self.rows[0][1]
+        if all(self._number(cell) is not None for cell in first):
+            return [("", "")] * self.width
+        self.rows = self.rows[1:]
+        found = [match for cell in first if (match := _HEAD.fullmatch(cell))]
+        heads = [
+            (match["name"].strip('" '), (match["unit"] or match["other"] or "").strip()) for match in found
+        ]
+        below = self.rows[0][1] if self.rows else []
+        if len(below) == self.width and all(re.match(r"[\[(]?[^\W\d]|[\[(]?[°%]|-$", cell) for cell in below):
+            units = [cell.strip("[]() ") for cell in below]
+            if not any(unit.lower() in ("nan", "inf", "infinity") for unit in units):
+                self.rows = self.rows[1:]
+                heads = [
+                    (name, own or unit.strip("-")) for (name, own), unit in zip(heads, units, strict=True)
+                ]
+        return heads
+
+    def _number(self, cell: str) -> float | None:
+        plain = cell.replace("\u2212", "-")
+        if self.between != "," and (match := _DECIMAL_COMMA.fullmatch(plain)):
+            plain = f"{match[1]}.{match[2]}"
+        return float(plain) if re.fullmatch(NUMBER, plain) else None
+
+    def numbers(self, place: int, name: str) -> tuple[float, ...]:
+        """The numbers of a column."""
+        out = []
+        for n, row in self.rows:
+            if len(row) < self.width or any(row[self.width :]):
+                raise _error(
+                    f"{len(row)} columns where the first row has {self.width}",
+                    "give every row the same; where commas are decimal, put semicolons between columns",
+                    self.file,
+                    n,
+                )
+            value = self._number(row[place])
+            if value is None or not math.isfinite(value):
+                what = f" in column {name!r}" if name else ""
+                raise _error(
+                    f"{quote_value(row[place])}{what} is no finite number",
+                    "correct it, or take the row out",
+                    self.file,
+                    n,
+                )
+            out.append(value)
+        return tuple(out)
+
+
+def _place(column: str | int, k: int, heads: list[tuple[str, str]], cells: _Cells) -> int:
+    """Which column is meant."""
+    names = [name for name, _ in heads]
+    if isinstance(column, int) and not isinstance(column, bool) and 1 <= column <= len(heads):
+        return column - 1
+    if isinstance(column, str) and names.count(column) == 1:
+        return names.index(column)
+    twice = "twice" if isinstance(column, str) and column in names else "not"
+    known = f"write its number, from 1 to {len(heads)}" if not any(names) or twice == "twice" else ""
+    raise ModelError(
+        f"the column {quote_value(column)} is {twice} in its head",
+        known or closest(str(column), names),
+        ("columns", k),
+        cells.file,
+        cells.head,
+    )
