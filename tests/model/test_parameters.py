@@ -11,7 +11,8 @@ import dalembert as da
 from dalembert.errors import ModelError
 from dalembert.model import loads
 from dalembert.model.description import mechanism
-from dalembert.model.files.model_files import convert, load
+from dalembert.model.files.conversion import convert
+from dalembert.model.files.model_files import load
 
 ENGINE = """\
 title: Engine
