@@ -337,7 +337,7 @@ def test_slips_in_a_students_figures_are_named() -> None:
         da.Answer(quantity="effort", of="O", at=1, value=float(da.statics(m).effort("O")[0])),
     ]
     tree = m.to_tree() | {"units": {}}
-    verdicts = da.check_answers(da.mechanism(tree), mine)
+    verdicts = [da.check_answers(da.mechanism(tree), [answer])[0] for answer in mine]
     assert [v.mistake for v in verdicts] == [
         "the sense is opposite: action taken for reaction",
         "x and y are exchanged",

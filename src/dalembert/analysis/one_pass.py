@@ -13,6 +13,7 @@ from dalembert.analysis.engine.quick_pass import quick_answer
 from dalembert.analysis.friction.friction_equilibrium import FrictionProblem, block_size, friction_equilibrium
 from dalembert.analysis.positions import Positions, positions
 from dalembert.analysis.result.force_arrays import Forces, concatenate_blocks
+from dalembert.analysis.result.joint_freedoms import whole_pose
 from dalembert.analysis.result.reaction_axes import marks
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.closure_failure import open_sentence
@@ -21,7 +22,7 @@ from dalembert.arrays import Array, Flags, Index
 from dalembert.core.equilibrium import Known, balance, known_sources, motion, reactions
 from dalembert.core.forcing import Forcing, total_wrench
 from dalembert.core.layout import Pose
-from dalembert.core.position.motion_path import BLOCK
+from dalembert.core.position.motion_path import BLOCK, Path
 from dalembert.model import Mechanism, Schedule
 
 Method = Literal["auto", "careful"]
@@ -42,10 +43,35 @@ def at_schedule(
         followed = quick or positions(c)
         if followed.path is None:
             return _nothing(followed, inertia)
-        moved, found = _blocks(followed.compiled, followed.path.pose, inertia, forces)
-        status, reasons = statuses(followed, moved.twist, moved.acceleration, moved.rcond, found, forces)
-        _blank_without_answer(~followed.path.reached, status, moved, found)
-        return _result(followed, moved, found, inertia, status, reasons)
+        return _along(followed, followed.path, inertia, forces)
+
+
+def at_poses(c: Compiled, like: Result, which: Index, inertia: bool) -> Result:
+    """Analysis at some positions of another result's, in its poses: of a mechanism that differs from that one in loads,
+    masses, friction or rates, not in its geometry."""
+    with np.errstate(all="ignore"):
+        pose = whole_pose(like, which)
+        reached: Flags = np.asarray(np.isfinite(pose.point).all(axis=(1, 2)))
+        path = Path(pose, reached, np.zeros(len(reached), np.intp))
+        followed = Positions(some_positions(c, which), path, like.mobility, like.mode)
+        return _along(followed, path, inertia, True)
+
+
+def some_positions(c: Compiled, which: Index) -> Compiled:
+    """The mechanism at some positions of its schedule."""
+    s = c.schedule
+    time = None if s.time is None else s.time[which]
+    rates = {name: getattr(s, name)[which] for name in ("position", "speed", "acceleration")}
+    loads, known = slice_forcing(c, which)
+    return replace(c, schedule=replace(s, time=time, **rates), forcing=loads, known=known)
+
+
+def _along(followed: Positions, path: Path, inertia: bool, forces: bool) -> Result:
+    """Rates, forces and statuses where the poses are known."""
+    moved, found = _blocks(followed.compiled, path.pose, inertia, forces)
+    status, reasons = statuses(followed, moved.twist, moved.acceleration, moved.rcond, found, forces)
+    _blank_without_answer(~path.reached, status, moved, found)
+    return _result(followed, moved, found, inertia, status, reasons)
 
 
 class _Moved(NamedTuple):

@@ -239,7 +239,8 @@ def check(
 
 The file of answers, or a list as in a model file:
   efforts: {O2: 243 lbf*in}
-  reactions: {A: 155 @ 220 deg}""",
+  reactions: {A: 155 @ 220 deg}
+  tolerance: 3 %""",
 )
 def check_answers(
     file: ModelFile,
@@ -247,13 +248,19 @@ def check_answers(
     /,
     *,
     interactive: Annotated[bool, flag("Ask for them one by one.")] = False,
+    tolerance: Annotated[
+        str | None,
+        with_help(
+            "Of figures that state none, as 3% for graphical work (default: 0.5 %, or the digits written)."
+        ),
+    ] = None,
     static: Static = False,
     changes: Changes = AS_IN_FILE,
 ) -> int:
-    """Compare your own figures with what is computed, and name the mistake that explains a difference."""
+    """Compare your own figures with what is computed, and name the mistakes that explain the differences."""
     from dalembert.cli.check_answers_command import grade_answers
 
-    return grade_answers(file, answers, interactive, static, changes)
+    return grade_answers(file, answers, interactive, static, changes, tolerance)
 
 
 @app.command(help_epilogue="Examples:\n  dalembert validate\n  dalembert validate > qualification.txt")

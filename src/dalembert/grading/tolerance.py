@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from dalembert.arrays import Array
+from dalembert.errors import ModelError
 from dalembert.unit_names import unit
-from dalembert.units import NUMBER, Units
+from dalembert.units import NUMBER, Units, quantity
+from dalembert.wording import quote_value
 
 if TYPE_CHECKING:
     from dalembert.model import Answer
@@ -25,6 +28,9 @@ COARSE = 0.01
 
 DIRECTION = math.radians(0.5)
 """The same of an angle: one in whole degrees is excused, one in tens of degrees is not."""
+
+MOST_PERCENT = 50
+"""The largest tolerance: beyond it a figure says nothing."""
 
 EDGE = 1 + 1e-9
 """A figure half a unit of its last digit away is rounded."""
@@ -52,50 +58,99 @@ def half_unit(number: str) -> float:
 @dataclass(frozen=True)
 class Closeness:
     """How far from a figure a value may be: within a relative ``near``, or where no tolerance was stated within
-    ``halves`` units of its last digits (of each component; of a polar figure of its size and its direction)."""
+    ``halves`` units of its last digits (of each component; of a polar figure of its size and its direction).
+
+    ``stated``: there is a tolerance, and no rounding is excused; ``floor``: what is nothing beside the other forces, or
+    rates, of the machine.
+    """
 
     given: Array
     kind: str
     near: float
     halves: tuple[float, ...]
     polar: bool
+    stated: bool = False
+    floor: float = 0.0
 
     def off(self, value: Array) -> float:
         """Relative difference; of an angle the difference over one radian."""
-        difference = np.atleast_1d(value - self.given)
+        difference = (value - self.given).ravel()
         if self.kind == "angle":
-            return float(np.abs(np.angle(np.exp(1j * difference))).max())
-        size = float(np.linalg.norm(np.atleast_1d(self.given)))
-        size = size or float(np.linalg.norm(np.atleast_1d(value))) or 1.0
-        return float(np.linalg.norm(difference)) / size
+            return max(abs(math.remainder(d, math.tau)) for d in difference.tolist())
+        away = math.hypot(*difference.tolist())
+        size = self._size or math.hypot(*value.ravel().tolist()) or 1.0
+        return 0.0 if away <= self.floor else away / size
+
+    @cached_property
+    def _size(self) -> float:
+        return math.hypot(*self.given.ravel().tolist())
 
     def holds(self, value: Array) -> bool:
         """Whether a value is the figure."""
-        return self.off(value) <= self.near or (bool(self.halves) and self._rounds(value))
+        rounded = not self.stated and bool(self.halves) and self._rounds(value, self.near)
+        return rounded or self.off(value) <= self.near
 
-    def _rounds(self, value: Array) -> bool:
-        """Whether the figure is the value rounded to the digits written, if they are not too few."""
+    def is_rounded(self, value: Array) -> bool:
+        """Whether the figure is the value rounded to its digits, and nothing else is forgiven."""
+        return bool(self.halves) and self._rounds(value, 0.0)
+
+    def _rounds(self, value: Array, near: float) -> bool:
         if self.kind == "angle":
             return self.off(value) <= EDGE * min(self.halves[0], DIRECTION)
-        size = float(np.linalg.norm(np.atleast_1d(self.given)))
+        size = self._size
+
+        def room(half: float) -> float:
+            return EDGE * max(near * size, min(half, COARSE * size))
+
         if self.polar:
-            (x, y), (a, b) = value, self.given
+            (x, y), (a, b) = value.tolist(), self.given.tolist()
             turned = abs(math.remainder(math.atan2(y, x) - math.atan2(b, a), math.tau))
-            straight = turned <= EDGE * max(self.near, min(self.halves[1], DIRECTION))
-            return straight and abs(math.hypot(x, y) - size) <= self._room(self.halves[0], size)
-        apart = np.abs(np.atleast_1d(value - self.given)).ravel()
-        return all(d <= self._room(h, size) for d, h in zip(apart, self.halves, strict=True))
-
-    def _room(self, half: float, size: float) -> float:
-        return EDGE * max(self.near * size, min(half, COARSE * size))
+            straight = turned <= EDGE * max(near, min(self.halves[1], DIRECTION))
+            return straight and abs(math.hypot(x, y) - size) <= room(self.halves[0])
+        apart = np.abs(value - self.given).ravel().tolist()
+        return all(d <= room(h) for d, h in zip(apart, self.halves, strict=True))
 
 
-def closeness(answer: Answer, given: Target, kind: str, units: Units) -> Closeness:
-    """How near a value must be to an answer: by its tolerance in percent if it states one, else by its digits."""
-    text = str(answer.tolerance or "").strip()
-    if text.endswith("%"):
-        return Closeness(given.value, kind, float(text.removesuffix("%")) / 100, (), given.polar)
-    return Closeness(given.value, kind, NEAR, _halves(answer.value, given, kind, units), given.polar)
+def closeness(
+    answer: Answer, given: Target, kind: str, units: Units, tolerance: object = None, floor: float = 0.0
+) -> Closeness:
+    """How near a value must be to an answer: by its tolerance, or that of the sheet, if one is stated, else by its
+    digits."""
+    own = answer.tolerance if answer.tolerance is not None else tolerance
+    halves = _halves(answer.value, given, kind, units)
+    if own is None:
+        return Closeness(given.value, kind, NEAR, halves, given.polar, floor=floor)
+    size = math.hypot(*given.value.ravel().tolist())
+    return Closeness(given.value, kind, relative(own, size, kind, units), halves, given.polar, True, floor)
+
+
+def relative(tolerance: object, size: float, kind: str, units: Units) -> float:
+    """A tolerance in percent, or as a quantity of the same kind, over a size; of an angle in radians.
+
+    >>> relative("3 %", 200.0, "force", Units()), relative("6 N", 200.0, "force", Units())
+    (0.03, 0.03)
+    """
+    if isinstance(tolerance, str) and tolerance.strip().endswith("%"):
+        return percent(tolerance)
+    try:
+        allowed = quantity(tolerance, kind, units)
+    except ModelError as error:
+        raise ModelError(error.what, error.remedy, ("tolerance",)) from None
+    return allowed if kind == "angle" else allowed / (size or 1.0)
+
+
+def percent(tolerance: object) -> float:
+    """A tolerance in percent as a fraction: 0 to 50 %.
+
+    >>> percent("3 %")
+    0.03
+    """
+    text = str(tolerance).strip()
+    number = re.fullmatch(rf"({NUMBER})\s*%", text)
+    if number is None or not 0 <= float(number[1]) <= MOST_PERCENT:
+        what = f"{quote_value(tolerance)} is no tolerance in percent"
+        raise ModelError(what, f"write one from 0 to {MOST_PERCENT} %, for example 3 %", ("tolerance",))
+    return float(number[1]) / 100
 
 
 def _halves(value: object, given: Target, kind: str, units: Units) -> tuple[float, ...]:

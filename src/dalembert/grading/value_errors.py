@@ -13,10 +13,11 @@ from dalembert.grading.quantities import Series
 
 
 class Hypothesis(NamedTuple):
-    """A mistake in words and the value (SI) that it leads to, None where it does not apply."""
+    """A mistake in words, the value (SI) that it leads to, and of which kind it is: sign, unit or another."""
 
     sentence: str
-    value: Array | None
+    value: Array
+    kind: str = "named"
 
 
 def of_value(series: Series, right: Array) -> Iterator[Hypothesis]:
@@ -27,7 +28,7 @@ def of_value(series: Series, right: Array) -> Iterator[Hypothesis]:
     opposite = "the sense is opposite"
     if series.kind in ("force", "moment"):
         opposite += ": action taken for reaction"
-    yield Hypothesis(opposite, -right)
+    yield Hypothesis(opposite, -right, "sign")
     if right.ndim == 0:
         return
     if right.shape == (3,):
@@ -36,8 +37,8 @@ def of_value(series: Series, right: Array) -> Iterator[Hypothesis]:
         return
     x, y = (float(c) for c in right)
     yield Hypothesis("the angle is counted from the other axis: x and y are exchanged", np.array([y, x]))
-    yield Hypothesis("the angle is counted clockwise: y has the wrong sign", np.array([x, -y]))
-    yield Hypothesis("x has the wrong sign", np.array([-x, y]))
+    yield Hypothesis("the angle is counted clockwise: y has the wrong sign", np.array([x, -y]), "sign")
+    yield Hypothesis("x has the wrong sign", np.array([-x, y]), "sign")
     yield Hypothesis("x and y are exchanged, one with the wrong sign", np.array([-y, x]))
     yield Hypothesis("x and y are exchanged, one with the wrong sign", np.array([y, -x]))
     size, angle = math.hypot(x, y), math.atan2(y, x)
@@ -50,7 +51,7 @@ def of_value(series: Series, right: Array) -> Iterator[Hypothesis]:
 
 def _in_space(right: Array) -> Iterator[Hypothesis]:
     for k, name in enumerate("xyz"):
-        yield Hypothesis(f"{name} has the wrong sign", np.where(np.arange(3) == k, -right, right))
+        yield Hypothesis(f"{name} has the wrong sign", np.where(np.arange(3) == k, -right, right), "sign")
     for a, b in ((0, 1), (1, 2), (0, 2)):
         exchanged = right.copy()
         exchanged[[a, b]] = right[[b, a]]
@@ -93,4 +94,4 @@ def of_units(series: Series, right: Array) -> Iterator[Hypothesis]:
         if not kinds or series.kind in kinds:
             for f in (factor, 1 / factor):
                 text = words if words.startswith("a factor") else f"units are mixed up: {words}"
-                yield Hypothesis(text, right * f)
+                yield Hypothesis(text, right * f, "unit")

@@ -2,49 +2,97 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import partial
-from typing import TYPE_CHECKING, Any
+from functools import cache, cached_property, partial
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from dalembert.analysis.methods.applied_forces import actions, magnitude
+from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
+from dalembert.analysis.methods.applied_forces import known_actions
+from dalembert.analysis.one_pass import at_poses
 from dalembert.arrays import Array, Tree
 from dalembert.errors import DalembertError, ModelError
+from dalembert.grading.wrong_data import Change, Mistake, changes, numbers_changed, times
 from dalembert.units import file_units
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
+STATIC: Tree = {}
+"""The change that leaves all inertia out."""
 
-class Variants:
-    """Results with one mistake each, made once."""
 
-    def __init__(self, result: Result) -> None:
-        self.result = result
-        self._linear: list[tuple[str, Result]] | None = None
-        self._solved: dict[int, Result | None] = {}
+class WrongProblem(NamedTuple):
+    """The problem with one mistake, in words; order: 1 for parts of the loads, 3 for a datum; solved when asked."""
 
-    def linear(self) -> list[tuple[str, Result]]:
-        """Parts of the superposition left out, reversed or scaled."""
-        if self._linear is None:
-            try:
-                self._linear = list(_with_factor(self.result))
-            except ModelError:
-                self._linear = []
-        return self._linear
+    order: int
+    sentence: str
+    solution: Callable[[], Result | None]
 
-    def solutions(self) -> Iterator[tuple[str, Callable[[], Result | None]]]:
-        """Solved again with one datum changed, each when it is looked at."""
-        for n, (sentence, change) in enumerate(_changes(self.result)):
-            yield sentence, partial(self._solution, n, change)
 
-    def _solution(self, n: int, change: Tree) -> Result | None:
-        if n not in self._solved:
-            self._solved[n] = _again(self.result, change)
-        return self._solved[n]
+class WrongProblems:
+    """The problem at some positions, right and with one mistake each. None where the position itself is asked for: it
+    would be another one."""
+
+    def __init__(self, result: Result, which: Sequence[int] | None = None) -> None:
+        self.full = result
+        self.which = np.arange(len(result.status)) if which is None else np.array(which, np.intp)
+        self.result = result if which is None else self._at(result.compiled, result)
+
+    def __iter__(self) -> Iterator[WrongProblem]:
+        if self.full.schedule.unknown is None:
+            yield from self._linear
+            yield from self._changed
+
+    @cached_property
+    def _linear(self) -> list[WrongProblem]:
+        """Loads, weights and inertia left out, reversed or scaled."""
+        try:
+            found = _with_factor(self.result)
+            return [WrongProblem(1, words, partial(_same, result)) for words, result in found]
+        except ModelError:  # with friction parts do not add
+            return self._each(1, _scaled(self.result))
+
+    @cached_property
+    def _changed(self) -> list[WrongProblem]:
+        """One datum changed."""
+        modes = _other_modes(self.full) if self.full.mechanism.dimension == 2 else ()
+        other: list[Mistake] = [("this is the other assembly mode", {"assembly": m}) for m in modes]
+        return self._each(3, [*changes(self.full), *other])
+
+    def _each(self, order: int, mistakes: Iterable[Mistake]) -> list[WrongProblem]:
+        return [WrongProblem(order, words, cache(partial(self._solve, change))) for words, change in mistakes]
+
+    def _solve(self, change: Change) -> Result | None:
+        """The answer after a change, in the same poses where the change leaves them."""
+        from dalembert.analysis.solution import dynamics, statics
+
+        r = self.full
+        try:
+            if callable(change):
+                return self._at(change(r.compiled), r)
+            if change is STATIC:
+                return self._at(r.compiled, r, inertia=False)
+            m = r.mechanism.with_values(change)
+            if "assembly" in change:
+                whole = (dynamics if r.inertia else statics)(m)
+                return self._at(whole.compiled, whole)
+            return self._at(compile_mechanism(m, m.schedule(), r.compiled.layout.redundant), r)
+        except DalembertError:
+            return None
+
+    def _at(self, c: Compiled, like: Result, inertia: bool = True) -> Result:
+        """At the positions asked for, in the poses of another result."""
+        turns = like.compiled.forcing.resistances.turns
+        resistances = replace(c.forcing.resistances, turns=turns)
+        c = replace(c, forcing=replace(c.forcing, resistances=resistances), counts=like.compiled.counts)
+        return at_poses(c, like, self.which, like.inertia and inertia)
+
+
+def _same(result: Result) -> Result:
+    return result
 
 
 def _with_factor(r: Result) -> Iterator[tuple[str, Result]]:
@@ -66,16 +114,78 @@ def _with_factor(r: Result) -> Iterator[tuple[str, Result]]:
             load_array=total(parts.loads),
         )
 
-    forces = [s for s in parts.sources if s.startswith("inertia force")]
-    couples = [s for s in parts.sources if s.startswith("inertia couple")]
-    weights = [s for s in parts.sources if s.startswith("weight of")]
-    for sentence, some, factor in _weightings(r, forces, couples, weights, parts.sources):
+    for sentence, some, factor in _weightings(r, parts.sources):
+        yield sentence, with_weights(dict.fromkeys(some, factor))
+
+
+def _scaled(r: Result) -> Iterator[Mistake]:
+    """The same as changes of the compiled numbers; none for what does not stand by itself among them."""
+    sources = tuple(dict.fromkeys(a.source for a in known_actions(r)))
+    inertia = {s for s in sources if s.startswith("inertia")}
+    for sentence, some, factor in _weightings(r, sources):
+        if set(some) == inertia and not factor:
+            yield sentence, STATIC
+        elif (change := _scaling(r, some, factor)) is not None:
+            yield sentence, change
+
+
+def _scaling(r: Result, sources: Sequence[str], factor: float) -> Change | None:
+    """Numbers of some sources times a factor."""
+    m = r.mechanism
+    weights = (
+        {f"weight of {link}" for link in r.links if m.mass(link)} if any(m.gravity_vector) else set[str]()
+    )
+    mass, inertia = np.ones(len(r.links)), np.ones(len(r.links))
+    names = [[name for name, load in m.loads_on(on).items() if not load.unknown] for on in ("point", "link")]
+    loads = [np.ones(len(some)) for some in names]
+    pull = factor if weights and weights <= set(sources) else 1.0
+    for source in sources:
+        kind, _, link = source.rpartition(" of ")
+        if kind == "weight" and pull == factor:
+            continue
+        if kind == "inertia couple":
+            inertia[r.links.index(link)] = factor
+        elif kind == "inertia force" and not weights:
+            mass[r.links.index(link)] = factor
+        elif source in names[0] or source in names[1]:
+            which = int(source not in names[0])
+            loads[which][names[which].index(source)] = factor
+        else:
+            return None
+
+    def change(c: Compiled) -> Compiled:
+        for part, new in (
+            ("inertia", {"mass": mass, "inertia": inertia[:, None], "gravity": pull}),
+            ("forces", {"value": loads[0][:, None]}),
+            ("couples", {"value": loads[1][:, None]}),
+        ):
+            c = numbers_changed(f"forcing.{part}", **{name: times(f) for name, f in new.items()})(c)  # type: ignore
+        return c
+
+    return change
+
+
+def _weightings(r: Result, sources: Sequence[str]) -> Iterator[tuple[str, list[str], float]]:
+    """Mistakes with the sources that they scale, and by how much."""
+    forces = [s for s in sources if s.startswith("inertia force")]
+    couples = [s for s in sources if s.startswith("inertia couple")]
+    weights = [s for s in sources if s.startswith("weight of")]
+    for sentence, some, factor in _of_kinds(r, forces, couples, weights):
         if some:
-            yield sentence, with_weights(dict.fromkeys(some, factor))
+            yield sentence, some, factor
+    links = [link for link in r.links if f"inertia force of {link}" in forces]
+    for link in links if len(links) > 1 else ():
+        some = [s for s in (*forces, *couples) if s.endswith(f" of {link}")]
+        if len(some) > 1:
+            yield f"the inertia of {link} is left out", some, 0.0
+    for source in sources:
+        words = f"the {source}" if " of " in source else f"load {source}"
+        yield f"{words} is left out", [source], 0.0
+        yield f"{words} has the wrong sense", [source], -1.0
 
 
-def _weightings(
-    r: Result, forces: list[str], couples: list[str], weights: list[str], sources: Iterable[str]
+def _of_kinds(
+    r: Result, forces: list[str], couples: list[str], weights: list[str]
 ) -> Iterator[tuple[str, list[str], float]]:
     both = [*forces, *couples]
     if both:
@@ -95,10 +205,6 @@ def _weightings(
         yield "the moments of inertia are in the wrong unit of length: a factor of 144", couples, 1 / 144
     yield "gravity is left out", weights, 0.0
     yield "the weights act upwards", weights, -1.0
-    for source in sources:
-        words = f"the {source}" if " of " in source else f"load {source}"
-        yield f"{words} is left out", [source], 0.0
-        yield f"{words} has the wrong sense", [source], -1.0
 
 
 def _gravities(r: Result) -> list[tuple[float, str]]:
@@ -107,86 +213,6 @@ def _gravities(r: Result) -> list[tuple[float, str]]:
     own = units.unit("acceleration").of_si(r.mechanism.g)
     out = [(own, units.text("acceleration"))]
     return out if abs(own - 9.80665) < 0.1 else [*out, (9.80665, "m/s2")]
-
-
-def _changes(r: Result) -> Iterator[tuple[str, Tree]]:
-    """Data changed one at a time: a sentence and what to put in their place."""
-    m = r.mechanism
-    for mode in _other_modes(r) if m.dimension == 2 else ():
-        yield "this is the other assembly mode", {"assembly": mode}
-    if not any(m.gravity_vector):
-        yield "gravity is counted, and the problem has none", {"gravity": "standard"}
-    for name, load in m.loads_on("point").items():
-        if not load.unknown:
-            yield from _force_changes(r, name)
-    for drive in r.drives:
-        speed, acceleration = r.drive_speed(drive)[0], r.drive_acceleration(drive)[0]
-        path = f"drives.{drive}"
-        if acceleration:
-            yield f"the acceleration of drive {drive} is left out", {f"{path}.acceleration": 0.0}
-            yield (
-                f"the acceleration of drive {drive} has the wrong sense",
-                {f"{path}.acceleration": -acceleration},
-            )
-        if speed:
-            for factor, words in (
-                (30 / math.pi, "rad/s taken for rpm"),
-                (math.pi / 30, "rpm taken for rad/s"),
-            ):
-                yield f"the speed of drive {drive}: {words}", {f"{path}.speed": float(speed * factor)}
-            yield f"the speed of drive {drive} is left out", {f"{path}.speed": 0.0}
-    for link in r.links:
-        yield from _link_changes(r, link)
-
-
-def _force_changes(r: Result, name: str) -> Iterator[tuple[str, Tree]]:
-    """A force at another point of its link, or in another direction."""
-    m, load = r.mechanism, r.mechanism.loads[name]
-    on = load.on  # type: ignore[union-attr]
-    for point in [*m.points(on), "center"]:
-        if point != load.at:  # type: ignore[union-attr]
-            yield f"the moment arm of {name} is wrong: it is taken at {point}", {f"loads.{name}.at": point}
-    other = "link" if load.axes == "ground" else "ground"  # type: ignore[union-attr]
-    yield f"the direction of {name} is counted in {other} axes", {f"loads.{name}.axes": other}
-    if m.dimension == 2:
-        yield from _other_angle(r, name)
-
-
-def _other_angle(r: Result, name: str) -> Iterator[tuple[str, Tree]]:
-    """A force whose angle is counted from another axis or clockwise."""
-    load: Any = r.mechanism.loads[name]
-    a = next(a for a in actions(r) if a.of == name)
-    slips = ("from the other axis", "clockwise", "from the negative x axis")
-    if load.direction is not None:
-        t = float(load.direction)
-        for slip, angle in zip(slips, (math.pi / 2 - t, -t, math.pi - t), strict=True):
-            yield f"the angle of {name} is counted {slip}", {f"loads.{name}.direction": angle}
-    elif load.axes == "ground" and len(r.status) == 1:
-        x, y = (float(c) for c in a.force[0])
-        for slip, value in zip(slips, ([y, x], [x, -y], [-x, y]), strict=True):
-            yield f"the angle of {name} is counted {slip}", {f"loads.{name}.value": value}
-
-
-def _link_changes(r: Result, link: str) -> Iterator[tuple[str, Tree]]:
-    """The mass centre or the moment of inertia of a link at the wrong point."""
-    m = r.mechanism
-    if not m.mass(link):
-        return
-    center = np.array(m.center(link))
-    points = {n: np.array(p) for n, p in m.points(link).items()}
-    for name, p in points.items() if m.dimension == 2 else ():
-        shifted = m.inertia(link) + m.mass(link) * float(magnitude(p - center)) ** 2
-        yield (
-            f"the moment of inertia of {link} is taken about {name}, not its mass centre",
-            {f"links.{link}.inertia": shifted},
-        )
-    for name, p in points.items():
-        yield f"the mass centre of {link} is taken at {name}", {f"links.{link}.center": [*map(float, p)]}
-    mirrored = [float(center[0]), -float(center[1])]
-    if center[1] and m.dimension == 2:
-        yield f"the mass centre of {link} is on the wrong side of it", {f"links.{link}.center": mirrored}
-        along = [float(magnitude(center)), 0.0]
-        yield f"the angle of the mass centre of {link} is left out", {f"links.{link}.center": along}
 
 
 def _other_modes(r: Result) -> Iterator[dict[str, float]]:
@@ -201,12 +227,3 @@ def _other_modes(r: Result) -> Iterator[dict[str, float]]:
     for turn in found.pose.turn[:, :-1]:
         if np.abs(np.angle(np.exp(1j * (turn - r.turn_array[0])))).max() > 1e-6:
             yield dict(zip(r.links, map(float, turn), strict=True))
-
-
-def _again(r: Result, change: Tree) -> Result | None:
-    from dalembert.analysis.solution import dynamics, statics
-
-    try:
-        return (dynamics if r.inertia else statics)(r.mechanism.with_values(change))
-    except DalembertError:
-        return None

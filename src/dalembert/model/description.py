@@ -272,7 +272,9 @@ class Mechanism(Part):
         if named:
             new = {name: p.value for name, p in rules.parameters.items()}
             found = with_dependents(self, lambda leaf: with_new(leaf, new), rules)
-        for path in (path for path in given if path not in named):  # in their order: lists' lengths must agree
+        for path in (
+            path for path in given if path not in named
+        ):  # in their order: lists' lengths must agree
             found = replace_value(found, path.split("."), given[path], rules)
         rules = replace(rules, parameters=used_parameters(found, rules.parameters))
         changed = Mechanism.model_validate(fields(found), context=rules)

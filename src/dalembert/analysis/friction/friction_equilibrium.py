@@ -307,6 +307,9 @@ def _sides(
     driven = Driven(c.targets[part], c.schedule.speed[part], c.schedule.acceleration[part])
     here = p.along.at(open_), p.pose.at(open_), at(p.moving, open_), at(driven, open_)
     still = ~c.schedule.moves[part][open_][:, None]
+    if still.all():
+        state = at(found.state, open_)
+        return (state._replace(open=np.ones_like(state.open)),) * 2
     both = sides(c.layout, p.contacts, *here, at(found.state, open_), spun)
     before, after = (side._replace(open=side.open | still) for side in both)
     return before, after

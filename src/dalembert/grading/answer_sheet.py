@@ -1,0 +1,134 @@
+"""A sheet of figures as a student writes it: a list as in a model file, or names with values by quantity."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from dalembert.arrays import Tree
+from dalembert.errors import Locator, ModelError
+from dalembert.grading.quantities import QUANTITIES, WHOLE, WORDS
+from dalembert.grading.tolerance import percent
+from dalembert.wording import closest, quote_value
+
+if TYPE_CHECKING:
+    from dalembert.model import Answer
+
+KNOWN = (*QUANTITIES, *WORDS, *WHOLE)
+"""What a figure may be of."""
+
+ABOUT = ("student", "variant", "tolerance")
+"""What a sheet may say beside its figures."""
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """Figures, the lines they stand on, the tolerance of those that state none, whose they are and of which variant."""
+
+    answers: tuple[Answer, ...]
+    lines: tuple[int, ...] = ()
+    tolerance: str | None = None
+    student: str = ""
+    variant: str = ""
+    file: str = ""
+
+    def line(self, number: int) -> int:
+        """The line of a figure; 0 without a file."""
+        return self.lines[number] if self.lines else 0
+
+
+def read_sheet(tree: object, source: Locator | None = None) -> Sheet:
+    """The sheet of a file's tree; ModelError with file and line where it is wrong.
+
+    In the short form a single number for a vector is its magnitude.
+
+    >>> read_sheet({"tolerance": "3 %", "reactions": {"A": "155 N"}}).answers[0].component
+    'magnitude'
+    """
+    try:
+        about = {key: tree.get(key) for key in ABOUT} if isinstance(tree, Mapping) else {}
+        if about.get("tolerance") is not None:
+            percent(about["tolerance"])
+        items = list(_items(tree))
+        answers = tuple(_answer(item, path) for path, item in items)
+    except ModelError as error:
+        raise error.at_source(source) from None
+    lines = tuple(source.line(path) for path, _ in items) if source else ()
+    words = {key: "" if value is None else str(value) for key, value in about.items()}
+    return Sheet(
+        answers,
+        lines,
+        words.get("tolerance") or None,
+        words.get("student", ""),
+        words.get("variant", ""),
+        source.name if source else "",
+    )
+
+
+def figures(tree: object) -> list[Answer]:
+    """The answers of a sheet, as in a model file's `answers` or {efforts: {O2: 27.5}, reactions: {A: 155 @ 40}}."""
+    return list(read_sheet(tree).answers)
+
+
+Path = tuple[str | int, ...]
+
+
+def _items(tree: object) -> Iterator[tuple[Path, Tree]]:
+    """Every figure as the keys of an answer, and where it stands."""
+    base: Path = ()
+    if isinstance(tree, Mapping) and "answers" in tree:
+        tree, base = tree["answers"], ("answers",)
+    if isinstance(tree, Mapping):
+        yield from _short({key: value for key, value in tree.items() if key not in ABOUT})
+        return
+    if not isinstance(tree, list) or not all(isinstance(item, Mapping) for item in tree):
+        raise ModelError(
+            "the answers are neither a mapping nor a list of mappings",
+            "write efforts: {O2: 243 lbf*in} and reactions: {A: 155 @ 220 deg}",
+        )
+    yield from (((*base, k), dict(item)) for k, item in enumerate(tree))
+
+
+def _answer(item: Tree, path: Path) -> Answer:
+    from dalembert.model import Answer
+
+    if item.get("quantity") not in KNOWN:
+        said = f"there is no quantity {item.get('quantity')!r}"
+        raise ModelError(said, closest(str(item.get("quantity")), [*KNOWN], 40), path)
+    made: Answer = at_path(path, lambda: Answer(**item))
+    return made
+
+
+def at_path(path: Path, make: Callable[[], Any]) -> Any:
+    """What is made; what is wrong with it is said with its path."""
+    try:
+        return make()
+    except ModelError as error:
+        raise ModelError(error.what, error.remedy, (*path, *error.path), error.file, error.line) from None
+
+
+VECTORS = ("reaction", "center", "velocity", "position", "point")
+"""Quantities of which a single number can only be the magnitude (in space more of them are vectors)."""
+
+
+def _short(tree: Mapping[Any, object]) -> Iterator[tuple[Path, Tree]]:
+    """The figures of {efforts: {O2: 27.5}, reactions: {A: 155 @ 40}, mobility: 1}."""
+    for name, values in tree.items():
+        quantity = str(name).removesuffix("s") if name != "status" else name
+        if quantity in (*WHOLE, *WORDS) and not isinstance(values, Mapping):
+            yield (name,), {"quantity": quantity, "value": values}
+            continue
+        if not isinstance(values, Mapping):
+            what = f"{name} stands without names of what the figures are of"
+            raise ModelError(what, f"write {name}: {{NAME: {quote_value(values)}}}", (name,))
+        for of, value in values.items():
+            yield (name, of), short_item(quantity, str(of), value)
+
+
+def short_item(quantity: str, of: str, value: object) -> Tree:
+    """A figure of a name and a value: a single number for a vector is its magnitude."""
+    single = isinstance(value, int | float) or (isinstance(value, str) and "@" not in value)
+    whole = quantity.startswith(VECTORS) and single and value != ""
+    component = {"component": "magnitude"} if whole else {}
+    return {"quantity": quantity, "of": of, "value": value} | component

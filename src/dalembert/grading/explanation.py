@@ -1,0 +1,231 @@
+"""The mistakes that explain the wrong figures of a sheet, all of them together.
+
+A mistake in the problem (a load, a mass, friction) moves many figures at once: it explains the sheet only if no right
+figure would have moved with it. A slip in one value (sense, axis, unit, another joint) is of one figure. The sheet's
+explanation is that of fewest mistakes, a figure that stays unexplained counting as one and a half; among equals the
+likeliest of those that come nearest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array, Tree
+from dalembert.errors import DalembertError
+from dalembert.grading.figure import Figure, values_of
+from dalembert.grading.value_errors import Hypothesis, of_units, of_value
+from dalembert.grading.wrong_problems import WrongProblem, WrongProblems
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+SMALL = 0.03
+"""Relative difference up to which a figure is nearly right."""
+
+MUCH = 5
+"""How many times nearer than the right value a mistake must come to explain a figure that is nearly right."""
+
+GRAPHICAL = 0.05
+"""Relative difference that a drawing may have."""
+
+UNEXPLAINED, ROUNDED = 1.5, 1.2
+"""What a figure that is not explained, or only nearly right, counts beside a mistake."""
+
+SAME = 2e-4
+"""Relative differences that tell nothing apart."""
+
+
+class Explanation(NamedTuple):
+    """What is wrong with a figure, in words and of which kind: sign, unit, named, rounding, or unknown."""
+
+    sentence: str
+    kind: str
+
+
+class _Slip(NamedTuple):
+    off: float
+    order: int
+    kind: str
+
+
+@dataclass
+class _Option:
+    """Explanations of the wrong figures together: how many mistakes, how far off at most, how likely."""
+
+    cost: float
+    off: float
+    order: int
+    found: dict[int, Explanation] = field(default_factory=dict)
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether one mistake gives all figures: no other explanation is better, but a likelier one."""
+        return self.cost <= 1 and self.off <= SAME
+
+
+def explain(figures: Sequence[Figure], problems: WrongProblems) -> dict[int, Explanation]:
+    """What explains each wrong figure, by its number."""
+    wrong = [n for n, f in enumerate(figures) if f.judged and not f.met]
+    out = {n: Explanation(figures[n].impossible, "sign") for n in wrong if figures[n].impossible}
+    wrong = [n for n in wrong if n not in out]
+    if not wrong:
+        return out
+    sheet = _Sheet(figures, wrong, problems)
+    return out | _best(sheet.options()).found
+
+
+def _best(options: list[_Option]) -> _Option:
+    """Of the options of fewest mistakes the likeliest that comes about as near as any."""
+    least = min(o.cost for o in options)
+    among = [o for o in options if o.cost <= least + 1e-9]
+    nearest = min(o.off for o in among)
+    near = [o for o in among if o.off <= 3 * nearest + SAME]
+    return min(near, key=lambda o: o.order)
+
+
+class _Sheet:
+    """The figures of a sheet that are wrong, and those that are not, beside wrong problems."""
+
+    def __init__(self, figures: Sequence[Figure], wrong: list[int], problems: WrongProblems) -> None:
+        self.figures, self.wrong, self.problems = figures, wrong, problems
+        self.met = [n for n, f in enumerate(figures) if f.judged and f.met]
+        places = {int(k): n for n, k in enumerate(problems.which)}
+        self.places = {n: places[f.position] for n, f in enumerate(figures) if f.judged}
+
+    def options(self) -> list[_Option]:
+        """Explanations, without a wrong problem and with each; none further where no later one can be better."""
+        found = [self._covered(self.problems.result, {}, 0.0, 0)]
+        if found[0].order == 0 and found[0].is_exact:
+            return found
+        for problem in self.problems:
+            if problem.order > found[0].order and found[0].is_exact:
+                break
+            option = self._under(problem)
+            if option is not None:
+                found.append(option)
+                if option.is_exact:
+                    break
+        return found
+
+    def _under(self, problem: WrongProblem) -> _Option | None:
+        """The sheet as the work of one who solved a wrong problem; None if a right figure speaks against it, or no
+        wrong one for it."""
+        result = problem.solution()
+        if result is None or not all(self.figures[n].holds(self._values(result, n)) for n in self.met):
+            return None
+        direct = {n: off for n in self.wrong if (off := self._away(n, self._values(result, n))) is not None}
+        if not direct:
+            return None
+        named = dict.fromkeys(direct, Explanation(problem.sentence, "named"))
+        option = self._covered(result, named, max(direct.values()), problem.order)
+        option.cost += 1
+        return option
+
+    def _values(self, result: Result, n: int) -> tuple[Array, ...]:
+        """What a problem answers where figure n asks."""
+        try:
+            return values_of(result, self.figures[n].answer, self.places[n])[0]
+        except (DalembertError, IndexError):
+            return ()
+
+    def _away(self, n: int, values: tuple[Array, ...]) -> float | None:
+        """How far a figure is from the nearest of some values that explain it, 0 if it is one of them rounded."""
+        f = self.figures[n]
+        offs = [f.close.off(v) for v in values if self._explains(f, v)]
+        if not offs:
+            return None
+        return 0.0 if any(f.close.is_rounded(v) for v in values) else min(offs)
+
+    def _explains(self, f: Figure, value: Array) -> bool:
+        """So many mistakes are tried that some come near any figure: one that is itself nearly right is explained only
+        by a mistake that comes much nearer."""
+        return f.close.off(value) <= f.off / MUCH if f.off <= SMALL else f.close.holds(value)
+
+    def _covered(self, result: Result, named: dict[int, Explanation], off: float, order: int) -> _Option:
+        """Slips for the figures that are left, those first that explain most of them."""
+        rest = [n for n in self.wrong if n not in named]
+        slips = {n: self._slips(result, n) for n in rest}
+        option = _Option(0.0, off, order, dict(named))
+        while True:
+            left = [n for n in rest if n not in option.found]
+            by: dict[str, list[int]] = {}
+            for n in left:
+                for sentence in slips[n]:
+                    by.setdefault(sentence, []).append(n)
+            if not by:
+                break
+            nearest = min(slips[n][s].off for s, some in by.items() for n in some)
+
+            def rank(s: str, by: dict[str, list[int]] = by, nearest: float = nearest) -> tuple[float, ...]:
+                worst = max(slips[n][s].off for n in by[s])
+                return (-len(by[s]), worst > 3 * nearest + SAME, slips[by[s][0]][s].order, worst)
+
+            best = min(by, key=rank)
+            option.cost += 1
+            for n in by[best]:
+                slip = slips[n][best]
+                option.found[n] = Explanation(best, slip.kind)
+                option.off, option.order = max(option.off, slip.off), max(option.order, slip.order)
+        for n in left:
+            option.found[n], cost = _unexplained(self.figures[n])
+            option.cost += cost
+        return option
+
+    def _slips(self, result: Result, n: int) -> dict[str, _Slip]:
+        """Sentences that make one of a problem's values the figure, each with how near it comes."""
+        out: dict[str, _Slip] = {}
+        for order, h in self._hypotheses(result, n):
+            if not np.isfinite(h.value).all() or (off := self._away(n, (h.value,))) is None:
+                continue
+            if h.sentence not in out or off < out[h.sentence].off:
+                out[h.sentence] = _Slip(off, order, h.kind)
+        return out
+
+    def _hypotheses(self, result: Result, n: int) -> Iterator[tuple[int, Hypothesis]]:
+        f = self.figures[n]
+        for value in self._values(result, n):
+            for h in of_value(f.series, value):
+                yield 0, h
+            for h in of_units(f.series, value):
+                yield 4, h
+        for change, sentence in others(result, f):
+            try:
+                values, _ = values_of(result, f.answer.model_copy(update=change), self.places[n])
+            except (DalembertError, IndexError):
+                continue
+            for value in values:
+                yield 2, Hypothesis(sentence, value)
+
+
+def _unexplained(f: Figure) -> tuple[Explanation, float]:
+    """What is said of a figure that no mistake explains, and what it costs."""
+    if f.off <= SMALL:
+        return Explanation("close: rounded too early, or a small slip", "rounding"), ROUNDED
+    said = "none of the usual mistakes explains it"
+    if f.off <= GRAPHICAL and not f.close.stated:
+        said += f"; it is {100 * f.off:.2g} % off, which a drawing may be: state a tolerance if it is one"
+    return Explanation(said, "unknown"), UNEXPLAINED
+
+
+def others(result: Result, f: Figure) -> Iterator[tuple[Tree, str]]:
+    """The right value of something else: another joint, component, or axes."""
+    answer = f.answer
+    if answer.quantity in ("reaction", "moment"):
+        for joint in result.joints:
+            if joint != answer.of:
+                yield {"of": joint, "on": None, "by": None}, f"this is joint {joint}"
+        for link in result.mechanism.joints[str(answer.of)].links if answer.of in result.joints else ():
+            change = {"axes": "link", "on": link, "by": None}
+            yield change, f"components are along and across link {link}, not ground axes"
+    if answer.component in ("x", "y"):
+        other = "y" if answer.component == "x" else "x"
+        yield {"component": other}, "the angle is counted from the other axis: x for y"
+        yield {"component": "magnitude"}, "this is the magnitude, not the component"
+    if answer.quantity in ("angle", "speed", "acceleration", "center_acceleration", "center"):
+        for link in result.links:
+            if link != answer.of:
+                yield {"of": link}, f"this is link {link}"

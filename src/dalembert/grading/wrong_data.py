@@ -1,0 +1,212 @@
+"""Data of a problem taken wrongly, one at a time: loads, rates, masses, friction, g; its geometry stays.
+
+Nearly all are changes of the compiled numbers, so that nothing is read or checked again.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.analysis.methods.applied_forces import magnitude
+from dalembert.arrays import Array, Flags, Tree
+from dalembert.units import file_units
+
+if TYPE_CHECKING:
+    from dalembert.analysis.compile.compiled_mechanism import Compiled
+    from dalembert.analysis.result.result import Result
+
+Change = Tree | Callable[["Compiled"], "Compiled"]
+"""Values by their paths in the model file, or what becomes of the compiled numbers."""
+
+Mistake = tuple[str, Change]
+"""A mistake in words, and what it does."""
+
+STANDARD = 9.80665
+
+
+def numbers_changed(part: str, **new: Callable[[Array], Array]) -> Change:
+    """Arrays of a part of the compiled mechanism replaced, each by a function of what it was."""
+    return partial(_replaced, part.split("."), new)
+
+
+def _replaced(path: Sequence[str], new: dict[str, Callable[[Array], Array]], record: Any) -> Any:
+    if not path:
+        return replace(record, **{name: f(getattr(record, name)) for name, f in new.items()})
+    return replace(record, **{path[0]: _replaced(path[1:], new, getattr(record, path[0]))})
+
+
+def times(factor: Array | float) -> Callable[[Array], Array]:
+    """A function that multiplies."""
+    return lambda a: np.asarray(a * factor)
+
+
+def with_row(k: Any, row: Any) -> Callable[[Array], Array]:
+    """A function that puts another row in the place of one."""
+
+    def put(a: Array) -> Array:
+        out = np.array(a)
+        out[k] = row
+        return out
+
+    return put
+
+
+def changes(r: Result) -> Iterator[Mistake]:
+    """Data changed one at a time: a sentence and what to put in their place."""
+    yield from _friction_changes(r)
+    m = r.mechanism
+    if not any(m.gravity_vector):
+        pull = [*[0.0] * (m.dimension - 1), -STANDARD]
+        gravity = numbers_changed("forcing.inertia", gravity=lambda _: np.array(pull))
+        yield "gravity is counted, and the problem has none", gravity
+    given = [name for name, load in m.loads_on("point").items() if not load.unknown]
+    for k, name in enumerate(given):
+        yield from _force_changes(r, k, name)
+    for k, drive in enumerate(r.drives):
+        yield from _rate_changes(r, k, drive)
+    for k, link in enumerate(r.links):
+        yield from _link_changes(r, k, link)
+    yield from _gravity_changes(r)
+
+
+def _rate_changes(r: Result, k: int, drive: str) -> Iterator[Mistake]:
+    """The speed and acceleration of a drive."""
+
+    def scaled(name: str, factor: float) -> Change:
+        return numbers_changed(
+            "schedule", **{name: lambda a: a * np.where(np.arange(a.shape[1]) == k, factor, 1.0)}
+        )
+
+    if r.drive_acceleration(drive).any():
+        yield f"the acceleration of drive {drive} is left out", scaled("acceleration", 0.0)
+        yield f"the acceleration of drive {drive} has the wrong sense", scaled("acceleration", -1.0)
+    if r.drive_speed(drive).any():
+        for factor, words in ((30 / math.pi, "rad/s taken for rpm"), (math.pi / 30, "rpm taken for rad/s")):
+            yield f"the speed of drive {drive}: {words}", scaled("speed", factor)
+        yield f"the speed of drive {drive} is left out", scaled("speed", 0.0)
+
+
+def _force_changes(r: Result, k: int, name: str) -> Iterator[Mistake]:
+    """A force at another point of its link, or in another direction."""
+    m, load = r.mechanism, r.mechanism.loads[name]
+    on = load.on  # type: ignore[union-attr]
+    base = r.compiled.layout.reference[int(r.compiled.forcing.forces.link[k])]
+    for point in [*m.points(on), "center"]:
+        if point != load.at:  # type: ignore[union-attr]
+            there = with_row(k, np.subtract(m.point(on, point), base))
+            change = numbers_changed("forcing.forces", at=there)
+            yield f"the moment arm of {name} is wrong: it is taken at {point}", change
+    other = "link" if load.axes == "ground" else "ground"  # type: ignore[union-attr]
+    turned = numbers_changed("forcing.forces", follows=lambda a: a ^ (np.arange(len(a)) == k))
+    yield f"the direction of {name} is counted in {other} axes", turned
+    if m.dimension == 2:
+        x, y = (r.compiled.forcing.forces.value[:, k, c] for c in (0, 1))
+        slips = {"from the other axis": (y, x), "clockwise": (x, -y), "from the negative x axis": (-x, y)}
+        for slip, both in slips.items():
+            value = with_row((slice(None), k), np.stack(both, axis=-1))
+            yield f"the angle of {name} is counted {slip}", numbers_changed("forcing.forces", value=value)
+
+
+def _link_changes(r: Result, k: int, link: str) -> Iterator[Mistake]:
+    """The mass centre or the moment of inertia of a link at the wrong point."""
+    m = r.mechanism
+    if not m.mass(link):
+        return
+    plane, base = m.dimension == 2, r.compiled.layout.reference[k]
+    center = np.array(m.center(link))
+    points = {n: np.array(p) for n, p in m.points(link).items()}
+
+    def centered(at: Array) -> Change:
+        return numbers_changed("forcing.inertia", center=with_row(k, at - base))
+
+    for name, p in points.items() if plane else ():
+        about = with_row(k, m.inertia(link) + m.mass(link) * float(magnitude(p - center)) ** 2)
+        words = f"the moment of inertia of {link} is taken about {name}, not its mass centre"
+        yield words, numbers_changed("forcing.inertia", inertia=about)
+    for name, p in points.items():
+        yield f"the mass centre of {link} is taken at {name}", centered(p)
+    if center[1] and plane:
+        yield f"the mass centre of {link} is on the wrong side of it", centered(center * [1, -1])
+        along = np.array([float(magnitude(center)), 0.0])
+        yield f"the angle of the mass centre of {link} is left out", centered(along)
+
+
+BOOKS_G = {
+    "m": {9.81: "9.81 m/s^2", 9.8: "9.8 m/s^2", 10.0: "10 m/s^2"},
+    "ft": {
+        32.2 * 0.3048: "32.2 ft/s^2",
+        32.0 * 0.3048: "32 ft/s^2",
+        386.0 * 0.0254: "386 in/s^2",
+        386.4 * 0.0254: "386.4 in/s^2",
+    },
+}
+"""The g of books in m/s2, with its text: where lengths are metres, and where they are feet or inches."""
+
+
+def _gravity_changes(r: Result) -> Iterator[Mistake]:
+    """The book's g for the file's, where weights or masses make it count."""
+    m = r.mechanism
+    pull = np.array(m.gravity_vector)
+    own = float(magnitude(pull)) or m.g
+    weighed = any(m.links[link].weight is not None for link in r.links)
+    system = "ft" if file_units(m.units).text("length") in ("ft", "in") else "m"
+    for g, text in BOOKS_G[system].items() if weighed or pull.any() else ():
+        if not 1e-9 < abs(g / own - 1) < 0.05:
+            continue
+        change: Tree = {"g": g} if weighed else {}
+        if pull.any():
+            change["gravity"] = (pull * g / own).tolist()
+        yield f"g is taken as {text}, not {_in_units(r, own)}", change
+
+
+def _in_units(r: Result, g: float) -> str:
+    units = file_units(r.mechanism.units)
+    return f"{units.unit('acceleration').of_si(g):.5g} {units.text('acceleration')}"
+
+
+# friction
+
+
+def _friction_changes(r: Result) -> Iterator[Mistake]:
+    """Friction left out, turned round, or with another circle, radius or coefficient: everywhere, then at one joint."""
+    contacts = r.compiled.contacts
+    if contacts is None or not contacts.coefficient[~contacts.fixed].any():
+        return
+    rough = ~contacts.fixed
+    circles = rough & np.isin(contacts.kind, ("pin", "ball"))
+    yield "friction is left out", _friction(rough, coefficient=0.0)
+    for words, where in (
+        ("mu R, not R sin(phi)", contacts.circle & circles),
+        ("R sin(phi), not mu R", ~contacts.circle & circles),
+    ):
+        if where.any():
+            circle = numbers_changed("contacts", circle=lambda a, w=where: a ^ w)  # type: ignore[misc]
+            yield f"the radius of the friction circles is taken as {words}", circle
+    if (contacts.coefficient != contacts.resting)[rough].any():
+        mu = np.where(rough, contacts.resting, contacts.coefficient)
+        resting = numbers_changed("contacts", coefficient=lambda _: mu)
+        yield "the coefficient at rest is taken for that of motion", resting
+    joints = dict.fromkeys(contacts.joint[rough].tolist())
+    apart = {f" of joint {r.joints[k]}": contacts.joint == k for k in joints} if len(joints) > 1 else {}
+    for words, here in ({"": rough} | apart).items():
+        some, round_ = rough & here, circles & here
+        if words:
+            yield f"the friction{words} is left out", _friction(some, coefficient=0.0)
+        all_of = f"the friction{words}" if words else "all friction"
+        yield f"{all_of} acts the wrong way, with the motion", _friction(some, coefficient=-1.0)
+        if round_.any():
+            pins = words or " of the pins"
+            yield f"the diameter{pins} is taken for the radius", _friction(round_, lever=2.0)
+            yield f"the radius{pins} is taken for the diameter", _friction(round_, lever=0.5)
+
+
+def _friction(where: Flags, coefficient: float = 1.0, lever: float = 1.0) -> Change:
+    """Coefficients or levers of some contacts times a factor."""
+    mu, arm = (times(np.where(where, factor, 1.0)) for factor in (coefficient, lever))
+    return numbers_changed("contacts", coefficient=mu, resting=mu, lever=arm)
