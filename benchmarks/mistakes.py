@@ -4,7 +4,8 @@ Method. For each bundled case and each mistake that is known for it, the wrong p
 unknown loads and joint forces are written down as a student would, to 4 figures; besides, the true sheet with each
 figure slipped in turn (sense, axis, unit). A sheet counts if some figure of it is called wrong. It is right if the
 first wrong figure's sentence is the mistake, or if one other mistake gives all the wrong figures. The same for sheets
-of the first figure alone. True figures are rounded to 3. Run it from the checkout.
+of the first figure alone. The stricter rates count the very sentence only. True figures are
+rounded to 3. Run it from the checkout.
 
     python -m benchmarks.mistakes [CASE ...]
 """
@@ -15,11 +16,13 @@ import sys
 import time
 from statistics import median
 
-from tests.methods.marked_sheets import mistaken_sheets, named_first, slipped_sheets, true_sheet
+from tests.methods.marked_sheets import Made, mistaken_sheets, named_first, slipped_sheets, true_sheet
 
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.grading.mistakes import Problem
+
+TRUE = "true figures called right"
 
 
 class Rate:
@@ -37,30 +40,31 @@ class Rate:
 
 
 def main(names: list[str]) -> None:
-    rates = {
-        name: Rate() for name in ("whole sheets", "slips", "first figure alone", "true figures called right")
-    }
+    kinds = ("whole sheets", "slips", "first figure alone")
+    rates = {name: Rate() for name in (*kinds, *(f"{k}, by this very sentence" for k in kinds), TRUE)}
     first, again = [], []
     for name in names:
         problem = Problem(da.load((cases() | examples())[name]))
         place = min(1, len(problem.result.status) - 1)
         sheet = true_sheet(problem, place, 3)
         for verdict in problem.verdicts(sheet):
-            rates["true figures called right"].add(verdict.right)
+            rates[TRUE].add(verdict.right)
         made = [*mistaken_sheets(problem, place, 4)]
         slips = [*slipped_sheets(problem, place, 4)]
-        for kind, some in (("whole sheets", made), ("slips", slips)):
+        alone = [Made(one.mistake, one.answers[:1]) for one in made]
+        for kind, some in zip(kinds, (made, slips, alone), strict=True):
             for one in some:
                 started = time.perf_counter()
-                found = named_first(one, problem.verdicts(one.answers))
+                verdicts = problem.verdicts(one.answers)
                 (again if first and first[-1][0] == name else first).append(
                     (name, time.perf_counter() - started)
                 )
+                found = named_first(one, verdicts)
                 rates[kind].add(found)
+                said = next((v.mistake for v in verdicts if not v.right), "")
+                rates[f"{kind}, by this very sentence"].add(None if found is None else said == one.mistake)
                 if found is False:
                     print(f"{name}: {one.mistake}", file=sys.stderr)
-        for one in made:
-            rates["first figure alone"].add(named_first(one, problem.verdicts(one.answers[:1])))
     for name, rate in rates.items():
         print(f"{name}: {rate}")
     for words, times in (("a first sheet of a problem", first), ("a further one", again)):
