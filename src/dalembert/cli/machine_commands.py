@@ -173,7 +173,7 @@ def flywheel(
     ] = None,
     static: Static = False,
     positions: Positions = None,
-    no_friction: NoFriction = False,
+    changes: Changes = AS_IN_FILE,
     out: Outputs = NO_OUTPUTS,
 ) -> int:
     """Flywheel of FILE: energy curve, inertia from Cs or back, and the exact speed over the cycle."""
@@ -182,7 +182,7 @@ def flywheel(
     from dalembert.units import file_units, quantity
 
     out.check(file)
-    result = solve_over_a_turn(file, static, positions, not no_friction)
+    result = solve_over_a_turn(file, static, positions, changes)
     given = None if inertia is None else quantity(inertia, "inertia", file_units(result.mechanism.units))
     try:
         found = flywheels.flywheel(result, None, cs, given)
