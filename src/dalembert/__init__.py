@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         statics,
     )
     from dalembert.analysis.batch import BatchResult, Kernel, compile  # noqa: A004
+    from dalembert.analysis.batch.design_sweep import Sweep, sweep
     from dalembert.analysis.friction.efficiency import efficiency
     from dalembert.analysis.friction.fixed_point import fixed_point
     from dalembert.analysis.friction.friction_circles import friction_circles
@@ -128,6 +129,7 @@ __version__ = "0.1.0"
 _NAMES = {
     "analysis": "Mobility Result dynamics kinematics mobility solve statics",
     "analysis.batch": "BatchResult Kernel compile",
+    "analysis.batch.design_sweep": "Sweep sweep",
     "analysis.friction.efficiency": "efficiency",
     "analysis.friction.fixed_point": "fixed_point",
     "analysis.friction.friction_circles": "friction_circles",
@@ -211,6 +213,7 @@ __all__ = [
     "Sphere",
     "Spring",
     "StlMesh",
+    "Sweep",
     "Table",
     "TimeTable",
     "TorsionDamper",
@@ -269,6 +272,7 @@ __all__ = [
     "stephenson_2",
     "stephenson_3",
     "superposition",
+    "sweep",
     "toggle_press",
     "virtual_work",
     "watt_1",
