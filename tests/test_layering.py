@@ -19,11 +19,11 @@ ROOMS = sorted({path.parent for path in MODULES})
 MOST = 15
 """Entries of a room: about a dozen."""
 
-BASE = {"arrays", "errors", "wording", "printing", "unit_names", "units", "saving", "bundled", "progress"}
+BASE = {"arrays", "errors", "wording", "printing", "unit_names", "units", "saving", "bundled"}
 ANALYSIS = BASE | {"algebra", "core", "kernel", "model", "analysis"}
 SHOWN = ANALYSIS - {"core", "kernel"} | {"wrench", "machine"}
 MAY_IMPORT = {
-    **{name: set[str]() for name in ("arrays", "errors", "wording", "printing", "bundled", "progress")},
+    **{name: set[str]() for name in ("arrays", "errors", "wording", "printing", "bundled")},
     **dict.fromkeys(("saving", "unit_names", "units"), BASE),
     "algebra": {"arrays", "algebra"},
     "core": {"arrays", "algebra", "core"},
@@ -43,8 +43,9 @@ MAY_IMPORT = {
     "reports": SHOWN | {"views", "reports"},
     "notebook": SHOWN | {"views", "notebook"},
     "page": SHOWN | {"", "core", "kernel", "views", "page"},
-    "cli": SHOWN | {"", "grading", "views", "reports", "page", "cli"},
-    "__init__": SHOWN | {"grading", "views", "reports", "page"},
+    "exams": SHOWN | {"grading", "views", "reports", "exams"},
+    "cli": SHOWN | {"", "grading", "views", "reports", "page", "exams", "cli"},
+    "__init__": SHOWN | {"grading", "views", "reports", "page", "exams"},
     "__main__": {"cli"},
 }
 """Room (or file beside them) -> rooms that its files may import, with the rooms inside these; a room that is not named
@@ -58,10 +59,9 @@ FACADES = {
     "machine.flywheel.flywheels",
     "machine.shaking",
     "wrench.system",
-    "analysis.batch.design_sweep",
 }
-"""Result, Mechanism, Scene, Kernel, Sweep, System, and the answers of `machine`, which print themselves: their methods
-call what is built on them, by imports inside the methods."""
+"""Result, Mechanism, Scene, Kernel, System, and the answers of `machine`, which print themselves: their methods call
+what is built on them, by imports inside the methods."""
 SHOWING = {"notebook", "views"}
 """What they call to show themselves."""
 

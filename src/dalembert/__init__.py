@@ -27,7 +27,6 @@ if TYPE_CHECKING:
         statics,
     )
     from dalembert.analysis.batch import BatchResult, Kernel, compile  # noqa: A004
-    from dalembert.analysis.batch.design_sweep import Sweep, sweep
     from dalembert.analysis.friction.efficiency import efficiency
     from dalembert.analysis.friction.fixed_point import fixed_point
     from dalembert.analysis.friction.friction_circles import friction_circles
@@ -44,6 +43,7 @@ if TYPE_CHECKING:
     from dalembert.analysis.methods.superposition import superposition
     from dalembert.analysis.methods.virtual_work import virtual_work
     from dalembert.errors import STATUSES, AnalysisError, DalembertError, ModelError
+    from dalembert.exams.variants import variants
     from dalembert.grading.file_answers import check_file
     from dalembert.grading.mistakes import check_answers
     from dalembert.machine.flywheel.flywheel_size import FlywheelSize, flywheel_size
@@ -129,7 +129,6 @@ __version__ = "0.1.0"
 _NAMES = {
     "analysis": "Mobility Result dynamics kinematics mobility solve statics",
     "analysis.batch": "BatchResult Kernel compile",
-    "analysis.batch.design_sweep": "Sweep sweep",
     "analysis.friction.efficiency": "efficiency",
     "analysis.friction.fixed_point": "fixed_point",
     "analysis.friction.friction_circles": "friction_circles",
@@ -141,6 +140,7 @@ _NAMES = {
     "analysis.methods.superposition": "superposition",
     "analysis.methods.virtual_work": "virtual_work",
     "errors": "STATUSES AnalysisError DalembertError ModelError",
+    "exams.variants": "variants",
     "grading.file_answers": "check_file",
     "grading.mistakes": "check_answers",
     "model": (
@@ -213,7 +213,6 @@ __all__ = [
     "Sphere",
     "Spring",
     "StlMesh",
-    "Sweep",
     "Table",
     "TimeTable",
     "TorsionDamper",
@@ -272,8 +271,8 @@ __all__ = [
     "stephenson_2",
     "stephenson_3",
     "superposition",
-    "sweep",
     "toggle_press",
+    "variants",
     "virtual_work",
     "watt_1",
     "watt_2",

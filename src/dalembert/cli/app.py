@@ -16,7 +16,7 @@ from cyclopts import (
 )
 
 from dalembert import __version__
-from dalembert.cli import machine_commands, wrench_command
+from dalembert.cli import machine_commands, variants_command, wrench_command
 from dalembert.cli.options import (
     AS_IN_FILE,
     AS_USUAL,
@@ -38,7 +38,6 @@ from dalembert.cli.options import (
     target,
     with_help,
 )
-from dalembert.progress import progress
 from dalembert.wording import closest
 
 
@@ -178,8 +177,7 @@ def draw(
     from dalembert.cli.draw_command import draw_file, question_view
 
     which = question_view(view) if question else view
-    with progress(f"Drawing {file}"):
-        return draw_file(file, output, which, at, positions, static, theme, names, force, changes, camera)
+    return draw_file(file, output, which, at, positions, static, theme, names, force, changes, camera)
 
 
 @app.command(
@@ -211,10 +209,7 @@ def report(
     """Write the worked solution of FILE, step by step, with its drawings."""
     from dalembert.cli.draw_command import write_report
 
-    with progress(f"Working out {file}"):
-        return write_report(
-            file, output, at, positions, static, method, style.notation(), about, force, changes
-        )
+    return write_report(file, output, at, positions, static, method, style.notation(), about, force, changes)
 
 
 @app.command(
@@ -360,6 +355,7 @@ def joints(
 
 
 app.command(wrench_command.wrench, help_epilogue=wrench_command.EXAMPLES)
+app.command(variants_command.variants, help_epilogue=variants_command.EXAMPLES)
 app.command(machine_commands.shake, help_epilogue=machine_commands.SHAKE)
 app.command(machine_commands.flywheel, help_epilogue=machine_commands.FLYWHEEL)
 

@@ -68,7 +68,14 @@ class Figure:
     caption: str = ""
 
 
-Block = Heading | Paragraph | Equations | Table | Matrix | Figure
+@dataclass(frozen=True)
+class Blanks:
+    """Lines to be filled in: words, then for each number its name, room to write, and its unit."""
+
+    rows: tuple[tuple[str, tuple[tuple[str, str], ...]], ...]
+
+
+Block = Heading | Paragraph | Equations | Table | Matrix | Figure | Blanks
 
 
 @dataclass

@@ -141,6 +141,13 @@ def mass_text(shown: Shown, link: str, named: bool = False) -> str:
     return f"weight {shown.text('force', weight)}"
 
 
+def weights_text(shown: Shown) -> str:
+    """What weights are divided by, where a file gives weights and its own g."""
+    m = shown.r.mechanism
+    given = m.g_override is not None and any(link.weight is not None for link in m.links.values())
+    return f"Weights are divided by g = {shown.text('acceleration', m.g)}" if given else ""
+
+
 def joint_text(shown: Shown, joint: str) -> str:
     """What a joint has of its own besides its points: ', pitch radii 80 mm and 40 mm; μ = 0.4, R = 0.07 m'."""
     described = shown.r.mechanism.joints[joint]
@@ -218,6 +225,7 @@ def given_lines(shown: Shown, k: int) -> list[str]:
         own = joint_text(shown, name) + axes_text(joint)
         lines += [f"Joint {name}: {joint.type.replace('_', ' ')}{own}."] if own else []
     lines += [f"{own_name(name)}: {load_text(shown, k, name)}." for name in m.loads]
+    lines += [f"{weights_text(shown)}."] if weights_text(shown) else []
     if any(m.gravity_vector):
         lines.append(f"Gravity {vector_text(shown, 'acceleration', np.array(m.gravity_vector))}.")
     return lines

@@ -16,7 +16,15 @@ from dalembert.reports.pictures import given_picture
 from dalembert.reports.report_context import ReportContext, as_formula
 from dalembert.reports.sheet import Sheet
 from dalembert.views.notation import Shown, own_name
-from dalembert.views.stated import axes_text, drive_text, joint_text, load_text, mass_text, place_text
+from dalembert.views.stated import (
+    axes_text,
+    drive_text,
+    joint_text,
+    load_text,
+    mass_text,
+    place_text,
+    weights_text,
+)
 
 
 def knowns(sheet: Sheet, c: ReportContext) -> None:
@@ -44,7 +52,8 @@ def knowns(sheet: Sheet, c: ReportContext) -> None:
     ]
     sheet.table(["Load", "Type", "Value"], loads)
     assumed = "; ".join(f"{name} {value}" for name, value in r.assumptions.items())
-    sheet.text(f"Assumptions: {assumed}. {_convention(c)}")
+    divided = weights_text(shown) if c.question else ""
+    sheet.text(f"{divided}{'. ' * bool(divided)}Assumptions: {assumed}. {_convention(c)}")
     sheet.figure(given_picture(c))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dalembert.reports.formula import LATEX_SIGNS, latex, write_mixed
 from dalembert.reports.sheet import (
+    Blanks,
     Block,
     Equations,
     Figure,
@@ -60,6 +61,8 @@ def _block(b: Block) -> str:
         return _table(b)
     if isinstance(b, Matrix):
         return _matrix(b)
+    if isinstance(b, Blanks):
+        return "\n\n".join(_blank(*row) for row in b.rows)
     assert isinstance(b, Figure)
     return "\n\n".join(_figure(scene) for scene in b.scenes)
 
@@ -81,6 +84,11 @@ def _table(b: Table) -> str:
     body = "\n".join([r"\toprule", heads, r"\midrule", *rows, r"\bottomrule"])
     caption = f"\n\n{{\\footnotesize {_words(b.caption)}}}" if b.caption else ""
     return f"{{\\small\\begin{{tabular}}{{{columns}}}\n{body}\n\\end{{tabular}}}}{caption}"
+
+
+def _blank(words: str, spaces: tuple[tuple[str, str], ...]) -> str:
+    rooms = [rf"{_rich(name)} \rule{{27mm}}{{0.4pt}} {_words(unit)}".strip() for name, unit in spaces]
+    return r" \quad ".join([rf"{_rich(words)} \hfill", *rooms])
 
 
 def _matrix(b: Matrix) -> str:

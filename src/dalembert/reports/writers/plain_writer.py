@@ -6,6 +6,7 @@ import textwrap
 
 from dalembert.reports.formula import plain, write_mixed
 from dalembert.reports.sheet import (
+    Blanks,
     Block,
     Equations,
     Figure,
@@ -48,6 +49,9 @@ def _block(b: Block) -> str:
         return _table([[_rich(c) for c in row] for row in (b.heads, *b.rows)], b.caption, b.total)
     if isinstance(b, Matrix):
         return _matrix(b)
+    if isinstance(b, Blanks):
+        rooms = [(w, "  ".join(f"{n} {'_' * 14} {u}".strip() for n, u in spaces)) for w, spaces in b.rows]
+        return "\n".join(f"{_rich(words)}  {room}" for words, room in rooms)
     assert isinstance(b, Figure)
     return "\n".join(f"[drawing: {plain_sign(s.title)}]" for s in b.scenes)
 

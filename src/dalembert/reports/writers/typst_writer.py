@@ -9,7 +9,7 @@ from typing import Any
 
 from dalembert.arrays import Tree
 from dalembert.reports.formula import typst, write_mixed
-from dalembert.reports.sheet import Block, Equations, Figure, Heading, Matrix, Paragraph, Sheet, Table
+from dalembert.reports.sheet import Blanks, Block, Equations, Figure, Heading, Matrix, Paragraph, Sheet, Table
 from dalembert.views.formats.svg import MARGIN
 from dalembert.views.paper.scene import Scene
 
@@ -60,6 +60,8 @@ def _block(b: Block, pictures: dict[str, bytes]) -> Tree:
             "rows": [[typst(c) for c in row] for row in b.rows],
             **{n: [typst(c) for c in getattr(b, n)] for n in ("unknowns", "right", "values")},
         }
+    if isinstance(b, Blanks):
+        return {"kind": "blanks", "rows": [[_rich(words), spaces] for words, spaces in b.rows]}
     assert isinstance(b, Figure)
     caption = " ".join([*filter(None, [b.caption]), *map(_printed_smaller, b.scenes)]).strip()
     return {"kind": "figure", "caption": caption, "files": _pictures(b.scenes, pictures)}

@@ -1,0 +1,115 @@
+"""`dalembert variants`: exam variants of a problem, with question and solution sheets and a key."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
+
+from dalembert.cli.options import AS_IN_FILE, At, Changes, Force, ModelFile, Static, output, whole, with_help
+
+if TYPE_CHECKING:
+    from dalembert.exams.variant import Progress
+    from dalembert.exams.variants import Variants
+
+EXAMPLES = """Examples:
+  dalembert variants four_bar.yaml --vary "loads.T_4.value=100..140" -o exam
+  dalembert variants engine.yaml --vary "drives.O.position=20..60 deg" \\
+    --vary "loads.gas.value=[-2 kN, -3 kN]" --ask effort.O --count 8 -o exam
+
+The folder: questions, solutions, answers (tables to fill in), problems (model files), key.csv and key.json."""
+
+
+def variants(
+    file: ModelFile,
+    /,
+    *,
+    vary: Annotated[
+        list[str],
+        Parameter(
+            negative=(),
+            help="PATH=values, one or more: a range in round steps, 40..60 mm step 5 mm, or a list, [400 N, 500 N]; "
+            "PATH as in with_values: links.crank.points.A.0, loads.P.value, drives.O2.speed.",
+        ),
+    ],
+    output: Annotated[Path, output("Folder to write, new or empty.")],
+    count: Annotated[int, Parameter(converter=whole(1, 1000), help="Number of variants (default: 30).")] = 30,
+    ask: Annotated[
+        list[str] | None,
+        Parameter(
+            negative=(),
+            help="What is asked, one or more: effort.O2, reaction.A, reaction.A.magnitude, speed.rocker "
+            "(default: the file's answers, else all efforts and reactions).",
+        ),
+    ] = None,
+    seed: Annotated[
+        int | None,
+        Parameter(
+            converter=whole(0), help="Draws the same variants again; without it by chance, and printed."
+        ),
+    ] = None,
+    at: At = None,
+    tolerance: Annotated[
+        str, with_help("A mistake must change a figure by more than this; it is the key's tolerance: 3 %.")
+    ] = "",
+    static: Static = False,
+    changes: Changes = AS_IN_FILE,
+    force: Force = False,
+) -> int:
+    """Make exam variants of FILE: values drawn, each solved and checked, question and solution sheets, and a key."""
+    from dalembert.cli.model_argument import load_model
+    from dalembert.exams.choices import read_option
+    from dalembert.exams.exam_folder import check_folder
+    from dalembert.exams.variants import variants as drawn
+
+    check_folder(output, force)
+    choices = dict(map(read_option, vary))
+    with _shown() as progress:
+        found = drawn(
+            load_model(file, changes),
+            choices,
+            count,
+            seed,
+            ask or (),
+            at,
+            static,
+            tolerance,
+            progress,
+        )
+        found.save(output, force, progress)
+    _print_values(found, list(choices))
+    print(f"Written: {output}; --seed {found.seed} draws the same again.", file=sys.stderr)
+    return 0
+
+
+def _print_values(found: Variants, paths: Sequence[str]) -> None:
+    """What was drawn, a row a variant."""
+    from dalembert.grading.file_answers import value_text
+    from dalembert.printing import tables
+
+    rows = [[v.name, *(value_text(v.values[p]) for p in paths)] for v in found]
+    print(tables(["variant", *paths], rows, 1))
+
+
+@contextmanager
+def _shown() -> Iterator[Progress | None]:
+    """Bars on the terminal's standard error; nothing in a pipe."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import Progress as Bars
+
+    tasks: dict[str, Any] = {}
+    with Bars(console=Console(stderr=True), transient=True) as bars:
+
+        def progress(what: str, done: int, whole: int) -> None:
+            if what not in tasks:
+                tasks[what] = bars.add_task(what.capitalize(), total=whole)
+            bars.update(tasks[what], completed=done)
+
+        yield progress

@@ -1,0 +1,191 @@
+"""What is asked: quantities, their figures in a result, and how a sheet and a key say them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from dalembert.analysis.methods.applied_forces import effort_actions
+from dalembert.analysis.output.rounding import least
+from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.grading.file_answers import describe_answer, position_of, read, sides_of
+from dalembert.grading.quantities import QUANTITIES
+from dalembert.model import GROUND, Answer
+from dalembert.views.notation import Shown, pretty
+from dalembert.wording import closest
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+COMPONENTS = ("x", "y", "z", "magnitude", "direction")
+CHECKS = ("residual", "power_balance")
+"""Quantities that check an answer, and that nobody is asked for."""
+
+NOTHING = 1e-9
+"""Part of the largest reaction below which a figure is none."""
+
+FORMS = "write effort.O2, reaction.A, reaction.A.coupler, reaction.A.magnitude, speed.rocker or point.rod.P.x"
+
+
+class Figure(NamedTuple):
+    """The value of what is asked, SI: a number, a vector or a rotation, of a kind of ``units.KINDS``."""
+
+    kind: str
+    value: Array
+
+
+def asked_quantities(r: Result, ask: Sequence[object], at: int | str | None) -> tuple[Answer, ...]:
+    """What is asked of a problem: what ``ask`` names, else its own ``answers``, else all efforts and reactions.
+
+    ``at`` is the position of what does not name its own, the first one by default.
+    """
+    found = [a for one in ask for a in _named(r, one)] or _of_file(r) or _forces(r)
+    many = len(r.status) > 1
+    out: list[Answer] = []
+    for a in found:
+        change: dict[str, object] = {}
+        if a.quantity in ("reaction", "moment") and a.of in r.joints and a.on is None:
+            i, j = r.mechanism.joints[a.of].links
+            change |= {"on": (j if a.by == i else i) if a.by else j if j != GROUND else i, "by": None}
+        if many and a.at is None and a.extreme is None:
+            change["at"] = 1 if at is None else int(at) if str(at).isdigit() else at
+        a = a.model_copy(update=change)
+        figure(r, a)
+        out += [a] if a not in out else []
+    if not out:
+        raise ModelError("there is nothing to ask: no effort, no unknown load and no reaction", FORMS)
+    return tuple(out)
+
+
+def figure(r: Result, answer: Answer) -> Figure:
+    """The figure that is asked for, just before reversals where there are two; what is rounding is 0."""
+    side = sides_of(r, answer)[0]
+    series = read(side, answer)
+    k = position_of(side, answer, series)
+    value = np.asarray(series.values[k], dtype=float)
+    return Figure(series.kind, np.where(np.abs(value) < least(side, k).get(series.kind, 0.0), 0.0, value))
+
+
+def place_of_answer(r: Result, answer: Answer) -> int:
+    """The position that is asked about, from 0."""
+    side = sides_of(r, answer)[0]
+    return position_of(side, answer, read(side, answer))
+
+
+def _named(r: Result, one: object) -> list[Answer]:
+    """An answer as it stands, a mapping of its keys, or text: effort.O2."""
+    if isinstance(one, Answer):
+        return [one]
+    if isinstance(one, Mapping):
+        return [Answer(**one)]
+    words = str(one).split(".")
+    quantity, words = words[0], words[1:]
+    if not words and quantity in ("efforts", "reactions"):
+        return [a for a in _forces(r) if a.quantity.startswith(quantity[:-1])]
+    if quantity not in QUANTITIES:
+        raise ModelError(f"--ask {one}: there is no quantity {quantity!r}", closest(quantity, [*QUANTITIES]))
+    component = words.pop() if len(words) > 1 and words[-1] in COMPONENTS else None
+    on = words.pop() if len(words) > 1 and quantity in ("reaction", "moment") else None
+    if not words:
+        raise ModelError(f"--ask {one} does not say of what", FORMS)
+    return [Answer(quantity=quantity, of=".".join(words), on=on, component=component)]
+
+
+def _of_file(r: Result) -> list[Answer]:
+    """The quantities of the file's own answers, without their values."""
+    none = dict.fromkeys(("value", "exact", "tolerance", "exact_tolerance", "why"))
+    return [
+        a.model_copy(update=none)
+        for a in r.mechanism.answers
+        if a.quantity in QUANTITIES and a.quantity not in CHECKS
+    ]
+
+
+def _forces(r: Result) -> list[Answer]:
+    """Efforts or, of equilibria, positions; unknown loads; reactions that are not zero throughout."""
+    m, ends = r.mechanism, ("_low", "_high") if "at_rest" in r.status else ("",)
+    out = [Answer(quantity="drive", of=d) for d in r.drives if m.drives[d].unknown]
+    for end in ends:
+        out += [Answer(quantity=f"effort{end}", of=d) for d in r.drives if m.drives[d].effort is None]
+        out += [Answer(quantity=f"unknown_load{end}", of=u) for u in r.unknown_loads]
+    if ends != ("",) or r.stability is not None:
+        return out
+    sizes = {j: float(np.nanmax(np.abs(r.least_norm(j)[:, : m.dimension]), initial=0.0)) for j in r.joints}
+    large = max(sizes.values(), default=0.0)
+    return out + [
+        Answer(quantity="reaction", of=j)
+        for j, s in sizes.items()
+        if s > NOTHING * large and r.unique(j).all()
+    ]
+
+
+# in words and in a key
+
+
+def question_words(shown: Shown, answer: Answer) -> str:
+    """What is asked, with its sign: 'Reaction of A on coupler, $F_{23}$'."""
+    one = len(shown.r.status) == 1
+    words = describe_answer(answer.model_copy(update={"component": None, "at": None if one else answer.at}))
+    words = words[:1].upper() + words[1:]
+    of = str(answer.of)
+    if answer.quantity == "reaction":
+        words += f", ${shown.reaction(of, str(answer.on))}$"
+    if answer.quantity.startswith("effort") and of in shown.r.drives:
+        a = next(a for a in effort_actions(shown.r) if a.of == of)
+        words += f", ${shown.effort(a)}$"
+    return words + (f": {answer.component}" if answer.component else "")
+
+
+def blanks(answer: Answer, found: Figure, units: object) -> tuple[tuple[str, str], ...]:
+    """What is to be filled in: the name of each number and its unit."""
+    own = pretty(Printed(units).text(found.kind))
+    if found.value.ndim == 0:
+        return (("", own),)
+    if found.value.shape == (2,):
+        return (("size", own), ("direction", "°"))
+    return tuple(("xyz"[k] if found.value.ndim == 1 else f"row {k + 1}", own) for k in range(3))
+
+
+def key_value(found: Figure, units: object) -> str:
+    """A figure in the file's units with all its digits: 243.23, 154.8 @ 220.32, [x, y, z]."""
+    scale = Printed(units)
+
+    def text(kind: str, x: float) -> str:
+        return repr(float(f"{float(scale(kind, x)):.14g}") + 0.0)
+
+    v = found.value
+    if v.shape == (2,):
+        return f"{text(found.kind, float(np.hypot(*v)))} @ {text('angle', float(np.arctan2(v[1], v[0])))}"
+    if v.ndim == 2:
+        return f"[{', '.join(key_value(Figure(found.kind, row), units) for row in v)}]"
+    if v.ndim == 1:
+        return f"[{', '.join(text(found.kind, float(x)) for x in v)}]"
+    return text(found.kind, float(v))
+
+
+def stated_value(found: Figure, units: object) -> object:
+    """A figure as the `answers` of a model file have it; None of a rotation."""
+    if found.value.ndim > 1:
+        return None
+    if found.value.shape == (3,):
+        return [stated_value(Figure(found.kind, x), units) for x in found.value]
+    return f"{key_value(found, units)} {Printed(units).text(found.kind)}".strip()
+
+
+KEY = ("quantity", "of", "on", "by", "at", "extreme", "component", "axes")
+"""Keys of an answer that a key names."""
+
+COLUMNS = ("variant", "file", *KEY, "value", "unit", "tolerance", "marks")
+"""Columns of a key, one row an asked figure."""
+
+
+def key_row(answer: Answer, found: Figure, units: object) -> dict[str, object]:
+    """An asked figure as a key has it, what is empty left out."""
+    row = {name: getattr(answer, name) for name in KEY}
+    row["axes"] = None if answer.axes == "ground" else answer.axes
+    row |= {"value": key_value(found, units), "unit": Printed(units).text(found.kind)}
+    return {name: value for name, value in row.items() if value not in (None, "")}

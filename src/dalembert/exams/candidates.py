@@ -1,0 +1,175 @@
+"""One set of values tried: solved, kept away from dead centres, and whether its figures show the usual mistakes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.solution import solve
+from dalembert.arrays import Array, Tree
+from dalembert.errors import NUMBERED, STATUSES, DalembertError
+from dalembert.exams.asked import Figure, figure, place_of_answer
+from dalembert.grading.figure import values_of
+from dalembert.grading.file_answers import describe_answer
+from dalembert.grading.quantities import Series
+from dalembert.grading.tolerance import NEAR, Closeness
+from dalembert.grading.value_errors import of_value
+from dalembert.grading.wrong_problems import WrongProblems
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+    from dalembert.model import Answer, Mechanism
+
+ASIDE = {"turn": pi / 90, "slide": 0.01}
+"""How far beside its position a drive is looked at, rad or characteristic lengths."""
+
+GROWTH = 2.0
+"""Ratio of the largest reactions on both sides at which a dead centre is near: forces go as one over its distance."""
+
+CLEAR = 3.0
+"""Times the tolerance by which a mistake plainly changes a figure."""
+
+SMALL = 0.02
+"""Part of its usual size at which a figure is near zero."""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """Values, the problem they make, its figures, and by how many tolerances a known mistake changes them at most."""
+
+    values: Mapping[str, object]
+    mechanism: Mechanism
+    result: Result
+    figures: tuple[Figure, ...]
+    mistakes: Mapping[str, float]
+
+    @property
+    def clear(self) -> list[str]:
+        """Mistakes that plainly change a figure."""
+        return [sentence for sentence, by in self.mistakes.items() if by > CLEAR]
+
+    def hidden(self, usual: Iterable[str]) -> list[str]:
+        """Usual mistakes that change no asked figure by more than the tolerance."""
+        return sorted(s for s in usual if self.mistakes.get(s, 0.0) <= 1.0)
+
+    def near_zero(self, usual: Sequence[float]) -> int | None:
+        """Which figure is near zero beside its usual size, if one is."""
+        small = (
+            k
+            for k, (f, size) in enumerate(zip(self.figures, usual, strict=True))
+            if f.kind not in ("angle", "number") and figure_size(f) < SMALL * size
+        )
+        return next(small, None)
+
+    def same(self, other: Candidate, near: float) -> bool:
+        """Whether all figures are those of another one."""
+        pairs = zip(self.figures, other.figures, strict=True)
+        return all(difference(a, b.value) <= near for a, b in pairs)
+
+
+class Unfit(Exception):  # noqa: N818
+    """A set of values makes no sound problem: the sentence says why."""
+
+
+def figure_size(f: Figure) -> float:
+    """Size of a number, vector or rotation."""
+    return float(np.linalg.norm(f.value))
+
+
+def difference(right: Figure, value: Array) -> float:
+    """Relative difference of a value from a figure; of an angle in radians."""
+    return Closeness(right.value, right.kind, NEAR, (), False).off(value)
+
+
+def candidate(
+    m: Mechanism,
+    values: Mapping[str, object],
+    asked: Sequence[Answer],
+    near: float = NEAR,
+    static: bool = False,
+) -> Candidate:
+    """The problem with some values replaced; raises Unfit where it is not sound."""
+    try:
+        changed = m.with_values(values)
+        r = solve(changed, static=static)
+        figures = tuple(figure(r, a) for a in asked)
+        places = [place_of_answer(r, a) for a in asked]
+    except DalembertError as error:
+        raise Unfit(f"the problem cannot be solved: {error}") from None
+    for k in sorted(set(places)):
+        _check_position(r, k, static)
+    for a, f in zip(asked, figures, strict=True):
+        if not np.isfinite(f.value).all():
+            raise Unfit(f"{describe_answer(a)} has no value")
+    by: dict[str, float] = {}
+    for sentence, off in _mistakes(r, asked, figures, places):
+        by[sentence] = max(by.get(sentence, 0.0), off / near)
+    return Candidate(values, changed, r, figures, by)
+
+
+def _check_position(r: Result, k: int, static: bool) -> None:
+    """Raise Unfit where a position is not solved, or near one that is not."""
+    if r.status[k] not in (*NUMBERED, "at_rest"):
+        raise Unfit(STATUSES[r.status[k]].sentence.rstrip(".").lower())
+    for drive in r.drives:
+        sizes = _beside(r, k, drive, static)
+        if len(sizes) and (not np.isfinite(sizes).all() or max(sizes) > GROWTH * min(sizes)):
+            raise Unfit(f"a dead centre of {drive} is near")
+
+
+def _beside(r: Result, k: int, drive: str, static: bool) -> list[float]:
+    """The largest reaction with one drive a little before its position, there, and a little behind it."""
+    m, values = r.mechanism, Tree()
+    if any(d.law is not None or d.unknown for d in m.drives.values()):
+        return []
+    for name in r.drives:
+        values[f"drives.{name}.position"] = float(r.drive_position(name)[k])
+        values[f"drives.{name}.speed"] = float(r.drive_speed(name)[k])
+        values[f"drives.{name}.acceleration"] = float(r.drive_acceleration(name)[k])
+    if m.dimension == 2:
+        values["assembly"] = {link: float(r.angle(link)[k]) for link in r.links}
+    turns = (
+        m.drives[drive].turns
+        if m.drives[drive].freedom
+        else m.joints[m.drive_joint(drive)].freedoms[0] != "slide"
+    )
+    step = ASIDE["turn"] if turns else ASIDE["slide"] * r.compiled.layout.length
+    at = values[f"drives.{drive}.position"]
+    values[f"drives.{drive}.position"] = [at - step, at, at + step]
+    try:
+        beside = solve(m.with_values(values), static=static)
+    except DalembertError:
+        return [np.nan]
+    if any(s not in (*NUMBERED, "at_rest") for s in beside.status):
+        return [np.nan]
+    forces = [beside.least_norm(joint)[:, : m.dimension] for joint in beside.joints]
+    largest = np.max([np.linalg.norm(f, axis=-1) for f in forces], axis=0)
+    return [float(x) for x in largest] if np.isfinite(largest).all() and largest.min() > 0 else []
+
+
+def _mistakes(
+    r: Result, asked: Sequence[Answer], figures: Sequence[Figure], places: Sequence[int]
+) -> Iterator[tuple[str, float]]:
+    """Every known mistake and how far it takes each figure; infinitely far where it leads to none."""
+    which = [*range(len(r.status))] if any(a.extreme for a in asked) else sorted(set(places))
+    for problem in WrongProblems(r, which):
+        other = problem.solution()
+        asks = zip(asked, figures, map(which.index, places), strict=True)
+        yield problem.sentence, max(np.inf if other is None else _change(other, *one) for one in asks)
+    for f in figures:
+        for slip in of_value(Series(f.kind, f.value[None]), f.value) if f.value.ndim < 2 else ():
+            if slip.value is not None:
+                yield slip.sentence, difference(f, slip.value)
+
+
+def _change(other: Result, answer: Answer, right: Figure, place: int) -> float:
+    """How far the figure of a wrong problem is from the right one."""
+    try:
+        values, _ = values_of(other, answer, place)
+    except (DalembertError, IndexError):
+        return np.inf
+    return min((difference(right, v) for v in values), default=np.inf)

@@ -1,0 +1,111 @@
+"""The values that a quantity may be given: a list, or a range in round steps."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from decimal import Decimal
+from typing import NamedTuple
+
+from dalembert.errors import ModelError
+from dalembert.model.paths import as_in_file
+from dalembert.unit_names import unit
+from dalembert.units import NUMBER
+from dalembert.wording import quote_value
+
+MOST = 10_000
+"""Values that one quantity may be drawn from."""
+
+FEWEST = 5
+"""Values that a range without a step has at least."""
+
+ROUND = (Decimal(5), Decimal(2), Decimal(1))
+FORMS = "write PATH=40..60 mm step 5 mm, or PATH=[400 N, 500 N, 600 N]"
+RANGE = re.compile(
+    rf"\s*({NUMBER})\s*(.*?)\s*\.\.\s*({NUMBER})\s*(.*?)\s*(?:\bstep\s*({NUMBER})\s*(.*?)\s*)?"
+)
+
+
+class Choices(NamedTuple):
+    """The path of a quantity, and the values that it may be given."""
+
+    path: str
+    values: tuple[object, ...]
+
+
+def read_choices(vary: Mapping[str, object]) -> list[Choices]:
+    """Path -> values as they are written: '40..60 mm step 5 mm', '[400 N, 500 N]', or a list in Python.
+
+    A range without a step goes in the largest step of 1, 2 or 5 times a power of ten that gives five values or more.
+
+    >>> read_choices({"r": "40..60 mm step 10 mm"})[0].values
+    ('40 mm', '50 mm', '60 mm')
+    >>> read_choices({"loads.P.value": "1..2"})[0].values
+    ('1', '1.2', '1.4', '1.6', '1.8', '2')
+    """
+    found = [Choices(path, tuple(_values(path, given))) for path, given in vary.items()]
+    for path, values in found:
+        if len({str(v) for v in values}) < 2:
+            raise ModelError(f"--vary {path}: there is one value only, and nothing to draw", FORMS)
+    if not found:
+        raise ModelError("nothing is to vary", FORMS)
+    return found
+
+
+def read_option(text: str) -> tuple[str, str]:
+    """PATH=values of the command line."""
+    path, equals, values = text.partition("=")
+    if not equals or not path.strip() or not values.strip():
+        raise ModelError(f"--vary {quote_value(text)} names no values", FORMS)
+    return path.strip(), values.strip()
+
+
+def _values(path: str, given: object) -> Sequence[object]:
+    if isinstance(given, str) and given.lstrip().startswith("["):
+        given = as_in_file(given)
+    if isinstance(given, (list, tuple)):
+        return _within_limits(path, len(given), given)
+    found = RANGE.fullmatch(str(given).replace("\u2212", "-"))
+    if found is None:
+        raise ModelError(f"--vary {path}: {quote_value(given)} is neither a range nor a list", FORMS)
+    start, first, stop, last, step, each = found.groups()
+    named = last or first
+    if first and first != named:
+        raise ModelError(f"--vary {path}: the range begins in {first} and ends in {named}", "write one unit")
+    low, high = Decimal(start), Decimal(stop)
+    if not low < high:
+        raise ModelError(f"--vary {path}: the range does not increase from {low} to {high}", FORMS)
+    size = _round_step(high - low) if step is None else Decimal(step) * _ratio(path, each or named, named)
+    if size <= 0:
+        raise ModelError(f"--vary {path}: the step {step} is not positive", FORMS)
+    begin = low if step is not None else (low / size).to_integral_value("ROUND_CEILING") * size
+    count = int((high - begin) / size) + 1
+    return _within_limits(path, count, list(_steps(begin, size, min(count, MOST), named)))
+
+
+def _within_limits(path: str, count: int, values: Sequence[object]) -> Sequence[object]:
+    if count > MOST:
+        raise ModelError(f"--vary {path}: {count} values are more than {MOST}", "take a larger step")
+    return values
+
+
+def _steps(begin: Decimal, size: Decimal, count: int, named: str) -> Iterator[str]:
+    for k in range(count):
+        yield f"{(begin + k * size).normalize():f} {named}".strip()
+
+
+def _round_step(span: Decimal) -> Decimal:
+    """The largest round step of which a span has room for enough."""
+    power = span.adjusted()
+    steps = (factor * Decimal(10) ** p for p in range(power, power - 3, -1) for factor in ROUND)
+    return next(step for step in steps if span / step >= FEWEST - 1)
+
+
+def _ratio(path: str, step: str, named: str) -> Decimal:
+    """What a step in its own unit is multiplied with to be in that of the range."""
+    if step == named:
+        return Decimal(1)
+    a, b = unit(step), unit(named)
+    if a.dimension != b.dimension:
+        raise ModelError(f"--vary {path}: the step is in {step}, the range in {named}", "write one unit")
+    return Decimal(f"{b.of_si(a.si(1.0)):.12g}")

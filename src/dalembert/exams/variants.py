@@ -1,0 +1,207 @@
+"""Variants of a problem: values drawn by chance until enough sound problems are found, all different."""
+
+from __future__ import annotations
+
+import random
+import secrets
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import prod
+from pathlib import Path
+from typing import TYPE_CHECKING, overload
+
+import numpy as np
+
+from dalembert.errors import ModelError
+from dalembert.exams.asked import asked_quantities, key_row, stated_value
+from dalembert.exams.candidates import Candidate, Unfit, candidate, figure_size
+from dalembert.exams.choices import Choices, read_choices
+from dalembert.exams.variant import Progress, Variant, key_rows
+from dalembert.grading.file_answers import describe_answer
+from dalembert.grading.tolerance import NEAR, percent
+
+if TYPE_CHECKING:
+    from dalembert.model import Answer, Mechanism
+
+MOST = 1000
+"""Variants of one problem."""
+
+TRIES = 20
+"""Sets of values tried for each variant that is asked for."""
+
+
+@dataclass(frozen=True)
+class Variants(Sequence[Variant]):
+    """Variants of a problem, what is asked of each, and the seed that draws the same ones again."""
+
+    found: tuple[Variant, ...]
+    asked: tuple[Answer, ...]
+    seed: int
+
+    @overload
+    def __getitem__(self, k: int) -> Variant: ...
+
+    @overload
+    def __getitem__(self, k: slice) -> tuple[Variant, ...]: ...
+
+    def __getitem__(self, k: int | slice) -> Variant | tuple[Variant, ...]:
+        return self.found[k]
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} variants of {self.found[0].mechanism.title!r}, seed {self.seed}>"
+
+    def key(self, folder: str = "") -> list[dict[str, object]]:
+        """The key: a row an asked figure, with the file of its variant in a folder."""
+        return key_rows(self.found, folder)
+
+    def save(self, folder: str | Path, overwrite: bool = False, progress: Progress | None = None) -> None:
+        """Write problems, question sheets, solutions and the key into a new folder, all of it or nothing."""
+        from dalembert.exams.exam_folder import write_folder
+
+        write_folder(self.found, self.asked, self.seed, Path(folder), overwrite, progress)
+
+
+def variants(
+    mechanism: Mechanism,
+    vary: Mapping[str, object],
+    count: int = 30,
+    seed: int | None = None,
+    ask: Sequence[object] = (),
+    at: int | str | None = None,
+    static: bool = False,
+    tolerance: str = "",
+    progress: Progress | None = None,
+) -> Variants:
+    """Variants of a problem with stated values drawn by chance, all different, each solved and checked.
+
+    ``vary``: path -> a range ("40..60 mm step 5 mm"), or a list of values. ``ask``: what is asked ("effort.O2",
+    "reaction.A", an `Answer`); by default the file's own `answers`, else all efforts and reactions. A variant is sound
+    where all asked positions are solved and no dead centre is near (the largest reaction less than doubles within
+    2 degrees of the drive on both sides), where no figure is near zero, and where every mistake that `check_answers`
+    knows, and that most sets of values show, changes one asked figure at least by more than ``tolerance`` ("3 %", by
+    default 0.5 %). Raises ModelError where not enough are found, with what was wrong with the others. The same
+    ``seed`` draws the same variants.
+
+    >>> import dalembert as da
+    >>> from dalembert.bundled import examples
+    >>> m = da.load(examples()["four_bar"])
+    >>> some = variants(m, {"loads.T_4.value": "[100, 120, 140]"}, count=2, seed=1, ask=["effort.O2"])
+    >>> [(v.name, v.key[0]["unit"]) for v in some]
+    [('01', 'lbf*in'), ('02', 'lbf*in')]
+    """
+    from dalembert.analysis.solution import solve
+
+    if not 1 <= count <= MOST:
+        raise ModelError(f"{count} variants are asked for", f"ask for 1 to {MOST}")
+    choices, near = read_choices(vary), percent(tolerance) if tolerance else NEAR
+    for path, some in choices:
+        for value in (some[0], some[-1]):
+            mechanism.with_values({path: value})
+    there_are = prod(len(c.values) for c in choices)
+    if there_are < count:
+        raise ModelError(
+            f"the values allow {there_are} different problems, and {count} are asked for",
+            "give more values, or smaller steps",
+        )
+    asked = asked_quantities(solve(mechanism, static=static), ask, at)
+    seed = secrets.randbelow(10**6) if seed is None else seed
+    pool = _Pool(mechanism, asked, near, static)
+    for tried, values in enumerate(_draws(choices, there_are, random.Random(seed))):
+        if len(pool.sound(count)) >= count or tried >= TRIES * count:
+            break
+        pool.add(values)
+        if progress is not None:
+            progress("variants found", len(pool.sound(count)), count)
+    found = pool.sound(count)
+    if len(found) < count:
+        raise ModelError(pool.why_so_few(len(found), count, there_are), "give other values, or ask for fewer")
+    width = max(2, len(str(count)))
+    return Variants(
+        tuple(_variant(f"{k + 1:0{width}d}", c, asked, tolerance) for k, c in enumerate(found)), asked, seed
+    )
+
+
+def _draws(choices: Sequence[Choices], there_are: int, chance: random.Random) -> Iterator[dict[str, object]]:
+    """Sets of values in a random order, none twice: a shuffle of all, of which no more is made than is asked for."""
+    moved: dict[int, int] = {}
+    for k in range(there_are):
+        other = k + int(chance.random() * (there_are - k))
+        number, moved[other] = moved.get(other, other), moved.get(k, k)
+        values = {}
+        for path, some in choices:
+            number, place = divmod(number, len(some))
+            values[path] = some[place]
+        yield values
+
+
+class _Pool:
+    """The sets of values tried, and what they say together: which mistakes there are to show, how large figures are."""
+
+    def __init__(self, m: Mechanism, asked: Sequence[Answer], near: float, static: bool) -> None:
+        self.m, self.asked, self.near, self.static = m, asked, near, static
+        self.tried: list[Candidate] = []
+        self.unfit: list[str] = []
+        self._sound: list[Candidate] | None = None
+
+    def add(self, values: Mapping[str, object]) -> None:
+        """Try a set of values."""
+        self._sound = None
+        try:
+            found = candidate(self.m, values, self.asked, self.near, self.static)
+        except Unfit as reason:
+            self.unfit.append(str(reason))
+            return
+        self.tried.append(found)
+
+    def sound(self, count: int) -> list[Candidate]:
+        """The first of the sound ones, all different: those before are judged by what those behind have shown."""
+        if self._sound is None:
+            self._sound, usual = [], self._usual()
+            for one in self.tried:
+                if len(self._sound) < count and not self._fault(one, usual, self._sound):
+                    self._sound.append(one)
+        return self._sound
+
+    def _usual(self) -> tuple[list[float], list[str]]:
+        """Usual size of each figure, the median of all that were tried; mistakes that most of them show plainly."""
+        sizes = [[figure_size(f) for f in c.figures] for c in self.tried]
+        times = Counter(sentence for c in self.tried for sentence in c.clear)
+        often = [sentence for sentence, n in times.items() if 2 * n > len(self.tried)]
+        return [float(x) for x in np.median(np.array(sizes), axis=0)] if sizes else [], often
+
+    def _fault(
+        self, one: Candidate, usual: tuple[list[float], list[str]], others: Sequence[Candidate]
+    ) -> str:
+        """What is wrong with a solved candidate, if anything."""
+        small = one.near_zero(usual[0])
+        if small is not None:
+            return f"{describe_answer(self.asked[small])} is near zero"
+        if hidden := one.hidden(usual[1]):
+            return f"no asked figure shows the mistake '{hidden[0]}'"
+        return "the figures are those of another one" if any(one.same(o, self.near) for o in others) else ""
+
+    def why_so_few(self, found: int, count: int, there_are: int) -> str:
+        """A sentence for too few variants, with the most frequent reasons."""
+        usual, kept = self._usual(), self.sound(count)
+        reasons = Counter(self.unfit)
+        reasons.update(f for c in self.tried if c not in kept and (f := self._fault(c, usual, kept)))
+        said = "; ".join(f"{n} where {reason}" for reason, n in reasons.most_common(3))
+        tried = len(self.tried) + len(self.unfit)
+        were = f"{found} of {count} variants were found among {tried} sets of values tried"
+        return f"{were}, of the {there_are} that there are; left out: {said}"
+
+
+def _variant(name: str, c: Candidate, asked: Sequence[Answer], tolerance: str) -> Variant:
+    """A sound candidate with its answers in the file's units."""
+    units = c.mechanism.units
+    key, answers = [], []
+    for answer, found in zip(asked, c.figures, strict=True):
+        key.append(key_row(answer, found, units) | ({"tolerance": tolerance} if tolerance else {}))
+        value = stated_value(found, units)
+        plain = {n: v for n, v in key[-1].items() if n not in ("value", "unit", "tolerance")}
+        answers += [plain | {"value": value}] if value is not None else []
+    return Variant(name, c.values, c.mechanism.with_values({"answers": answers}), c.result, tuple(key))

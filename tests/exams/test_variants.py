@@ -1,0 +1,216 @@
+"""Exam variants: sound, all different, the same for a seed; their sheets and key; what is refused, in its words."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.bundled import examples
+from dalembert.cli import main
+from dalembert.exams import exam_folder
+from dalembert.exams.choices import read_choices
+from dalembert.exams.question_sheet import question_sheet
+from dalembert.grading.file_answers import check
+from tests.methods.test_question import falsified
+
+FOUR_BAR = {"loads.T_4.value": "100..140 lbf*in", "drives.O2.position": "[45, 60, 75]"}
+
+
+def four_bar(**options: Any) -> Any:
+    return da.variants(da.load(examples()["four_bar"]), FOUR_BAR, **{"count": 2, "seed": 3} | options)
+
+
+def bracket(**load: object) -> da.Mechanism:
+    """An arm welded to the ground, with one force at its end: the reaction is that force turned round."""
+    return da.mechanism(
+        {
+            "links": {"ground": {"points": {"O": [0, 0]}}, "arm": {"points": {"O": [0, 0], "P": [2, 0]}}},
+            "joints": {"O": {"type": "weld", "links": ["ground", "arm"]}},
+            "loads": {"F": {"type": "force", "on": "arm", "at": "P", **load}},
+        }
+    )
+
+
+@pytest.mark.parametrize(
+    ("given", "values"),
+    [
+        ("40..60 mm step 5 mm", ["40 mm", "45 mm", "50 mm", "55 mm", "60 mm"]),
+        ("0.1..0.2", ["0.1", "0.12", "0.14", "0.16", "0.18", "0.2"]),
+        ("12..19 N", ["12 N", "13 N", "14 N", "15 N", "16 N", "17 N", "18 N", "19 N"]),
+        ("-30..-10 deg step 10 deg", ["-30 deg", "-20 deg", "-10 deg"]),
+        ("1 m..2 m step 50 cm", ["1 m", "1.5 m", "2 m"]),
+        ("[400 N, 500 N]", ["400 N", "500 N"]),
+        ("[[0, -8 kN], [0, -9 kN]]", [["0", "-8 kN"], ["0", "-9 kN"]]),
+        ([0.1, 0.2], [0.1, 0.2]),
+    ],
+)
+def test_values_to_draw(given: object, values: list[object]) -> None:
+    assert list(read_choices({"x": given})[0].values) == values
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ("40 mm", "--vary x: '40 mm' is neither a range nor a list; write PATH=40..60 mm step 5 mm"),
+        ("[40 mm]", "--vary x: there is one value only, and nothing to draw"),
+        ("60..40 mm", "--vary x: the range does not increase from 60 to 40"),
+        ("1 m..2 mm", "--vary x: the range begins in m and ends in mm; write one unit"),
+        ("1..2 m step 1 N", "--vary x: the step is in N, the range in m; write one unit"),
+        ("0..1 step 1e-9", "--vary x: 1000000001 values are more than 10000; take a larger step"),
+        ("1..2 m step -1 m", "--vary x: the step -1 is not positive"),
+    ],
+)
+def test_values_that_are_none(given: str, said: str) -> None:
+    with pytest.raises(da.ModelError, match=re.escape(said)):
+        read_choices({"x": given})
+
+
+def test_they_are_sound_different_and_the_same_for_a_seed() -> None:
+    some = four_bar()
+    drawn = [
+        [
+            v.values
+            for v in da.variants(
+                bracket(value=100, direction="30 deg"), {"loads.F.value": "100..200"}, 4, seed
+            )
+        ]
+        for seed in (3, 3, 4)
+    ]
+    assert drawn[0] == drawn[1] != drawn[2]
+    assert len({str(values) for values in drawn[0]}) == 4
+    for v in some:
+        assert v.result.ok.all()
+        assert all(row.ok for row in check(v.mechanism))
+        effort = next(k for k in v.key if k["quantity"] == "effort")
+        again = da.solve(da.load(examples()["four_bar"]).with_values(v.values))
+        assert float(effort["value"]) == pytest.approx(again.effort("O2")[0] / 0.1129848290276167, rel=1e-12)
+
+
+def test_none_is_near_a_dead_centre() -> None:
+    """Piston-driven, with its dead centres at 150 and 250 mm."""
+    tree = da.slider_crank(crank=0.05, rod=0.2).to_tree()
+    tree |= {"drives": {"guide": {"position": "0.2 m"}}, "assembly": {"crank": "80 deg"}}
+    tree["loads"] = {"brake": {"type": "couple", "on": "crank", "value": "10 N*m"}}
+    vary = {"drives.guide.position": [f"{x} mm" for x in (151, 180, 200, 220, 249, 249.9, 255)]}
+    some = da.variants(da.mechanism(tree), vary, count=3, seed=1, ask=["effort.guide"])
+    assert sorted(str(v.values["drives.guide.position"]) for v in some) == ["180 mm", "200 mm", "220 mm"]
+
+
+def test_no_usual_mistake_stays_hidden() -> None:
+    """At 45 degrees nobody can tell x from y: that angle is never drawn."""
+    vary = {"loads.F.direction": "[20 deg, 30 deg, 45 deg, 60 deg, 70 deg]"}
+    m = bracket(value=100, direction="30 deg")
+    some = da.variants(m, vary, count=4, seed=1, ask=["reaction.O"])
+    assert sorted(str(v.values["loads.F.direction"]) for v in some) == [
+        "20 deg",
+        "30 deg",
+        "60 deg",
+        "70 deg",
+    ]
+    said = (
+        "4 of 5 variants were found among 5 sets of values tried, of the 5 that there are; left out: 1 where no asked "
+        "figure shows the mistake 'the angle is counted from the other axis: x and y are exchanged'"
+    )
+    with pytest.raises(da.ModelError, match=re.escape(said)):
+        da.variants(m, vary, count=5, seed=1, ask=["reaction.O"])
+
+
+def test_no_figure_is_near_zero_and_none_is_there_twice() -> None:
+    m = bracket(value=100, direction="30 deg")
+    some = da.variants(
+        m, {"loads.F.value": [1.0, 90.0, 100.0, 100.1, 110.0]}, count=3, seed=1, ask=["reaction.O"]
+    )
+    sizes = sorted(float(str(v.key[0]["value"]).split(" @ ")[0]) for v in some)
+    assert np.round(sizes, -1).tolist() == [90.0, 100.0, 110.0]
+
+
+def test_too_few_values() -> None:
+    with pytest.raises(da.ModelError, match="the values allow 15 different problems, and 30 are asked for"):
+        four_bar(count=30)
+
+
+def test_what_is_asked() -> None:
+    some = four_bar(
+        count=1, ask=["effort.O2", "reaction.A.crank", "reaction.B.x", "speed.rocker", "point.coupler.P"]
+    )
+    rows = [(k["quantity"], k["of"], k.get("on"), k.get("component"), k["unit"]) for k in some[0].key]
+    assert rows == [
+        ("effort", "O2", None, None, "lbf*in"),
+        ("reaction", "A", "crank", None, "lbf"),
+        ("reaction", "B", "rocker", "x", "lbf"),
+        ("speed", "rocker", None, None, "rad/s"),
+        ("point", "coupler.P", None, None, "in"),
+    ]
+    with pytest.raises(
+        da.ModelError, match=r"--ask efort.O2: there is no quantity 'efort'; did you mean 'effort'\?"
+    ):
+        four_bar(ask=["efort.O2"])
+
+
+def test_the_question_sheet_says_nothing_of_the_answer() -> None:
+    one = four_bar(count=1)
+    r, asked = one[0].result, one.asked
+    text = str(question_sheet(r, asked, "01"))
+    assert text == str(question_sheet(falsified(r), asked, "01"))
+    assert "Weights are divided by g = 386 in/s²" in text
+    assert "Reaction of A on coupler, F_23  size ______________ lbf  direction ______________ °" in text
+    numbers = {round(abs(float(x)), 2) for x in re.findall(r"\d+\.\d+|\d+", text)}
+    sizes = {round(abs(float(str(k["value"]).split(" @ ")[0])), 2) for k in one[0].key}
+    assert not numbers & sizes
+
+
+def test_the_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "exam"
+    vary = [x for path, values in FOUR_BAR.items() for x in ("--vary", f"{path}={values}")]
+    command = ["variants", str(examples()["four_bar"]), *vary, "--count", "2", "--seed", "3", "-o", str(out)]
+    command += ["--ask", "effort.O2", "--tolerance", "3 %"]
+    assert main(command) == 0
+    assert {p.name for p in (out / "questions").iterdir()} == {"01.pdf", "01.html", "02.pdf", "02.html"}
+    assert sorted(p.name for p in out.iterdir())[-1] == "variants.json"
+    assert main(["check", str(out / "problems")]) == 0
+    rows = list(csv.DictReader((out / "key.csv").read_text(encoding="utf-8").splitlines()))
+    assert [(r["variant"], r["file"], r["of"], r["tolerance"]) for r in rows] == [
+        ("01", "problems/01.yaml", "O2", "3 %"),
+        ("02", "problems/02.yaml", "O2", "3 %"),
+    ]
+    assert json.loads((out / "key.json").read_text(encoding="utf-8"))[1]["value"] == rows[1]["value"]
+    blank = (out / "answers" / "02.csv").read_text(encoding="utf-8").splitlines()[1]
+    assert blank == "02,effort,O2,,,,,,,lbf*in"
+    capsys.readouterr()
+    assert main(command) == 2
+    assert "exists; name another folder, or replace it: --force" in capsys.readouterr().err
+    (out / "notes.txt").write_text("mine", encoding="utf-8")
+    assert main([*command, "--force"]) == 2
+    assert "has notes.txt, which would be lost" in capsys.readouterr().err
+
+
+def test_a_folder_is_there_whole_or_not_at_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    some, out = four_bar(count=1, ask=["effort.O2"]), tmp_path / "exam"
+    write = exam_folder._write_key
+
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(exam_folder, "_write_variant", lambda *_: None)
+    monkeypatch.setattr(exam_folder, "_write_key", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        some.save(out)
+    assert list(tmp_path.iterdir()) == []
+    monkeypatch.setattr(exam_folder, "_write_key", write)
+    some.save(out)
+    before = (out / "key.csv").stat().st_ino
+    monkeypatch.setattr(exam_folder, "_write_key", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        some.save(out, overwrite=True)
+    assert (out / "key.csv").stat().st_ino == before
+    monkeypatch.setattr(exam_folder, "_write_key", write)
+    some.save(out, overwrite=True)
+    assert [p.name for p in tmp_path.iterdir()] == ["exam"]
+    assert (out / "key.csv").stat().st_ino != before
