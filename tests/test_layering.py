@@ -19,11 +19,11 @@ ROOMS = sorted({path.parent for path in MODULES})
 MOST = 15
 """Entries of a room: about a dozen."""
 
-BASE = {"arrays", "errors", "wording", "printing", "unit_names", "units", "saving", "bundled"}
+BASE = {"arrays", "errors", "wording", "printing", "unit_names", "units", "saving", "bundled", "progress"}
 ANALYSIS = BASE | {"algebra", "core", "kernel", "model", "analysis"}
 SHOWN = ANALYSIS - {"core", "kernel"} | {"wrench", "machine"}
 MAY_IMPORT = {
-    **{name: set[str]() for name in ("arrays", "errors", "wording", "printing", "bundled")},
+    **{name: set[str]() for name in ("arrays", "errors", "wording", "printing", "bundled", "progress")},
     **dict.fromkeys(("saving", "unit_names", "units"), BASE),
     "algebra": {"arrays", "algebra"},
     "core": {"arrays", "algebra", "core"},
@@ -59,9 +59,10 @@ FACADES = {
     "machine.flywheel.flywheels",
     "machine.shaking",
     "wrench.system",
+    "analysis.batch.design_sweep",
 }
-"""Result, Mechanism, Scene, Kernel, System, and the answers of `machine`, which print themselves: their methods call
-what is built on them, by imports inside the methods."""
+"""Result, Mechanism, Scene, Kernel, Sweep, System, and the answers of `machine`, which print themselves: their methods
+call what is built on them, by imports inside the methods."""
 SHOWING = {"notebook", "views"}
 """What they call to show themselves."""
 

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
         statics,
     )
     from dalembert.analysis.batch import BatchResult, Kernel, compile  # noqa: A004
+    from dalembert.analysis.batch.design_sweep import Sweep, sweep
     from dalembert.analysis.friction.efficiency import efficiency
     from dalembert.analysis.friction.fixed_point import fixed_point
     from dalembert.analysis.friction.friction_circles import friction_circles
@@ -129,6 +130,7 @@ __version__ = "0.1.0"
 _NAMES = {
     "analysis": "Mobility Result dynamics kinematics mobility solve statics",
     "analysis.batch": "BatchResult Kernel compile",
+    "analysis.batch.design_sweep": "Sweep sweep",
     "analysis.friction.efficiency": "efficiency",
     "analysis.friction.fixed_point": "fixed_point",
     "analysis.friction.friction_circles": "friction_circles",
@@ -213,6 +215,7 @@ __all__ = [
     "Sphere",
     "Spring",
     "StlMesh",
+    "Sweep",
     "Table",
     "TimeTable",
     "TorsionDamper",
@@ -271,6 +274,7 @@ __all__ = [
     "stephenson_2",
     "stephenson_3",
     "superposition",
+    "sweep",
     "toggle_press",
     "variants",
     "virtual_work",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import subprocess
 import sys
@@ -11,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from dalembert.bundled import examples
+from tests.tiers import tiers
 
 COMMAND = [sys.executable, "-m", "dalembert"]
 FOUR_BAR = str(examples()["four_bar"])
@@ -62,9 +64,34 @@ raise SystemExit(main(sys.argv[2:]))
 """The command that is sent SIGINT as soon as the new file is there, or when all is written but not yet in its place."""
 
 
-@pytest.mark.parametrize("moment", ["made", "written"])
-def test_interruption_is_quiet_and_leaves_nothing(tmp_path: Path, moment: str) -> None:
-    arguments = ["solve", FOUR_BAR, "--csv", str(tmp_path / "out.csv")]
+WRITING = {
+    "csv": ["solve", FOUR_BAR, "--csv"],
+    "xlsx": ["solve", FOUR_BAR, "--xlsx"],
+    "nc": ["solve", FOUR_BAR, "--netcdf"],
+    "json": ["solve", FOUR_BAR, "--json"],
+    "svg": ["draw", FOUR_BAR, "-o"],
+    "png": ["draw", FOUR_BAR, "--view", "mechanism", "-o"],
+    "gif": ["draw", FOUR_BAR, "--positions", "3", "-o"],
+    "glb": ["draw", FOUR_BAR, "--positions", "3", "-o"],
+    "dxf": ["draw", FOUR_BAR, "-o"],
+    "pdf": ["report", FOUR_BAR, "-o"],
+    "tex": ["report", FOUR_BAR, "-o"],
+    "yaml": ["new", "four_bar", "-o"],
+    "toml": ["convert", FOUR_BAR, "-o"],
+}
+"""Ending -> the command that writes such a file."""
+
+
+@pytest.mark.parametrize(
+    "case",
+    tiers(
+        [("csv", "made"), ("csv", "written")],
+        [(ending, moment) for ending in list(WRITING)[1:] for moment in ("made", "written")],
+    ),
+)
+def test_interruption_is_quiet_and_leaves_nothing(tmp_path: Path, case: tuple[str, str]) -> None:
+    ending, moment = case
+    arguments = [*WRITING[ending], str(tmp_path / f"out.{ending}")]
     done = subprocess.run(
         [sys.executable, "-c", INTERRUPTED, moment, *arguments], capture_output=True, timeout=HANGS
     )
@@ -85,3 +112,63 @@ def test_a_signal_from_outside_ends_long_work_quietly(tmp_path: Path) -> None:
     else:
         assert (process.returncode, err) == (130, b"")
     assert set(tmp_path.iterdir()) <= {path}
+
+
+ON_A_TERMINAL = """
+import os, signal, sys, time
+import dalembert.progress, dalembert.analysis.solution as solution
+dalembert.progress.DELAY = float(sys.argv[1])
+solved = solution.dynamics
+def slowly(*arguments, **named):
+    time.sleep(0.6)
+    if sys.argv[2] == "interrupted":
+        os.kill(os.getpid(), signal.SIGINT)
+    return solved(*arguments, **named)
+solution.dynamics = slowly
+from dalembert.cli import main
+raise SystemExit(main(sys.argv[3:]))
+"""
+"""The command with an analysis that takes its time, behind this many seconds of silence."""
+
+
+def on_a_terminal(folder: Path, delay: float, end: str) -> tuple[int, str, bytes]:
+    """Exit status, standard output in a file, and what a terminal as standard error has got."""
+    import pty
+
+    ours, theirs = pty.openpty()
+    command = [sys.executable, "-c", ON_A_TERMINAL, str(delay), end, "solve", FOUR_BAR]
+    command += ["--csv", str(folder / "out.csv")]
+    with open(folder / "printed", "w") as printed:
+        environment = {**os.environ, "TERM": "xterm", "COLUMNS": "80"}
+        done = subprocess.run(command, stdout=printed, stderr=theirs, timeout=HANGS, env=environment)
+    os.close(theirs)
+    got = b""
+    try:
+        while chunk := os.read(ours, 65536):
+            got += chunk
+    except OSError:  # how Linux says that nothing comes any more
+        pass
+    os.close(ours)
+    return done.returncode, (folder / "printed").read_text(encoding="utf-8"), got
+
+
+@pytest.mark.skipif(os.name == "nt", reason="terminals as POSIX has them")
+@pytest.mark.parametrize(
+    "case",
+    tiers([(0.0, "whole", True), (0.0, "interrupted", True)], [(30.0, "whole", False)]),
+)
+def test_long_work_shows_itself_on_a_terminal_only(tmp_path: Path, case: tuple[float, str, bool]) -> None:
+    delay, end, shown = case
+    status, printed, got = on_a_terminal(tmp_path, delay, end)
+    assert (b"Solving " in got) == shown
+    assert (b"\x1b[2K" in got) == shown, "the line is wiped"
+    if end == "interrupted":
+        assert (status, printed) == (130, "")
+        assert b"Traceback" not in got
+        assert not (tmp_path / "out.csv").exists()
+    else:
+        assert status == 0
+        assert "243.2376 lbf*in" in printed
+        assert "\x1b" not in printed
+        assert len((tmp_path / "out.csv").read_text().splitlines()) == 2
+    assert {p.name for p in tmp_path.iterdir()} <= {"out.csv", "printed"}

@@ -11,6 +11,7 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis import one_pass
+from dalembert.analysis.engine import structures
 from dalembert.analysis.result.result import Result
 
 ARRAYS = (
@@ -19,19 +20,40 @@ ARRAYS = (
 )
 
 
+FRICTION = (
+    "force",
+    "moment",
+    "viscous_force",
+    "viscous_moment",
+    "dry_loss",
+    "viscous_loss",
+    "cz",
+    "rate",
+    "argument",
+)
+FRICTION_SAME = ("sense", "open", "reversing", "blocked", "locked", "critical")
+
+
 @contextmanager
-def counted() -> Iterator[list[bool]]:
-    """For each analysis in here, whether a kept program has answered it."""
-    ways: list[bool] = []
-    own = one_pass.quick_answer
+def counted() -> Iterator[list[str]]:
+    """For each analysis in here, what kept programs have answered of it: all, its forces, or nothing."""
+    ways: list[str] = []
+    whole, forces = one_pass.quick_answer, one_pass.known_forces
 
     def quick_answer(*given: Any) -> Any:
-        found = own(*given)
-        ways.append(isinstance(found, Result))
+        found = whole(*given)
+        ways.append("all" if isinstance(found, Result) else "")
+        return found
+
+    def known_forces(*given: Any) -> Any:
+        found = forces(*given)
+        ways[-1] = "forces" if found is not None and found.sure.all() else ""
         return found
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(one_pass, "quick_answer", quick_answer)
+        patch.setattr(one_pass, "known_forces", known_forces)
+        patch.setattr(structures, "TRACE", 0.0)
         yield ways
 
 
@@ -54,14 +76,31 @@ def difference(r: Any, s: Any) -> float:
         off = np.nanmax(np.abs(mine - other), initial=0.0)
         size = max(np.nanmax(np.abs(other), initial=0.0), least.get(name, 0.0), 1e-300)
         worst = max(worst, float(off / size) if off else 0.0)
+    assert (r.friction is None, r.after is None) == (s.friction is None, s.after is None)
+    if r.after is not None:
+        worst = max(worst, difference(r.after, s.after))
+    return worst if r.friction is None else max(worst, _friction_difference(r.friction, s.friction))
+
+
+def _friction_difference(f: Any, g: Any) -> float:
+    """Largest difference of what friction does, over the largest value of its kind."""
+    for name in FRICTION_SAME:
+        assert np.array_equal(getattr(f, name), getattr(g, name), equal_nan=True), name
+    assert (f.single >= g.single).all()  # programs prove more solutions to be the only ones
+    worst = 0.0
+    for name in FRICTION:
+        mine, other = getattr(f, name), getattr(g, name)
+        assert (np.isnan(mine) == np.isnan(other)).all(), name
+        off, size = np.nanmax(np.abs(mine - other), initial=0.0), np.nanmax(np.abs(other), initial=0.0)
+        worst = max(worst, float(off / size) if off else 0.0)
     return worst
 
 
-def both(m: Any, static: bool = False) -> tuple[float, bool]:
-    """Difference of both answers, and whether a kept program gave the usual one."""
+def both(m: Any, static: bool = False) -> tuple[float, str]:
+    """Difference of both answers, and what of the usual one kept programs gave."""
     run = da.statics if static else da.dynamics
     with counted() as ways:
         usual = run(m)
     careful = run(m, method="careful")
     assert np.nanmax(usual.residual, initial=0.0) < 1e-9
-    return difference(usual, careful), ways == [True]
+    return difference(usual, careful), ways[0]

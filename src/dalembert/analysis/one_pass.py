@@ -9,16 +9,18 @@ import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.degree_of_freedom import check_knowns
+from dalembert.analysis.engine.force_program import ForceBlock
 from dalembert.analysis.engine.quick_pass import quick_answer
+from dalembert.analysis.engine.structures import known_forces
 from dalembert.analysis.friction.friction_equilibrium import FrictionProblem, block_size, friction_equilibrium
 from dalembert.analysis.positions import Positions, positions
-from dalembert.analysis.result.force_arrays import Forces, concatenate_blocks
+from dalembert.analysis.result.force_arrays import Forces, at_places, concatenate_blocks
 from dalembert.analysis.result.joint_freedoms import whole_pose
 from dalembert.analysis.result.reaction_axes import marks
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.status.closure_failure import open_sentence
 from dalembert.analysis.status.statuses import KEPT, UNBALANCED, statuses
-from dalembert.arrays import Array, Flags, Index
+from dalembert.arrays import Array, Flags, Index, Ints, at
 from dalembert.core.equilibrium import Known, balance, known_sources, motion, reactions
 from dalembert.core.forcing import Forcing, total_wrench
 from dalembert.core.layout import Pose
@@ -43,7 +45,7 @@ def at_schedule(
         followed = quick or positions(c)
         if followed.path is None:
             return _nothing(followed, inertia)
-        return _along(followed, followed.path, inertia, forces)
+        return _along(followed, followed.path, inertia, forces, method)
 
 
 def at_poses(c: Compiled, like: Result, which: Index, inertia: bool) -> Result:
@@ -66,9 +68,13 @@ def some_positions(c: Compiled, which: Index) -> Compiled:
     return replace(c, schedule=replace(s, time=time, **rates), forcing=loads, known=known)
 
 
-def _along(followed: Positions, path: Path, inertia: bool, forces: bool) -> Result:
+def _along(followed: Positions, path: Path, inertia: bool, forces: bool, method: Method = "auto") -> Result:
     """Rates, forces and statuses where the poses are known."""
-    moved, found = _blocks(followed.compiled, path.pose, inertia, forces)
+    c, pose = followed.compiled, path.pose
+    program = known_forces(c, pose, inertia) if forces and method == "auto" else None
+    moved, found = (
+        _blocks(c, pose, inertia, forces) if program is None else _with_careful(c, pose, inertia, program)
+    )
     status, reasons = statuses(followed, moved.twist, moved.acceleration, moved.rcond, found, forces)
     _blank_without_answer(~path.reached, status, moved, found)
     return _result(followed, moved, found, inertia, status, reasons)
@@ -85,22 +91,42 @@ class _Moved(NamedTuple):
     rcond: Array
 
 
-def _blocks(c: Compiled, pose: Pose, inertia: bool, forces: bool) -> tuple[_Moved, Forces]:
-    """Motion and forces, so many positions at a time as the processor's cache holds."""
-    size = block_size(c, BLOCK)
-    parts = [_block(c, pose, slice(k, k + size), inertia, forces) for k in range(0, len(c.targets), size)]
-    moved = _Moved(*(np.concatenate(column) for column in zip(*(m for m, _ in parts), strict=True)))
-    return moved, concatenate_blocks([f for _, f in parts])
+def _blocks(
+    c: Compiled, pose: Pose, inertia: bool, forces: bool, where: Ints | None = None
+) -> tuple[_Moved, Forces]:
+    """Motion and forces (of some positions), so many positions at a time as the processor's cache holds."""
+    size, count = block_size(c, BLOCK), len(c.targets) if where is None else len(where)
+    places = [slice(k, k + size) for k in range(0, count, size)]
+    parts = [_block(c, pose, p if where is None else where[p], inertia, forces) for p in places]
+    return _concatenate([m for m, _ in parts]), concatenate_blocks([f for _, f in parts])
 
 
-def _block(c: Compiled, whole: Pose, part: slice, inertia: bool, forces: bool) -> tuple[_Moved, Forces]:
+def _concatenate(parts: list[_Moved]) -> _Moved:
+    return _Moved(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+
+
+def _with_careful(c: Compiled, pose: Pose, inertia: bool, program: ForceBlock) -> tuple[_Moved, Forces]:
+    """What a program is sure of, and the careful path's answer elsewhere."""
+    places = np.ones(len(program.sure))
+    moved = _Moved(*_stands(c, pose), program.twist, program.acceleration, places)
+    doubt = np.flatnonzero(~program.sure)
+    if not doubt.size:
+        return moved, program.forces
+    sure = np.flatnonzero(program.sure)
+    there, found = _blocks(c, pose, inertia, forces=True, where=doubt)
+    order = np.argsort(np.concatenate([sure, doubt]))
+    forces = concatenate_blocks([at_places(program.forces, sure), found])
+    return at(_concatenate([at(moved, sure), there]), order), at_places(forces, order)
+
+
+def _block(
+    c: Compiled, whole: Pose, part: slice | Ints, inertia: bool, forces: bool
+) -> tuple[_Moved, Forces]:
     """Motion J v = rates, J a = rates - drift; forces A x + w = 0 with or without friction."""
     layout, pose, schedule = c.layout, whole.at(part), c.schedule
     moving, rows, solver = motion(layout, pose, schedule.speed[part], schedule.acceleration[part])
     moved = _Moved(
-        pose.point[:, :-1],
-        layout.algebra.without_ground(pose.turn),
-        pose.rotation[:, :-1],
+        *_stands(c, pose),
         moving.twist[:, :-1],
         moving.acceleration[:, :-1],
         moving.rcond,
@@ -130,6 +156,11 @@ def _block(c: Compiled, whole: Pose, part: slice, inertia: bool, forces: bool) -
         unique_unknowns=unique.others,
         unique_in=unique.inside,
     )
+
+
+def _stands(c: Compiled, pose: Pose) -> tuple[Array, Array, Array]:
+    """Points, turns and rotations, ground left out."""
+    return pose.point[:, :-1], c.layout.algebra.without_ground(pose.turn), pose.rotation[:, :-1]
 
 
 def _no_forces(c: Compiled, count: int) -> Forces:

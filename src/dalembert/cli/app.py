@@ -38,6 +38,7 @@ from dalembert.cli.options import (
     target,
     with_help,
 )
+from dalembert.progress import progress
 from dalembert.wording import closest
 
 
@@ -177,7 +178,8 @@ def draw(
     from dalembert.cli.draw_command import draw_file, question_view
 
     which = question_view(view) if question else view
-    return draw_file(file, output, which, at, positions, static, theme, names, force, changes, camera)
+    with progress(f"Drawing {file}"):
+        return draw_file(file, output, which, at, positions, static, theme, names, force, changes, camera)
 
 
 @app.command(
@@ -209,7 +211,10 @@ def report(
     """Write the worked solution of FILE, step by step, with its drawings."""
     from dalembert.cli.draw_command import write_report
 
-    return write_report(file, output, at, positions, static, method, style.notation(), about, force, changes)
+    with progress(f"Working out {file}"):
+        return write_report(
+            file, output, at, positions, static, method, style.notation(), about, force, changes
+        )
 
 
 @app.command(

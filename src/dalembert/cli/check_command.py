@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from dalembert.cli.options import AS_IN_FILE, Changes
 from dalembert.errors import DalembertError, ModelError
 from dalembert.printing import table, wrap
+from dalembert.progress import progress
 
 if TYPE_CHECKING:
     from dalembert.grading.file_answers import Row
@@ -65,29 +65,15 @@ def _compare(files: Sequence[Path], changes: Changes = AS_IN_FILE) -> tuple[list
 
     rows: list[Row] = []
     wrong = 0
-    with _progress(len(files)) as step:
-        for path in files:
-            step(path.name)
+    with progress("Checking", len(files)) as step:
+        for done, path in enumerate(files):
+            step(done, path.name)
             try:
                 rows += check(load_model(path, changes), path.stem)
             except DalembertError as error:
                 print(error, file=sys.stderr)
                 wrong += 1
     return rows, wrong
-
-
-@contextmanager
-def _progress(count: int) -> Iterator[Callable[[str], None]]:
-    """A bar on the terminal's standard error; nothing in a pipe."""
-    if count < 3 or not sys.stderr.isatty():
-        yield lambda name: None
-        return
-    from rich.console import Console
-    from rich.progress import Progress
-
-    with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("Checking", total=count)
-        yield lambda name: bar.update(task, advance=1, description=name)
 
 
 def _text(rows: Sequence[Row], every: bool) -> str:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from dalembert.cli.options import Changes
 from dalembert.errors import ModelError
+from dalembert.progress import progress
 from dalembert.saving import check_installed, check_new
 
 if TYPE_CHECKING:
@@ -73,7 +72,8 @@ def solve_file(
         more = "\n\n".join(filter(None, (more, other_solutions_text(result, wanted.printed_units))))
     _print_answer(shown, wanted, more)
     for kind, path in wanted.files.items():
-        _write(shown, kind, path, wanted)
+        with progress(f"Writing {path}"):
+            _write(shown, kind, path, wanted)
         print(f"Written: {path}", file=sys.stderr)
     return 0 if result.ok.all() else 1
 
@@ -117,7 +117,7 @@ def _result(file: Path, static: bool, positions: int | None, changes: Changes) -
     from dalembert.cli.model_argument import load_model
 
     m = load_model(file, changes)
-    with _waiting(f"Solving {file}"):
+    with progress(f"Solving {file}"):
         return solve(m, static=static, positions=positions)
 
 
@@ -133,18 +133,6 @@ def by_method(method: str, result: Result, units: Literal["SI", "file"]) -> tupl
     if method == "virtual-work":
         return virtual_work_answer(result, units)
     return result, superposition_text(result, units)
-
-
-@contextmanager
-def _waiting(what: str) -> Iterator[None]:
-    """A spinner on the terminal's standard error while something takes long; nothing in a pipe."""
-    if not sys.stderr.isatty():
-        yield
-        return
-    from rich.console import Console
-
-    with Console(stderr=True).status(what):
-        yield
 
 
 def _print_answer(result: Result, wanted: Wanted, more: str) -> None:

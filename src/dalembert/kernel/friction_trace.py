@@ -11,7 +11,7 @@ first.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from dalembert.core.forcing import pair, total_wrench
 from dalembert.core.friction.contact_equations import (
     Contacts,
     Response,
+    SlipState,
     argument,
     bearing,
     correction,
@@ -34,7 +35,7 @@ from dalembert.core.friction.contact_equations import (
     with_strength,
 )
 from dalembert.core.friction.losses import dry_wrenches, power_reversed, viscous_wrenches
-from dalembert.core.layout import Layout, Pose
+from dalembert.core.layout import Layout, Pose, System
 from dalembert.kernel.elimination import components, structural
 from dalembert.kernel.graph import CONSTANT, Graph, Node, is_zero, trace_array
 from dalembert.kernel.jam_proof import jams, lever
@@ -58,16 +59,26 @@ POWER = 12
 """Power of the fixed point's matrix whose norm bounds its spectral radius."""
 
 
+class Slip(NamedTuple):
+    """What the contacts act along, their senses and rates, the response to c z, and c z (E,)."""
+
+    along: System
+    state: SlipState
+    r: Response
+    cz: Array
+
+
 @dataclass(frozen=True)
 class FrictionTrace:
     """Multipliers x, total wrenches w, friction's and damping's force (joints, 2) and moment (joints,) on j; and where
-    they are in doubt, at rest, jammed, or turn the power of the unknowns round."""
+    they are in doubt, at rest, jammed, or turn the power of the unknowns round; ``slip``: each contact's."""
 
     x: Array
     total: Array
     force: Array
     moment: Array
     marks: Marks
+    slip: Slip | None = None
 
 
 def trace_friction(
@@ -121,6 +132,7 @@ def trace_friction(
         force=force + viscous_force,
         moment=moment + viscous_moment,
         marks=replace(marks, slips=(*marks.slips, *idle), rest=rest, turned=_nonzero(turns)),
+        slip=Slip(along, state, r, c * z),
     )
 
 

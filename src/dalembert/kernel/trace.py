@@ -113,7 +113,15 @@ def trace(p: Problem) -> Traced:
     """Positions, motion and equilibrium of one position of one design."""
     layout = replace(p.layout, solver=solver(p.graph))
     target, apart = _with_phase(p, layout)
-    placed = _trace_pose(p, layout, target, p.drives, p.path)
+    return _trace_at(p, layout, _trace_pose(p, layout, target, p.drives, p.path), apart)
+
+
+def trace_at(p: Problem, pose: Pose) -> Traced:
+    """Motion and equilibrium of one position where the pose is known."""
+    return _trace_at(p, replace(p.layout, solver=solver(p.graph)), Placed(pose), [])
+
+
+def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> Traced:
     pose = placed.pose
     if p.at_pose is not None:
         p = replace(p, forcing=p.at_pose(p.forcing, pose))
@@ -284,7 +292,7 @@ def _singular(p: Problem, *factors: object) -> list[Node]:
 
 def _turn_count_doubt(p: Problem, layout: Layout, pose: Pose) -> list[Node]:
     """Below zero where a design turns a spring so far from the known motion that its whole turns may be others."""
-    if p.slips is not None:
+    if p.slips is not None or not p.margins:
         return []
     if layout.algebra.d == 2:
         i, j = layout.freedoms.ends

@@ -13,6 +13,7 @@ from dalembert.printing import Part, Table, number, with_unit
 
 if TYPE_CHECKING:
     from dalembert.analysis.batch.compiled_kernel import Kernel
+    from dalembert.analysis.batch.design_sweep import Sweep
     from dalembert.analysis.result.result import Result
     from dalembert.model import Mechanism
     from dalembert.views.paper.scene import Scene
@@ -22,6 +23,8 @@ MOST_DRAWN = 60
 """Links of a mechanism that is drawn beside its tables; a larger one is drawn when asked."""
 MOST_POSITIONS = 2000
 """Positions along which a card's drawing traces points."""
+MOST_SAID = 8
+"""Problems of a sweep that are said one by one."""
 
 
 def result_html(r: Result) -> str:
@@ -131,3 +134,20 @@ def system_html(s: System) -> str:
 
 def _cells(vector: Array) -> list[str]:
     return [number(float(v)) for v in np.ravel(vector)]
+
+
+def sweep_html(s: Sweep) -> str:
+    """A row a design: what was varied, the positions solved, the largest size of each quantity over the positions."""
+    to = Scale(s.mechanism.units)
+    peaks = {
+        name: s.over(name).reshape(-1) for name, a in s.answers.arrays.items() if a.ndim - len(s.shape) < 3
+    }
+    heads = [*s.paths, "solved", *(f"largest {name}\n{to.text(s.kinds[name])}" for name in peaks)]
+    solved = s.ok.reshape(-1, s.status.shape[-1]).sum(axis=1)
+    cells = [[number(float(v)) for v in to(s.kinds[name], peak)] for name, peak in peaks.items()]
+    rows = [
+        [*values, f"{count} of {s.status.shape[-1]}", *more]
+        for values, count, *more in zip(s.designs, map(str, solved), *cells, strict=True)
+    ]
+    sentences = [f"{status}: {which}: {sentence}" for which, status, sentence in s.problems()[:MOST_SAID]]
+    return card(repr(s).strip("<>"), Table(heads, rows, len(s.paths) + 1), *sentences)

@@ -21,6 +21,7 @@ from dalembert.views.paper.scene import stack_scenes
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
+    from dalembert.analysis.batch.design_sweep import Sweep
     from dalembert.analysis.result.result import Result
 
 
@@ -78,8 +79,8 @@ def _against(r: Result, name: str, shown: Shown) -> tuple[Array, str, bool]:
 
 
 def label(kind: str, unit: str) -> str:
-    """'Angular speed in rad/s'."""
-    word = "Torque" if kind == "moment" else kind.replace("_", " ").capitalize()
+    """'Angular speed in rad/s'; a path stays as it is."""
+    word = "Torque" if kind == "moment" else kind if "." in kind else kind.replace("_", " ").capitalize()
     return f"{word} in {unit}" if unit else word
 
 
@@ -129,3 +130,33 @@ def polar(r: Result, joints: Sequence[str], axes: Axes, ax: Any, notation: Notat
         ax.set(title=f"Force in {unit}")
     ax.legend()
     return ax
+
+
+MOST_CURVES = 6
+"""Curves of one plot: as many as have a line of their own."""
+
+
+def plot_sweep(s: Sweep, name: str, reduce: str | None, ax: Any) -> Any:
+    """Curves over the cycle, some of many designs; or a reduction against the values of the first path."""
+    shown, kind = Shown(s.nominal, Notation()), s.kinds.get(name, "")
+    over, first = reduce or "peak", next(iter(s.labels.values()))
+    if reduce is None and s.status.shape[-1] > 1:
+        values = s[name]
+        values = np.linalg.norm(values, axis=-1) if values.ndim > len(s.shape) + 1 else values
+        curves, names = values.reshape(-1, values.shape[-1]), [", ".join(of) for of in s.designs]
+        x, x_label, angle = along(s.nominal.before, shown)
+    else:
+        curves = s.over(name, over).reshape(len(first.values), -1).T
+        names = [", ".join(of[1:]) or f"{over} of {name}" for of in s.designs[: len(curves)]]
+        plain = all(isinstance(v, float) for v in first.values)
+        x = (
+            np.array(first.values) * shown.value(first.kind, 1.0)
+            if plain
+            else np.arange(1.0, len(first.values) + 1)
+        )
+        x_label, angle = label(s.paths[0], shown.unit(first.kind)), shown.unit(first.kind) == "°"
+    chosen = sorted({round(k) for k in np.linspace(0, len(curves) - 1, min(len(curves), MOST_CURVES))})
+    series = {names[k]: curves[k] * shown.value(kind, 1.0) for k in chosen}
+    some = f", {len(chosen)} of {len(curves)} curves" if len(chosen) < len(curves) else ""
+    title = f"{name} by {', '.join(s.paths)}{some}"
+    return Curves(x, x_label, angle, series, label(kind, shown.unit(kind)), title).draw(ax)

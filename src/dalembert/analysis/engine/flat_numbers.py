@@ -11,13 +11,18 @@ import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.arrays import Array, Flags, Ints, Tree
-from dalembert.core.equilibrium import Known
-from dalembert.core.forcing import Forcing
-from dalembert.core.layout import Rows
-from dalembert.kernel.graph import Graph, Node
+from dalembert.core.layout import Pose
+from dalembert.core.position.whole_turns import rigid_turns
+from dalembert.kernel.graph import Graph, Node, trace_array
 
 ALONG = {("forces", "value"), ("couples", "value"), ("known", "effort")}
 """Arrays with an axis of positions."""
+
+COUNTED = ("counted", "turns")
+"""The turns of torsion springs along the positions."""
+
+VARIES = 2.0
+"""Stands for a column that is no constant of its structure."""
 
 
 class Numbers(NamedTuple):
@@ -32,18 +37,18 @@ class Numbers(NamedTuple):
     single: Array
     which: Ints
     columns: Array
-    constant: Array  # (C,) 0 or NaN where a column is that throughout (never of positions), else 1
+    constant: Array  # (C,) the value of a column that is part of the structure, else VARIES
 
 
-def flat_numbers(c: Compiled) -> Numbers:
-    """The numbers of a mechanism of the plane, in the order of ``with_nodes``."""
+def flat_numbers(c: Compiled, pose: Pose | None = None) -> Numbers:
+    """The numbers of a mechanism, in the order of ``with_nodes``; with its poses (P, L+1, ...) where they are known."""
     size = round(math.log10(c.layout.length))  # what is small is told by numbers of a structure of this size
     rows: list[Any] = [size, c.layout.links, c.layout.joints, c.layout.driven.tobytes()]
     single, along = [c.target], [c.schedule.position, c.schedule.speed, c.schedule.acceleration]
-    for name, array in _arrays(c):
+    for name, array in _arrays(c, pose):
         if array.dtype.kind != "f":
             rows += [name, array.shape, array.tobytes()]
-        elif name in ALONG:
+        elif name in ALONG or name in (COUNTED, "pose"):
             along.append(array.reshape(len(array), -1))
             rows.append(array.shape[1:])
         else:
@@ -52,10 +57,30 @@ def flat_numbers(c: Compiled) -> Numbers:
     values = np.concatenate(single)
     different, which = _by_first_place(values)
     columns = np.concatenate(along, axis=1).T
-    constant = np.where((columns == 0).all(axis=1), 0.0, np.where(np.isnan(columns).all(axis=1), np.nan, 1.0))
-    constant[: len(c.schedule.names)] = 1.0
-    key = (*rows, which.tobytes(), np.where(_fixed(different), different, 2.0).tobytes(), constant.tobytes())
+    constant = np.where(
+        (columns == 0).all(axis=1), 0.0, np.where(np.isnan(columns).all(axis=1), np.nan, VARIES)
+    )
+    constant[: len(c.schedule.names)] = VARIES
+    if pose is not None:
+        held = _held(c, pose)
+        own = columns[len(columns) - len(held) :, 0]
+        constant[len(columns) - len(held) :] = np.where(held & _fixed(own), own, VARIES)
+    key = (
+        *rows,
+        which.tobytes(),
+        np.where(_fixed(different), different, VARIES).tobytes(),
+        constant.tobytes(),
+    )
     return Numbers(key, different, which, columns, constant)
+
+
+def _held(c: Compiled, pose: Pose) -> Flags:
+    """Which columns of poses never change: those of the ground, and rotations of links that cannot turn."""
+    still = rigid_turns(replace(c.layout, driven=np.zeros(0, np.intp)))
+    ground, turned = np.arange(len(still)) == len(still) - 1, still == still[-1]
+    turns = ground if c.layout.algebra.d == 2 else np.zeros(pose.turn.shape[1], bool)
+    flags = (np.repeat(ground, pose.point.shape[2]), turns, np.repeat(turned, pose.rotation.shape[2]))
+    return np.concatenate(flags)
 
 
 def _by_first_place(values: Array) -> tuple[Array, Ints]:
@@ -70,22 +95,36 @@ def _fixed(different: Array) -> Flags:
     return np.asarray((different == 0) | (np.abs(different) == 1))
 
 
-def _arrays(c: Compiled) -> Iterator[tuple[Any, Array]]:
+def _arrays(c: Compiled, pose: Pose | None) -> Iterator[tuple[Any, Array]]:
     """Every array of a compiled mechanism, with its place."""
-    for side in (c.layout.constraints, c.layout.freedoms):
-        yield "angular", side.angular
-        yield "joint", side.joint
-        for f in side.families:
-            for name, array in vars(f).items():
-                yield (type(f).__name__, name), array
-    for part, whole in vars(c.forcing).items():
-        if isinstance(whole, np.ndarray):
-            yield part, whole
+    yield from _inside("constraints", c.layout.constraints)
+    yield from _inside("freedoms", c.layout.freedoms)
+    yield from _inside("forcing", c.forcing)
+    yield from _inside("known", c.known)
+    if c.contacts is not None and pose is not None:
+        yield from _inside("contacts", c.contacts)
+    for array in pose or ():
+        yield "pose", array
+
+
+def _inside(name: str, whole: Any) -> Iterator[tuple[Any, Array]]:
+    """The arrays of a record, with their places; what is no array but part of the structure, as such."""
+    for part in fields(whole):
+        value = getattr(whole, part.name)
+        if isinstance(value, np.ndarray):
+            yield _place(name, part.name, value), value
+        elif is_dataclass(value):
+            yield from _inside(part.name, value)
+        elif part.name == "families":
+            for f in value:
+                yield from _inside(type(f).__name__, f)
         else:
-            for name, array in vars(whole).items():
-                yield (part, name), array
-    for name, array in vars(c.known).items():
-        yield ("known", name), array
+            yield part.name, np.array(value)
+
+
+def _place(record: str, name: str, array: Array) -> tuple[str, str]:
+    """Where an array of a record stands."""
+    return COUNTED if name == COUNTED[1] and array.ndim > 1 else (record, name)
 
 
 class _Nodes:
@@ -97,27 +136,32 @@ class _Nodes:
     def array(self, name: Any, like: Array) -> Array:
         if like.dtype.kind != "f":
             return like
+        if name == COUNTED:
+            return self.along(like)
         source, shape = (self.columns, (1, *like.shape[1:])) if name in ALONG else (self.single, like.shape)
         out = np.empty(shape, object)
         for place in np.ndindex(shape):
             out[place] = next(source)
-        return out
+        return out if any(isinstance(x, Node) for x in out.flat) else out.astype(float)
 
-    def rows(self, rows: Rows) -> Rows:
-        families = (
-            type(f)(**{name: self.array((type(f).__name__, name), a) for name, a in vars(f).items()})
-            for f in rows.families
-        )
-        return replace(rows, families=tuple(families))
+    def along(self, like: Array) -> Array:
+        """One position of an array along the positions."""
+        return np.array([next(self.columns) for _ in range(like[0].size)], object).reshape(like.shape[1:])
 
-    def forcing(self, forcing: Forcing) -> Forcing:
+    def record(self, name: str, whole: Any) -> Any:
+        """The same record on nodes."""
         parts: Tree = {}
-        for part in fields(Forcing):
-            whole: Any = getattr(forcing, part.name)
-            own = vars(whole).items() if is_dataclass(whole) else ()
-            inside = {name: self.array((part.name, name), array) for name, array in own}
-            parts[part.name] = type(whole)(**inside) if inside else self.array(part.name, whole)
-        return Forcing(**parts)
+        for part in fields(whole):
+            value = getattr(whole, part.name)
+            if isinstance(value, np.ndarray):
+                parts[part.name] = self.array(_place(name, part.name, value), value)
+            elif is_dataclass(value):
+                parts[part.name] = self.record(part.name, value)
+            elif part.name == "families":
+                parts[part.name] = tuple(self.record(type(f).__name__, f) for f in value)
+            else:
+                parts[part.name] = value
+        return type(whole)(**parts)
 
 
 @dataclass(frozen=True)
@@ -128,9 +172,10 @@ class Symbols:
     target: Array
     inputs: tuple[Node, ...]
     drives: Array
+    pose: Pose | None
 
 
-def with_nodes(graph: Graph, c: Compiled, numbers: Numbers) -> Symbols:
+def with_nodes(graph: Graph, c: Compiled, numbers: Numbers, pose: Pose | None = None) -> Symbols:
     """The mechanism with an input in place of every number that is not 0, 1 or -1 (of a column: not 0)."""
     fixed = _fixed(numbers.single)
     different: list[Node | float] = [
@@ -138,26 +183,27 @@ def with_nodes(graph: Graph, c: Compiled, numbers: Numbers) -> Symbols:
         for k, (x, same) in enumerate(zip(numbers.single, fixed, strict=True))
     ]
     columns: list[Node | float] = [
-        float(kind) if kind != 1.0 else graph.input("channel", f"column {k}", column)
+        float(kind) if kind != VARIES else graph.input("channel", f"column {k}", column)
         for k, (column, kind) in enumerate(zip(numbers.columns, numbers.constant, strict=True))
     ]
     single = [different[k] for k in numbers.which]
     count, drives = len(c.target), len(c.schedule.names)
     nodes = _Nodes(single[count:], columns[3 * drives :])
     layout = replace(
-        c.layout, constraints=nodes.rows(c.layout.constraints), freedoms=nodes.rows(c.layout.freedoms)
+        c.layout,
+        constraints=nodes.record("constraints", c.layout.constraints),
+        freedoms=nodes.record("freedoms", c.layout.freedoms),
     )
-    forcing = nodes.forcing(c.forcing)
-    known = Known(**{n.name: nodes.array(("known", n.name), getattr(c.known, n.name)) for n in fields(Known)})
+    forcing, known = nodes.record("forcing", c.forcing), nodes.record("known", c.known)
+    contacts = c.contacts if pose is None or c.contacts is None else nodes.record("contacts", c.contacts)
+    symbols = replace(c, layout=layout, forcing=forcing, known=known, contacts=contacts)
+    stands = None if pose is None else Pose(*(trace_array(graph, nodes.along(a)) for a in pose))
     made = tuple(x for x in (*different, *columns) if isinstance(x, Node))
-    symbols = replace(c, layout=layout, forcing=forcing, known=known)
-    at = np.array(
-        [graph.constant(x) if not isinstance(x, Node) else x for x in columns[: 3 * drives]], object
-    )
-    return Symbols(symbols, np.array(single[:count], object), made, at.reshape(3, drives))
+    at = trace_array(graph, np.array(columns[: 3 * drives], object))
+    return Symbols(symbols, np.array(single[:count], object), made, at.reshape(3, drives), stands)
 
 
 def values(numbers: Numbers) -> tuple[list[float], Array]:
     """The values of the inputs that ``with_nodes`` makes: numbers, then columns (C, P)."""
     free = ~_fixed(numbers.single)
-    return numbers.single[free].tolist(), numbers.columns[numbers.constant == 1.0]
+    return numbers.single[free].tolist(), numbers.columns[numbers.constant == VARIES]

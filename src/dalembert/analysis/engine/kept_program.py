@@ -5,6 +5,7 @@ Every way a group closes is an input here, 1 or -1: which one it is, the first p
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -12,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
-from dalembert.analysis.engine.flat_numbers import Numbers, with_nodes
+from dalembert.analysis.engine.flat_numbers import Numbers, Symbols, with_nodes
 from dalembert.arrays import Array, Flags, Ints
-from dalembert.core.layout import Pose
+from dalembert.core.layout import Layout, Pose
 from dalembert.core.position.assembly_modes import counted_links
 from dalembert.kernel.emit.numpy_program import NumpyProgram
 from dalembert.kernel.graph import CONSTANT, INPUTS, Graph, Node, Scalar, trace_array
@@ -31,8 +32,81 @@ negative, or no number, where something is in doubt.
 
 
 @dataclass(frozen=True)
-class KeptProgram:
-    """A traced structure: inputs (numbers, columns, then ways), arrays of nodes by name, and the ways it was traced in.
+class Outputs:
+    """A traced structure: its inputs, and arrays of nodes by name, in the order of its outputs."""
+
+    graph: Graph
+    inputs: tuple[Node, ...]
+    nodes: dict[str, Array]
+
+    @cached_property
+    def rows(self) -> dict[str, slice]:
+        """Rows of the outputs of each array."""
+        ends = np.cumsum([0, *(a.size for a in self.nodes.values())]).tolist()
+        return {name: slice(*ends[k : k + 2]) for k, name in enumerate(self.nodes)}
+
+    @property
+    def kept(self) -> int:
+        """How many outputs an answer keeps."""
+        return int(self.rows[CHECKS[0]].start)
+
+    @cached_property
+    def size(self) -> int:
+        """How many outputs there are."""
+        return sum(a.size for a in self.nodes.values())
+
+    @cached_property
+    def run(self) -> NumpyProgram:
+        """All outputs at positions."""
+        return NumpyProgram(self.graph, self.inputs, self.outputs(*self.nodes))
+
+    def outputs(self, *names: str) -> list[Node]:
+        """Outputs of some arrays."""
+        return [n for name in names for n in self.nodes[name].ravel()]
+
+    @cached_property
+    def moments(self) -> Flags:
+        """Which rows of forces, moments and loads are moments."""
+        loads = self.nodes["loads"]
+        of = [np.zeros(self.nodes["force"].shape, bool), np.ones(self.nodes["moment"].shape, bool)]
+        couples = np.zeros(loads.shape, bool)
+        couples[..., self.nodes["force"].shape[-1] :] = True
+        return np.concatenate([a.ravel() for a in (*of, couples)])
+
+    def part(self, name: str, out: Array) -> Array:
+        """One array (P, ...) of outputs (N, P)."""
+        shape = self.nodes[name].shape
+        whole = out[self.rows[name]].reshape(*shape, out.shape[1])
+        return whole.transpose(len(shape), *range(len(shape)))
+
+    def sure(self, out: Array) -> Flags:
+        """Whether the squares of rates are numbers, and nothing says that a position is in doubt, at each place."""
+        rates = out[self.rows["twist"]]
+        return np.asarray(
+            np.isfinite((rates * rates).sum(axis=0)) & (out[self.rows["margin"]] >= 0).all(axis=0)
+        )
+
+    def balance(self, layout: Layout, out: Array) -> tuple[Array, Array]:
+        """Residual over the largest force, and virtual power over force times velocity, at each place."""
+        per_length = layout.wrench_scale[:, None]
+        forces = np.abs(out[self.rows["force"].start : self.rows["loads"].stop])
+        forces[self.moments] /= layout.length
+        largest = forces.max(axis=0, initial=0.0)
+        left = self._sized("unbalanced", out) * per_length
+        residual = left.max(axis=(0, 1), initial=0.0) / np.where(largest > 0, largest, 1.0)
+        speeds = self._sized("virtual", out) / per_length
+        reference = largest * speeds.max(axis=(1, 2), initial=0.0)
+        power = np.abs(out[self.rows["power"]]) / np.where(reference > 0, reference, 1.0)
+        return residual, power.max(axis=0, initial=0.0)
+
+    def _sized(self, name: str, out: Array) -> Array:
+        return np.abs(out[self.rows[name]]).reshape(*self.nodes[name].shape, out.shape[1])
+
+
+@dataclass(frozen=True)
+class KeptProgram(Outputs):
+    """A structure from its drives' positions to all forces: inputs (numbers, columns, then ways), and the ways it was
+    traced in.
 
     squares: how many rows of closure are such. whole: it gives more than the pose; not so where turns of springs are to
     be counted. fixed (L,): links whose angle the drives alone give; counted: those whose whole turns some row counts;
@@ -40,9 +114,6 @@ class KeptProgram:
     which are the first columns. known: first poses found lately, by what decides them.
     """
 
-    graph: Graph
-    inputs: tuple[Node, ...]
-    nodes: dict[str, Array]
     ways: tuple[float, ...]
     squares: int
     whole: bool
@@ -52,66 +123,28 @@ class KeptProgram:
     driven: tuple[int, ...]
     known: dict[Any, Any] = field(default_factory=dict, compare=False, repr=False)
 
-    @cached_property
-    def rows(self) -> dict[str, slice]:
-        """Rows of the outputs of each array."""
-        ends = np.cumsum([0, *(self.nodes[name].size for name in (*KEPT, *CHECKS))]).tolist()
-        return {name: slice(*ends[k : k + 2]) for k, name in enumerate((*KEPT, *CHECKS))}
-
     @property
     def pose(self) -> int:
         """How many outputs a pose has."""
         return int(self.rows[POSE[-1]].stop)
 
-    @property
-    def kept(self) -> int:
-        """How many outputs an answer keeps."""
-        return int(self.rows[CHECKS[0]].start)
-
-    @property
-    def size(self) -> int:
-        """How many outputs there are."""
-        return int(self.rows[CHECKS[-1]].stop)
-
-    @cached_property
-    def run(self) -> NumpyProgram:
-        """All outputs at positions."""
-        return NumpyProgram(self.graph, self.inputs, self._outputs(*KEPT, *CHECKS))
-
     @cached_property
     def run_pose(self) -> NumpyProgram:
         """The outputs of the pose at positions."""
-        return NumpyProgram(self.graph, self.inputs, self._outputs(*POSE))
-
-    def _outputs(self, *names: str) -> list[Node]:
-        return [n for name in names for n in self.nodes[name].ravel()]
+        return NumpyProgram(self.graph, self.inputs, self.outputs(*POSE))
 
     @cached_property
     def try_ways(self) -> NumpyProgram:
         """Rotations, then closure, of one position for several ways side by side."""
-        return NumpyProgram(self.graph, self.inputs, self._outputs("rotation", "closure"), many=True)
+        return NumpyProgram(self.graph, self.inputs, self.outputs("rotation", "closure"), many=True)
 
     @cached_property
     def decisive(self) -> list[int]:
         """The places, among the values of the inputs, of those that rotations depend on."""
-        needed = {n.index for n in self.graph.order(self._outputs("rotation", "closure"))}
+        needed = {n.index for n in self.graph.order(self.outputs("rotation", "closure"))}
         return [
             k for k, n in enumerate(self.inputs[: len(self.inputs) - len(self.ways)]) if n.index in needed
         ]
-
-    @cached_property
-    def moments(self) -> Flags:
-        """Which rows of forces, moments and loads are moments."""
-        of = [np.zeros(self.nodes["force"].shape, bool), np.ones(self.nodes["moment"].shape, bool)]
-        couples = np.zeros(self.nodes["loads"].shape, bool)
-        couples[..., 2] = True
-        return np.concatenate([a.ravel() for a in (*of, couples)])
-
-    def part(self, name: str, out: Array) -> Array:
-        """One array (P, ...) of outputs (N, P)."""
-        shape = self.nodes[name].shape
-        whole = out[self.rows[name]].reshape(*shape, out.shape[1])
-        return whole.transpose(len(shape), *range(len(shape)))
 
 
 class DeadCentreError(Exception):
@@ -123,7 +156,32 @@ def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) ->
     graph = Graph()
     numbers = numbers._replace(columns=numbers.columns[:, :1])
     symbols = with_nodes(graph, c, numbers)
-    position, speed, acceleration = symbols.drives
+    known: dict[tuple[str, int], Node] = {}
+    ways = _Ways(graph, pose)
+
+    def path(what: str, which: int) -> Node:
+        if (what, which) not in known:
+            known[what, which] = graph.input("channel", f"known {what} {which}", _known(pose, what, which))
+        return known[what, which]
+
+    try:
+        traced = trace(problem_of(graph, symbols, c, inertia, path, ways))
+    except (ValueError, TypeError, KeyError):  # no closed form, or none that its numbers alone decide
+        return None
+    graph.samples.clear()
+    return _kept(graph, (*symbols.inputs, *ways.inputs), traced, ways, symbols.drives[0], c)
+
+
+def problem_of(
+    graph: Graph,
+    symbols: Symbols,
+    c: Compiled,
+    inertia: bool,
+    path: Callable[[str, int], Node],
+    signs: Callable[..., Node],
+) -> Problem:
+    """What a mechanism on nodes asks of the kernel."""
+    symbolic, (position, speed, acceleration) = symbols.compiled, symbols.drives
     angular = c.layout.freedoms.angular[c.layout.driven]
     cosine, sine = (
         np.array(
@@ -133,16 +191,7 @@ def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) ->
         for f in ("cos", "sin")
     )
     drives = Drives(position, cosine, sine, speed, acceleration)
-    known: dict[tuple[str, int], Node] = {}
-    ways = _Ways(graph, pose)
-
-    def path(what: str, which: int) -> Node:
-        if (what, which) not in known:
-            known[what, which] = graph.input("channel", f"known {what} {which}", _known(pose, what, which))
-        return known[what, which]
-
-    symbolic = symbols.compiled
-    problem = Problem(
+    return Problem(
         graph=graph,
         layout=symbolic.layout,
         forcing=symbolic.forcing,
@@ -156,18 +205,12 @@ def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) ->
         inertia=inertia,
         path=path,
         first_path=path,
-        signs=ways,
-        contacts=None,
+        signs=signs,
+        contacts=None if symbols.pose is None else symbolic.contacts,
         slips=None,
         reversals=None,
         margins={},
     )
-    try:
-        traced = trace(problem)
-    except (ValueError, TypeError, KeyError):  # no closed form, or none that its numbers alone decide
-        return None
-    graph.samples.clear()
-    return _kept(graph, (*symbols.inputs, *ways.inputs), traced, ways, position, c)
 
 
 def _circular(f: str, angle: Scalar) -> Scalar:
@@ -210,20 +253,15 @@ def _kept(
     squares = {n.index: n for n in t.closure if n.level != CONSTANT}
     closure = squares | {n.index: n for n in (*t.open, *graph.decisions) if n.level != CONSTANT}
     margin = {n.index: n for n in t.doubt if n.level != CONSTANT}
-    nodes = {
+    whole = {
         "closure": np.array(list(closure.values()), object),
         "point": t.pose.point[:-1],
         "rotation": t.pose.rotation[:-1].T,  # cosines, then sines
         "turn": trace_array(graph, np.where(fixed, t.pose.turn[:-1], 0.0)),
-        "twist": t.twist[:-1],
-        "acceleration": t.acceleration[:-1],
-        **{
-            name: getattr(t, name)
-            for name in ("effort", "load", "force", "moment", "loads", "unbalanced", "power")
-        },
-        "virtual": t.virtual[:, :-1],
+        **force_nodes(t),
         "margin": np.array([n for k, n in margin.items() if k not in closure], object),
     }
+    nodes = {name: whole[name] for name in (*KEPT, *CHECKS)}
     known_all = {name: all(needs[n.index] >= 0 for n in a.ravel()) for name, a in nodes.items()}
     if not all(known_all[name] for name in POSE):
         return None
@@ -242,6 +280,13 @@ def _kept(
         last=np.array(last, np.intp),
         driven=driven,
     )
+
+
+def force_nodes(t: Traced) -> dict[str, Array]:
+    """Motion, forces and what checks them, by name."""
+    names = ("effort", "load", "force", "moment", "loads", "unbalanced", "power")
+    motion = {"twist": t.twist[:-1], "acceleration": t.acceleration[:-1], "virtual": t.virtual[:, :-1]}
+    return motion | {name: getattr(t, name) for name in names}
 
 
 def _needs(graph: Graph, ways: list[Node], known: set[int]) -> list[int]:

@@ -10,8 +10,7 @@ from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.compile.pose_loads import with_pose_loads
 from dalembert.analysis.compile.torsion_turns import wound
 from dalembert.analysis.degree_of_freedom import Mobility
-from dalembert.analysis.engine.kept_program import KeptProgram
-from dalembert.analysis.engine.structures import Ready, ready
+from dalembert.analysis.engine.structures import BLOCK, Ready, ready
 from dalembert.analysis.engine.walk import STEP, count_turns, is_steady, walk_through, with_between
 from dalembert.analysis.positions import Positions
 from dalembert.analysis.result.result import Result
@@ -19,9 +18,6 @@ from dalembert.analysis.status.statuses import UNBALANCED
 from dalembert.arrays import Array
 from dalembert.core.layout import Pose
 from dalembert.core.position.motion_path import Path
-
-BLOCK = 1024
-"""Positions computed at once: their values stay in the cache."""
 
 
 def quick_answer(c: Compiled, inertia: bool, forces: bool) -> Result | Positions | None:
@@ -88,8 +84,8 @@ def _evaluate(r: Ready, c: Compiled, columns: Array, pose_only: bool) -> _Output
             if not (np.isfinite(here.sum()) and (here[k.rows["closure"]] >= 0).all()):
                 return None
             if not pose_only:
-                residual[part], power[part] = _checks(k, c, here)
-                if not (_sure(k, here) and (residual[part] <= UNBALANCED).all()):
+                residual[part], power[part] = k.balance(c.layout, here)
+                if not (k.sure(here) & (residual[part] <= UNBALANCED)).all():
                     return None
             if count > BLOCK:
                 out[:, part] = here[:kept]
@@ -99,26 +95,6 @@ def _evaluate(r: Ready, c: Compiled, columns: Array, pose_only: bool) -> _Output
 def _at(columns: Array, part: slice) -> list[Any]:
     """Columns at some positions; of one position single numbers, which are quicker to compute with."""
     return list(columns[:, part]) if columns.shape[1] > 1 else columns[:, 0].tolist()
-
-
-def _sure(k: KeptProgram, out: Array) -> bool:
-    """Whether the squares of rates are numbers, and nothing says that a position is in doubt."""
-    rates = out[k.rows["twist"]]
-    return bool(np.isfinite((rates * rates).sum()) and (out[k.rows["margin"]] >= 0).all())
-
-
-def _checks(k: KeptProgram, c: Compiled, out: Array) -> tuple[Array, Array]:
-    """Residual over the largest force, and virtual power over force times velocity, at each place."""
-    per_length = c.layout.wrench_scale[:, None]
-    forces = np.abs(out[k.rows["force"].start : k.rows["loads"].stop])
-    forces[k.moments] /= c.layout.length
-    largest = forces.max(axis=0, initial=0.0)
-    left = np.abs(out[k.rows["unbalanced"]]).reshape(*k.nodes["unbalanced"].shape, out.shape[1]) * per_length
-    residual = left.max(axis=(0, 1), initial=0.0) / np.where(largest > 0, largest, 1.0)
-    speeds = np.abs(out[k.rows["virtual"]]).reshape(*k.nodes["virtual"].shape, out.shape[1]) / per_length
-    reference = largest * speeds.max(axis=(1, 2), initial=0.0)
-    balance = np.abs(out[k.rows["power"]]) / np.where(reference > 0, reference, 1.0)
-    return residual, balance.max(axis=0, initial=0.0)
 
 
 def _mobility(c: Compiled) -> Mobility:

@@ -11,10 +11,15 @@ import numpy as np
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.engine.first_way import First, first_way, remember
 from dalembert.analysis.engine.flat_numbers import flat_numbers, values
-from dalembert.analysis.engine.kept_program import DeadCentreError, KeptProgram, trace_structure
+from dalembert.analysis.engine.force_program import ForceBlock, ForceProgram, force_blocks, trace_forces
+from dalembert.analysis.engine.kept_program import DeadCentreError, KeptProgram, Outputs, trace_structure
 from dalembert.analysis.positions import mode_sentence
 from dalembert.arrays import Array
+from dalembert.core.layout import Pose
 from dalembert.core.position.first_pose_plane import Guess, phase_rows
+
+BLOCK = 1024
+"""Positions computed at once: their values stay in the cache."""
 
 KEPT = 500_000
 """Operations of all programs that are kept: so many take about 200 MB."""
@@ -24,14 +29,24 @@ FEW_LINKS, FEW_POSITIONS = 8, 50
 trace: it is traced when it is met again."""
 
 
-class _Met:
-    """Stands for a program where a structure was met once."""
+TRACE = 8.0
+"""Time that it takes to trace forces where poses are known, milliseconds a link."""
+
+CALL, POSITION = 10.0, 0.03
+"""Time of the careful path for these forces, milliseconds an analysis and a position: once it has taken as long as
+tracing takes, a structure is traced."""
+
+
+class _Met(NamedTuple):
+    """Stands for a program where a structure was met: what the careful path has taken for it."""
+
+    spent: float = 0.0
 
 
 MET = _Met()
 
 
-Kept = KeptProgram | _Met | None
+Kept = KeptProgram | ForceProgram | _Met | None
 """A program, or none where a structure has none."""
 
 
@@ -57,7 +72,7 @@ class Structures:
 
 
 def _size(program: Kept) -> int:
-    return len(program.graph.nodes) if isinstance(program, KeptProgram) else 1
+    return len(program.graph.nodes) if isinstance(program, Outputs) else 1
 
 
 STRUCTURES = Structures()
@@ -94,8 +109,32 @@ def ready(c: Compiled, inertia: bool) -> Ready | None:
         if program is not None:
             remember(program, c, given, First(program.ways, modes.pose.turn[0, :-1], mode_sentence(c, modes)))
         STRUCTURES.put(key, program)
-    first = None if program is None else first_way(program, c, given)
-    return None if first is None or program is None else Ready(program, single, columns, first)
+    first = first_way(program, c, given) if isinstance(program, KeptProgram) else None
+    return (
+        None
+        if first is None or not isinstance(program, KeptProgram)
+        else Ready(program, single, columns, first)
+    )
+
+
+def known_forces(c: Compiled, pose: Pose, inertia: bool) -> ForceBlock | None:
+    """Motion and forces where the poses (P, L+1, ...) are known, by the structure's program; None where there is none,
+    or none yet."""
+    if c.layout.redundant or not c.layout.square or (c.passive and c.contacts is not None):
+        return None
+    if not np.isfinite(pose.point).all(axis=(1, 2)).any():
+        return None
+    numbers = flat_numbers(c, pose)
+    key = (inertia, "forces", *numbers.key)
+    there, program = STRUCTURES.get(key)
+    if not there or isinstance(program, _Met):
+        spent = (program.spent if isinstance(program, _Met) else 0.0) + CALL + POSITION * c.schedule.count
+        if spent < TRACE * c.layout.links:
+            STRUCTURES.put(key, _Met(spent))
+            return None
+        program = trace_forces(c, pose, numbers, inertia)
+        STRUCTURES.put(key, program)
+    return force_blocks(c, program, numbers, BLOCK) if isinstance(program, ForceProgram) else None
 
 
 def _suits(c: Compiled) -> bool:

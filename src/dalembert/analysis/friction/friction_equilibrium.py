@@ -64,7 +64,7 @@ class FrictionProblem:
 
     c: Compiled
     contacts: Contacts
-    part: slice
+    part: slice | Ints
     forcing: Forcing
     known: Known
     pose: Pose
@@ -141,7 +141,7 @@ class FrictionProblem:
             here = at(repeat(r, len(state.open)), some)
             branch = follow_branch_with_spin(contacts, here, state.open[some], rods.at(some))
             on = branch.critical != 0
-            found = put(found, some[on], at(branch, on))._replace(iterations=found.iterations)
+            found = put(found, some[on], at(branch, on))
         return found, rods
 
     def _state(
@@ -225,7 +225,6 @@ class FrictionProblem:
             argument=argument(self.r, cz),
             determinant=found.determinant,
             critical=found.critical,
-            iterations=found.iterations,
             single=found.single,
             open=state.open,
             reversing=np.zeros_like(state.open) if reversing is None else reversing,

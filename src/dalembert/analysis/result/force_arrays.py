@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dalembert.arrays import Array, Flags, Ints, Tree
+from dalembert.arrays import Array, Flags, Ints, Tree, at
 
 
 class Friction(NamedTuple):
@@ -15,7 +15,7 @@ class Friction(NamedTuple):
     force (P, joints, 2), moment (P, joints): dry friction on j, moment about j's point; viscous beside it
     dry_loss, viscous_loss (P, joints): power
     cz, sense, rate (P, E), argument (P, 3, E) of each contact
-    determinant, critical, iterations, single (P,): of the solution (core.friction.friction_solver)
+    determinant, critical, single (P,): of the solution (core.friction.friction_solver)
     open (P, E): contacts at rest, whose sense nothing tells; reversing (P, E): contacts that only reverse here, so that
     these are the numbers just before, and others hold just after; blocked (P,): their reactions are not unique
     locked (P,): the unknowns' power has the other sign than without friction, with and without inertia
@@ -35,7 +35,6 @@ class Friction(NamedTuple):
     argument: Array
     determinant: Array
     critical: Array
-    iterations: Ints
     single: Flags
     open: Flags
     reversing: Flags
@@ -87,6 +86,17 @@ def concatenate_blocks(parts: list[Forces]) -> Forces:
     )
     some = any(p.after is not None for p in parts)
     return whole._replace(after=concatenate_blocks([p.after or p for p in parts]) if some else None)
+
+
+def at_places(f: Forces, where: Ints) -> Forces:
+    """Forces at some positions, or in another order."""
+    made: Tree = {name: None if (a := getattr(f, name)) is None else a[where] for name in ARRAYS}
+    return Forces(
+        **made,
+        friction=None if f.friction is None else at(f.friction, where),
+        ends=tuple(at_places(end, where) for end in f.ends),
+        after=None if f.after is None else at_places(f.after, where),
+    )
 
 
 def _concatenate(arrays: list[Array | None]) -> Array | None:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dalembert.arrays import Array, Flags, Ints, at
+from dalembert.arrays import Array, Flags, at
 from dalembert.core.friction.contact_equations import (
     Contacts,
     Response,
@@ -56,8 +56,8 @@ SMALLEST = 1e-10
 class FrictionSolution(NamedTuple):
     """Friction in one state of the contacts: z (P, E), c (P, E), the multipliers x (P, X), what came of it.
 
-    determinant: det(A + J) / det(A); iterations of Newton; critical: friction scale where the branch ends, NaN where
-    it does not before 1; single: proved to be the only solution; locked: it turns the power of the unknowns round.
+    determinant: det(A + J) / det(A); critical: friction scale where the branch ends, NaN where it does not before 1;
+    single: proved to be the only solution; locked: it turns the power of the unknowns round.
     """
 
     state: SlipState
@@ -65,7 +65,6 @@ class FrictionSolution(NamedTuple):
     c: Array
     x: Array
     determinant: Array
-    iterations: Ints
     critical: Array
     single: Flags
     locked: Flags
@@ -77,7 +76,6 @@ class NewtonResult(NamedTuple):
     z: Array
     arrived: Flags
     determinant: Array
-    iterations: Ints
     near: Flags
 
 
@@ -97,17 +95,17 @@ def solve_friction(contacts: Contacts, r: Response, state: SlipState) -> Frictio
     c = np.broadcast_to(strength(contacts, 1.0, resting, sense), sense.shape)
     first = newton(contacts, r, sense, c, np.zeros_like(sense))
     single = spectral_bound(contacts, with_strength(r, c * np.abs(sense))) < 1
-    z, determinant, count = first.z, first.determinant, first.iterations
+    z, determinant = first.z, first.determinant
     critical = np.full(len(sense), np.nan)
     finite = np.isfinite(r.y).all(axis=(-2, -1))
     rest = np.flatnonzero(~(first.arrived & single) & finite)
     if rest.size:
         part, scale = _follow_branch(contacts, at(r, rest), sense[rest], resting[rest])
-        z[rest], determinant[rest], count[rest] = part.z, part.determinant, part.iterations
+        z[rest], determinant[rest] = part.z, part.determinant
         critical[rest] = np.where(part.arrived, np.nan, scale)
         z[rest[~part.arrived]] = np.nan
     x, locked = multiplier(r, c * z), np.zeros(len(sense), bool)
-    return FrictionSolution(state, z, c, x, determinant, count, critical, single, locked)
+    return FrictionSolution(state, z, c, x, determinant, critical, single, locked)
 
 
 def roots(contacts: Contacts, r: Response, sense: Array, starts: Array) -> tuple[Array, Array, Array]:
@@ -132,7 +130,6 @@ def newton(
     S is homogeneous: S = slope . y. The first step takes the slope at ``before``, the arguments of a solution close
     by, rather than at the start, which may lie behind a kink.
     """
-    count = np.zeros(len(sense), np.intp)
     arrived = np.zeros(len(sense), bool)
     r = with_strength(r, c)
     start, y = z, argument(r, z)
@@ -149,7 +146,6 @@ def newton(
         now = (new <= ROUNDING * contacts.count * largest) | (
             np.abs(step).max(axis=-1, initial=0.0) <= ARRIVED * largest
         )
-        count = np.where(arrived, count, k + 1)
         arrived |= now
         if arrived.all():
             break
@@ -159,7 +155,7 @@ def newton(
     if before is not None:
         ahead = np.linalg.det(np.nan_to_num(jacobian(r, first, sense)))
         near = arrived & (ahead > 0) & _goes_on(start, landing, z)
-    return NewtonResult(np.where(arrived[:, None], z, np.nan), arrived, determinant, count, near)
+    return NewtonResult(np.where(arrived[:, None], z, np.nan), arrived, determinant, near)
 
 
 def _largest(y: Array) -> Array:
@@ -174,7 +170,7 @@ def _follow_branch(
     scale, step = np.zeros(count), np.full(count, LONGEST)
     c = np.array(np.broadcast_to(strength(contacts, 0.0), sense.shape))
     found = newton(contacts, r, sense, c, np.zeros_like(sense))
-    z, determinant, iterations = found.z, found.determinant, found.iterations.copy()
+    z, determinant = found.z, found.determinant
     while True:
         on = np.flatnonzero((scale < 1) & (step > SMALLEST))
         if not on.size:
@@ -184,12 +180,11 @@ def _follow_branch(
         before = argument(part, c[on] * z[on])
         new = newton(contacts, part, sense[on], raised, z[on], before, 10)
         good = new.near & (new.determinant > 0)
-        iterations[on] += new.iterations
         kept = on[good]
         z[kept], determinant[kept] = new.z[good], new.determinant[good]
         scale[kept], c[kept] = aim[good], raised[good]
         step[on] = np.where(good, np.minimum(2 * step[on], LONGEST), step[on] / 2)
-    return NewtonResult(z, scale >= 1, determinant, iterations, scale >= 1), scale
+    return NewtonResult(z, scale >= 1, determinant, scale >= 1), scale
 
 
 def _goes_on(start: Array, landing: Array, end: Array) -> Flags:

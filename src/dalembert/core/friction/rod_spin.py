@@ -193,8 +193,8 @@ def follow_branch_with_spin(
     ended, state = scale < 1, rods.senses(phi)
     z, critical = np.where(ended[:, None], np.nan, z), np.where(ended, scale, np.nan)
     c = strength(contacts, 1.0, resting, state.sense)
-    x, none = multiplier(r, c * z), np.zeros(count, np.intp)
-    return FrictionSolution(state, z, c, x, determinant, none, critical, none > 0, none > 0)
+    x, none = multiplier(r, c * z), np.zeros(count, bool)
+    return FrictionSolution(state, z, c, x, determinant, critical, none, none)
 
 
 def _nested_newton(

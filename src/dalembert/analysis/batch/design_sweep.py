@@ -1,0 +1,336 @@
+"""``da.sweep``: one mechanism with some values replaced, an analysis for each, one labelled answer."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import groupby, product
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from dalembert.analysis.batch.batch_result import CODES
+from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
+from dalembert.analysis.batch.over_positions import check, reduce_positions
+from dalembert.analysis.output.columns import Scale, UnitChoice, drive_kinds
+from dalembert.analysis.result.named_quantities import Quantity, quantity, quantity_names
+from dalembert.analysis.result.result import Result
+from dalembert.analysis.solution import solve
+from dalembert.arrays import Array, Tree
+from dalembert.errors import SOLVED, STATUSES, ModelError
+from dalembert.model import Mechanism
+from dalembert.model.paths import value_at
+from dalembert.progress import progress as progress_line
+from dalembert.saving import check_installed
+from dalembert.units import KINDS
+from dalembert.wording import closest
+
+if TYPE_CHECKING:
+    import xarray
+
+MANY, MOST = 500, 10_000_000
+"""Designs from which on a compiled analysis pays for its tracing; and more of them than anybody means."""
+KEPT = ("effort", "load", "reaction", "magnitude", "moment")
+"""What is kept of each answer where nothing else is asked for."""
+
+Values = Mapping[str, Sequence[Any]]
+Done = Callable[[int, int], object]
+
+
+def sweep(
+    m: Mechanism,
+    vary: str | Values,
+    values: Sequence[Any] | None = None,
+    *,
+    outputs: Sequence[str] | str | None = None,
+    together: bool = False,
+    static: bool = False,
+    positions: int | None = None,
+    progress: Done | None = None,
+) -> Sweep:
+    """The analyses of `solve` with the value at a path (of ``with_values``) replaced by each of some values.
+
+    ``vary``: a path, with ``values``; or a mapping of paths to values: a grid, or with ``together`` value by value.
+    Numbers are SI and radians, texts as the file reads them (``"3 lb"``). ``outputs``: names of quantities, default
+    every effort, unknown load and reaction. Many numbers run compiled (`da.compile`), all else by kept programs, with
+    the same answers. ``progress``: called with (designs done, designs). Raises ModelError for a value that is refused.
+
+    >>> import dalembert as da
+    >>> s = da.sweep(da.four_bar(), "links.coupler.mass", [1.0, 2.0, 4.0], outputs="effort.O2")
+    >>> s["effort.O2"].shape, s.over("effort.O2", "peak").shape
+    ((3, 72), (3,))
+    """
+    given = _given(vary, values)
+    shape = _shape(given, together)
+    designs = list(zip(*given.values(), strict=True) if together else product(*given.values()))
+    labels = {path: _labels(m, path, of) for path, of in given.items()}
+    nominal = _analysis(m, tuple(given), designs[0], static, positions)
+    wanted = [outputs] if isinstance(outputs, str) else outputs
+    names = [n for n in quantity_names(nominal) if n.split(".")[0] in KEPT] if wanted is None else wanted
+    like = {name: quantity(nominal, name) for name in names}
+    with progress_line("Sweeping", len(designs)) as step:
+
+        def tell(done: int, designs: int) -> None:
+            step(done)
+            if progress is not None:
+                progress(done, designs)
+
+        compiled = positions is None and len(designs) >= MANY and _all_numbers(labels, given)
+        found = _compiled(nominal, tuple(given), designs, like, tell) if compiled else None
+        if found is None:
+            results = (_analysis(m, tuple(given), design, static, positions) for design in designs)
+            found = _collected(results, like, len(designs), tell)
+    kinds = {name: q.kind for name, q in like.items()}
+    return Sweep(m, dict(labels), together, kinds, nominal, found.shaped(shape))
+
+
+def _given(vary: str | Values, values: Sequence[Any] | None) -> dict[str, list[Any]]:
+    """Values by path, as plain Python has them."""
+    if isinstance(vary, str) == (values is None) or isinstance(values, str):
+        raise ModelError("a sweep needs values for its path", 'da.sweep(m, "links.rod.mass", [1, 2, 3])')
+    pairs = {vary: values} if isinstance(vary, str) else vary
+    return {
+        path: [v.item() if isinstance(v, np.generic) else v for v in ([] if of is None else of)]
+        for path, of in pairs.items()
+    }
+
+
+def _shape(given: Values, together: bool) -> tuple[int, ...]:
+    counts = {path: len(of) for path, of in given.items()}
+    if not counts or not all(counts.values()):
+        raise ModelError("a sweep needs at least one value for each path", "give a list of values")
+    said = ", ".join(f"{count} of {path}" for path, count in counts.items())
+    if together and len(set(counts.values())) > 1:
+        raise ModelError(f"values cannot be taken together: {said}", "give as many of each")
+    shape = tuple(counts.values())[:1] if together else tuple(counts.values())
+    if math.prod(shape) > MOST:
+        raise ModelError(f"{math.prod(shape)} designs are too many: {said}", f"ask for at most {MOST}")
+    return shape
+
+
+class Labels(NamedTuple):
+    """Values of a path, SI, with their unit, or texts where they are no single numbers; and as they were given."""
+
+    values: tuple[Any, ...]
+    unit: str
+    given: tuple[Any, ...]
+
+    @property
+    def kind(self) -> str:
+        """What the numbers are, of ``units.KINDS``."""
+        return next((kind for kind, of in KINDS.items() if of.si == self.unit), "number")
+
+    @property
+    def texts(self) -> list[str]:
+        """The values with their unit: a text as it was given."""
+        return [f"{v:.6g} {self.unit}".strip() if _is_number(v) else str(v) for v in self.given]
+
+
+def _labels(m: Mechanism, path: str, given: Sequence[Any]) -> Labels:
+    plain = all(map(_is_number, given))
+    changed = [m.with_values({path: v}) for v in ((min(given), max(given)) if plain else given)]
+    found = given if plain else [value_at(one, path.split(".")) for one in changed]
+    if all(map(_is_number, found)):
+        return Labels(tuple(map(float, found)), _unit(changed[-1], path), tuple(given))
+    return Labels(tuple(map(str, given)), "", tuple(given))
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _all_numbers(labels: Mapping[str, Labels], given: Values) -> bool:
+    """Whether a compiled analysis can have them; drives decide whether there is inertia, design by design."""
+    return all(map(_is_number, [v for of in given.values() for v in of])) and not any(
+        path.startswith("drives.") for path in labels
+    )
+
+
+def _unit(m: Mechanism, path: str) -> str:
+    """SI unit of the number at a path, as a saved file has it."""
+    part: Any = m.to_tree()
+    for key in path.split("."):
+        part = part[int(key)] if isinstance(part, list) else part.get(key) if isinstance(part, dict) else None
+    return part.partition(" ")[2] if isinstance(part, str) else ""
+
+
+def _analysis(
+    m: Mechanism, paths: Sequence[str], design: Sequence[Any], static: bool, positions: int | None
+) -> Result:
+    return solve(m.with_values(dict(zip(paths, design, strict=True))), static, positions)
+
+
+class _Answers(NamedTuple):
+    """Of all designs: status and sentence, positions of the drives, quantities; those just after reversals."""
+
+    status: Array
+    reasons: Array
+    drives: Array
+    arrays: dict[str, Array]
+    after: dict[str, Array]
+
+    def shaped(self, shape: tuple[int, ...]) -> _Answers:
+        """The designs along several axes."""
+
+        def to(a: Array) -> Array:
+            return a.reshape(shape + a.shape[1:])
+
+        arrays, after = ({name: to(a) for name, a in of.items()} for of in (self.arrays, self.after))
+        return _Answers(to(self.status), to(self.reasons), to(self.drives), arrays, after)
+
+
+def _collected(results: Iterator[Result], like: Mapping[str, Quantity], count: int, tell: Done) -> _Answers:
+    """The answers of analyses one by one."""
+    parts: list[tuple[Any, ...]] = []
+    for k, r in enumerate(results):
+        if parts and len(r.status) != len(parts[0][0]):
+            what = f"designs have {len(parts[0][0])} and {len(r.status)} positions"
+            raise ModelError(what, "give the drives as many in each")
+        before, after = r.sides[0], r.sides[-1]
+        values = [[side[name] for name in like] for side in (before, after)]
+        parts.append((r.status, r.reasons, r.schedule.position, *values, r.after is not None))
+        tell(k + 1, count)
+    status, reasons, drives, first, last, two = zip(*parts, strict=True)
+    arrays = [dict(zip(like, map(np.stack, zip(*of, strict=True)), strict=True)) for of in (first, last)]
+    said, why = (np.array(of, object) for of in (status, reasons))
+    return _Answers(said, why, np.stack(drives), arrays[0], arrays[1] if any(two) else {})
+
+
+def _compiled(
+    nominal: Result, paths: Sequence[str], designs: Sequence[Any], like: Mapping[str, Quantity], tell: Done
+) -> _Answers | None:
+    """The same by a compiled analysis; nothing where there is none, or where it refuses a design."""
+    try:
+        kernel = compile_kernel(nominal.mechanism, paths, list(like), static=not nominal.inertia)
+    except ModelError:
+        return None
+    found = kernel(np.array(designs, float), progress=tell)
+    if (found.code == CODES.index("failed")).any():
+        return None  # the analysis of that design says why
+    sides = [
+        {n: of.value(n).reshape(found.code.shape + q.values.shape[1:]) for n, q in like.items()}
+        for of in (found, found.after)
+        if of is not None
+    ]
+    position = nominal.schedule.position
+    drives = np.broadcast_to(position, (len(designs), *position.shape))
+    reasons = np.full(found.code.shape, None, object)
+    return _Answers(found.status, reasons, drives, sides[0], sides[1] if len(sides) > 1 else {})
+
+
+@dataclass(frozen=True, repr=False)
+class Sweep:
+    """Answers along one axis a path (one for all where taken together), then position; SI and radians.
+
+    ``s["effort.O2"]`` has the axes (values..., position), of a vector its components last; NaN where there is no
+    answer, and ``status`` says why. Where contacts reverse the numbers are those just before, ``answers.after`` has
+    those just after.
+    """
+
+    mechanism: Mechanism
+    labels: dict[str, Labels]
+    together: bool
+    kinds: dict[str, str]
+    nominal: Result
+    answers: _Answers
+
+    @property
+    def paths(self) -> tuple[str, ...]:
+        """What is varied."""
+        return tuple(self.labels)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """How many designs along each axis."""
+        return tuple(self.status.shape[:-1])
+
+    @property
+    def status(self) -> Array:
+        """Code of each design and position."""
+        return self.answers.status
+
+    @property
+    def ok(self) -> Array:
+        """Which of them are solved."""
+        return np.isin(self.status.astype(str), SOLVED)
+
+    @property
+    def designs(self) -> list[tuple[str, ...]]:
+        """The values of each design as text with units, in the order of the axes."""
+        texts = [of.texts for of in self.labels.values()]
+        return list(zip(*texts, strict=True) if self.together else product(*texts))
+
+    def __repr__(self) -> str:
+        many = " x ".join(map(str, self.shape))
+        solved = f"{int(self.ok.sum())} of {self.status.size} positions solved"
+        return f"<Sweep of {', '.join(self.paths)}: {many} designs, {solved}>"
+
+    def __getitem__(self, name: str) -> Array:
+        """A quantity by its name, SI."""
+        if name not in self.answers.arrays:
+            raise ModelError(f"the sweep has not kept {name!r}", closest(name, list(self.answers.arrays)))
+        return self.answers.arrays[name]
+
+    __iter__ = None  # a sweep is no sequence
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self.answers.arrays)
+
+    def over(self, name: str, reduce: str = "peak") -> Array:
+        """A number, or a vector's size, reduced over the positions: `peak` (largest magnitude), `mean`, `rms`,
+        `envelope`, ...; both sides of reversals counted, NaN where some position has no value."""
+        check(reduce)
+        sides = [self[name], *([self.answers.after[name]] if self.answers.after else [])]
+        axis = len(self.shape)
+        both = np.concatenate([np.linalg.norm(a, axis=-1) if a.ndim > axis + 1 else a for a in sides], axis)
+        return reduce_positions(reduce, np.moveaxis(both, axis, 0))
+
+    def problems(self) -> list[tuple[str, str, str]]:
+        """Runs of positions that are not solved: design and positions (from 1), status, sentence."""
+        out, count = [], self.status.shape[-1]
+        reasons = self.answers.reasons.reshape(-1, count)
+        for values, status, why in zip(self.designs, self.status.reshape(-1, count), reasons, strict=True):
+            said = ", ".join(f"{path} = {value}" for path, value in zip(self.paths, values, strict=True))
+            for (code, reason), run in groupby(enumerate(zip(status, why, strict=True), 1), lambda p: p[1]):
+                where = [k for k, _ in run]
+                if code not in SOLVED:
+                    which = f"{where[0]}" + (f"-{where[-1]}" if where[1:] else "")
+                    known = STATUSES[code].sentence if code in STATUSES else code
+                    out.append((f"{said}: position {which}", code, reason or known))
+        return out
+
+    def to_xarray(self, units: UnitChoice = "SI") -> xarray.Dataset:
+        """Quantities over the values of the paths, position and component, each with ``attrs["units"]``."""
+        check_installed("xarray", "a dataset")
+        import xarray
+
+        to = Scale(None if units == "SI" else self.mechanism.units)
+        axes = ("design",) if self.together else self.paths
+        data: Tree = {"status": ((*axes, "position"), self.status.astype(str))}
+        for name, values in self.answers.arrays.items():
+            over = (*axes, "position", *("component", "link_axis")[: values.ndim - len(self.shape) - 1])
+            data[name] = (over, to(self.kinds[name], values), {"units": to.text(self.kinds[name])})
+        names: Tree = {"position": np.arange(1, self.status.shape[-1] + 1)}
+        names["component"] = list("xyz"[: self.mechanism.dimension])
+        for path, labels in self.labels.items():
+            shown = to(labels.kind, np.array(labels.values)) if labels.unit else list(labels.values)
+            names[path] = ("design" if self.together else path, shown, {"units": to.text(labels.kind)})
+        for k, drive in enumerate(self.nominal.drives):
+            kind = drive_kinds(self.nominal, drive)["position"]
+            values = to(kind, self.answers.drives[..., k])
+            names[f"position_{drive}"] = ((*axes, "position"), values, {"units": to.text(kind)})
+        return xarray.Dataset(data, coords=names, attrs={"title": self.mechanism.title or ""})
+
+    def plot(self, name: str, reduce: str | None = None, ax: Any = None) -> Any:
+        """Curves over the cycle, one a design; with ``reduce`` (`peak`, `mean`, `rms`) against the first path's values.
+
+        A Scene, or drawn on matplotlib's ``ax``, in the units of the file."""
+        from dalembert.notebook.plots import plot_sweep
+
+        return plot_sweep(self, name, reduce, ax)
+
+    def _repr_html_(self) -> str:
+        from dalembert.notebook.html_views import sweep_html
+
+        return sweep_html(self)

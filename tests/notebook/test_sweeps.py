@@ -1,0 +1,162 @@
+"""`da.sweep`: every design as it is by itself, compiled or not; labels, units, statuses; refusals."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.analysis.batch import design_sweep
+from dalembert.bundled import cases, examples
+from tests.notebook.test_cards import read
+from tests.tiers import tiers
+
+FOUR_BAR = da.load(examples()["four_bar"])
+LBF, INCH = 4.4482216152605, 0.0254
+COUPLER, ROCKER = "links.coupler.weight", "links.rocker.weight"
+
+
+def test_each_design_is_its_own_analysis() -> None:
+    grid: dict[str, Any] = {COUPLER: ["5 lbf", "9 lbf"], ROCKER: np.array([10.0, 20.0, 30.0])}
+    s = da.sweep(FOUR_BAR, grid, positions=5)
+    assert s.shape == (2, 3)
+    for i, coupler in enumerate(grid[COUPLER]):
+        for j, rocker in enumerate(grid[ROCKER]):
+            r = da.dynamics(FOUR_BAR.with_values({COUPLER: coupler, ROCKER: rocker}), positions=5)
+            for name in ("effort.O2", "reaction.A", "magnitude.B"):
+                assert (s[name][i, j] == r[name]).all()
+            assert s.over("reaction.A")[i, j] == r.worst("reaction", "A")[0]
+            assert s.over("effort.O2", "mean")[i, j] == pytest.approx(r.effort("O2").mean())
+    assert s.designs[1] == ("5 lbf", "20 N")
+
+
+def test_together_is_value_by_value() -> None:
+    s = da.sweep(FOUR_BAR, {COUPLER: [20, 40], ROCKER: [10, 30]}, together=True, outputs="effort.O2")
+    alone = [
+        da.dynamics(FOUR_BAR.with_values({COUPLER: c, ROCKER: r})).effort("O2")
+        for c, r in ((20, 10), (40, 30))
+    ]
+    assert (s["effort.O2"] == alone).all()
+    assert s.to_xarray()["effort.O2"].dims == ("design", "position")
+    assert s.to_xarray().coords[ROCKER].attrs == {"units": "N"}
+
+
+ROUGH = "seed-002-7g-engine-guide-100-mm"
+
+
+@pytest.mark.parametrize(
+    "case",
+    tiers(
+        [("engine", "links.rod.mass")],
+        [("rssr", "loads.resistance.value"), (ROUGH, "links.piston.mass")],
+    ),
+)
+def test_compiled_and_one_by_one_agree(case: tuple[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
+    name, path = case
+    m = da.load({**examples(), **cases()}[name])
+    values = np.linspace(0.1, 1.0, 7)
+    alone = da.sweep(m, path, values)
+    monkeypatch.setattr(design_sweep, "MANY", 5)
+    compiled = da.sweep(m, path, values)
+    monkeypatch.setattr(design_sweep, "_collected", None)  # the compiled way was gone
+    da.sweep(m, path, values)
+    assert (compiled.status == alone.status).all()
+    for name, value in alone.answers.arrays.items():
+        scale = np.nanmax(np.abs(value), initial=0.0)
+        np.testing.assert_allclose(
+            compiled[name], value, rtol=1e-9, atol=1e-9 * max(scale, 1e-9), equal_nan=True
+        )
+
+
+def test_a_sweep_is_labelled_with_units() -> None:
+    s = da.sweep(FOUR_BAR, COUPLER, [2 * LBF, 4 * LBF], positions=3, outputs=["effort.O2", "reaction.A"])
+    si, of_file = s.to_xarray(), s.to_xarray("file")
+    assert si["reaction.A"].dims == (COUPLER, "position", "component")
+    assert of_file[COUPLER].values == pytest.approx([2, 4])
+    assert [d[COUPLER].attrs["units"] for d in (si, of_file)] == ["N", "lbf"]
+    assert of_file["effort.O2"].attrs["units"] == "lbf*in"
+    assert (of_file["effort.O2"] * LBF * INCH).values == pytest.approx(si["effort.O2"].values)
+    assert si["position_O2"].sel(position=2).values == pytest.approx(s.nominal.drive_position("O2")[1])
+    heavier = of_file["reaction.A"].sel({COUPLER: 4}, method="nearest").sel(component="x")
+    assert heavier.values * LBF == pytest.approx(s["reaction.A"][1, :, 0])
+
+
+def test_statuses_are_kept() -> None:
+    s = da.sweep(da.four_bar(), "links.coupler.points.B.0", [0.3, 0.1])
+    assert s.ok[0].all()
+    assert (s.status[1] == "not_assembled").sum() == 29
+    assert np.isnan(s["effort.O2"][1][~s.ok[1]]).all()
+    assert np.isnan(s.over("effort.O2")[1])
+    ((which, status, sentence),) = s.problems()
+    assert (which, status) == ("links.coupler.points.B.0 = 0.1 m: position 23-51", "not_assembled")
+    assert sentence.startswith("The linkage does not close between 110 deg and 250 deg of O2")
+    assert repr(s) == "<Sweep of links.coupler.points.B.0: 2 designs, 115 of 144 positions solved>"
+    shown = read(s)
+    assert shown.rows[2][:3] == ["0.1 m", "43 of 72", "-"]
+    assert "not_assembled: links.coupler.points.B.0 = 0.1 m: position 23-51: The linkage" in shown.text
+
+
+def test_reversals_count_on_both_sides() -> None:
+    m = da.load(cases()["seed-002-7g-engine-guide-100-mm"])
+    drive = next(iter(m.drives))
+    there = m.with_values(
+        {f"drives.{drive}.position": {"from": 0, "to": 720, "count": 9}, f"drives.{drive}.speed": 10.0}
+    )
+    r = da.dynamics(there)
+    assert r.reverses.any()
+    s = da.sweep(there, "links.rod.mass", [1.0])
+    exact = da.dynamics(there.with_values({"links.rod.mass": 1.0}))
+    before, after = exact.sides
+    assert exact.ok.all()
+    assert s.over(f"effort.{drive}")[0] == exact.worst("effort", drive)[0]
+    assert (s.answers.after["reaction.A"][0] == after["reaction.A"]).all()
+    assert not (before["reaction.A"] == after["reaction.A"]).all()
+
+
+def test_curves_of_a_sweep() -> None:
+    s = da.sweep(FOUR_BAR, COUPLER, [f"{k} lbf" for k in range(1, 10)], positions=12)
+    assert list(s.plot("effort.O2").numbers) == ["1 lbf", "3 lbf", "4 lbf", "6 lbf", "7 lbf", "9 lbf"]
+    peak = s.plot("effort.O2", "peak")
+    assert peak.numbers["peak of effort.O2"] == pytest.approx(s.over("effort.O2") / LBF / INCH)
+    texts = {t.text for t in peak.texts()}
+    assert {"links.coupler.weight in lbf", "Torque in lbf·in"} <= texts
+
+
+@pytest.mark.parametrize(
+    ("ask", "said"),
+    [
+        (lambda: da.sweep(FOUR_BAR, "links.couple.weight", [1]), "did you mean 'coupler'?"),
+        (lambda: da.sweep(FOUR_BAR, COUPLER, [1, -2]), "-2 is negative; write a positive one, or 0"),
+        (lambda: da.sweep(FOUR_BAR, COUPLER), "a sweep needs values for its path"),
+        (lambda: da.sweep(FOUR_BAR, COUPLER, "3 lbf"), "a sweep needs values for its path"),
+        (lambda: da.sweep(FOUR_BAR, COUPLER, []), "needs at least one value for each path"),
+        (
+            lambda: da.sweep(FOUR_BAR, {COUPLER: [1, 2], ROCKER: [1]}, together=True),
+            "2 of links.coupler.weight, 1 of",
+        ),
+        (
+            lambda: da.sweep(FOUR_BAR, {COUPLER: range(9999), ROCKER: range(9999)}),
+            "99980001 designs are too many",
+        ),
+        (lambda: da.sweep(FOUR_BAR, COUPLER, [1.0], outputs="efort.O2"), "did you mean 'effort.O2'?"),
+        (lambda: da.sweep(FOUR_BAR, COUPLER, [1.0])["angle.rocker"], "the sweep has not kept 'angle.rocker'"),
+    ],
+)
+def test_what_is_no_sweep_is_refused(ask: Any, said: str) -> None:
+    with pytest.raises(da.ModelError) as refused:
+        ask()
+    assert said in str(refused.value)
+
+
+def test_progress_is_told_and_may_stop_it() -> None:
+    told: list[tuple[int, int]] = []
+    da.sweep(FOUR_BAR, COUPLER, [1, 2, 3], progress=lambda done, of: told.append((done, of)))
+    assert told == [(1, 3), (2, 3), (3, 3)]
+
+    def stop(done: int, of: int) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        da.sweep(FOUR_BAR, COUPLER, [1, 2, 3], progress=stop)
