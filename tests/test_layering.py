@@ -42,10 +42,10 @@ MAY_IMPORT = {
     "views.symbols": SHOWN | {"views.paper", "views.space", "views.symbols"},
     "reports": SHOWN | {"views", "reports"},
     "notebook": SHOWN | {"views", "notebook"},
-    "page": SHOWN | {"", "core", "kernel", "views", "page"},
+    "pages": SHOWN | {"", "core", "kernel", "views", "pages"},
     "exams": SHOWN | {"grading", "views", "reports", "exams"},
-    "cli": SHOWN | {"", "grading", "views", "reports", "page", "exams", "cli"},
-    "__init__": SHOWN | {"grading", "views", "reports", "page", "exams"},
+    "cli": SHOWN | {"", "grading", "views", "reports", "pages", "exams", "cli"},
+    "__init__": SHOWN | {"grading", "views", "reports", "pages", "exams"},
     "__main__": {"cli"},
 }
 """Room (or file beside them) -> rooms that its files may import, with the rooms inside these; a room that is not named

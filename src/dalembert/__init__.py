@@ -120,6 +120,7 @@ if TYPE_CHECKING:
         watt_2,
         whitworth,
     )
+    from dalembert.pages.html_page import page
     from dalembert.reports import report
     from dalembert.views import draw
     from dalembert.views.notation import Notation
@@ -160,6 +161,7 @@ _NAMES = {
         "inverted_slider_crank rccc rotating_shaft rssp rssr scissor scotch_yoke slider_crank "
         "spherical_four_bar stephenson_1 stephenson_2 stephenson_3 toggle_press watt_1 watt_2 whitworth"
     ),
+    "pages.html_page": "page",
     "reports": "report",
     "views": "draw",
     "views.notation": "Notation",
@@ -258,6 +260,7 @@ __all__ = [
     "mobility",
     "order_of_solution",
     "other_solutions",
+    "page",
     "rccc",
     "report",
     "rotating_shaft",

@@ -16,7 +16,7 @@ from cyclopts import (
 )
 
 from dalembert import __version__
-from dalembert.cli import machine_commands, variants_command, wrench_command
+from dalembert.cli import machine_commands, page_command, variants_command, wrench_command
 from dalembert.cli.options import (
     AS_IN_FILE,
     AS_USUAL,
@@ -361,6 +361,7 @@ def joints(
 
 app.command(wrench_command.wrench, help_epilogue=wrench_command.EXAMPLES)
 app.command(variants_command.variants, help_epilogue=variants_command.EXAMPLES)
+app.command(page_command.page, help_epilogue=page_command.EXAMPLES)
 app.command(machine_commands.shake, help_epilogue=machine_commands.SHAKE)
 app.command(machine_commands.flywheel, help_epilogue=machine_commands.FLYWHEEL)
 

@@ -14,7 +14,7 @@ from dalembert.analysis.output.columns import drive_kinds
 from dalembert.arrays import Array, Tree
 from dalembert.model import GROUND, Mechanism
 from dalembert.model.quantities.tables import Table
-from dalembert.page.boards import Boards
+from dalembert.pages.boards import Boards
 from dalembert.units import KINDS
 
 KIND_OF = {

@@ -19,8 +19,8 @@ from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Tree
 from dalembert.core.friction.contact_equations import strength
 from dalembert.model import GROUND
-from dalembert.page.rows import Rows
-from dalembert.page.symbolic_result import SymbolicResult
+from dalembert.pages.rows import Rows
+from dalembert.pages.symbolic_result import SymbolicResult
 from dalembert.views.formats.svg import Writer
 from dalembert.views.paper.frame import Frame
 from dalembert.views.paper.scene import Item

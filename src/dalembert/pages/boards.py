@@ -18,8 +18,8 @@ from dalembert.analysis.output.columns import drive_kinds, load_kind
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Numeric, Tree
 from dalembert.kernel.graph import CONSTANT, Node
-from dalembert.page.mechanism_items import Items
-from dalembert.page.rows import Rows
+from dalembert.pages.mechanism_items import Items
+from dalembert.pages.rows import Rows
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.frame import FINE, force_scale, round_up
 from dalembert.views.plane.mechanism_view import is_drawn, role_of, unit_size, whole_frame

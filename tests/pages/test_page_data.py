@@ -14,8 +14,8 @@ import dalembert as da
 from dalembert.analysis.batch.kernel_export import WasmModule
 from dalembert.analysis.methods.applied_forces import whole_actions
 from dalembert.bundled import cases, examples
-from dalembert.page.page_data import page_data
-from dalembert.page.sweep import with_cycle
+from dalembert.pages.page_data import page_data
+from dalembert.pages.sweep import with_cycle
 from tests.kernel.wasm_runs import run_wasm
 from tests.tiers import tiers
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import base64
 import zlib
 from collections.abc import Sequence
+from importlib.metadata import version
 
-import dalembert
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.kernel_export import plain
 from dalembert.analysis.batch.traced_analysis import trace_analysis
@@ -18,8 +18,8 @@ from dalembert.kernel.emit.wasm.module import LANES, emit_wasm
 from dalembert.kernel.graph import Node
 from dalembert.kernel.program import Program
 from dalembert.model import Mechanism
-from dalembert.page.boards import Boards
-from dalembert.page.inputs import (
+from dalembert.pages.boards import Boards
+from dalembert.pages.inputs import (
     channel_fields,
     drive_fields,
     handles,
@@ -28,9 +28,9 @@ from dalembert.page.inputs import (
     only_at_positions,
     template,
 )
-from dalembert.page.rows import Rows
-from dalembert.page.sweep import with_cycle
-from dalembert.page.symbolic_result import symbolic_actions, symbolic_result
+from dalembert.pages.rows import Rows
+from dalembert.pages.sweep import with_cycle
+from dalembert.pages.symbolic_result import symbolic_actions, symbolic_result
 from dalembert.views.formats.svg import rule
 from dalembert.views.formats.themes import THEMES
 
@@ -82,7 +82,7 @@ def page_data(m: Mechanism, static: bool = False) -> Tree:
     program = plain(k, rows.nodes)
     data: Tree = {
         "format": FORMAT,
-        "version": dalembert.__version__,
+        "version": version("dalembert"),
         "title": m.title or "A mechanism",
         "source": m.source_text,
         "units": {kind: {"unit": b.shown.unit(kind), "size": b.shown.size(kind)} for kind in UNITS},

@@ -10,7 +10,7 @@ import numpy as np
 from dalembert.arrays import Numeric
 from dalembert.kernel.graph import Graph, Node, trace_array
 from dalembert.model import GROUND
-from dalembert.page.symbolic_result import SymbolicResult
+from dalembert.pages.symbolic_result import SymbolicResult
 
 
 @dataclass

@@ -1,0 +1,36 @@
+"""`dalembert page`: a mechanism as a live HTML page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from dalembert.cli.options import AS_IN_FILE, Changes, Force, ModelFile, Static
+from dalembert.cli.options import output as written
+from dalembert.errors import ModelError
+from dalembert.saving import check_new
+
+EXAMPLES = """Examples:
+  dalembert page engine.yaml -o engine.html
+  dalembert page four_bar.yaml -o four_bar.html --set links.rocker.mass=2kg"""
+
+
+def page(
+    file: ModelFile,
+    /,
+    *,
+    output: Annotated[Path, written("File to write, .html.")],
+    static: Static = False,
+    changes: Changes = AS_IN_FILE,
+    force: Force = False,
+) -> int:
+    """Make one HTML file of FILE to open anywhere: drag joints, change numbers, and all forces follow exactly."""
+    from dalembert.cli.model_argument import load_model
+    from dalembert.pages.html_page import page as make_page
+
+    if output.suffix.lower() not in (".html", ".htm"):
+        raise ModelError(f"{output.name}: a page is HTML", "name a file that ends in .html")
+    check_new(output, force)
+    make_page(load_model(file, changes), output, static, force)
+    print(f"{output}: open it in a browser")
+    return 0

@@ -1,0 +1,1246 @@
+function e(e, t, n = {}) {
+	let r = document.createElementNS("http://www.w3.org/2000/svg", e);
+	for (let [e, t] of Object.entries(n)) r.setAttribute(e, String(t));
+	return t?.append(r), r;
+}
+function t(e, t, n = {}, r = "") {
+	let i = document.createElement(e);
+	for (let [e, t] of Object.entries(n)) i.setAttribute(e, String(t));
+	return r && (i.textContent = r), t?.append(i), i;
+}
+var n = (e) => Math.abs(e) < .005 ? "0" : e.toFixed(2);
+function r(e, t = !1) {
+	return e.length ? "M" + e.map(([e, t]) => n(e) + " " + n(t)).join("L") + (t ? "Z" : "") : "";
+}
+function i(e, t, r) {
+	e.setAttribute("transform", `translate(${n(t)} ${n(r)})`);
+}
+function a(t, n, r) {
+	t.replaceChildren();
+	let i = !1;
+	for (let a of n.split(/(_\{[^}]*\})/)) {
+		if (!a) continue;
+		let n = a.startsWith("_{"), o = e("tspan", t, n ? { "font-size": .7 * r } : {});
+		o.textContent = n ? a.slice(2, -1) : a, n !== i && o.setAttribute("dy", String((n ? .25 : -.25) * r)), i = n;
+	}
+}
+var o = (e) => e.replace(/_\{([^}]*)\}/g, "$1"), s = null, c = /* @__PURE__ */ new Map();
+function l(e, t, n = !1) {
+	let r = `${n}${e}`, i = c.get(r);
+	if (i === void 0) {
+		s ??= document.createElement("canvas").getContext("2d"), s.font = `${n ? "bold " : ""}100px "DejaVu Sans", "Helvetica Neue", Arial, sans-serif`, i = 0;
+		for (let t of e.split(/(_\{[^}]*\})/)) {
+			let e = t.startsWith("_{");
+			i += s.measureText(e ? t.slice(2, -1) : t).width / 100 * (e ? .7 : 1);
+		}
+		c.set(r, i);
+	}
+	return i * t;
+}
+function u(t, n, r, i, o = "middle") {
+	let s = e("text", t, {
+		class: `l-${n}-t`,
+		"font-size": i,
+		"text-anchor": o
+	});
+	return a(s, r, i), s;
+}
+var d = class {
+	g;
+	shaft;
+	head;
+	constructor(t, n, r = "") {
+		this.g = e("g", t), r && (e("title", this.g).textContent = o(r)), this.shaft = e("path", this.g, {
+			class: `l-${n}`,
+			style: "fill:none"
+		}), this.head = e("path", this.g, { class: `l-${n}-h` });
+	}
+	set(e, t, n = .3) {
+		let i = t[0] - e[0], a = t[1] - e[1], o = Math.hypot(i, a), s = o > n && Number.isFinite(o);
+		if (this.g.setAttribute("visibility", s ? "visible" : "hidden"), !s) return !1;
+		let c = i / o, l = a / o, u = Math.min(3, .75 * o), d = .3 * u, f = [t[0] - u * c, t[1] - u * l];
+		return this.shaft.setAttribute("d", r([e, [t[0] - .8 * u * c, t[1] - .8 * u * l]])), this.head.setAttribute("d", r([
+			t,
+			[f[0] - d * l, f[1] + d * c],
+			[f[0] + d * l, f[1] - d * c]
+		], !0)), !0;
+	}
+};
+function f(e) {
+	let t = [...e].sort((e, t) => e[0] - t[0] || e[1] - t[1]), n = (e, t, n) => (t[0] - e[0]) * (n[1] - e[1]) - (t[1] - e[1]) * (n[0] - e[0]), r = (e) => {
+		let t = [];
+		for (let r of e) {
+			for (; t.length > 1 && n(t[t.length - 2], t[t.length - 1], r) <= .01;) t.pop();
+			t.push(r);
+		}
+		return t;
+	};
+	return [...r(t).slice(0, -1), ...r(t.reverse()).slice(0, -1)];
+}
+// src/labels.ts
+var p = [
+	[1, -1],
+	[-1, -1],
+	[1, 1],
+	[-1, 1],
+	[0, -1],
+	[1, 0],
+	[-1, 0],
+	[0, 1]
+], m = [
+	1,
+	1.9,
+	3
+];
+function h(e, t, n, r) {
+	return {
+		el: u(e, t, n, r),
+		text: n,
+		size: r,
+		bold: t === "title",
+		choice: -1
+	};
+}
+var g = class {
+	bounds;
+	boxes = [];
+	lines = [];
+	constructor(e) {
+		this.bounds = e;
+	}
+	line(e, t) {
+		this.lines.push([e, t]);
+	}
+	disc(e, t) {
+		this.boxes.push([
+			e[0] - t,
+			e[1] - t,
+			e[0] + t,
+			e[1] + t
+		]);
+	}
+	put(e) {
+		let { label: t, anchor: n } = e, r = l(t.text, t.size, t.bold), a = t.size, o = e.leave ?? 1.2, s = Infinity, c = 0, u = [
+			0,
+			0,
+			0,
+			0
+		];
+		for (let i = 0; i < p.length * m.length; i++) {
+			let [l, d] = p[i % 8], f = o * m[i >> 3], h = n[0] + l * (f + r / 2), g = n[1] + d * (f + a / 2), _ = [
+				h - r / 2,
+				g - a / 2,
+				h + r / 2,
+				g + a / 2
+			], v = .12 * i - (i === t.choice ? .4 : 0);
+			e.away && (v += 1.2 * (1 - (l * e.away[0] + d * e.away[1]) / (Math.hypot(l, d) * (Math.hypot(...e.away) || 1)))), v += this.cost(_), v < s && (s = v, c = i, u = _);
+		}
+		t.choice = c, this.boxes.push(u), i(t.el, (u[0] + u[2]) / 2, (u[1] + u[3]) / 2 + .36 * t.size);
+	}
+	cost(e) {
+		let t = 0;
+		for (let n of this.boxes) {
+			let r = Math.min(e[2], n[2]) - Math.max(e[0], n[0]), i = Math.min(e[3], n[3]) - Math.max(e[1], n[1]);
+			r > 0 && i > 0 && (t += 12 + r * i);
+		}
+		for (let [n, r] of this.lines) _(e, n, r) && (t += 6);
+		let [n, r, i, a] = this.bounds;
+		return (e[0] < n || e[1] < r || e[2] > i || e[3] > a) && (t += 20), t;
+	}
+};
+function _(e, t, n) {
+	let r = 0, i = 1, a = [n[0] - t[0], n[1] - t[1]];
+	for (let n = 0; n < 2; n++) {
+		if (Math.abs(a[n]) < 1e-9) {
+			if (t[n] < e[n] || t[n] > e[n + 2]) return !1;
+			continue;
+		}
+		let o = (e[n] - t[n]) / a[n], s = (e[n + 2] - t[n]) / a[n];
+		r = Math.max(r, Math.min(o, s)), i = Math.min(i, Math.max(o, s));
+	}
+	return r < i;
+}
+// src/items.ts
+var v = class {
+	kernel;
+	perMm;
+	middle = [0, 0];
+	constructor(e, t) {
+		this.kernel = e, this.perMm = t;
+	}
+	point(e) {
+		return this.of(this.kernel.here[e[0]], this.kernel.here[e[1]]);
+	}
+	of(e, t) {
+		return [(e - this.middle[0]) / this.perMm, (this.middle[1] - t) / this.perMm];
+	}
+	metres(e) {
+		return [this.middle[0] + e[0] * this.perMm, this.middle[1] - e[1] * this.perMm];
+	}
+};
+function y(t, i, a) {
+	let o = a.kernel, s = o.here;
+	if (i.t === "symbol") {
+		let r = e("g", t);
+		return r.innerHTML = i.svg, {
+			update() {
+				let [e, t] = a.point(i.p), o = i.e ? ` rotate(${n(-Math.atan2(s[i.e[1]], s[i.e[0]]) * 180 / Math.PI)})` : "";
+				r.setAttribute("transform", `translate(${n(e)} ${n(t)})${o}`);
+			},
+			mark: (e) => e.disc(a.point(i.p), 1.6)
+		};
+	}
+	if (i.t === "span") {
+		let r = e("g", t, { class: "span" });
+		return r.innerHTML = i.svg, {
+			update() {
+				let [[e, t], [o, s]] = i.p.map((e) => a.point(e)), c = Math.hypot(o - e, s - t), l = Math.atan2(s - t, o - e) * 180 / Math.PI;
+				r.setAttribute("transform", `translate(${n(e)} ${n(t)}) rotate(${n(l)}) scale(${(c / i.length).toFixed(4)} 1)`);
+			},
+			mark: (e) => e.line(a.point(i.p[0]), a.point(i.p[1]))
+		};
+	}
+	if (i.t === "circle") {
+		let r = e("circle", t, { class: `l-${i.role}` });
+		return { update() {
+			let [e, t] = a.point(i.p);
+			r.setAttribute("cx", n(e)), r.setAttribute("cy", n(t)), r.setAttribute("r", n(Math.abs(s[i.r]) / a.perMm));
+		} };
+	}
+	let c = e("path", t, {
+		class: `l-${i.role}`,
+		style: "fill:none"
+	});
+	if (i.t === "trace") return { update: () => c.setAttribute("d", b(o, a, i.p[0])) };
+	let l = () => i.p.map((e) => a.point(e)), u = (e) => {
+		let t = i.t === "hull" ? f(l()) : l();
+		for (let n = 0; n + 1 < t.length; n++) e.line(t[n], t[n + 1]);
+		t.length > 2 && e.line(t[t.length - 1], t[0]);
+	};
+	return i.t === "path" ? {
+		update: () => c.setAttribute("d", r(l())),
+		mark: u
+	} : (c.dataset.link = i.link, {
+		update() {
+			let e = f(l()), t = e.length > 2;
+			c.setAttribute("class", t ? "l-link-area" : "l-link"), c.setAttribute("style", t ? "" : "fill:none"), c.setAttribute("d", r(t ? e : l(), t));
+		},
+		mark: u
+	});
+}
+function b(e, t, r) {
+	let i = "", a = !1;
+	for (let o = 0; o <= e.count; o++) {
+		let s = o < e.count ? o : 0;
+		if (!e.good(s) || o === e.count && !e.cyclic) {
+			a = !1;
+			continue;
+		}
+		let [c, l] = t.of(e.value(r[0], s), e.value(r[1], s));
+		i += `${a ? "L" : "M"}${n(c)} ${n(l)}`, a = !0;
+	}
+	return i;
+}
+function x(e, t, n, r, i) {
+	return t.t === "force" ? S(e, t, n, r, i) : w(e, t, n);
+}
+function S(e, t, n, r, i) {
+	let a = n.kernel.here, o = new d(e, t.role, t.name), s = h(e, t.role, t.name, 3), c = [0, 0], l = [0, 0], u = [0, 0], f = !1;
+	return {
+		label: s,
+		update() {
+			let e = n.point(t.p), d = r(), p = [a[t.f[0]] / d, -a[t.f[1]] / d], m = !1;
+			if (i && i.length > 1) {
+				let t = i.map((e) => n.point(e)), r = [0, 1].map((e) => t.reduce((t, n) => t + n[e], 0) / t.length);
+				m = p[0] * (r[0] - e[0]) + p[1] * (r[1] - e[1]) > 1e-9;
+			}
+			[c, l] = m ? [[e[0] - p[0], e[1] - p[1]], e] : [e, [e[0] + p[0], e[1] + p[1]]], u = m ? c : l, f = o.set(c, l), s.el.setAttribute("visibility", f ? "visible" : "hidden");
+		},
+		mark: (e) => f && e.line(c, l),
+		anchor: () => f ? [u, [u[0] - (u === c ? l : c)[0], u[1] - (u === c ? l : c)[1]]] : null
+	};
+}
+var C = 4.6;
+function w(t, r, i) {
+	let a = i.kernel.here, s = e("g", t), c = h(t, r.role, r.name, 3);
+	e("title", s).textContent = o(r.name), e("path", s, {
+		class: `l-${r.role}`,
+		style: "fill:none",
+		d: "M4.17 1.94A4.6 4.6 0 1 0 -4.17 1.94"
+	}), e("path", s, {
+		class: `l-${r.role}-h`,
+		d: "M-4.17 2.9L-5.6 -0.1L-3 0.3Z"
+	});
+	let l = !1;
+	return {
+		label: c,
+		update() {
+			let [e, t] = i.point(r.p), o = a[r.m];
+			l = Number.isFinite(o) && Math.abs(o) > 1e-9, s.setAttribute("visibility", l ? "visible" : "hidden"), c.el.setAttribute("visibility", l ? "visible" : "hidden"), s.setAttribute("transform", `translate(${n(e)} ${n(t)}) scale(${o < 0 ? -1 : 1} 1)`);
+		},
+		mark(e) {
+			l && e.disc(i.point(r.p), C * .7);
+		},
+		anchor() {
+			let [e, t] = i.point(r.p);
+			return l ? [[e, t - C], [0, -1]] : null;
+		}
+	};
+}
+// src/board.ts
+var T = [
+	1,
+	1.25,
+	1.5,
+	2,
+	2.5,
+	3,
+	4,
+	5,
+	6,
+	8,
+	10
+];
+function E(e) {
+	if (!(e > 0) || !Number.isFinite(e)) return 1;
+	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
+	return t * (T.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
+}
+function D(t, n, r, i) {
+	return e("svg", t, {
+		viewBox: `${-n / 2} ${-r / 2} ${n} ${r}`,
+		role: "img",
+		"aria-label": i
+	});
+}
+function O(t, n, r, i, a, o, s, c) {
+	let l = {
+		length: s.length.size,
+		force: s.force.size
+	}, u = D(t, a, o, c), d = new v(n, r.per_mm), f = [], p = [], m = [], _ = [], b = r.force;
+	r.middle && (d.middle = r.middle);
+	let S = e("g", u), C = e("g", u), w = e("g", u);
+	for (let e of r.items) (e.t === "trace" ? f : p).push(y(S, e, d));
+	for (let e of r.arrows) m.push(x(C, e, d, () => b, i ?? void 0));
+	for (let e of r.labels) _.push({
+		l: h(w, e.role, e.text, e.kind === "joint" ? 3.4 : 3),
+		p: e.p,
+		q: e.q
+	});
+	let T = e("text", w, {
+		class: "l-note-t",
+		"font-size": 2.8,
+		x: -a / 2 + 2,
+		y: o / 2 - 2
+	}), O = [
+		-a / 2,
+		-o / 2,
+		a / 2,
+		o / 2 - 4
+	], k = (e) => [Math.min(...e), Math.max(...e)];
+	function A() {
+		if (!i) return;
+		let e = n.here, [t, r] = k(i.map((t) => e[t[0]])), [a, o] = k(i.map((t) => e[t[1]]));
+		Number.isFinite(t + r + a + o) && (d.middle = [(t + r) / 2, (a + o) / 2]);
+	}
+	function j() {
+		let e = [], t = [], s = i ?? r.items.flatMap((e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" ? [e.p] : []), c = Math.max(1, Math.floor(n.count / 72));
+		for (let r of s) for (let a = 0; a < n.count; a += i ? n.count : c) (i || n.good(a)) && (e.push(i ? n.here[r[0]] : n.value(r[0], a)), t.push(i ? n.here[r[1]] : n.value(r[1], a)));
+		if (e.length) {
+			let [n, s] = k(e), [c, u] = k(t), f = i ? [46, 40] : [a * .7, o * .68], p = Math.max((s - n) / f[0], (u - c) / f[1]) || r.per_mm;
+			i || (d.middle = [(n + s) / 2, (c + u) / 2]), d.perMm = E(p / l.length) * l.length;
+		}
+		let u = 0;
+		for (let e of r.arrows) if (e.t === "force") for (let t = 0; t < n.count; t++) n.good(t) && (u = Math.max(u, Math.hypot(n.value(e.f[0], t), n.value(e.f[1], t))));
+		u > 0 && (b = E(u / (i ? 26 : 22) / l.force) * l.force);
+	}
+	let M = {
+		svg: u,
+		paper: d,
+		fit: j,
+		force: () => b,
+		names: r.labels.filter((e) => e.kind === "joint").length <= 8,
+		update(e) {
+			A(), e && f.forEach((e) => e.update()), p.forEach((e) => e.update()), m.forEach((e) => e.update());
+			let t = new g(O);
+			p.forEach((e) => e.mark?.(t)), m.forEach((e) => e.mark?.(t));
+			for (let { l: e, p: n, q: r } of _) {
+				let i = M.names || !!r;
+				if (e.el.setAttribute("visibility", i ? "visible" : "hidden"), !i) continue;
+				let a = d.point(n), o = r ? d.point(r) : a, s = [(a[0] + o[0]) / 2, (a[1] + o[1]) / 2];
+				t.put({
+					label: e,
+					anchor: s,
+					away: r ? void 0 : s,
+					leave: r ? .8 : 1.3
+				});
+			}
+			for (let e of m) {
+				let n = e.anchor();
+				n && t.put({
+					label: e.label,
+					anchor: n[0],
+					away: n[1],
+					leave: .9
+				});
+			}
+			T.textContent = `1 mm = ${+(d.perMm / l.length).toPrecision(4)} ${s.length.unit}, ${+(b / l.force).toPrecision(4)} ${s.force.unit}`;
+		}
+	};
+	return M;
+}
+// src/charts.ts
+var k = 120, A = 52;
+function j(e, t, n) {
+	let r = (t - e) / n, i = 10 ** Math.floor(Math.log10(r || 1)), a = i * ([
+		1,
+		2,
+		5,
+		10
+	].find((e) => e * i >= r) ?? 10), o = [];
+	for (let n = Math.ceil(e / a - 1e-9); n * a <= t * (1 + 1e-12) + 1e-9 * a; n++) o.push(n * a);
+	return o;
+}
+var M = (e, t = 4) => Number.isFinite(e) ? String(+e.toPrecision(t)).replace("-", "−") : "–";
+function N(r, i, o, s, c, l, u, d) {
+	let f = t("figure", r, { class: "chart" }), p = i.units[s.kind] ?? {
+		unit: "",
+		size: 1
+	};
+	t("figcaption", f, {}, `${s.title}, ${p.unit}`);
+	let m = D(f, k, A, s.title), h = e("path", m, {
+		class: "l-grid",
+		style: "fill:none"
+	}), g = e("path", m, {
+		class: "l-axis",
+		style: "fill:none"
+	}), _ = e("g", m), v = s.curves.map((t) => e("path", m, {
+		class: `l-${t.role}`,
+		style: "fill:none"
+	})), y = e("path", m, { class: "cursor" }), b = s.curves.map((t) => e("circle", m, {
+		class: `l-${t.role}-h`,
+		r: .9
+	})), x = i.drives[0], S = Math.max(o.count - 1, 1), C = s.curves.map((t, n) => {
+		let r = e("text", m, {
+			class: `l-${t.role}-t key`,
+			"font-size": 3,
+			x: 44,
+			y: -18 + 4 * n,
+			tabindex: 0,
+			role: "button"
+		});
+		return a(r, t.name, 3), e("title", r).textContent = "show what lowers its peak", r.addEventListener("click", () => u(t)), r.addEventListener("keydown", (e) => e.key === "Enter" && u(t)), r;
+	}), w = (e) => e, T = (e) => -44 + e / S * 86;
+	function E() {
+		let t = Infinity, r = -Infinity;
+		for (let e of s.curves) for (let n = 0; n < o.count; n++) if (o.good(n)) {
+			let i = o.value(e.row, n) / p.size;
+			t = Math.min(t, i), r = Math.max(r, i);
+		}
+		t <= r || ([t, r] = [0, 1]), t > 0 && t < .4 * r && (t = 0), r < 0 && r > .4 * t && (r = 0), r - t < 1e-9 * Math.max(Math.abs(r), 1e-9) && ([t, r] = [Math.min(t, 0), Math.max(r, 0) || 1]);
+		let i = j(t, r, 4), a = .04 * (r - t);
+		[t, r] = [t - a, r + a], w = (e) => 18 - (e / p.size - t) / (r - t) * 39, _.replaceChildren();
+		let c = "";
+		for (let t of i) c += `M-44 ${n(w(t * p.size))}h86`, e("text", _, {
+			class: "l-note-t",
+			"font-size": 2.6,
+			"text-anchor": "end",
+			x: -45.2,
+			y: w(t * p.size) + .9
+		}).textContent = M(t, 5);
+		if (x) {
+			let t = [0, S].map((e) => o.position(x.name, e) / x.size);
+			for (let r of j(Math.min(...t), Math.max(...t), 5)) {
+				let i = -44 + (r - t[0]) / (t[1] - t[0] || 1) * 86;
+				c += `M${n(i)} -21v39`, e("text", _, {
+					class: "l-note-t",
+					"font-size": 2.6,
+					"text-anchor": "middle",
+					x: i,
+					y: 21.4
+				}).textContent = M(r, 5) + (x.unit === "°" ? "°" : "");
+			}
+			e("text", _, {
+				class: "l-note-t",
+				"font-size": 2.6,
+				"text-anchor": "end",
+				x: 42,
+				y: 24.6
+			}).textContent = `${x.name}, ${x.unit}`;
+		}
+		h.setAttribute("d", c), g.setAttribute("d", "M-44 -21v39" + (t < 0 && r > 0 ? `M-44 ${n(w(0))}h86` : "")), v.forEach((e, t) => e.setAttribute("d", O((e) => T(e), (e) => w(o.value(s.curves[t].row, e)))));
+	}
+	function O(e, t) {
+		let r = "", i = !1;
+		for (let a = 0; a < o.count; a++) o.good(a) && (r += `${i ? "L" : "M"}${n(e(a))} ${n(t(a))}`), i = o.good(a);
+		return r;
+	}
+	let N = (e) => {
+		l((new DOMPoint(e.clientX, e.clientY).matrixTransform(m.getScreenCTM().inverse()).x - -44) / 86 * S);
+	};
+	return m.addEventListener("pointerdown", (e) => {
+		e.target.closest(".key") || (m.setPointerCapture(e.pointerId), N(e));
+	}), m.addEventListener("pointermove", (e) => e.buttons && m.hasPointerCapture(e.pointerId) && N(e)), { update(e) {
+		e && E();
+		let t = Math.min(c(), S);
+		y.setAttribute("d", `M${n(T(t))} -21v39`), s.curves.forEach((e, r) => {
+			b[r].setAttribute("cx", n(T(t))), b[r].setAttribute("cy", n(w(o.here[e.row]))), b[r].setAttribute("visibility", o.solved ? "visible" : "hidden"), C[r].classList.toggle("picked", d() === e);
+		});
+	} };
+}
+function ee(r, i, a, o) {
+	let s = t("figure", r, { class: "polar" }), c = t("figcaption", s, {}, `Joint ${a.name}`), l = D(s, 66, 66, `polar diagram of joint ${a.name}`), u = e("path", l, {
+		class: "l-grid",
+		style: "fill:none"
+	}), f = e("path", l, {
+		class: `l-${a.role}`,
+		style: "fill:none"
+	}), p = new d(l, "joint-force", a.name), m = 1;
+	return { update(e) {
+		let [t, r] = a.f;
+		if (e) {
+			let e = 0;
+			for (let n = 0; n < i.count; n++) i.good(n) && (e = Math.max(e, Math.hypot(i.value(t, n), i.value(r, n))));
+			m = E(e / 28 / o.size) * o.size || o.size;
+			let s = "", l = !1;
+			for (let e = 0; e < i.count; e++) i.good(e) && (s += `${l ? "L" : "M"}${n(i.value(t, e) / m)} ${n(-i.value(r, e) / m)}`), l = i.good(e);
+			f.setAttribute("d", s + (i.cyclic && s && !s.slice(1).includes("M") ? "Z" : "")), u.setAttribute("d", "M-30 0H30M0 -30V30M15 0A15 15 0 1 0 -15 0A15 15 0 1 0 15 0M30 0A30 30 0 1 0 -30 0A30 30 0 1 0 30 0"), c.textContent = `Joint ${a.name}: 1 mm = ${M(m / o.size)} ${o.unit}`;
+		}
+		let s = i.here;
+		p.set([0, 0], i.solved ? [s[t] / m, -s[r] / m] : [0, 0]);
+	} };
+}
+function te(n, i, a, o) {
+	let s = t("figure", n, { class: "polygon" }), c = i.units.force;
+	t("figcaption", s, {}, `Force polygon of link ${o.title}`);
+	let l = D(s, 110, 80, `force polygon of link ${o.title}`), u = e("g", l), f = o.sides.map((e) => new d(l, e.role, e.name)), p = o.sides.map((e) => h(u, e.role, e.name, 3)), m = e("path", l, {
+		class: "l-gap",
+		style: "fill:none"
+	}), _ = e("text", l, {
+		class: "l-note-t",
+		"font-size": 2.8,
+		x: -53,
+		y: 38
+	});
+	return {
+		figure: s,
+		update() {
+			let e = a.here, t = [[0, 0]];
+			for (let n of o.sides) {
+				let [r, i] = t[t.length - 1], a = n.t === "force" ? n.f : [0, 0];
+				t.push([r + e[a[0]], i - e[a[1]]]);
+			}
+			let n = t.map((e) => e[0]), i = t.map((e) => e[1]), [s, l, u, d] = [
+				Math.min(...n),
+				Math.max(...n),
+				Math.min(...i),
+				Math.max(...i)
+			], h = E(Math.max((l - s) / 66, (d - u) / 48) / c.size) * c.size, v = t.map(([e, t]) => [(e - (s + l) / 2) / h, (t - (u + d) / 2) / h]), y = new g([
+				-55,
+				-40,
+				55,
+				36
+			]);
+			for (let e = 0; e + 1 < v.length; e++) y.line(v[e], v[e + 1]);
+			f.forEach((e, t) => {
+				let n = e.set(v[t], v[t + 1]);
+				if (p[t].el.setAttribute("visibility", n ? "visible" : "hidden"), !n) return;
+				let r = [(v[t][0] + v[t + 1][0]) / 2, (v[t][1] + v[t + 1][1]) / 2];
+				y.put({
+					label: p[t],
+					anchor: r,
+					away: r,
+					leave: .9
+				});
+			}), m.setAttribute("d", r([v[0], v[v.length - 1]])), _.textContent = `1 mm = ${M(h / c.size)} ${c.unit}`;
+		}
+	};
+}
+// src/handles.ts
+function ne(t, n, r, i, a) {
+	let o = e("g", t.svg, { class: "handles" }), s = n.handles.map((e) => P(o, t, e, r, i, a));
+	return L(t, n, r, i), () => s.forEach((e) => e());
+}
+function re(e, t, n, r, i) {
+	let [a, o, s, c] = n;
+	e.values[t.n[0]] = s * (r - a) + c * (i - o), e.values[t.n[1]] = s * (i - o) - c * (r - a);
+}
+var ie = (e, t) => [...t.at, ...t.e].map((t) => e.here[t]);
+function ae(e) {
+	return e.kind === "load" ? [...e.components ?? [], ...[e.size, e.direction].filter((e) => e !== void 0)] : e.kind === "direction" ? [e.direction] : e.ends.flatMap((e) => e.n);
+}
+function P(t, n, r, i, a, o) {
+	let s = `${{
+		joint: "joint",
+		point: "point",
+		center: "",
+		load: "force",
+		direction: "direction of"
+	}[r.kind]} ${r.name}`.trim(), c = e("circle", t, {
+		class: `handle ${r.kind}`,
+		r: r.kind === "joint" ? 2.6 : 2,
+		tabindex: 0,
+		role: "slider",
+		"aria-label": `move ${s}`,
+		"aria-valuetext": s,
+		"aria-valuenow": 0,
+		"data-kind": r.kind,
+		"data-name": r.name
+	});
+	e("title", c).textContent = `drag ${s}`;
+	let l = n.paper, u = i.here, d = [], f = !1, p = () => {
+		let e = l.point(r.p);
+		return r.kind === "load" ? [e[0] + u[r.f[0]] / o(), e[1] - u[r.f[1]] / o()] : r.kind === "direction" ? [e[0] + 16 * u[r.along[0]], e[1] - 16 * u[r.along[1]]] : e;
+	}, m = () => {
+		d = "ends" in r ? r.ends.map((e) => ie(i, e)) : [r.e.map((e) => u[e])], f = !0;
+	}, h = (e) => {
+		let [t, n] = l.metres(e);
+		if ("ends" in r) r.ends.forEach((e, r) => re(i, e, d[r], t, n));
+		else {
+			let [t, n] = d[0], a = l.point(r.p), s = e[0] - a[0], c = a[1] - e[1], u = [t * s + n * c, t * c - n * s];
+			r.kind === "direction" ? i.values[r.direction] = F(Math.atan2(u[1], u[0]), i.values[r.direction]) : r.components ? r.components.forEach((e, t) => i.values[e] = u[t] * o()) : g(r, u);
+		}
+		a.changed();
+	}, g = (e, t) => {
+		let n = i.values, r = Math.hypot(...t) * o(), a = Math.sign(n[e.size]) || 1;
+		if (e.direction !== void 0) n[e.direction] = F(Math.atan2(a * t[1], a * t[0]), n[e.direction]), n[e.size] = a * r;
+		else {
+			let r = [u[e.f[0]], u[e.f[1]]], [i, s] = d[0], c = [i * r[0] + s * r[1], i * r[1] - s * r[0]], l = Math.hypot(...c) || 1;
+			n[e.size] = a * (t[0] * c[0] + t[1] * c[1]) * o() / l;
+		}
+	}, _ = () => {
+		f && a.finished(ae(r)), f = !1;
+	};
+	return c.addEventListener("pointerdown", (e) => {
+		e.stopPropagation(), c.setPointerCapture(e.pointerId), m();
+	}), c.addEventListener("pointermove", (e) => f && h(I(n, e))), c.addEventListener("pointerup", _), c.addEventListener("pointercancel", _), c.addEventListener("keydown", (e) => {
+		let t = {
+			ArrowLeft: [-1, 0],
+			ArrowRight: [1, 0],
+			ArrowUp: [0, -1],
+			ArrowDown: [0, 1]
+		};
+		if (!t[e.key]) return;
+		e.preventDefault(), e.stopPropagation(), m();
+		let n = p(), r = e.shiftKey ? 5 : 1;
+		h([n[0] + r * t[e.key][0], n[1] + r * t[e.key][1]]), _();
+	}), () => {
+		if (r.kind === "direction" && f) return;
+		let [e, t] = p();
+		c.setAttribute("visibility", Number.isFinite(e + t) ? "visible" : "hidden"), c.setAttribute("cx", e.toFixed(2)), c.setAttribute("cy", t.toFixed(2));
+	};
+}
+var F = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI));
+function I(e, t) {
+	let n = new DOMPoint(t.clientX, t.clientY).matrixTransform(e.svg.getScreenCTM().inverse());
+	return [n.x, n.y];
+}
+function L(e, t, n, r) {
+	let i = t.drives[0];
+	if (!i || n.count < 2) return;
+	let a = 0, o = 0, s = !1, c = (t) => {
+		let n = I(e, t), r = e.paper.point(i.p);
+		return i.turns ? Math.atan2(r[1] - n[1], n[0] - r[0]) : 0;
+	};
+	e.svg.addEventListener("pointerdown", (t) => {
+		let n = t.target.closest("[data-link]");
+		n && n.dataset.link === i.link && i.turns && (e.svg.setPointerCapture(t.pointerId), [a, o, s] = [
+			c(t),
+			r.time(),
+			!0
+		]);
+	}), e.svg.addEventListener("pointermove", (e) => {
+		if (!s) return;
+		let t = (n.position(i.name, n.count - 1) - n.position(i.name, 0)) / (n.count - 1), l = c(e), u = o + F(l - a, 0) / t;
+		n.cyclic && (u = (u % n.count + n.count) % n.count), [a, o] = [l, u], r.seek(u);
+	}), e.svg.addEventListener("pointerup", () => s = !1);
+}
+// src/kernel.ts
+var R = /* @__PURE__ */ new Set([
+	0,
+	9,
+	12,
+	13
+]);
+function z(e) {
+	return Uint8Array.from(atob(e), (e) => e.charCodeAt(0));
+}
+function B(e) {
+	if (typeof e == "string") return new Float64Array(z(e).buffer);
+	let t = (e.to - e.from) / Math.max(e.count - 1, 1);
+	return Float64Array.from({ length: e.count }, (n, r) => r === e.count - 1 ? e.to : e.from + r * t);
+}
+async function oe(e) {
+	let t = new Blob([z(e)]).stream().pipeThrough(new DecompressionStream("deflate"));
+	return new Response(t).arrayBuffer();
+}
+var V = class e {
+	run;
+	values;
+	path;
+	out;
+	row;
+	places = [];
+	constructor(e, t, n, r, i) {
+		this.run = e, this.row = i;
+		let a = [
+			r,
+			n.channels.length * n.row,
+			(n.outputs + 1) * n.row
+		], o = n.heap;
+		for (let e of a) this.places.push(o), o = o + 8 * e + 15 & -16;
+		o > t.buffer.byteLength && t.grow(Math.ceil((o - t.buffer.byteLength) / 65536)), [this.values, this.path, this.out] = a.map((e, n) => new Float64Array(t.buffer, this.places[n], e));
+	}
+	static async create(t, n) {
+		let { instance: r } = await WebAssembly.instantiate(await oe(t.wasm)), { memory: i, run: a } = r.exports;
+		return new e(a, i, t, n, t.row);
+	}
+	call(e) {
+		this.run(this.places[0], this.places[1], this.places[2], Math.ceil(e / 2));
+	}
+}, H = class {
+	table;
+	breaks;
+	pieces;
+	constructor(e) {
+		this.table = e, this.breaks = B(e.breaks), this.pieces = B(e.pieces);
+	}
+	at(e) {
+		let { breaks: t, pieces: n } = this, r = t.length - 1, { period: i, order: a } = this.table, o = t[0], s = i ? o + ((e - o) % i + i) % i : Math.min(Math.max(e, o), t[r]), c = 0, l = r - 1;
+		for (; c < l;) {
+			let e = c + l + 1 >> 1;
+			t[e] <= s ? c = e : l = e - 1;
+		}
+		let u = 0;
+		for (let e = 0; e < a; e++) u = u * (s - t[c]) + n[e * r + c];
+		return u;
+	}
+}, se = class e {
+	data;
+	whole;
+	one;
+	slope;
+	rows;
+	row;
+	count;
+	here;
+	cyclic;
+	values;
+	positions;
+	channels;
+	constructor(e, t, n, r) {
+		this.data = e, this.whole = t, this.one = n, this.slope = r, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.here = new Float64Array(e.kernel.outputs + 1), this.positions = new Map(e.drives.map((e) => [e.name, B(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
+			values: B(e.values),
+			pieces: e.table && new H(e.table),
+			drive: e.table ? e.table.drive : e.name.replace(/^position /, "")
+		}])), e.kernel.channels.forEach((e, n) => {
+			let r = this.channels.get(e).values;
+			for (let e = 0; e < this.row; e++) t.path[n * this.row + e] = r[Math.min(e, this.count - 1)];
+		}), this.cyclic = !e.only_at_positions && e.drives.some((e) => e.turns && this.closes(e.name));
+	}
+	static async create(t) {
+		let n = t.numbers.length, r = {
+			...t.kernel,
+			row: t.kernel.row
+		}, [i, a, o] = await Promise.all([
+			V.create(t.kernel, n),
+			V.create(r, n),
+			t.gradient ? V.create(t.gradient, n) : void 0
+		]);
+		return new e(t, i, a, o);
+	}
+	closes(e) {
+		let t = this.positions.get(e);
+		if (t.length < 8) return !1;
+		let n = (t[t.length - 1] - t[0]) * t.length / (t.length - 1) / (2 * Math.PI);
+		return Math.abs(n) > .5 && Math.abs(n - Math.round(n)) < 1e-6;
+	}
+	get end() {
+		return this.cyclic ? this.count : this.count - 1;
+	}
+	position(e, t) {
+		let n = this.positions.get(e), [r, i] = this.split(t);
+		if (i === 0 || n.length < 2) return n[r];
+		let a = r + 1 < n.length ? n[r + 1] : this.closes(e) ? n[r] + (n[1] - n[0]) : n[0];
+		return n[r] + i * (a - n[r]);
+	}
+	split(e) {
+		let t = Math.min(Math.floor(e), this.count - 1);
+		return e >= this.count ? [0, 0] : [t, e - t];
+	}
+	input(e, t) {
+		let n = this.channels.get(e), [r, i] = this.split(t);
+		if (e.startsWith("position ")) return this.position(e.slice(9), t);
+		if (n.pieces && i !== 0) return n.pieces.at(this.position(n.drive, t));
+		let a = n.values[r + 1 < this.count ? r + 1 : 0];
+		return i === 0 ? n.values[r] : n.values[r] + i * (a - n.values[r]);
+	}
+	cycle() {
+		this.whole.call(this.count);
+	}
+	at(e) {
+		this.load(this.one, this.data.kernel.channels, e), this.one.values.set(this.values), this.one.call(1);
+		for (let e = 0; e < this.here.length; e++) this.here[e] = this.one.out[e * this.one.row];
+	}
+	other(e, t) {
+		this.one.values.set(e), this.one.call(1);
+		for (let e = 0; e < t.length; e++) t[e] = this.one.out[e * this.one.row];
+	}
+	gradient(e, t) {
+		let n = this.data.gradient, r = this.slope;
+		this.load(r, n.channels, t), r.values.set(this.values), r.call(1);
+		let i = n.numbers.length;
+		return Float64Array.from({ length: i }, (t, n) => r.out[(e * i + n) * r.row]);
+	}
+	load(e, t, n) {
+		t.forEach((t, r) => {
+			e.path[r * e.row] = e.path[r * e.row + 1] = this.input(t, n);
+		});
+	}
+	good(e) {
+		return R.has(this.rows[this.rows.length - this.row + e]);
+	}
+	get mark() {
+		return this.here[this.here.length - 1];
+	}
+	get solved() {
+		return R.has(this.mark);
+	}
+	value(e, t) {
+		return this.rows[e * this.row + t];
+	}
+};
+// src/panels.ts
+function ce(e, n, r = !1) {
+	let i = t("details", e, { class: "panel" });
+	return i.open = r, t("summary", i, {}, n), t("div", i);
+}
+function le(e, n, r, i) {
+	let a = [], o = /* @__PURE__ */ new Map(), s = (n) => {
+		let r = o.get(n);
+		if (!r) {
+			let i = t("fieldset", e);
+			t("legend", i, {}, n), o.set(n, r = i);
+		}
+		return r;
+	}, c = n.numbers.map((e, t) => ({
+		field: e,
+		n: t
+	})).sort((e, t) => Number(t.field.parameter ?? !1) - Number(e.field.parameter ?? !1));
+	for (let { field: e, n } of c) {
+		let [o, c] = e.parameter ? ["Parameters", e.label] : U(e.label), u = t("label", s(o), { title: e.about ?? e.path });
+		t("span", u, {}, c);
+		let d = t("input", u, {
+			type: "number",
+			step: "any",
+			"aria-label": e.label,
+			"data-path": e.path
+		});
+		t("span", u, { class: "unit" }, e.unit);
+		let f = {
+			box: d,
+			n,
+			field: e
+		}, p = (t, a) => {
+			Number.isFinite(t) && (r.values[n] = t * e.size, i(n, a));
+		};
+		if (d.addEventListener("change", () => d.value.trim() === "" ? l(f) : p(+d.value, !0)), e.parameter) {
+			let [n, r] = e.range ?? ue(e.value), i = t("input", u, {
+				type: "range",
+				min: n / e.size,
+				max: r / e.size,
+				step: "any",
+				"aria-label": `${e.label}, slider`
+			});
+			f.slide = i, i.addEventListener("input", () => p(+i.value, !1)), i.addEventListener("change", () => p(+i.value, !0));
+		}
+		a.push(f);
+	}
+	let l = (e) => {
+		let t = r.values[e.n] / e.field.size;
+		document.activeElement !== e.box && (e.box.value = String(+t.toPrecision(6))), e.slide && document.activeElement !== e.slide && (e.slide.value = String(t)), e.box.classList.toggle("changed", r.values[e.n] !== e.field.value);
+	};
+	return { update: () => a.forEach(l) };
+}
+function U(e) {
+	let t = e.indexOf(": ");
+	return t < 0 ? ["Others", e] : [e.slice(0, t), e.slice(t + 2)];
+}
+function ue(e) {
+	let t = .5 * Math.abs(e) || 1;
+	return [e - t, e + t];
+}
+function de(e, n, r) {
+	let i = t("tbody", t("table", e, { class: "answers" })), a = n.views.table.map((e) => {
+		let r = t("tr", i), a = n.units[e.kind] ?? {
+			unit: "",
+			size: 1
+		};
+		return t("th", r, { scope: "row" }, o(e.name)), {
+			r: e,
+			unit: a,
+			cell: t("td", r)
+		};
+	});
+	return { update() {
+		for (let { r: e, unit: t, cell: n } of a) {
+			let i = e.rows.map((e) => r.here[e] / t.size), a = (e) => t.unit === "°" ? `${M(e, 5)}°` : `${M(e)} ${t.unit}`;
+			n.textContent = r.solved ? i.length === 1 ? a(i[0]) : `${a(Math.hypot(...i))} at ${M(Math.atan2(i[1], i[0]) * 180 / Math.PI)}°  (${M(i[0])}, ${M(i[1])})` : "–";
+		}
+	} };
+}
+function fe(e, n, r, i) {
+	let a = [
+		0,
+		1,
+		2
+	].map(() => t("p", e, { class: "equation" })), { terms: s, about: c } = i.equations, l = n.units.force, u = n.units.moment;
+	return { update() {
+		let e = [
+			"ΣFx",
+			"ΣFy",
+			`ΣM about ${c}`
+		];
+		a.forEach((t, n) => {
+			let i = n < 2 ? l : u, a = s.map((e) => r.here[n < 2 ? e.f[n] : e.m] / i.size), c = Math.max(...a.map(Math.abs), 0), d = a.map((e, t) => ({
+				v: e,
+				k: t
+			})).filter((e) => Math.abs(e.v) > 1e-9 * c);
+			if (!r.solved || !d.length) {
+				t.textContent = `${e[n]}: ${r.solved ? "nothing acts" : "no answer here"}`;
+				return;
+			}
+			let f = n < 2 ? "xy"[n] : "", p = d.map((e) => n < 2 ? o(s[e.k].name) + f : `M(${o(s[e.k].name)})`).join(" + "), m = d.reduce((e, t) => e + t.v, 0), h = Math.abs(m) < 1e-9 * c ? 0 : m, g = d.map((e, t) => (e.v < 0 ? t ? " − " : "−" : t ? " + " : "") + M(Math.abs(e.v))).join("");
+			t.textContent = `${e[n]}: ${p} = ${g} = ${M(h)} ${i.unit}`;
+		});
+	} };
+}
+function pe(e, n) {
+	t("p", e, {}, "Forces and motion are found by one linear system at each position (D'Alembert's principle); every number drawn here is computed anew from the numbers beside it, in double precision.");
+	let r = t("dl", e);
+	for (let [e, i] of Object.entries(n.assumptions)) t("dt", r, {}, e), t("dd", r, {}, i);
+	n.source && t("p", e, {}, `Source: ${n.source}`), t("p", e, {}, `Made with dalembert ${n.version}.`);
+}
+// src/page.css?inline
+var me = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.35em .8em;position:sticky;top:0}.dalembert h1{margin:0;font-size:1.15em;display:inline}.dalembert .bar{flex-wrap:wrap;align-items:center;gap:.5em;margin-top:.25em;display:flex}.dalembert .bar input{min-width:8em;accent-color:var(--accent);flex:1}.dalembert .readout{font-variant-numeric:tabular-nums;min-width:9em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);min-height:1.45em;margin:.1em 0 0;font-size:.92em}.dalembert main{grid-template-columns:minmax(0,7fr) minmax(0,5fr);align-items:start;gap:.8em;padding:.8em;display:grid}.dalembert .stage{position:sticky;top:6.2em}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .stage svg{touch-action:none;max-height:calc(100vh - 9em)}.dalembert .cloud{pointer-events:none;width:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;gap:1em;font-size:.9em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=number]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-link]{cursor:pointer}.dalembert.unsolved svg:not(.chart svg){opacity:.3}@media (max-width:800px){.dalembert main{grid-template-columns:minmax(0,1fr)}.dalembert .stage{position:static}.dalembert .polar{width:100%}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert summary~div>button,.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}", he = class {
+	b;
+	data;
+	kernel;
+	on = !1;
+	arrows;
+	constructor(t, n, r) {
+		this.b = t, this.data = n, this.kernel = r;
+		let i = e("g", t.svg, { class: "gradient" }), a = n.handles.filter((e) => e.kind === "joint" || e.kind === "point");
+		this.arrows = n.gradient ? a.map((e) => ({
+			h: e,
+			arrow: new d(i, "acceleration", `lower the peak by ${e.name}`)
+		})) : [];
+	}
+	update(e) {
+		let t = this.data.gradient, n = this.kernel, r = e && t ? t.curves.indexOf(e.row) : -1;
+		if (!this.on || r < 0 || !t || !e) return this.arrows.forEach((e) => e.arrow.set([0, 0], [0, 0]));
+		let i = 0, a = -1;
+		for (let t = 0; t < n.count; t++) n.good(t) && Math.abs(n.value(e.row, t)) > a && (a = Math.abs(n.value(e.row, t)), i = t);
+		let o = n.gradient(r, i), s = Math.sign(n.value(e.row, i)) || 1, c = new Map(t.numbers.map((e, t) => [e, o[t]])), l = this.arrows.map(({ h: e }) => {
+			let t = 0, r = 0;
+			if (e.kind === "joint" || e.kind === "point") for (let i of e.ends) {
+				let [e, a] = i.n.map((e) => c.get(e) ?? 0), [o, l] = i.e.map((e) => n.here[e]);
+				t -= s * (o * e - l * a), r -= s * (l * e + o * a);
+			}
+			return [t, r];
+		}), u = Math.max(...l.map((e) => Math.hypot(...e)), 1e-300);
+		this.arrows.forEach(({ h: e, arrow: t }, n) => {
+			let r = this.b.paper.point(e.p), [i, a] = l[n];
+			t.set(r, [r[0] + 14 * i / u, r[1] - 14 * a / u], .5);
+		});
+	}
+}, ge = class {
+	b;
+	kernel;
+	places;
+	on = !1;
+	part = .005;
+	draws;
+	out;
+	numbers;
+	canvas;
+	constructor(e, t, n, r, i) {
+		this.b = t, this.kernel = r, this.places = i, this.numbers = n.numbers.flatMap((e, t) => /\.points\./.test(e.path) || e.path.endsWith(".center.0") || e.path.endsWith(".center.1") ? [t] : []), this.canvas = document.createElement("canvas"), this.canvas.className = "cloud", this.canvas.setAttribute("aria-hidden", "true"), e.append(this.canvas), this.out = new Float64Array(r.here.length);
+		let a = 12345, o = () => ((a = Math.imul(a, 1664525) + 1013904223 >>> 0) + .5) / 4294967296, s = () => Math.sqrt(-2 * Math.log(o())) * Math.cos(2 * Math.PI * o());
+		this.draws = Array.from({ length: 1e3 }, () => Float64Array.from({ length: this.numbers.length }, s));
+	}
+	update(e) {
+		let t = this.canvas, n = this.b.svg.getBoundingClientRect();
+		if (t.hidden = !this.on, !this.on || !n.width) return null;
+		let r = window.devicePixelRatio || 1, [i, a] = [Math.round(n.width * r), Math.round(n.height * r)];
+		(t.width !== i || t.height !== a) && (t.width = i, t.height = a);
+		let o = t.getContext("2d"), s = this.b.svg.viewBox.baseVal, c = Math.min(i / s.width, a / s.height);
+		o.clearRect(0, 0, i, a), o.fillStyle = "rgba(122,47,160,.25)";
+		let l = this.kernel, u = l.values.slice(), d = this.part * this.reach() / 3, f = u.slice(), p = 0, m = 0, h = 0;
+		for (let t of this.draws) {
+			this.numbers.forEach((e, n) => f[e] = u[e] + d * t[n]), l.other(f, this.out);
+			let n = this.out[this.out.length - 1];
+			if (n === 0 || n === 9) {
+				for (let [e, t] of this.places) {
+					let [n, l] = this.b.paper.of(this.out[e], this.out[t]);
+					o.fillRect((n - s.x) * c + (i - s.width * c) / 2, (l - s.y) * c + (a - s.height * c) / 2, r, r);
+				}
+				e !== void 0 && (p += this.out[e], m += this.out[e] ** 2, h++);
+			}
+		}
+		l.other(u, this.out);
+		let g = p / (h || 1);
+		return h ? {
+			mean: g,
+			sigma: Math.sqrt(Math.max(m / h - g * g, 0))
+		} : null;
+	}
+	reach() {
+		return this.b.svg.viewBox.baseVal.width * .5 * this.b.paper.perMm;
+	}
+}, _e = class {
+	kernel;
+	past = [];
+	future = [];
+	now;
+	constructor(e) {
+		this.kernel = e, this.now = e.values.slice();
+	}
+	note() {
+		this.now.every((e, t) => e === this.kernel.values[t]) || (this.past.push(this.now), this.past.length > 500 && this.past.shift(), this.future = [], this.now = this.kernel.values.slice());
+	}
+	go(e) {
+		let t = e ? this.past : this.future, n = e ? this.future : this.past, r = t.pop();
+		return r ? (n.push(this.now), this.now = r, this.kernel.values.set(r), !0) : !1;
+	}
+	get can() {
+		return [this.past.length > 0, this.future.length > 0];
+	}
+};
+function ve(e, t, n) {
+	let r = e.numbers.flatMap((e, n) => t.values[n] === e.value ? [] : [`${encodeURIComponent(e.path)}=${t.values[n]}`]);
+	return ["t=" + +n.toFixed(4), ...r].join("&");
+}
+function ye(e, t, n) {
+	let r = 0;
+	for (let i of n.replace(/^#/, "").split("&")) {
+		let [n, a] = i.split("="), o = Number(a);
+		if (a && Number.isFinite(o)) {
+			if (n === "t") r = o;
+			else {
+				let r = "";
+				try {
+					r = decodeURIComponent(n);
+				} catch {
+					continue;
+				}
+				let i = e.numbers.findIndex((e) => e.path === r);
+				i >= 0 && (t.values[i] = o);
+			}
+		}
+	}
+	return r;
+}
+function be(e, t) {
+	return e.template.map((e, n) => n % 2 ? String(t.values[+e]) : e).join("");
+}
+function xe(e, t) {
+	let n = (e) => /[",\n]/.test(e) || /^[=+\-@]/.test(e) ? `"${e.replace(/^([=+\-@])/, "'$1").replace(/"/g, "\"\"")}"` : e, r = e.views.charts.flatMap((t) => t.curves.map((n) => ({
+		x: n,
+		unit: e.units[t.kind] ?? {
+			unit: "",
+			size: 1
+		}
+	}))), i = [[
+		...e.drives.map((e) => `${e.name} [${e.unit}]`),
+		"status",
+		...r.map(({ x: e, unit: t }) => `${e.of} [${t.unit}]`)
+	].map(n).join(",")];
+	for (let a = 0; a < t.count; a++) {
+		let o = t.good(a), s = String(t.rows[t.rows.length - t.row + a]), c = e.drives.map((e) => t.positions.get(e.name)[a] / e.size);
+		i.push([
+			...c,
+			n(e.statuses[s]?.status ?? "ok"),
+			...r.map(({ x: e, unit: n }) => o ? t.value(e.row, a) / n.size : "")
+		].join(","));
+	}
+	return i.join("\n") + "\n";
+}
+function Se(t, n) {
+	let r = t.cloneNode(!0), { width: i, height: a } = t.viewBox.baseVal;
+	r.querySelectorAll(".handles").forEach((e) => e.remove()), r.setAttribute("xmlns", "http://www.w3.org/2000/svg"), r.setAttribute("width", `${i}mm`), r.setAttribute("height", `${a}mm`), r.setAttribute("font-family", "'DejaVu Sans', Arial, sans-serif");
+	let o = e("style", null);
+	return o.textContent = n, r.prepend(o), new XMLSerializer().serializeToString(r);
+}
+function W(e, t, n) {
+	let r = document.createElement("a");
+	r.href = URL.createObjectURL(new Blob([t], { type: n })), r.download = e, r.click(), setTimeout(() => URL.revokeObjectURL(r.href), 1e3);
+}
+var Ce = (e) => o(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism";
+// src/page.ts
+async function G(e, n, r = {}) {
+	if (n.format !== "dalembert-page/1") throw Error(`this page cannot show data of the form ${n.format}`);
+	let i = await se.create(n), a = document.createElement("div");
+	a.className = "dalembert";
+	let s = t("style", a);
+	s.textContent = me + n.style.light + `@media (prefers-color-scheme:dark){${n.style.dark}}@media print{` + n.style.light + "}";
+	let c = new _e(i), l = [], u = r.address ? ye(n, i, location.hash) : 0;
+	c.note();
+	let d = t("header", a), f = t("main", a);
+	t("h1", d, {}, n.title);
+	let p = t("div", d, {
+		class: "bar",
+		role: "toolbar",
+		"aria-label": "cycle and page"
+	}), m = (e, n, r) => {
+		let i = t("button", p, {
+			type: "button",
+			title: n,
+			"aria-label": n
+		}, e);
+		return i.addEventListener("click", r), i;
+	}, h = m("▶", "play along the cycle (space)", () => we()), g = t("input", p, {
+		type: "range",
+		min: 0,
+		max: i.end,
+		step: n.only_at_positions ? 1 : "any",
+		"aria-label": "place of the cycle"
+	}), _ = t("output", p, { class: "readout" }), v = m("↶", "undo (Ctrl+Z)", () => X(!0)), y = m("↷", "redo (Ctrl+Y)", () => X(!1));
+	m("Reset", "all numbers as in the file", () => {
+		i.values.set(n.numbers.map((e) => e.value)), Y([]), J();
+	});
+	let b = t("p", d, {
+		class: "mark",
+		role: "status"
+	});
+	for (let e of [
+		h,
+		g,
+		_
+	]) e.hidden = i.count < 2;
+	let x = t("section", f, {
+		class: "stage",
+		"aria-label": "mechanism"
+	}), S = O(x, i, n.views.mechanism, null, 170, 128, n.units, "the mechanism"), C = n.views.charts.flatMap((e) => e.curves).find((e) => n.gradient?.curves.includes(e.row)), w = new he(S, n, i), T = new ge(x, S, n, i, n.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), E = ne(S, n, i, {
+		changed: () => J(),
+		finished: Y,
+		seek: (e) => Z(e),
+		time: () => u
+	}, () => S.force()), D = t("div", x, { class: "switches" }), k = (e, n, r, i) => {
+		let a = t("label", D, { title: n }), o = t("input", a, { type: "checkbox" });
+		return o.checked = r, a.append(e), o.addEventListener("change", () => (i(o.checked), Q(!0))), o;
+	};
+	k("names", "names of joints", S.names, (e) => S.names = e), n.gradient && k("what lowers the peak", "arrows: moving a joint this way lowers the peak of the chosen curve", !1, (e) => w.on = e), n.handles.some((e) => e.kind === "joint") && k("tolerances", "a thousand machines with points up to 0.5 % of the drawing's width off", !1, (e) => T.on = e);
+	let A = t("span", D, { class: "spread" }), j = t("section", f, {
+		class: "side",
+		"aria-label": "results"
+	}), re = (e) => Z(e), ie = (e) => (C = e, Q(!0)), ae = [...i.count > 1 ? n.views.charts.map((e) => N(j, n, i, e, () => u, re, ie, () => C)) : []], P = t("select", U("Free body", !0), { "aria-label": "link" });
+	n.views.bodies.forEach((e, n) => t("option", P, { value: n }, `${e.title}, ${e.member} member`));
+	let F = t("div", P.parentElement), I = n.views.bodies.map((e) => {
+		let r = t("div", F, { class: "body" });
+		return {
+			box: r,
+			drawn: O(r, i, e, e.about, 110, 84, n.units, `free body of ${e.title}`),
+			sums: fe(r, n, i, e)
+		};
+	}), L = U("Force polygon"), R = n.views.polygons.links.map((e) => te(L, n, i, e)), z = i.count > 2 ? n.views.charts.flatMap((e) => e.curves).filter((e) => e.f) : [], B = z.length ? U("Polar diagrams") : null, oe = B ? z.map((e) => ee(B, i, e, n.units.force)) : [], V = de(U("Numbers of this position"), n, i), H = le(U("Change numbers", n.numbers.some((e) => e.parameter)), n, i, (e, t) => {
+		J(), t && Y([e]);
+	});
+	pe(U("Method and assumptions"), n), ue();
+	function U(e, t = !1) {
+		return ce(j, e, t);
+	}
+	function ue() {
+		let e = U("Save and share"), a = Ce(n.title), o = (n, r) => t("button", e, { type: "button" }, n).addEventListener("click", r);
+		o("Model file", () => W(`${a}.yaml`, be(n, i), "text/yaml")), o("Curves as CSV", () => W(`${a}.csv`, xe(n, i), "text/csv")), o("Drawing as SVG", () => W(`${a}.svg`, Se(S.svg, n.style.light), "image/svg+xml")), o("Print", () => window.print()), r.address && o("Copy link", () => {
+			location.hash = ve(n, i, u), navigator.clipboard?.writeText(location.href);
+		});
+	}
+	P.addEventListener("change", () => Q(!1)), S.svg.addEventListener("click", (e) => {
+		let t = e.target.closest("[data-link]")?.dataset.link, r = n.views.bodies.findIndex((e) => e.link === t);
+		r >= 0 && (P.value = String(r), Q(!1));
+	}), g.addEventListener("input", () => Z(+g.value));
+	let G = 0, K = !0, q = 0;
+	function J() {
+		Q(!0);
+	}
+	function Y(e) {
+		c.note(), S.fit(), Q(!0), H.update(), r.edited && e.length && r.edited(Object.fromEntries(e.map((e) => [n.numbers[e].path, i.values[e]]))), r.address && window.history.replaceState(null, "", "#" + ve(n, i, u));
+	}
+	function X(e) {
+		c.go(e) && (Q(!0), H.update(), r.edited?.(Object.fromEntries(n.numbers.map((e, t) => [e.path, i.values[t]]))));
+	}
+	function Z(e) {
+		u = Math.min(Math.max(e, 0), i.end), n.only_at_positions && (u = Math.round(u)), Q(!1);
+	}
+	function we() {
+		if (q) return Te();
+		h.textContent = "❚❚";
+		let e = performance.now(), t = (r) => {
+			let a = u + (r - e) / 1e3 / 6 * i.end;
+			e = r, Z(a >= i.end ? 0 : a), (!n.only_at_positions || a >= 1) && (q = requestAnimationFrame(t));
+		};
+		q = requestAnimationFrame(t);
+	}
+	function Te() {
+		cancelAnimationFrame(q), q = 0, h.textContent = "▶";
+	}
+	function Q(e) {
+		K ||= e, G ||= requestAnimationFrame(() => {
+			G = 0;
+			let e = performance.now();
+			Ee(), l.push(performance.now() - e), l.length > 2e3 && l.shift();
+		});
+	}
+	function Ee() {
+		let e = K;
+		K = !1, e && i.cycle(), i.at(u);
+		let t = i.solved, r = n.statuses[String(i.mark)];
+		a.classList.toggle("unsolved", !t), b.textContent = r && i.mark ? r.sentence : "", S.update(e), E(), w.update(C);
+		let o = T.update(C?.row);
+		A.textContent = o && C ? De(o, C) : "", ae.forEach((t) => t.update(e));
+		let s = +P.value;
+		I.forEach((t, n) => {
+			t.box.hidden = n !== s, n === s && $(t.box) && (t.drawn.update(e), t.sums.update());
+		}), R.forEach((t, n) => {
+			t.figure.hidden = n !== s, n === s && $(t.figure) && t.update(e);
+		}), oe.forEach((t) => t.update(e)), $(L), V.update(), g.value = String(u), _.textContent = n.drives.map((e) => `${e.name} = ${M(i.position(e.name, u) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), [v.disabled, y.disabled] = c.can.map((e) => !e);
+	}
+	let $ = (e) => e.closest("details")?.open ?? !0;
+	function De(e, t) {
+		let r = n.views.charts.find((e) => e.curves.includes(t)).kind, i = n.units[r] ?? {
+			unit: "",
+			size: 1
+		};
+		return `${o(t.name)}: ${M(e.mean / i.size)} ± ${M(e.sigma / i.size, 2)} ${i.unit} (1 σ)`;
+	}
+	return a.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => Q(!0))), a.addEventListener("keydown", (e) => {
+		let t = /INPUT|SELECT|TEXTAREA/.test(e.target.tagName);
+		(e.ctrlKey || e.metaKey) && !t && /^[zy]$/i.test(e.key) ? (e.preventDefault(), X(e.key.toLowerCase() === "z" && !e.shiftKey)) : e.key === " " && !t && e.target.tagName !== "BUTTON" && i.count > 1 && (e.preventDefault(), we());
+	}), a.tabIndex = -1, i.cycle(), i.at(u), e.replaceChildren(a), r.address && location.hash && S.fit(), Ee(), H.update(), {
+		kernel: i,
+		data: n,
+		times: l,
+		show: Z,
+		set(e, t) {
+			let r = n.numbers.findIndex((t) => t.path === e);
+			if (r < 0) throw Error(`there is no number ${e}`);
+			i.values[r] = t, Y([]);
+		},
+		text: () => be(n, i),
+		remove: () => (Te(), a.remove())
+	};
+}
+// src/main.ts
+var K = { async render({ model: e, el: t }) {
+	let n = (t) => {
+		e.set("changes", {
+			...e.get("changes"),
+			...t
+		}), e.save_changes();
+	}, r = await G(t, e.get("data"), { edited: n }), i = async () => {
+		r.remove(), r = await G(t, e.get("data"), { edited: n });
+	};
+	return e.on("change:data", i), () => (e.off("change:data", i), r.remove());
+} };
+export { K as default, G as mount };

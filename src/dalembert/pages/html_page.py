@@ -1,0 +1,56 @@
+"""One self-contained HTML file: the front end and the data of one mechanism; it asks for nothing else."""
+
+from __future__ import annotations
+
+import json
+from html import escape
+from pathlib import Path
+
+from dalembert.arrays import Tree
+from dalembert.model import Mechanism
+from dalembert.pages.page_data import page_data
+from dalembert.saving import new_file
+
+BUNDLE = Path(__file__).with_name("bundle")
+
+POLICY = (
+    "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; "
+    "img-src data: blob:; base-uri 'none'; form-action 'none'"
+)
+"""Nothing may be loaded from anywhere, whatever stands in the data."""
+
+
+def page(m: Mechanism, path: str | Path | None = None, static: bool = False, overwrite: bool = False) -> str:
+    """The HTML of a live page of a mechanism of the plane; written to ``path`` where that is given.
+
+    Every drawn number is computed by the kernel's WebAssembly in the page: joints, loads and every number of the file
+    can be changed, and all forces follow. static: leave inertia out. overwrite: replace a file that is there.
+    Raises ModelError for what only the analyses can do (space, redundant mechanisms, positions that are asked for).
+
+    >>> import dalembert as da
+    >>> html = da.page(da.four_bar())
+    >>> html[:15], len(html) < 120_000
+    ('<!doctype html>', True)
+    """
+    text = html_text(page_data(m, static))
+    if path is not None:
+        with new_file(path, overwrite) as file:
+            file.write_text(text, encoding="utf-8")
+    return text
+
+
+def html_text(data: Tree) -> str:
+    """A page with its data; no text of a model file can end the script or be taken for markup."""
+    script = (BUNDLE / "page.js").read_text(encoding="utf-8").replace("</script", "<\\/script")
+    told = json.dumps(data, separators=(",", ":"), ensure_ascii=False)
+    told = told.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+    return (
+        '<!doctype html><html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width,initial-scale=1">'
+        f'<meta http-equiv="Content-Security-Policy" content="{POLICY}"><title>{escape(data["title"])}</title>'
+        "<style>body{margin:0}@media(prefers-color-scheme:dark){html{background:#151b22;color-scheme:dark}}</style></head>"
+        f'<body><div id="page"></div><script type="application/json" id="data">{told}</script><script>{script}</script>'
+        '<script>dalembert.mount(document.getElementById("page"),'
+        'JSON.parse(document.getElementById("data").textContent),{address:true})'
+        '.then(p=>{window.page=p},e=>{document.getElementById("page").textContent=String(e)})</script></body></html>\n'
+    )

@@ -1,0 +1,95 @@
+/** The drawing of a mechanism or of a free body: items, arrows at a stated scale, labels that keep out of the way. */
+
+import type { Data, Drawing, FreeBody, Pair } from "./data";
+import { action, item, Paper, type Part, type Shown } from "./items";
+import type { Kernel } from "./kernel";
+import { label, type Placed, Placer } from "./labels";
+import { make, type Point } from "./svg";
+
+export interface Board { svg: SVGSVGElement; paper: Paper; names: boolean; update(cycle: boolean): void; fit(): void; force(): number }
+
+const ROUND = [1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10];
+
+/** The next round number: 1, 1.25, 1.5, 2 ... times a power of ten. */
+export function roundUp(x: number): number {
+  if (!(x > 0) || !Number.isFinite(x)) return 1;
+  const power = 10 ** Math.floor(Math.log10(x) + 1e-12);
+  return power * (ROUND.find((r) => r * power >= x * (1 - 1e-12)) ?? 10);
+}
+
+export function canvas(parent: Element, width: number, height: number, name: string): SVGSVGElement {
+  return make("svg", parent, { viewBox: `${-width / 2} ${-height / 2} ${width} ${height}`, role: "img", "aria-label": name });
+}
+
+/** ``units``: the reader's, for round scales. */
+export function board(parent: Element, kernel: Kernel, d: Drawing & { middle?: Pair }, about: FreeBody["about"] | null,
+                      w: number, h: number, units: Data["units"], name: string): Board {
+  const size = { length: units.length.size, force: units.force.size };
+  const svg = canvas(parent, w, h, name), paper = new Paper(kernel, d.per_mm);
+  const cyclic: Part[] = [], live: Part[] = [], arrows: Shown[] = [], names: { l: Placed; p: Pair; q?: Pair }[] = [];
+  let perMm = d.force;
+  if (d.middle) paper.middle = d.middle;
+  const drawn = make("g", svg), acting = make("g", svg), lettered = make("g", svg);
+  for (const i of d.items) (i.t === "trace" ? cyclic : live).push(item(drawn, i, paper));
+  for (const a of d.arrows) arrows.push(action(acting, a, paper, () => perMm, about ?? undefined));
+  for (const l of d.labels) names.push({ l: label(lettered, l.role, l.text, l.kind === "joint" ? 3.4 : 3), p: l.p, q: l.q });
+  const note = make("text", lettered, { class: "l-note-t", "font-size": 2.8, x: -w / 2 + 2, y: h / 2 - 2 });
+  const bounds: [number, number, number, number] = [-w / 2, -h / 2, w / 2, h / 2 - 4];
+  const span = (some: number[]): Point => [Math.min(...some), Math.max(...some)];
+
+  function centre(): void {
+    if (!about) return;
+    const h = kernel.here, [x0, x1] = span(about.map((r) => h[r[0]])), [y0, y1] = span(about.map((r) => h[r[1]]));
+    if (Number.isFinite(x0 + x1 + y0 + y1)) paper.middle = [(x0 + x1) / 2, (y0 + y1) / 2];
+  }
+
+  /** Scales anew: the whole cycle finds room, the largest force is as long as it was. */
+  function fit(): void {
+    const xs: number[] = [], ys: number[] = [];
+    const points = about ?? d.items.flatMap((i) => (i.t === "hull" || i.t === "path" ? i.p : i.t === "symbol" ? [i.p] : []));
+    const step = Math.max(1, Math.floor(kernel.count / 72));
+    for (const p of points)
+      for (let k = 0; k < kernel.count; k += about ? kernel.count : step)
+        if (about || kernel.good(k)) {
+          xs.push(about ? kernel.here[p[0]] : kernel.value(p[0], k));
+          ys.push(about ? kernel.here[p[1]] : kernel.value(p[1], k));
+        }
+    if (xs.length) {
+      const [x0, x1] = span(xs), [y0, y1] = span(ys), room = about ? [46, 40] : [w * 0.7, h * 0.68];
+      const need = Math.max((x1 - x0) / room[0], (y1 - y0) / room[1]) || d.per_mm;
+      if (!about) paper.middle = [(x0 + x1) / 2, (y0 + y1) / 2];
+      paper.perMm = roundUp(need / size.length) * size.length;
+    }
+    let most = 0;
+    for (const a of d.arrows)
+      if (a.t === "force")
+        for (let k = 0; k < kernel.count; k++) if (kernel.good(k)) most = Math.max(most, Math.hypot(kernel.value(a.f[0], k), kernel.value(a.f[1], k)));
+    if (most > 0) perMm = roundUp(most / (about ? 26 : 22) / size.force) * size.force;
+  }
+
+  const out: Board = {
+    svg, paper, fit, force: () => perMm, names: d.labels.filter((l) => l.kind === "joint").length <= 8,
+    update(cycle) {
+      centre();
+      if (cycle) cyclic.forEach((p) => p.update());
+      live.forEach((p) => p.update());
+      arrows.forEach((p) => p.update());
+      const placer = new Placer(bounds);
+      live.forEach((p) => p.mark?.(placer));
+      arrows.forEach((p) => p.mark?.(placer));
+      for (const { l, p, q } of names) {
+        const on = out.names || !!q;
+        l.el.setAttribute("visibility", on ? "visible" : "hidden");
+        if (!on) continue;
+        const a = paper.point(p), b = q ? paper.point(q) : a, anchor: Point = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
+        placer.put({ label: l, anchor, away: q ? undefined : anchor, leave: q ? 0.8 : 1.3 });
+      }
+      for (const a of arrows) {
+        const at = a.anchor();
+        if (at) placer.put({ label: a.label, anchor: at[0], away: at[1], leave: 0.9 });
+      }
+      note.textContent = `1 mm = ${+(paper.perMm / size.length).toPrecision(4)} ${units.length.unit}, ${+(perMm / size.force).toPrecision(4)} ${units.force.unit}`;
+    },
+  };
+  return out;
+}

@@ -1,0 +1,126 @@
+/** Panels beside the drawing: the numbers that can be changed, the answers in numbers, a free body's equations, method. */
+
+import { figures } from "./charts";
+import type { Data, FreeBody, NumberField } from "./data";
+import type { Kernel } from "./kernel";
+import { html, plain } from "./svg";
+
+export function panel(parent: Element, title: string, open = false): HTMLElement {
+  const d = html("details", parent, { class: "panel" });
+  d.open = open;
+  html("summary", d, {}, title);
+  return html("div", d);
+}
+
+export interface Numbers { update(): void }
+
+/** Parameters with sliders first, then every other number, by what it belongs to. */
+export function numbersPanel(parent: Element, data: Data, kernel: Kernel, changed: (n: number, done: boolean) => void): Numbers {
+  const boxes: { box: HTMLInputElement; slide?: HTMLInputElement; n: number; field: NumberField }[] = [];
+  const groups = new Map<string, Element>();
+  const group = (name: string): Element => {
+    let g = groups.get(name);
+    if (!g) {
+      const f = html("fieldset", parent);
+      html("legend", f, {}, name);
+      groups.set(name, (g = f));
+    }
+    return g;
+  };
+  const order = data.numbers.map((field, n) => ({ field, n })).sort((a, b) => Number(b.field.parameter ?? false) - Number(a.field.parameter ?? false));
+  for (const { field, n } of order) {
+    const [owner, rest] = field.parameter ? ["Parameters", field.label] : split(field.label);
+    const line = html("label", group(owner), { title: field.about ?? field.path });
+    html("span", line, {}, rest);
+    const box = html("input", line, { type: "number", step: "any", "aria-label": field.label, "data-path": field.path });
+    html("span", line, { class: "unit" }, field.unit);
+    const entry: (typeof boxes)[number] = { box, n, field };
+    const apply = (value: number, done: boolean) => {
+      if (!Number.isFinite(value)) return;
+      kernel.values[n] = value * field.size;
+      changed(n, done);
+    };
+    box.addEventListener("change", () => (box.value.trim() === "" ? write(entry) : apply(+box.value, true)));
+    if (field.parameter) {
+      const [low, high] = field.range ?? around(field.value);
+      const slide = html("input", line, { type: "range", min: low / field.size, max: high / field.size, step: "any", "aria-label": `${field.label}, slider` });
+      entry.slide = slide;
+      slide.addEventListener("input", () => apply(+slide.value, false));
+      slide.addEventListener("change", () => apply(+slide.value, true));
+    }
+    boxes.push(entry);
+  }
+  const write = (e: (typeof boxes)[number]) => {
+    const value = kernel.values[e.n] / e.field.size;
+    if (document.activeElement !== e.box) e.box.value = String(+value.toPrecision(6));
+    if (e.slide && document.activeElement !== e.slide) e.slide.value = String(value);
+    e.box.classList.toggle("changed", kernel.values[e.n] !== e.field.value);
+  };
+  return { update: () => boxes.forEach(write) };
+}
+
+function split(said: string): [string, string] {
+  const k = said.indexOf(": ");
+  return k < 0 ? ["Others", said] : [said.slice(0, k), said.slice(k + 2)];
+}
+
+function around(value: number): [number, number] {
+  const reach = 0.5 * Math.abs(value) || 1;
+  return [value - reach, value + reach];
+}
+
+/** The numbers of this position, with magnitude and direction of vectors. */
+export function answersPanel(parent: Element, data: Data, kernel: Kernel): Numbers {
+  const table = html("table", parent, { class: "answers" }), body = html("tbody", table);
+  const rows = data.views.table.map((r) => {
+    const line = html("tr", body), unit = data.units[r.kind] ?? { unit: "", size: 1 };
+    html("th", line, { scope: "row" }, plain(r.name));
+    return { r, unit, cell: html("td", line) };
+  });
+  return {
+    update() {
+      for (const { r, unit, cell } of rows) {
+        const v = r.rows.map((n) => kernel.here[n] / unit.size);
+        const one = (x: number) => (unit.unit === "°" ? `${figures(x, 5)}°` : `${figures(x)} ${unit.unit}`);
+        cell.textContent = !kernel.solved ? "–" : v.length === 1 ? one(v[0])
+          : `${one(Math.hypot(...v))} at ${figures((Math.atan2(v[1], v[0]) * 180) / Math.PI)}°  (${figures(v[0])}, ${figures(v[1])})`;
+      }
+    },
+  };
+}
+
+/** Sums of forces and moments on a link, in signs and in numbers. */
+export function equations(parent: Element, data: Data, kernel: Kernel, b: FreeBody): Numbers {
+  const lines = [0, 1, 2].map(() => html("p", parent, { class: "equation" }));
+  const { terms, about } = b.equations, force = data.units.force, moment = data.units.moment;
+  return {
+    update() {
+      const heads = ["ΣFx", "ΣFy", `ΣM about ${about}`];
+      lines.forEach((line, n) => {
+        const unit = n < 2 ? force : moment;
+        const values = terms.map((t) => kernel.here[n < 2 ? t.f[n] : t.m] / unit.size);
+        const largest = Math.max(...values.map(Math.abs), 0), some = values.map((v, k) => ({ v, k })).filter((x) => Math.abs(x.v) > 1e-9 * largest);
+        if (!kernel.solved || !some.length) {
+          line.textContent = `${heads[n]}: ${kernel.solved ? "nothing acts" : "no answer here"}`;
+          return;
+        }
+        const index = n < 2 ? "xy"[n] : "";
+        const signs = some.map((x) => (n < 2 ? plain(terms[x.k].name) + index : `M(${plain(terms[x.k].name)})`)).join(" + ");
+        const sum = some.reduce((t, x) => t + x.v, 0), shown = Math.abs(sum) < 1e-9 * largest ? 0 : sum;
+        const numbers = some.map((x, k) => (x.v < 0 ? (k ? " − " : "−") : k ? " + " : "") + figures(Math.abs(x.v))).join("");
+        line.textContent = `${heads[n]}: ${signs} = ${numbers} = ${figures(shown)} ${unit.unit}`;
+      });
+    },
+  };
+}
+
+export function methodPanel(parent: Element, data: Data): void {
+  html("p", parent, {}, "Forces and motion are found by one linear system at each position (D'Alembert's principle); every number drawn here is computed anew from the numbers beside it, in double precision.");
+  const list = html("dl", parent);
+  for (const [name, said] of Object.entries(data.assumptions)) {
+    html("dt", list, {}, name);
+    html("dd", list, {}, said);
+  }
+  if (data.source) html("p", parent, {}, `Source: ${data.source}`);
+  html("p", parent, {}, `Made with dalembert ${data.version}.`);
+}

@@ -1,0 +1,112 @@
+/** SVG elements, texts with subscripts, arrows. Millimetres of paper, y down. */
+
+export type Point = [number, number];
+const SVG = "http://www.w3.org/2000/svg";
+
+type Attributes = Record<string, string | number>;
+
+export function make<K extends keyof SVGElementTagNameMap>(name: K, parent: Element | null, attributes: Attributes = {}): SVGElementTagNameMap[K] {
+  const out = document.createElementNS(SVG, name);
+  for (const [k, v] of Object.entries(attributes)) out.setAttribute(k, String(v));
+  parent?.append(out);
+  return out;
+}
+
+export function html<K extends keyof HTMLElementTagNameMap>(name: K, parent: Element | null, attributes: Attributes = {}, text = ""): HTMLElementTagNameMap[K] {
+  const out = document.createElement(name);
+  for (const [k, v] of Object.entries(attributes)) out.setAttribute(k, String(v));
+  if (text) out.textContent = text;
+  parent?.append(out);
+  return out;
+}
+
+export const short = (x: number): string => (Math.abs(x) < 0.005 ? "0" : x.toFixed(2));
+
+export function path(points: Point[], closed = false): string {
+  return points.length ? "M" + points.map(([x, y]) => short(x) + " " + short(y)).join("L") + (closed ? "Z" : "") : "";
+}
+
+export function place(el: Element, x: number, y: number): void {
+  el.setAttribute("transform", `translate(${short(x)} ${short(y)})`);
+}
+
+/** Put a text into an element, what stands in `_{...}` as small letters below. */
+export function letters(el: Element, text: string, size: number): void {
+  el.replaceChildren();
+  let low = false;
+  for (const part of text.split(/(_\{[^}]*\})/)) {
+    if (!part) continue;
+    const sub = part.startsWith("_{"), span = make("tspan", el, sub ? { "font-size": 0.7 * size } : {});
+    span.textContent = sub ? part.slice(2, -1) : part;
+    if (sub !== low) span.setAttribute("dy", String((sub ? 0.25 : -0.25) * size));
+    low = sub;
+  }
+}
+
+/** Signs without their marks, for lists and names: F_{12} gives F12. */
+export const plain = (text: string): string => text.replace(/_\{([^}]*)\}/g, "$1");
+
+let measure: CanvasRenderingContext2D | null = null;
+const widths = new Map<string, number>();
+
+/** Width in mm of a text of a size; subscripts are smaller. */
+export function width(text: string, size: number, bold = false): number {
+  const key = `${bold}${text}`;
+  let found = widths.get(key);
+  if (found === undefined) {
+    measure ??= document.createElement("canvas").getContext("2d")!;
+    measure.font = `${bold ? "bold " : ""}100px "DejaVu Sans", "Helvetica Neue", Arial, sans-serif`;
+    found = 0;
+    for (const part of text.split(/(_\{[^}]*\})/)) {
+      const sub = part.startsWith("_{");
+      found += (measure.measureText(sub ? part.slice(2, -1) : part).width / 100) * (sub ? 0.7 : 1);
+    }
+    widths.set(key, found);
+  }
+  return found * size;
+}
+
+export function text(parent: Element, role: string, said: string, size: number, anchor = "middle"): SVGTextElement {
+  const out = make("text", parent, { class: `l-${role}-t`, "font-size": size, "text-anchor": anchor });
+  letters(out, said, size);
+  return out;
+}
+
+/** A straight arrow; its head is smaller where it is short. */
+export class Arrow {
+  readonly g: SVGGElement;
+  private readonly shaft: SVGPathElement;
+  private readonly head: SVGPathElement;
+  constructor(parent: Element, role: string, name = "") {
+    this.g = make("g", parent);
+    if (name) make("title", this.g).textContent = plain(name);
+    this.shaft = make("path", this.g, { class: `l-${role}`, style: "fill:none" });
+    this.head = make("path", this.g, { class: `l-${role}-h` });
+  }
+  /** Draw it; nothing where it is shorter than `least` mm. */
+  set(tail: Point, tip: Point, least = 0.3): boolean {
+    const dx = tip[0] - tail[0], dy = tip[1] - tail[1], length = Math.hypot(dx, dy);
+    const shown = length > least && Number.isFinite(length);
+    this.g.setAttribute("visibility", shown ? "visible" : "hidden");
+    if (!shown) return false;
+    const ux = dx / length, uy = dy / length, size = Math.min(3, 0.75 * length), side = 0.3 * size;
+    const base: Point = [tip[0] - size * ux, tip[1] - size * uy];
+    this.shaft.setAttribute("d", path([tail, [tip[0] - 0.8 * size * ux, tip[1] - 0.8 * size * uy]]));
+    this.head.setAttribute("d", path([tip, [base[0] - side * uy, base[1] + side * ux], [base[0] + side * uy, base[1] - side * ux]], true));
+    return true;
+  }
+}
+
+export function hull(points: Point[]): Point[] {
+  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  const turn = (a: Point, b: Point, c: Point) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  const half = (some: Point[]): Point[] => {
+    const out: Point[] = [];
+    for (const p of some) {
+      while (out.length > 1 && turn(out[out.length - 2], out[out.length - 1], p) <= 0.01) out.pop();
+      out.push(p);
+    }
+    return out;
+  };
+  return [...half(sorted).slice(0, -1), ...half(sorted.reverse()).slice(0, -1)];
+}

@@ -1,0 +1,189 @@
+/** Beyond the drawing: derivatives as arrows, a cloud of tolerances, undo, the state in the address, files. */
+
+import type { Board } from "./board";
+import type { Curve, Data, Handle } from "./data";
+import type { Kernel } from "./kernel";
+import { Arrow, make, plain } from "./svg";
+
+/** At each joint and point the direction in which moving it lowers the peak of a curve. */
+export class Gradients {
+  on = false;
+  private readonly arrows: { h: Handle & { ends: unknown[] }; arrow: Arrow }[];
+  constructor(private readonly b: Board, private readonly data: Data, private readonly kernel: Kernel) {
+    const layer = make("g", b.svg, { class: "gradient" });
+    const movable = data.handles.filter((h) => h.kind === "joint" || h.kind === "point") as (Handle & { ends: unknown[] })[];
+    this.arrows = data.gradient ? movable.map((h) => ({ h, arrow: new Arrow(layer, "acceleration", `lower the peak by ${h.name}`) })) : [];
+  }
+  update(curve: Curve | undefined): void {
+    const g = this.data.gradient, k = this.kernel, place = curve && g ? g.curves.indexOf(curve.row) : -1;
+    if (!this.on || place < 0 || !g || !curve) return this.arrows.forEach((a) => a.arrow.set([0, 0], [0, 0]));
+    let peak = 0, most = -1;
+    for (let c = 0; c < k.count; c++) if (k.good(c) && Math.abs(k.value(curve.row, c)) > most) (most = Math.abs(k.value(curve.row, c))), (peak = c);
+    const slope = k.gradient(place, peak), sign = Math.sign(k.value(curve.row, peak)) || 1;
+    const by = new Map(g.numbers.map((n, i) => [n, slope[i]]));
+    const vectors = this.arrows.map(({ h }) => {
+      let x = 0, y = 0;
+      if (h.kind === "joint" || h.kind === "point")
+        for (const e of h.ends) {
+          const [a, b] = e.n.map((n) => by.get(n) ?? 0), [c, s] = e.e.map((r) => k.here[r]);
+          x -= sign * (c * a - s * b);
+          y -= sign * (s * a + c * b);
+        }
+      return [x, y];
+    });
+    const longest = Math.max(...vectors.map((v) => Math.hypot(...v)), 1e-300);
+    this.arrows.forEach(({ h, arrow }, n) => {
+      const p = this.b.paper.point(h.p), [x, y] = vectors[n];
+      arrow.set(p, [p[0] + (14 * x) / longest, p[1] - (14 * y) / longest], 0.5);
+    });
+  }
+}
+
+/** A thousand machines whose points lie about those of this one, drawn as dots. */
+export class Cloud {
+  on = false;
+  part = 0.005;
+  private readonly draws: Float64Array[];
+  private readonly out: Float64Array;
+  private readonly numbers: number[];
+  readonly canvas: HTMLCanvasElement;
+  constructor(parent: Element, private readonly b: Board, data: Data, private readonly kernel: Kernel, private readonly places: [number, number][]) {
+    this.numbers = data.numbers.flatMap((n, k) => (/\.points\./.test(n.path) || n.path.endsWith(".center.0") || n.path.endsWith(".center.1") ? [k] : []));
+    this.canvas = document.createElement("canvas");
+    this.canvas.className = "cloud";
+    this.canvas.setAttribute("aria-hidden", "true");
+    parent.append(this.canvas);
+    this.out = new Float64Array(kernel.here.length);
+    let seed = 12345;
+    const uniform = () => ((seed = (Math.imul(seed, 1664525) + 1013904223) >>> 0) + 0.5) / 4294967296;
+    const normal = () => Math.sqrt(-2 * Math.log(uniform())) * Math.cos(2 * Math.PI * uniform());
+    this.draws = Array.from({ length: 1000 }, () => Float64Array.from({ length: this.numbers.length }, normal));
+  }
+  /** Spread of a curve at this place over the machines: mean, standard deviation; null where it is off. */
+  update(row: number | undefined): { mean: number; sigma: number } | null {
+    const c = this.canvas, box = this.b.svg.getBoundingClientRect();
+    c.hidden = !this.on;
+    if (!this.on || !box.width) return null;
+    const dots = window.devicePixelRatio || 1, [w, h] = [Math.round(box.width * dots), Math.round(box.height * dots)];
+    if (c.width !== w || c.height !== h) (c.width = w), (c.height = h);
+    const g = c.getContext("2d")!, view = this.b.svg.viewBox.baseVal, scale = Math.min(w / view.width, h / view.height);
+    g.clearRect(0, 0, w, h);
+    g.fillStyle = "rgba(122,47,160,.25)";
+    const k = this.kernel, nominal = k.values.slice(), sigma = (this.part * this.reach()) / 3, trial = nominal.slice();
+    let sum = 0, squares = 0, count = 0;
+    for (const draw of this.draws) {
+      this.numbers.forEach((n, i) => (trial[n] = nominal[n] + sigma * draw[i]));
+      k.other(trial, this.out);
+      const mark = this.out[this.out.length - 1];
+      if (mark !== 0 && mark !== 9) continue;
+      for (const [x, y] of this.places) {
+        const [px, py] = this.b.paper.of(this.out[x], this.out[y]);
+        g.fillRect((px - view.x) * scale + (w - view.width * scale) / 2, (py - view.y) * scale + (h - view.height * scale) / 2, dots, dots);
+      }
+      if (row !== undefined) (sum += this.out[row]), (squares += this.out[row] ** 2), count++;
+    }
+    k.other(nominal, this.out);
+    const mean = sum / (count || 1);
+    return count ? { mean, sigma: Math.sqrt(Math.max(squares / count - mean * mean, 0)) } : null;
+  }
+  private reach(): number {
+    return this.b.svg.viewBox.baseVal.width * 0.5 * this.b.paper.perMm;
+  }
+}
+
+/** Numbers as they were, to go back to. */
+export class History {
+  private past: Float64Array[] = [];
+  private future: Float64Array[] = [];
+  private now: Float64Array;
+  constructor(private readonly kernel: Kernel) {
+    this.now = kernel.values.slice();
+  }
+  note(): void {
+    if (this.now.every((x, k) => x === this.kernel.values[k])) return;
+    this.past.push(this.now);
+    if (this.past.length > 500) this.past.shift();
+    this.future = [];
+    this.now = this.kernel.values.slice();
+  }
+  go(back: boolean): boolean {
+    const from = back ? this.past : this.future, to = back ? this.future : this.past, next = from.pop();
+    if (!next) return false;
+    to.push(this.now);
+    this.now = next;
+    this.kernel.values.set(next);
+    return true;
+  }
+  get can(): [boolean, boolean] {
+    return [this.past.length > 0, this.future.length > 0];
+  }
+}
+
+/** The changed numbers and the place of the cycle as text for an address. */
+export function fragment(data: Data, kernel: Kernel, t: number): string {
+  const changed = data.numbers.flatMap((n, k) => (kernel.values[k] === n.value ? [] : [`${encodeURIComponent(n.path)}=${kernel.values[k]}`]));
+  return ["t=" + +t.toFixed(4), ...changed].join("&");
+}
+
+/** Read such a text; what fits no number is left out. */
+export function restore(data: Data, kernel: Kernel, said: string): number {
+  let t = 0;
+  for (const part of said.replace(/^#/, "").split("&")) {
+    const [key, value] = part.split("="), x = Number(value);
+    if (!value || !Number.isFinite(x)) continue;
+    if (key === "t") t = x;
+    else {
+      let path = "";
+      try {
+        path = decodeURIComponent(key);
+      } catch {
+        continue;
+      }
+      const n = data.numbers.findIndex((f) => f.path === path);
+      if (n >= 0) kernel.values[n] = x;
+    }
+  }
+  return t;
+}
+
+/** A model file with the numbers as they are. */
+export function modelText(data: Data, kernel: Kernel): string {
+  return data.template.map((part, k) => (k % 2 ? String(kernel.values[+part]) : part)).join("");
+}
+
+/** The curves over the cycle as a table, in the page's units. */
+export function csvText(data: Data, kernel: Kernel): string {
+  const cell = (s: string) => (/[",\n]/.test(s) || /^[=+\-@]/.test(s) ? `"${s.replace(/^([=+\-@])/, "'$1").replace(/"/g, '""')}"` : s);
+  const curves = data.views.charts.flatMap((c) => c.curves.map((x) => ({ x, unit: data.units[c.kind] ?? { unit: "", size: 1 } })));
+  const head = [...data.drives.map((d) => `${d.name} [${d.unit}]`), "status", ...curves.map(({ x, unit }) => `${x.of} [${unit.unit}]`)];
+  const lines = [head.map(cell).join(",")];
+  for (let k = 0; k < kernel.count; k++) {
+    const good = kernel.good(k), mark = String(kernel.rows[kernel.rows.length - kernel.row + k]);
+    const drives = data.drives.map((d) => kernel.positions.get(d.name)![k] / d.size);
+    lines.push([...drives, cell(data.statuses[mark]?.status ?? "ok"), ...curves.map(({ x, unit }) => (good ? kernel.value(x.row, k) / unit.size : ""))].join(","));
+  }
+  return lines.join("\n") + "\n";
+}
+
+export function svgText(svg: SVGSVGElement, style: string): string {
+  const copy = svg.cloneNode(true) as SVGSVGElement, { width, height } = svg.viewBox.baseVal;
+  copy.querySelectorAll(".handles").forEach((g) => g.remove());
+  copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
+  copy.setAttribute("width", `${width}mm`);
+  copy.setAttribute("height", `${height}mm`);
+  copy.setAttribute("font-family", "'DejaVu Sans', Arial, sans-serif");
+  const s = make("style", null);
+  s.textContent = style;
+  copy.prepend(s);
+  return new XMLSerializer().serializeToString(copy);
+}
+
+export function save(name: string, text: string, type: string): void {
+  const a = document.createElement("a");
+  a.href = URL.createObjectURL(new Blob([text], { type }));
+  a.download = name;
+  a.click();
+  setTimeout(() => URL.revokeObjectURL(a.href), 1000);
+}
+
+export const fileName = (title: string): string => plain(title).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism";

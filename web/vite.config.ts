@@ -1,0 +1,18 @@
+import { defineConfig } from "vite";
+
+// One script for the page, which is inlined, and one module for notebooks; fixed names, so that two builds are equal.
+export default defineConfig({
+  build: {
+    lib: {
+      entry: "src/main.ts",
+      formats: ["es", "iife"],
+      name: "dalembert",
+      fileName: (format) => (format === "es" ? "widget.js" : "page.js"),
+    },
+    target: "es2022",
+    outDir: "../src/dalembert/pages/bundle",
+    emptyOutDir: true,
+    minify: true,
+    rollupOptions: { output: { exports: "named" } },
+  },
+});
