@@ -97,12 +97,30 @@ def parameter_name(path: str, given: Parameters, others: Sequence[str]) -> str:
 
 def used_parameters(m: Any, given: Parameters) -> dict[str, Parameter]:
     """The parameters that something in a description follows from, and those that these follow from."""
-    waiting = {name for _, leaf in dependents(m) for name in parameters_of(leaf)} if given else set()
-    used: set[str] = set()
-    while waiting:
-        used |= waiting
-        waiting = {name for known in waiting for name in parameters_of(given[known].value)} - used
+    used = (
+        ancestors((name for _, leaf in dependents(m) for name in parameters_of(leaf)), given)
+        if given
+        else set()
+    )
     return {name: p for name, p in given.items() if name in used}
+
+
+def ancestors(names: Iterable[str], given: Parameters) -> set[str]:
+    """The parameters named, and all that these follow from."""
+    waiting, found = set(names), set[str]()
+    while waiting:
+        found |= waiting
+        waiting = {name for known in waiting for name in parameters_of(given[known].value)} - found
+    return found
+
+
+def reached(m: Any, path: str) -> list[str]:
+    """Paths of everything that follows from a parameter; of another path itself."""
+    if path not in m.parameters:
+        return [path]
+    return [
+        ".".join(keys) for keys, leaf in dependents(m) if path in ancestors(parameters_of(leaf), m.parameters)
+    ]
 
 
 def unused_parameters(m: Any) -> list[ModelError]:

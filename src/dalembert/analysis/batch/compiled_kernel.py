@@ -31,6 +31,7 @@ from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.graph import CONSTANT, Node
 from dalembert.kernel.program import Program
 from dalembert.model import Mechanism
+from dalembert.model.paths import reached
 
 LARGEST = float(np.finfo(float).max)
 """Largest number there is."""
@@ -337,7 +338,11 @@ class Kernel:
         file's motion passes change points (a parallelogram passes them, its neighbours do not)."""
         flips = self.trace.catalogue.traced.flips
         return np.flatnonzero(
-            [path.startswith("assembly.") or (flips and geometric(path)) for path in self.numbers]
+            [
+                any(found.startswith("assembly.") for found in reached(self.mechanism, path))
+                or (flips and geometric(self.mechanism, path))
+                for path in self.numbers
+            ]
         )
 
     def _may_change_branch(self, values: Array) -> Flags | None:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from dalembert.analysis.batch.traced_parameters import traced, varies
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.compile.pose_loads import TIME, coordinates
 from dalembert.analysis.positions import Positions, positions
@@ -154,6 +155,9 @@ class Inputs:
 
     def load(self, name: str, varying: Any) -> Node:
         """A load that changes with the drives."""
+        if varies(varying):
+            found: Node = traced(name, varying, self.graph, self.load)
+            return found
         self.varying[name] = varying
         return self.make(
             "channel",

@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from dalembert.analysis.batch.traced_parameters import Channel, symbol_functions
 from dalembert.arrays import Numeric, Tree
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, Scalar
 from dalembert.model import Mechanism
-from dalembert.model.paths import set_value, value_at
+from dalembert.model.paths import ancestors, parameter_name, reached, set_value, value_at, with_dependents
+from dalembert.model.quantities.dependent_numbers import parameters_of, with_new
+from dalembert.model.quantities.expressions import Functions
 from dalembert.model.quantities.figures import unit_vector
-from dalembert.model.quantities.tables import Table
+from dalembert.model.quantities.parameters import values_of
 from dalembert.model.quantities.values import Vector
 from dalembert.model.quantities.vectors import length, unit
+
+DRIVEN = ("position", "law", "range")
+"""Keys of a drive that are given when a kernel is called."""
 
 
 @dataclass(frozen=True)
@@ -23,23 +29,52 @@ class Number:
 
     path: str
     value: float
+    parameter: bool = False
+    """Whether it is a parameter of the file, of which others follow."""
 
     @property
     def keys(self) -> list[str]:
-        return self.path.split(".")
+        return ["parameters", self.path] if self.parameter else self.path.split(".")
 
 
 def numbers(m: Mechanism, vary: Iterable[str]) -> tuple[Number, ...]:
     """The numbers behind dotted paths, vectors as their components `.0`, `.1`, matrices `.0.1`."""
     out: list[Number] = []
     for path in vary:
+        name = parameter_name(path, m.parameters, m.keys())
+        if name:
+            out.append(_parameter(m, name))
+            continue
         value = value_at(m, path.split("."))
         _refuse_law(m, path)
         out += _numbers(path, value)
+    _refuse_twofold(m, out)
     double = next((n.path for k, n in enumerate(out) if n.path in {o.path for o in out[:k]}), None)
     if double:
         raise ModelError(f"{double!r} is varied twice", "name it once")
     return tuple(out)
+
+
+def _parameter(m: Mechanism, name: str) -> Number:
+    """A parameter, if what follows from it may vary."""
+    for path in reached(m, name):
+        keys = path.split(".")
+        if keys[0] == "drives" and keys[2] in DRIVEN:
+            what = f"{name!r} sets {'.'.join(keys[:3])!r}, which cannot vary from design to design"
+            raise ModelError(what, "give the positions when you call the kernel", keys)
+        _refuse_law(m, path)
+    return Number(name, float(m.parameters[name].value), parameter=True)
+
+
+def _refuse_twofold(m: Mechanism, given: list[Number]) -> None:
+    """Raise ModelError for a number that follows from a parameter given beside it."""
+    for parameter in (n for n in given if n.parameter):
+        followers = set(reached(m, parameter.path))
+        for n in given:
+            own = m.parameters[n.path].value if n.parameter else None
+            if n.path in followers or parameter.path in ancestors(parameters_of(own), m.parameters):
+                what = f"{n.path!r} follows from the parameter {parameter.path!r}, and both vary"
+                raise ModelError(what, "leave one of them out", n.keys)
 
 
 def _refuse_law(m: Mechanism, path: str) -> None:
@@ -50,7 +85,7 @@ def _refuse_law(m: Mechanism, path: str) -> None:
 
 def _numbers(path: str, value: object) -> list[Number]:
     keys = path.split(".")
-    if keys[0] == "drives" and len(keys) > 2 and keys[2] in ("position", "law", "range"):
+    if keys[0] == "drives" and len(keys) > 2 and keys[2] in DRIVEN:
         raise ModelError(
             f"{path!r} cannot vary from design to design",
             "give the positions when you call the kernel",
@@ -77,17 +112,31 @@ def _numbers(path: str, value: object) -> list[Number]:
     )
 
 
-def geometric(path: str) -> bool:
-    """Whether the number at a path places joints."""
-    keys = path.split(".")
+def geometric(m: Mechanism, path: str) -> bool:
+    """Whether the number at a path, or what follows from a parameter, places joints."""
+    return any(_places_joints(found.split(".")) for found in reached(m, path))
+
+
+def _places_joints(keys: list[str]) -> bool:
     loads = {"damping", "friction"}  # of a joint: it stands where it stood
     return "points" in keys[2:3] or (keys[0] == "joints" and not loads & set(keys[2:]))
 
 
-def with_numbers(m: Mechanism, where: Iterable[Number], values: Iterable[object]) -> Mechanism:
-    """The description with other numbers, or symbols, in their places; not checked again."""
-    for number, value in zip(where, values, strict=True):
-        m = set_value(m, number.keys, value)
+def with_numbers(
+    m: Mechanism, where: Iterable[Number], values: Iterable[Any], symbols: Functions | None = None
+) -> Mechanism:
+    """The description with other numbers, or symbols, in their places; not checked again.
+
+    symbols: the functions of expressions for symbols, where the values are such.
+    """
+    given = list(zip(where, values, strict=True))
+    changed = {number.path: value for number, value in given if number.parameter}
+    if changed:
+        new = values_of(m.parameters, changed, symbols)
+        m = with_dependents(m, lambda leaf: with_new(leaf, new, symbols), None)
+    for number, value in given:
+        if not number.parameter:
+            m = set_value(m, number.keys, value)
     return m
 
 
@@ -106,14 +155,15 @@ class SymbolicForce:
         return self.components
 
 
-Channel = Callable[[str, Any], Node]
-"""The input of a load by its name and how it varies."""
-
-
 def symbolic(m: Mechanism, where: tuple[Number, ...], graph: Graph, channel: Channel) -> Mechanism:
     """The description on symbols; ``channel(name, varying)`` gives the input of a load that changes with the drives."""
     nodes = [graph.input("number", n.path, n.value) for n in where]
-    s = with_numbers(m, where, nodes)
+    try:
+        s = with_numbers(m, where, nodes, symbol_functions(graph))
+    except TypeError as error:
+        raise ModelError(
+            f"an expression of parameters cannot be compiled: {error}", "use the analyses"
+        ) from None
     if not m.g_override and any(isinstance(g, Node) for g in s.gravity_vector):
         s = s.model_copy(update={"g_override": length(s.gravity_vector)})
     loads = {name: _load(name, load, channel) for name, load in s.loads.items()}
@@ -126,9 +176,7 @@ def symbolic(m: Mechanism, where: tuple[Number, ...], graph: Graph, channel: Cha
 
 def _value(name: str, value: Numeric, channel: Channel) -> Numeric:
     """A number or symbol as it is, else the input that stands for its value along the motion."""
-    if isinstance(value, Table) and isinstance(value.times, Node):
-        return channel(name, replace(value, times=1.0)) * value.times
-    return channel(name, value) if hasattr(value, "at") else value
+    return channel(name, value) if hasattr(value, "at") else value  # an input, or traced from some
 
 
 def _load(name: str, load: Any, channel: Channel) -> object:

@@ -48,7 +48,7 @@ def trace_analysis(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Res
     check_knowns(course.compiled)
     _check(course)
     where = numbers(m, vary)
-    moved = [n for n in where if geometric(n.path)]
+    moved = [n for n in where if geometric(m, n.path)]
     if m.dimension == 3:
         _check_space(course.compiled, moved)
     graph = Graph()

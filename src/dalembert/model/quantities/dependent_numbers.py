@@ -79,13 +79,17 @@ def parameters_of(value: object) -> tuple[str, ...]:
     return tuple(name for name, _ in e.parameters or ()) if isinstance(e, Expression) else ()
 
 
+def _same(a: Numeric, b: Numeric) -> bool:
+    return a is b or (isinstance(a, float) and isinstance(b, float) and a == b)
+
+
 def with_new(leaf: Any, values: Mapping[str, Numeric], functions: Functions | None = None) -> Any:
     """A number or expression that follows from parameters with their new values; any other as it is.
 
     With `functions`, those of symbols, a number becomes the value they give.
     """
     e = leaf.expression if isinstance(leaf, Dependent) else leaf
-    if not isinstance(e, Expression) or not e.parameters or all(values[n] is v for n, v in e.parameters):
+    if not isinstance(e, Expression) or not e.parameters or all(_same(values[n], v) for n, v in e.parameters):
         return leaf
     new = replace(e, parameters=tuple((n, values[n]) for n, _ in e.parameters))
     if leaf is e:

@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 import operator
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from dalembert.arrays import Array, Numeric
@@ -160,9 +160,14 @@ def evaluate(tree: Tree, drives: Mapping[str, Numeric], functions: Functions) ->
             )
         return drives[tree.name]
     values = [evaluate(argument, drives, functions) for argument in tree.arguments]
-    if tree.function in OPERATORS:
-        return -values[0] if len(values) == 1 else _apply(tree.function, *values)
-    return functions[tree.function](*values)
+    return apply_function(tree.function, values, functions)
+
+
+def apply_function(name: str, values: Sequence[Numeric], functions: Functions) -> Numeric:
+    """The value of an operator or a function of its arguments."""
+    if name in OPERATORS:
+        return -values[0] if len(values) == 1 else _apply(name, *values)
+    return functions[name](*values)
 
 
 def _apply(sign: str, a: Numeric, b: Numeric) -> Numeric:

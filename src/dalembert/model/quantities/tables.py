@@ -145,7 +145,7 @@ def _check(table: Table) -> None:
 
 
 def _check_period(table: Table) -> None:
-    if table.period is None:
+    if table.period is None or not all(isinstance(y, (float, int)) for y in table.y):  # symbols
         return
     span = table.x[-1] - table.x[0]
     if not table.period > 0 or span > table.period * (1 + SLACK):
