@@ -85,6 +85,8 @@ loads:
   table: {type: couple, on: crank, value:
     {against: O, x: [0, 120, 240], y: [T, 0.4*T, 1 N*m], interpolate: cubic, periodic: true}}
   closed: {type: couple, on: crank, value: {against: O, x: [0, 180, 360], y: [T, 0, T], periodic: true}}
+  gas: {type: couple, on: rod, value: {against: O, x: [0, 180], y: [1, 0], times: 2*T, periodic: true}}
+  pose: {type: force, on: block, at: B, value: -c*joints.guide.slide/9, direction: 0}
   wave: {type: couple, on: rod, value: "T*(1 + a*exp(-a)*sin(O)^2*min(a, cos(O) + 3)) - 0.2 N*m*exp(cos(O))"}
   bare: {type: force, on: block, at: B, direction: b, value: "100*a*tan(O/9) + 3"}
 assembly: {rod: 0, block: 0}
@@ -120,6 +122,12 @@ def test_every_place_of_a_parameter() -> None:
 def test_what_cannot_vary_is_told(vary: list[str], says: str) -> None:
     with pytest.raises(ModelError, match=re.escape(says)):
         da.compile(da.loads(LOADS), vary=vary)
+
+
+def test_places_of_a_table_do_not_vary() -> None:
+    text = LOADS.replace("x: [0, 180], y", "x: [b, 180], y").replace("a*exp(-a)", "a")
+    with pytest.raises(ModelError, match=r"'b' moves the points of the table 'loads\.gas\.value'"):
+        da.compile(da.loads(text), vary=["b"])
 
 
 def test_positions_do_not_vary() -> None:

@@ -190,6 +190,20 @@ def test_a_wrong_value_is_refused(values: dict[str, object], says: str) -> None:
     assert says in str(caught.value)
 
 
+def test_a_table_of_one_quantity_times_another() -> None:
+    """What is said by a unit or by a parameter tells what the rest is."""
+    for table in ("y: [0, 6], times: 2*area", "y: [p, 3*p], times: 10 mm^2", "y: [0, 1], times: p*area"):
+        text = ENGINE.replace(
+            "value: p*area @ 180",
+            f"value: {{against: O, x: [0, 180], {table}, periodic: true}}, direction: 0",
+        )
+        m = loads(text)
+        value = m.loads["gas"].value
+        assert mechanism(m.to_tree()) == m
+        expected = {"6": 6e6 * 2 * M.parameters["area"].value, "p": 60.0, "1": M.loads["gas"].value}
+        assert value.at({"O": np.pi}) == pytest.approx(expected[table[4] if table[4] == "p" else table[7]])
+
+
 def test_expressions_of_drives_alone_mean_what_they_meant() -> None:
     plain = ENGINE.replace('"0.1*p*area*sin(O)"', '"50*sin(O) + 100 N"')
     assert loads(plain).loads["drag"].value.at({"O": 0.5}) == pytest.approx(100 + 50 * np.sin(0.5))

@@ -23,6 +23,10 @@ DRIVEN = ("position", "law", "range")
 """Keys of a drive that are given when a kernel is called."""
 
 
+PLACING = ("shift", "period")
+"""What says where the points of a table are."""
+
+
 @dataclass(frozen=True)
 class Number:
     """One number of a description: its path and its value there, SI."""
@@ -62,6 +66,9 @@ def _parameter(m: Mechanism, name: str) -> Number:
         if keys[0] == "drives" and keys[2] in DRIVEN:
             what = f"{name!r} sets {'.'.join(keys[:3])!r}, which cannot vary from design to design"
             raise ModelError(what, "give the positions when you call the kernel", keys)
+        if keys[0] in ("loads", "drives") and (keys[-1] in PLACING or keys[-2] == "x"):
+            what = f"{name!r} moves the points of the table {'.'.join(keys[:3])!r} along the motion"
+            raise ModelError(f"{what}, and cannot vary", "leave it out, or write an expression", keys)
         _refuse_law(m, path)
     return Number(name, float(m.parameters[name].value), parameter=True)
 

@@ -28,7 +28,7 @@ from dalembert.model.quantities.expressions import (
     parse_expression,
 )
 from dalembert.model.quantities.figures import shortest, whole
-from dalembert.unit_names import NONE, ONE, SYMBOLS, unit
+from dalembert.unit_names import NONE, ONE, SYMBOLS, Dimension, unit
 from dalembert.units import KINDS, NUMBER, REFUSED_BARE, Units, check_unit, quantity
 from dalembert.wording import closest, quote_value
 
@@ -135,6 +135,17 @@ def _read(text: str, given: Parameters, drives: Mapping[str, str]) -> tuple[Expr
 def _expression(text: str, given: Parameters, name: str = "") -> Expression:
     names = sorted(set(_WORD.findall(text)) & given.keys())
     return Expression(text, name, tuple((name, given[name].value) for name in names))
+
+
+def stated_dimension(value: object, given: Parameters) -> Dimension | None:
+    """The dimension that a text says by its unit or its parameters; None of a bare number."""
+    if not isinstance(value, str):
+        return None
+    if uses(value, given):
+        of = _read(value, given, {})[1] or NONE
+        return (int(of[0]), int(of[1]), int(of[2]), int(of[3] or 0)) if any(of) else None
+    match = re.fullmatch(rf"\s*(?>{NUMBER})\s*([^\W\d].*|[°%].*)", value.replace("\u2212", "-"))
+    return unit(match[1]).dimension if match else None
 
 
 def refuse_unknown(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import re
 from collections.abc import Mapping
 from contextvars import ContextVar
 from typing import Any, NamedTuple
@@ -13,6 +12,7 @@ from dalembert.errors import ModelError
 from dalembert.model.part import Reading, mapping
 from dalembert.model.quantities.coordinates import along_of, coordinate_name
 from dalembert.model.quantities.figures import FILE_UNITS
+from dalembert.model.quantities.parameters import stated_dimension
 from dalembert.model.quantities.tables import SLACK, ColumnFile, Table
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
@@ -22,7 +22,7 @@ from dalembert.model.quantities.values import (
     value_text,
 )
 from dalembert.unit_names import Dimension, unit
-from dalembert.units import KINDS, NUMBER, Units, check_unit, quantity
+from dalembert.units import KINDS, Units, check_unit, quantity
 from dalembert.wording import quote_value
 
 FILE_FOLDER: ContextVar[str | None] = ContextVar("FILE_FOLDER", default=None)
@@ -135,7 +135,7 @@ def _from_lists(keys: Mapping[str, object], kind: str, along: str, rules: Readin
     x = at_item("x", numbers, keys["x"], along, rules)
     y = keys["y"]
     first = y[0] if isinstance(y, (list, tuple)) and y else None
-    stated = unit(rest).dimension if isinstance(first, str) and (rest := _unit_behind(first)) else None
+    stated = stated_dimension(first, rules.parameters)
     of, times = at_item("times", _factor, keys.get("times"), kind, stated, rules)
     return _Points(x, at_item("y", numbers, y, of, rules), "" if of == kind else of, times)
 
@@ -195,19 +195,14 @@ def _si(values: tuple[float, ...], name: str, kind: str, units: Units | None) ->
     return tuple(named.si(value) for value in values)
 
 
-def _unit_behind(value: str) -> str:
-    match = re.fullmatch(rf"\s*(?>{NUMBER})\s*([^\W\d].*|[°%].*)", value.replace("\u2212", "-"))
-    return match[1] if match else ""
-
-
 def _factor(times: object, kind: str, stated: Dimension | None, rules: Reading) -> tuple[str, float]:
     """The kind of y, and what it is multiplied by, SI: together the quantity. `stated` is the dimension of y's unit."""
     if times is None:
         return kind, 1.0
     whole = KINDS[kind].dimension
     if stated is None:
-        behind = _unit_behind(times) if isinstance(times, str) else ""
-        stated = _over(whole, unit(behind).dimension) if behind else whole
+        factor_is = stated_dimension(times, rules.parameters)
+        stated = _over(whole, factor_is) if factor_is else whole
     of, factor = _kind_with(stated, kind), _kind_with(_over(whole, stated), kind)
     return of, rules.quantity(times, factor)
 
