@@ -22,7 +22,7 @@ from dalembert.analysis.batch.batch_result import (
 from dalembert.analysis.batch.checked_input import numbers, targets
 from dalembert.analysis.batch.kernel_inputs import Course
 from dalembert.analysis.batch.sides import Sides
-from dalembert.analysis.batch.symbolic_model import geometric
+from dalembert.analysis.batch.symbolic_model import chooses_motion
 from dalembert.analysis.batch.traced_analysis import Trace, trace_analysis
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.arrays import Array, Flags, Ints, Numeric
@@ -31,7 +31,6 @@ from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.graph import CONSTANT, Node
 from dalembert.kernel.program import Program
 from dalembert.model import Mechanism
-from dalembert.model.paths import reached
 
 LARGEST = float(np.finfo(float).max)
 """Largest number there is."""
@@ -337,13 +336,7 @@ class Kernel:
         """Places of the numbers that decide which motion a design has: of `assembly`, and of the geometry where the
         file's motion passes change points (a parallelogram passes them, its neighbours do not)."""
         flips = self.trace.catalogue.traced.flips
-        return np.flatnonzero(
-            [
-                any(found.startswith("assembly.") for found in reached(self.mechanism, path))
-                or (flips and geometric(self.mechanism, path))
-                for path in self.numbers
-            ]
-        )
+        return np.flatnonzero([chooses_motion(self.mechanism, path, flips) for path in self.numbers])
 
     def _may_change_branch(self, values: Array) -> Flags | None:
         """Designs whose motion may be another than the file's, each left to the general executor; None for none."""

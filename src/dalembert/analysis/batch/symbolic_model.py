@@ -124,6 +124,12 @@ def geometric(m: Mechanism, path: str) -> bool:
     return any(_places_joints(found.split(".")) for found in reached(m, path))
 
 
+def chooses_motion(m: Mechanism, path: str, flips: bool) -> bool:
+    """Whether a number decides which motion a design has: by `assembly`, with change points by the geometry too."""
+    assembly = any(found.startswith("assembly.") for found in reached(m, path))
+    return assembly or (flips and geometric(m, path))
+
+
 def _places_joints(keys: list[str]) -> bool:
     loads = {"damping", "friction"}  # of a joint: it stands where it stood
     return "points" in keys[2:3] or (keys[0] == "joints" and not loads & set(keys[2:]))
