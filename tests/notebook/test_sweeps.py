@@ -115,6 +115,30 @@ def test_reversals_count_on_both_sides() -> None:
     assert not (before["reaction.A"] == after["reaction.A"]).all()
 
 
+ENGINE = """
+parameters: {r: 45 mm, l: 3*r}
+links:
+  ground: {points: {O: [0, 0]}}
+  crank: {points: {O: [0, 0], A: [r, 0]}}
+  rod: {points: {A: [0, 0], B: [l, 0]}, mass: 1 kg}
+  piston: {points: {B: [0, 0]}, mass: 1 kg}
+joints:
+  O: {type: pin, links: [ground, crank]}
+  A: {type: pin, links: [crank, rod]}
+  B: {type: pin, links: [rod, piston]}
+  guide: {type: slider, links: [ground, piston], at: [O, B], direction: 0}
+drives: {O: {position: 30, speed: 10 rad/s}}
+assembly: {rod: 0}
+"""
+
+
+def test_a_parameter_is_swept_by_its_name() -> None:
+    s = da.sweep(da.loads(ENGINE), "r", ["40 mm", "50 mm"])
+    alone = [da.dynamics(da.loads(ENGINE.replace("45 mm", f"{r} mm"))).effort("O") for r in (40, 50)]
+    assert s["effort.O"] == pytest.approx(np.array(alone), rel=1e-12)
+    assert (s.labels["r"].values, s.labels["r"].unit) == (pytest.approx((0.04, 0.05)), "m")
+
+
 def test_curves_of_a_sweep() -> None:
     s = da.sweep(FOUR_BAR, COUPLER, [f"{k} lbf" for k in range(1, 10)], positions=12)
     assert list(s.plot("effort.O2").numbers) == ["1 lbf", "3 lbf", "4 lbf", "6 lbf", "7 lbf", "9 lbf"]

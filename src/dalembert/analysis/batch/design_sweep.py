@@ -130,9 +130,15 @@ class Labels(NamedTuple):
 def _labels(m: Mechanism, path: str, given: Sequence[Any]) -> Labels:
     plain = all(map(_is_number, given))
     changed = [m.with_values({path: v}) for v in ((min(given), max(given)) if plain else given)]
-    found = given if plain else [value_at(one, path.split(".")) for one in changed]
+    parameter = m.parameters.get(path.removeprefix("parameters."))
+    if parameter is not None:
+        values = [one.parameters[path.removeprefix("parameters.")].value for one in changed]
+        unit = KINDS[parameter.kind].si if parameter.kind else ""
+    else:
+        values, unit = [value_at(one, path.split(".")) for one in changed], _unit(changed[-1], path)
+    found = given if plain else values
     if all(map(_is_number, found)):
-        return Labels(tuple(map(float, found)), _unit(changed[-1], path), tuple(given))
+        return Labels(tuple(map(float, found)), unit, tuple(given))
     return Labels(tuple(map(str, given)), "", tuple(given))
 
 
