@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import IO, TYPE_CHECKING
+from typing import IO, TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -102,25 +102,17 @@ def to_xlsx(
     units: UnitChoice = "SI",
     axes: Axes = "ground",
 ) -> None:
-    """A workbook: the positions on one sheet, what they rest on on another."""
+    """A workbook: positions, extremes, charts, what they rest on."""
     check_installed("openpyxl", "a workbook")
-    from openpyxl import Workbook
+    from dalembert.analysis.output.workbook import write_workbook
 
     if len(result.status) > WORKBOOK_ROWS:
         raise ModelError(
             f"{len(result.status)} positions do not fit a worksheet of {WORKBOOK_ROWS} rows",
             "write CSV or netCDF",
         )
-    book = Workbook(write_only=True)
-    sheet = book.create_sheet("positions")
-    sheet.freeze_panes = "C2"
-    for row in rows(result, units, axes):
-        sheet.append(row)
-    about = book.create_sheet("about")
-    for pair in _about(result).items():
-        about.append(pair)
     with new_file(path, overwrite) as temporary:
-        book.save(temporary)
+        write_workbook(result, rows(result, units, axes), _about(result), temporary, units, axes)
 
 
 def _about(result: Result) -> dict[str, str]:
@@ -130,8 +122,13 @@ def _about(result: Result) -> dict[str, str]:
     return about | {"mobility": result.mobility.sentence if result.mobility else ""}
 
 
-def to_dataframe(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -> pandas.DataFrame:
-    """One row a position, one column a number, units in the names of the columns."""
+def to_dataframe(
+    result: Result,
+    units: UnitChoice = "SI",
+    axes: Axes = "ground",
+    index: Literal["position", "drives"] = "position",
+) -> pandas.DataFrame:
+    """One row a position, one column a number, units in the names of the columns and by name in ``attrs["units"]``."""
     check_installed("pandas", "a DataFrame")
     import pandas
 
@@ -139,7 +136,12 @@ def to_dataframe(result: Result, units: UnitChoice = "SI", axes: Axes = "ground"
     frame = pandas.DataFrame(dict(zip(names, arrays, strict=True)))
     frame.insert(0, "status", list(result.status))
     frame.index = pandas.RangeIndex(1, len(frame) + 1, name="position")
-    frame.attrs.update(_about(result))
+    if index == "drives" and result.drives:
+        places = [names[3 * k] for k in range(len(result.drives))]
+        frame = frame.set_index(places)
+        frame.index.names = [name.removeprefix("drive ").replace(" position [", " [") for name in places]
+    units_of = {name: name.rpartition(" [")[2][:-1] if name.endswith("]") else "1" for name in names}
+    frame.attrs.update(_about(result), units=units_of)
     return frame
 
 
@@ -167,7 +169,11 @@ def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -
         "joint": list(result.joints),
         "link": list(result.links),
     }
-    present = {name: names for name, names in coordinates.items() if len(names)}
+    present: Tree = {name: names for name, names in coordinates.items() if len(names)}
+    for drive in result.drives:  # so that a position is found by the value of a drive
+        kind = drive_kinds(result, drive)["position"]
+        values = to(kind, result.drive_position(drive))
+        present[f"position_{drive}"] = ("position", values, {"units": to.text(kind)})
     return xarray.Dataset(data, coords=present, attrs=_about(result) | {"reaction_axes": axes})
 
 

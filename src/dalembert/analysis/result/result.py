@@ -340,11 +340,16 @@ class Result(LinkMotion):
 
         return export.to_dict(self, units, axes)
 
-    def to_dataframe(self, units: Literal["SI", "file"] = "SI", axes: Axes = "ground") -> pandas.DataFrame:
-        """One row a position, one column a quantity."""
+    def to_dataframe(
+        self,
+        units: Literal["SI", "file"] = "SI",
+        axes: Axes = "ground",
+        index: Literal["position", "drives"] = "position",
+    ) -> pandas.DataFrame:
+        """One row a position, one column a quantity; ``index="drives"``: rows by the values of the drives."""
         from dalembert.analysis.output import export
 
-        return export.to_dataframe(self, units, axes)
+        return export.to_dataframe(self, units, axes, index)
 
     def to_xarray(self, units: Literal["SI", "file"] = "SI", axes: Axes = "ground") -> xarray.Dataset:
         """Labelled arrays with units in their attributes."""

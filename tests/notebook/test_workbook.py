@@ -1,0 +1,124 @@
+"""The workbook: numbers as numbers, texts never formulas, extremes, native charts with gaps; tables by drives."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+from zipfile import ZipFile
+
+import numpy as np
+import openpyxl
+import pytest
+
+import dalembert as da
+from dalembert.bundled import examples
+
+FOUR_BAR = da.load(examples()["four_bar"])
+GAP = da.four_bar().with_values({"links.crank.points.A": [0.9, 0.0], "links.coupler.points.B": [0.6, 0.0]})
+
+
+def written(r: da.Result, folder: Path, **named: Any) -> Any:
+    r.to_xlsx(folder / "r.xlsx", **named)
+    return openpyxl.load_workbook(folder / "r.xlsx")
+
+
+def sheet(book: Any, name: str) -> list[list[Any]]:
+    return [list(row) for row in book[name].values]
+
+
+def test_extremes_and_assumptions(tmp_path: Path) -> None:
+    r = da.dynamics(FOUR_BAR, positions=12)
+    book = written(r, tmp_path, units="file")
+    heads, *rows = sheet(book, "extremes")
+    assert heads[:5] == ["over the positions", "unit", "largest", "position", "O2 [deg]"]
+    found = {row[0]: row for row in rows}
+    effort = r.effort("O2") / 0.1129848290276167
+    assert found["effort O2"][1:4] == ["lbf*in", pytest.approx(effort.max()), int(effort.argmax()) + 1]
+    assert found["effort O2"][5:7] == [pytest.approx(effort.min()), int(effort.argmin()) + 1]
+    assert found["|F| A"][2] * 4.4482216152605 == pytest.approx(r.worst("reaction", "A")[0])
+    assert found["|F| A"][4] == pytest.approx(np.degrees(r.drive_position("O2")[found["|F| A"][3] - 1]))
+    stated = dict(sheet(book, "assumptions"))
+    assert stated["method"] == "equilibrium of all links at once, by one matrix, with inertia forces"
+    assert (stated["gravity"], stated["friction"], stated["unit of moment"]) == ("none", "off", "lbf*in")
+    assert stated["program"] == f"dalembert {da.__version__}"
+    assert (stated["positions solved"], stated["largest residual"] < 1e-12) == (12, True)
+
+
+def test_charts_are_native_and_have_gaps(tmp_path: Path) -> None:
+    r = da.statics(GAP)
+    assert 0 < r.ok.sum() < len(r.status)
+    book = written(r, tmp_path)
+    charts = book["charts"]._charts
+    titles = ["".join(run.t for p in c.title.tx.rich.p for run in p.r) for c in charts]
+    assert titles[:2] == ["Effort", "Joint forces"]
+    assert {f"Polar diagram of {j}" for j in r.joints} == set(titles[2:])
+    values = sheet(book, "chart values")
+    effort = [row[1] for row in values[1:]]
+    assert values[0][:2] == ["O2 [deg]", "O2 [N*m]"]
+    assert [v is None for v in effort] == [not ok for ok in r.ok]
+    assert [v for v in effort if v is not None] == pytest.approx(r.effort("O2")[r.ok])
+    for chart in charts:
+        assert chart.display_blanks == "gap"
+        for series in chart.series:
+            for of in (series.xVal.numRef.f, series.yVal.numRef.f):
+                first, _, last = of.partition("!")[2].replace("$", "").partition(":")
+                assert (first[1:], last[1:]) == ("2", str(len(r.status) + 1))
+    (polar, *_) = charts[2:]
+    assert polar.x_axis.scaling.max == polar.y_axis.scaling.max == -polar.x_axis.scaling.min
+    largest = max(abs(v) for row in values[1:] for v in row[-2:] if v is not None)
+    assert polar.x_axis.scaling.max >= largest
+
+
+def test_no_text_of_the_user_is_a_formula(tmp_path: Path) -> None:
+    title = '=HYPERLINK("x")'
+    text = str(FOUR_BAR.with_values({"title": title, "source": "=1+1"}))
+    text = text.replace("crank", "'=2+2'").replace("O4", "'#REF!'").replace("O2", "'=cmd|A1'")
+    m = da.loads(text)
+    assert {"=2+2"} <= set(m.links)
+    assert {"#REF!"} <= set(m.joints)
+    book = written(da.dynamics(m, positions=3), tmp_path)
+    cells = [cell for s in book for row in s.rows for cell in row if cell.value is not None]
+    assert {cell.data_type for cell in cells} <= {"n", "s", "inlineStr"}
+    assert title in [cell.value for cell in cells]
+    with ZipFile(tmp_path / "r.xlsx") as parts:
+        for name in parts.namelist():
+            content = parts.read(name)
+            assert b"<f>" not in content or b"/charts/" in name.encode(), name
+            assert b"externalLink" not in content
+
+
+def test_characters_that_a_workbook_cannot_hold_are_replaced(tmp_path: Path) -> None:
+    r = da.dynamics(FOUR_BAR.with_values({"title": "four\x07bar " + "x" * 40_000}))
+    title = dict(sheet(written(r, tmp_path), "about"))["title"]
+    assert title.startswith("four?bar xxx")
+    assert len(title) == 32_767
+
+
+@pytest.mark.parametrize("name", ["truss", "balance_position", "rssr", "two_drives"])
+def test_every_sort_of_answer_has_a_workbook(name: str, tmp_path: Path) -> None:
+    r = da.solve(da.load(examples()[name]))
+    book = written(r, tmp_path)
+    moving = len(r.status) > 1 and r.drives and r.stability is None
+    assert ("charts" in book.sheetnames) == bool(moving)
+    assert len(sheet(book, "positions")) == len(r.status) + 1
+
+
+def test_tables_by_the_values_of_the_drives() -> None:
+    r = da.solve(da.load(examples()["two_drives"]))
+    frame = r.to_dataframe("file", index="drives")
+    assert list(frame.index.names) == [
+        f"{d} [{'mm' if r.mechanism.drives[d].turns is False else 'deg'}]" for d in r.drives
+    ]
+    assert len(frame.index) == len(r.status)
+    plain = r.to_dataframe("file")
+    assert list(plain.index) == list(range(1, len(r.status) + 1))
+    assert frame.attrs["units"][plain.columns[1]] == plain.columns[1].rpartition("[")[2][:-1]
+    assert frame.attrs["units"]["residual"] == "1"
+    data = r.to_xarray("file")
+    for drive in r.drives:
+        place = data.coords[f"position_{drive}"]
+        assert (place.values == plain[f"drive {drive} position [{place.attrs['units']}]"].to_numpy()).all()
+    one = da.dynamics(FOUR_BAR, positions=6)
+    assert list(one.to_dataframe("file", index="drives").index) == pytest.approx(
+        np.degrees(one.drive_position("O2"))
+    )
