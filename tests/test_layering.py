@@ -56,6 +56,7 @@ FACADES = {
     "model.description",
     "views.paper.scene",
     "analysis.batch.compiled_kernel",
+    "machine.balance.balancing",
     "machine.flywheel.flywheels",
     "machine.shaking",
     "wrench.system",

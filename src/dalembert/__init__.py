@@ -47,6 +47,8 @@ if TYPE_CHECKING:
     from dalembert.exams.variants import variants
     from dalembert.grading.file_answers import check_file
     from dalembert.grading.mistakes import check_answers
+    from dalembert.machine.balance.balancing import balance
+    from dalembert.machine.balance.counterweights import Counterweight
     from dalembert.machine.flywheel.flywheel_size import FlywheelSize, flywheel_size
     from dalembert.machine.flywheel.flywheels import flywheel
     from dalembert.machine.harmonics import harmonics
@@ -152,6 +154,8 @@ _NAMES = {
         "Rise Rolling SlenderBar Slider Slot SlotFriction SpaceJoint Sphere Spring StlMesh Table "
         "TimeTable TorsionDamper TorsionSpring Tube Weld convert json_schema load loads mechanism"
     ),
+    "machine.balance.balancing": "balance",
+    "machine.balance.counterweights": "Counterweight",
     "machine.flywheel.flywheel_size": "FlywheelSize flywheel_size",
     "machine.flywheel.flywheels": "flywheel",
     "machine.harmonics": "harmonics",
@@ -183,6 +187,7 @@ __all__ = [
     "Box",
     "CircularSlot",
     "ConstantForceSpring",
+    "Counterweight",
     "Couple",
     "Cylinder",
     "DalembertError",
@@ -225,6 +230,7 @@ __all__ = [
     "Tube",
     "Weld",
     "__version__",
+    "balance",
     "bennett",
     "bevel_differential",
     "bucket",

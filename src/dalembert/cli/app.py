@@ -363,6 +363,7 @@ app.command(wrench_command.wrench, help_epilogue=wrench_command.EXAMPLES)
 app.command(variants_command.variants, help_epilogue=variants_command.EXAMPLES)
 app.command(page_command.page, help_epilogue=page_command.EXAMPLES)
 app.command(machine_commands.shake, help_epilogue=machine_commands.SHAKE)
+app.command(machine_commands.balance, help_epilogue=machine_commands.BALANCE)
 app.command(machine_commands.flywheel, help_epilogue=machine_commands.FLYWHEEL)
 
 

@@ -1,4 +1,4 @@
-"""`dalembert shake`, `flywheel`: machine design on top of the analysis; what its commands have in common."""
+"""`dalembert shake`, `balance`, `flywheel`: machine design on top of the analysis; what its commands have in common."""
 
 from __future__ import annotations
 
@@ -21,14 +21,12 @@ from dalembert.cli.options import (
     target,
     with_help,
 )
+from dalembert.cli.options import output as output_to
 from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
     from dalembert.model import Mechanism
-
-ENOUGH = 72
-"""Positions over a turn where the file has a single one."""
 
 
 @Parameter(name="*")
@@ -108,16 +106,11 @@ class Outputs:
 NO_OUTPUTS = Outputs()
 
 
-def over_a_turn(m: Mechanism, positions: int | None) -> int | None:
-    """The number of positions: a whole turn where the file has a single one."""
-    one = m.drives and m.schedule().unknown is None and len(m.schedule().position) == 1
-    return ENOUGH if positions is None and one and any(d.turns for d in m.drives.values()) else positions
-
-
 def solve_over_a_turn(file: Path, static: bool, positions: int | None, changes: Changes) -> Result:
     """The analysis of a file."""
     from dalembert.analysis import solve
     from dalembert.cli.model_argument import load_model
+    from dalembert.machine.whole_cycle import over_a_turn
 
     m = load_model(file, changes)
     return solve(m, static=static, positions=over_a_turn(m, positions))
@@ -195,6 +188,65 @@ def flywheel(
 FLYWHEEL = """Examples:
   dalembert flywheel engine.yaml --Cs 0.02
   dalembert flywheel press.yaml --inertia 12kg*m^2 --drawing speed.svg --report flywheel.pdf"""
+
+
+def balance(
+    file: ModelFile,
+    /,
+    *,
+    on: Annotated[
+        list[str],
+        Parameter(
+            consume_multiple=True,
+            negative=(),
+            help="Links that get a counterweight, each with its bounds: crank, or "
+            "crank:radius=80mm,mass=2kg,moment=...,disc=DENSITY/THICKNESS/RADIUS,at=POINT.",
+        ),
+    ],
+    least: Annotated[
+        Literal["rms", "max"], with_help("Make the rms value least (default), or the greatest.")
+    ] = "rms",
+    of: Annotated[
+        str,
+        with_help(
+            "What: force (default), moment, torque, or a sum of parts of what was: force=1,torque=0.5."
+        ),
+    ] = "force",
+    about: Annotated[str | None, target("Point to take moments about, as for shake.")] = None,
+    output: Annotated[
+        Path | None, output_to("Write the model file with the counterweights here: .yaml, .json, .toml.")
+    ] = None,
+    positions: Positions = None,
+    changes: Changes = AS_IN_FILE,
+    out: Outputs = NO_OUTPUTS,
+) -> int:
+    """Counterweights on links of FILE that leave least shaking, within bounds, proved best."""
+    from dalembert.cli.counterweight_argument import bounds_of, sum_of
+    from dalembert.cli.model_argument import load_model
+    from dalembert.machine.balance.balancing import balance as balanced
+    from dalembert.machine.output.balance_text import balance_text
+    from dalembert.saving import check_new
+
+    out.check(file)
+    if output is not None:
+        check_new(output, out.force)
+    m = load_model(file, changes)
+    try:
+        weights = dict(bounds_of(m, text) for text in on)
+        found = balanced(m, weights, least, sum_of(of), _point(m, about), positions)
+    except ModelError as error:
+        raise error.at_source(m.source) from None
+    if output is not None:
+        found.mechanism.save(output, out.force)
+        print(f"Written: {output}", file=sys.stderr)
+    out.deliver(found, lambda units: balance_text(found, units))
+    return 0
+
+
+BALANCE = """Examples:
+  dalembert balance four_bar.yaml --on crank rocker
+  dalembert balance four_bar.yaml --on crank:radius=60mm,mass=3kg rocker --least max --of force=1,torque=0.5
+  dalembert balance engine.yaml --on crank --output balanced.yaml --drawing balance.svg"""
 
 
 def _point(m: Mechanism, about: str | None) -> str | Sequence[float] | None:

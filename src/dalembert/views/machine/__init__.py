@@ -13,12 +13,14 @@ from dalembert.views.paper.scene import Scene
 
 def scenes_of(answer: Any, notation: Notation | None = None) -> list[Scene]:
     """The drawings of an answer, by what it is."""
+    from dalembert.machine.balance.balancing import Balance
     from dalembert.machine.flywheel.flywheels import Flywheel
+    from dalembert.views.machine.balance_views import balance_scenes
     from dalembert.views.machine.flywheel_views import flywheel_scenes
     from dalembert.views.machine.shaking_views import shaking_scenes
 
-    return (
-        flywheel_scenes(answer, notation)
-        if isinstance(answer, Flywheel)
-        else shaking_scenes(answer, notation)
-    )
+    if isinstance(answer, Balance):
+        return balance_scenes(answer, notation)
+    if isinstance(answer, Flywheel):
+        return flywheel_scenes(answer, notation)
+    return shaking_scenes(answer, notation)

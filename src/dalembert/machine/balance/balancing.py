@@ -1,0 +1,285 @@
+"""`da.balance`: counterweights that leave least of the shaking force, moment or torque, and the proof of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from dalembert.analysis.one_pass import at_schedule
+from dalembert.analysis.output.columns import Column, Scale
+from dalembert.analysis.solution import dynamics
+from dalembert.arrays import Array, Tree
+from dalembert.errors import AnalysisError, ModelError
+from dalembert.machine.balance.balance_problem import Problem, Solved
+from dalembert.machine.balance.counterweights import Counterweight, Wanted, base_point, counterweights
+from dalembert.machine.balance.mass_columns import mass_columns
+from dalembert.machine.output.written import greatest, rms
+from dalembert.machine.shaking import About, Shaking, shaking
+from dalembert.machine.whole_cycle import over_a_turn
+from dalembert.model import GROUND
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+    from dalembert.model import Mechanism
+
+Least = Literal["rms", "max"]
+QUANTITIES = ("force", "moment", "torque")
+Of = str | Mapping[str, float]
+COMPLETE = 1e-9
+"""Part of the force before below which nothing is left."""
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A counterweight found: mass (kg), centre (2,) and inertia about it (kg m2), in link axes; m r (kg m) and its
+    angle (rad) from the base point; radius of its disc, if it is one."""
+
+    mass: float
+    center: Array
+    inertia: float
+    moment: float
+    angle: float
+    radius: float | None = None
+
+
+@dataclass(frozen=True)
+class Balance:
+    """Counterweights by link, what is left, and the proof that no others leave less.
+
+    ``before``, ``after``: shaking without and with them. ``numbers`` (W, 4): m, X, Y, I of each. ``bound``: no
+    counterweights within the bounds leave less than this part of what ``of`` was before; ``value``: what these leave;
+    their difference is the ``gap``. ``residual``: how far the mechanism with them, analysed anew, is off.
+    """
+
+    result: Result = field(repr=False)
+    weights: dict[str, Counterweight]
+    least: Least
+    of: dict[str, float]
+    placed: dict[str, Placed]
+    numbers: Array = field(repr=False)
+    value: float
+    bound: float
+    before: Shaking = field(repr=False)
+    after: Shaking = field(repr=False)
+    residual: float
+    problem: Problem = field(repr=False)
+
+    @property
+    def gap(self) -> float:
+        """How much better others could be at most, as a part of what was there before."""
+        return max(self.value - self.bound, 0.0)
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The description with the counterweights in its links' masses, centres and inertias."""
+        return self.after.result.mechanism
+
+    @property
+    def complete(self) -> bool:
+        """Whether nothing of the force is left: full force balance."""
+        left = without_weight(self.after, "force")
+        return greatest(left)[0] < COMPLETE * (greatest(without_weight(self.before, "force"))[0] or 1.0)
+
+    def sizes(self, after: bool = True) -> dict[str, tuple[float, float]]:
+        """Rms and greatest value of force, moment and torque, before or after."""
+        s = self.after if after else self.before
+        out = {name: without_weight(s, name) for name in ("force", "moment")}
+        if s.result.drives:
+            out["torque"] = s.result.effort(s.result.drives[0])
+        return {name: (rms(v), greatest(v)[0]) for name, v in out.items()}
+
+    def trade_off(self, other: str, count: int = 9) -> list[tuple[float, float]]:
+        """Pairs (of, other), parts of what they were before, none of which can be bettered in both.
+
+        From the least of ``of`` to the least of the other, by weights cos and sin of even angles.
+        """
+        out = []
+        for angle in np.linspace(0.02, math.pi / 2 - 0.02, count):
+            weights = {n: w * math.cos(angle) for n, w in self.of.items()}
+            weights[other] = weights.get(other, 0.0) + math.sin(angle)
+            found = self.problem.solve(self.least, weights)
+            main = math.hypot(*(w * found.parts[n] for n, w in self.of.items()))
+            out.append((main, found.parts[other]))
+        return out
+
+    @property
+    def only_bounds(self) -> bool:
+        """Whether nothing but their bounds keeps these counterweights from balancing the force completely."""
+        return _force_left(self.result, [*self.weights]) < COMPLETE
+
+    def missing(self) -> list[str]:
+        """Links of which a counterweight too is needed for full force balance; empty where it is there or cannot be."""
+        if self.complete or self.only_bounds:
+            return []
+        r, m = self.result, self.result.mechanism
+        held = {link for joint in m.joints.values() if GROUND in joint.links for link in joint.links}
+        rest = [link for link in r.links if link not in self.weights and m.mass(link)]
+        rest.sort(key=lambda link: link not in held)  # a pivot on the ground is the first place for one
+        for link in rest:
+            if _force_left(r, [*self.weights, link]) < COMPLETE:
+                return [link]
+        return rest if rest and _force_left(r, [*self.weights, *rest]) < COMPLETE else []
+
+    def columns(self) -> Iterator[Column]:
+        """Force, moment and torque before and after, over the positions."""
+        for name, s in (("before", self.before), ("after", self.after)):
+            for c in s.columns():
+                if c.name.startswith("drive ") and name == "before":
+                    yield c
+                elif c.name.startswith("shaking"):
+                    yield c._replace(name=f"{name} {c.name}")
+            for drive in s.result.drives:
+                yield Column(f"{name} effort {drive}", "moment", s.result.effort(drive))
+
+    def record(self, to: Scale) -> Tree:
+        """Its other numbers by name, in the units of a scale."""
+        weights = {
+            link: {
+                "mass": to("mass", p.mass),
+                "center": to("length", p.center),
+                "inertia": to("inertia", p.inertia),
+                "moment": to("mass", to("length", p.moment)),
+                "angle": to("angle", p.angle),
+            }
+            for link, p in self.placed.items()
+        }
+        kinds = {"force": "force", "moment": "moment", "torque": "moment"}
+        sizes = {
+            name: {
+                n: {"rms": to(kinds[n], a), "max": to(kinds[n], b)} for n, (a, b) in self.sizes(after).items()
+            }
+            for name, after in (("before", False), ("after", True))
+        }
+        proof = {"value": self.value, "bound": self.bound, "gap": self.gap, "residual": self.residual}
+        said = {"least": self.least, "of": self.of, "about": self.before.about, "complete": self.complete}
+        return {"balance": {**said, "counterweights": weights, **sizes, **proof, "missing": self.missing()}}
+
+    def __str__(self) -> str:
+        """What `dalembert balance` prints."""
+        from dalembert.machine.output.balance_text import balance_text
+
+        return balance_text(self)
+
+
+def balance(
+    m: Mechanism | Result,
+    weights: Wanted,
+    least: Least = "rms",
+    of: Of = "force",
+    about: About = None,
+    positions: int | None = None,
+) -> Balance:
+    """Counterweights on links that leave least of the shaking force, moment, torque, or a weighted sum, over the cycle.
+
+    ``weights``: links, or by link the bounds of a `Counterweight`. ``least``: the root mean square over the positions
+    or the greatest value. ``of``: `force`, `moment` (about ``about``) or `torque` (of the first drive), or weights of
+    these, {"force": 1, "torque": 0.5}, each as a part of what it was before; rms values add up by their squares,
+    greatest values as they are. Weights, which are constant, do not count in force and moment, but in the torque.
+    Convex and exact for all harmonics; a weight not needed is 0. Raises ModelError for bounds that mean nothing.
+    Berkof and Lowen, J. Eng. Ind. 91 (1969); Demeulenaere, Verschuure et al. (2004) for the convex form.
+
+    >>> import dalembert as da
+    >>> m = da.four_bar(ground=0.4, crank=0.1, coupler=0.35, rocker=0.3)
+    >>> found = da.balance(m.with_values({"links.crank.mass": 1.0}), ["crank", "rocker"])
+    >>> found.complete, bool(found.gap < 1e-9)
+    (True, True)
+    """
+    from dalembert.model import Mechanism as Description
+
+    r = dynamics(m, over_a_turn(m, positions)) if isinstance(m, Description) else m
+    if not r.ok.all():
+        which, _, sentence = r.problems()[0]
+        raise AnalysisError(f"balancing needs every position; position {which}: {sentence}")
+    wanted = _quantities(of, r)
+    asked = counterweights(r.mechanism, weights)
+    before = shaking(r, about)
+    drive = r.drives[0] if r.drives else None
+    base = {"force": without_weight(before, "force"), "moment": without_weight(before, "moment")[:, None]}
+    base["torque"] = r.effort(drive)[:, None] if drive else np.zeros_like(base["moment"])
+    problem = Problem(base, mass_columns(r, asked, before.point, drive), tuple(asked.items()))
+    found = problem.solve(least, wanted)
+    numbers = found.numbers.reshape(-1, 4)
+    placed = {link: _placed(r, link, w, p) for (link, w), p in zip(asked.items(), numbers, strict=True)}
+    after = shaking(at_schedule(_with_weights(r.mechanism, placed), r.schedule, r.inertia), about)
+    off = _difference(after, found, problem, drive)
+    return Balance(
+        r, asked, least, wanted, placed, numbers, found.value, found.bound, before, after, off, problem
+    )
+
+
+def _quantities(of: Of, r: Result) -> dict[str, float]:
+    wanted = {of: 1.0} if isinstance(of, str) else dict(of)
+    for name, weight in wanted.items():
+        if name not in QUANTITIES:
+            raise ModelError(f"{name!r} cannot be balanced", f"there is: {', '.join(QUANTITIES)}")
+        if not weight >= 0:
+            raise ModelError(f"the weight of {name} is {weight:g}", "give a number that is not negative")
+        if name == "torque" and not r.drives:
+            raise ModelError(
+                "there is no drive whose torque could be balanced", "balance the force or the moment"
+            )
+    if not any(wanted.values()):
+        raise ModelError("nothing is asked to be least", 'write of="force"')
+    return wanted
+
+
+def without_weight(s: Shaking, name: str) -> Array:
+    """Force or moment that counterweights are to make small: all but the constant weights."""
+    which = ("force", "moment").index(name)
+    return np.asarray((s.force, s.moment)[which] - s.parts["weight"][which])
+
+
+def _difference(after: Shaking, found: Solved, problem: Problem, drive: str | None) -> float:
+    """The linear prediction against the analysis with the counterweights, over the values before."""
+    off = 0.0
+    for name, size in problem.sizes("max").items():
+        if name == "torque" and drive is None:
+            continue
+        there = after.result.effort(drive) if name == "torque" and drive else None
+        values = (without_weight(after, name) if there is None else there).reshape(len(after.force), -1)
+        off = max(off, float(np.abs(values - problem.predict(name, found.numbers)).max()) / (size or 1.0))
+    return off
+
+
+def _placed(r: Result, link: str, w: Counterweight, p: Array) -> Placed:
+    """The counterweight with these numbers: with mass 0, none."""
+    base = base_point(r.mechanism, link, w.at)
+    mass, moment = float(p[0]), math.hypot(p[1], p[2])
+    center = base + (p[1:3] / mass if mass > 0 else np.zeros(2))
+    inertia = max(float(p[3]) - (moment**2 / mass if mass > 0 else 0.0), 0.0)
+    radius = w.disc_of(moment) if w.disc is not None else None
+    return Placed(mass, center, inertia, moment, math.atan2(p[2], p[1]) if moment else 0.0, radius)
+
+
+def _with_weights(m: Mechanism, placed: dict[str, Placed]) -> Mechanism:
+    values: Tree = {}
+    for link, p in placed.items():
+        old, at = m.mass(link), np.array(m.center(link))
+        mass = old + p.mass
+        if p.mass <= 0:
+            continue
+        center = (old * at + p.mass * p.center) / mass
+        own = [old * ((at - center) ** 2).sum(), p.mass * ((p.center - center) ** 2).sum()]
+        if m.links[link].shapes:
+            values[f"links.{link}.shape"] = None
+        values[f"links.{link}.mass"] = mass
+        values[f"links.{link}.center"] = [float(x) for x in center]
+        values[f"links.{link}.inertia"] = float(m.inertia(link)) + p.inertia + float(sum(own))
+    return m.with_values(values)
+
+
+def _force_left(r: Result, links: list[str]) -> float:
+    """Part of the force that unbounded counterweights on some links leave, as light as may be far out."""
+    asked = counterweights(r.mechanism, links)
+    s = shaking(r)
+    columns = mass_columns(r, asked, s.point, None)["force"]
+    base = without_weight(s, "force").ravel()
+    flat = columns.reshape(len(base), -1, 4)[..., 1:3].reshape(len(base), -1)
+    scale = np.abs(flat).max(axis=0)
+    flat = flat[:, scale > 1e-12 * scale.max()] / scale[scale > 1e-12 * scale.max()]
+    left = base - flat @ np.linalg.lstsq(flat, base, rcond=1e-12)[0]
+    return float(np.abs(left).max() / (np.abs(base).max() or 1.0))

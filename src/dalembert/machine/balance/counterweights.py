@@ -1,0 +1,120 @@
+"""Counterweights: where they may be and how heavy, as cones of their mass numbers p = (m, X, Y, I).
+
+X, Y = int x dm, int y dm and I = int (x^2 + y^2) dm about the base point, link axes. Masses within a radius R have just
+the numbers with X^2 + Y^2 <= m I and I <= R^2 m: any such p can be built.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.analysis.compile.load_arrays import point_of
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.model import GROUND
+from dalembert.wording import closest
+
+if TYPE_CHECKING:
+    from dalembert.model import Mechanism
+
+Range = tuple[float, float]
+NONE = (0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Counterweight:
+    """What a counterweight on a link may be; SI, link axes about the point ``at`` (the link's joint with the ground).
+
+    ``radius``: all its mass lies within, m (default: as far as the link's points go); ``mass``: the most, kg;
+    ``moment``: the most of m r, kg m; ``place``: where its centre is, then only its mass is sought; ``x``, ``y``:
+    ranges of m x and m y, kg m, (0, 0) for none; ``disc``: (density, thickness, largest radius) of a disc whose rim
+    passes through ``at``.
+    """
+
+    at: str | None = None
+    radius: float | None = None
+    mass: float | None = None
+    moment: float | None = None
+    place: tuple[float, float] | None = None
+    x: Range | None = None
+    y: Range | None = None
+    disc: tuple[float, float, float] | None = None
+
+    def span(self, number: int) -> Range | None:
+        """The range of mass number 1 or 2, m x or m y."""
+        return {1: self.x, 2: self.y}.get(number)
+
+    @property
+    def most_moment(self) -> float:
+        """Largest m r that its bounds allow, kg m."""
+        bounds = [math.inf if self.moment is None else self.moment]
+        if self.disc is not None:
+            density, thickness, radius = self.disc
+            bounds.append(density * math.pi * thickness * radius**3)
+        return min(bounds)
+
+    def disc_of(self, moment: float) -> float:
+        """Radius of the disc through the base point that has a moment m r: rho pi t R^3."""
+        assert self.disc is not None
+        return float((moment / (math.pi * self.disc[0] * self.disc[1])) ** (1 / 3))
+
+
+Wanted = Sequence[str] | Mapping[str, Counterweight | Mapping[str, Any] | None]
+
+
+def counterweights(m: Mechanism, wanted: Wanted) -> dict[str, Counterweight]:
+    """By link, each with its base point and radius filled in."""
+    named = dict(wanted) if isinstance(wanted, Mapping) else dict.fromkeys(wanted)
+    out = {}
+    for link, bounds in named.items():
+        if link not in m.links or link == GROUND:
+            moving = [name for name in m.links if name != GROUND]
+            raise ModelError(f"a counterweight cannot be on {link!r}", closest(link, moving))
+        w = bounds if isinstance(bounds, Counterweight) else Counterweight(**_known(link, bounds or {}))
+        at = w.at or _pivot(m, link)
+        base = base_point(m, link, at)
+        reach = max([math.dist(base, u) for u in m.points(link).values()], default=0.0)
+        _check(link, w)
+        out[link] = Counterweight(**{**vars(w), "at": at, "radius": w.radius or reach or 1.0})
+    if not out:
+        raise ModelError("no link is to have a counterweight", 'name some: {"crank": {"radius": 0.1}}')
+    return out
+
+
+def base_point(m: Mechanism, link: str, at: str | None) -> Array:
+    """The base point in link axes (2,)."""
+    return np.zeros(m.dimension) if at is None else point_of(m, link, at)
+
+
+def _known(link: str, bounds: Mapping[str, Any]) -> dict[str, Any]:
+    keys = [f.name for f in fields(Counterweight)]
+    for key in bounds:
+        if key not in keys:
+            raise ModelError(f"counterweight on {link}: there is no bound {key!r}", closest(key, keys))
+    return dict(bounds)
+
+
+def _check(link: str, w: Counterweight) -> None:
+    numbers: list[Any] = [w.radius, w.mass, w.moment, *(w.disc or ())]
+    bad = [x for x in numbers if x is not None and not (x > 0 and math.isfinite(x))]
+    if bad:
+        raise ModelError(f"counterweight on {link}: a bound is {bad[0]:g}", "give positive numbers")
+    for name, span in (("x", w.x), ("y", w.y)):
+        if span is not None and not (span[0] < span[1] or tuple(span) == NONE):
+            raise ModelError(
+                f"counterweight on {link}: the range of {name} is empty",
+                f"write {name}: (low, high), or (0, 0)",
+            )
+
+
+def _pivot(m: Mechanism, link: str) -> str | None:
+    """The link's point of its first joint with the ground, if it has one."""
+    for name, joint in m.joints.items():
+        if set(joint.links) == {GROUND, link}:
+            return str(joint.point_names(name)[joint.links.index(link)])
+    return None

@@ -1,0 +1,84 @@
+"""Counterweights as a person reads them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from dalembert.analysis.output.columns import UnitChoice
+from dalembert.analysis.output.summary.printed_units import Printed, print_scale
+from dalembert.machine.output.shaking_text import heading
+from dalembert.printing import number, remainder, round_components, table, wrap
+
+if TYPE_CHECKING:
+    from dalembert.machine.balance.balancing import Balance
+
+KINDS = {"force": "force", "moment": "moment", "torque": "moment"}
+
+
+def balance_text(b: Balance, units: UnitChoice = "file") -> str:
+    """The counterweights, what is left of force, moment and torque, and the proof."""
+    to = print_scale(b.result, units)
+    length, mass = to.text("length"), to.text("mass")
+    rows = []
+    for link, p in b.placed.items():
+        x, y = round_components([float(to("length", v)) for v in p.center])
+        turned = number(math.degrees(p.angle), 5) if p.moment else "-"
+        size = "-" if p.radius is None else number(float(to("length", p.radius)))
+        moment = number(float(to("mass", to("length", p.moment))))
+        rows.append([link, moment, turned, number(float(to("mass", p.mass))), number(x), number(y), size])
+    heads = [
+        "counterweight\non link",
+        f"m r\n{mass}*{length}",
+        "angle\ndeg",
+        f"mass\n{mass}",
+        f"centre x\n{length}",
+    ]
+    weights = table([*heads, f"y\n{length}", f"disc radius\n{length}"], rows)
+    words = "Angles and centres in link axes; m r and its angle from the link's base point."
+    return "\n\n".join([heading(b.result), weights, words, _sizes(b, to), wrap(proof(b))])
+
+
+def comparison_rows(b: Balance, text: Callable[[str, float], str]) -> list[list[str]]:
+    """Rms and greatest value of each quantity before and after, and their ratio."""
+    before, after, rows = b.sizes(after=False), b.sizes(), []
+    for name, old in before.items():
+        for k, what in enumerate(("rms", "greatest")):
+            new = after[name][k]
+            floor = 1e-12 * old[k]
+            share = number(100 * new / old[k] if new > floor else 0.0, 4) + " %" if old[k] else "-"
+            rows.append(
+                [
+                    f"{what} {name}",
+                    *(text(KINDS[name], v if v > floor else 0.0) for v in (old[k], new)),
+                    share,
+                ]
+            )
+    return rows
+
+
+def _sizes(b: Balance, to: Printed) -> str:
+    rows = comparison_rows(b, lambda kind, value: f"{number(float(to(kind, value)))} {to.text(kind)}")
+    about = f"Moment about {b.before.about}; weights, which are constant, are left out of force and moment."
+    return f"{table(['', 'before', 'after', 'left'], rows)}\n{wrap(about)}"
+
+
+def proof(b: Balance) -> str:
+    """What was made least, how it is known to be, and what stands in the way of full force balance."""
+    what = " + ".join(f"{'' if w == 1 else f'{w:g} '}{name}" for name, w in b.of.items() if w)
+    said = f"Least {'rms' if b.least == 'rms' else 'greatest'} {what}: {_percent(b.value)} of what it was. "
+    said += f"No counterweights within the bounds leave less than {_percent(b.bound)} (dual value). "
+    if b.complete:
+        said += "The force is balanced completely: the moment is the same about every point. "
+    elif b.missing():
+        said += f"For complete force balance a counterweight is missing on {', '.join(b.missing())}. "
+    elif b.only_bounds:
+        said += "Without bounds the force would be balanced completely. "
+    else:
+        said += "No counterweights balance the force completely: some link has no way to ground over turning joints. "
+    return f"{said}Analysed anew with the counterweights, the machine differs by {remainder(b.residual)}."
+
+
+def _percent(part: float) -> str:
+    return f"{number(100 * part if part > 1e-12 else 0.0)} %"

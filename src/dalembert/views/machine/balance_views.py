@@ -1,0 +1,45 @@
+"""Shaking force, moment and torque before and after balancing, and the trade-off between two of them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.machine.balance.balancing import Balance, without_weight
+from dalembert.views.charts import along, curves_scene, polar_scene
+from dalembert.views.notation import Notation, Shown
+from dalembert.views.paper.scene import Scene
+
+
+def balance_scenes(b: Balance, notation: Notation | None = None) -> list[Scene]:
+    """Polar diagram of the force, moment and torque over the cycle, the trade-off with the torque."""
+    shown = Shown(b.result, notation or Notation())
+    sides = {"before": b.before, "after": b.after}
+    force = {name: without_weight(s, "force") / shown.size("force") for name, s in sides.items()}
+    out = [polar_scene(force, shown.unit("force"), "Shaking force")]
+    if len(b.result.status) < 3 or not b.result.drives:
+        return out
+    drive = b.result.drives[0]
+    some: list[tuple[str, dict[str, Array]]] = [
+        (
+            f"Shaking moment about {b.before.about}",
+            {n: without_weight(s, "moment") for n, s in sides.items()},
+        ),
+        (f"Torque of {drive}", {n: s.result.effort(drive) for n, s in sides.items()}),
+    ]
+    x, label, angle = along(b.result, shown)
+    for title, curves in some:
+        series = {name: values / shown.size("moment") for name, values in curves.items()}
+        out.append(curves_scene(x, series, label, f"Moment in {shown.unit('moment')}", title, angle))
+    other = "torque" if "torque" not in b.of else "force"
+    try:
+        pairs = 100 * np.array(b.trade_off(other))
+    except ModelError:  # the other asks for bounds that are not given
+        return out
+    of = " and ".join(b.of)
+    title = f"Trade-off: {b.least} of {of} against {other}"
+    out.append(
+        curves_scene(pairs[:, 0], {other: pairs[:, 1]}, f"{of} left in %", f"{other} left in %", title)
+    )
+    return out

@@ -1,0 +1,291 @@
+"""Balancing: books, smallest circles, right angles, dual values, other optimisers, the machine analysed anew."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.optimize import lsq_linear, minimize
+
+import dalembert as da
+from dalembert.bundled import cases, examples
+from dalembert.cli import main
+from dalembert.errors import ModelError
+from dalembert.machine.balance.cone_programme import minimise
+from tests.machine.cranks import crank_machine
+from tests.tiers import over
+
+FOUR_BAR = """
+links:
+  ground: {points: {O2: [0, 0], O4: [0.4, 0]}}
+  crank: {points: {O2: [0, 0], A: [0.1, 0]}, mass: 1, center: [0.05, 0]}
+  coupler: {points: {A: [0, 0], B: [0.35, 0]}, mass: 2, center: [0.15, 0.02]}
+  rocker: {points: {O4: [0, 0], B: [0.3, 0]}, mass: 1.5, center: [0.1, 0]}
+joints:
+  O2: {type: pin, links: [ground, crank]}
+  A: {type: pin, links: [crank, coupler]}
+  B: {type: pin, links: [coupler, rocker]}
+  O4: {type: pin, links: [ground, rocker]}
+drives:
+  O2: {position: {from: 0, to: 360, count: 72}, speed: 10 rad/s}
+assembly: {coupler: 40, rocker: 90}
+"""
+
+
+@pytest.fixture(scope="module")
+def four_bar() -> Any:
+    return da.loads(FOUR_BAR)
+
+
+def test_full_force_balance_of_a_four_bar(four_bar: Any) -> None:
+    """Berkof and Lowen 1969: the residual of least squares is 0, and the moment the same about every point."""
+    b = da.balance(four_bar, ["crank", "rocker"])
+    expected = [[-0.16428571428571428, 0.01142857142857143], [-0.4071428571428572, -0.03428571428571429]]
+    assert b.numbers[:, 1:3] == pytest.approx(np.array(expected), rel=1e-8)
+    assert b.complete
+    assert b.residual < 1e-12
+    moments = [da.shaking(b.after.result, about=point).moment for point in ((0, 0), (3.0, -2.0))]
+    assert np.abs(moments[0] - moments[1]).max() < 1e-10
+    assert da.balance(four_bar, ["crank"]).missing() == ["rocker"]
+
+
+def test_rotors_of_the_books() -> None:
+    """Sarkar 8.1 and Bevan 14.2 (BA-01, BA-03), through the bundled cases."""
+    b = da.balance(da.load(cases()["ba-01-rotor-with-four-masses"]), {"shaft": {"radius": 0.1}})
+    found = b.placed["shaft"]
+    assert found.mass == pytest.approx(8.111306495590426, rel=1e-8)
+    assert math.degrees(found.angle) % 360 == pytest.approx(267.47112693674467, rel=1e-8)
+    b = da.balance(da.load(cases()["ba-03-rotor-with-four-weights"]), {"shaft": {"radius": 24 * 0.0254}})
+    found = b.placed["shaft"]
+    assert found.mass * 386.4 * 0.0254 / 4.4482216152605 == pytest.approx(57.944233241300076, rel=1e-8)
+    assert math.degrees(found.angle) % 360 - 180 == pytest.approx(23.28325486911854, rel=1e-8)
+    assert b.complete
+
+
+YOKE = """
+links:
+  ground: {points: {O: [0, 0]}}
+  crank: {points: {O: [0, 0], A: [%g, 0]}, mass: %.17g, center: [%.17g, 0]}
+  piston: {points: {S: [0, 0]}, mass: %.17g}
+joints:
+  O: {type: pin, links: [ground, crank]}
+  slot: {type: slot, links: [piston, crank], at: [S, A], direction: 90}
+  guide: {type: slider, links: [ground, piston], at: [O, S], direction: 0}
+drives:
+  O: {position: %s, speed: %.17g rad/s}
+"""
+
+
+def yoke(crank: float, turning: float, moment: float, piston: float, position: str, speed: float) -> Any:
+    return da.dynamics(da.loads(YOKE % (crank, turning, moment / turning, piston, position, speed)))
+
+
+def test_partly_balanced_cylinders() -> None:
+    """Sarkar 12.1 and Bevan 14.5 (BAL-1, BA-04): an infinitely long rod is a crank in a slot."""
+    speed = 250 * math.pi / 30
+    balance = (70 + 120 * 2 / 3) * 0.09 / 0.15
+    assert balance == pytest.approx(90)
+    r = yoke(0.09, 160, 70 * 0.09 - balance * 0.15, 120, "30", speed)
+    assert np.hypot(*da.shaking(r).force[0]) == pytest.approx(3264.064847983876, rel=1e-8)
+    pound, inch, foot = 0.45359237, 0.0254, 0.3048
+    r = yoke(
+        7.5 * inch,
+        1.0,
+        (180 * 7.5 - 318.75 * 6) * pound * inch,
+        150 * pound,
+        "{from: 0, to: 360, count: 12}",
+        10 * math.pi,
+    )
+    force = np.hypot(*da.shaking(r).force.T) / (pound * 32.2 * foot)
+    assert force == pytest.approx(np.full(12, 1436.763063046781), rel=1e-8)
+
+
+def test_least_squares_of_a_crank_balance_half_of_what_goes_to_and_fro(four_bar: Any) -> None:
+    m = da.slider_crank(crank=0.05, rod=0.12).with_values(
+        {"links.rod.mass": 0.7, "links.rod.center": [0.04, 0]}
+    )
+    drive = next(iter(m.drives))
+    m = m.with_values({f"drives.{drive}.speed": 100.0})
+    b = da.balance(m, ["crank"], positions=90)
+    turning = m.mass("crank") * m.center("crank")[0] + 0.7 * (2 / 3) * 0.05
+    going = (m.mass("piston") + 0.7 / 3) * 0.05
+    assert b.numbers[0, 1] == pytest.approx(-(turning + going / 2), rel=1e-9)
+
+
+def smallest_circle(points: Any) -> tuple[complex, float]:
+    """Centre and radius of the smallest circle round points, by all pairs and triples."""
+    best: tuple[complex, float] = (0j, math.inf)
+    n = len(points)
+    for i in range(n):
+        for j in range(i):
+            centres = [(points[i] + points[j]) / 2]
+            for k in range(j):
+                a, b, c = points[i], points[j], points[k]
+                d = 2 * ((b - a).conjugate() * (c - a)).imag
+                if abs(d) > 1e-12 * abs(b - a) * abs(c - a):
+                    centres.append(a + 1j * ((b - a) * abs(c - a) ** 2 - (c - a) * abs(b - a) ** 2) / d)
+            for z in centres:
+                radius = float(np.abs(points - z).max())
+                if radius < best[1]:
+                    best = z, radius
+    return best
+
+
+def test_the_least_peak_of_one_crank_is_a_smallest_circle() -> None:
+    r = da.dynamics(crank_machine(5, count=18).with_values({"gravity": None}))
+    s = da.shaking(r)
+    force = s.force[:, 0] + 1j * s.force[:, 1]
+    turned = force * np.exp(-1j * r.angle("crank")) / r.speed("crank") ** 2
+    centre, radius = smallest_circle(turned)
+    b = da.balance(r, {"crank": {"radius": 0.2}}, least="max")
+    assert complex(*b.numbers[0, 1:3]) == pytest.approx(-centre, abs=1e-7 * abs(centre))
+    assert b.sizes()["force"][1] == pytest.approx(radius * r.speed("crank")[0] ** 2, rel=1e-9)
+    assert b.gap < 1e-9
+
+
+def test_boxes_are_those_of_a_bounded_least_squares_solver(four_bar: Any) -> None:
+    bounds = {"crank": {"x": (-0.1, 0.1), "y": (0.0, 0.0)}, "rocker": {"x": (-0.3, 0.0), "y": (-0.05, 0.05)}}
+    b = da.balance(four_bar, bounds)
+    r = b.result
+    columns = []
+    for link, moment in (("crank", 0), ("crank", 1), ("rocker", 0), ("rocker", 1)):
+        u = (
+            (1j * r.acceleration(link) - r.speed(link) ** 2)
+            * np.exp(1j * r.angle(link))
+            * (1j if moment else 1)
+        )
+        columns.append(np.concatenate([-u.real, -u.imag]))
+    low, high = np.array([-0.1, -1e-12, -0.3, -0.05]), np.array([0.1, 1e-12, 0.0, 0.05])
+    s = lsq_linear(np.stack(columns, 1), -b.before.force.T.ravel(), (low, high), method="bvls", tol=1e-14)
+    assert b.numbers[:, 1:3].ravel() == pytest.approx(s.x, abs=1e-7)
+
+
+@over(6, 200)
+def test_no_other_counterweights_leave_less(seed: int) -> None:
+    """Least squares at right angles to the columns, or a dual value as large; the linear model is the machine."""
+    m = crank_machine(seed, count=18)
+    bounds = {
+        "crank": {"radius": 0.1, "mass": 2.0},
+        "last": {"radius": 0.15, "mass": 1.5, "at": "C" if seed % 2 == 0 else "B"},
+    }
+    rng = np.random.default_rng(seed)
+    for least in ("rms", "max"):
+        of = {"force": 1.0, "moment": float(rng.uniform(0, 1)), "torque": float(rng.uniform(0, 1))}
+        b = da.balance(m, bounds, least=least, of=of)
+        assert b.gap < 1e-8
+        assert b.residual < 1e-9
+        mass, x, y, inertia = b.numbers.T
+        radius = np.array([0.1, 0.15])
+        assert (x**2 + y**2 <= mass * inertia * (1 + 1e-7) + 1e-12).all()
+        assert (inertia <= radius**2 * mass * (1 + 1e-7) + 1e-12).all()
+        assert (mass <= np.array([2.0, 1.5]) * (1 + 1e-7)).all()
+        others = b.problem.predict("force", b.numbers.ravel())
+        assert others == pytest.approx(
+            b.after.force - b.after.parts["weight"][0], abs=1e-8 * np.abs(b.before.force).max()
+        )
+
+
+def test_least_squares_leave_what_is_at_right_angles_to_all_columns(four_bar: Any) -> None:
+    b = da.balance(four_bar, ["crank"])
+    u = b.problem.columns["force"][:, :, 1:3].reshape(-1, 2)
+    rest = b.after.force.ravel()
+    assert np.abs(u.T @ rest).max() < 1e-10 * np.linalg.norm(u) * np.linalg.norm(rest)
+
+
+def test_the_cone_method_agrees_with_a_general_one() -> None:
+    rng = np.random.default_rng(3)
+    y, c = rng.normal(size=(20, 2)), rng.normal(size=(20, 2, 3))
+    g, h = np.zeros((21, 4, 4)), np.zeros((21, 4))
+    g[:20, 0, 3], g[:20, 1:3, :3], h[:20, 1:3] = -1.0, -c, y
+    g[20, 1:, :3], h[20, 0] = -np.eye(3), 0.2  # |x| <= 0.2
+    found = minimise(np.array([0.0, 0, 0, 1]), g, h)
+    assert found.gap < 1e-10
+    general = minimize(
+        lambda x: x[3], [0, 0, 0, 10.0], method="SLSQP", options={"ftol": 1e-14, "maxiter": 500},
+        constraints=[
+            {"type": "ineq", "fun": lambda x: x[3] ** 2 - ((y + c @ x[:3]) ** 2).sum(1)},
+            {"type": "ineq", "fun": lambda x: 0.04 - (x[:3] ** 2).sum()},
+        ],
+    )  # fmt: skip
+    assert found.primal == pytest.approx(general.fun, rel=1e-6)
+
+
+def test_a_trade_off_gains_one_for_the_other(four_bar: Any) -> None:
+    b = da.balance(four_bar, {"crank": {"mass": 3}, "rocker": {"mass": 3}})
+    pairs = np.array(b.trade_off("torque", 5))
+    assert (np.diff(pairs[:, 0]) > 0).all()
+    assert (np.diff(pairs[:, 1]) < 0).all()
+
+
+def test_discs_and_places(four_bar: Any) -> None:
+    disc = da.balance(four_bar, {"crank": {"disc": (7800.0, 0.02, 0.05)}, "rocker": None})
+    p = disc.placed["crank"]
+    assert p.moment <= 7800 * 0.02 * math.pi * 0.05**3 * (1 + 1e-9)
+    assert p.radius is not None
+    assert p.mass == pytest.approx(7800 * 0.02 * math.pi * p.radius**2)
+    assert np.hypot(*p.center) == pytest.approx(p.radius)
+    assert p.inertia == pytest.approx(p.mass * p.radius**2 / 2)
+    placed = da.balance(four_bar, {"crank": {"place": (-0.05, 0.0)}}).placed["crank"]
+    assert placed.center.tolist() == [-0.05, 0.0]
+    assert placed.mass > 0
+    shaped = four_bar.with_values({"links.crank.mass": None})
+    assert da.balance(shaped, ["crank", "rocker"]).complete
+
+
+WRONG = [
+    ({"arm": {}}, {}, "a counterweight cannot be on 'arm'"),
+    ({"crank": {"radios": 1}}, {}, "counterweight on crank: there is no bound 'radios'"),
+    ({"crank": {"radius": -1.0}}, {}, "counterweight on crank: a bound is -1"),
+    (
+        {"crank": {}, "rocker": {}},
+        {"of": "torque"},
+        "its mass and inertia matter here, and its mass has no bound",
+    ),
+    ({"crank": {}}, {"of": "power"}, "'power' cannot be balanced"),
+    ({"crank": {"x": (1.0, 0.0)}}, {}, "the range of x is empty"),
+    ({}, {}, "no link is to have a counterweight"),
+]
+
+
+@pytest.mark.parametrize(("weights", "options", "sentence"), WRONG)
+def test_bounds_that_mean_nothing_are_refused(
+    four_bar: Any, weights: Any, options: Any, sentence: str
+) -> None:
+    with pytest.raises(ModelError, match=sentence):
+        da.balance(four_bar, weights, **options)
+
+
+def test_the_command_prints_draws_and_writes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file, balanced, record = tmp_path / "four_bar.yaml", tmp_path / "balanced.yaml", tmp_path / "b.json"
+    file.write_text(FOUR_BAR)
+    arguments = ["--on", "crank", "rocker:radius=200mm", "--output", str(balanced), "--json", str(record)]
+    assert main(["balance", str(file), *arguments, "--report", str(tmp_path / "b.txt")]) == 0
+    said = capsys.readouterr().out
+    assert "The force is balanced completely" in said
+    assert json.loads(record.read_text())["balance"]["complete"] is True
+    left = da.shaking(da.dynamics(da.load(balanced))).force
+    assert np.abs(left).max() < 1e-9
+    assert "F = −m a_A" in (tmp_path / "b.txt").read_text()
+    engine = str(examples()["engine"])
+    assert (
+        main(
+            [
+                "balance",
+                engine,
+                "--on",
+                "crank:disc=7800kg/m^3/20mm/80mm",
+                "--least",
+                "max",
+                "--positions",
+                "72",
+            ]
+        )
+        == 0
+    )
+    assert "counterweight is missing on rod" in " ".join(capsys.readouterr().out.split())
+    assert main(["balance", str(file), "--on", "crank:radius"]) == 2
+    assert "write --on crank:radius=80mm,mass=2kg" in capsys.readouterr().err
