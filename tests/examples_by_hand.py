@@ -1,4 +1,4 @@
-"""The examples' answers by closed formulas, without this package: name -> values in the order of the file.
+"""The examples' answers by closed formulas, without this package's analyses: name -> values in the order of the file.
 
 Efforts follow from virtual work: with the positions of all mass centres as functions of one drive q,
 effort = sum m a . dr/dq + sum I alpha dphi/dq - sum F . dr/dq. Numbers are in the units of the files.
@@ -10,6 +10,8 @@ from collections.abc import Callable, Sequence
 from math import acos, asin, cos, degrees, pi, radians, sin, sqrt, tan
 
 from mpmath import mp, mpf  # type: ignore[import-untyped]
+
+from dalembert.bundled import examples
 
 Place = Callable[[mpf], complex]
 G = 9.80665
@@ -104,6 +106,39 @@ def engine() -> list[object]:
         thrust(radians(20), full),
         asin(r / rod_length) * 180 / pi,
     ]
+
+
+def four_cylinder() -> list[object]:
+    """Throw 42.5, rods 138, bore 80 mm; 4000 rpm; pressures off the file; SI inside."""
+    r, rod_length, area, w = 0.0425, 0.138, pi * 0.08**2 / 4, 4000 * pi / 30
+    rows = (examples()["four_cylinder"].parent / "pressure.csv").read_text(encoding="utf-8").splitlines()[2:]
+    bar = {int(a): float(p) for a, p in (row.split(",") for row in rows)}
+    throws, later = (0.0, pi, pi, 0.0), (0, 540, 180, 360)
+
+    def piston(t: mpf) -> mpf:
+        return r * mp.cos(t) + mp.sqrt(rod_length**2 - (r * mp.sin(t)) ** 2)
+
+    def lean(t: mpf) -> mpf:
+        return -mp.asin(r * mp.sin(t) / rod_length)
+
+    def rod(t: mpf) -> mpf:
+        return r * mp.expj(t) + 0.3 * rod_length * mp.expj(lean(t))
+
+    def torque(degrees_: int) -> float:
+        return sum(
+            effort(
+                radians(degrees_) + throw,
+                w,
+                0.0,
+                [(0.4, piston), (0.55, rod)],
+                [(0.0015, lean)],
+                [(complex(-1e5 * bar[(degrees_ - shift) % 720] * area), piston)],
+            )
+            for throw, shift in zip(throws, later, strict=True)
+        )
+
+    at_top = 0.4 * r * w**2 * (1 + r / rod_length)
+    return [torque(30), torque(110), torque(330), 1e5 * bar[0] * area - at_top]
 
 
 def quick_return() -> list[object]:
@@ -321,6 +356,7 @@ EXAMPLES: dict[str, Callable[[], list[object]]] = {
     example.__name__: example
     for example in (
         engine,
+        four_cylinder,
         pump,
         quick_return,
         toggle_press,

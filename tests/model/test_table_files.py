@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from dalembert.analysis import dynamics
+from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, convert, load, loads
@@ -182,3 +183,12 @@ def test_a_shift_comes_later_and_a_factor_multiplies() -> None:
     plain, shifted, larger = (lambda q, t=t: t.at({"O": q}) for t in tables)
     assert shifted(q) == pytest.approx(plain(q - 3 * np.pi), abs=1e-12)
     assert larger(q) == pytest.approx(3 * plain(q), rel=1e-15)
+
+
+def test_an_example_is_written_with_its_columns_beside_it(tmp_path: Path) -> None:
+    path = tmp_path / "engine.yaml"
+    assert main(["examples", "four_cylinder", "-o", str(path)]) == 0
+    assert (
+        main(["examples", "four_cylinder", "-o", str(tmp_path / "other.yaml")]) == 2
+    )  # pressure.csv is there
+    assert load(path) == load(examples()["four_cylinder"])

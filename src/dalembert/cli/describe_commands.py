@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -25,7 +26,20 @@ def example_copied(name: str, output: Path | None, force: bool) -> int:
     """An example printed or written; without a name, the list of them."""
     if not name:
         return write_or_print(example_list(), output, force)
-    return _model_file(example_text(name), output, force)
+    _model_file(example_text(name), output, force)
+    if output is not None and not _on_screen(output):
+        for beside in _files_beside(name):
+            write_or_print(beside.read_text(encoding="utf-8"), output.parent / beside.name, force)
+    return 0
+
+
+def _files_beside(name: str) -> list[Path]:
+    """The files of columns that an example names, which lie beside it."""
+    from dalembert.bundled import cases, examples
+
+    path = {**cases(), **examples()}[name]
+    named = re.findall(r"\bfile: ([\w.-]+\.csv)", path.read_text(encoding="utf-8"))
+    return [path.parent / file for file in dict.fromkeys(named)]
 
 
 def _model_file(text: str, output: Path | None, force: bool) -> int:

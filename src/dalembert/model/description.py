@@ -16,7 +16,7 @@ from dalembert.model.assembly import Pose, PoseValue
 from dalembert.model.drives.driven_freedoms import drive_freedoms, refuse_empty, with_freedoms
 from dalembert.model.drives.drives import Drive
 from dalembert.model.drives.schedule import Schedule, schedule
-from dalembert.model.files.messages import together
+from dalembert.model.files.messages import of_originals, together
 from dalembert.model.files.source import Source
 from dalembert.model.gravity import STANDARD, Gravity, GravityValue
 from dalembert.model.joints.friction_keys import FrictionDefaults
@@ -343,11 +343,26 @@ def mechanism(tree: Mapping[str, object], source: Source | None = None) -> Mecha
                 "this is a file of forces and couples", "use dalembert wrench, or da.wrench.load"
             )
         folders = (source.folder, source.data) if source else ()
+        if "copies" in tree:
+            tree, source = _with_copies(tree, source)
         found = Mechanism.model_validate(tree, context=file_rules(tree, *folders))
     except ModelError as error:
-        raise error.at_source(source) from None
+        raise (of_originals(error, source.copied) if source else error).at_source(source) from None
     found._source = source
     return found
+
+
+def _with_copies(
+    tree: Mapping[str, object], source: Source | None
+) -> tuple[Mapping[str, object], Source | None]:
+    """The tree with its copies, and the source that knows which line each is from."""
+    from dalembert.model.files.copies.expansion import expand
+
+    units = at_item("units", file_units, tree.get("units", {}))
+    if tree.get("space") == "space":
+        raise ModelError("copies are for the plane", "write the parts out", ("copies",))
+    expanded, copied = expand(tree, Reading(units, drive_freedoms(tree), 2))
+    return expanded, replace(source, copied=copied) if source else None
 
 
 def _items(value: object) -> list[tuple[Any, Any]]:

@@ -47,7 +47,9 @@ def _links(m: Mechanism) -> Iterator[ModelError]:
 
 def _sizes(link: Link) -> Iterator[tuple[tuple[str, ...], int]]:
     for point, place in link.points.items():
-        yield ("points", point), len(place.at if isinstance(place, Offset) else place)
+        at = place.at if isinstance(place, Offset) else place
+        if at:
+            yield ("points", point), len(at)
     if link.center is not None:
         yield ("center",), len(link.center)
     if isinstance(link.inertia, tuple):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dalembert.arrays import Tree
 from dalembert.model.description import Mechanism
+from dalembert.model.files.copies.expansion import copies_schema
 
 
 def json_schema() -> Tree:
@@ -16,6 +17,7 @@ def json_schema() -> Tree:
     for part in schema["$defs"].values():
         if "type" in part.get("properties", {}):
             part["required"] = ["type", *(key for key in part.get("required", []) if key != "type")]
+    schema["properties"]["copies"] = copies_schema()
     return (
         {"$schema": "https://json-schema.org/draft/2020-12/schema"}
         | schema

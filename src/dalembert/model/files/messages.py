@@ -75,6 +75,13 @@ def together(errors: Sequence[ModelError]) -> ModelError:
     return found[0] if len(found) == 1 else ModelErrors(found)
 
 
+def of_originals(error: ModelError, copied: Mapping[Path, Path]) -> ModelError:
+    """The errors but for those of copies, which repeat those of the originals; if there are others."""
+    errors = error.errors if isinstance(error, ModelErrors) else (error,)
+    own = [one for one in errors if one.path[:2] not in copied]
+    return together(own) if own else error
+
+
 def place(path: Sequence[str | int]) -> str:
     """Where in a description, in words.
 

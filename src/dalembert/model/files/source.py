@@ -40,6 +40,8 @@ class Source:
     form: str = "yaml"
     data: str = ""
     """Another folder that columns of numbers may be read from."""
+    copied: Mapping[Path, Path] = field(default_factory=dict, repr=False, compare=False)
+    """Paths of parts that are copies -> path of the copy that a file states."""
 
     @property
     def folder(self) -> str:
@@ -50,6 +52,8 @@ class Source:
         """The line of a path down the tree, or of the nearest part around it that has one."""
         lines = self.find()
         for length in range(len(path), 0, -1):
+            if tuple(path[:length]) in self.copied:
+                return self.line(self.copied[tuple(path[:length])])
             if tuple(path[:length]) in lines:
                 return lines[tuple(path[:length])]
         return 1

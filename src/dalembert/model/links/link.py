@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Self
 
 from pydantic import Discriminator, Field, Tag, ValidationInfo, model_validator
 
-from dalembert.arrays import Numeric
+from dalembert.arrays import Numeric, Tree
 from dalembert.errors import ModelError
 from dalembert.model.links.shapes import (
     MassProperties,
@@ -19,6 +19,7 @@ from dalembert.model.links.shapes import (
     mass_properties,
 )
 from dalembert.model.part import Part, mapping, reading
+from dalembert.model.quantities.figures import unit_vector
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
     Components,
@@ -47,10 +48,26 @@ GROUND = "ground"
 
 @dataclass(frozen=True, slots=True)
 class Offset:
-    """A point placed from another one, or from the mass centre."""
+    """A point placed from another one, or from the mass centre.
+
+    In the plane ``start`` may be turned, or reflected in a line at the angle ``mirror`` through the point ``about``
+    (empty: the link's origin), before ``at`` is added (empty: nothing).
+    """
 
     start: str
-    at: Vector
+    at: Vector = ()
+    turn: float = 0.0
+    mirror: float | None = None
+    about: str = ""
+
+    def image(self, start: Vector, about: Vector) -> Vector:
+        """Where a start leads, both in link axes, metres; ``start`` may be of symbols."""
+        if self.turn or self.mirror is not None:
+            x, y = (a - b for a, b in zip(start, about, strict=True))
+            cos, sin = unit_vector(self.turn if self.mirror is None else 2 * self.mirror)
+            side = 1.0 if self.mirror is None else -1.0
+            start = about[0] + cos * x - side * sin * y, about[1] + sin * x + side * cos * y
+        return tuple(a + b for a, b in zip(start, self.at, strict=True)) if self.at else start
 
 
 Inertia = float | tuple[float, ...] | tuple[tuple[float, ...], ...]
@@ -65,15 +82,32 @@ class Place(Value):
             return value
         if not isinstance(value, Mapping):
             return vector(value, "length", rules)
-        keys = mapping(value, ["from", "at"], "{from: center, at: [x, y]}")
-        for key in ("from", "at"):
+        keys = mapping(value, ["from", "at", "turn", "mirror", "about"], "{from: center, at: [x, y]}")
+        for key in ("from",) if {"turn", "mirror"} & keys.keys() else ("from", "at"):
             if key not in keys:
                 raise ModelError(f"the key {key!r} is missing", "write {from: center, at: [x, y]}")
-        return Offset(at_item("from", name, keys["from"]), at_item("at", vector, keys["at"], "length", rules))
+        if {"turn", "mirror"} <= keys.keys() or (rules.dimension == 3 and {"turn", "mirror"} & keys.keys()):
+            what = "in space" if rules.dimension == 3 else "by both turn and mirror"
+            raise ModelError(f"a point is placed {what}", "turn it, or mirror it, in the plane", ("from",))
+        angles = {
+            key: at_item(key, rules.quantity, keys[key], "angle") for key in ("turn", "mirror") if key in keys
+        }
+        at = at_item("at", vector, keys["at"], "length", rules) if "at" in keys else ()
+        about = at_item("about", name, keys["about"]) if "about" in keys else ""
+        return Offset(at_item("from", name, keys["from"]), at, **angles, about=about)
 
     def write(self, value: Vector | Offset) -> object:
         if isinstance(value, Offset):
-            return {"from": value.start, "at": vector_text(value.at, "length")}
+            tree: Tree = {"from": value.start}
+            if value.turn or (value.mirror is None and not value.at):
+                tree["turn"] = value_text(value.turn, "angle")
+            if value.mirror is not None:
+                tree["mirror"] = value_text(value.mirror, "angle")
+            if value.about:
+                tree["about"] = value.about
+            if value.at:
+                tree["at"] = vector_text(value.at, "length")
+            return tree
         return vector_text(value, "length")
 
     def json_schema(self) -> JsonSchema:
@@ -82,8 +116,14 @@ class Place(Value):
             "properties": {
                 "from": {"type": "string", "description": "another point of the link, or center"},
                 "at": vector_schema() | {"description": "from there, in link axes, lengths"},
+                "turn": NUMBER_OR_TEXT | {"description": "in the plane: that point turned by this angle"},
+                "mirror": NUMBER_OR_TEXT | {"description": "or reflected in a line at this angle"},
+                "about": {
+                    "type": "string",
+                    "description": "the point it is turned about; default the origin",
+                },
             },
-            "required": ["from", "at"],
+            "required": ["from"],
             "additionalProperties": False,
         }
         return {"anyOf": [*vector_schema()["anyOf"], relative]}
@@ -233,16 +273,27 @@ class Link(Part):
 
     def point(self, point: str) -> Vector:
         """A point in link axes, metres; `center` is the mass centre. Raises ModelError if there is none."""
-        total: Vector | None = None
         seen: list[str] = []
-        while True:
-            place = self._place(point, seen)
-            at = place.at if isinstance(place, Offset) else place
-            total = at if total is None else tuple(a + b for a, b in zip(total, at, strict=True))
-            if not isinstance(place, Offset):
-                return total
+        while isinstance(place := self._place(point, seen), Offset):
             seen.append(point)
             point = place.start
+        for behind in reversed(seen):
+            offset = self.points[behind]
+            assert isinstance(offset, Offset)
+            place = offset.image(place, self._about(offset, seen))
+        return place
+
+    def _about(self, offset: Offset, seen: list[str]) -> Vector:
+        if not offset.about:
+            return (0.0,) * self._dimension()
+        place = self._place(offset.about, seen)
+        if isinstance(place, Offset):
+            raise ModelError(
+                f"a point is turned about {offset.about!r}, which is placed from another",
+                "give that point a vector",
+                ("points", seen[0], "about"),
+            )
+        return place
 
     def _place(self, point: str, seen: list[str]) -> Vector | Offset:
         if point in seen:
@@ -270,5 +321,6 @@ class Link(Part):
 
     def _dimension(self) -> int:
         for place in self.points.values():
-            return len(place.at if isinstance(place, Offset) else place)
+            if not isinstance(place, Offset) or place.at:
+                return len(place.at if isinstance(place, Offset) else place)
         return 2

@@ -1,0 +1,158 @@
+"""The links, joints, drives and loads that `copies` of a file stand for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from dalembert.arrays import Tree
+from dalembert.errors import ModelError
+from dalembert.model.files.copies.copying import Copying
+from dalembert.model.files.copies.images import Image
+from dalembert.model.links.link import GROUND
+from dalembert.model.part import Reading, mapping
+from dalembert.model.quantities.values import JsonSchema, at_item
+from dalembert.units import quantity
+from dalembert.wording import closest, quote_value
+
+Path = tuple[str | int, ...]
+
+KEYS = ("of", "count", "phase", "mirror", "about", "shift", "names")
+EXAMPLE = "{of: [rod, piston], phase: {crank: [0, 180, 180, 0]}, shift: [0, 540, 180, 360]}"
+MOST = 100
+"""Copies of one entry."""
+
+NUMBER_OR_TEXT = {"type": ["number", "string"]}
+
+
+def copies_schema() -> JsonSchema:
+    """The JSON Schema of `copies`."""
+    several = {"anyOf": [NUMBER_OR_TEXT, {"type": "array", "items": NUMBER_OR_TEXT}]}
+    names = {"type": "array", "items": {"type": ["string", "integer"]}}
+    said: JsonSchema = {
+        "of": names | {"description": "links; their joints, drives, loads and assembly come along"},
+        "count": {"type": "integer", "description": "how many there are then, with the original"},
+        "phase": {"type": "object", "additionalProperties": several}
+        | {
+            "description": "links that stay -> by which angles the copies' places on them are turned, or a step"
+        },
+        "mirror": {"anyOf": [NUMBER_OR_TEXT, {"type": "object", "additionalProperties": NUMBER_OR_TEXT}]}
+        | {"description": "the angle of the line that the copy is reflected in: of ground, or link -> angle"},
+        "about": {
+            "type": "string",
+            "description": "the point of these links that it goes through; default the origin",
+        },
+        "shift": several
+        | {"description": "how much later the copies' loads come, along the drive, or a step"},
+        "names": names | {"description": "what the copies' names end with; default 2, 3, ..."},
+    }
+    entry = {"type": "object", "properties": said, "required": ["of"], "additionalProperties": False}
+    return {"type": "array", "items": entry, "description": "parts written once and copied"}
+
+
+def expand(tree: Mapping[str, object], rules: Reading) -> tuple[Mapping[str, object], dict[Path, Path]]:
+    """The tree with what its copies stand for; paths of the new parts -> path of the copy."""
+    entries = tree.get("copies")
+    if not isinstance(entries, (list, tuple)):
+        raise ModelError(
+            f"{quote_value(entries)} stands where a list is needed", f"write copies: [{EXAMPLE}]", ("copies",)
+        )
+    out: Tree = {key: value for key, value in tree.items() if key != "copies"}
+    for key in ("links", "joints", "drives", "loads", "assembly"):
+        if isinstance(out.get(key), Mapping):
+            out[key] = {str(name): value for name, value in out[key].items()}
+    copied: dict[Path, Path] = {}
+    for k, entry in enumerate(entries):
+        try:
+            for image in _images(entry, out, rules):
+                Copying(out, [str(n) for n in entry["of"]], image, copied, ("copies", k)).run()
+        except ModelError as error:
+            what = f"copies {k + 1}: {error.what}"
+            raise ModelError(what, error.remedy, ("copies", k, *error.path)) from None
+    return out, copied
+
+
+def _images(entry: Any, tree: Tree, rules: Reading) -> Iterator[Image]:
+    keys = mapping(entry, list(KEYS), EXAMPLE)
+    of, links = keys.get("of"), {str(name) for name in tree.get("links") or ()}
+    if not isinstance(of, (list, tuple)) or not of:
+        raise ModelError("it says no links", f"write {EXAMPLE}", ("of",) if of is not None else ())
+    for k, name in enumerate(of):
+        if str(name) not in links or name == GROUND:
+            raise ModelError(
+                f"there is no moving link {str(name)!r}",
+                closest(str(name), sorted(links - {GROUND})),
+                ("of", k),
+            )
+    turned = _turned(keys, links - {str(name) for name in of})
+    count = _count(keys, turned)
+    phases = {link: at_item("phase", _steps, value, count, "angle", rules) for link, value in turned.items()}
+    shift = keys.get("shift")
+    names = keys.get("names", range(2, count + 1))
+    if (
+        not isinstance(names, (list, tuple, range))
+        or len(names) != count - 1
+        or len(set(map(str, names))) < len(names)
+    ):
+        raise ModelError(
+            f"{count - 1} names are needed, of the copies only", "write names: [left, right]", ("names",)
+        )
+    slides = set(rules.freedoms.values()) == {"slide"}
+    shifts = (
+        [0.0] * count
+        if shift is None
+        else at_item("shift", _steps, shift, count, "length" if slides else "angle", rules)
+    )
+    for k in range(1, count):
+        phase = {link: values[k] for link, values in phases.items()}
+        yield Image(f"_{names[k - 1]}", phase, "mirror" in keys, shifts[k], str(keys.get("about", "")), rules)
+
+
+def _turned(keys: Mapping[str, Any], links: set[str]) -> dict[str, Any]:
+    """Links that stay -> angles of their images."""
+    if "phase" in keys and "mirror" in keys:
+        raise ModelError("it is both turned and mirrored", "write phase or mirror", ("mirror",))
+    which = "mirror" if "mirror" in keys else "phase"
+    given = keys.get(which, {})
+    if which == "mirror" and not isinstance(given, Mapping):
+        given = {GROUND: given}
+    if not isinstance(given, Mapping):
+        raise ModelError(
+            f"{quote_value(given)} does not say on which link", "write phase: {crank: [0, 180]}", (which,)
+        )
+    for link in given:
+        if str(link) not in links:
+            raise ModelError(
+                f"there is no link {str(link)!r} that stays", closest(str(link), sorted(links)), (which,)
+            )
+    return {str(link): [0, value] if which == "mirror" else value for link, value in given.items()}
+
+
+def _count(keys: Mapping[str, Any], turned: Mapping[str, Any]) -> int:
+    listed = {len(value) for value in (*turned.values(), keys.get("shift")) if isinstance(value, list)}
+    count = keys.get("count", next(iter(listed), 2 if "mirror" in keys else None))
+    if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST:
+        raise ModelError(
+            f"it does not say how many, from 2 to {MOST}",
+            "write count: 4, the original among them",
+            ("count",) if "count" in keys else (),
+        )
+    if listed - {count}:
+        raise ModelError(
+            f"{count} are asked for, and a list has {max(listed - {count})}",
+            "give one for each, the original's 0 first",
+        )
+    return count
+
+
+def _steps(value: object, count: int, kind: str, rules: Reading) -> list[float]:
+    """One for each, the original's first; a single value is a step."""
+    if not isinstance(value, list):
+        step = quantity(value, kind, rules.units)
+        return [k * step for k in range(count)]
+    found = [at_item(k, quantity, x, kind, rules.units) for k, x in enumerate(value)]
+    if found[0]:
+        raise ModelError(
+            f"a list begins with {quote_value(value[0])}, and the original stays", "begin with 0", (0,)
+        )
+    return found
