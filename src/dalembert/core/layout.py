@@ -355,4 +355,4 @@ class Layout:
     @property
     def square(self) -> bool:
         """As many rows as unknowns, none repeated: J has a determinant."""
-        return self.stack.count == self.unknowns and not self.redundant
+        return self.constraints.count + len(self.driven) == self.unknowns and not self.redundant

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import combinations, starmap
 
 import numpy as np
 
@@ -117,8 +118,9 @@ def compile_mechanism(
     g = plane if m.dimension == 2 else space
     links = tuple(name for name in m.links if name != GROUND)
     index = {name: k for k, name in enumerate(links)} | {GROUND: len(links)}
-    reference = _references(m, index)
-    jointing: Jointing = (PlaneJoints if m.dimension == 2 else SpaceJoints)(m, schedule, index, reference)
+    at = {name: m.joint_points(name) for name in m.joints}
+    reference = _references(m, index, at)
+    jointing: Jointing = (PlaneJoints if m.dimension == 2 else SpaceJoints)(m, schedule, index, reference, at)
     fixed, freedoms = jointing.constraints.rows(), jointing.freedoms.rows()
     names = jointing.names
     driven = np.array([names.index(_driven_freedom(m, d)) for d in schedule.names], np.intp)
@@ -129,7 +131,7 @@ def compile_mechanism(
         constraints=fixed,
         freedoms=freedoms,
         driven=driven,
-        length=characteristic_length(m) if like is None else like.layout.length,
+        length=characteristic_length(m, at) if like is None else like.layout.length,
         redundant=redundant,
         reference=reference,
         compliance=jointing.compliance(fixed),
@@ -185,25 +187,29 @@ def _without_pose_loads(m: Mechanism) -> tuple[tuple[str, ...], Mechanism]:
     return tuple(sorted(found)), m.model_copy(update={"loads": {**m.loads, **loads}}) if loads else m
 
 
-def _references(m: Mechanism, index: dict[str, int]) -> Array:
+Places = dict[str, tuple[Vector, Vector]]
+"""Points of each joint on both its links, in their axes."""
+
+
+def _references(m: Mechanism, index: dict[str, int], at: Places) -> Array:
     """Reference point of each link: its point of the first joint, one with the ground before others, so that arms stay
     short and many, and many velocities, are zero."""
     reference: dict[int, Vector] = {}
     for name, joint in sorted(m.joints.items(), key=lambda item: GROUND not in item[1].links):
-        for link, u in zip(joint.links, m.joint_points(name), strict=True):
+        for link, u in zip(joint.links, at[name], strict=True):
             reference.setdefault(index[link], u)
     return table.numbers([reference.get(k, (0.0,) * m.dimension) for k in range(len(index))])
 
 
-def characteristic_length(m: Mechanism) -> float:
+def characteristic_length(m: Mechanism, at: Places) -> float:
     """Mean over the links of the largest distance between two points of joints; 1 m if all links are points."""
     spans = []
-    at: dict[str, list[tuple[float, ...]]] = {}
+    ends: dict[str, list[tuple[float, ...]]] = {}
     for name, joint in m.joints.items():
-        for link, u in zip(joint.links, m.joint_points(name), strict=True):
-            at.setdefault(link, []).append(tuple(u))
-    for points in at.values():  # distances, not extents: the same in whatever axes
-        spans.append(max(math.dist(u, v) for u in points for v in points))
+        for link, u in zip(joint.links, at[name], strict=True):
+            ends.setdefault(link, []).append(tuple(u))
+    for points in ends.values():  # distances, not extents: the same in whatever axes
+        spans.append(max(starmap(math.dist, combinations(points, 2)), default=0.0))
     spans = [s for s in spans if s > 0]
     return math.fsum(spans) / len(spans) if spans else 1.0
 

@@ -24,6 +24,7 @@ from dalembert.model import Mechanism, Schedule
 from dalembert.model.assembly import SpacePose
 from dalembert.model.joints.pairs import AXES
 from dalembert.model.joints.plane_joints import Joint
+from dalembert.model.quantities.values import Vector
 
 
 class Jointing(Protocol):
@@ -45,7 +46,14 @@ class Jointing(Protocol):
 class _Joints:
     """What both kinds of joints have in common."""
 
-    def __init__(self, m: Mechanism, schedule: Schedule, index: dict[str, int], reference: Array) -> None:
+    def __init__(
+        self,
+        m: Mechanism,
+        schedule: Schedule,
+        index: dict[str, int],
+        reference: Array,
+        at: Mapping[str, tuple[Vector, Vector]],
+    ) -> None:
         self.m, self.schedule, self.index, self.reference = m, schedule, index, reference
         links = len(index) - 1
         self.constraints = table.RowBuilder(links, m.dimension)
@@ -56,7 +64,7 @@ class _Joints:
         self.geometries: tuple[pair_table.Geometry, ...] = ()
         for k, (name, joint) in enumerate(m.joints.items()):
             ends = (index[joint.links[0]], index[joint.links[1]])
-            ui, uj = (np.subtract(u, reference[e]) for u, e in zip(m.joint_points(name), ends, strict=True))
+            ui, uj = (np.subtract(u, reference[e]) for u, e in zip(at[name], ends, strict=True))
             self.ends.append(ends)
             self.arms.append((ui, uj))
             self.add(k, name, joint)

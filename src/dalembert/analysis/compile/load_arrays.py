@@ -100,9 +100,7 @@ def _forces(s: Setting, loads: Tree) -> Forces:
         value += [np.broadcast_to(f, (s.count,)) for f in load.force(s.drives)]
     follows = np.array([load.axes == "link" for load in loads.values()], bool)
     values = numbers(value).reshape(len(loads), s.g.d, s.count)
-    return Forces(
-        np.array(link, np.intp), numbers(at).reshape(-1, s.g.d), follows, np.moveaxis(values, -1, 0)
-    )
+    return Forces(np.array(link, np.intp), numbers(at).reshape(-1, s.g.d), follows, values.transpose(2, 0, 1))
 
 
 def _couples(s: Setting, loads: Tree) -> Couples:
@@ -115,7 +113,7 @@ def _couples(s: Setting, loads: Tree) -> Couples:
     columns = numbers(value).reshape(len(loads), size, s.count)
     follows = np.array([load.axes == "link" for load in loads.values()], bool)
     link = np.array([s.index[load.on] for load in loads.values()], np.intp)
-    return Couples(link, np.moveaxis(columns, -1, 0), follows)
+    return Couples(link, columns.transpose(2, 0, 1), follows)
 
 
 def _springs(s: Setting) -> Springs:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -46,8 +47,10 @@ def flat_numbers(c: Compiled, pose: Pose | None = None) -> Numbers:
     rows: list[Any] = [size, c.layout.links, c.layout.joints, c.layout.driven.tobytes()]
     single, along = [c.target], [c.schedule.position, c.schedule.speed, c.schedule.acceleration]
     for name, array in _arrays(c, pose):
-        if array.dtype.kind != "f":
-            rows += [name, array.shape, array.tobytes()]
+        if not isinstance(array, np.ndarray):
+            rows.append(array)
+        elif array.dtype.kind != "f":
+            rows += (name, array.shape, array.tobytes())
         elif name in ALONG or name in (COUNTED, "pose"):
             along.append(array.reshape(len(array), -1))
             rows.append(array.shape[1:])
@@ -95,7 +98,7 @@ def _fixed(different: Array) -> Flags:
     return np.asarray((different == 0) | (np.abs(different) == 1))
 
 
-def _arrays(c: Compiled, pose: Pose | None) -> Iterator[tuple[Any, Array]]:
+def _arrays(c: Compiled, pose: Pose | None) -> Iterator[tuple[Any, Any]]:
     """Every array of a compiled mechanism, with its place."""
     yield from _inside("constraints", c.layout.constraints)
     yield from _inside("freedoms", c.layout.freedoms)
@@ -107,19 +110,25 @@ def _arrays(c: Compiled, pose: Pose | None) -> Iterator[tuple[Any, Array]]:
         yield "pose", array
 
 
-def _inside(name: str, whole: Any) -> Iterator[tuple[Any, Array]]:
-    """The arrays of a record, with their places; what is no array but part of the structure, as such."""
-    for part in fields(whole):
-        value = getattr(whole, part.name)
+def _inside(name: str, whole: Any) -> Iterator[tuple[Any, Any]]:
+    """The arrays of a record, with their places, and what else is part of the structure."""
+    for part in _names(type(whole)):
+        value = getattr(whole, part)
         if isinstance(value, np.ndarray):
-            yield _place(name, part.name, value), value
-        elif is_dataclass(value):
-            yield from _inside(part.name, value)
-        elif part.name == "families":
+            yield _place(name, part, value), value
+        elif part == "families":
             for f in value:
                 yield from _inside(type(f).__name__, f)
+        elif is_dataclass(value):
+            yield from _inside(part, value)
         else:
-            yield part.name, np.array(value)
+            yield part, value
+
+
+@cache
+def _names(record: Hashable) -> tuple[str, ...]:
+    """Names of the fields of a record."""
+    return tuple(part.name for part in fields(record))  # type: ignore[arg-type]
 
 
 def _place(record: str, name: str, array: Array) -> tuple[str, str]:
@@ -151,16 +160,16 @@ class _Nodes:
     def record(self, name: str, whole: Any) -> Any:
         """The same record on nodes."""
         parts: Tree = {}
-        for part in fields(whole):
-            value = getattr(whole, part.name)
+        for part in _names(type(whole)):
+            value = getattr(whole, part)
             if isinstance(value, np.ndarray):
-                parts[part.name] = self.array(_place(name, part.name, value), value)
+                parts[part] = self.array(_place(name, part, value), value)
             elif is_dataclass(value):
-                parts[part.name] = self.record(part.name, value)
-            elif part.name == "families":
-                parts[part.name] = tuple(self.record(type(f).__name__, f) for f in value)
+                parts[part] = self.record(part, value)
+            elif part == "families":
+                parts[part] = tuple(self.record(type(f).__name__, f) for f in value)
             else:
-                parts[part.name] = value
+                parts[part] = value
         return type(whole)(**parts)
 
 

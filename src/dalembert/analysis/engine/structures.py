@@ -139,11 +139,9 @@ def known_forces(c: Compiled, pose: Pose, inertia: bool) -> ForceBlock | None:
 
 def _suits(c: Compiled) -> bool:
     """Whether a mechanism is of a kind that programs are kept of."""
-    stack = c.layout.stack
     return (
         isinstance(c.guess, Guess)
-        and not c.layout.redundant
-        and stack.count == c.layout.unknowns
+        and c.layout.square
         and not phase_rows(c.layout.constraints).size
         and bool(np.isfinite(c.schedule.position).all())
     )

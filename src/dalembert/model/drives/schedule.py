@@ -62,10 +62,11 @@ def schedule(drives: Mapping[str, Drive], positions: int | None = None) -> Sched
     size = _count(drives, positions)
     columns = {name: _motion(drive, size) for name, drive in drives.items()}
     shape = (size, len(drives))
-    position, speed, acceleration = (
-        np.array([np.broadcast_to(column[i], (size,)) for column in columns.values()]).T.reshape(shape)
-        for i in (1, 2, 3)
-    )
+    whole = np.empty((3, *shape))
+    for k, column in enumerate(columns.values()):
+        for row, values in zip(whole, column[1:], strict=True):
+            row[:, k] = values
+    position, speed, acceleration = whole
     unknown = _unknown(drives)
     span = (drives[unknown].range or (0.0, 2 * math.pi)) if unknown else None
     return Schedule(tuple(drives), position, speed, acceleration, _time(columns), unknown, span)
