@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, fields, is_dataclass, replace
-from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -125,10 +124,14 @@ def _inside(name: str, whole: Any) -> Iterator[tuple[Any, Any]]:
             yield part, value
 
 
-@cache
-def _names(record: Hashable) -> tuple[str, ...]:
-    """Names of the fields of a record."""
-    return tuple(part.name for part in fields(record))  # type: ignore[arg-type]
+NAMES: dict[Any, tuple[str, ...]] = {}
+"""Names of the fields of the records met."""
+
+
+def _names(record: Any) -> tuple[str, ...]:
+    if record not in NAMES:
+        NAMES[record] = tuple(part.name for part in fields(record))
+    return NAMES[record]
 
 
 def _place(record: str, name: str, array: Array) -> tuple[str, str]:
