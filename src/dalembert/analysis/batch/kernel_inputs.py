@@ -12,6 +12,7 @@ import numpy as np
 from dalembert.analysis.batch.traced_parameters import traced, varies
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.compile.pose_loads import TIME, coordinates
+from dalembert.analysis.engine.quick_pass import quick_answer
 from dalembert.analysis.positions import Positions, positions
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Numeric, Tree
@@ -40,7 +41,9 @@ class Course:
 
     @cached_property
     def followed(self) -> Positions:
-        return positions(self.compiled)
+        with np.errstate(all="ignore"):
+            found = quick_answer(self.compiled, inertia=True, forces=False)
+        return found if isinstance(found, Positions) else positions(self.compiled)
 
     @cached_property
     def pose(self) -> Pose:
