@@ -61,7 +61,7 @@ def _varies(value: Any) -> bool:
 def changed(k: Any, seed: int, shape: float, rest: float = 0.3) -> np.ndarray:
     """The description's numbers changed at random: geometry by ``shape``, the rest by ``rest`` (relative)."""
     rng = np.random.default_rng(seed)
-    size = np.array([shape if geometric(n) else rest for n in k.numbers])
+    size = np.array([shape if geometric(k.mechanism, n) else rest for n in k.numbers])
     return k.nominal * (1 + size * rng.uniform(-1, 1, len(k.numbers)))
 
 

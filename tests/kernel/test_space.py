@@ -50,7 +50,7 @@ def compiled(m: Any) -> Any:
     paths = [path for path in every_number(m) if path.split(".")[1:2] not in [[rod] for rod in c.passive]]
     kinds = c.layout.constraints.families
     stuck = any(isinstance(f, Gearing) or (isinstance(f, Idle) and not f.stands.all()) for f in kinds)
-    return da.compile(m, vary=[path for path in paths if not (stuck and geometric(path))], lanes=1)
+    return da.compile(m, vary=[path for path in paths if not (stuck and geometric(m, path))], lanes=1)
 
 
 def agrees(m: Any, seed: int = 1) -> Any:
