@@ -17,9 +17,12 @@ import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli import main
 from dalembert.views.charts import chart_scenes, effort_chart, mean_effort, polar_chart
+from dalembert.views.notation import Shown
 from dalembert.views.paper.canvas import crossings
 from dalembert.views.paper.scene import Circle, Line, Polygon, Scene, Text
 from dalembert.views.plane.force_polygons import forces_of
+from dalembert.views.plane.instant_centers import all_centers, instant_centers
+from dalembert.views.plane.motion_points import spots
 from tests.methods.readable import text_over_lines, text_overlaps
 
 SHOWN = [
@@ -82,7 +85,8 @@ def test_arrows_are_to_the_stated_scale(name: str) -> None:
         da.draw.force_polygon(r, link) for link in r.links
     ]
     if r.drives:
-        scenes += [da.draw.velocity_polygon(r), da.draw.acceleration_polygon(r)]
+        scenes.append(da.draw.velocity_polygon(r))
+        scenes += [da.draw.acceleration_polygon(r)] if r.schedule.speed.any() else []
     for scene in scenes:
         for arrow in scene.arrows():
             if arrow.kind != "dimension":
@@ -139,8 +143,6 @@ def test_the_four_bar_polygon_of_the_book() -> None:
 
 
 def test_instant_centers_of_the_four_bar() -> None:
-    from dalembert.views.plane.velocity_polygons import instant_centers
-
     r = result("four_bar")
     found = instant_centers(r, 0)
     assert found["ground", "crank"] == pytest.approx((0.0, 0.0), abs=1e-12)
@@ -443,8 +445,78 @@ def test_charts_are_of_joints_that_carry_something_and_have_one_axis(name: str) 
 
 def test_the_image_of_a_wheel_has_no_point_of_the_other() -> None:
     """The place of a mesh is the centre of its second wheel, which is no point of the first."""
-    from dalembert.views.plane.velocity_polygons import _images
-
     r = da.kinematics(da.load(examples()["gear_train"]))
-    assert _images(r)["sun"] == ["sun_bearing", "G2"]
-    assert _images(r)["planet"] == ["P", "sun_mesh", "ring_mesh", "G3"]
+    found = spots(r, 0, Shown(r, da.Notation()))
+    assert {link: [s.sign for s in some] for link, some in found.items()} == {
+        "sun": ["sun_bearing"],
+        "planet": ["P"],
+        "carrier": ["carrier_bearing", "P"],
+    }
+
+
+def letters(scene: Scene) -> dict[str, Any]:
+    """Letters of a polygon's points, and where the arrows of theirs end."""
+    return {text.text: text.at for text in scene.texts() if text.role == "title" and text.size == 3.2}
+
+
+def test_a_velocity_polygon_has_the_letters_of_the_notes_and_what_points_have_to_each_other() -> None:
+    """Without speeds it is that of the crank at 1 rad/s, which virtual work multiplies with the loads."""
+    r = result("seed-002-3-four-link-three-forces")
+    scene = da.draw.velocity_polygon(r)
+    assert set(letters(scene)) == {"o", "b", "c", "e", "f", "g"}
+    arrow = {a.of: a for a in scene.arrows()}
+    assert set(arrow) == {"B", "C", "E", "F", "G", "v_{CB}"}
+    assert (arrow["v_{CB}"].tail, arrow["v_{CB}"].head) == (arrow["B"].head, arrow["C"].head)
+    assert arrow["B"].value == pytest.approx(0.5, rel=1e-12)
+    assert "For 1 rad/s of drive A; where it moves otherwise, in" in " ".join(sorted(words(scene)))
+    work = da.virtual_work(r)
+    for a, v in zip(work.actions, work.velocity, strict=True):
+        head = arrow[str(r.mechanism.loads[a.of].at)].head
+        assert head == pytest.approx(tuple(v[0, 0] / scene.scales["velocity"]), rel=1e-9)
+    with pytest.raises(da.ModelError, match="no drive moves at position 1; give a drive a speed"):
+        da.draw.acceleration_polygon(r)
+
+
+def test_normal_tangential_and_coriolis_parts_make_the_acceleration() -> None:
+    """Normal along the link towards the pivot, Coriolis' across the slide, and both parts of each side meet its end."""
+    r = result("quick_return")
+    scene = da.draw.acceleration_polygon(r, at="40 deg")
+    k = int(np.argmin(np.abs(r.drive_position("O2") - np.radians(40))))
+    arrow = {a.of: a for a in scene.arrows()}
+
+    def span(name: str) -> Any:
+        return np.subtract(arrow[name].head, arrow[name].tail)
+
+    for whole, *parts in (
+        ("C", "a_{C}^{n}", "a_{C}^{t}"),
+        ("a_{DC}", "a_{DC}^{n}", "a_{DC}^{t}"),
+        ("a_{AA4}", "a_{AA4}^{c}", "a_{AA4}^{s}"),
+    ):
+        assert span(parts[0]) + span(parts[1]) == pytest.approx(span(whole), abs=1e-9)
+        assert arrow[parts[0]].tail == arrow[whole].tail
+        assert {arrow[p].role for p in parts} == {"acceleration-part"}
+    along = r.point("lever", "C")[k] - r.point("lever", "O4")[k]
+    rate = float(r.speed("lever")[k])
+    per_mm = scene.scales["acceleration"]
+    assert span("a_{C}^{n}") * per_mm == pytest.approx(-(rate**2) * along, rel=1e-9)
+    slide = float(r.freedom("slide", "slide")[1][k])
+    assert arrow["a_{AA4}^{c}"].value == pytest.approx(2 * abs(rate * slide), rel=1e-9)
+    assert abs(float(span("a_{AA4}^{c}") @ along)) < 1e-9 * arrow["a_{AA4}^{c}"].length
+    across = np.array([-along[1], along[0]])
+    assert abs(float(span("a_{AA4}^{s}") @ across)) < 1e-9 * arrow["a_{AA4}^{s}"].length
+    assert {"o'", "a'", "a'_{4}", "c'", "d'", "g'_{4}", "g'_{5}"} == set(letters(scene))
+
+
+def test_instant_centres_that_are_not_drawn_are_listed_with_their_place_or_direction() -> None:
+    said = " ".join(text.text for text in da.draw.instant_centers(result("engine"), at="60 deg").texts())
+    r = result("engine")
+    k = int(np.argmin(np.abs(r.drive_position("O2") - math.pi / 3)))
+    b = float(r.point("piston", "B")[k, 0]) * 1e3
+    place = f"I_{{13}} ({b:.1f}, {b * math.tan(math.pi / 3):.1f}) mm"
+    assert f"Outside the drawing: {place}." in said
+    assert "At infinity, in the direction of: I_{14} 90.00°." in said
+    guide = result("quick_return")
+    found = all_centers(guide, 4)["block", "lever"]
+    assert found.place is None
+    across = math.remainder(float(guide.angle("lever")[4]) + math.pi / 2, math.pi)
+    assert found.direction == pytest.approx(across, abs=1e-9)

@@ -100,7 +100,8 @@ def mean_effort(r: Result, drive: str) -> float | None:
     travel = float(place[-1] - place[0])
     if not np.isfinite(effort).all() or abs(travel) <= 1e-9 * float(np.ptp(place)):
         return None
-    return float(np.trapezoid(effort, place)) / travel
+    mean = float(np.trapezoid(effort, place)) / travel
+    return mean if abs(mean) > 1e-9 * float(np.abs(effort).max()) else 0.0
 
 
 def reaction_charts(r: Result, notation: Notation | None = None, joints: Sequence[str] = ()) -> list[Scene]:

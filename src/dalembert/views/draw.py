@@ -25,13 +25,14 @@ from dalembert.views.formats import glb
 from dalembert.views.formats.animation import Animation, animation_scene
 from dalembert.views.formats.glb import SolidModel
 from dalembert.views.notation import Notation, Shown
-from dalembert.views.only_in_motion import refuse_still
+from dalembert.views.only_in_motion import refuse_still, refuse_structure
 from dalembert.views.paper.scene import Scene, stack_scenes
 from dalembert.views.plane.displaced_inertia import displaced_inertia_scene
 from dalembert.views.plane.force_polygons import force_chain_scene, force_polygon_scene, lines_of_action_scene
 from dalembert.views.plane.free_body import components_scene, free_body_scene, free_body_scenes
+from dalembert.views.plane.instant_centers import instant_centers_scene
 from dalembert.views.plane.mechanism_view import mechanism_scene, place_title
-from dalembert.views.plane.velocity_polygons import instant_centers_scene, motion_polygon_scene
+from dalembert.views.plane.velocity_polygons import motion_polygon_scene, stands_still
 from dalembert.views.question import question_scene
 from dalembert.views.space.camera import CAMERAS, Camera
 from dalembert.views.space.space_free_body import space_free_body_scene
@@ -135,15 +136,20 @@ def lines_of_action(
     return _whole(r, k, notation, lambda end: lines_of_action_scene(end, _link(r, link), k, notation, case))
 
 
-def velocity_polygon(r: Result, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
-    """Velocities from one pole, with the links' images."""
+def velocity_polygon(
+    r: Result, at: PositionChoice = None, notation: Notation | None = None, drive: str | None = None
+) -> Scene:
+    """Velocities from one pole, with the links' images; of a ``drive`` at unit speed if named or none moves."""
     refuse_space(r.mechanism, "a velocity polygon", FREE_BODIES)
-    return motion_polygon_scene(r, position_at(r, at), "velocity", notation)
+    refuse_structure(r, "a velocity polygon")
+    which = None if drive is None else _drive(r, drive)
+    return motion_polygon_scene(r, position_at(r, at), "velocity", notation, which)
 
 
 def acceleration_polygon(r: Result, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
-    """Accelerations from one pole, with the links' images."""
+    """Accelerations from one pole, with their parts and the links' images."""
     refuse_space(r.mechanism, "an acceleration polygon", FREE_BODIES)
+    refuse_structure(r, "an acceleration polygon")
     return motion_polygon_scene(r, position_at(r, at), "acceleration", notation)
 
 
@@ -245,15 +251,15 @@ def machine(answer: Any, notation: Notation | None = None) -> Scene:
 
 
 def motion(r: Result, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
-    """Velocity and acceleration polygons and instant centres."""
+    """Velocity and acceleration polygons and instant centres; without speeds those of unit speed."""
     refuse_space(r.mechanism, "a velocity polygon", FREE_BODIES)
-    if not r.drives:
-        refuse_still(r, "a velocity polygon")
+    refuse_structure(r, "a velocity polygon")
     k = position_at(r, at)
-    scenes = [
-        motion_polygon_scene(r, k, "velocity", notation),
-        motion_polygon_scene(r, k, "acceleration", notation),
-    ]
+    scenes = [motion_polygon_scene(r, k, "velocity", notation)]
+    if stands_still(r, k):
+        scenes += [motion_polygon_scene(r, k, "velocity", notation, n) for n in range(1, len(r.drives))]
+    else:
+        scenes.append(motion_polygon_scene(r, k, "acceleration", notation))
     scenes.append(instant_centers_scene(r, k, notation))
     return stack_scenes(scenes, title=_title(r, k, "Motion", notation))
 
@@ -322,6 +328,15 @@ def _camera(r: Result, camera: Sighted) -> Camera | None:
             "a camera looks at a mechanism in space, and this one is in the plane", "leave it out"
         )
     return None
+
+
+def _drive(r: Result, drive: str) -> int:
+    from dalembert.errors import ModelError
+    from dalembert.wording import closest
+
+    if drive not in r.drives:
+        raise ModelError(f"there is no drive {drive!r}", closest(drive, list(r.drives)))
+    return r.drives.index(drive)
 
 
 def _link(r: Result, link: str) -> str:

@@ -14,10 +14,15 @@ if TYPE_CHECKING:
 STILL = "draw the mechanism, its free bodies or force polygons"
 
 
-def refuse_still(r: Result, what: str) -> None:
-    """Raise ModelError for a structure, equilibria or a single position, with what was asked for in the message."""
+def refuse_structure(r: Result, what: str) -> None:
+    """Raise ModelError for a structure."""
     if not r.drives:
         raise ModelError(f"{what} shows a motion, and a structure has none", STILL)
+
+
+def refuse_still(r: Result, what: str) -> None:
+    """Raise ModelError for a structure, equilibria or a single position, with what was asked for in the message."""
+    refuse_structure(r, what)
     if r.stability is not None:
         raise ModelError(f"{what} shows a motion, and here are equilibrium positions", STILL)
     closed = int(np.isfinite(r.point_array).all(axis=(1, 2)).sum())

@@ -53,6 +53,9 @@ def link_equations(
 
 def _line(left: str, pieces: list[Piece], shown: Shown, kind: str) -> Working:
     """One sum; what is left of it beside its largest term is rounding."""
+    if not pieces:
+        none = "no force acts along it" if kind == "force" else "nothing turns the link"
+        return Working(f'{left}: quad "{none}"')
     total = math.fsum(p.value for p in pieces)
     largest = max((abs(p.value) for p in pieces), default=0.0)
     shown_total = shown.notation.number(0.0 if abs(total) < 1e-9 * largest else total)

@@ -211,7 +211,7 @@ def _sum_rows(axes: list[list[tuple[Signed, float]]], shown: Shown, kind: str) -
     """Terms in letters and their values along both axes, and the sums; rounding noise is 0."""
     largest = max((abs(v) for terms in axes for _, v in terms), default=0.0)
     out = []
-    for terms in axes:
+    for terms in filter(None, axes):
         texts = [shown.number(kind, value) for _, value in terms]
         numbers = join_signed([(text.startswith("−"), text.removeprefix("−")) for text in texts])
         total = math.fsum(v for _, v in terms)

@@ -15,6 +15,7 @@ from dalembert.reports.sections.gear_motion import mesh
 from dalembert.reports.sheet import Sheet, Working
 from dalembert.views import draw
 from dalembert.views.notation import Notation
+from dalembert.views.plane.velocity_polygons import stands_still
 
 
 def motion(sheet: Sheet, c: ReportContext) -> None:
@@ -37,7 +38,7 @@ def motion(sheet: Sheet, c: ReportContext) -> None:
             sheet.equations(lines)
     heads, rows = _motion_table(c, moving)
     sheet.table(heads, rows, "Solved for the motion of the links and of their mass centres")
-    if moving:
+    if not stands_still(r, c.k):
         sheet.figure(
             draw.velocity_polygon(r, c.k + 1, c.notation), draw.acceleration_polygon(r, c.k + 1, c.notation)
         )

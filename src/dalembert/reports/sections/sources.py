@@ -21,6 +21,7 @@ from dalembert.reports.sections.terms import floors
 from dalembert.reports.sheet import Sheet, Working
 from dalembert.views import draw
 from dalembert.views.notation import Shown, along, own_name
+from dalembert.views.plane.velocity_polygons import stands_still
 
 if TYPE_CHECKING:
     from dalembert.analysis.methods.virtual_work import VirtualWork
@@ -156,6 +157,8 @@ def virtual_work(sheet: Sheet, c: ReportContext) -> None:
         angular = kind == "moment"
         unit = "rad" if angular else shown.arm_unit
         way = " clockwise" if angular and c.notation.torque < 0 else ""
+        if r.mechanism.dimension == 2 and stands_still(r, k):
+            sheet.figure(draw.velocity_polygon(r, k + 1, c.notation, drive))
         sheet.text(f"Displacements for one {unit} of drive {drive}{way}; {idle}.")
         sense = c.notation.torque if angular else 1  # the drive turns the way that counts as positive
         move, turn = (sense / shown.arm, sense) if angular else (1.0, shown.arm)

@@ -268,12 +268,15 @@ def about(place: str, axis: str) -> str:
 
 
 def place_of(s: Setting, a: Action) -> str:
-    """Index of the arm: the joint, the load's own index, or G."""
+    """Index of the arm: the joint, the point of a load by its name, else the load's own index, or G."""
     if a.kind in ("joint", "friction") or a.of in s.r.joints:
         return a.of
     if a.kind == "effort":
         return _joint(s.r, a.of)
     if a.kind in ("load", "spring", "damper"):
+        spot = getattr(s.r.mechanism.loads.get(a.of), "at", None)
+        if isinstance(spot, str):
+            return "G" if spot == "center" else spot
         return s.shown.symbol(a).partition("_{")[2].rstrip("}") or a.of
     return "G"
 

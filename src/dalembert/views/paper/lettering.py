@@ -78,13 +78,26 @@ def text_box(at: tuple[float, float], text: str, size: float, anchor: str, bold:
     return (left, at[1] - size * (0.66 if lowered else 0.56), left + width, at[1] + 0.52 * size)
 
 
+FIXED = "\u00a0"
+"""A space at which no line ends."""
+
+
+def unbroken(text: str) -> str:
+    """A text that stays on one line."""
+    return text.replace(" ", FIXED)
+
+
 def break_lines(text: str, size: float, width: float) -> list[str]:
-    """A text in lines no wider than a width in mm."""
+    """A text in lines no wider than a width in mm; fixed spaces hold words together.
+
+    >>> break_lines("one two", 1.0, 3.0), break_lines(unbroken("one two"), 1.0, 3.0)
+    (['one', 'two'], ['one two'])
+    """
     lines: list[str] = []
-    for word in text.split():
+    for word in filter(None, text.split(" ")):
         longer = f"{lines[-1]} {word}" if lines else word
-        if lines and text_width(longer, size) <= width:
+        if lines and text_width(longer.replace(FIXED, " "), size) <= width:
             lines[-1] = longer
         else:
             lines.append(word)
-    return lines
+    return [line.replace(FIXED, " ") for line in lines]

@@ -9,7 +9,7 @@ import numpy as np
 
 from dalembert.analysis.friction.friction_circles import friction_circles
 from dalembert.analysis.friction.lines_of_action import acting_lines
-from dalembert.analysis.methods.applied_forces import Action, joint_place, on_link, whole_actions
+from dalembert.analysis.methods.applied_forces import Action, joint_place, link_place, on_link, whole_actions
 from dalembert.analysis.methods.members import Member, components_along, members
 from dalembert.views.notation import Notation, Shown, own_name
 from dalembert.views.paper.canvas import Canvas
@@ -20,7 +20,7 @@ from dalembert.views.plane.circle_details import draw_circles, with_friction_cir
 from dalembert.views.plane.guide_details import guide_block, guide_corners, with_rough_guide
 from dalembert.views.plane.joint_drawings import own_symbol
 from dalembert.views.plane.mechanism_view import draw_actions, role_of, scale_notes, unit_size
-from dalembert.views.plane.outline import link_points, link_shape, wheels
+from dalembert.views.plane.outline import link_points, link_shape, load_places, wheels
 from dalembert.views.symbols import plane_symbols
 from dalembert.views.unknown_forces import doubts, on_one
 
@@ -114,6 +114,11 @@ def _draw_link(canvas: Canvas, r: Result, link: str, k: int, frame: Frame, shown
         if end == 1 or not joint.apart:  # the pin of a slot or slider is j's
             canvas.add(*own_symbol(joint.type, at))
         canvas.label(name, *_corners(at), size=3.2, role="title", leads=False)
+    for name, u in load_places(m, link).items():
+        if name not in (*m.loads, *m.joints):
+            canvas.label(
+                name, *_corners(frame(link_place(r, link, u)[k])), size=3.0, role="title", leads=False
+            )
     at = frame(r.center(link)[k])
     if m.mass(link):
         canvas.add(*plane_symbols.mass_center(at))

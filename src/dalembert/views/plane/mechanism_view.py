@@ -22,6 +22,7 @@ from dalembert.views.plane.outline import (
     every_path,
     link_points,
     link_shape,
+    load_places,
     rail,
     unbroken,
 )
@@ -170,6 +171,10 @@ def canvas_names(canvas: Canvas, r: Result, k: int, frame: Frame, shown: Shown) 
         away = math.atan2(at[1] - middle[1], at[0] - middle[0])
         canvas.label(name, around(at), *ring(at, 1.0), prefer=away, size=3.4, role="title", leads=False)
     for link in r.links:
+        for name, u in load_places(m, link).items():
+            if name not in (*m.loads, *m.joints):
+                at = frame(link_place(r, link, u)[k])
+                canvas.label(name, *ring(at, 0.6), size=3.0, role="title", leads=False)
         places = [frame(p) for p in link_points(r, link, k).values()]
         if not places:
             continue

@@ -48,14 +48,15 @@ def _slides_on(joint: Joint, link: str) -> bool:
 
 
 def load_places(m: Mechanism, link: str) -> Tree:
-    """Points of a link, in its axes, where loads act on it."""
+    """Points of a link, in its axes, where loads act on it: by the name of the point, else by that of the load."""
     out: Tree = {}
     for name, load in m.loads.items():
         if load.ON == "point" and load.on == link:
-            out[name] = point_of(m, link, load.at)
-        for end, u in m.load_points(name) if load.ON == "span" else ():
+            spot = load.at if isinstance(load.at, str) and load.at in m.points(link) else name
+            out.setdefault(spot, point_of(m, link, load.at))
+        for end, point in load.between if load.ON == "span" else ():
             if end == link:
-                out.setdefault(f"{name} {end}", u)
+                out.setdefault(point, m.point(end, point))
     return out
 
 

@@ -1,23 +1,25 @@
-"""Velocity and acceleration polygons with the images of the links, and instant centres."""
+"""Velocity and acceleration polygons with the images of the links, as the notes letter them."""
 
 from __future__ import annotations
 
 import math
-from itertools import combinations
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from dalembert.analysis.compile.load_arrays import point_of
-from dalembert.analysis.methods.applied_forces import state
+from dalembert.analysis.methods.applied_forces import link_place
+from dalembert.analysis.output.columns import drive_kinds
 from dalembert.arrays import Array
-from dalembert.errors import AnalysisError
-from dalembert.model import GROUND, Joint
+from dalembert.errors import AnalysisError, ModelError
+from dalembert.model import GROUND
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import force_scale
+from dalembert.views.paper.lettering import unbroken
 from dalembert.views.paper.scene import Arrow, Circle, Line, Point, Polygon, Scene
-from dalembert.views.plane.mechanism_view import canvas_names, draw_links, scale_notes, unit_size, whole_frame
+from dalembert.views.plane.mechanism_view import unit_size
+from dalembert.views.plane.motion_points import Rates, Spot, rates, spots
 from dalembert.views.plane.outline import convex
 
 if TYPE_CHECKING:
@@ -25,159 +27,253 @@ if TYPE_CHECKING:
 
 Order = Literal["velocity", "acceleration"]
 
+LONGEST = 58.0
+"""Largest vector from the pole, mm."""
 
-def motion_polygon_scene(r: Result, k: int, order: Order, notation: Notation | None = None) -> Scene:
-    """Velocities (or accelerations) of all joints and mass centres from one pole; each link has its image."""
+MOST = 14
+"""Joints' points on links up to which vectors have their values beside them."""
+
+
+def stands_still(r: Result, k: int) -> bool:
+    """Whether no drive moves at a position."""
+    return not (r.schedule.speed[k].any() or r.schedule.acceleration[k].any())
+
+
+def motion_polygon_scene(
+    r: Result, k: int, order: Order, notation: Notation | None = None, drive: int | None = None
+) -> Scene:
+    """Velocities (or accelerations) of points from one pole; between points of one link what one has relative to the
+    other, of accelerations the normal, tangential and Coriolis parts dashed; each link has its image.
+
+    Where no drive moves, velocities for unit speed of a ``drive`` (the first), the others held.
+    """
     shown = Shown(r, notation or Notation(), k)
-    found = _vectors(r, k, order)
-    if not np.isfinite(list(found.values())).all():
+    if drive is None and stands_still(r, k):
+        if order == "acceleration":
+            raise ModelError(
+                f"accelerations need a motion, and no drive moves at position {k + 1}",
+                "give a drive a speed, or draw the velocity polygon: it is for unit speed then",
+            )
+        drive = 0
+    motion = rates(r, k, drive)
+    points = spots(r, k, shown)
+    read = motion.velocity if order == "velocity" else motion.acceleration
+    found = {link: {s.sign: read(link, s.u) for s in some} for link, some in points.items()}
+    if not all(np.isfinite(v).all() for some in found.values() for v in some.values()):
         what = "velocities" if order == "velocity" else "accelerations"
         raise AnalysisError(f"position {k + 1} has no {what}: {r.reasons[k]}")
-    kind = "speed" if order == "velocity" else "acceleration"
-    per_mm = force_scale([math.hypot(*v) for v in found.values()], 60.0, unit_size(r, kind, shown.notation))
-    heads = {name: (v[0] / per_mm, v[1] / per_mm) for name, v in found.items()}
-    canvas = Canvas()
-    for names in _images(r).values():
-        corners = convex(list({heads[n] for n in names if n in heads}))
-        if len(corners) >= 2:
-            canvas.add(
-                Polygon(tuple(corners), "link-area") if len(corners) > 2 else Line(tuple(corners), "trace")
-            )
-    letter = "v" if order == "velocity" else "a"
-    canvas.add(Circle((0.0, 0.0), 0.7, "mark"))
-    canvas.label("o", (0.0, 0.0), size=3.2, role="title")
-    merged: dict[Point, list[str]] = {}
-    for name, head in heads.items():
-        merged.setdefault((round(head[0], 2), round(head[1], 2)), []).append(name)
-    for head, names in merged.items():
-        size = math.hypot(*found[names[0]])
-        if math.hypot(*head) > 0.1:
-            exact = heads[names[0]]
-            canvas.add(Arrow((0.0, 0.0), exact, order, names[0], order, size))
-        sign = ", ".join(f"{letter}_{{{n}}}" for n in names)
-        text = f"{sign} = {shown.text(kind, size)}"
-        away = math.atan2(head[1], head[0])
-        canvas.label(text, head, (0.7 * head[0], 0.7 * head[1]), prefer=away, size=2.8, role=order)
-    note = f"{'Velocities' if order == 'velocity' else 'Accelerations'}: 1 mm = {shown.plain(kind, per_mm)}"
-    notes = [note, _turns(r, k, order, shown)]
-    return canvas.scene(f"{order.capitalize()} polygon", notes=notes, scales={order: per_mm})
-
-
-def _turns(r: Result, k: int, order: Order, shown: Shown) -> str:
-    """Angular rates of the links in words."""
-    kind, read, letter = (
-        ("angular_speed", r.speed, "ω")
-        if order == "velocity"
-        else ("angular_acceleration", r.acceleration, "α")
+    unit, notes = 1.0, []
+    if drive is not None:
+        kind = "angle" if drive_kinds(r, r.drives[drive])["effort"] == "moment" else "length"
+        unit = 1.0 if kind == "angle" else shown.size("length")
+        speed = "1 rad/s" if kind == "angle" else f"1 {shown.unit('length')}/s"
+        others = ", the other drives held" if len(r.drives) > 1 else ""
+        notes.append(
+            f"For {speed} of drive {r.drives[drive]}{others}; where it moves otherwise, in proportion."
+        )
+        found = {link: {sign: v * unit for sign, v in some.items()} for link, some in found.items()}
+    sizes = [math.hypot(*v) for some in found.values() for v in some.values()]
+    polygon = _Polygon(
+        r,
+        k,
+        order,
+        shown,
+        motion,
+        points,
+        found,
+        force_scale(sizes, LONGEST, unit_size(r, kind_of(order), shown.notation)),
+        unit,
     )
-    parts = [
-        f"{letter}_{{{shown.link(link)}}} = {shown.text(kind, float(read(link)[k]))}" for link in r.links
-    ]
-    return ", ".join(parts)
+    return polygon.scene(notes)
 
 
-def _images(r: Result) -> dict[str, list[str]]:
-    """Names of the points of each link."""
-    m = r.mechanism
-    out: dict[str, list[str]] = {link: [] for link in r.links}
-    for name, joint in m.joints.items():
-        own = _own(joint)
-        for link in joint.links:
-            if link in out and (link == own or not (joint.apart or joint.wheels)):
-                out[link].append(name)
-    for link in r.links:
-        if m.mass(link):
-            out[link].append(_center_name(r, link))
-    return out
+def kind_of(order: Order) -> str:
+    """Kind of unit of a polygon's vectors."""
+    return "speed" if order == "velocity" else "acceleration"
 
 
-def _own(joint: Joint) -> str:
-    """The link whose point of a joint is drawn: j, or i where j is the ground."""
-    i, j = joint.links
-    return j if j != GROUND else i
+@dataclass
+class _Polygon:
+    """A polygon in the making."""
+
+    r: Result
+    k: int
+    order: Order
+    shown: Shown
+    motion: Rates
+    points: dict[str, list[Spot]]
+    found: dict[str, dict[str, Array]]
+    per_mm: float
+    unit: float
+    canvas: Canvas = field(default_factory=Canvas)
+    listed: list[str] = field(default_factory=list)
+
+    def scene(self, notes: list[str]) -> Scene:
+        """Images, then arrows from the pole, then sides, letters, and what is listed below."""
+        velocity, kind = self.order == "velocity", kind_of(self.order)
+        self._images()
+        self._letters()
+        self._rays()
+        for link, some in self.points.items():
+            self._sides(link, [s for s in some if s.joint])
+        word = "Velocities" if velocity else "Accelerations"
+        notes = [f"{word}: 1 mm = {self.shown.plain(kind, self.per_mm)}", *notes, self._turns()]
+        notes += [", ".join(unbroken(text) for text in self.listed)] if self.listed else []
+        return self.canvas.scene(
+            f"{self.order.capitalize()} polygon", notes=notes, scales={self.order: self.per_mm}
+        )
+
+    def head(self, vector: Array) -> Point:
+        """Where a vector from the pole ends, mm."""
+        return float(vector[0]) / self.per_mm, float(vector[1]) / self.per_mm
+
+    def _images(self) -> None:
+        for link in self.points:
+            corners = convex(list({self.head(v) for v in self.found[link].values()}))
+            if len(corners) >= 3:
+                self.canvas.add(Polygon(tuple(corners), "image"))
+            elif len(corners) == 2:
+                self.canvas.add(Line(tuple(corners), "trace"))
+
+    def _rays(self) -> None:
+        """Absolute vectors: of joints with their value beside them, of other points the value below."""
+        told: set[str] = set()
+        for link, some in self.points.items():
+            for s in some:
+                vector = self.found[link][s.sign]
+                head, size = self.head(vector), math.hypot(*vector)
+                if s.sign in told or math.hypot(*head) < 0.1:
+                    continue
+                told.add(s.sign)
+                name = f"{self.order[0]}_{{{flat(s.sign)}}}"
+                text = f"{name} = {self.shown.text(kind_of(self.order), size)}"
+                self._arrow(
+                    (0.0, 0.0), head, s.sign, size, text if s.joint else "", "" if s.joint else "-part"
+                )
+                self.listed += [] if s.joint else [text]
+
+    def _arrow(self, tail: Point, head: Point, of: str, size: float, text: str, role: str = "") -> None:
+        """An arrow with its value beside it, or below where there are too many."""
+        self.canvas.add(Arrow(tail, head, self.order + role, of, self.order, size))
+        if text and sum(s.joint for some in self.points.values() for s in some) > MOST:
+            self.listed += [text] if " = " in text else []
+            return
+        along = [
+            (tail[0] + t * (head[0] - tail[0]), tail[1] + t * (head[1] - tail[1])) for t in (0.55, 0.4, 0.7)
+        ]
+        self.canvas.label(text, *along, size=2.6, role=self.order)
+
+    def _sides(self, link: str, some: list[Spot]) -> None:
+        """From the link's point that is still, or its first joint, to its others; then over what slides on it."""
+        if not some:
+            return
+        still = next((s for s in some if math.hypot(*self.head(self.found[link][s.sign])) < 0.1), None)
+        base = still or some[0]
+        for s in some:
+            if s is not base:
+                self._side(link, base, s, still is not None)
+            if s.sliding:
+                self._slide(link, s)
+
+    def _side(self, link: str, base: Spot, end: Spot, fixed: bool) -> None:
+        """What a point has relative to another of its link, and its normal and tangential parts."""
+        start, whole = self.found[link][base.sign], self.found[link][end.sign] - self.found[link][base.sign]
+        sign = f"{self.order[0]}_{{{flat(end.sign) if fixed else relative(end.sign, base.sign)}}}"
+        if not fixed:
+            self._vector(start, whole, sign)
+        if self.order == "acceleration":
+            span = link_place(self.r, link, end.u)[self.k] - link_place(self.r, link, base.u)[self.k]
+            normal = -(self.motion.spin(link) ** 2) * span
+            self._parts(start, ((f"{sign}^{{n}}", normal), (f"{sign}^{{t}}", whole - normal)))
+
+    def _slide(self, rail: str, s: Spot) -> None:
+        """What slides has relative to the point under it; of accelerations Coriolis' part and that along the slide."""
+        i, j = self.r.mechanism.joints[s.sliding].links
+        over = i if rail == j else j
+        if over == GROUND:
+            start, end = self.found[rail][s.sign], np.zeros(2)
+            sign, name = "", "o"
+        else:
+            name = s.sign.partition("_{")[0]
+            sign = name if name in self.found[over] else next(iter(self.found[over]))
+            start, end = self.found[rail][s.sign], self.found[over][sign]
+        whole = f"{self.order[0]}_{{{relative(name, s.sign)}}}"
+        self._vector(start, end - start, whole)
+        if self.order == "acceleration" and sign:
+            u = next(spot.u for spot in self.points[over] if spot.sign == sign)
+            vx, vy = self.motion.velocity(over, u) - self.motion.velocity(rail, s.u)
+            coriolis = 2 * self.motion.spin(rail) * np.array([-vy, vx])
+            self._parts(start, ((f"{whole}^{{c}}", coriolis), (f"{whole}^{{s}}", end - start - coriolis)))
+
+    def _vector(self, start: Array, vector: Array, sign: str) -> None:
+        size = math.hypot(*vector)
+        if size / self.per_mm > 0.3:
+            text = f"{sign} = {self.shown.text(kind_of(self.order), size)}"
+            self._arrow(self.head(start), self.head(start + vector), sign, size, text)
+
+    def _parts(self, start: Array, parts: tuple[tuple[str, Array], ...]) -> None:
+        """Dashed sides one after the other, with their values below; a vector that has one part alone is that part."""
+        for sign, part in parts:
+            self.listed.append(f"{sign} = {self.shown.text(kind_of(self.order), math.hypot(*part))}")
+        if all(math.hypot(*part) / self.per_mm > 0.3 for _, part in parts):
+            for sign, part in parts:
+                self._arrow(self.head(start), self.head(start + part), sign, math.hypot(*part), sign, "-part")
+                start = start + part
+
+    def _letters(self) -> None:
+        """The points' letters at the ends, those at one place together; o at the pole."""
+        mark = "'" if self.order == "acceleration" else ""
+        self.canvas.add(Circle((0.0, 0.0), 0.7, "mark"))
+        at: dict[Point, list[str]] = {(0.0, 0.0): [f"o{mark}"]}
+        for link, some in self.points.items():
+            for s in some:
+                x, y = self.head(self.found[link][s.sign])
+                place = next((p for p in at if math.dist(p, (x, y)) < 0.1), (x, y))
+                names = at.setdefault(place, [])
+                name = primed(s.letter, mark)
+                names += [name] if place != (0.0, 0.0) and name not in names else []
+        middle = np.mean([*at], axis=0)
+        for (x, y), names in at.items():
+            away = math.atan2(y - middle[1], x - middle[0])
+            self.canvas.label(", ".join(names), (x, y), prefer=away, size=3.2, role="title")
+
+    def _turns(self) -> str:
+        """Angular rates of the links in words."""
+        if self.order == "velocity":
+            values = {link: self.motion.spin(link) * self.unit for link in self.r.links}
+        else:
+            values = {link: float(self.r.acceleration(link)[self.k]) for link in self.r.links}
+        kind, sign = ("angular_speed", "ω") if self.order == "velocity" else ("angular_acceleration", "α")
+        floor = 1e-12 * max(map(abs, values.values()), default=0.0)
+        texts = (
+            f"{sign}_{{{self.shown.link(n)}}} = {self.shown.text(kind, v, floor)}" for n, v in values.items()
+        )
+        return ", ".join(map(unbroken, texts))
 
 
-def _center_name(r: Result, link: str) -> str:
-    return f"G{Shown(r, Notation()).link(link)}"
+def primed(letter: str, mark: str) -> str:
+    """A letter with its mark before the index: g' of mass centre 2."""
+    head, index, rest = letter.partition("_{")
+    return head + mark + index + rest
 
 
-def _vectors(r: Result, k: int, order: Order) -> dict[str, tuple[float, float]]:
-    """Vector of each point, by name."""
-    m, out = r.mechanism, {}
-    read = r._velocity if order == "velocity" else r._acceleration
-    for name, joint in m.joints.items():
-        link = _own(joint)
-        u = m.joint_points(name)[joint.links.index(link)]
-        v = read(link, np.asarray(u, float))[k]
-        if "ground" not in joint.links or joint.apart:
-            out[name] = (float(v[0]), float(v[1]))
-    for link in r.links:
-        if m.mass(link):
-            v = read(link, np.asarray(point_of(m, link, "center"), float))[k]
-            out[_center_name(r, link)] = (float(v[0]), float(v[1]))
-    return out
+def flat(sign: str) -> str:
+    """A point's sign as an index.
+
+    >>> flat("G_{2}")
+    'G2'
+    """
+    return sign.replace("_{", "").replace("}", "")
 
 
-def instant_centers(r: Result, k: int, drive: int = 0) -> dict[tuple[str, str], tuple[float, float] | None]:
-    """Instant centre (metres) of every two links when one drive moves; None at infinity or where nothing turns."""
-    s = state(r)
-    names = ("ground", *r.links)
-    twist = {"ground": np.zeros(3)} | {n: s.moving.virtual[k, drive, m] for m, n in enumerate(r.links)}
-    origin = np.asarray(r.compiled.origin, float)
-    place = {"ground": origin} | {n: r.point_array[k, m] + origin for m, n in enumerate(r.links)}
-    return {(a, b): _center(twist[a], place[a], twist[b], place[b]) for a, b in combinations(names, 2)}
+def relative(of: str, to: str) -> str:
+    """The index of what one point has relative to another.
+
+    >>> relative("C", "B"), relative("top_pin", "cross_1")
+    ('CB', 'top_pin/cross_1')
+    """
+    one, other = flat(of), flat(to)
+    return f"{one}{'' if len(one) < 3 and len(other) < 3 else '/'}{other}"
 
 
-def _center(ta: Array, pa: Array, tb: Array, pb: Array) -> tuple[float, float] | None:
-    """The point that has one velocity on both links."""
-    w = tb[2] - ta[2]
-    if abs(w) < 1e-9 * max(abs(ta[2]), abs(tb[2]), 1e-300):
-        return None
-    va = ta[:2] - ta[2] * np.array([-pa[1], pa[0]])
-    vb = tb[:2] - tb[2] * np.array([-pb[1], pb[0]])
-    x, y = vb - va
-    return (float(-y / w), float(x / w))
-
-
-def instant_centers_scene(r: Result, k: int, notation: Notation | None = None) -> Scene:
-    """The mechanism with the instant centres of its links and the lines on which three of them lie."""
-    shown = Shown(r, notation or Notation(), k)
-    frame = whole_frame(r, k, 76.0, 58.0)
-    canvas = Canvas()
-    draw_links(canvas, r, k, frame)
-    span = Scene(tuple(canvas.items)).bounds
-    centers = instant_centers(r, k)
-    near = {pair: frame(p) for pair, p in centers.items() if p is not None}
-    near = {pair: p for pair, p in near.items() if _within(p, span, 70.0)}
-    for a, b, c in combinations(("ground", *r.links), 3):
-        three = [near[pair] for pair in ((a, b), (a, c), (b, c)) if pair in near]
-        if len(three) == 3:
-            canvas.add(Line(_ends(three), "construction"))
-    merged: dict[Point, list[str]] = {}
-    for (a, b), p in near.items():
-        merged.setdefault((round(p[0], 1), round(p[1], 1)), []).append(_sign(shown, a, b))
-    for p, names in merged.items():
-        canvas.add(Circle(p, 0.8, "mark"))
-        canvas.label(", ".join(names), p, size=3.0, role="velocity")
-    far = [_sign(shown, a, b) for (a, b) in centers if (a, b) not in near]
-    notes, scales = scale_notes(shown, frame, None)
-    if far:
-        notes.append(f"Outside the drawing or at infinity: {', '.join(far)}.")
-    return canvas.scene("Instant centres", notes=notes, scales=scales)
-
-
-def _sign(shown: Shown, a: str, b: str) -> str:
-    """Sign of the instant centre of two links: I_{12}."""
-    return f"I_{{{shown.pair(*((a, b) if shown.notation.order == 'by-on' else (b, a)))}}}"
-
-
-def _within(p: Point, span: tuple[float, ...], room: float) -> bool:
-    return span[0] - room <= p[0] <= span[2] + room and span[1] - room <= p[1] <= span[3] + room
-
-
-def _ends(points: list[Point]) -> tuple[Point, ...]:
-    ordered = sorted(points)
-    return (ordered[0], ordered[-1])
-
-
-__all__ = ["canvas_names", "instant_centers", "instant_centers_scene", "motion_polygon_scene"]
+__all__ = ["motion_polygon_scene", "stands_still"]
