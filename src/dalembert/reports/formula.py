@@ -114,7 +114,8 @@ def latex(text: str) -> str:
 
     def atom(token: str) -> str:
         if token[0] == '"' and len(token) > 1:
-            return rf"\,\mathrm{{{_latex_text(token[1:-1])}}}"
+            words = (_latex_text(word) for word in token[1:-1].split(" "))
+            return r"\,\mathrm{" + r"\ ".join(words) + "}"
         if token[0] in "_^" and len(token) > 1:
             return rf"{token[0]}{{\mathrm{{{_latex_text(token[2:-1])}}}}}"
         if token in WORDS:

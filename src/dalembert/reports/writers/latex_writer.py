@@ -1,4 +1,4 @@
-"""A sheet as LaTeX source that compiles by itself: only amsmath, booktabs and geometry; drawings as their numbers."""
+"""A sheet as LaTeX source that compiles by itself, drawings included: amsmath, booktabs, geometry and tikz."""
 
 from __future__ import annotations
 
@@ -15,15 +15,29 @@ from dalembert.reports.sheet import (
     Table,
     Working,
 )
+from dalembert.views.formats.svg import MARGIN
+from dalembert.views.formats.tikz import tikz_picture
 from dalembert.views.paper.lettering import plain as plain_sign
+from dalembert.views.paper.scene import Scene
+
+WIDTH, HEIGHT = 174.0, 240.0
+"""Room on a page, mm."""
+
+LONGEST = 40
+"""Rows of a table on one page."""
 
 HEAD = r"""\documentclass[a4paper,10pt]{article}
 \usepackage[utf8]{inputenc}
 \usepackage[T1]{fontenc}
-\usepackage{amsmath,booktabs,geometry,textcomp}
+\IfFileExists{lmodern.sty}{\usepackage{lmodern}}{}
+\usepackage{amsmath,booktabs,geometry,textcomp,tikz}
 \geometry{margin=18mm}
 \setcounter{MaxMatrixCols}{30}
 \setlength{\parindent}{0pt}
+\setlength{\parskip}{3pt plus 1pt}
+\newcommand{\letters}[1]{\par\smallskip{\raggedright\hangindent=14mm\hspace*{3mm}$\displaystyle #1$\par}}
+\newcommand{\numbers}[1]{{\nopagebreak\raggedright\hangindent=20mm\hspace*{14mm}$\displaystyle #1$\par}}
+\newcommand{\fitted}[1]{\resizebox{\ifdim\width>\linewidth\linewidth\else\width\fi}{!}{#1}}
 """
 
 _ESCAPED = {sign: f"${command}$" for sign, command in LATEX_SIGNS.items()} | {
@@ -36,9 +50,8 @@ _ESCAPED = {sign: f"${command}$" for sign, command in LATEX_SIGNS.items()} | {
 def latex_text(sheet: Sheet) -> str:
     """The report as a LaTeX document."""
     body = "\n\n".join(_block(b) for b in sheet.blocks)
-    head = (
-        rf"\title{{{_words(sheet.title)}}}\author{{{_words(sheet.source)}}}\date{{{_words(sheet.subtitle)}}}"
-    )
+    below = r" \\ ".join(_words(line) for line in (sheet.source, sheet.subtitle) if line)
+    head = rf"\title{{{_words(sheet.title)}}}\author{{}}\date{{{below}}}"
     return f"{HEAD}{head}\n\\begin{{document}}\n\\maketitle\n\n{body}\n\n\\end{{document}}\n"
 
 
@@ -64,31 +77,30 @@ def _block(b: Block) -> str:
     if isinstance(b, Blanks):
         return "\n\n".join(_blank(*row) for row in b.rows)
     assert isinstance(b, Figure)
-    return "\n\n".join(_figure(scene) for scene in b.scenes)
+    return _figure(b)
 
 
 def _equation(w: Working) -> str:
     if w.result:
-        return rf"\[ {' = '.join(latex(t) for t in (w.letters, w.numbers, w.result) if t)} \]"
-    if not w.numbers:
-        return rf"\[ {latex(w.letters)} \]"
-    return rf"\begin{{gather*}} {latex(w.letters)} \\ {latex(w.numbers)} \end{{gather*}}"
+        return rf"\letters{{{' = '.join(latex(t) for t in (w.letters, w.numbers, w.result) if t)}}}"
+    lines = [rf"\letters{{{latex(w.letters)}}}", *([rf"\numbers{{{latex(w.numbers)}}}"] if w.numbers else [])]
+    return "\n".join(lines)
 
 
 def _table(b: Table) -> str:
+    """Columns, made smaller where they are wider than the page; a long table in parts that fit one."""
     columns = "l" + ("r" if len(b.heads) > 5 else "l") * (len(b.heads) - 1)
+    heads = " & ".join(_rich(h) for h in b.heads) + r" \\"
     rows = [" & ".join(_rich(c) for c in row) + r" \\" for row in b.rows]
     if b.total:
-        rows.insert(len(rows) - 1, r"\midrule")
-    heads = " & ".join(_rich(h) for h in b.heads) + r" \\"
-    body = "\n".join([r"\toprule", heads, r"\midrule", *rows, r"\bottomrule"])
-    caption = f"\n\n{{\\footnotesize {_words(b.caption)}}}" if b.caption else ""
-    return f"{{\\small\\begin{{tabular}}{{{columns}}}\n{body}\n\\end{{tabular}}}}{caption}"
-
-
-def _blank(words: str, spaces: tuple[tuple[str, str], ...]) -> str:
-    rooms = [rf"{_rich(name)} \rule{{27mm}}{{0.4pt}} {_words(unit)}".strip() for name, unit in spaces]
-    return r" \quad ".join([rf"{_rich(words)} \hfill", *rooms])
+        rows[-1] = f"\\midrule\n{rows[-1]}"
+    parts = []
+    for k in range(0, len(rows), LONGEST):
+        body = [r"\toprule", heads, r"\midrule", *rows[k : k + LONGEST], r"\bottomrule"]
+        head = rf"\fitted{{\small\begin{{tabular}}{{{columns}}}"
+        parts.append("\n".join([head, *body, r"\end{tabular}}"]))
+    caption = rf"\par\nopagebreak{{\footnotesize {_words(b.caption)}}}" if b.caption else ""
+    return "\n\n\\medskip\n".join(parts) + caption + r"\par\medskip"
 
 
 def _matrix(b: Matrix) -> str:
@@ -97,12 +109,43 @@ def _matrix(b: Matrix) -> str:
 
     rows = r"\\".join("&".join(latex(c) for c in row) for row in b.rows)
     whole = rf"\begin{{bmatrix}}{rows}\end{{bmatrix}}{column(b.unknowns)}={column(b.right)}"
-    return rf"{_words(b.caption)}{{\scriptsize\[ {whole},\quad {column(b.unknowns)}={column(b.values)} \]}}"
+    equation = rf"{whole},\quad {column(b.unknowns)}={column(b.values)}"
+    return rf"{_words(b.caption)}\par\medskip\fitted{{\scriptsize ${equation}$}}\par"
 
 
-def _figure(scene: object) -> str:
-    from dalembert.views.paper.scene import Scene
+def _blank(words: str, spaces: tuple[tuple[str, str], ...]) -> str:
+    rooms = [rf"{_rich(name)} \rule{{27mm}}{{0.4pt}} {_words(unit)}".strip() for name, unit in spaces]
+    return r" \quad ".join([rf"{_rich(words)} \hfill", *rooms])
 
-    assert isinstance(scene, Scene)
-    said = "; ".join(plain_sign(t.text) for t in scene.texts() if t.text != scene.title)
-    return rf"\textit{{{_words(plain_sign(scene.title))}}} (drawing): {_words(said)}."
+
+def _figure(b: Figure) -> str:
+    """Drawings in rows as they fit; what is larger than the page is made smaller, and says so."""
+    pictures = "\n\\hspace{3mm}\n".join(_picture(scene) for scene in b.scenes)
+    parts = [b.caption, *map(_smaller, b.scenes)]
+    caption = " ".join(_words(part) for part in parts if part)
+    return (
+        rf"\begin{{center}}{pictures}"
+        + (rf"\par{{\footnotesize {caption}}}" * bool(caption))
+        + r"\end{center}"
+    )
+
+
+def _part(scene: Scene) -> float:
+    """What a drawing's size is multiplied with to fit the page."""
+    left, bottom, right, top = scene.bounds
+    return min(1.0, WIDTH / (right - left + 2 * MARGIN), HEIGHT / (top - bottom + 2 * MARGIN))
+
+
+def _picture(scene: Scene) -> str:
+    drawn = tikz_picture(scene, _words)
+    return drawn if _part(scene) == 1.0 else rf"\scalebox{{{_part(scene):.3f}}}{{{drawn}}}"
+
+
+def _smaller(scene: Scene) -> str:
+    """That a drawing is not at the scales it states."""
+    part = 100 * _part(scene)
+    return (
+        f"{plain_sign(scene.title)}: printed at {part:.0f} % of its scales."
+        if part < 100 and scene.scales
+        else ""
+    )
