@@ -146,6 +146,14 @@ def test_curves_of_a_sweep() -> None:
     assert peak.numbers["peak of effort.O2"] == pytest.approx(s.over("effort.O2") / LBF / INCH)
     texts = {t.text for t in peak.texts()}
     assert {"links.coupler.weight in lbf", "Torque in lbf·in"} <= texts
+    grid = da.sweep(FOUR_BAR, {COUPLER: [30.0, 10.0], ROCKER: [5.0, 6.0, 7.0]}, outputs="reaction.A")
+    drawn = grid.plot("reaction.A", "mean").numbers
+    assert list(drawn) == ["5 N", "6 N", "7 N"]
+    assert drawn["6 N"] == pytest.approx(grid.over("reaction.A", "mean")[::-1, 1] / LBF), "by rising values"
+    both = da.sweep(FOUR_BAR, {COUPLER: [30.0, 10.0], ROCKER: [5.0, 6.0]}, together=True, outputs="effort.O2")
+    assert list(both.plot("effort.O2").numbers) == ["peak of effort.O2"]
+    moved = da.sweep(FOUR_BAR, "drives.O2.position", [[0.0, 0.2], [1.0, 1.1]], outputs="effort.O2")
+    assert "position" in {t.text for t in moved.plot("effort.O2").texts()}
 
 
 @pytest.mark.parametrize(
@@ -165,6 +173,10 @@ def test_curves_of_a_sweep() -> None:
             "99980001 designs are too many",
         ),
         (lambda: da.sweep(FOUR_BAR, COUPLER, [1.0], outputs="efort.O2"), "did you mean 'effort.O2'?"),
+        (
+            lambda: da.sweep(FOUR_BAR, COUPLER, [1]).plot("effort.O2", "peek"),
+            "no curve is drawn of 'peek'; there are",
+        ),
         (lambda: da.sweep(FOUR_BAR, COUPLER, [1.0])["angle.rocker"], "the sweep has not kept 'angle.rocker'"),
     ],
 )

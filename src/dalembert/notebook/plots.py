@@ -79,8 +79,8 @@ def _against(r: Result, name: str, shown: Shown) -> tuple[Array, str, bool]:
 
 
 def label(kind: str, unit: str) -> str:
-    """'Angular speed in rad/s'; a path stays as it is."""
-    word = "Torque" if kind == "moment" else kind if "." in kind else kind.replace("_", " ").capitalize()
+    """'Angular speed in rad/s'."""
+    word = "Torque" if kind == "moment" else kind.replace("_", " ").capitalize()
     return f"{word} in {unit}" if unit else word
 
 
@@ -134,29 +134,52 @@ def polar(r: Result, joints: Sequence[str], axes: Axes, ax: Any, notation: Notat
 
 MOST_CURVES = 6
 """Curves of one plot: as many as have a line of their own."""
+REDUCED = ("peak", "mean", "rms", "norm8")
+"""Reductions over the positions that are one number."""
 
 
 def plot_sweep(s: Sweep, name: str, reduce: str | None, ax: Any) -> Any:
     """Curves over the cycle, some of many designs; or a reduction against the values of the first path."""
+    if reduce not in (None, *REDUCED):
+        raise ModelError(f"no curve is drawn of {reduce!r}", f"there are: {', '.join(REDUCED)}")
     shown, kind = Shown(s.nominal, Notation()), s.kinds.get(name, "")
-    over, first = reduce or "peak", next(iter(s.labels.values()))
-    if reduce is None and s.status.shape[-1] > 1:
-        values = s[name]
-        values = np.linalg.norm(values, axis=-1) if values.ndim > len(s.shape) + 1 else values
-        curves, names = values.reshape(-1, values.shape[-1]), [", ".join(of) for of in s.designs]
-        x, x_label, angle = along(s.nominal.before, shown)
-    else:
-        curves = s.over(name, over).reshape(len(first.values), -1).T
-        names = [", ".join(of[1:]) or f"{over} of {name}" for of in s.designs[: len(curves)]]
-        plain = all(isinstance(v, float) for v in first.values)
-        x = (
-            np.array(first.values) * shown.value(first.kind, 1.0)
-            if plain
-            else np.arange(1.0, len(first.values) + 1)
-        )
-        x_label, angle = label(s.paths[0], shown.unit(first.kind)), shown.unit(first.kind) == "°"
+    over_cycle = reduce is None and s.status.shape[-1] > 1
+    curves, names = _over_cycle(s, name) if over_cycle else _over_values(s, name, reduce or "peak")
+    x, x_label, angle = _positions(s, shown) if over_cycle else _values(s, shown)
     chosen = sorted({round(k) for k in np.linspace(0, len(curves) - 1, min(len(curves), MOST_CURVES))})
-    series = {names[k]: curves[k] * shown.value(kind, 1.0) for k in chosen}
+    order = np.argsort(x)
+    series = {names[k]: curves[k][order] * shown.value(kind, 1.0) for k in chosen}
     some = f", {len(chosen)} of {len(curves)} curves" if len(chosen) < len(curves) else ""
     title = f"{name} by {', '.join(s.paths)}{some}"
-    return Curves(x, x_label, angle, series, label(kind, shown.unit(kind)), title).draw(ax)
+    return Curves(x[order], x_label, angle, series, label(kind, shown.unit(kind)), title).draw(ax)
+
+
+def _over_cycle(s: Sweep, name: str) -> tuple[Array, list[str]]:
+    """A curve and a name for each design; of a vector its size."""
+    values = s[name]
+    values = np.linalg.norm(values, axis=-1) if values.ndim > len(s.shape) + 1 else values
+    return values.reshape(-1, values.shape[-1]), [", ".join(of) for of in s.designs]
+
+
+def _over_values(s: Sweep, name: str, reduce: str) -> tuple[Array, list[str]]:
+    """A curve along the first path for each set of values of the others."""
+    curves = s.over(name, reduce).reshape(s.shape[0], -1).T
+    one = s.together or len(s.paths) == 1
+    return curves, [f"{reduce} of {name}"] if one else [", ".join(of[1:]) for of in s.designs[: len(curves)]]
+
+
+def _positions(s: Sweep, shown: Shown) -> tuple[Array, str, bool]:
+    """The first drive where it has the same positions in every design, else their numbers."""
+    drives = s.answers.drives.reshape(-1, *s.answers.drives.shape[-2:])
+    if (drives == drives[0]).all():
+        return along(s.nominal.before, shown)
+    return np.arange(1.0, drives.shape[1] + 1), "position", False
+
+
+def _values(s: Sweep, shown: Shown) -> tuple[Array, str, bool]:
+    """The values of the first path in the reader's unit; their numbers where they are texts."""
+    path, of = s.paths[0], s.labels[s.paths[0]]
+    if not all(isinstance(v, float) for v in of.values):
+        return np.arange(1.0, len(of.values) + 1), path, False
+    unit = shown.unit(of.kind)
+    return np.array(of.values) * shown.value(of.kind, 1.0), f"{path} in {unit}" if unit else path, unit == "°"

@@ -114,7 +114,7 @@ class Group:
 Item = Line | Polygon | Circle | Arc | Arrow | Text | Group
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Scene:
     """Items, a title, scales (kind -> SI units a millimetre) and numbers that belong to the drawing.
 
@@ -127,6 +127,9 @@ class Scene:
     title: str = ""
     scales: Mapping[str, float] = field(default_factory=dict)
     numbers: Mapping[str, object] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        return f"<Scene {self.title!r}: {sum(1 for _ in self.flat())} items>"
 
     def flat(self) -> Iterator[Item]:
         """All primitives, groups opened."""
