@@ -49,6 +49,8 @@ if TYPE_CHECKING:
     from dalembert.grading.mistakes import check_answers
     from dalembert.machine.balance.balancing import balance
     from dalembert.machine.balance.counterweights import Counterweight
+    from dalembert.machine.balance.engine_series import EngineSeries, engine_series
+    from dalembert.machine.balance.rotors import RotorBalance, balance_rotor
     from dalembert.machine.flywheel.flywheel_size import FlywheelSize, flywheel_size
     from dalembert.machine.flywheel.flywheels import flywheel
     from dalembert.machine.harmonics import harmonics
@@ -105,7 +107,9 @@ if TYPE_CHECKING:
         five_bar,
         four_bar,
         hooke_joint,
+        in_line_engine,
         inverted_slider_crank,
+        radial_engine,
         rccc,
         rotating_shaft,
         rssp,
@@ -118,6 +122,7 @@ if TYPE_CHECKING:
         stephenson_2,
         stephenson_3,
         toggle_press,
+        v_engine,
         watt_1,
         watt_2,
         whitworth,
@@ -156,14 +161,16 @@ _NAMES = {
     ),
     "machine.balance.balancing": "balance",
     "machine.balance.counterweights": "Counterweight",
+    "machine.balance.engine_series": "EngineSeries engine_series",
+    "machine.balance.rotors": "RotorBalance balance_rotor",
     "machine.flywheel.flywheel_size": "FlywheelSize flywheel_size",
     "machine.flywheel.flywheels": "flywheel",
     "machine.harmonics": "harmonics",
     "machine.shaking": "shaking",
     "model.library": (
-        "bennett bevel_differential bucket crank_shaper double_cardan five_bar four_bar hooke_joint "
-        "inverted_slider_crank rccc rotating_shaft rssp rssr scissor scotch_yoke slider_crank "
-        "spherical_four_bar stephenson_1 stephenson_2 stephenson_3 toggle_press watt_1 watt_2 whitworth"
+        "bennett bevel_differential bucket crank_shaper double_cardan five_bar four_bar hooke_joint in_line_engine "
+        "inverted_slider_crank radial_engine rccc rotating_shaft rssp rssr scissor scotch_yoke slider_crank "
+        "spherical_four_bar stephenson_1 stephenson_2 stephenson_3 toggle_press v_engine watt_1 watt_2 whitworth"
     ),
     "pages.html_page": "page",
     "reports": "report",
@@ -193,6 +200,7 @@ __all__ = [
     "DalembertError",
     "Damper",
     "Drive",
+    "EngineSeries",
     "Expression",
     "FlywheelSize",
     "ForceLoad",
@@ -213,6 +221,7 @@ __all__ = [
     "Result",
     "Rise",
     "Rolling",
+    "RotorBalance",
     "Scene",
     "SlenderBar",
     "Slider",
@@ -231,6 +240,7 @@ __all__ = [
     "Weld",
     "__version__",
     "balance",
+    "balance_rotor",
     "bennett",
     "bevel_differential",
     "bucket",
@@ -244,6 +254,7 @@ __all__ = [
     "draw",
     "dynamics",
     "efficiency",
+    "engine_series",
     "five_bar",
     "fixed_point",
     "flywheel",
@@ -254,6 +265,7 @@ __all__ = [
     "guide_contact",
     "harmonics",
     "hooke_joint",
+    "in_line_engine",
     "inertia_shares",
     "inverted_slider_crank",
     "json_schema",
@@ -267,6 +279,7 @@ __all__ = [
     "order_of_solution",
     "other_solutions",
     "page",
+    "radial_engine",
     "rccc",
     "report",
     "rotating_shaft",
@@ -285,6 +298,7 @@ __all__ = [
     "superposition",
     "sweep",
     "toggle_press",
+    "v_engine",
     "variants",
     "virtual_work",
     "watt_1",

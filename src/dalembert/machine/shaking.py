@@ -44,7 +44,8 @@ class Shaking:
     """Force (P, d) and moment (P,), in space (P, 3), that some links exert on all else, about a fixed point (d,).
 
     ``parts``: the same by cause: `inertia`, `weight`, `external`. ``residual`` (P,): difference to what the joints,
-    drives, springs and dampers carry, over the largest force of the cycle; NaN where these have no value.
+    drives, springs and dampers carry, over ``largest``, the largest single force of the cycle; NaN where unknown.
+    ``couple`` (P, 2), in the plane where links have a `place` z along the normal: sum of z k x F over the links.
     """
 
     result: Result = field(repr=False)
@@ -55,6 +56,12 @@ class Shaking:
     moment: Array = field(repr=False)
     parts: dict[str, Wrench] = field(repr=False)
     residual: Array = field(repr=False)
+    largest: float = field(repr=False)
+    couple: Array | None = field(default=None, repr=False)
+
+    def floor(self, kind: str) -> float:
+        """What is nothing but rounding beside the largest single force of the cycle: a `force`, else a moment."""
+        return 1e-12 * self.largest * (1.0 if kind == "force" else self.result.compiled.layout.length)
 
     @property
     def whole(self) -> bool:
@@ -62,7 +69,7 @@ class Shaking:
         return len(self.links) == len(self.result.links)
 
     def harmonics(self, orders: int | Sequence[float] = 4, of: str = "force") -> Harmonics:
-        """Harmonics of the `force` or the `moment` over whole turns of the first drive."""
+        """Harmonics of the `force`, the `moment` or the `couple` over whole turns of the first drive."""
         r = self.result
         if not r.drives:
             raise ModelError(
@@ -81,6 +88,9 @@ class Shaking:
                 yield Column(f"{name} force{axis}", "force", values)
             for axis, values in parts(moment):
                 yield Column(f"{name} moment{axis}", "moment", values)
+        if self.couple is not None:
+            yield Column("shaking couple x", "moment", self.couple[:, 0])
+            yield Column("shaking couple y", "moment", self.couple[:, 1])
         yield Column("residual", "number", self.residual)
 
     def record(self, to: Scale) -> Tree:
@@ -124,7 +134,20 @@ def shaking(r: Result, about: About = None, links: Iterable[str] | None = None) 
     }
     force, moment = (np.sum([w[k] for w in causes.values()], axis=0) for k in (0, 1))
     through = _sum(r, carried, point)
-    return Shaking(r, chosen, name, point, force, moment, causes, _gap(r, (force, moment), through, loads))
+    length = r.compiled.layout.length
+    sizes = [magnitude(a.force) for a in loads] + [_size(a.couple) / length for a in loads]
+    largest = max((float(np.nanmax(s, initial=0.0)) for s in sizes), default=0.0)
+    off = [_size(a + b) for a, b in zip((force, moment), through, strict=True)]
+    gap = np.maximum(off[0], off[1] / length) / (largest or 1.0)
+    return Shaking(r, chosen, name, point, force, moment, causes, gap, largest, _couple(r, loads))
+
+
+def _couple(r: Result, loads: Sequence[Action]) -> Array | None:
+    """Couple (P, 2) about axes in the plane of what acts on links that lie beside it."""
+    places = {link: r.mechanism.links[link].place for link in r.links}
+    if not any(places.values()):
+        return None
+    return np.asarray(sum(places[a.link] * np.stack([-a.force[:, 1], a.force[:, 0]], axis=-1) for a in loads))
 
 
 def _chosen(r: Result, links: Iterable[str] | None) -> tuple[str, ...]:
@@ -178,15 +201,6 @@ def _sum(r: Result, some: Sequence[Action], point: Array) -> Wrench:
     force = sum((a.force for a in some), np.zeros((count, d)))
     moment = sum((a.moment(point) for a in some), np.zeros((count, 3) if d == 3 else count))
     return np.asarray(force), np.asarray(moment)
-
-
-def _gap(r: Result, found: Wrench, through: Wrench, loads: Sequence[Action]) -> Array:
-    """Difference of both ways at each position, over the largest single force of the cycle."""
-    length = r.compiled.layout.length
-    sizes = [magnitude(a.force) for a in loads] + [_size(a.couple) / length for a in loads]
-    largest = max((float(np.nanmax(s, initial=0.0)) for s in sizes), default=0.0) or 1.0
-    force, moment = (a + b for a, b in zip(found, through, strict=True))
-    return np.maximum(_size(force), _size(moment) / length) / largest
 
 
 def _size(values: Array) -> Array:

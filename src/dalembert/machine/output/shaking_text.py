@@ -13,7 +13,7 @@ from dalembert.analysis.output.summary.printed_series import where
 from dalembert.analysis.output.summary.printed_units import Printed, print_scale
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
-from dalembert.machine.harmonics import Harmonics
+from dalembert.machine.harmonics import Harmonics, harmonics
 from dalembert.machine.output.written import greatest, rms
 from dalembert.printing import number, remainder, round_components, table, tables, wrap
 
@@ -37,59 +37,99 @@ def shaking_text(s: Shaking, units: UnitChoice = "file", orders: int | Sequence[
     whose = "The machine" if s.whole else f"{', '.join(s.links)}"
     what = "on the ground" if s.whole else "on all else"
     blocks = [heading(r), wrap(f"{whose} {what}: force, and moment about {s.about}, in ground axes.")]
-    blocks += [_values(s, to), *_harmonic_tables(s, to, orders), _check(s)]
+    blocks += [_values(s, to), *_harmonic_tables(s, to, orders), *_engine(s, to), _check(s)]
     return "\n\n".join(blocks)
 
 
 def _values(s: Shaking, to: Printed) -> str:
     """One position: components. Several: greatest size with its place, mean and rms, of the whole and its parts."""
-    r, single = s.result, len(s.result.status) == 1
+    r, d, single = s.result, s.result.mechanism.dimension, len(s.result.status) == 1
+    named: list[tuple[str, str, Array]] = [
+        ("shaking force", "force", s.force),
+        ("shaking moment", "moment", s.moment),
+    ]
+    named += [] if s.couple is None else [("shaking couple", "moment", s.couple)]
+    named += [
+        (f"  {n}", kind, v)
+        for n, w in s.parts.items()
+        for kind, v in zip(("force", "moment"), w, strict=True)
+    ]
     rows = []
-    for name, (force, moment) in {"shaking": (s.force, s.moment), **s.parts}.items():
-        for kind, values in (("force", force), ("moment", moment)):
-            shown = np.asarray(to(kind, values))
-            sizes = [number(x) for x in round_components(np.ravel(shown[0]), 1e-9 * _scale(s, kind, to))]
-            if single:
-                parts = [*sizes, *[""] * (r.mechanism.dimension - len(sizes))]
-            else:
-                size, k = greatest(shown)
-                mean = np.atleast_1d(shown.mean(axis=0))
-                parts = [number(size), where(r, to, k) if size else "-", number(rms(shown))]
-                parts += [number(x) for x in round_components(mean, 1e-6 * _scale(s, kind, to))]
-                parts += [""] * (r.mechanism.dimension - len(mean))
-            if np.nan_to_num(shown).any():
-                rows.append([f"{name} {kind}" if name == "shaking" else f"  {name}", to.text(kind), *parts])
-    axes = ["x", "y", "z"][: r.mechanism.dimension]
+    for name, kind, values in named:
+        size, k = greatest(values)
+        if not size > s.floor(kind):
+            continue
+        components = np.atleast_1d(values[0] if single else values.mean(axis=0))
+        cells = [number(float(to(kind, v)) if abs(v) > s.floor(kind) else 0.0) for v in components]
+        if not single:
+            cells = [
+                number(float(to(kind, size))),
+                where(r, to, k),
+                number(float(to(kind, rms(values)))),
+                *cells,
+            ]
+        rows.append([name, to.text(kind), *cells, *[""] * (d - len(components))])
+    axes = list("xyz"[:d])
     heads = axes if single else ["greatest", "at", "rms", *(f"mean {a}" for a in axes)]
-    return tables(["", "unit", *heads], rows, 2) if rows else "Nothing acts on the ground."
-
-
-def _scale(s: Shaking, kind: str, to: Printed) -> float:
-    which = ("force", "moment").index(kind)
-    sizes = [greatest(w[which])[0] for w in ((s.force, s.moment), *s.parts.values())]
-    return float(to(kind, max(sizes)))
+    return tables(["", "unit", *heads], rows, 2) if rows else "Nothing shakes the ground."
 
 
 def _harmonic_tables(s: Shaking, to: Printed, orders: int | Sequence[float]) -> list[str]:
     if not s.result.drives or len(s.result.status) < 3:
         return []
     try:
-        found = {kind: s.harmonics(orders, kind) for kind in ("force", "moment")}
+        some = ("force", "moment", *(["couple"] if s.couple is not None else []))
+        found = {kind: s.harmonics(orders, kind) for kind in some}
     except ModelError as error:
         return [wrap(f"No harmonics: {error}.")]
     out = []
     for kind, h in found.items():
-        if np.any(h.amplitude > 0):
-            out.append(harmonic_table(f"{kind}\n{to.text(kind)}", h, float(to(kind, 1.0))))
+        if np.any(h.amplitude > s.floor(kind)):
+            unit = "force" if kind == "force" else "moment"
+            out.append(harmonic_table(f"{kind}\n{to.text(unit)}", h, float(to(unit, 1.0)), s.floor(kind)))
     turns = next(iter(found.values())).turns
     period = "a turn" if turns == 1 else f"{turns} turns"
     drive = s.result.drives[0]
     return [f"Harmonics over {period} of {drive}: amplitude, and phase in deg (a cos(k q - phase))", *out]
 
 
-def harmonic_table(head: str, h: Harmonics, factor: float = 1.0) -> str:
+def _engine(s: Shaking, to: Printed) -> list[str]:
+    """Of an engine, the book's two harmonics beside the exact ones."""
+    from dalembert.machine.balance.engine_series import cylinders, engine_series
+
+    r = s.result
+    if (
+        r.mechanism.dimension == 3
+        or not s.whole
+        or not cylinders(r.mechanism)
+        or not s.parts["inertia"][0].any()
+    ):
+        return []
+    try:
+        e = engine_series(r)
+        angle = r.drive_position(r.drives[0])
+        some = {"force": (e.exact.parts["inertia"][0], e.force)}
+        if s.couple is not None:
+            some["couple"] = (s.couple, e.couple)
+        rows = []
+        for name, both in some.items():
+            exact, book = (harmonics(v, angle, [1, 2, 4, 6]) for v in both)
+            kind = "force" if name == "force" else "moment"
+            for k, order in enumerate(exact.order):
+                sizes = [part[k] for h in (exact, book) for part in (abs(h.forward), abs(h.backward))]
+                cells = [number(float(to(kind, v)) if v > s.floor(kind) else 0.0) for v in sizes]
+                rows.append([f"{name} {to.text(kind)}", number(order), *cells])
+    except ModelError:
+        return []
+    heads = ["inertia", "order", "exact: with", "against", "book: with", "against"]
+    said = f"{len(e.cylinders)} cylinder{'s' * (len(e.cylinders) > 1)}, by the book's two harmonics: "
+    said += f"its force is off by {number(100 * e.loss, 3)} % of the largest at most."
+    return [f"{table(heads, rows, 1)}\n{wrap(said)}"]
+
+
+def harmonic_table(head: str, h: Harmonics, factor: float = 1.0, floor: float = 0.0) -> str:
     """Amplitude and phase of each order, of vectors by component, in the plane also the parts that turn."""
-    floor = 1e-12 * float(np.max(h.amplitude, initial=0.0))
+    floor = max(floor, 1e-12 * float(np.max(h.amplitude, initial=0.0)))
     names = [""] if h.amplitude.ndim == 1 else list("xyz"[: h.amplitude.shape[1]])
     heads = ["order", *(f"{head.split(chr(10))[0]} {n}\n{head.split(chr(10))[-1]}\tphase" for n in names)]
     heads = [x for part in heads for x in part.split("\t")]

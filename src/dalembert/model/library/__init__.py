@@ -15,6 +15,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 from dalembert.errors import ModelError
+from dalembert.model.library.engines import in_line_engine, radial_engine, v_engine
 from dalembert.model.library.four_bars import four_bar, inverted_slider_crank, scotch_yoke, slider_crank
 from dalembert.model.library.machines import bucket, five_bar, scissor, toggle_press
 from dalembert.model.library.quick_returns import crank_shaper, whitworth
@@ -37,7 +38,9 @@ __all__ = [
     "five_bar",
     "four_bar",
     "hooke_joint",
+    "in_line_engine",
     "inverted_slider_crank",
+    "radial_engine",
     "rccc",
     "rotating_shaft",
     "rssp",
@@ -52,6 +55,7 @@ __all__ = [
     "template",
     "template_text",
     "toggle_press",
+    "v_engine",
     "watt_1",
     "watt_2",
     "whitworth",
@@ -83,6 +87,9 @@ TEMPLATES: dict[str, Template] = {
     "five_bar": Template(five_bar, "two driven cranks and two couplers, the simplest parallel robot"),
     "scissor": Template(scissor, "scissor lift of any number of stages"),
     "bucket": Template(bucket, "excavator bucket moved by a hydraulic cylinder"),
+    "in_line_engine": Template(in_line_engine, "cylinders in line that fire in an order; generated"),
+    "v_engine": Template(v_engine, "cylinders in two banks, two rods on each throw; generated"),
+    "radial_engine": Template(radial_engine, "cylinders in a star on one throw; generated"),
     "rssr": Template(rssr, "in space: crank, rod with two balls, rocker about any axis"),
     "rssp": Template(rssp, "in space: crank, rod with two balls, slider along any line"),
     "rccc": Template(rccc, "in space: a revolute and three cylindrical joints, the general four-bar"),
@@ -117,7 +124,12 @@ def template_text(name: str) -> str:
     """
     from importlib.resources import files
 
-    _require_known(name)
+    function = _require_known(name).function
+    generated = function if function.__module__.endswith(".engines") else None
+    if generated:
+        said = (generated.__doc__ or "").partition(">>>")[0].replace("`", "").strip().splitlines()
+        head, _, rest = str(generated()).partition("\n")
+        return "\n".join([head, "", *(f"# {line.strip()}".rstrip() for line in said), "", rest])
     return (files(__package__) / "files" / f"{name}.yaml").read_text(encoding="utf-8")
 
 

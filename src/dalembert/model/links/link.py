@@ -214,9 +214,20 @@ class Link(Part):
         description="moment of inertia about the mass centre; in space 3 principal values or a 3 x 3 matrix",
     )
 
+    place: Annotated[float, Scalar("length")] = Field(
+        0.0,
+        description="in the plane: where the link lies along the normal, for couples of shaking forces; default 0",
+    )
     shape: Shapes | None = Field(
         None, description="what it looks like, one shape or a list: gives mass, center and inertia"
     )
+
+    @model_validator(mode="after")
+    def _place_in_the_plane(self, info: ValidationInfo) -> Self:
+        if self.place and reading(info).dimension == 3:
+            remedy = "leave it out: in space the points say where the link is"
+            raise ModelError("a place along the normal is for mechanisms of the plane", remedy, ("place",))
+        return self
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:

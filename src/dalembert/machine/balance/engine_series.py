@@ -1,0 +1,163 @@
+"""Engines as the books take them: each cylinder's primary and secondary force, beside the exact shaking force.
+
+A piston on a line through the crank's axis, its rod on a crank pin at r from it: the book splits the rod's mass between
+its ends and keeps two harmonics of the piston's acceleration, r w^2 (cos q + r / l cos 2 q), q from the dead centre.
+The exact series of a centric cylinder has 1, A_2 = l + l^3 / 4 + ..., A_4, ... with l for r / l, so the book loses.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from dalembert.analysis.methods.applied_forces import link_place
+from dalembert.analysis.plane_only import refuse_space
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.machine.output.written import greatest
+from dalembert.machine.shaking import Shaking, shaking
+from dalembert.model import GROUND
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+    from dalembert.model import Mechanism
+
+
+class Cylinder(NamedTuple):
+    """A piston, its rod and the link with its crank pin; joints between them; the crank's joint with the ground."""
+
+    piston: str
+    rod: str
+    crank: str
+    pin: str
+    gudgeon: str
+    guide: str
+    axis: str
+
+
+@dataclass(frozen=True)
+class EngineSeries:
+    """Force and couple (P, 2) of the inertia by the book's two harmonics, and exact."""
+
+    exact: Shaking = field(repr=False)
+    cylinders: tuple[Cylinder, ...]
+    force: Array = field(repr=False)
+    couple: Array = field(repr=False)
+
+    @property
+    def loss(self) -> float:
+        """Largest difference of the book's force, over the largest exact force."""
+        exact = self.exact.parts["inertia"][0]
+        return greatest(exact - self.force)[0] / (greatest(exact)[0] or 1.0)
+
+
+def cylinders(m: Mechanism) -> tuple[Cylinder, ...]:
+    """The cylinders of a plane mechanism: pistons that slide on the ground, rods, and what turns on the ground."""
+    pins = {name: joint.links for name, joint in m.joints.items() if joint.hinge}
+    sliders = {n: j.links for n, j in m.joints.items() if j.freedoms == ("slide",) and GROUND in j.links}
+    on_ground = {_other(links, GROUND): name for name, links in pins.items() if GROUND in links}
+    for joint in m.joints.values():  # throws welded to the shaft turn with it
+        if not joint.freedoms:
+            i, j = joint.links
+            on_ground |= {
+                b: on_ground[a] for a, b in ((i, j), (j, i)) if a in on_ground and b not in on_ground
+            }
+    out = []
+    for guide, links in sliders.items():
+        piston = _other(links, GROUND)
+        for gudgeon, ends in pins.items():
+            if piston not in ends or GROUND in ends:
+                continue
+            rod = _other(ends, piston)
+            for pin, others in pins.items():
+                crank = _other(others, rod) if rod in others and pin != gudgeon else ""
+                if crank in on_ground:
+                    out.append(Cylinder(piston, rod, crank, pin, gudgeon, guide, on_ground[crank]))
+    return tuple(out)
+
+
+def engine_series(r: Result) -> EngineSeries:
+    """The book's two harmonics of every cylinder, with what turns taken exactly, beside the exact inertia force.
+
+    Raises ModelError where there is no cylinder, or one whose line passes the crank's axis by.
+
+    >>> import dalembert as da
+    >>> m = da.radial_engine(cylinders=3, crank=0.06, rod=0.24, piston_mass=1.0, rod_mass=0.0, speed=80 * np.pi)
+    >>> e = da.engine_series(da.dynamics(m))
+    >>> len(e.cylinders), f"{100 * e.loss:.1f} %"
+    (3, '0.6 %')
+    """
+    refuse_space(r.mechanism, "the book's series of an engine", "ask for the shaking force: da.shaking")
+    found = cylinders(r.mechanism)
+    if not found:
+        raise ModelError(
+            "there is no cylinder: a piston on the ground, a rod, a crank", "ask for the shaking force"
+        )
+    m, force, couple = r.mechanism, np.zeros((len(r.status), 2)), np.zeros((len(r.status), 2))
+    counted: set[str] = set()
+    for c in found:
+        for link, part in _parts(r, c):
+            force += part
+            couple += m.links[link].place * np.stack([-part[:, 1], part[:, 0]], axis=-1)
+        counted |= {c.piston, c.rod}
+    for link in r.links:
+        if link not in counted:
+            part = -m.mass(link) * r.center_acceleration(link)
+            force += part
+            couple += m.links[link].place * np.stack([-part[:, 1], part[:, 0]], axis=-1)
+    return EngineSeries(shaking(r, found[0].axis), found, force, couple)
+
+
+def _parts(r: Result, c: Cylinder) -> list[tuple[str, Array]]:
+    """Inertia forces (P, 2) of the rod's end that turns, of the one that goes to and fro, and of the piston."""
+    m, guide = r.mechanism, r.mechanism.joints[c.guide]
+    described: Any = guide
+    line = float(described.direction or 0.0)
+    along, center = np.array([np.cos(line), np.sin(line)]), _ground_point(m, c.axis)
+    pin = _joint_point(r, c.pin, c.rod)
+    gudgeon = _joint_point(r, c.gudgeon, c.rod)
+    arm, rod = pin - center, gudgeon - pin
+    crank, length = (float(np.hypot(*v[0])) for v in (arm, rod))
+    off = gudgeon - center
+    aside = np.abs(off[:, 0] * along[1] - off[:, 1] * along[0]).max()
+    if aside > 1e-9 * length:
+        raise ModelError(
+            f"the line of {c.piston} passes the crank by {aside:.4g} m", "the book's series has no offset"
+        )
+    side = np.sign(float(off[0] @ along)) * along
+    q = np.arctan2(side[0] * arm[:, 1] - side[1] * arm[:, 0], arm @ side)
+    w, alpha = r.speed(c.crank), r.acceleration(c.crank)
+    share = _share(m, c, length)
+    ratio = crank / length
+    going = w**2 * (np.cos(q) + ratio * np.cos(2 * q)) + alpha * (np.sin(q) + ratio / 2 * np.sin(2 * q))
+    mass = m.mass(c.rod)
+    turning = w[:, None] ** 2 * arm - alpha[:, None] * np.stack([-arm[:, 1], arm[:, 0]], axis=-1)
+    to_and_fro = crank * going[:, None] * side
+    return [
+        (c.rod, mass * (1 - share) * turning),
+        (c.rod, mass * share * to_and_fro),
+        (c.piston, m.mass(c.piston) * to_and_fro),
+    ]
+
+
+def _share(m: Mechanism, c: Cylinder, length: float) -> float:
+    """Part of the rod's mass that the book moves to the piston: its centre's way along the rod."""
+    a, b = (
+        np.array(m.joint_points(joint)[m.joints[joint].links.index(c.rod)]) for joint in (c.pin, c.gudgeon)
+    )
+    return float((np.array(m.center(c.rod)) - a) @ (b - a)) / length**2
+
+
+def _other(links: tuple[str, str], link: str) -> str:
+    return links[1] if links[0] == link else links[0]
+
+
+def _ground_point(m: Mechanism, joint: str) -> Array:
+    return np.array(m.joint_points(joint)[m.joints[joint].links.index(GROUND)])
+
+
+def _joint_point(r: Result, joint: str, link: str) -> Array:
+    m = r.mechanism
+    return link_place(r, link, m.joint_points(joint)[m.joints[joint].links.index(link)])
