@@ -1,6 +1,7 @@
 # make run        a private environment in .venv, then the first example solved and printed
 # make test       the same environment with what the tests need; ruff, mypy --strict, pytest
 # make gallery    drawings and worked solutions of the bundled problems, in build/gallery
+# make test-browser  the live pages in a real Chromium, which it installs where there is none (Debian, as root)
 # make test-long  the long tests too, 15 minutes on two cores; make test-exhaustive all there are (over an hour)
 # Needs nothing but make and Python 3.11 or newer.
 
@@ -18,7 +19,7 @@ FIND_PYTHON = for p in $(PYTHON) python3 python3.14 python3.13 python3.12 python
   echo "dalembert needs Python 3.11 or newer with its venv module; none was found." \
        "Install it, or name it: make $(MAKECMDGOALS) PYTHON=/path/to/python3" >&2; exit 1
 
-.PHONY: run test test-long test-exhaustive lint gallery clean
+.PHONY: run test test-browser test-long test-exhaustive web check-web lint gallery clean
 
 run: $(VENV)/.run
 	@$(BIN)/dalembert solve examples/four_bar.yaml
@@ -34,6 +35,17 @@ test-exhaustive: lint
 
 gallery: $(VENV)/.test
 	@$(BIN)/python docs/gallery.py
+
+test-browser: $(VENV)/.test
+	@command -v chromium >/dev/null || { apt-get update -qq && apt-get install -y -qq chromium; }
+	@DALEMBERT_BROWSER=$$(command -v chromium) $(PYTEST) -m "not exhaustive" tests/browser $(PYTEST_ARGS)
+
+# The front end of the live pages: web/ to src/dalembert/pages/bundle; needs Node. check-web fails where they differ.
+web:
+	@cd web && npm ci --no-audit --no-fund --silent && npm run --silent build
+
+check-web: web
+	@git diff --exit-code --stat src/dalembert/pages/bundle
 
 lint: $(VENV)/.test
 	@$(BIN)/ruff check .

@@ -17,6 +17,20 @@ export function roundUp(x: number): number {
   return power * (ROUND.find((r) => r * power >= x * (1 - 1e-12)) ?? 10);
 }
 
+/** Height in mm of a drawing of some width whose cycle finds room in it. */
+export function heightFor(kernel: Kernel, d: Drawing, w: number): number {
+  const rows = d.items.flatMap((i) => (i.t === "hull" || i.t === "path" ? i.p : i.t === "symbol" ? [i.p] : []));
+  const reach = [0, 1].map((c) => {
+    let low = Infinity, high = -Infinity;
+    for (const p of rows)
+      for (let k = 0; k < kernel.count; k++)
+        if (kernel.good(k)) (low = Math.min(low, kernel.value(p[c], k))), (high = Math.max(high, kernel.value(p[c], k)));
+    return high - low;
+  });
+  const aspect = reach[1] / reach[0];
+  return Number.isFinite(aspect) ? Math.min(Math.max(w * aspect * 1.05, 96), 150) : 120;
+}
+
 export function canvas(parent: Element, width: number, height: number, name: string): SVGSVGElement {
   return make("svg", parent, { viewBox: `${-width / 2} ${-height / 2} ${width} ${height}`, role: "img", "aria-label": name });
 }
@@ -32,7 +46,7 @@ export function board(parent: Element, kernel: Kernel, d: Drawing & { middle?: P
   const drawn = make("g", svg), acting = make("g", svg), lettered = make("g", svg);
   for (const i of d.items) (i.t === "trace" ? cyclic : live).push(item(drawn, i, paper));
   for (const a of d.arrows) arrows.push(action(acting, a, paper, () => perMm, about ?? undefined));
-  for (const l of d.labels) names.push({ l: label(lettered, l.role, l.text, l.kind === "joint" ? 3.4 : 3), p: l.p, q: l.q });
+  for (const l of d.labels) names.push({ l: label(lettered, l.role, l.text, l.kind === "joint" ? 3.8 : 3.3), p: l.p, q: l.q });
   const note = make("text", lettered, { class: "l-note-t", "font-size": 2.8, x: -w / 2 + 2, y: h / 2 - 2 });
   const bounds: [number, number, number, number] = [-w / 2, -h / 2, w / 2, h / 2 - 4];
   const span = (some: number[]): Point => [Math.min(...some), Math.max(...some)];
@@ -55,7 +69,7 @@ export function board(parent: Element, kernel: Kernel, d: Drawing & { middle?: P
           ys.push(about ? kernel.here[p[1]] : kernel.value(p[1], k));
         }
     if (xs.length) {
-      const [x0, x1] = span(xs), [y0, y1] = span(ys), room = about ? [46, 40] : [w * 0.7, h * 0.68];
+      const [x0, x1] = span(xs), [y0, y1] = span(ys), room = about ? [46, 40] : [w * 0.76, h * 0.74];
       const need = Math.max((x1 - x0) / room[0], (y1 - y0) / room[1]) || d.per_mm;
       if (!about) paper.middle = [(x0 + x1) / 2, (y0 + y1) / 2];
       paper.perMm = roundUp(need / size.length) * size.length;
@@ -70,8 +84,10 @@ export function board(parent: Element, kernel: Kernel, d: Drawing & { middle?: P
   const out: Board = {
     svg, paper, fit, force: () => perMm, names: d.labels.filter((l) => l.kind === "joint").length <= 8,
     update(cycle) {
-      centre();
       if (cycle) cyclic.forEach((p) => p.update());
+      acting.setAttribute("visibility", kernel.solved ? "visible" : "hidden");
+      if (!kernel.finite) return; // the last pose stays, greyed
+      centre();
       live.forEach((p) => p.update());
       arrows.forEach((p) => p.update());
       const placer = new Placer(bounds);
@@ -81,12 +97,14 @@ export function board(parent: Element, kernel: Kernel, d: Drawing & { middle?: P
         const on = out.names || !!q;
         l.el.setAttribute("visibility", on ? "visible" : "hidden");
         if (!on) continue;
-        const a = paper.point(p), b = q ? paper.point(q) : a, anchor: Point = [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
-        placer.put({ label: l, anchor, away: q ? undefined : anchor, leave: q ? 0.8 : 1.3 });
+        const a = paper.point(p), b = q ? paper.point(q) : a;
+        const anchors = (q ? [0.5, 0.35, 0.65] : [0]).map((t) => [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])] as Point);
+        placer.put({ label: l, anchors, away: q ? undefined : a, leave: q ? 0.8 : 1.3 });
       }
       for (const a of arrows) {
-        const at = a.anchor();
-        if (at) placer.put({ label: a.label, anchor: at[0], away: at[1], leave: 0.9 });
+        const at = kernel.solved ? a.anchor() : null;
+        if (!at) a.label.el.setAttribute("visibility", "hidden");
+        else placer.put({ label: a.label, anchors: at.slice(0, -1), away: at[at.length - 1], leave: 0.9 });
       }
       note.textContent = `1 mm = ${+(paper.perMm / size.length).toPrecision(4)} ${units.length.unit}, ${+(perMm / size.force).toPrecision(4)} ${units.force.unit}`;
     },

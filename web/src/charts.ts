@@ -4,9 +4,9 @@ import { canvas, roundUp } from "./board";
 import type { Chart, Curve, Data, Polygon } from "./data";
 import type { Kernel } from "./kernel";
 import { label, Placer } from "./labels";
-import { Arrow, html, letters, make, path, type Point, short } from "./svg";
+import { Arrow, html, letters, make, path, type Point, short, width } from "./svg";
 
-const W = 120, H = 52, LEFT = 16, RIGHT = 18, TOP = 5, LOW = 8;
+const W = 120, H = 52, LEFT = 16, TOP = 5, LOW = 8;
 
 /** Round steps between two numbers, about `count` of them. */
 export function ticks(low: number, high: number, count: number): number[] {
@@ -24,7 +24,8 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, tim
                       seek: (t: number) => void, pick: (curve: Curve) => void, picked: () => Curve | undefined): View {
   const figure = html("figure", parent, { class: "chart" }), unit = data.units[c.kind] ?? { unit: "", size: 1 };
   html("figcaption", figure, {}, `${c.title}, ${unit.unit}`);
-  const svg = canvas(figure, W, H, c.title), w = W - LEFT - RIGHT, h = H - TOP - LOW, x0 = -W / 2 + LEFT, y0 = -H / 2 + TOP;
+  const right = Math.min(Math.max(...c.curves.map((x) => width(x.name, 3))) + 4, 36);
+  const svg = canvas(figure, W, H, c.title), w = W - LEFT - right, h = H - TOP - LOW, x0 = -W / 2 + LEFT, y0 = -H / 2 + TOP;
   const grid = make("path", svg, { class: "l-grid", style: "fill:none" }), axis = make("path", svg, { class: "l-axis", style: "fill:none" });
   const scale = make("g", svg), lines = c.curves.map((x) => make("path", svg, { class: `l-${x.role}`, style: "fill:none" }));
   const cursor = make("path", svg, { class: "cursor" }), dots = c.curves.map((x) => make("circle", svg, { class: `l-${x.role}-h`, r: 0.9 }));
@@ -101,9 +102,11 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, tim
       const t = Math.min(time(), last);
       cursor.setAttribute("d", `M${short(at(t))} ${y0}v${h}`);
       c.curves.forEach((x, n) => {
-        dots[n].setAttribute("cx", short(at(t)));
-        dots[n].setAttribute("cy", short(y(kernel.here[x.row])));
         dots[n].setAttribute("visibility", kernel.solved ? "visible" : "hidden");
+        if (kernel.solved) {
+          dots[n].setAttribute("cx", short(at(t)));
+          dots[n].setAttribute("cy", short(y(kernel.here[x.row])));
+        }
         keys[n].classList.toggle("picked", picked() === x);
       });
     },
@@ -149,6 +152,8 @@ export function polygon(parent: Element, data: Data, kernel: Kernel, p: Polygon)
   return {
     figure,
     update() {
+      svg.setAttribute("visibility", kernel.solved ? "visible" : "hidden");
+      if (!kernel.solved) return;
       const v = kernel.here, ends: Point[] = [[0, 0]];
       for (const s of p.sides) {
         const [x, y] = ends[ends.length - 1], f = s.t === "force" ? s.f : [0, 0];
@@ -165,7 +170,7 @@ export function polygon(parent: Element, data: Data, kernel: Kernel, p: Polygon)
         names[k].el.setAttribute("visibility", shown ? "visible" : "hidden");
         if (!shown) return;
         const mid: Point = [(places[k][0] + places[k + 1][0]) / 2, (places[k][1] + places[k + 1][1]) / 2];
-        placer.put({ label: names[k], anchor: mid, away: mid, leave: 0.9 });
+        placer.put({ label: names[k], anchors: [mid], away: mid, leave: 0.9 });
       });
       gap.setAttribute("d", path([places[0], places[places.length - 1]]));
       note.textContent = `1 mm = ${figures(perMm / unit.size)} ${unit.unit}`;

@@ -15,7 +15,7 @@ export interface Drive { name: string; unit: string; size: number; position: Ser
 
 /** Something drawn: a symbol at a point, a stretched symbol between two, a hull, a path, a trace, a circle. */
 export type Item =
-  | { t: "symbol"; svg: string; p: Pair; e?: Pair }
+  | { t: "symbol"; svg: string; p: Pair; e?: Pair; per_mm?: number }
   | { t: "span"; svg: string; length: number; p: [Pair, Pair]; load: string }
   | { t: "hull"; role: string; p: Pair[]; link: string }
   | { t: "path"; role: string; p: Pair[] }

@@ -11,7 +11,7 @@ export function handles(b: Board, data: Data, kernel: Kernel, hold: Hold, perMm:
   const layer = make("g", b.svg, { class: "handles" });
   const updates = data.handles.map((h) => handle(layer, b, h, kernel, hold, perMm));
   drive(b, data, kernel, hold);
-  return () => updates.forEach((f) => f());
+  return () => kernel.finite && updates.forEach((f) => f());
 }
 
 /** Where a number of a point in axes comes to stand, if its place is (x, y) on the ground. */

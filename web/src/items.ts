@@ -26,13 +26,14 @@ export interface Part { update(): void; mark?(placer: Placer): void }
 export function item(parent: Element, i: Item, paper: Paper): Part {
   const k = paper.kernel, v = k.here;
   if (i.t === "symbol") {
-    const g = make("g", parent);
+    const g = make("g", parent, i.per_mm ? { class: "span" } : {});
     g.innerHTML = i.svg;
     return {
       update() {
         const [x, y] = paper.point(i.p);
+        const size = i.per_mm ? ` scale(${(i.per_mm / paper.perMm).toFixed(4)})` : "";
         const turn = i.e ? ` rotate(${short((-Math.atan2(v[i.e[1]], v[i.e[0]]) * 180) / Math.PI)})` : "";
-        g.setAttribute("transform", `translate(${short(x)} ${short(y)})${turn}`);
+        g.setAttribute("transform", `translate(${short(x)} ${short(y)})${turn}${size}`);
       },
       mark: (placer) => placer.disc(paper.point(i.p), 1.6),
     };
@@ -97,7 +98,8 @@ function trace(k: Kernel, paper: Paper, p: Pair): string {
   return d;
 }
 
-export interface Shown extends Part { label: Placed; anchor(): [Point, Point] | null }
+/** ``anchor``: places where the label may stand, the best first, and last the way that it had better go. */
+export interface Shown extends Part { label: Placed; anchor(): Point[] | null }
 
 /** A force as an arrow from its point, or to it where it pushes inwards; a couple as a curved arrow. */
 export function action(parent: Element, a: Action, paper: Paper, perMm: () => number, about?: Pair[]): Shown {
@@ -105,7 +107,7 @@ export function action(parent: Element, a: Action, paper: Paper, perMm: () => nu
 }
 
 function force(parent: Element, a: Action & { t: "force" }, paper: Paper, perMm: () => number, about?: Pair[]): Shown {
-  const v = paper.kernel.here, arrow = new Arrow(parent, a.role, a.name), l = label(parent, a.role, a.name, 3);
+  const v = paper.kernel.here, arrow = new Arrow(parent, a.role, a.name), l = label(parent, a.role, a.name, 3.4);
   let tail: Point = [0, 0], tip: Point = [0, 0], free: Point = [0, 0], shown = false;
   return {
     label: l,
@@ -123,14 +125,18 @@ function force(parent: Element, a: Action & { t: "force" }, paper: Paper, perMm:
       l.el.setAttribute("visibility", shown ? "visible" : "hidden");
     },
     mark: (placer) => shown && placer.line(tail, tip),
-    anchor: () => (shown ? [free, [free[0] - (free === tail ? tip : tail)[0], free[1] - (free === tail ? tip : tail)[1]]] : null),
+    anchor() {
+      if (!shown) return null;
+      const other = free === tail ? tip : tail, way: Point = [free[0] - other[0], free[1] - other[1]];
+      return [free, [free[0] - 0.35 * way[0], free[1] - 0.35 * way[1]], way];
+    },
   };
 }
 
 const RADIUS = 4.6;
 
 function couple(parent: Element, a: Action & { t: "couple" }, paper: Paper): Shown {
-  const v = paper.kernel.here, g = make("g", parent), l = label(parent, a.role, a.name, 3);
+  const v = paper.kernel.here, g = make("g", parent), l = label(parent, a.role, a.name, 3.4);
   make("title", g).textContent = plain(a.name);
   make("path", g, { class: `l-${a.role}`, style: "fill:none", d: "M4.17 1.94A4.6 4.6 0 1 0 -4.17 1.94" });
   make("path", g, { class: `l-${a.role}-h`, d: "M-4.17 2.9L-5.6 -0.1L-3 0.3Z" });
@@ -140,7 +146,7 @@ function couple(parent: Element, a: Action & { t: "couple" }, paper: Paper): Sho
     update() {
       const [x, y] = paper.point(a.p), m = v[a.m];
       shown = Number.isFinite(m) && Math.abs(m) > 1e-9;
-      g.setAttribute("visibility", shown ? "visible" : "hidden");
+      g.setAttribute("display", shown ? "inline" : "none");
       l.el.setAttribute("visibility", shown ? "visible" : "hidden");
       g.setAttribute("transform", `translate(${short(x)} ${short(y)}) scale(${m < 0 ? -1 : 1} 1)`);
     },

@@ -189,6 +189,11 @@ export class Kernel {
     return this.here[this.here.length - 1];
   }
 
+  /** Whether every output is a number here, right or not. */
+  get finite(): boolean {
+    return this.here.every(Number.isFinite);
+  }
+
   get solved(): boolean {
     return NUMBERED.has(this.mark);
   }

@@ -4,10 +4,10 @@ import { type Point, place, text, width } from "./svg";
 
 type Box = [number, number, number, number];
 export interface Placed { el: SVGTextElement; text: string; size: number; bold: boolean; choice: number }
-export interface Wanted { label: Placed; anchor: Point; away?: Point; leave?: number }
+export interface Wanted { label: Placed; anchors: Point[]; away?: Point; leave?: number }
 
 const WAYS: Point[] = [[1, -1], [-1, -1], [1, 1], [-1, 1], [0, -1], [1, 0], [-1, 0], [0, 1]];
-const REACH = [1, 1.9, 3];
+const REACH = [1, 1.9, 3, 4.5];
 
 export function label(parent: Element, role: string, said: string, size: number): Placed {
   return { el: text(parent, role, said, size), text: said, size, bold: role === "title", choice: -1 };
@@ -15,43 +15,48 @@ export function label(parent: Element, role: string, said: string, size: number)
 
 /** Puts texts one after the other; lines and boxes to keep free are told first. */
 export class Placer {
-  private boxes: Box[] = [];
+  private texts: Box[] = [];
+  private discs: Box[] = [];
   private lines: [Point, Point][] = [];
   constructor(private readonly bounds: Box) {}
   line(a: Point, b: Point): void {
     this.lines.push([a, b]);
   }
   disc(at: Point, r: number): void {
-    this.boxes.push([at[0] - r, at[1] - r, at[0] + r, at[1] + r]);
+    this.discs.push([at[0] - r, at[1] - r, at[0] + r, at[1] + r]);
   }
   put(w: Wanted): void {
-    const { label: l, anchor } = w, wide = width(l.text, l.size, l.bold), high = l.size;
-    const leave = w.leave ?? 1.2;
-    let best = Infinity, chosen = 0, box: Box = [0, 0, 0, 0];
-    for (let n = 0; n < WAYS.length * REACH.length; n++) {
-      const [wx, wy] = WAYS[n % 8], r = leave * REACH[n >> 3];
-      const cx = anchor[0] + wx * (r + wide / 2), cy = anchor[1] + wy * (r + high / 2);
-      const b: Box = [cx - wide / 2, cy - high / 2, cx + wide / 2, cy + high / 2];
-      let cost = 0.12 * n - (n === l.choice ? 0.4 : 0);
-      if (w.away) cost += 1.2 * (1 - (wx * w.away[0] + wy * w.away[1]) / (Math.hypot(wx, wy) * (Math.hypot(...w.away) || 1)));
-      cost += this.cost(b);
-      if (cost < best) (best = cost), (chosen = n), (box = b);
-    }
+    const l = w.label, wide = width(l.text, l.size, l.bold) + 0.5, high = 1.1 * l.size + (l.text.includes("_") ? 0.3 * l.size : 0), leave = w.leave ?? 1.2;
+    const long = w.away ? Math.hypot(...w.away) || 1 : 1;
+    let best = Infinity, chosen = 0, box: Box = [0, 0, 0, 0], n = 0;
+    for (const [ax, ay] of w.anchors)
+      for (const reach of REACH)
+        for (const [wx, wy] of WAYS) {
+          const r = leave * reach, cx = ax + wx * (r + wide / 2), cy = ay + wy * (r + high / 2);
+          const b: Box = [cx - wide / 2, cy - high / 2, cx + wide / 2, cy + high / 2];
+          let cost = 0.12 * (n % 32) + 0.2 * Math.floor(n / 32) - (n === l.choice ? 0.4 : 0);
+          if (w.away) cost += 1.2 * (1 - (wx * w.away[0] + wy * w.away[1]) / (Math.hypot(wx, wy) * long));
+          if (cost < best && (cost += this.cost(b)) < best) (best = cost), (chosen = n), (box = b);
+          n++;
+        }
     l.choice = chosen;
-    this.boxes.push(box);
-    place(l.el, (box[0] + box[2]) / 2, (box[1] + box[3]) / 2 + 0.36 * l.size);
+    this.texts.push(box);
+    place(l.el, (box[0] + box[2]) / 2, box[1] + 0.91 * l.size);
   }
   private cost(b: Box): number {
     let cost = 0;
-    for (const o of this.boxes) {
-      const dx = Math.min(b[2], o[2]) - Math.max(b[0], o[0]), dy = Math.min(b[3], o[3]) - Math.max(b[1], o[1]);
-      if (dx > 0 && dy > 0) cost += 12 + dx * dy;
-    }
+    for (const o of this.texts) if (overlap(b, o) > 0) cost += 60 + 5 * overlap(b, o);
+    for (const o of this.discs) if (overlap(b, o) > 0) cost += 8 + overlap(b, o);
     for (const [p, q] of this.lines) if (crosses(b, p, q)) cost += 6;
     const [l, t, r, d] = this.bounds;
     if (b[0] < l || b[1] < t || b[2] > r || b[3] > d) cost += 20;
     return cost;
   }
+}
+
+function overlap(a: Box, b: Box): number {
+  const dx = Math.min(a[2], b[2]) - Math.max(a[0], b[0]), dy = Math.min(a[3], b[3]) - Math.max(a[1], b[1]);
+  return dx > 0 && dy > 0 ? dx * dy : 0;
 }
 
 /** Whether a line goes through a box (Liang and Barsky). */

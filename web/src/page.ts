@@ -1,6 +1,6 @@
 /** `mount(element, data)`: the page of one mechanism; the same for a file, a notebook and, later, a studio. */
 
-import { board } from "./board";
+import { board, heightFor } from "./board";
 import { chart, figures, polar, polygon } from "./charts";
 import type { Curve, Data } from "./data";
 import { handles } from "./handles";
@@ -19,6 +19,7 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
   if (data.format !== "dalembert-page/1") throw new Error(`this page cannot show data of the form ${data.format}`);
   const kernel = await Kernel.create(data), root = document.createElement("div");
   root.className = "dalembert";
+  kernel.cycle();
   const css = html("style", root);
   css.textContent = style + data.style.light + `@media (prefers-color-scheme:dark){${data.style.dark}}` + "@media print{" + data.style.light + "}";
   const history = new History(kernel), times: number[] = [];
@@ -45,7 +46,7 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
   for (const x of [playing, slider, readout]) x.hidden = kernel.count < 2;
 
   const stage = html("section", main, { class: "stage", "aria-label": "mechanism" });
-  const m = board(stage, kernel, data.views.mechanism, null, 170, 128, data.units, "the mechanism");
+  const m = board(stage, kernel, data.views.mechanism, null, 170, heightFor(kernel, data.views.mechanism, 170), data.units, "the mechanism");
   let picked: Curve | undefined = data.views.charts.flatMap((c) => c.curves).find((c) => data.gradient?.curves.includes(c.row));
   const gradients = new Gradients(m, data, kernel);
   const cloud = new Cloud(stage, m, data, kernel, data.handles.flatMap((h) => (h.kind === "joint" || h.kind === "point" ? [h.p] : [])));
@@ -71,7 +72,7 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
   const bodyBox = html("div", select.parentElement!);
   const bodies = data.views.bodies.map((b) => {
     const box = html("div", bodyBox, { class: "body" });
-    const drawn = board(box, kernel, b, b.about, 110, 84, data.units, `free body of ${b.title}`);
+    const drawn = board(box, kernel, b, b.about, 110, 100, data.units, `free body of ${b.title}`);
     return { box, drawn, sums: equations(box, data, kernel, b) };
   });
   const polygonBox = panelOf("Force polygon");
@@ -211,7 +212,7 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
   kernel.cycle();
   kernel.at(t);
   el.replaceChildren(root);
-  if (options.address && location.hash) m.fit();
+  m.fit();
   frame();
   inputs.update();
   return {

@@ -87,7 +87,7 @@ export class Arrow {
   set(tail: Point, tip: Point, least = 0.3): boolean {
     const dx = tip[0] - tail[0], dy = tip[1] - tail[1], length = Math.hypot(dx, dy);
     const shown = length > least && Number.isFinite(length);
-    this.g.setAttribute("visibility", shown ? "visible" : "hidden");
+    this.g.setAttribute("display", shown ? "inline" : "none");
     if (!shown) return false;
     const ux = dx / length, uy = dy / length, size = Math.min(3, 0.75 * length), side = 0.3 * size;
     const base: Point = [tip[0] - size * ux, tip[1] - size * uy];

@@ -16,7 +16,7 @@ export class Gradients {
   }
   update(curve: Curve | undefined): void {
     const g = this.data.gradient, k = this.kernel, place = curve && g ? g.curves.indexOf(curve.row) : -1;
-    if (!this.on || place < 0 || !g || !curve) return this.arrows.forEach((a) => a.arrow.set([0, 0], [0, 0]));
+    if (!this.on || place < 0 || !g || !curve || !k.solved) return this.arrows.forEach((a) => a.arrow.set([0, 0], [0, 0]));
     let peak = 0, most = -1;
     for (let c = 0; c < k.count; c++) if (k.good(c) && Math.abs(k.value(curve.row, c)) > most) (most = Math.abs(k.value(curve.row, c))), (peak = c);
     const slope = k.gradient(place, peak), sign = Math.sign(k.value(curve.row, peak)) || 1;

@@ -174,7 +174,8 @@ class Boards:
     def charts(self) -> list[Tree]:
         """Efforts and loads asked for, joint forces; each curve a row."""
         r, out, curves = self.known, list[Tree](), list[Tree]()
-        for drive in r.drives:
+        asked = [d for d, a in zip(r.drives, r.compiled.known.asked, strict=True) if a]
+        for drive in asked:
             row = self.rows.of(self.rows.r.effort(drive)[0])
             kind = drive_kinds(r, drive)["effort"]
             curve = {"row": row, "name": drive, "role": "effort", "of": f"effort.{drive}"}

@@ -49,8 +49,9 @@ def html_text(data: Tree) -> str:
         '<meta name="viewport" content="width=device-width,initial-scale=1">'
         f'<meta http-equiv="Content-Security-Policy" content="{POLICY}"><title>{escape(data["title"])}</title>'
         "<style>body{margin:0}@media(prefers-color-scheme:dark){html{background:#151b22;color-scheme:dark}}</style></head>"
-        f'<body><div id="page"></div><script type="application/json" id="data">{told}</script><script>{script}</script>'
-        '<script>dalembert.mount(document.getElementById("page"),'
+        f'<body><div id="mechanism"></div><script type="application/json" id="data">{told}</script>'
+        f"<script>{script}</script>"
+        '<script>dalembert.mount(document.getElementById("mechanism"),'
         'JSON.parse(document.getElementById("data").textContent),{address:true})'
-        '.then(p=>{window.page=p},e=>{document.getElementById("page").textContent=String(e)})</script></body></html>\n'
+        '.then(p=>{window.page=p},e=>{document.getElementById("mechanism").textContent=String(e)})</script></body></html>\n'
     )

@@ -53,8 +53,13 @@ class Items:
         self.roles |= writer.roles
         return out
 
-    def symbol(self, items: Sequence[Item], at: list[int], along: list[int] | None = None) -> Tree:
-        return {"t": "symbol", "svg": self.markup(items), "p": at} | ({"e": along} if along else {})
+    def symbol(
+        self, items: Sequence[Item], at: list[int], along: list[int] | None = None, sized: bool = False
+    ) -> Tree:
+        """A symbol at a place, along a direction; ``sized``: its lengths are those of the machine."""
+        more: Tree = {"e": along} if along else {}
+        more |= {"per_mm": self.frame.per_mm} if sized else {}
+        return {"t": "symbol", "svg": self.markup(items), "p": at} | more
 
     def path(self, kind: str, role: str, points: list[list[int]], **more: Any) -> Tree:
         self.roles.add(role)
@@ -158,7 +163,7 @@ def _slot(d: Items, name: str, link: str | None) -> list[Tree]:
     ground = plane_symbols.guide((middle, 0), 0.0, length + 8.0) if GROUND in joint.links else []
     start = d.rows.place(joint.links[0], d.mechanism.joint_points(name)[0])
     items = [*ground, *plane_symbols.slot((middle, 0), 0.0, length)]
-    return [d.symbol(items, start, d.rows.direction(name)), pin]
+    return [d.symbol(items, start, d.rows.direction(name), sized=True), pin]
 
 
 def _span(values: Array) -> tuple[float, float]:
@@ -182,7 +187,7 @@ def _circular_slot(d: Items, name: str, link: str | None) -> list[Tree]:
         (0.0, 0.0), radius, low - room, min(high + room, low - room + 2 * math.pi), GROUND in joint.links
     )
     start = d.rows.place(joint.links[0], d.mechanism.joint_points(name)[0])
-    return [d.symbol(items, start, d.rows.axis(joint.links[0])), pin]
+    return [d.symbol(items, start, d.rows.axis(joint.links[0]), sized=True), pin]
 
 
 def _weld(d: Items, name: str, link: str | None) -> list[Tree]:
@@ -195,7 +200,7 @@ def _wheels(d: Items, name: str, link: str | None) -> list[Tree]:
     for on, _, radius in wheel_paths(d.known, name, d.known.mechanism.joints[name])[::-1]:
         if link in (None, on):
             wheel = plane_symbols.wheel((0, 0), d.frame.length(radius), 0.0)
-            out.append(d.symbol(wheel, d.rows.place(on, points[on]), d.rows.axis(on)))
+            out.append(d.symbol(wheel, d.rows.place(on, points[on]), d.rows.axis(on), sized=True))
     if d.mechanism.joints[name].wheels == 1 and link is None:
         at = d.rows.vector(joint_place(d.r, name)[0])
         out.append(d.symbol(plane_symbols.hatch((0, 0), 0.0, 22.0), at, d.rows.direction(name)))

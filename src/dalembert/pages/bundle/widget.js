@@ -57,7 +57,7 @@ var d = class {
 	}
 	set(e, t, n = .3) {
 		let i = t[0] - e[0], a = t[1] - e[1], o = Math.hypot(i, a), s = o > n && Number.isFinite(o);
-		if (this.g.setAttribute("visibility", s ? "visible" : "hidden"), !s) return !1;
+		if (this.g.setAttribute("display", s ? "inline" : "none"), !s) return !1;
 		let c = i / o, l = a / o, u = Math.min(3, .75 * o), d = .3 * u, f = [t[0] - u * c, t[1] - u * l];
 		return this.shaft.setAttribute("d", r([e, [t[0] - .8 * u * c, t[1] - .8 * u * l]])), this.head.setAttribute("d", r([
 			t,
@@ -90,7 +90,8 @@ var p = [
 ], m = [
 	1,
 	1.9,
-	3
+	3,
+	4.5
 ];
 function h(e, t, n, r) {
 	return {
@@ -103,7 +104,8 @@ function h(e, t, n, r) {
 }
 var g = class {
 	bounds;
-	boxes = [];
+	texts = [];
+	discs = [];
 	lines = [];
 	constructor(e) {
 		this.bounds = e;
@@ -112,7 +114,7 @@ var g = class {
 		this.lines.push([e, t]);
 	}
 	disc(e, t) {
-		this.boxes.push([
+		this.discs.push([
 			e[0] - t,
 			e[1] - t,
 			e[0] + t,
@@ -120,35 +122,37 @@ var g = class {
 		]);
 	}
 	put(e) {
-		let { label: t, anchor: n } = e, r = l(t.text, t.size, t.bold), a = t.size, o = e.leave ?? 1.2, s = Infinity, c = 0, u = [
+		let t = e.label, n = l(t.text, t.size, t.bold) + .5, r = 1.1 * t.size + (t.text.includes("_") ? .3 * t.size : 0), a = e.leave ?? 1.2, o = e.away && Math.hypot(...e.away) || 1, s = Infinity, c = 0, u = [
 			0,
 			0,
 			0,
 			0
-		];
-		for (let i = 0; i < p.length * m.length; i++) {
-			let [l, d] = p[i % 8], f = o * m[i >> 3], h = n[0] + l * (f + r / 2), g = n[1] + d * (f + a / 2), _ = [
-				h - r / 2,
-				g - a / 2,
-				h + r / 2,
-				g + a / 2
-			], v = .12 * i - (i === t.choice ? .4 : 0);
-			e.away && (v += 1.2 * (1 - (l * e.away[0] + d * e.away[1]) / (Math.hypot(l, d) * (Math.hypot(...e.away) || 1)))), v += this.cost(_), v < s && (s = v, c = i, u = _);
+		], d = 0;
+		for (let [i, l] of e.anchors) for (let f of m) for (let [m, h] of p) {
+			let p = a * f, g = i + m * (p + n / 2), _ = l + h * (p + r / 2), v = [
+				g - n / 2,
+				_ - r / 2,
+				g + n / 2,
+				_ + r / 2
+			], y = d % 32 * .12 + .2 * Math.floor(d / 32) - (d === t.choice ? .4 : 0);
+			e.away && (y += 1.2 * (1 - (m * e.away[0] + h * e.away[1]) / (Math.hypot(m, h) * o))), y < s && (y += this.cost(v)) < s && (s = y, c = d, u = v), d++;
 		}
-		t.choice = c, this.boxes.push(u), i(t.el, (u[0] + u[2]) / 2, (u[1] + u[3]) / 2 + .36 * t.size);
+		t.choice = c, this.texts.push(u), i(t.el, (u[0] + u[2]) / 2, u[1] + .91 * t.size);
 	}
 	cost(e) {
 		let t = 0;
-		for (let n of this.boxes) {
-			let r = Math.min(e[2], n[2]) - Math.max(e[0], n[0]), i = Math.min(e[3], n[3]) - Math.max(e[1], n[1]);
-			r > 0 && i > 0 && (t += 12 + r * i);
-		}
-		for (let [n, r] of this.lines) _(e, n, r) && (t += 6);
+		for (let n of this.texts) _(e, n) > 0 && (t += 60 + 5 * _(e, n));
+		for (let n of this.discs) _(e, n) > 0 && (t += 8 + _(e, n));
+		for (let [n, r] of this.lines) v(e, n, r) && (t += 6);
 		let [n, r, i, a] = this.bounds;
 		return (e[0] < n || e[1] < r || e[2] > i || e[3] > a) && (t += 20), t;
 	}
 };
-function _(e, t, n) {
+function _(e, t) {
+	let n = Math.min(e[2], t[2]) - Math.max(e[0], t[0]), r = Math.min(e[3], t[3]) - Math.max(e[1], t[1]);
+	return n > 0 && r > 0 ? n * r : 0;
+}
+function v(e, t, n) {
 	let r = 0, i = 1, a = [n[0] - t[0], n[1] - t[1]];
 	for (let n = 0; n < 2; n++) {
 		if (Math.abs(a[n]) < 1e-9) {
@@ -161,7 +165,7 @@ function _(e, t, n) {
 	return r < i;
 }
 // src/items.ts
-var v = class {
+var y = class {
 	kernel;
 	perMm;
 	middle = [0, 0];
@@ -178,14 +182,14 @@ var v = class {
 		return [this.middle[0] + e[0] * this.perMm, this.middle[1] - e[1] * this.perMm];
 	}
 };
-function y(t, i, a) {
+function b(t, i, a) {
 	let o = a.kernel, s = o.here;
 	if (i.t === "symbol") {
-		let r = e("g", t);
+		let r = e("g", t, i.per_mm ? { class: "span" } : {});
 		return r.innerHTML = i.svg, {
 			update() {
-				let [e, t] = a.point(i.p), o = i.e ? ` rotate(${n(-Math.atan2(s[i.e[1]], s[i.e[0]]) * 180 / Math.PI)})` : "";
-				r.setAttribute("transform", `translate(${n(e)} ${n(t)})${o}`);
+				let [e, t] = a.point(i.p), o = i.per_mm ? ` scale(${(i.per_mm / a.perMm).toFixed(4)})` : "", c = i.e ? ` rotate(${n(-Math.atan2(s[i.e[1]], s[i.e[0]]) * 180 / Math.PI)})` : "";
+				r.setAttribute("transform", `translate(${n(e)} ${n(t)})${c}${o}`);
 			},
 			mark: (e) => e.disc(a.point(i.p), 1.6)
 		};
@@ -211,7 +215,7 @@ function y(t, i, a) {
 		class: `l-${i.role}`,
 		style: "fill:none"
 	});
-	if (i.t === "trace") return { update: () => c.setAttribute("d", b(o, a, i.p[0])) };
+	if (i.t === "trace") return { update: () => c.setAttribute("d", x(o, a, i.p[0])) };
 	let l = () => i.p.map((e) => a.point(e)), u = (e) => {
 		let t = i.t === "hull" ? f(l()) : l();
 		for (let n = 0; n + 1 < t.length; n++) e.line(t[n], t[n + 1]);
@@ -228,7 +232,7 @@ function y(t, i, a) {
 		mark: u
 	});
 }
-function b(e, t, r) {
+function x(e, t, r) {
 	let i = "", a = !1;
 	for (let o = 0; o <= e.count; o++) {
 		let s = o < e.count ? o : 0;
@@ -241,11 +245,11 @@ function b(e, t, r) {
 	}
 	return i;
 }
-function x(e, t, n, r, i) {
-	return t.t === "force" ? S(e, t, n, r, i) : w(e, t, n);
-}
 function S(e, t, n, r, i) {
-	let a = n.kernel.here, o = new d(e, t.role, t.name), s = h(e, t.role, t.name, 3), c = [0, 0], l = [0, 0], u = [0, 0], f = !1;
+	return t.t === "force" ? C(e, t, n, r, i) : T(e, t, n);
+}
+function C(e, t, n, r, i) {
+	let a = n.kernel.here, o = new d(e, t.role, t.name), s = h(e, t.role, t.name, 3.4), c = [0, 0], l = [0, 0], u = [0, 0], f = !1;
 	return {
 		label: s,
 		update() {
@@ -257,12 +261,20 @@ function S(e, t, n, r, i) {
 			[c, l] = m ? [[e[0] - p[0], e[1] - p[1]], e] : [e, [e[0] + p[0], e[1] + p[1]]], u = m ? c : l, f = o.set(c, l), s.el.setAttribute("visibility", f ? "visible" : "hidden");
 		},
 		mark: (e) => f && e.line(c, l),
-		anchor: () => f ? [u, [u[0] - (u === c ? l : c)[0], u[1] - (u === c ? l : c)[1]]] : null
+		anchor() {
+			if (!f) return null;
+			let e = u === c ? l : c, t = [u[0] - e[0], u[1] - e[1]];
+			return [
+				u,
+				[u[0] - .35 * t[0], u[1] - .35 * t[1]],
+				t
+			];
+		}
 	};
 }
-var C = 4.6;
-function w(t, r, i) {
-	let a = i.kernel.here, s = e("g", t), c = h(t, r.role, r.name, 3);
+var w = 4.6;
+function T(t, r, i) {
+	let a = i.kernel.here, s = e("g", t), c = h(t, r.role, r.name, 3.4);
 	e("title", s).textContent = o(r.name), e("path", s, {
 		class: `l-${r.role}`,
 		style: "fill:none",
@@ -276,19 +288,19 @@ function w(t, r, i) {
 		label: c,
 		update() {
 			let [e, t] = i.point(r.p), o = a[r.m];
-			l = Number.isFinite(o) && Math.abs(o) > 1e-9, s.setAttribute("visibility", l ? "visible" : "hidden"), c.el.setAttribute("visibility", l ? "visible" : "hidden"), s.setAttribute("transform", `translate(${n(e)} ${n(t)}) scale(${o < 0 ? -1 : 1} 1)`);
+			l = Number.isFinite(o) && Math.abs(o) > 1e-9, s.setAttribute("display", l ? "inline" : "none"), c.el.setAttribute("visibility", l ? "visible" : "hidden"), s.setAttribute("transform", `translate(${n(e)} ${n(t)}) scale(${o < 0 ? -1 : 1} 1)`);
 		},
 		mark(e) {
-			l && e.disc(i.point(r.p), C * .7);
+			l && e.disc(i.point(r.p), w * .7);
 		},
 		anchor() {
 			let [e, t] = i.point(r.p);
-			return l ? [[e, t - C], [0, -1]] : null;
+			return l ? [[e, t - w], [0, -1]] : null;
 		}
 	};
 }
 // src/board.ts
-var T = [
+var E = [
 	1,
 	1.25,
 	1.5,
@@ -301,29 +313,37 @@ var T = [
 	8,
 	10
 ];
-function E(e) {
+function D(e) {
 	if (!(e > 0) || !Number.isFinite(e)) return 1;
 	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
-	return t * (T.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
+	return t * (E.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
 }
-function D(t, n, r, i) {
+function O(e, t, n) {
+	let r = t.items.flatMap((e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" ? [e.p] : []), i = [0, 1].map((t) => {
+		let n = Infinity, i = -Infinity;
+		for (let a of r) for (let r = 0; r < e.count; r++) e.good(r) && (n = Math.min(n, e.value(a[t], r)), i = Math.max(i, e.value(a[t], r)));
+		return i - n;
+	}), a = i[1] / i[0];
+	return Number.isFinite(a) ? Math.min(Math.max(n * a * 1.05, 96), 150) : 120;
+}
+function k(t, n, r, i) {
 	return e("svg", t, {
 		viewBox: `${-n / 2} ${-r / 2} ${n} ${r}`,
 		role: "img",
 		"aria-label": i
 	});
 }
-function O(t, n, r, i, a, o, s, c) {
+function A(t, n, r, i, a, o, s, c) {
 	let l = {
 		length: s.length.size,
 		force: s.force.size
-	}, u = D(t, a, o, c), d = new v(n, r.per_mm), f = [], p = [], m = [], _ = [], b = r.force;
+	}, u = k(t, a, o, c), d = new y(n, r.per_mm), f = [], p = [], m = [], _ = [], v = r.force;
 	r.middle && (d.middle = r.middle);
-	let S = e("g", u), C = e("g", u), w = e("g", u);
-	for (let e of r.items) (e.t === "trace" ? f : p).push(y(S, e, d));
-	for (let e of r.arrows) m.push(x(C, e, d, () => b, i ?? void 0));
+	let x = e("g", u), C = e("g", u), w = e("g", u);
+	for (let e of r.items) (e.t === "trace" ? f : p).push(b(x, e, d));
+	for (let e of r.arrows) m.push(S(C, e, d, () => v, i ?? void 0));
 	for (let e of r.labels) _.push({
-		l: h(w, e.role, e.text, e.kind === "joint" ? 3.4 : 3),
+		l: h(w, e.role, e.text, e.kind === "joint" ? 3.8 : 3.3),
 		p: e.p,
 		q: e.q
 	});
@@ -332,66 +352,71 @@ function O(t, n, r, i, a, o, s, c) {
 		"font-size": 2.8,
 		x: -a / 2 + 2,
 		y: o / 2 - 2
-	}), O = [
+	}), E = [
 		-a / 2,
 		-o / 2,
 		a / 2,
 		o / 2 - 4
-	], k = (e) => [Math.min(...e), Math.max(...e)];
+	], O = (e) => [Math.min(...e), Math.max(...e)];
 	function A() {
 		if (!i) return;
-		let e = n.here, [t, r] = k(i.map((t) => e[t[0]])), [a, o] = k(i.map((t) => e[t[1]]));
+		let e = n.here, [t, r] = O(i.map((t) => e[t[0]])), [a, o] = O(i.map((t) => e[t[1]]));
 		Number.isFinite(t + r + a + o) && (d.middle = [(t + r) / 2, (a + o) / 2]);
 	}
 	function j() {
 		let e = [], t = [], s = i ?? r.items.flatMap((e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" ? [e.p] : []), c = Math.max(1, Math.floor(n.count / 72));
 		for (let r of s) for (let a = 0; a < n.count; a += i ? n.count : c) (i || n.good(a)) && (e.push(i ? n.here[r[0]] : n.value(r[0], a)), t.push(i ? n.here[r[1]] : n.value(r[1], a)));
 		if (e.length) {
-			let [n, s] = k(e), [c, u] = k(t), f = i ? [46, 40] : [a * .7, o * .68], p = Math.max((s - n) / f[0], (u - c) / f[1]) || r.per_mm;
-			i || (d.middle = [(n + s) / 2, (c + u) / 2]), d.perMm = E(p / l.length) * l.length;
+			let [n, s] = O(e), [c, u] = O(t), f = i ? [46, 40] : [a * .76, o * .74], p = Math.max((s - n) / f[0], (u - c) / f[1]) || r.per_mm;
+			i || (d.middle = [(n + s) / 2, (c + u) / 2]), d.perMm = D(p / l.length) * l.length;
 		}
 		let u = 0;
 		for (let e of r.arrows) if (e.t === "force") for (let t = 0; t < n.count; t++) n.good(t) && (u = Math.max(u, Math.hypot(n.value(e.f[0], t), n.value(e.f[1], t))));
-		u > 0 && (b = E(u / (i ? 26 : 22) / l.force) * l.force);
+		u > 0 && (v = D(u / (i ? 26 : 22) / l.force) * l.force);
 	}
 	let M = {
 		svg: u,
 		paper: d,
 		fit: j,
-		force: () => b,
+		force: () => v,
 		names: r.labels.filter((e) => e.kind === "joint").length <= 8,
 		update(e) {
-			A(), e && f.forEach((e) => e.update()), p.forEach((e) => e.update()), m.forEach((e) => e.update());
-			let t = new g(O);
+			if (e && f.forEach((e) => e.update()), C.setAttribute("visibility", n.solved ? "visible" : "hidden"), !n.finite) return;
+			A(), p.forEach((e) => e.update()), m.forEach((e) => e.update());
+			let t = new g(E);
 			p.forEach((e) => e.mark?.(t)), m.forEach((e) => e.mark?.(t));
 			for (let { l: e, p: n, q: r } of _) {
 				let i = M.names || !!r;
 				if (e.el.setAttribute("visibility", i ? "visible" : "hidden"), !i) continue;
-				let a = d.point(n), o = r ? d.point(r) : a, s = [(a[0] + o[0]) / 2, (a[1] + o[1]) / 2];
+				let a = d.point(n), o = r ? d.point(r) : a, s = (r ? [
+					.5,
+					.35,
+					.65
+				] : [0]).map((e) => [a[0] + e * (o[0] - a[0]), a[1] + e * (o[1] - a[1])]);
 				t.put({
 					label: e,
-					anchor: s,
-					away: r ? void 0 : s,
+					anchors: s,
+					away: r ? void 0 : a,
 					leave: r ? .8 : 1.3
 				});
 			}
 			for (let e of m) {
-				let n = e.anchor();
-				n && t.put({
+				let r = n.solved ? e.anchor() : null;
+				r ? t.put({
 					label: e.label,
-					anchor: n[0],
-					away: n[1],
+					anchors: r.slice(0, -1),
+					away: r[r.length - 1],
 					leave: .9
-				});
+				}) : e.label.el.setAttribute("visibility", "hidden");
 			}
-			T.textContent = `1 mm = ${+(d.perMm / l.length).toPrecision(4)} ${s.length.unit}, ${+(b / l.force).toPrecision(4)} ${s.force.unit}`;
+			T.textContent = `1 mm = ${+(d.perMm / l.length).toPrecision(4)} ${s.length.unit}, ${+(v / l.force).toPrecision(4)} ${s.force.unit}`;
 		}
 	};
 	return M;
 }
 // src/charts.ts
-var k = 120, A = 52;
-function j(e, t, n) {
+var j = 120, M = 52;
+function N(e, t, n) {
 	let r = (t - e) / n, i = 10 ** Math.floor(Math.log10(r || 1)), a = i * ([
 		1,
 		2,
@@ -401,95 +426,95 @@ function j(e, t, n) {
 	for (let n = Math.ceil(e / a - 1e-9); n * a <= t * (1 + 1e-12) + 1e-9 * a; n++) o.push(n * a);
 	return o;
 }
-var M = (e, t = 4) => Number.isFinite(e) ? String(+e.toPrecision(t)).replace("-", "−") : "–";
-function N(r, i, o, s, c, l, u, d) {
-	let f = t("figure", r, { class: "chart" }), p = i.units[s.kind] ?? {
+var P = (e, t = 4) => Number.isFinite(e) ? String(+e.toPrecision(t)).replace("-", "−") : "–";
+function ee(r, i, o, s, c, u, d, f) {
+	let p = t("figure", r, { class: "chart" }), m = i.units[s.kind] ?? {
 		unit: "",
 		size: 1
 	};
-	t("figcaption", f, {}, `${s.title}, ${p.unit}`);
-	let m = D(f, k, A, s.title), h = e("path", m, {
+	t("figcaption", p, {}, `${s.title}, ${m.unit}`);
+	let h = Math.min(Math.max(...s.curves.map((e) => l(e.name, 3))) + 4, 36), g = k(p, j, M, s.title), _ = 104 - h, v = e("path", g, {
 		class: "l-grid",
 		style: "fill:none"
-	}), g = e("path", m, {
+	}), y = e("path", g, {
 		class: "l-axis",
 		style: "fill:none"
-	}), _ = e("g", m), v = s.curves.map((t) => e("path", m, {
+	}), b = e("g", g), x = s.curves.map((t) => e("path", g, {
 		class: `l-${t.role}`,
 		style: "fill:none"
-	})), y = e("path", m, { class: "cursor" }), b = s.curves.map((t) => e("circle", m, {
+	})), S = e("path", g, { class: "cursor" }), C = s.curves.map((t) => e("circle", g, {
 		class: `l-${t.role}-h`,
 		r: .9
-	})), x = i.drives[0], S = Math.max(o.count - 1, 1), C = s.curves.map((t, n) => {
-		let r = e("text", m, {
+	})), w = i.drives[0], T = Math.max(o.count - 1, 1), E = s.curves.map((t, n) => {
+		let r = e("text", g, {
 			class: `l-${t.role}-t key`,
 			"font-size": 3,
-			x: 44,
+			x: -44 + _ + 2,
 			y: -18 + 4 * n,
 			tabindex: 0,
 			role: "button"
 		});
-		return a(r, t.name, 3), e("title", r).textContent = "show what lowers its peak", r.addEventListener("click", () => u(t)), r.addEventListener("keydown", (e) => e.key === "Enter" && u(t)), r;
-	}), w = (e) => e, T = (e) => -44 + e / S * 86;
-	function E() {
+		return a(r, t.name, 3), e("title", r).textContent = "show what lowers its peak", r.addEventListener("click", () => d(t)), r.addEventListener("keydown", (e) => e.key === "Enter" && d(t)), r;
+	}), D = (e) => e, O = (e) => -44 + e / T * _;
+	function A() {
 		let t = Infinity, r = -Infinity;
 		for (let e of s.curves) for (let n = 0; n < o.count; n++) if (o.good(n)) {
-			let i = o.value(e.row, n) / p.size;
+			let i = o.value(e.row, n) / m.size;
 			t = Math.min(t, i), r = Math.max(r, i);
 		}
 		t <= r || ([t, r] = [0, 1]), t > 0 && t < .4 * r && (t = 0), r < 0 && r > .4 * t && (r = 0), r - t < 1e-9 * Math.max(Math.abs(r), 1e-9) && ([t, r] = [Math.min(t, 0), Math.max(r, 0) || 1]);
-		let i = j(t, r, 4), a = .04 * (r - t);
-		[t, r] = [t - a, r + a], w = (e) => 18 - (e / p.size - t) / (r - t) * 39, _.replaceChildren();
+		let i = N(t, r, 4), a = .04 * (r - t);
+		[t, r] = [t - a, r + a], D = (e) => 18 - (e / m.size - t) / (r - t) * 39, b.replaceChildren();
 		let c = "";
-		for (let t of i) c += `M-44 ${n(w(t * p.size))}h86`, e("text", _, {
+		for (let t of i) c += `M-44 ${n(D(t * m.size))}h${_}`, e("text", b, {
 			class: "l-note-t",
 			"font-size": 2.6,
 			"text-anchor": "end",
 			x: -45.2,
-			y: w(t * p.size) + .9
-		}).textContent = M(t, 5);
-		if (x) {
-			let t = [0, S].map((e) => o.position(x.name, e) / x.size);
-			for (let r of j(Math.min(...t), Math.max(...t), 5)) {
-				let i = -44 + (r - t[0]) / (t[1] - t[0] || 1) * 86;
-				c += `M${n(i)} -21v39`, e("text", _, {
+			y: D(t * m.size) + .9
+		}).textContent = P(t, 5);
+		if (w) {
+			let t = [0, T].map((e) => o.position(w.name, e) / w.size);
+			for (let r of N(Math.min(...t), Math.max(...t), 5)) {
+				let i = -44 + (r - t[0]) / (t[1] - t[0] || 1) * _;
+				c += `M${n(i)} -21v39`, e("text", b, {
 					class: "l-note-t",
 					"font-size": 2.6,
 					"text-anchor": "middle",
 					x: i,
 					y: 21.4
-				}).textContent = M(r, 5) + (x.unit === "°" ? "°" : "");
+				}).textContent = P(r, 5) + (w.unit === "°" ? "°" : "");
 			}
-			e("text", _, {
+			e("text", b, {
 				class: "l-note-t",
 				"font-size": 2.6,
 				"text-anchor": "end",
-				x: 42,
+				x: -44 + _,
 				y: 24.6
-			}).textContent = `${x.name}, ${x.unit}`;
+			}).textContent = `${w.name}, ${w.unit}`;
 		}
-		h.setAttribute("d", c), g.setAttribute("d", "M-44 -21v39" + (t < 0 && r > 0 ? `M-44 ${n(w(0))}h86` : "")), v.forEach((e, t) => e.setAttribute("d", O((e) => T(e), (e) => w(o.value(s.curves[t].row, e)))));
+		v.setAttribute("d", c), y.setAttribute("d", "M-44 -21v39" + (t < 0 && r > 0 ? `M-44 ${n(D(0))}h${_}` : "")), x.forEach((e, t) => e.setAttribute("d", ee((e) => O(e), (e) => D(o.value(s.curves[t].row, e)))));
 	}
-	function O(e, t) {
+	function ee(e, t) {
 		let r = "", i = !1;
 		for (let a = 0; a < o.count; a++) o.good(a) && (r += `${i ? "L" : "M"}${n(e(a))} ${n(t(a))}`), i = o.good(a);
 		return r;
 	}
-	let N = (e) => {
-		l((new DOMPoint(e.clientX, e.clientY).matrixTransform(m.getScreenCTM().inverse()).x - -44) / 86 * S);
+	let F = (e) => {
+		u((new DOMPoint(e.clientX, e.clientY).matrixTransform(g.getScreenCTM().inverse()).x - -44) / _ * T);
 	};
-	return m.addEventListener("pointerdown", (e) => {
-		e.target.closest(".key") || (m.setPointerCapture(e.pointerId), N(e));
-	}), m.addEventListener("pointermove", (e) => e.buttons && m.hasPointerCapture(e.pointerId) && N(e)), { update(e) {
-		e && E();
-		let t = Math.min(c(), S);
-		y.setAttribute("d", `M${n(T(t))} -21v39`), s.curves.forEach((e, r) => {
-			b[r].setAttribute("cx", n(T(t))), b[r].setAttribute("cy", n(w(o.here[e.row]))), b[r].setAttribute("visibility", o.solved ? "visible" : "hidden"), C[r].classList.toggle("picked", d() === e);
+	return g.addEventListener("pointerdown", (e) => {
+		e.target.closest(".key") || (g.setPointerCapture(e.pointerId), F(e));
+	}), g.addEventListener("pointermove", (e) => e.buttons && g.hasPointerCapture(e.pointerId) && F(e)), { update(e) {
+		e && A();
+		let t = Math.min(c(), T);
+		S.setAttribute("d", `M${n(O(t))} -21v39`), s.curves.forEach((e, r) => {
+			C[r].setAttribute("visibility", o.solved ? "visible" : "hidden"), o.solved && (C[r].setAttribute("cx", n(O(t))), C[r].setAttribute("cy", n(D(o.here[e.row])))), E[r].classList.toggle("picked", f() === e);
 		});
 	} };
 }
-function ee(r, i, a, o) {
-	let s = t("figure", r, { class: "polar" }), c = t("figcaption", s, {}, `Joint ${a.name}`), l = D(s, 66, 66, `polar diagram of joint ${a.name}`), u = e("path", l, {
+function F(r, i, a, o) {
+	let s = t("figure", r, { class: "polar" }), c = t("figcaption", s, {}, `Joint ${a.name}`), l = k(s, 66, 66, `polar diagram of joint ${a.name}`), u = e("path", l, {
 		class: "l-grid",
 		style: "fill:none"
 	}), f = e("path", l, {
@@ -501,10 +526,10 @@ function ee(r, i, a, o) {
 		if (e) {
 			let e = 0;
 			for (let n = 0; n < i.count; n++) i.good(n) && (e = Math.max(e, Math.hypot(i.value(t, n), i.value(r, n))));
-			m = E(e / 28 / o.size) * o.size || o.size;
+			m = D(e / 28 / o.size) * o.size || o.size;
 			let s = "", l = !1;
 			for (let e = 0; e < i.count; e++) i.good(e) && (s += `${l ? "L" : "M"}${n(i.value(t, e) / m)} ${n(-i.value(r, e) / m)}`), l = i.good(e);
-			f.setAttribute("d", s + (i.cyclic && s && !s.slice(1).includes("M") ? "Z" : "")), u.setAttribute("d", "M-30 0H30M0 -30V30M15 0A15 15 0 1 0 -15 0A15 15 0 1 0 15 0M30 0A30 30 0 1 0 -30 0A30 30 0 1 0 30 0"), c.textContent = `Joint ${a.name}: 1 mm = ${M(m / o.size)} ${o.unit}`;
+			f.setAttribute("d", s + (i.cyclic && s && !s.slice(1).includes("M") ? "Z" : "")), u.setAttribute("d", "M-30 0H30M0 -30V30M15 0A15 15 0 1 0 -15 0A15 15 0 1 0 15 0M30 0A30 30 0 1 0 -30 0A30 30 0 1 0 30 0"), c.textContent = `Joint ${a.name}: 1 mm = ${P(m / o.size)} ${o.unit}`;
 		}
 		let s = i.here;
 		p.set([0, 0], i.solved ? [s[t] / m, -s[r] / m] : [0, 0]);
@@ -513,7 +538,7 @@ function ee(r, i, a, o) {
 function te(n, i, a, o) {
 	let s = t("figure", n, { class: "polygon" }), c = i.units.force;
 	t("figcaption", s, {}, `Force polygon of link ${o.title}`);
-	let l = D(s, 110, 80, `force polygon of link ${o.title}`), u = e("g", l), f = o.sides.map((e) => new d(l, e.role, e.name)), p = o.sides.map((e) => h(u, e.role, e.name, 3)), m = e("path", l, {
+	let l = k(s, 110, 80, `force polygon of link ${o.title}`), u = e("g", l), f = o.sides.map((e) => new d(l, e.role, e.name)), p = o.sides.map((e) => h(u, e.role, e.name, 3)), m = e("path", l, {
 		class: "l-gap",
 		style: "fill:none"
 	}), _ = e("text", l, {
@@ -525,51 +550,52 @@ function te(n, i, a, o) {
 	return {
 		figure: s,
 		update() {
+			if (l.setAttribute("visibility", a.solved ? "visible" : "hidden"), !a.solved) return;
 			let e = a.here, t = [[0, 0]];
 			for (let n of o.sides) {
 				let [r, i] = t[t.length - 1], a = n.t === "force" ? n.f : [0, 0];
 				t.push([r + e[a[0]], i - e[a[1]]]);
 			}
-			let n = t.map((e) => e[0]), i = t.map((e) => e[1]), [s, l, u, d] = [
+			let n = t.map((e) => e[0]), i = t.map((e) => e[1]), [s, u, d, h] = [
 				Math.min(...n),
 				Math.max(...n),
 				Math.min(...i),
 				Math.max(...i)
-			], h = E(Math.max((l - s) / 66, (d - u) / 48) / c.size) * c.size, v = t.map(([e, t]) => [(e - (s + l) / 2) / h, (t - (u + d) / 2) / h]), y = new g([
+			], v = D(Math.max((u - s) / 66, (h - d) / 48) / c.size) * c.size, y = t.map(([e, t]) => [(e - (s + u) / 2) / v, (t - (d + h) / 2) / v]), b = new g([
 				-55,
 				-40,
 				55,
 				36
 			]);
-			for (let e = 0; e + 1 < v.length; e++) y.line(v[e], v[e + 1]);
+			for (let e = 0; e + 1 < y.length; e++) b.line(y[e], y[e + 1]);
 			f.forEach((e, t) => {
-				let n = e.set(v[t], v[t + 1]);
+				let n = e.set(y[t], y[t + 1]);
 				if (p[t].el.setAttribute("visibility", n ? "visible" : "hidden"), !n) return;
-				let r = [(v[t][0] + v[t + 1][0]) / 2, (v[t][1] + v[t + 1][1]) / 2];
-				y.put({
+				let r = [(y[t][0] + y[t + 1][0]) / 2, (y[t][1] + y[t + 1][1]) / 2];
+				b.put({
 					label: p[t],
-					anchor: r,
+					anchors: [r],
 					away: r,
 					leave: .9
 				});
-			}), m.setAttribute("d", r([v[0], v[v.length - 1]])), _.textContent = `1 mm = ${M(h / c.size)} ${c.unit}`;
+			}), m.setAttribute("d", r([y[0], y[y.length - 1]])), _.textContent = `1 mm = ${P(v / c.size)} ${c.unit}`;
 		}
 	};
 }
 // src/handles.ts
 function ne(t, n, r, i, a) {
-	let o = e("g", t.svg, { class: "handles" }), s = n.handles.map((e) => P(o, t, e, r, i, a));
-	return L(t, n, r, i), () => s.forEach((e) => e());
+	let o = e("g", t.svg, { class: "handles" }), s = n.handles.map((e) => ae(o, t, e, r, i, a));
+	return oe(t, n, r, i), () => r.finite && s.forEach((e) => e());
 }
 function re(e, t, n, r, i) {
 	let [a, o, s, c] = n;
 	e.values[t.n[0]] = s * (r - a) + c * (i - o), e.values[t.n[1]] = s * (i - o) - c * (r - a);
 }
 var ie = (e, t) => [...t.at, ...t.e].map((t) => e.here[t]);
-function ae(e) {
+function I(e) {
 	return e.kind === "load" ? [...e.components ?? [], ...[e.size, e.direction].filter((e) => e !== void 0)] : e.kind === "direction" ? [e.direction] : e.ends.flatMap((e) => e.n);
 }
-function P(t, n, r, i, a, o) {
+function ae(t, n, r, i, a, o) {
 	let s = `${{
 		joint: "joint",
 		point: "point",
@@ -598,22 +624,22 @@ function P(t, n, r, i, a, o) {
 		if ("ends" in r) r.ends.forEach((e, r) => re(i, e, d[r], t, n));
 		else {
 			let [t, n] = d[0], a = l.point(r.p), s = e[0] - a[0], c = a[1] - e[1], u = [t * s + n * c, t * c - n * s];
-			r.kind === "direction" ? i.values[r.direction] = F(Math.atan2(u[1], u[0]), i.values[r.direction]) : r.components ? r.components.forEach((e, t) => i.values[e] = u[t] * o()) : g(r, u);
+			r.kind === "direction" ? i.values[r.direction] = L(Math.atan2(u[1], u[0]), i.values[r.direction]) : r.components ? r.components.forEach((e, t) => i.values[e] = u[t] * o()) : g(r, u);
 		}
 		a.changed();
 	}, g = (e, t) => {
 		let n = i.values, r = Math.hypot(...t) * o(), a = Math.sign(n[e.size]) || 1;
-		if (e.direction !== void 0) n[e.direction] = F(Math.atan2(a * t[1], a * t[0]), n[e.direction]), n[e.size] = a * r;
+		if (e.direction !== void 0) n[e.direction] = L(Math.atan2(a * t[1], a * t[0]), n[e.direction]), n[e.size] = a * r;
 		else {
 			let r = [u[e.f[0]], u[e.f[1]]], [i, s] = d[0], c = [i * r[0] + s * r[1], i * r[1] - s * r[0]], l = Math.hypot(...c) || 1;
 			n[e.size] = a * (t[0] * c[0] + t[1] * c[1]) * o() / l;
 		}
 	}, _ = () => {
-		f && a.finished(ae(r)), f = !1;
+		f && a.finished(I(r)), f = !1;
 	};
 	return c.addEventListener("pointerdown", (e) => {
 		e.stopPropagation(), c.setPointerCapture(e.pointerId), m();
-	}), c.addEventListener("pointermove", (e) => f && h(I(n, e))), c.addEventListener("pointerup", _), c.addEventListener("pointercancel", _), c.addEventListener("keydown", (e) => {
+	}), c.addEventListener("pointermove", (e) => f && h(R(n, e))), c.addEventListener("pointerup", _), c.addEventListener("pointercancel", _), c.addEventListener("keydown", (e) => {
 		let t = {
 			ArrowLeft: [-1, 0],
 			ArrowRight: [1, 0],
@@ -630,16 +656,16 @@ function P(t, n, r, i, a, o) {
 		c.setAttribute("visibility", Number.isFinite(e + t) ? "visible" : "hidden"), c.setAttribute("cx", e.toFixed(2)), c.setAttribute("cy", t.toFixed(2));
 	};
 }
-var F = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI));
-function I(e, t) {
+var L = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI));
+function R(e, t) {
 	let n = new DOMPoint(t.clientX, t.clientY).matrixTransform(e.svg.getScreenCTM().inverse());
 	return [n.x, n.y];
 }
-function L(e, t, n, r) {
+function oe(e, t, n, r) {
 	let i = t.drives[0];
 	if (!i || n.count < 2) return;
 	let a = 0, o = 0, s = !1, c = (t) => {
-		let n = I(e, t), r = e.paper.point(i.p);
+		let n = R(e, t), r = e.paper.point(i.p);
 		return i.turns ? Math.atan2(r[1] - n[1], n[0] - r[0]) : 0;
 	};
 	e.svg.addEventListener("pointerdown", (t) => {
@@ -651,30 +677,30 @@ function L(e, t, n, r) {
 		]);
 	}), e.svg.addEventListener("pointermove", (e) => {
 		if (!s) return;
-		let t = (n.position(i.name, n.count - 1) - n.position(i.name, 0)) / (n.count - 1), l = c(e), u = o + F(l - a, 0) / t;
+		let t = (n.position(i.name, n.count - 1) - n.position(i.name, 0)) / (n.count - 1), l = c(e), u = o + L(l - a, 0) / t;
 		n.cyclic && (u = (u % n.count + n.count) % n.count), [a, o] = [l, u], r.seek(u);
 	}), e.svg.addEventListener("pointerup", () => s = !1);
 }
 // src/kernel.ts
-var R = /* @__PURE__ */ new Set([
+var z = /* @__PURE__ */ new Set([
 	0,
 	9,
 	12,
 	13
 ]);
-function z(e) {
+function B(e) {
 	return Uint8Array.from(atob(e), (e) => e.charCodeAt(0));
 }
-function B(e) {
-	if (typeof e == "string") return new Float64Array(z(e).buffer);
+function V(e) {
+	if (typeof e == "string") return new Float64Array(B(e).buffer);
 	let t = (e.to - e.from) / Math.max(e.count - 1, 1);
 	return Float64Array.from({ length: e.count }, (n, r) => r === e.count - 1 ? e.to : e.from + r * t);
 }
-async function oe(e) {
-	let t = new Blob([z(e)]).stream().pipeThrough(new DecompressionStream("deflate"));
+async function se(e) {
+	let t = new Blob([B(e)]).stream().pipeThrough(new DecompressionStream("deflate"));
 	return new Response(t).arrayBuffer();
 }
-var V = class e {
+var H = class e {
 	run;
 	values;
 	path;
@@ -692,18 +718,18 @@ var V = class e {
 		o > t.buffer.byteLength && t.grow(Math.ceil((o - t.buffer.byteLength) / 65536)), [this.values, this.path, this.out] = a.map((e, n) => new Float64Array(t.buffer, this.places[n], e));
 	}
 	static async create(t, n) {
-		let { instance: r } = await WebAssembly.instantiate(await oe(t.wasm)), { memory: i, run: a } = r.exports;
+		let { instance: r } = await WebAssembly.instantiate(await se(t.wasm)), { memory: i, run: a } = r.exports;
 		return new e(a, i, t, n, t.row);
 	}
 	call(e) {
 		this.run(this.places[0], this.places[1], this.places[2], Math.ceil(e / 2));
 	}
-}, H = class {
+}, U = class {
 	table;
 	breaks;
 	pieces;
 	constructor(e) {
-		this.table = e, this.breaks = B(e.breaks), this.pieces = B(e.pieces);
+		this.table = e, this.breaks = V(e.breaks), this.pieces = V(e.pieces);
 	}
 	at(e) {
 		let { breaks: t, pieces: n } = this, r = t.length - 1, { period: i, order: a } = this.table, o = t[0], s = i ? o + ((e - o) % i + i) % i : Math.min(Math.max(e, o), t[r]), c = 0, l = r - 1;
@@ -715,7 +741,7 @@ var V = class e {
 		for (let e = 0; e < a; e++) u = u * (s - t[c]) + n[e * r + c];
 		return u;
 	}
-}, se = class e {
+}, ce = class e {
 	data;
 	whole;
 	one;
@@ -729,9 +755,9 @@ var V = class e {
 	positions;
 	channels;
 	constructor(e, t, n, r) {
-		this.data = e, this.whole = t, this.one = n, this.slope = r, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.here = new Float64Array(e.kernel.outputs + 1), this.positions = new Map(e.drives.map((e) => [e.name, B(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
-			values: B(e.values),
-			pieces: e.table && new H(e.table),
+		this.data = e, this.whole = t, this.one = n, this.slope = r, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.here = new Float64Array(e.kernel.outputs + 1), this.positions = new Map(e.drives.map((e) => [e.name, V(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
+			values: V(e.values),
+			pieces: e.table && new U(e.table),
 			drive: e.table ? e.table.drive : e.name.replace(/^position /, "")
 		}])), e.kernel.channels.forEach((e, n) => {
 			let r = this.channels.get(e).values;
@@ -743,9 +769,9 @@ var V = class e {
 			...t.kernel,
 			row: t.kernel.row
 		}, [i, a, o] = await Promise.all([
-			V.create(t.kernel, n),
-			V.create(r, n),
-			t.gradient ? V.create(t.gradient, n) : void 0
+			H.create(t.kernel, n),
+			H.create(r, n),
+			t.gradient ? H.create(t.gradient, n) : void 0
 		]);
 		return new e(t, i, a, o);
 	}
@@ -798,24 +824,27 @@ var V = class e {
 		});
 	}
 	good(e) {
-		return R.has(this.rows[this.rows.length - this.row + e]);
+		return z.has(this.rows[this.rows.length - this.row + e]);
 	}
 	get mark() {
 		return this.here[this.here.length - 1];
 	}
+	get finite() {
+		return this.here.every(Number.isFinite);
+	}
 	get solved() {
-		return R.has(this.mark);
+		return z.has(this.mark);
 	}
 	value(e, t) {
 		return this.rows[e * this.row + t];
 	}
 };
 // src/panels.ts
-function ce(e, n, r = !1) {
+function le(e, n, r = !1) {
 	let i = t("details", e, { class: "panel" });
 	return i.open = r, t("summary", i, {}, n), t("div", i);
 }
-function le(e, n, r, i) {
+function ue(e, n, r, i) {
 	let a = [], o = /* @__PURE__ */ new Map(), s = (n) => {
 		let r = o.get(n);
 		if (!r) {
@@ -828,7 +857,7 @@ function le(e, n, r, i) {
 		n: t
 	})).sort((e, t) => Number(t.field.parameter ?? !1) - Number(e.field.parameter ?? !1));
 	for (let { field: e, n } of c) {
-		let [o, c] = e.parameter ? ["Parameters", e.label] : U(e.label), u = t("label", s(o), { title: e.about ?? e.path });
+		let [o, c] = e.parameter ? ["Parameters", e.label] : de(e.label), u = t("label", s(o), { title: e.about ?? e.path });
 		t("span", u, {}, c);
 		let d = t("input", u, {
 			type: "number",
@@ -845,7 +874,7 @@ function le(e, n, r, i) {
 			Number.isFinite(t) && (r.values[n] = t * e.size, i(n, a));
 		};
 		if (d.addEventListener("change", () => d.value.trim() === "" ? l(f) : p(+d.value, !0)), e.parameter) {
-			let [n, r] = e.range ?? ue(e.value), i = t("input", u, {
+			let [n, r] = e.range ?? W(e.value), i = t("input", u, {
 				type: "range",
 				min: n / e.size,
 				max: r / e.size,
@@ -862,15 +891,15 @@ function le(e, n, r, i) {
 	};
 	return { update: () => a.forEach(l) };
 }
-function U(e) {
+function de(e) {
 	let t = e.indexOf(": ");
 	return t < 0 ? ["Others", e] : [e.slice(0, t), e.slice(t + 2)];
 }
-function ue(e) {
+function W(e) {
 	let t = .5 * Math.abs(e) || 1;
 	return [e - t, e + t];
 }
-function de(e, n, r) {
+function fe(e, n, r) {
 	let i = t("tbody", t("table", e, { class: "answers" })), a = n.views.table.map((e) => {
 		let r = t("tr", i), a = n.units[e.kind] ?? {
 			unit: "",
@@ -884,12 +913,12 @@ function de(e, n, r) {
 	});
 	return { update() {
 		for (let { r: e, unit: t, cell: n } of a) {
-			let i = e.rows.map((e) => r.here[e] / t.size), a = (e) => t.unit === "°" ? `${M(e, 5)}°` : `${M(e)} ${t.unit}`;
-			n.textContent = r.solved ? i.length === 1 ? a(i[0]) : `${a(Math.hypot(...i))} at ${M(Math.atan2(i[1], i[0]) * 180 / Math.PI)}°  (${M(i[0])}, ${M(i[1])})` : "–";
+			let i = e.rows.map((e) => r.here[e] / t.size), a = (e) => t.unit === "°" ? `${P(e, 5)}°` : `${P(e)} ${t.unit}`;
+			n.textContent = r.solved ? i.length === 1 ? a(i[0]) : `${a(Math.hypot(...i))} at ${P(Math.atan2(i[1], i[0]) * 180 / Math.PI)}°  (${P(i[0])}, ${P(i[1])})` : "–";
 		}
 	} };
 }
-function fe(e, n, r, i) {
+function pe(e, n, r, i) {
 	let a = [
 		0,
 		1,
@@ -910,19 +939,19 @@ function fe(e, n, r, i) {
 				t.textContent = `${e[n]}: ${r.solved ? "nothing acts" : "no answer here"}`;
 				return;
 			}
-			let f = n < 2 ? "xy"[n] : "", p = d.map((e) => n < 2 ? o(s[e.k].name) + f : `M(${o(s[e.k].name)})`).join(" + "), m = d.reduce((e, t) => e + t.v, 0), h = Math.abs(m) < 1e-9 * c ? 0 : m, g = d.map((e, t) => (e.v < 0 ? t ? " − " : "−" : t ? " + " : "") + M(Math.abs(e.v))).join("");
-			t.textContent = `${e[n]}: ${p} = ${g} = ${M(h)} ${i.unit}`;
+			let f = n < 2 ? "xy"[n] : "", p = d.map((e) => n < 2 ? o(s[e.k].name) + f : `M(${o(s[e.k].name)})`).join(" + "), m = d.reduce((e, t) => e + t.v, 0), h = Math.abs(m) < 1e-9 * c ? 0 : m, g = d.map((e, t) => (e.v < 0 ? t ? " − " : "−" : t ? " + " : "") + P(Math.abs(e.v))).join("");
+			t.textContent = `${e[n]}: ${p} = ${g} = ${P(h)} ${i.unit}`;
 		});
 	} };
 }
-function pe(e, n) {
+function me(e, n) {
 	t("p", e, {}, "Forces and motion are found by one linear system at each position (D'Alembert's principle); every number drawn here is computed anew from the numbers beside it, in double precision.");
 	let r = t("dl", e);
 	for (let [e, i] of Object.entries(n.assumptions)) t("dt", r, {}, e), t("dd", r, {}, i);
 	n.source && t("p", e, {}, `Source: ${n.source}`), t("p", e, {}, `Made with dalembert ${n.version}.`);
 }
 // src/page.css?inline
-var me = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.35em .8em;position:sticky;top:0}.dalembert h1{margin:0;font-size:1.15em;display:inline}.dalembert .bar{flex-wrap:wrap;align-items:center;gap:.5em;margin-top:.25em;display:flex}.dalembert .bar input{min-width:8em;accent-color:var(--accent);flex:1}.dalembert .readout{font-variant-numeric:tabular-nums;min-width:9em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);min-height:1.45em;margin:.1em 0 0;font-size:.92em}.dalembert main{grid-template-columns:minmax(0,7fr) minmax(0,5fr);align-items:start;gap:.8em;padding:.8em;display:grid}.dalembert .stage{position:sticky;top:6.2em}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .stage svg{touch-action:none;max-height:calc(100vh - 9em)}.dalembert .cloud{pointer-events:none;width:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;gap:1em;font-size:.9em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=number]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-link]{cursor:pointer}.dalembert.unsolved svg:not(.chart svg){opacity:.3}@media (max-width:800px){.dalembert main{grid-template-columns:minmax(0,1fr)}.dalembert .stage{position:static}.dalembert .polar{width:100%}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert summary~div>button,.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}", he = class {
+var he = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.35em .8em;position:sticky;top:0}.dalembert h1{margin:0;font-size:1.15em;display:inline}.dalembert .bar{flex-wrap:wrap;align-items:center;gap:.5em;margin-top:.25em;display:flex}.dalembert .bar input{min-width:8em;accent-color:var(--accent);flex:1}.dalembert .readout{font-variant-numeric:tabular-nums;min-width:9em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);min-height:1.45em;margin:.1em 0 0;font-size:.92em}.dalembert main{grid-template-columns:minmax(0,7fr) minmax(0,5fr);align-items:start;gap:.8em;padding:.8em;display:grid}.dalembert .stage{position:sticky;top:6.2em}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .stage svg{touch-action:none;max-height:calc(100vh - 9em)}.dalembert .cloud{pointer-events:none;width:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;gap:1em;font-size:.9em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=number]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-link]{cursor:pointer}.dalembert.unsolved svg:not(.chart svg){opacity:.3}@media (max-width:800px){.dalembert main{grid-template-columns:minmax(0,1fr)}.dalembert .stage{position:static}.dalembert .polar{width:100%}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert summary~div>button,.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}", ge = class {
 	b;
 	data;
 	kernel;
@@ -938,7 +967,7 @@ var me = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--
 	}
 	update(e) {
 		let t = this.data.gradient, n = this.kernel, r = e && t ? t.curves.indexOf(e.row) : -1;
-		if (!this.on || r < 0 || !t || !e) return this.arrows.forEach((e) => e.arrow.set([0, 0], [0, 0]));
+		if (!this.on || r < 0 || !t || !e || !n.solved) return this.arrows.forEach((e) => e.arrow.set([0, 0], [0, 0]));
 		let i = 0, a = -1;
 		for (let t = 0; t < n.count; t++) n.good(t) && Math.abs(n.value(e.row, t)) > a && (a = Math.abs(n.value(e.row, t)), i = t);
 		let o = n.gradient(r, i), s = Math.sign(n.value(e.row, i)) || 1, c = new Map(t.numbers.map((e, t) => [e, o[t]])), l = this.arrows.map(({ h: e }) => {
@@ -954,7 +983,7 @@ var me = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--
 			t.set(r, [r[0] + 14 * i / u, r[1] - 14 * a / u], .5);
 		});
 	}
-}, ge = class {
+}, _e = class {
 	b;
 	kernel;
 	places;
@@ -998,7 +1027,7 @@ var me = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--
 	reach() {
 		return this.b.svg.viewBox.baseVal.width * .5 * this.b.paper.perMm;
 	}
-}, _e = class {
+}, ve = class {
 	kernel;
 	past = [];
 	future = [];
@@ -1017,11 +1046,11 @@ var me = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--
 		return [this.past.length > 0, this.future.length > 0];
 	}
 };
-function ve(e, t, n) {
+function ye(e, t, n) {
 	let r = e.numbers.flatMap((e, n) => t.values[n] === e.value ? [] : [`${encodeURIComponent(e.path)}=${t.values[n]}`]);
 	return ["t=" + +n.toFixed(4), ...r].join("&");
 }
-function ye(e, t, n) {
+function be(e, t, n) {
 	let r = 0;
 	for (let i of n.replace(/^#/, "").split("&")) {
 		let [n, a] = i.split("="), o = Number(a);
@@ -1041,10 +1070,10 @@ function ye(e, t, n) {
 	}
 	return r;
 }
-function be(e, t) {
+function xe(e, t) {
 	return e.template.map((e, n) => n % 2 ? String(t.values[+e]) : e).join("");
 }
-function xe(e, t) {
+function Se(e, t) {
 	let n = (e) => /[",\n]/.test(e) || /^[=+\-@]/.test(e) ? `"${e.replace(/^([=+\-@])/, "'$1").replace(/"/g, "\"\"")}"` : e, r = e.views.charts.flatMap((t) => t.curves.map((n) => ({
 		x: n,
 		unit: e.units[t.kind] ?? {
@@ -1066,25 +1095,25 @@ function xe(e, t) {
 	}
 	return i.join("\n") + "\n";
 }
-function Se(t, n) {
+function Ce(t, n) {
 	let r = t.cloneNode(!0), { width: i, height: a } = t.viewBox.baseVal;
 	r.querySelectorAll(".handles").forEach((e) => e.remove()), r.setAttribute("xmlns", "http://www.w3.org/2000/svg"), r.setAttribute("width", `${i}mm`), r.setAttribute("height", `${a}mm`), r.setAttribute("font-family", "'DejaVu Sans', Arial, sans-serif");
 	let o = e("style", null);
 	return o.textContent = n, r.prepend(o), new XMLSerializer().serializeToString(r);
 }
-function W(e, t, n) {
+function G(e, t, n) {
 	let r = document.createElement("a");
 	r.href = URL.createObjectURL(new Blob([t], { type: n })), r.download = e, r.click(), setTimeout(() => URL.revokeObjectURL(r.href), 1e3);
 }
-var Ce = (e) => o(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism";
+var we = (e) => o(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism";
 // src/page.ts
-async function G(e, n, r = {}) {
+async function K(e, n, r = {}) {
 	if (n.format !== "dalembert-page/1") throw Error(`this page cannot show data of the form ${n.format}`);
-	let i = await se.create(n), a = document.createElement("div");
-	a.className = "dalembert";
+	let i = await ce.create(n), a = document.createElement("div");
+	a.className = "dalembert", i.cycle();
 	let s = t("style", a);
-	s.textContent = me + n.style.light + `@media (prefers-color-scheme:dark){${n.style.dark}}@media print{` + n.style.light + "}";
-	let c = new _e(i), l = [], u = r.address ? ye(n, i, location.hash) : 0;
+	s.textContent = he + n.style.light + `@media (prefers-color-scheme:dark){${n.style.dark}}@media print{` + n.style.light + "}";
+	let c = new ve(i), l = [], u = r.address ? be(n, i, location.hash) : 0;
 	c.note();
 	let d = t("header", a), f = t("main", a);
 	t("h1", d, {}, n.title);
@@ -1099,7 +1128,7 @@ async function G(e, n, r = {}) {
 			"aria-label": n
 		}, e);
 		return i.addEventListener("click", r), i;
-	}, h = m("▶", "play along the cycle (space)", () => we()), g = t("input", p, {
+	}, h = m("▶", "play along the cycle (space)", () => Te()), g = t("input", p, {
 		type: "range",
 		min: 0,
 		max: i.end,
@@ -1121,7 +1150,7 @@ async function G(e, n, r = {}) {
 	let x = t("section", f, {
 		class: "stage",
 		"aria-label": "mechanism"
-	}), S = O(x, i, n.views.mechanism, null, 170, 128, n.units, "the mechanism"), C = n.views.charts.flatMap((e) => e.curves).find((e) => n.gradient?.curves.includes(e.row)), w = new he(S, n, i), T = new ge(x, S, n, i, n.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), E = ne(S, n, i, {
+	}), S = A(x, i, n.views.mechanism, null, 170, O(i, n.views.mechanism, 170), n.units, "the mechanism"), C = n.views.charts.flatMap((e) => e.curves).find((e) => n.gradient?.curves.includes(e.row)), w = new ge(S, n, i), T = new _e(x, S, n, i, n.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), E = ne(S, n, i, {
 		changed: () => J(),
 		finished: Y,
 		seek: (e) => Z(e),
@@ -1131,41 +1160,41 @@ async function G(e, n, r = {}) {
 		return o.checked = r, a.append(e), o.addEventListener("change", () => (i(o.checked), Q(!0))), o;
 	};
 	k("names", "names of joints", S.names, (e) => S.names = e), n.gradient && k("what lowers the peak", "arrows: moving a joint this way lowers the peak of the chosen curve", !1, (e) => w.on = e), n.handles.some((e) => e.kind === "joint") && k("tolerances", "a thousand machines with points up to 0.5 % of the drawing's width off", !1, (e) => T.on = e);
-	let A = t("span", D, { class: "spread" }), j = t("section", f, {
+	let j = t("span", D, { class: "spread" }), M = t("section", f, {
 		class: "side",
 		"aria-label": "results"
-	}), re = (e) => Z(e), ie = (e) => (C = e, Q(!0)), ae = [...i.count > 1 ? n.views.charts.map((e) => N(j, n, i, e, () => u, re, ie, () => C)) : []], P = t("select", U("Free body", !0), { "aria-label": "link" });
-	n.views.bodies.forEach((e, n) => t("option", P, { value: n }, `${e.title}, ${e.member} member`));
-	let F = t("div", P.parentElement), I = n.views.bodies.map((e) => {
-		let r = t("div", F, { class: "body" });
+	}), N = (e) => Z(e), re = (e) => (C = e, Q(!0)), ie = [...i.count > 1 ? n.views.charts.map((e) => ee(M, n, i, e, () => u, N, re, () => C)) : []], I = t("select", U("Free body", !0), { "aria-label": "link" });
+	n.views.bodies.forEach((e, n) => t("option", I, { value: n }, `${e.title}, ${e.member} member`));
+	let ae = t("div", I.parentElement), L = n.views.bodies.map((e) => {
+		let r = t("div", ae, { class: "body" });
 		return {
 			box: r,
-			drawn: O(r, i, e, e.about, 110, 84, n.units, `free body of ${e.title}`),
-			sums: fe(r, n, i, e)
+			drawn: A(r, i, e, e.about, 110, 100, n.units, `free body of ${e.title}`),
+			sums: pe(r, n, i, e)
 		};
-	}), L = U("Force polygon"), R = n.views.polygons.links.map((e) => te(L, n, i, e)), z = i.count > 2 ? n.views.charts.flatMap((e) => e.curves).filter((e) => e.f) : [], B = z.length ? U("Polar diagrams") : null, oe = B ? z.map((e) => ee(B, i, e, n.units.force)) : [], V = de(U("Numbers of this position"), n, i), H = le(U("Change numbers", n.numbers.some((e) => e.parameter)), n, i, (e, t) => {
+	}), R = U("Force polygon"), oe = n.views.polygons.links.map((e) => te(R, n, i, e)), z = i.count > 2 ? n.views.charts.flatMap((e) => e.curves).filter((e) => e.f) : [], B = z.length ? U("Polar diagrams") : null, V = B ? z.map((e) => F(B, i, e, n.units.force)) : [], se = fe(U("Numbers of this position"), n, i), H = ue(U("Change numbers", n.numbers.some((e) => e.parameter)), n, i, (e, t) => {
 		J(), t && Y([e]);
 	});
-	pe(U("Method and assumptions"), n), ue();
+	me(U("Method and assumptions"), n), de();
 	function U(e, t = !1) {
-		return ce(j, e, t);
+		return le(M, e, t);
 	}
-	function ue() {
-		let e = U("Save and share"), a = Ce(n.title), o = (n, r) => t("button", e, { type: "button" }, n).addEventListener("click", r);
-		o("Model file", () => W(`${a}.yaml`, be(n, i), "text/yaml")), o("Curves as CSV", () => W(`${a}.csv`, xe(n, i), "text/csv")), o("Drawing as SVG", () => W(`${a}.svg`, Se(S.svg, n.style.light), "image/svg+xml")), o("Print", () => window.print()), r.address && o("Copy link", () => {
-			location.hash = ve(n, i, u), navigator.clipboard?.writeText(location.href);
+	function de() {
+		let e = U("Save and share"), a = we(n.title), o = (n, r) => t("button", e, { type: "button" }, n).addEventListener("click", r);
+		o("Model file", () => G(`${a}.yaml`, xe(n, i), "text/yaml")), o("Curves as CSV", () => G(`${a}.csv`, Se(n, i), "text/csv")), o("Drawing as SVG", () => G(`${a}.svg`, Ce(S.svg, n.style.light), "image/svg+xml")), o("Print", () => window.print()), r.address && o("Copy link", () => {
+			location.hash = ye(n, i, u), navigator.clipboard?.writeText(location.href);
 		});
 	}
-	P.addEventListener("change", () => Q(!1)), S.svg.addEventListener("click", (e) => {
+	I.addEventListener("change", () => Q(!1)), S.svg.addEventListener("click", (e) => {
 		let t = e.target.closest("[data-link]")?.dataset.link, r = n.views.bodies.findIndex((e) => e.link === t);
-		r >= 0 && (P.value = String(r), Q(!1));
+		r >= 0 && (I.value = String(r), Q(!1));
 	}), g.addEventListener("input", () => Z(+g.value));
-	let G = 0, K = !0, q = 0;
+	let W = 0, K = !0, q = 0;
 	function J() {
 		Q(!0);
 	}
 	function Y(e) {
-		c.note(), S.fit(), Q(!0), H.update(), r.edited && e.length && r.edited(Object.fromEntries(e.map((e) => [n.numbers[e].path, i.values[e]]))), r.address && window.history.replaceState(null, "", "#" + ve(n, i, u));
+		c.note(), S.fit(), Q(!0), H.update(), r.edited && e.length && r.edited(Object.fromEntries(e.map((e) => [n.numbers[e].path, i.values[e]]))), r.address && window.history.replaceState(null, "", "#" + ye(n, i, u));
 	}
 	function X(e) {
 		c.go(e) && (Q(!0), H.update(), r.edited?.(Object.fromEntries(n.numbers.map((e, t) => [e.path, i.values[t]]))));
@@ -1173,8 +1202,8 @@ async function G(e, n, r = {}) {
 	function Z(e) {
 		u = Math.min(Math.max(e, 0), i.end), n.only_at_positions && (u = Math.round(u)), Q(!1);
 	}
-	function we() {
-		if (q) return Te();
+	function Te() {
+		if (q) return Ee();
 		h.textContent = "❚❚";
 		let e = performance.now(), t = (r) => {
 			let a = u + (r - e) / 1e3 / 6 * i.end;
@@ -1182,42 +1211,42 @@ async function G(e, n, r = {}) {
 		};
 		q = requestAnimationFrame(t);
 	}
-	function Te() {
+	function Ee() {
 		cancelAnimationFrame(q), q = 0, h.textContent = "▶";
 	}
 	function Q(e) {
-		K ||= e, G ||= requestAnimationFrame(() => {
-			G = 0;
+		K ||= e, W ||= requestAnimationFrame(() => {
+			W = 0;
 			let e = performance.now();
-			Ee(), l.push(performance.now() - e), l.length > 2e3 && l.shift();
+			De(), l.push(performance.now() - e), l.length > 2e3 && l.shift();
 		});
 	}
-	function Ee() {
+	function De() {
 		let e = K;
 		K = !1, e && i.cycle(), i.at(u);
 		let t = i.solved, r = n.statuses[String(i.mark)];
 		a.classList.toggle("unsolved", !t), b.textContent = r && i.mark ? r.sentence : "", S.update(e), E(), w.update(C);
 		let o = T.update(C?.row);
-		A.textContent = o && C ? De(o, C) : "", ae.forEach((t) => t.update(e));
-		let s = +P.value;
-		I.forEach((t, n) => {
+		j.textContent = o && C ? Oe(o, C) : "", ie.forEach((t) => t.update(e));
+		let s = +I.value;
+		L.forEach((t, n) => {
 			t.box.hidden = n !== s, n === s && $(t.box) && (t.drawn.update(e), t.sums.update());
-		}), R.forEach((t, n) => {
+		}), oe.forEach((t, n) => {
 			t.figure.hidden = n !== s, n === s && $(t.figure) && t.update(e);
-		}), oe.forEach((t) => t.update(e)), $(L), V.update(), g.value = String(u), _.textContent = n.drives.map((e) => `${e.name} = ${M(i.position(e.name, u) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), [v.disabled, y.disabled] = c.can.map((e) => !e);
+		}), V.forEach((t) => t.update(e)), $(R), se.update(), g.value = String(u), _.textContent = n.drives.map((e) => `${e.name} = ${P(i.position(e.name, u) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), [v.disabled, y.disabled] = c.can.map((e) => !e);
 	}
 	let $ = (e) => e.closest("details")?.open ?? !0;
-	function De(e, t) {
+	function Oe(e, t) {
 		let r = n.views.charts.find((e) => e.curves.includes(t)).kind, i = n.units[r] ?? {
 			unit: "",
 			size: 1
 		};
-		return `${o(t.name)}: ${M(e.mean / i.size)} ± ${M(e.sigma / i.size, 2)} ${i.unit} (1 σ)`;
+		return `${o(t.name)}: ${P(e.mean / i.size)} ± ${P(e.sigma / i.size, 2)} ${i.unit} (1 σ)`;
 	}
 	return a.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => Q(!0))), a.addEventListener("keydown", (e) => {
 		let t = /INPUT|SELECT|TEXTAREA/.test(e.target.tagName);
-		(e.ctrlKey || e.metaKey) && !t && /^[zy]$/i.test(e.key) ? (e.preventDefault(), X(e.key.toLowerCase() === "z" && !e.shiftKey)) : e.key === " " && !t && e.target.tagName !== "BUTTON" && i.count > 1 && (e.preventDefault(), we());
-	}), a.tabIndex = -1, i.cycle(), i.at(u), e.replaceChildren(a), r.address && location.hash && S.fit(), Ee(), H.update(), {
+		(e.ctrlKey || e.metaKey) && !t && /^[zy]$/i.test(e.key) ? (e.preventDefault(), X(e.key.toLowerCase() === "z" && !e.shiftKey)) : e.key === " " && !t && e.target.tagName !== "BUTTON" && i.count > 1 && (e.preventDefault(), Te());
+	}), a.tabIndex = -1, i.cycle(), i.at(u), e.replaceChildren(a), S.fit(), De(), H.update(), {
 		kernel: i,
 		data: n,
 		times: l,
@@ -1227,20 +1256,20 @@ async function G(e, n, r = {}) {
 			if (r < 0) throw Error(`there is no number ${e}`);
 			i.values[r] = t, Y([]);
 		},
-		text: () => be(n, i),
-		remove: () => (Te(), a.remove())
+		text: () => xe(n, i),
+		remove: () => (Ee(), a.remove())
 	};
 }
 // src/main.ts
-var K = { async render({ model: e, el: t }) {
+var q = { async render({ model: e, el: t }) {
 	let n = (t) => {
 		e.set("changes", {
 			...e.get("changes"),
 			...t
 		}), e.save_changes();
-	}, r = await G(t, e.get("data"), { edited: n }), i = async () => {
-		r.remove(), r = await G(t, e.get("data"), { edited: n });
+	}, r = await K(t, e.get("data"), { edited: n }), i = async () => {
+		r.remove(), r = await K(t, e.get("data"), { edited: n });
 	};
 	return e.on("change:data", i), () => (e.off("change:data", i), r.remove());
 } };
-export { K as default, G as mount };
+export { q as default, K as mount };

@@ -1,0 +1,3 @@
+from tests.browser.opened import browser, opened
+
+__all__ = ["browser", "opened"]
