@@ -15,6 +15,7 @@ from dalembert.kernel.program import Program
 from tests.friction.rough import rough_tree
 from tests.kernel.comparing import changed, every_number
 from tests.kernel.machines import ROUGH
+from tests.kernel.test_bundled import compiled
 from tests.kernel.wasm_runs import distance, run_wasm
 from tests.random_mechanisms import random_case, tree
 from tests.tiers import over, tiers
@@ -31,13 +32,11 @@ EDGES = [0.0, -0.0, 1.0, -1.0, 0.5, 2.0, 1e-310, 709.7, 745.0, -745.0, 800.0, -8
 @pytest.mark.parametrize("name", tiers(QUICK, sorted(set(FILES) - set(QUICK))))
 def test_every_file_that_compiles(name: str) -> None:
     m = da.load(FILES[name])
-    for vary in ((), every_number(m)):
-        try:
-            k = da.compile(m, vary=vary, lanes=1)
-        except da.ModelError:  # tests/kernel/test_bundled.py holds the reasons
-            return
-        off, marks, _ = distance(k)
-        assert (off < TOLERANCE, marks) == (True, 0)
+    kernels = [
+        compiled(m, free=free) for free in (False, True)
+    ]  # tests/kernel/test_bundled.py holds the reasons
+    assert [distance(k)[1] for k in kernels if k] == [0] * sum(map(bool, kernels))
+    assert max((distance(k)[0] for k in kernels if k), default=0.0) < TOLERANCE
 
 
 @over(1, whole=1000)
