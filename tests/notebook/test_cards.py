@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 import dalembert as da
-from dalembert.bundled import examples
+from dalembert.bundled import cases, examples
 from dalembert.notebook.html_card import LARGEST_DRAWING, ROWS, card
 from dalembert.printing import Table
+from tests.tiers import tiers
 
 HOSTILE = '</style></svg><script>alert(1)</script><img src=x onerror="alert(2)">&amp;'
 FOUR_BAR = da.load(examples()["four_bar"])
@@ -106,6 +107,21 @@ def test_every_sort_of_mechanism_has_a_card(name: str) -> None:
     r = da.solve(m, positions=5 if m.drives and name != "balance_position" else None)
     assert "svg" in read(m).names
     assert m.title in read(r).text
+
+
+def eighths(names: list[str]) -> list[Any]:
+    return tiers([], names[::8], [name for k, name in enumerate(names) if k % 8])
+
+
+@pytest.mark.parametrize("name", eighths([*cases(), *examples()]))
+def test_every_bundled_file_has_cards_and_all_its_names(name: str, tmp_path: Any) -> None:
+    m = da.load({**cases(), **examples()}[name])
+    r = da.solve(m)
+    assert m.title in read(m).text
+    assert m.title in read(r).text
+    for one in r._ipython_key_completions_():
+        assert len(r[one]) == len(r.status), one
+    r.to_xlsx(tmp_path / "r.xlsx")
 
 
 def test_a_long_result_shows_first_and_last_rows_and_extremes() -> None:

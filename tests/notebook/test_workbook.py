@@ -11,6 +11,7 @@ import openpyxl
 import pytest
 
 import dalembert as da
+from dalembert.analysis.output import workbook
 from dalembert.bundled import examples
 
 FOUR_BAR = da.load(examples()["four_bar"])
@@ -122,3 +123,16 @@ def test_tables_by_the_values_of_the_drives() -> None:
     assert list(one.to_dataframe("file", index="drives").index) == pytest.approx(
         np.degrees(one.drive_position("O2"))
     )
+
+
+def test_what_has_no_value_has_no_chart(tmp_path: Path) -> None:
+    r = da.kinematics(FOUR_BAR, positions=4)
+    assert "charts" not in written(r, tmp_path).sheetnames
+
+
+def test_charts_of_very_many_positions_are_thinned(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(workbook, "MOST_POINTS", 10)
+    r = da.dynamics(FOUR_BAR, positions=36)
+    values = sheet(written(r, tmp_path), "chart values")
+    assert len(values) == 10
+    assert [row[1] for row in values[1:]] == pytest.approx(r.effort("O2")[::4])

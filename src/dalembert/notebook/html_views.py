@@ -56,6 +56,9 @@ def mechanism_html(m: Mechanism) -> str:
         parts.append(
             Table(["drive", "of joint", "from", "to", "positions"], [_drive(m, n) for n in m.drives], 2)
         )
+    if m.parameters:
+        known = [[n, f"{p.in_unit():.6g} {p.unit}".strip(), p.about] for n, p in m.parameters.items()]
+        parts.insert(1, Table(["parameter", "value", "what it is"], known, 3))
     if m.loads:
         parts.append(Table(["load", "type"], [[n, load.type] for n, load in m.loads.items()], 2))
     return card(m.title or "Mechanism", *parts, *([] if _large(m) else [m.draw]))

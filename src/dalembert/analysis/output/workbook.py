@@ -24,8 +24,8 @@ from dalembert.units import KINDS
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
-MOST_CURVES, MOST_DIAGRAMS = 12, 6
-"""Curves in a chart, those of the largest forces, and polar diagrams."""
+MOST_CURVES, MOST_DIAGRAMS, MOST_POINTS = 12, 6, 20_000
+"""Curves in a chart, those of the largest forces; polar diagrams; points of a curve, evenly taken from more."""
 WIDTH, HEIGHT = 20.0, 9.5
 """Size of a chart, cm."""
 SHOWN_UNITS = (
@@ -159,12 +159,12 @@ def _diagrams(result: Result, to: Scale, axes: Axes) -> Iterator[Diagram]:
     asked = {
         n: (result.effort if n in result.drives else result.unknown_load)(n) for n in unknown_kinds(result)
     }
-    unknown = [Named(n, to.text(k), to(k, asked[n])) for n, k in unknown_kinds(result).items()]
+    unknown = _known(Named(n, to.text(k), to(k, asked[n])) for n, k in unknown_kinds(result).items())
     for unit in dict.fromkeys(of.unit for of in unknown):
         yield Diagram("Effort", x, [of for of in unknown if of.unit == unit])
     unit = to.text("force")
     forces = {joint: to("force", result.reaction(joint, axes=axes)) for joint in result.joints}
-    sizes = [Named(joint, unit, np.linalg.norm(force, axis=-1)) for joint, force in forces.items()]
+    sizes = _known(Named(joint, unit, np.linalg.norm(force, axis=-1)) for joint, force in forces.items())
     sizes.sort(key=lambda of: -float(np.nan_to_num(of.values).max(initial=0.0)))
     yield Diagram("Joint forces", x, sizes[:MOST_CURVES])
     pins = [of.name for of in sizes if in_plane(result) and result.mechanism.joints[of.name].hinge]
@@ -173,12 +173,21 @@ def _diagrams(result: Result, to: Scale, axes: Axes) -> Iterator[Diagram]:
         yield Diagram(f"Polar diagram of {joint}", along, [up], polar=True)
 
 
+def _known(some: Iterable[Named]) -> list[Named]:
+    """Those that have a value somewhere."""
+    return [of for of in some if np.isfinite(of.values).any()]
+
+
 def _charts(book: Any, result: Result, units: UnitChoice, axes: Axes) -> None:
     """The diagrams on one sheet, their numbers on another behind it: where contacts reverse those just before."""
-    sheet, diagrams = book.create_sheet("charts"), list(_diagrams(result, scale(result, units), axes))
+    diagrams = [d for d in _diagrams(result, scale(result, units), axes) if d.curves]
+    if not diagrams:
+        return
+    sheet = book.create_sheet("charts")
     sheet.sheet_properties.pageSetUpPr.fitToPage, sheet.page_setup.fitToHeight = True, 0
     columns = [column for d in diagrams for column in (d.x, *d.curves)]
-    lists = [nan_to_none(column.values) for column in columns]
+    every = max(1, -(-len(result.status) // MOST_POINTS))
+    lists = [nan_to_none(column.values[::every]) for column in columns]
     numbers = _sheet(book, "chart values", [[c.head for c in columns], *zip(*lists, strict=True)])
     row, column = 1, 1
     for d in diagrams:
