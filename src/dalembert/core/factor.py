@@ -46,7 +46,9 @@ def displacement(layout: Layout, rows: System, scaled_gap: Array) -> Array:
         j *= row_scale(layout, rows.angular)[:, None]
         dq = solve_square(j, scaled_gap)
     else:
-        dq = factor(layout, rows).motion(scaled_gap / row_scale(layout, rows.angular))
+        scale = row_scale(layout, rows.angular)
+        found = sparse(layout, rows, scale, layout.column_scale, False) if square else factor(layout, rows)
+        dq = found.motion(scaled_gap / scale)
     bad = ~np.isfinite(dq)
     if bad.any():
         dq[bad] = 0.0
@@ -69,6 +71,21 @@ def displacements(layout: Layout, rows: System, scaled_gaps: Array) -> tuple[Arr
     else:
         dq = factor(layout, rows).motion(scaled_gaps / scale)
     return np.asarray(np.where(np.isfinite(dq), dq, 0.0)), j
+
+
+def damped_step(layout: Layout, rows: System, weight: Array, scaled_gap: Array, damping: float) -> Array:
+    """Least squares of J dq = gap (gap scaled, rows weighted) with a damping, at a single pose (1, ...)."""
+    scale, column = row_scale(layout, rows.angular) * weight, layout.column_scale
+    right = scaled_gap * weight
+    if layout.unknowns <= SPARSE:
+        j = dense(layout, rows)[0] * scale[:, None] * column
+        return np.linalg.solve(j.T @ j + damping * np.eye(j.shape[1]), j.T @ right) * column
+    from scipy.sparse import eye_array
+    from scipy.sparse.linalg import spsolve
+
+    (matrix,) = _sparse_matrices(layout, rows, scale, column)
+    normal = (matrix.T @ matrix + damping * eye_array(layout.unknowns)).tocsc()
+    return np.asarray(spsolve(normal, matrix.T @ right) * column)
 
 
 @dataclass(frozen=True)
@@ -102,21 +119,17 @@ class Sparse:
         return out.reshape((*lead, size))
 
 
-def sparse(layout: Layout, rows: System, row: Array, column: Array) -> Sparse:
-    """Sparse LU of square systems J, position by position."""
+def sparse(layout: Layout, rows: System, row: Array, column: Array, condition: bool = True) -> Sparse:
+    """Sparse LU of square systems J, position by position; without ``condition`` its number is not estimated."""
+    matrices = _sparse_matrices(layout, rows, row, column)
+    found = [_lu(matrix, condition) for matrix in matrices]
     lead = rows.on_j.shape[:-2]
-    solvers, matrices, rcond = [], [], []
-    for p in np.ndindex(*lead):
-        matrix = _sparse_matrix(layout, rows._replace(on_i=rows.on_i[p], on_j=rows.on_j[p]), row, column)
-        lu, reciprocal = _lu(matrix)
-        solvers.append(lu)
-        matrices.append(matrix)
-        rcond.append(reciprocal)
-    return Sparse(tuple(solvers), tuple(matrices), lead, row, column, np.array(rcond).reshape(lead))
+    solvers, rcond = tuple(lu for lu, _ in found), np.array([reciprocal for _, reciprocal in found])
+    return Sparse(solvers, matrices, lead, row, column, rcond.reshape(lead))
 
 
-def _sparse_matrix(layout: Layout, rows: System, row: Array, column: Array) -> csc_array:
-    """Scaled J (K, n L) in compressed columns; ground's columns left out."""
+def _sparse_matrices(layout: Layout, rows: System, row: Array, column: Array) -> tuple[csc_array, ...]:
+    """Scaled J (K, n L) of each position in compressed columns; ground's columns left out."""
     from scipy.sparse import csc_array
 
     n, count = layout.algebra.n, len(rows.i)
@@ -124,13 +137,16 @@ def _sparse_matrix(layout: Layout, rows: System, row: Array, column: Array) -> c
     moving = links < layout.links
     k = np.repeat(np.tile(np.arange(count), 2)[moving], n)
     columns = (links[moving][:, None] * n + np.arange(n)).ravel()
-    data = np.concatenate([rows.on_i, rows.on_j])[moving].ravel() * row[k] * column[columns]
-    matrix = csc_array((data, (k, columns)), shape=(count, layout.unknowns))
-    matrix.eliminate_zeros()
-    return matrix
+    both = np.concatenate([rows.on_i, rows.on_j], axis=-2)[..., moving, :]
+    data = both.reshape(-1, len(k)) * (row[k] * column[columns])
+    order = np.lexsort((k, columns))
+    order = order[(data != 0).any(axis=0)[order]]
+    ends = np.searchsorted(columns[order], np.arange(layout.unknowns + 1))
+    shape = (count, layout.unknowns)
+    return tuple(csc_array((values, k[order], ends), shape=shape) for values in data[:, order])
 
 
-def _lu(matrix: csc_array) -> tuple[Any, float]:
+def _lu(matrix: csc_array, condition: bool) -> tuple[Any, float]:
     """Factors and estimated reciprocal condition number; None and 0 where exactly singular."""
     from scipy.sparse.linalg import LinearOperator, onenormest, splu
 
@@ -138,6 +154,8 @@ def _lu(matrix: csc_array) -> tuple[Any, float]:
         lu = splu(matrix)
     except RuntimeError:
         return None, 0.0
+    if not condition:
+        return lu, 1.0
     solve: Any = lu.solve
     operator: Any = LinearOperator(
         matrix.shape, matvec=solve, rmatvec=lambda v: solve(v, "T"), matmat=solve, dtype=np.float64

@@ -131,20 +131,32 @@ class _Work:
         self.pivots: list[Scalar] = []
 
     def unit_pivots(self) -> None:
+        best = {r: self.unit_pivot(r) for r in self.rows}
         while True:
-            best = None
-            for r, row in self.rows.items():
-                for c, x in row.items():
-                    if unit_value(x):
-                        fill = (len(row) - 1) * (len(self.columns[c]) - 1)
-                        if best is None or fill < best[0]:
-                            best = (fill, r, c, unit_value(x))
-                if best is not None and best[0] == 0:
-                    break
-            if best is None:
+            least = None
+            for r in self.rows:
+                found = best[r]
+                if found is not None and (least is None or found[0] < least[0]):
+                    least = (*found, r)
+                    if found[0] == 0:
+                        break
+            if least is None:
                 return
-            _, r, c, sign = best
+            _, c, sign, r = least
+            near = set().union(*(self.columns[other] for other in self.rows[r]))
             self.eliminate((r,), (c,), [[sign]])
+            best |= {i: self.unit_pivot(i) for i in near if i != r}
+
+    def unit_pivot(self, r: int) -> tuple[int, int, float] | None:
+        """Fill, column and value of the entry of a row that is exactly 1 or -1 and fills least."""
+        row, best = self.rows[r], None
+        for c, x in row.items():
+            sign = unit_value(x)
+            if sign:
+                fill = (len(row) - 1) * (len(self.columns[c]) - 1)
+                if best is None or fill < best[0]:
+                    best = (fill, c, sign)
+        return best
 
     def eliminate(self, rows: tuple[int, ...], columns: tuple[int, ...], inverse: Matrix) -> None:
         """Take a pivot block out: Schur complement of the rest."""

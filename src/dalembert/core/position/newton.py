@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from dalembert.arrays import Array, Ints
-from dalembert.core.constraints import dense, measure, stack_rows
-from dalembert.core.factor import displacement
+from dalembert.core.constraints import measure, stack_rows
+from dalembert.core.factor import damped_step, displacement
 from dalembert.core.layout import Layout, Mesh, Pose
 from dalembert.core.rotation_rows import recount_turns
 
@@ -125,13 +125,7 @@ def least_gap(layout: Layout, start: Pose, target: Array, steps: int = 200) -> A
     stiff = np.concatenate([np.ones(layout.constraints.count), np.full(len(layout.driven), HELD)])
     pose, best, damping = start.at(None), gap(layout, start.at(None), target[None])[0], 1.0
     for _ in range(steps):
-        j = (
-            dense(layout, stack_rows(layout, pose))[0]
-            * (layout.row_scale * stiff)[:, None]
-            * layout.column_scale
-        )
-        normal = j.T @ j + damping * np.eye(j.shape[1])
-        dq = np.linalg.solve(normal, j.T @ (best * stiff)) * layout.column_scale
+        dq = damped_step(layout, stack_rows(layout, pose), stiff, best, damping)
         trial = displace(layout, pose, dq.reshape(1, layout.links, -1))
         new = gap(layout, trial, target[None])[0]
         if np.linalg.norm(new * stiff) < np.linalg.norm(best * stiff):

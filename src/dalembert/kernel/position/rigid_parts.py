@@ -83,10 +83,10 @@ class Parts:
     def between(self) -> dict[tuple[int, int], list[Relation]]:
         """Conditions between each two parts."""
         out: dict[tuple[int, int], list[Relation]] = {}
+        self.todo = [r for r in self.todo if self.owner[r.i] != self.owner[r.j]]
         for r in self.todo:
-            a, b = sorted((self.owner[r.i], self.owner[r.j]))
-            if a != b:
-                out.setdefault((a, b), []).append(r)
+            a, b = self.owner[r.i], self.owner[r.j]
+            out.setdefault((a, b) if a < b else (b, a), []).append(r)
         return out
 
     def point(self, link: int, u: Pair) -> Pair:
