@@ -139,6 +139,22 @@ def test_a_parameter_is_swept_by_its_name() -> None:
     assert (s.labels["r"].values, s.labels["r"].unit) == (pytest.approx((0.04, 0.05)), "m")
 
 
+@pytest.mark.parametrize("path", ["w", "drives.O.speed"])
+@pytest.mark.parametrize("first", [0.0, 10.0])
+def test_inertia_counts_whichever_design_is_first(
+    path: str, first: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = ENGINE.replace("l: 3*r", "l: 3*r, w: 5 rad/s").replace("10 rad/s", "w")
+    m = da.loads(text if path == "w" else ENGINE)
+    monkeypatch.setattr(design_sweep, "MANY", 2)
+    s = da.sweep(m, path, [first, 20.0, 5.0])
+    alone = [da.solve(m.with_values({path: w})).effort("O") for w in (first, 20.0, 5.0)]
+    assert s["effort.O"] == pytest.approx(np.array(alone), rel=1e-9, abs=1e-12)
+    assert abs(s["effort.O"][1, 0] / s["effort.O"][2, 0]) == pytest.approx(16)
+    assert "moment.guide" in s.answers.arrays
+    assert "moment.A" not in s.answers.arrays
+
+
 def test_curves_of_a_sweep() -> None:
     s = da.sweep(FOUR_BAR, COUPLER, [f"{k} lbf" for k in range(1, 10)], positions=12)
     assert list(s.plot("effort.O2").numbers) == ["1 lbf", "3 lbf", "4 lbf", "6 lbf", "7 lbf", "9 lbf"]

@@ -13,7 +13,7 @@ import numpy as np
 from dalembert.analysis.batch.batch_result import CODES
 from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
 from dalembert.analysis.batch.over_positions import check, reduce_positions
-from dalembert.analysis.output.columns import Scale, UnitChoice, drive_kinds
+from dalembert.analysis.output.columns import Scale, UnitChoice, drive_kinds, in_plane
 from dalembert.analysis.result.named_quantities import Quantity, quantity, quantity_names
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.solution import solve
@@ -67,7 +67,7 @@ def sweep(
     labels = {path: _labels(m, path, of) for path, of in given.items()}
     nominal = _analysis(m, tuple(given), designs[0], static, positions)
     wanted = [outputs] if isinstance(outputs, str) else outputs
-    names = [n for n in quantity_names(nominal) if n.split(".")[0] in KEPT] if wanted is None else wanted
+    names = _kept(nominal) if wanted is None else wanted
     like = {name: quantity(nominal, name) for name in names}
     with progress_line("Sweeping", len(designs)) as step:
 
@@ -76,7 +76,11 @@ def sweep(
             if progress is not None:
                 progress(done, designs)
 
-        compiled = positions is None and len(designs) >= MANY and _all_numbers(labels, given)
+        compiled = positions is None and len(designs) >= MANY and _all_numbers(given)
+        if any(path.startswith("drives.") or path in m.parameters for path in given):
+            compiled = compiled and (
+                nominal.inertia or static
+            )  # else designs behind the first may have inertia
         found = _compiled(nominal, tuple(given), designs, like, tell) if compiled else None
         if found is None:
             results = (_analysis(m, tuple(given), design, static, positions) for design in designs)
@@ -131,12 +135,11 @@ def _labels(m: Mechanism, path: str, given: Sequence[Any]) -> Labels:
     plain = all(map(_is_number, given))
     changed = [m.with_values({path: v}) for v in ((min(given), max(given)) if plain else given)]
     parameter = m.parameters.get(path.removeprefix("parameters."))
+    keys = path.split(".") if parameter is None else ["parameters", path.removeprefix("parameters.")]
+    found = given if plain else [value_at(one, keys) for one in changed]
     if parameter is not None:
-        values = [one.parameters[path.removeprefix("parameters.")].value for one in changed]
-        unit = KINDS[parameter.kind].si if parameter.kind else ""
-    else:
-        values, unit = [value_at(one, path.split(".")) for one in changed], _unit(changed[-1], path)
-    found = given if plain else values
+        found = [getattr(value, "value", value) for value in found]
+    unit = _unit(changed[-1], path) if parameter is None else KINDS[parameter.kind or "number"].si
     if all(map(_is_number, found)):
         return Labels(tuple(map(float, found)), unit, tuple(given))
     return Labels(tuple(map(str, given)), "", tuple(given))
@@ -146,11 +149,16 @@ def _is_number(value: object) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def _all_numbers(labels: Mapping[str, Labels], given: Values) -> bool:
-    """Whether a compiled analysis can have them; drives decide whether there is inertia, design by design."""
-    return all(map(_is_number, [v for of in given.values() for v in of])) and not any(
-        path.startswith("drives.") for path in labels
-    )
+def _all_numbers(given: Values) -> bool:
+    """Whether a compiled analysis can have them."""
+    return all(map(_is_number, [v for of in given.values() for v in of]))
+
+
+def _kept(r: Result) -> list[str]:
+    """Every effort, unknown load and reaction; of a pin in the plane that turns freely no moment."""
+    names = [n for n in quantity_names(r) if n.split(".")[0] in KEPT]
+    free = [j for j in r.joints if in_plane(r) and r.friction is None and r.mechanism.joints[j].hinge]
+    return [n for n in names if n not in {f"moment.{j}" for j in free}]
 
 
 def _unit(m: Mechanism, path: str) -> str:
