@@ -61,7 +61,7 @@ class Opened:
 
     def until(self, holds: str) -> None:
         """Wait for something; the page's policy forbids what Playwright would wait by."""
-        for _ in range(200):
+        for _ in range(1500):
             if self.page.evaluate(holds):
                 return
             self.page.wait_for_timeout(20)

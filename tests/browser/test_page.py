@@ -14,6 +14,7 @@ from dalembert.pages.html_page import html_text
 from dalembert.pages.page_data import page_data
 from dalembert.pages.sweep import with_cycle
 from tests.browser.opened import FILES
+from tests.pages.test_page_data import PARAMETRIC
 
 FOUR_BAR, ENGINE, SHAPER, LIFT = "four_bar", "engine", "quick_return", "scissor_lift"
 HOSTILE = '</script><img src=x onerror=alert(1)><b>bar</b> & "quote" <!--'
@@ -305,6 +306,13 @@ def test_names_are_off_for_many_joints_and_can_be_had(opened: Any) -> None:
     page.page.locator(".stage").get_by_label("names").check()
     page.frame()
     assert page.page.locator('.stage svg text:visible:has-text("cross_1")').count() >= 1
+
+
+def test_a_joint_placed_by_a_parameter_takes_it_along(opened: Any) -> None:
+    page = opened(html=da.page(da.loads(PARAMETRIC)))
+    page.drag('.handle[data-name="A"]', 30, 0)
+    assert 0.046 < page.value("r") < 0.09
+    agrees(page, "O")
 
 
 @pytest.mark.parametrize("name", [FOUR_BAR, ENGINE, SHAPER])

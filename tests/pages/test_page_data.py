@@ -115,3 +115,39 @@ def test_a_gradient_is_that_of_the_kernel() -> None:
     varied = [path[n].rsplit(".", 1)[0] for n in g["numbers"][::2]]
     k = da.compile(m, vary=varied, outputs=["effort.O2"], derivatives=True, lanes=1)
     assert out[: len(g["numbers"])] == pytest.approx(k().gradient("effort.O2")[0, at], rel=1e-9)
+
+
+PARAMETRIC = """
+title: Slider-crank by parameters
+parameters: {r: {value: 45 mm, about: crank, range: [20 mm, 60 mm]}, l: 3*r, m1: 2 kg}
+links:
+  ground: {points: {O: [0, 0], C: [0, 0]}}
+  crank: {points: {O: [0, 0], A: [r, 0]}, mass: m1}
+  rod: {points: {A: [0, 0], B: [l, 0]}, mass: 1 kg, center: [0.5*l, 0]}
+  piston: {points: {B: [0, 0]}, mass: 1 kg}
+joints:
+  O: {type: pin, links: [ground, crank]}
+  A: {type: pin, links: [crank, rod]}
+  B: {type: pin, links: [rod, piston]}
+  C: {type: slider, links: [ground, piston], at: [C, B]}
+drives:
+  O: {position: {from: 0, to: 360, count: 36}, speed: 10 rad/s}
+"""
+
+
+def test_parameters_come_first_and_set_what_follows_from_them() -> None:
+    data = page_data(da.loads(PARAMETRIC))
+    r, m1 = data["numbers"][:2]
+    assert (r["path"], r["unit"], r["size"], r["range"]) == ("r", "mm", pytest.approx(1e-3), [0.02, 0.06])
+    assert m1["path"] == "m1"
+    assert not {n["path"] for n in data["numbers"]} & {"links.crank.points.A.0", "links.crank.mass"}
+    assert next(h for h in data["handles"] if h["name"] == "A")["by"] == [0]
+    r["value"] = 0.05
+    effort = run_page(data)[data["views"]["charts"][0]["curves"][0]["row"]]
+    exact = da.dynamics(da.loads(PARAMETRIC).with_values({"r": 0.05})).effort("O")
+    assert effort == pytest.approx(exact, rel=1e-9, abs=1e-9 * np.abs(exact).max())
+    text = "".join(
+        part if i % 2 == 0 else repr(data["numbers"][int(part)]["value"])
+        for i, part in enumerate(data["template"])
+    )
+    assert da.loads(text).parameters["l"].value == pytest.approx(0.15)

@@ -38,7 +38,7 @@ export interface TableRow { name: string; kind: string; rows: number[] }
 /** Numbers of a point in axes whose origin and x direction are rows. */
 export interface End { n: Pair; at: Pair; e: Pair }
 export type Handle =
-  | { kind: "joint" | "point" | "center"; name: string; p: Pair; ends: End[] }
+  | { kind: "joint" | "point" | "center"; name: string; p: Pair; ends: End[]; by?: number[] }
   | { kind: "load"; name: string; p: Pair; f: Pair; e: Pair; components?: Pair; size?: number; direction?: number }
   | { kind: "direction"; name: string; p: Pair; along: Pair; direction: number; e: Pair };
 

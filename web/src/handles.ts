@@ -1,7 +1,7 @@
 /** What can be taken hold of: joints, points, mass centres, tips of loads, directions, and the driven link. */
 
 import type { Board } from "./board";
-import type { Data, End, Handle } from "./data";
+import type { Data, End, Handle, Pair } from "./data";
 import type { Kernel } from "./kernel";
 import { make, type Point } from "./svg";
 
@@ -23,7 +23,43 @@ function set(kernel: Kernel, end: End, held: number[], x: number, y: number): vo
 
 const held = (kernel: Kernel, e: End): number[] => [...e.at, ...e.e].map((r) => kernel.here[r]);
 
+/** Parameters that bring a joint as near to a place as they can: Gauss and Newton's steps, damped, by differences. */
+function follow(kernel: Kernel, p: Pair, by: number[], x: number, y: number): void {
+  const u = kernel.values, out = new Float64Array(kernel.here.length), trial = u.slice();
+  const miss = (): Pair | null => {
+    kernel.other(trial, out);
+    const d: Pair = [x - out[p[0]], y - out[p[1]]];
+    return Number.isFinite(d[0] + d[1]) ? d : null;
+  };
+  for (let pass = 0; pass < 4; pass++) {
+    trial.set(u);
+    const now = miss();
+    if (!now) return;
+    const slopes = by.map((n) => {
+      const step = 1e-6 * (Math.abs(u[n]) || 1);
+      trial[n] = u[n] + step;
+      const then = miss();
+      trial[n] = u[n];
+      return then ? [(now[0] - then[0]) / step, (now[1] - then[1]) / step] : [0, 0];
+    });
+    const scale = by.map((n) => Math.abs(u[n]) || 1);
+    let a = 0, b = 0, c = 0;
+    slopes.forEach(([sx, sy], k) => (a += (sx * scale[k]) ** 2, b += sx * sy * scale[k] ** 2, c += (sy * scale[k]) ** 2));
+    const damp = 1e-9 * (a + c) + 1e-300, det = (a + damp) * (c + damp) - b * b;
+    const l = [((c + damp) * now[0] - b * now[1]) / det, ((a + damp) * now[1] - b * now[0]) / det];
+    for (let part = 1; part > 0.05; part /= 2) {
+      by.forEach((n, k) => (trial[n] = u[n] + part * scale[k] ** 2 * (slopes[k][0] * l[0] + slopes[k][1] * l[1])));
+      const then = miss();
+      if (then && Math.hypot(...then) < Math.hypot(...now)) {
+        by.forEach((n) => (u[n] = trial[n]));
+        break;
+      }
+    }
+  }
+}
+
 function numbers(h: Handle): number[] {
+  if ("by" in h && h.by) return h.by;
   if (h.kind === "load") return [...(h.components ?? []), ...[h.size, h.direction].filter((n) => n !== undefined)];
   return h.kind === "direction" ? [h.direction] : h.ends.flatMap((e) => e.n);
 }
@@ -51,7 +87,8 @@ function handle(layer: Element, b: Board, h: Handle, kernel: Kernel, hold: Hold,
   };
   const to = (at: Point) => {
     const [x, y] = paper.metres(at);
-    if ("ends" in h) h.ends.forEach((e, k) => set(kernel, e, start[k], x, y));
+    if ("by" in h && h.by) follow(kernel, h.p, h.by, x, y);
+    else if ("ends" in h) h.ends.forEach((e, k) => set(kernel, e, start[k], x, y));
     else {
       const [c, s] = start[0], p = paper.point(h.p), gx = at[0] - p[0], gy = p[1] - at[1];
       const local: Point = [c * gx + s * gy, c * gy - s * gx];

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
@@ -13,9 +13,13 @@ from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.arrays import Array, Tree
 from dalembert.model import GROUND, Mechanism
+from dalembert.model.quantities.dependent_numbers import Dependent
+from dalembert.model.quantities.dimensions import si_unit
+from dalembert.model.quantities.parameters import Parameter
 from dalembert.model.quantities.tables import Table
 from dalembert.pages.boards import Boards
 from dalembert.units import KINDS
+from dalembert.views.notation import pretty
 
 KIND_OF = {
     "points": "length",
@@ -32,8 +36,9 @@ KIND_OF = {
 
 
 def numbers_of(m: Mechanism) -> list[str]:
-    """Paths of the numbers that a reader may change: geometry, masses, loads, friction, speeds."""
-    return [path for path, value in _candidates(m) if _plain(value) and not _follows(m, path)]
+    """Paths of the numbers that a reader may change: parameters, geometry, masses, loads, friction, speeds."""
+    free = [name for name, p in m.parameters.items() if not isinstance(p.value, Dependent)]
+    return free + [path for path, value in _candidates(m) if _plain(value) and not _follows(m, path)]
 
 
 def _candidates(m: Mechanism) -> Iterator[tuple[str, object]]:
@@ -62,9 +67,20 @@ def _candidates(m: Mechanism) -> Iterator[tuple[str, object]]:
 
 
 def _plain(value: object) -> bool:
+    """A number or vector that no parameter sets."""
     if isinstance(value, tuple):
-        return bool(value) and all(isinstance(x, float) for x in value)
-    return isinstance(value, float)
+        return bool(value) and all(map(_plain, value))
+    return isinstance(value, float) and not isinstance(value, Dependent)
+
+
+def _sources(m: Mechanism, values: Iterable[object]) -> list[str]:
+    """The parameters, none of them an expression of others, that some values follow from."""
+    out: list[str] = []
+    for value in values:
+        for name in sorted(value.names) if isinstance(value, Dependent) else ():
+            given = m.parameters[name].value
+            out += _sources(m, [given]) if isinstance(given, Dependent) else [name]
+    return list(dict.fromkeys(out))
 
 
 def _follows(m: Mechanism, path: str) -> bool:
@@ -80,6 +96,8 @@ def _follows(m: Mechanism, path: str) -> bool:
 
 def kind_of(m: Mechanism, path: str) -> str:
     """The kind of the number at a path."""
+    if path in m.parameters:
+        return m.parameters[path].kind or ""
     group, name, *_ = keys = path.split(".")
     if group == "drives":
         return ("angular_" if m.drives[name].turns else "") + keys[2]
@@ -106,9 +124,12 @@ def label(path: str) -> str:
 
 def number_fields(b: Boards, k: Kernel) -> list[Tree]:
     """Every number with its path, words, SI value, unit and size of that unit."""
-    out = []
+    out, m = list[Tree](), b.known.mechanism
     for n in k.trace.numbers:
-        kind = kind_of(b.known.mechanism, n.path)
+        if n.path in m.parameters:
+            out.append(_parameter_field(n.path, n.value, m.parameters[n.path]))
+            continue
+        kind = kind_of(m, n.path)
         out.append(
             {
                 "path": n.path,
@@ -119,6 +140,14 @@ def number_fields(b: Boards, k: Kernel) -> list[Tree]:
             }
         )
     return out
+
+
+def _parameter_field(name: str, value: float, p: Parameter) -> Tree:
+    """A parameter, in the unit that its file writes it in."""
+    size = value / p.in_unit() if p.in_unit() else 1.0 / p.in_unit(1.0)
+    field: Tree = {"path": name, "label": name, "value": value, "unit": pretty(p.unit), "size": size}
+    about: Tree = {"about": p.about} if p.about else {}
+    return field | {"parameter": True} | about | ({"range": list(p.range)} if p.range else {})
 
 
 def drive_fields(b: Boards) -> list[Tree]:
@@ -177,6 +206,12 @@ class _Handles:
             paths = [f"links.{link}.points.{p}" for link, p in zip(joint.links, names, strict=True)]
             self.taken.update(paths)
             if not joint.hinge:
+                continue
+            held = zip(joint.links, names, strict=True)
+            points = [x for link, point in held for x in self.b.known.mechanism.point(link, point)]
+            by = [self.places[name] for name in _sources(self.b.known.mechanism, points)]
+            if by:
+                yield {"kind": "joint", "name": name, "p": self.b.items.at(name), "ends": [], "by": by}
                 continue
             own = [
                 (link, path)
@@ -282,8 +317,20 @@ def template(m: Mechanism, k: Kernel) -> list[str]:
 
     tree = m.to_tree()
     for i, n in enumerate(k.trace.numbers):
-        _put(tree, n.keys, f"@@{i}@@ {KINDS[kind_of(m, n.path)].si}".strip(), m)
+        if n.path in m.parameters:
+            _put_parameter(
+                tree["parameters"], n.path, f"@@{i}@@ {si_unit(m.parameters[n.path].dimension)}".strip()
+            )
+        else:
+            _put(tree, n.keys, f"@@{i}@@ {KINDS[kind_of(m, n.path)].si}".strip(), m)
     return tree_text(tree).split("@@")
+
+
+def _put_parameter(parameters: Tree, name: str, text: str) -> None:
+    if isinstance(parameters[name], dict):
+        parameters[name]["value"] = text
+    else:
+        parameters[name] = text
 
 
 def _put(tree: Any, keys: list[str], text: str, m: Mechanism) -> None:

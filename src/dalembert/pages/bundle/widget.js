@@ -584,18 +584,46 @@ function te(n, i, a, o) {
 }
 // src/handles.ts
 function ne(t, n, r, i, a) {
-	let o = e("g", t.svg, { class: "handles" }), s = n.handles.map((e) => ae(o, t, e, r, i, a));
-	return oe(t, n, r, i), () => r.finite && s.forEach((e) => e());
+	let o = e("g", t.svg, { class: "handles" }), s = n.handles.map((e) => oe(o, t, e, r, i, a));
+	return z(t, n, r, i), () => r.finite && s.forEach((e) => e());
 }
 function re(e, t, n, r, i) {
 	let [a, o, s, c] = n;
 	e.values[t.n[0]] = s * (r - a) + c * (i - o), e.values[t.n[1]] = s * (i - o) - c * (r - a);
 }
 var ie = (e, t) => [...t.at, ...t.e].map((t) => e.here[t]);
-function I(e) {
-	return e.kind === "load" ? [...e.components ?? [], ...[e.size, e.direction].filter((e) => e !== void 0)] : e.kind === "direction" ? [e.direction] : e.ends.flatMap((e) => e.n);
+function I(e, t, n, r, i) {
+	let a = e.values, o = new Float64Array(e.here.length), s = a.slice(), c = () => {
+		e.other(s, o);
+		let n = [r - o[t[0]], i - o[t[1]]];
+		return Number.isFinite(n[0] + n[1]) ? n : null;
+	};
+	for (let e = 0; e < 4; e++) {
+		s.set(a);
+		let e = c();
+		if (!e) return;
+		let t = n.map((t) => {
+			let n = 1e-6 * (Math.abs(a[t]) || 1);
+			s[t] = a[t] + n;
+			let r = c();
+			return s[t] = a[t], r ? [(e[0] - r[0]) / n, (e[1] - r[1]) / n] : [0, 0];
+		}), r = n.map((e) => Math.abs(a[e]) || 1), i = 0, o = 0, l = 0;
+		t.forEach(([e, t], n) => (i += (e * r[n]) ** 2, o += e * t * r[n] ** 2, l += (t * r[n]) ** 2));
+		let u = 1e-9 * (i + l) + 1e-300, d = (i + u) * (l + u) - o * o, f = [((l + u) * e[0] - o * e[1]) / d, ((i + u) * e[1] - o * e[0]) / d];
+		for (let i = 1; i > .05; i /= 2) {
+			n.forEach((e, n) => s[e] = a[e] + i * r[n] ** 2 * (t[n][0] * f[0] + t[n][1] * f[1]));
+			let o = c();
+			if (o && Math.hypot(...o) < Math.hypot(...e)) {
+				n.forEach((e) => a[e] = s[e]);
+				break;
+			}
+		}
+	}
 }
-function ae(t, n, r, i, a, o) {
+function ae(e) {
+	return "by" in e && e.by ? e.by : e.kind === "load" ? [...e.components ?? [], ...[e.size, e.direction].filter((e) => e !== void 0)] : e.kind === "direction" ? [e.direction] : e.ends.flatMap((e) => e.n);
+}
+function oe(t, n, r, i, a, o) {
 	let s = `${{
 		joint: "joint",
 		point: "point",
@@ -621,7 +649,8 @@ function ae(t, n, r, i, a, o) {
 		d = "ends" in r ? r.ends.map((e) => ie(i, e)) : [r.e.map((e) => u[e])], f = !0;
 	}, h = (e) => {
 		let [t, n] = l.metres(e);
-		if ("ends" in r) r.ends.forEach((e, r) => re(i, e, d[r], t, n));
+		if ("by" in r && r.by) I(i, r.p, r.by, t, n);
+		else if ("ends" in r) r.ends.forEach((e, r) => re(i, e, d[r], t, n));
 		else {
 			let [t, n] = d[0], a = l.point(r.p), s = e[0] - a[0], c = a[1] - e[1], u = [t * s + n * c, t * c - n * s];
 			r.kind === "direction" ? i.values[r.direction] = L(Math.atan2(u[1], u[0]), i.values[r.direction]) : r.components ? r.components.forEach((e, t) => i.values[e] = u[t] * o()) : g(r, u);
@@ -635,7 +664,7 @@ function ae(t, n, r, i, a, o) {
 			n[e.size] = a * (t[0] * c[0] + t[1] * c[1]) * o() / l;
 		}
 	}, _ = () => {
-		f && a.finished(I(r)), f = !1;
+		f && a.finished(ae(r)), f = !1;
 	};
 	return c.addEventListener("pointerdown", (e) => {
 		e.stopPropagation(), c.setPointerCapture(e.pointerId), m();
@@ -661,7 +690,7 @@ function R(e, t) {
 	let n = new DOMPoint(t.clientX, t.clientY).matrixTransform(e.svg.getScreenCTM().inverse());
 	return [n.x, n.y];
 }
-function oe(e, t, n, r) {
+function z(e, t, n, r) {
 	let i = t.drives[0];
 	if (!i || n.count < 2) return;
 	let a = 0, o = 0, s = !1, c = (t) => {
@@ -682,25 +711,25 @@ function oe(e, t, n, r) {
 	}), e.svg.addEventListener("pointerup", () => s = !1);
 }
 // src/kernel.ts
-var z = /* @__PURE__ */ new Set([
+var B = /* @__PURE__ */ new Set([
 	0,
 	9,
 	12,
 	13
 ]);
-function B(e) {
+function V(e) {
 	return Uint8Array.from(atob(e), (e) => e.charCodeAt(0));
 }
-function V(e) {
-	if (typeof e == "string") return new Float64Array(B(e).buffer);
+function H(e) {
+	if (typeof e == "string") return new Float64Array(V(e).buffer);
 	let t = (e.to - e.from) / Math.max(e.count - 1, 1);
 	return Float64Array.from({ length: e.count }, (n, r) => r === e.count - 1 ? e.to : e.from + r * t);
 }
-async function se(e) {
-	let t = new Blob([B(e)]).stream().pipeThrough(new DecompressionStream("deflate"));
+async function U(e) {
+	let t = new Blob([V(e)]).stream().pipeThrough(new DecompressionStream("deflate"));
 	return new Response(t).arrayBuffer();
 }
-var H = class e {
+var W = class e {
 	run;
 	values;
 	path;
@@ -718,18 +747,18 @@ var H = class e {
 		o > t.buffer.byteLength && t.grow(Math.ceil((o - t.buffer.byteLength) / 65536)), [this.values, this.path, this.out] = a.map((e, n) => new Float64Array(t.buffer, this.places[n], e));
 	}
 	static async create(t, n) {
-		let { instance: r } = await WebAssembly.instantiate(await se(t.wasm)), { memory: i, run: a } = r.exports;
+		let { instance: r } = await WebAssembly.instantiate(await U(t.wasm)), { memory: i, run: a } = r.exports;
 		return new e(a, i, t, n, t.row);
 	}
 	call(e) {
 		this.run(this.places[0], this.places[1], this.places[2], Math.ceil(e / 2));
 	}
-}, U = class {
+}, se = class {
 	table;
 	breaks;
 	pieces;
 	constructor(e) {
-		this.table = e, this.breaks = V(e.breaks), this.pieces = V(e.pieces);
+		this.table = e, this.breaks = H(e.breaks), this.pieces = H(e.pieces);
 	}
 	at(e) {
 		let { breaks: t, pieces: n } = this, r = t.length - 1, { period: i, order: a } = this.table, o = t[0], s = i ? o + ((e - o) % i + i) % i : Math.min(Math.max(e, o), t[r]), c = 0, l = r - 1;
@@ -755,9 +784,9 @@ var H = class e {
 	positions;
 	channels;
 	constructor(e, t, n, r) {
-		this.data = e, this.whole = t, this.one = n, this.slope = r, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.here = new Float64Array(e.kernel.outputs + 1), this.positions = new Map(e.drives.map((e) => [e.name, V(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
-			values: V(e.values),
-			pieces: e.table && new U(e.table),
+		this.data = e, this.whole = t, this.one = n, this.slope = r, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.here = new Float64Array(e.kernel.outputs + 1), this.positions = new Map(e.drives.map((e) => [e.name, H(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
+			values: H(e.values),
+			pieces: e.table && new se(e.table),
 			drive: e.table ? e.table.drive : e.name.replace(/^position /, "")
 		}])), e.kernel.channels.forEach((e, n) => {
 			let r = this.channels.get(e).values;
@@ -769,9 +798,9 @@ var H = class e {
 			...t.kernel,
 			row: t.kernel.row
 		}, [i, a, o] = await Promise.all([
-			H.create(t.kernel, n),
-			H.create(r, n),
-			t.gradient ? H.create(t.gradient, n) : void 0
+			W.create(t.kernel, n),
+			W.create(r, n),
+			t.gradient ? W.create(t.gradient, n) : void 0
 		]);
 		return new e(t, i, a, o);
 	}
@@ -824,7 +853,7 @@ var H = class e {
 		});
 	}
 	good(e) {
-		return z.has(this.rows[this.rows.length - this.row + e]);
+		return B.has(this.rows[this.rows.length - this.row + e]);
 	}
 	get mark() {
 		return this.here[this.here.length - 1];
@@ -833,7 +862,7 @@ var H = class e {
 		return this.here.every(Number.isFinite);
 	}
 	get solved() {
-		return z.has(this.mark);
+		return B.has(this.mark);
 	}
 	value(e, t) {
 		return this.rows[e * this.row + t];
@@ -857,7 +886,7 @@ function ue(e, n, r, i) {
 		n: t
 	})).sort((e, t) => Number(t.field.parameter ?? !1) - Number(e.field.parameter ?? !1));
 	for (let { field: e, n } of c) {
-		let [o, c] = e.parameter ? ["Parameters", e.label] : de(e.label), u = t("label", s(o), { title: e.about ?? e.path });
+		let [o, c] = e.parameter ? ["Parameters", e.label] : G(e.label), u = t("label", s(o), { title: e.about ?? e.path });
 		t("span", u, {}, c);
 		let d = t("input", u, {
 			type: "number",
@@ -874,7 +903,7 @@ function ue(e, n, r, i) {
 			Number.isFinite(t) && (r.values[n] = t * e.size, i(n, a));
 		};
 		if (d.addEventListener("change", () => d.value.trim() === "" ? l(f) : p(+d.value, !0)), e.parameter) {
-			let [n, r] = e.range ?? W(e.value), i = t("input", u, {
+			let [n, r] = e.range ?? K(e.value), i = t("input", u, {
 				type: "range",
 				min: n / e.size,
 				max: r / e.size,
@@ -891,15 +920,15 @@ function ue(e, n, r, i) {
 	};
 	return { update: () => a.forEach(l) };
 }
-function de(e) {
+function G(e) {
 	let t = e.indexOf(": ");
 	return t < 0 ? ["Others", e] : [e.slice(0, t), e.slice(t + 2)];
 }
-function W(e) {
+function K(e) {
 	let t = .5 * Math.abs(e) || 1;
 	return [e - t, e + t];
 }
-function fe(e, n, r) {
+function de(e, n, r) {
 	let i = t("tbody", t("table", e, { class: "answers" })), a = n.views.table.map((e) => {
 		let r = t("tr", i), a = n.units[e.kind] ?? {
 			unit: "",
@@ -918,7 +947,7 @@ function fe(e, n, r) {
 		}
 	} };
 }
-function pe(e, n, r, i) {
+function fe(e, n, r, i) {
 	let a = [
 		0,
 		1,
@@ -944,14 +973,14 @@ function pe(e, n, r, i) {
 		});
 	} };
 }
-function me(e, n) {
+function pe(e, n) {
 	t("p", e, {}, "Forces and motion are found by one linear system at each position (D'Alembert's principle); every number drawn here is computed anew from the numbers beside it, in double precision.");
 	let r = t("dl", e);
 	for (let [e, i] of Object.entries(n.assumptions)) t("dt", r, {}, e), t("dd", r, {}, i);
 	n.source && t("p", e, {}, `Source: ${n.source}`), t("p", e, {}, `Made with dalembert ${n.version}.`);
 }
 // src/page.css?inline
-var he = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.35em .8em;position:sticky;top:0}.dalembert h1{margin:0;font-size:1.15em;display:inline}.dalembert .bar{flex-wrap:wrap;align-items:center;gap:.5em;margin-top:.25em;display:flex}.dalembert .bar input{min-width:8em;accent-color:var(--accent);flex:1}.dalembert .readout{font-variant-numeric:tabular-nums;min-width:9em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);min-height:1.45em;margin:.1em 0 0;font-size:.92em}.dalembert main{grid-template-columns:minmax(0,7fr) minmax(0,5fr);align-items:start;gap:.8em;padding:.8em;display:grid}.dalembert .stage{position:sticky;top:6.2em}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .stage svg{touch-action:none;max-height:calc(100vh - 9em)}.dalembert .cloud{pointer-events:none;width:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;gap:1em;font-size:.9em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=number]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-link]{cursor:pointer}.dalembert.unsolved svg:not(.chart svg){opacity:.3}@media (max-width:800px){.dalembert main{grid-template-columns:minmax(0,1fr)}.dalembert .stage{position:static}.dalembert .polar{width:100%}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert summary~div>button,.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}", ge = class {
+var me = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.35em .8em;position:sticky;top:0}.dalembert h1{margin:0;font-size:1.15em;display:inline}.dalembert .bar{flex-wrap:wrap;align-items:center;gap:.5em;margin-top:.25em;display:flex}.dalembert .bar input{min-width:8em;accent-color:var(--accent);flex:1}.dalembert .readout{font-variant-numeric:tabular-nums;min-width:9em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);min-height:1.45em;margin:.1em 0 0;font-size:.92em}.dalembert main{grid-template-columns:minmax(0,7fr) minmax(0,5fr);align-items:start;gap:.8em;padding:.8em;display:grid}.dalembert .stage{position:sticky;top:6.2em}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .stage svg{touch-action:none;max-height:calc(100vh - 9em)}.dalembert .cloud{pointer-events:none;width:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;gap:1em;font-size:.9em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=number]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-link]{cursor:pointer}.dalembert.unsolved svg:not(.chart svg){opacity:.3}@media (max-width:800px){.dalembert main{grid-template-columns:minmax(0,1fr)}.dalembert .stage{position:static}.dalembert .polar{width:100%}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert summary~div>button,.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}", he = class {
 	b;
 	data;
 	kernel;
@@ -983,7 +1012,7 @@ var he = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--
 			t.set(r, [r[0] + 14 * i / u, r[1] - 14 * a / u], .5);
 		});
 	}
-}, _e = class {
+}, ge = class {
 	b;
 	kernel;
 	places;
@@ -1027,7 +1056,7 @@ var he = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--
 	reach() {
 		return this.b.svg.viewBox.baseVal.width * .5 * this.b.paper.perMm;
 	}
-}, ve = class {
+}, _e = class {
 	kernel;
 	past = [];
 	future = [];
@@ -1046,11 +1075,11 @@ var he = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--
 		return [this.past.length > 0, this.future.length > 0];
 	}
 };
-function ye(e, t, n) {
+function ve(e, t, n) {
 	let r = e.numbers.flatMap((e, n) => t.values[n] === e.value ? [] : [`${encodeURIComponent(e.path)}=${t.values[n]}`]);
 	return ["t=" + +n.toFixed(4), ...r].join("&");
 }
-function be(e, t, n) {
+function ye(e, t, n) {
 	let r = 0;
 	for (let i of n.replace(/^#/, "").split("&")) {
 		let [n, a] = i.split("="), o = Number(a);
@@ -1070,10 +1099,10 @@ function be(e, t, n) {
 	}
 	return r;
 }
-function xe(e, t) {
+function be(e, t) {
 	return e.template.map((e, n) => n % 2 ? String(t.values[+e]) : e).join("");
 }
-function Se(e, t) {
+function xe(e, t) {
 	let n = (e) => /[",\n]/.test(e) || /^[=+\-@]/.test(e) ? `"${e.replace(/^([=+\-@])/, "'$1").replace(/"/g, "\"\"")}"` : e, r = e.views.charts.flatMap((t) => t.curves.map((n) => ({
 		x: n,
 		unit: e.units[t.kind] ?? {
@@ -1095,25 +1124,25 @@ function Se(e, t) {
 	}
 	return i.join("\n") + "\n";
 }
-function Ce(t, n) {
+function Se(t, n) {
 	let r = t.cloneNode(!0), { width: i, height: a } = t.viewBox.baseVal;
 	r.querySelectorAll(".handles").forEach((e) => e.remove()), r.setAttribute("xmlns", "http://www.w3.org/2000/svg"), r.setAttribute("width", `${i}mm`), r.setAttribute("height", `${a}mm`), r.setAttribute("font-family", "'DejaVu Sans', Arial, sans-serif");
 	let o = e("style", null);
 	return o.textContent = n, r.prepend(o), new XMLSerializer().serializeToString(r);
 }
-function G(e, t, n) {
+function q(e, t, n) {
 	let r = document.createElement("a");
 	r.href = URL.createObjectURL(new Blob([t], { type: n })), r.download = e, r.click(), setTimeout(() => URL.revokeObjectURL(r.href), 1e3);
 }
-var we = (e) => o(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism";
+var Ce = (e) => o(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism";
 // src/page.ts
-async function K(e, n, r = {}) {
+async function J(e, n, r = {}) {
 	if (n.format !== "dalembert-page/1") throw Error(`this page cannot show data of the form ${n.format}`);
 	let i = await ce.create(n), a = document.createElement("div");
 	a.className = "dalembert", i.cycle();
 	let s = t("style", a);
-	s.textContent = he + n.style.light + `@media (prefers-color-scheme:dark){${n.style.dark}}@media print{` + n.style.light + "}";
-	let c = new ve(i), l = [], u = r.address ? be(n, i, location.hash) : 0;
+	s.textContent = me + n.style.light + `@media (prefers-color-scheme:dark){${n.style.dark}}@media print{` + n.style.light + "}";
+	let c = new _e(i), l = [], u = r.address ? ye(n, i, location.hash) : 0;
 	c.note();
 	let d = t("header", a), f = t("main", a);
 	t("h1", d, {}, n.title);
@@ -1134,9 +1163,9 @@ async function K(e, n, r = {}) {
 		max: i.end,
 		step: n.only_at_positions ? 1 : "any",
 		"aria-label": "place of the cycle"
-	}), _ = t("output", p, { class: "readout" }), v = m("↶", "undo (Ctrl+Z)", () => X(!0)), y = m("↷", "redo (Ctrl+Y)", () => X(!1));
+	}), _ = t("output", p, { class: "readout" }), v = m("↶", "undo (Ctrl+Z)", () => we(!0)), y = m("↷", "redo (Ctrl+Y)", () => we(!1));
 	m("Reset", "all numbers as in the file", () => {
-		i.values.set(n.numbers.map((e) => e.value)), Y([]), J();
+		i.values.set(n.numbers.map((e) => e.value)), X([]), Y();
 	});
 	let b = t("p", d, {
 		class: "mark",
@@ -1150,9 +1179,9 @@ async function K(e, n, r = {}) {
 	let x = t("section", f, {
 		class: "stage",
 		"aria-label": "mechanism"
-	}), S = A(x, i, n.views.mechanism, null, 170, O(i, n.views.mechanism, 170), n.units, "the mechanism"), C = n.views.charts.flatMap((e) => e.curves).find((e) => n.gradient?.curves.includes(e.row)), w = new ge(S, n, i), T = new _e(x, S, n, i, n.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), E = ne(S, n, i, {
-		changed: () => J(),
-		finished: Y,
+	}), S = A(x, i, n.views.mechanism, null, 170, O(i, n.views.mechanism, 170), n.units, "the mechanism"), C = n.views.charts.flatMap((e) => e.curves).find((e) => n.gradient?.curves.includes(e.row)), w = new he(S, n, i), T = new ge(x, S, n, i, n.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), E = ne(S, n, i, {
+		changed: () => Y(),
+		finished: X,
 		seek: (e) => Z(e),
 		time: () => u
 	}, () => S.force()), D = t("div", x, { class: "switches" }), k = (e, n, r, i) => {
@@ -1163,60 +1192,60 @@ async function K(e, n, r = {}) {
 	let j = t("span", D, { class: "spread" }), M = t("section", f, {
 		class: "side",
 		"aria-label": "results"
-	}), N = (e) => Z(e), re = (e) => (C = e, Q(!0)), ie = [...i.count > 1 ? n.views.charts.map((e) => ee(M, n, i, e, () => u, N, re, () => C)) : []], I = t("select", U("Free body", !0), { "aria-label": "link" });
+	}), N = (e) => Z(e), re = (e) => (C = e, Q(!0)), ie = [...i.count > 1 ? n.views.charts.map((e) => ee(M, n, i, e, () => u, N, re, () => C)) : []], I = t("select", W("Free body", !0), { "aria-label": "link" });
 	n.views.bodies.forEach((e, n) => t("option", I, { value: n }, `${e.title}, ${e.member} member`));
-	let ae = t("div", I.parentElement), L = n.views.bodies.map((e) => {
+	let ae = t("div", I.parentElement), oe = n.views.bodies.map((e) => {
 		let r = t("div", ae, { class: "body" });
 		return {
 			box: r,
 			drawn: A(r, i, e, e.about, 110, 100, n.units, `free body of ${e.title}`),
-			sums: pe(r, n, i, e)
+			sums: fe(r, n, i, e)
 		};
-	}), R = U("Force polygon"), oe = n.views.polygons.links.map((e) => te(R, n, i, e)), z = i.count > 2 ? n.views.charts.flatMap((e) => e.curves).filter((e) => e.f) : [], B = z.length ? U("Polar diagrams") : null, V = B ? z.map((e) => F(B, i, e, n.units.force)) : [], se = fe(U("Numbers of this position"), n, i), H = ue(U("Change numbers", n.numbers.some((e) => e.parameter)), n, i, (e, t) => {
-		J(), t && Y([e]);
+	}), L = W("Force polygon"), R = n.views.polygons.links.map((e) => te(L, n, i, e)), z = i.count > 2 ? n.views.charts.flatMap((e) => e.curves).filter((e) => e.f) : [], B = z.length ? W("Polar diagrams") : null, V = B ? z.map((e) => F(B, i, e, n.units.force)) : [], H = de(W("Numbers of this position"), n, i), U = ue(W("Change numbers", n.numbers.some((e) => e.parameter)), n, i, (e, t) => {
+		Y(), t && X([e]);
 	});
-	me(U("Method and assumptions"), n), de();
-	function U(e, t = !1) {
+	pe(W("Method and assumptions"), n), se();
+	function W(e, t = !1) {
 		return le(M, e, t);
 	}
-	function de() {
-		let e = U("Save and share"), a = we(n.title), o = (n, r) => t("button", e, { type: "button" }, n).addEventListener("click", r);
-		o("Model file", () => G(`${a}.yaml`, xe(n, i), "text/yaml")), o("Curves as CSV", () => G(`${a}.csv`, Se(n, i), "text/csv")), o("Drawing as SVG", () => G(`${a}.svg`, Ce(S.svg, n.style.light), "image/svg+xml")), o("Print", () => window.print()), r.address && o("Copy link", () => {
-			location.hash = ye(n, i, u), navigator.clipboard?.writeText(location.href);
+	function se() {
+		let e = W("Save and share"), a = Ce(n.title), o = (n, r) => t("button", e, { type: "button" }, n).addEventListener("click", r);
+		o("Model file", () => q(`${a}.yaml`, be(n, i), "text/yaml")), o("Curves as CSV", () => q(`${a}.csv`, xe(n, i), "text/csv")), o("Drawing as SVG", () => q(`${a}.svg`, Se(S.svg, n.style.light), "image/svg+xml")), o("Print", () => window.print()), r.address && o("Copy link", () => {
+			location.hash = ve(n, i, u), navigator.clipboard?.writeText(location.href);
 		});
 	}
 	I.addEventListener("change", () => Q(!1)), S.svg.addEventListener("click", (e) => {
 		let t = e.target.closest("[data-link]")?.dataset.link, r = n.views.bodies.findIndex((e) => e.link === t);
 		r >= 0 && (I.value = String(r), Q(!1));
 	}), g.addEventListener("input", () => Z(+g.value));
-	let W = 0, K = !0, q = 0;
-	function J() {
+	let G = 0, K = !0, J = 0;
+	function Y() {
 		Q(!0);
 	}
-	function Y(e) {
-		c.note(), S.fit(), Q(!0), H.update(), r.edited && e.length && r.edited(Object.fromEntries(e.map((e) => [n.numbers[e].path, i.values[e]]))), r.address && window.history.replaceState(null, "", "#" + ye(n, i, u));
-	}
 	function X(e) {
-		c.go(e) && (Q(!0), H.update(), r.edited?.(Object.fromEntries(n.numbers.map((e, t) => [e.path, i.values[t]]))));
+		c.note(), S.fit(), Q(!0), U.update(), r.edited && e.length && r.edited(Object.fromEntries(e.map((e) => [n.numbers[e].path, i.values[e]]))), r.address && window.history.replaceState(null, "", "#" + ve(n, i, u));
+	}
+	function we(e) {
+		c.go(e) && (Q(!0), U.update(), r.edited?.(Object.fromEntries(n.numbers.map((e, t) => [e.path, i.values[t]]))));
 	}
 	function Z(e) {
 		u = Math.min(Math.max(e, 0), i.end), n.only_at_positions && (u = Math.round(u)), Q(!1);
 	}
 	function Te() {
-		if (q) return Ee();
+		if (J) return Ee();
 		h.textContent = "❚❚";
 		let e = performance.now(), t = (r) => {
 			let a = u + (r - e) / 1e3 / 6 * i.end;
-			e = r, Z(a >= i.end ? 0 : a), (!n.only_at_positions || a >= 1) && (q = requestAnimationFrame(t));
+			e = r, Z(a >= i.end ? 0 : a), (!n.only_at_positions || a >= 1) && (J = requestAnimationFrame(t));
 		};
-		q = requestAnimationFrame(t);
+		J = requestAnimationFrame(t);
 	}
 	function Ee() {
-		cancelAnimationFrame(q), q = 0, h.textContent = "▶";
+		cancelAnimationFrame(J), J = 0, h.textContent = "▶";
 	}
 	function Q(e) {
-		K ||= e, W ||= requestAnimationFrame(() => {
-			W = 0;
+		K ||= e, G ||= requestAnimationFrame(() => {
+			G = 0;
 			let e = performance.now();
 			De(), l.push(performance.now() - e), l.length > 2e3 && l.shift();
 		});
@@ -1229,11 +1258,11 @@ async function K(e, n, r = {}) {
 		let o = T.update(C?.row);
 		j.textContent = o && C ? Oe(o, C) : "", ie.forEach((t) => t.update(e));
 		let s = +I.value;
-		L.forEach((t, n) => {
+		oe.forEach((t, n) => {
 			t.box.hidden = n !== s, n === s && $(t.box) && (t.drawn.update(e), t.sums.update());
-		}), oe.forEach((t, n) => {
+		}), R.forEach((t, n) => {
 			t.figure.hidden = n !== s, n === s && $(t.figure) && t.update(e);
-		}), V.forEach((t) => t.update(e)), $(R), se.update(), g.value = String(u), _.textContent = n.drives.map((e) => `${e.name} = ${P(i.position(e.name, u) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), [v.disabled, y.disabled] = c.can.map((e) => !e);
+		}), V.forEach((t) => t.update(e)), $(L), H.update(), g.value = String(u), _.textContent = n.drives.map((e) => `${e.name} = ${P(i.position(e.name, u) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), [v.disabled, y.disabled] = c.can.map((e) => !e);
 	}
 	let $ = (e) => e.closest("details")?.open ?? !0;
 	function Oe(e, t) {
@@ -1245,8 +1274,8 @@ async function K(e, n, r = {}) {
 	}
 	return a.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => Q(!0))), a.addEventListener("keydown", (e) => {
 		let t = /INPUT|SELECT|TEXTAREA/.test(e.target.tagName);
-		(e.ctrlKey || e.metaKey) && !t && /^[zy]$/i.test(e.key) ? (e.preventDefault(), X(e.key.toLowerCase() === "z" && !e.shiftKey)) : e.key === " " && !t && e.target.tagName !== "BUTTON" && i.count > 1 && (e.preventDefault(), Te());
-	}), a.tabIndex = -1, i.cycle(), i.at(u), e.replaceChildren(a), S.fit(), De(), H.update(), {
+		(e.ctrlKey || e.metaKey) && !t && /^[zy]$/i.test(e.key) ? (e.preventDefault(), we(e.key.toLowerCase() === "z" && !e.shiftKey)) : e.key === " " && !t && e.target.tagName !== "BUTTON" && i.count > 1 && (e.preventDefault(), Te());
+	}), a.tabIndex = -1, i.cycle(), i.at(u), e.replaceChildren(a), S.fit(), De(), U.update(), {
 		kernel: i,
 		data: n,
 		times: l,
@@ -1254,22 +1283,22 @@ async function K(e, n, r = {}) {
 		set(e, t) {
 			let r = n.numbers.findIndex((t) => t.path === e);
 			if (r < 0) throw Error(`there is no number ${e}`);
-			i.values[r] = t, Y([]);
+			i.values[r] = t, X([]);
 		},
-		text: () => xe(n, i),
+		text: () => be(n, i),
 		remove: () => (Ee(), a.remove())
 	};
 }
 // src/main.ts
-var q = { async render({ model: e, el: t }) {
+var Y = { async render({ model: e, el: t }) {
 	let n = (t) => {
 		e.set("changes", {
 			...e.get("changes"),
 			...t
 		}), e.save_changes();
-	}, r = await K(t, e.get("data"), { edited: n }), i = async () => {
-		r.remove(), r = await K(t, e.get("data"), { edited: n });
+	}, r = await J(t, e.get("data"), { edited: n }), i = async () => {
+		r.remove(), r = await J(t, e.get("data"), { edited: n });
 	};
 	return e.on("change:data", i), () => (e.off("change:data", i), r.remove());
 } };
-export { q as default, K as mount };
+export { Y as default, J as mount };
