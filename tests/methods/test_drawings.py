@@ -520,3 +520,30 @@ def test_instant_centres_that_are_not_drawn_are_listed_with_their_place_or_direc
     assert found.place is None
     across = math.remainder(float(guide.angle("lever")[4]) + math.pi / 2, math.pi)
     assert found.direction == pytest.approx(across, abs=1e-9)
+
+
+def test_a_load_is_seen_beside_a_large_effort_and_lies_on_nothing() -> None:
+    """Efforts have a scale of their own where loads would be too short; an arrow goes where it covers least."""
+    r = result("scissor_lift")
+    scene = da.draw.mechanism(r)
+    load, effort = (next(a for a in scene.arrows() if a.kind == kind) for kind in ("load", "effort"))
+    assert load.length > 10.0
+    assert load.length * scene.scales["load"] == pytest.approx(load.value, rel=1e-9)
+    assert effort.length * scene.scales["effort"] == pytest.approx(effort.value, rel=1e-9)
+    gas = next(a for a in da.draw.mechanism(result("engine")).arrows() if a.of == "gas")
+    assert gas.tail[0] > gas.head[0]  # it pushes the piston from outside; it does not lie on the rod
+
+
+def test_a_driven_slide_between_two_pins_is_drawn_as_a_cylinder() -> None:
+    blocks = {
+        name: [i for i in da.draw.mechanism(result(name)).items if getattr(i, "role", "") == "block"]
+        for name in ("bucket", "vw-01-hydraulic-lift", "quick_return")
+    }
+    corners = {name: [item.points for item in some] for name, some in blocks.items()}
+    ratio = {
+        name: max(math.dist(p[0], p[1]) / math.dist(p[1], p[2]) for p in some)
+        for name, some in corners.items()
+    }
+    assert ratio["bucket"] > 4.0
+    assert ratio["vw-01-hydraulic-lift"] > 4.0
+    assert ratio["quick_return"] < 2.0

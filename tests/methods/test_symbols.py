@@ -15,7 +15,7 @@ from dalembert.model.load_types import SpanLoad
 from dalembert.views.formats.glb import _material
 from dalembert.views.formats.themes import SOLIDS, THEMES
 from dalembert.views.paper.canvas import Canvas
-from dalembert.views.paper.scene import Arrow, Circle, Line
+from dalembert.views.paper.scene import Arrow, Circle, Line, Polygon
 from dalembert.views.plane.joint_drawings import DRAWINGS
 from dalembert.views.space.camera import CAMERAS
 from dalembert.views.space.solids import Ball, Block, Cylinder, Pane, Wire
@@ -27,6 +27,7 @@ from dalembert.views.symbols.plane_symbols import (
     PIN,
     SPANS,
     couple,
+    cylinder,
     damper,
     fixed_pin,
     guide,
@@ -79,7 +80,33 @@ def test_a_spring_goes_from_end_to_end_the_same_from_either(
     assert (*points[0], *points[-1]) == pytest.approx((*a, *b))
     along = (points - a) @ (np.subtract(b, a) / length)
     assert along == pytest.approx((length - along)[::-1])
-    assert np.ptp(np.diff(along[2:-2])) == pytest.approx(0, abs=1e-9)
+    turn = along[1:-1][14:] - along[1:-1][:-14]
+    assert turn == pytest.approx(np.full(len(turn), turn[0]))
+    assert (np.diff(along) < 0).any()  # loops: a coil, no zigzag
+
+
+@pytest.mark.parametrize("longest", [1.0, 1.4, 1.8, 2.6])
+def test_the_piston_of_a_cylinder_stays_in_its_barrel_and_its_rod_ends_at_the_pin(longest: float) -> None:
+    """Barrel and rod keep their lengths over the stroke, as long as the barrel holds the stroke."""
+    sizes = []
+    for length in np.linspace(20.0, 20.0 * longest, 7):
+        end = (3.0 + 0.6 * length, 4.0 + 0.8 * length)
+        barrel, piston, rod, eye = cylinder((3.0, 4.0), end, 20.0, 20.0 * longest)
+        assert isinstance(barrel, Polygon)
+        assert isinstance(piston, Line)
+        assert isinstance(rod, Line)
+        assert isinstance(eye, Line)
+        along = [
+            [(x - 3.0) * 0.6 + (y - 4.0) * 0.8 for x, y in item.points] for item in (barrel, piston, rod, eye)
+        ]
+        assert min(along[0]) <= along[1][0] <= max(along[0]) < 20.0
+        assert along[1] == pytest.approx([along[2][0]] * 2)
+        assert along[2][1] == pytest.approx(length)
+        assert along[3] == pytest.approx([0.0, min(along[0])])
+        sizes.append((max(along[0]), along[2][1] - along[2][0]))
+    assert len({round(mouth, 9) for mouth, _ in sizes}) == 1
+    if longest < 1.7:
+        assert len({round(rod, 9) for _, rod in sizes}) == 1
 
 
 @pytest.mark.parametrize("kind", list(SYMBOLS))

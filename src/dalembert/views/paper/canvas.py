@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from dalembert.arrays import Array, Flags
-from dalembert.views.paper.lettering import BOLD, break_lines, text_width
+from dalembert.views.paper.lettering import BOLD, break_lines, text_width, unbroken
 from dalembert.views.paper.scene import (
     Arc,
     Arrow,
@@ -54,6 +54,7 @@ class Canvas:
     def __init__(self) -> None:
         self.items: list[Item] = []
         self._labels: list[Label] = []
+        self._below: list[str] = []
 
     def add(self, *items: Item) -> None:
         """Primitives."""
@@ -72,6 +73,10 @@ class Canvas:
         if text:
             self._labels.append(Label(text, near, prefer, size, role, leads))
 
+    def label_below(self, text: str) -> None:
+        """A text that stands in a note: what it belongs to is too short to be pointed at."""
+        self._below.append(text)
+
     def scene(self, title: str = "", heading: bool = True, notes: Sequence[str] = (), **given: Any) -> Scene:
         """The finished drawing, with its title above and notes below."""
         placer = _Placer(self.items)
@@ -80,9 +85,10 @@ class Canvas:
             items = placer.place_text(label)
             self.items += items
             left_over += [] if items else [label.text]
-        self._labels = []
-        if left_over:
-            notes = [*notes, f"Without room for a label: {', '.join(left_over)}"]
+        for words, texts in (("Too short", self._below), ("Without room", left_over)):
+            listed = ", ".join(map(unbroken, texts))
+            notes = [*notes, f"{words} for a label: {listed}"] if texts else notes
+        self._labels, self._below = [], []
         if heading:
             self._draw_heading(title, notes)
         return Scene(tuple(self.items), title, **given)
@@ -90,6 +96,7 @@ class Canvas:
     def _draw_heading(self, title: str, notes: Sequence[str]) -> None:
         left, bottom, right, top = Scene(tuple(self.items)).bounds
         width = max(right - left, 80.0)
+        title = ", ".join(unbroken(part) if " = " in part else part for part in title.split(", "))
         for k, line in enumerate(reversed(break_lines(title, 3.6 * BOLD, width))):
             self.add(Text((left, top + 4.5 + 4.8 * k), line, 3.6, "title", "start"))
         lines = [line for note in notes for line in break_lines(note, 2.6, width)]
@@ -190,7 +197,7 @@ class _Placer:
             free = order[first:last]
             free = free[~overlapping(box[free], self.boxes).any(axis=1)]
             free = free[~crossings(box[free], strokes).any(axis=1)]
-            if label.leads and gaps[-1] >= LEADER:
+            if label.leads and gap.max() >= LEADER:
                 free = free[(gap[free] < LEADER) | ~self._is_blocked(near[free], box[free])]
             if len(free):
                 k = int(free[0])

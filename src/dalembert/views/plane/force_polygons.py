@@ -43,6 +43,10 @@ LONGEST = 36.0
 """Largest force of a polygon, mm."""
 
 
+SHORT = 0.8
+"""Millimetres below which a side has its value below the drawing."""
+
+
 def case_actions(r: Result, case: str | None = None) -> tuple[Action, ...]:
     """All actions, or those of one sub-case of the superposition: one source and what it causes."""
     if case is None:
@@ -148,8 +152,12 @@ def _edge_label(
         (tail[0] + t * (head[0] - tail[0]), tail[1] + t * (head[1] - tail[1])) for t in (0.5, 0.35, 0.65)
     ]
     away = math.atan2(spots[0][1] - middle[1], spots[0][0] - middle[0])
+    text = f"{shown.symbol(a)} = {shown.text('force', size)}"
+    if math.dist(tail, head) < SHORT:
+        canvas.label_below(text)
+        return
     canvas.label(
-        f"{shown.symbol(a)} = {shown.text('force', size)}",
+        text,
         *spots,
         prefer=away,
         size=2.8,

@@ -70,7 +70,35 @@ def _along(s: Spot) -> float:
     return math.atan2(float(e[1]), float(e[0]))
 
 
+def hydraulic_cylinder(s: Spot) -> list[Item]:
+    """A driven slide between pins of two links, as one finds it in a lift: barrel and rod; nothing where it is none."""
+    m = s.r.mechanism
+    joint, driven = m.joints[s.name], {m.drives[d].joint or d for d in s.r.drives}
+    if s.name not in driven or _on_ground(s) or not joint.guides:
+        return []
+    paths = [link_place(s.r, link, u) for link, u in zip(joint.links, m.joint_points(s.name), strict=True)]
+    pinned = [
+        any(
+            other.hinge and link in other.links and _together(joint_place(s.r, name)[s.k], path[s.k], s)
+            for name, other in m.joints.items()
+        )
+        for link, path in zip(joint.links, paths, strict=True)
+    ]
+    lengths = s.frame.length(1.0) * np.hypot(*(paths[1] - paths[0]).T)
+    lengths = lengths[np.isfinite(lengths)]
+    if not all(pinned) or float(lengths.min()) < 6.0:
+        return []
+    ends = [s.frame(path[s.k]) for path in paths]
+    return plane_symbols.cylinder(ends[0], ends[1], float(lengths.min()), float(lengths.max()))
+
+
+def _together(one: Array, other: Array, s: Spot) -> bool:
+    return math.dist(s.frame(one), s.frame(other)) < 0.05
+
+
 def _slider(s: Spot) -> list[Item]:
+    if found := hydraulic_cylinder(s):
+        return found
     angle = _along(s)
     side = -1.0 if math.cos(angle) > -1e-9 else 1.0
     ground = plane_symbols.guide(s.at, angle, 13.0, side) if _on_ground(s) else []

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.friction.friction_circles import two_pins
-from dalembert.analysis.methods.applied_forces import Action, actions, link_place
+from dalembert.analysis.methods.applied_forces import Action, actions, joint_place, link_place
+from dalembert.arrays import Array
 from dalembert.model import GROUND
 from dalembert.views.notation import Figures, Notation, Shown
-from dalembert.views.paper.canvas import Canvas
+from dalembert.views.paper.canvas import Canvas, segments
 from dalembert.views.paper.details import detail_scenes, with_details
 from dalembert.views.paper.frame import Frame, fit_frame, force_scale
 from dalembert.views.paper.scene import Arrow, Line, Point, Scene
@@ -33,6 +34,9 @@ if TYPE_CHECKING:
 
 OWN = "Friction circles to scale; dash-dotted: the line of each reaction."
 TAKEN = f"{OWN[:-1]}, of a two-force link on both circles; faint: the common tangents not taken."
+
+UNLIKE = 0.2
+"""Part of the largest effort below which loads have a scale of their own."""
 
 NOISE = 1e-12
 """Positions of drives below this, rad or m, are rounding."""
@@ -72,13 +76,28 @@ def mechanism_scene(
     canvas_names(canvas, r, k, frame, shown)
     kinds = ("load", "spring", "effort", "weight", "inertia", "damper") if forces else ("load", "effort")
     some = [a for a in actions(r) if a.kind in kinds and is_drawn(r, a)]
-    per_mm = draw_actions(canvas, r, some, k, frame, shown, 22.0)
-    notes, scales = scale_notes(shown, frame, per_mm)
+    notes, scales = scale_notes(shown, frame, None)
+    for kind, group in _scale_groups(some, k, forces):
+        per_mm = draw_actions(canvas, r, group, k, frame, shown, 22.0, kind=kind, clear=True)
+        notes[0] += f"; {kind}s: 1 mm = {shown.plain('force', per_mm)}" if per_mm else ""
+        scales |= {kind: per_mm} if per_mm else {}
     heading = title if title is not None else r.mechanism.title or "Mechanism"
     if with_friction and with_friction_circle(r, r.joints):
         notes = [TAKEN if any(two_pins(r, n) for n in with_friction_circle(r, r.joints)) else OWN, *notes]
     scene = canvas.scene(place_title(r, k, heading, shown), notes=notes, scales=scales)
     return with_details(scene, detail_scenes(r, k, frame, shown) if with_friction and details else [])
+
+
+def _scale_groups(some: list[Action], k: int, all_forces: bool) -> list[tuple[str, list[Action]]]:
+    """What is drawn at one scale: all, or efforts by themselves where loads would be too short beside them."""
+    largest = {True: 0.0, False: 0.0}
+    for a in some:
+        size = float(np.hypot(*a.force[k]))
+        largest[a.kind == "effort"] = max(largest[a.kind == "effort"], size if math.isfinite(size) else 0.0)
+    if all_forces or not 0 < largest[False] < UNLIKE * largest[True]:
+        return [("force", some)]
+    efforts = [a for a in some if a.kind == "effort"]
+    return [("load", [a for a in some if a not in efforts]), ("effort", efforts)]
 
 
 def is_drawn(r: Result, a: Action) -> bool:
@@ -155,6 +174,8 @@ def draw_links(canvas: Canvas, r: Result, k: int, frame: Frame) -> None:
             canvas.add(*(plane_symbols.fixed_pin(at) if end == GROUND else plane_symbols.pin(at)))
     for name in sorted(r.joints, key=lambda n: m.joints[n].hinge):
         draw_joint(canvas, r, name, k, frame)
+    for load in m.loads_on("turn").values():
+        canvas.add(*plane_symbols.TURNS[load.type](frame(joint_place(r, load.joint)[k])))
     joints = [frame(p) for link in r.links for p in link_points(r, link, k).values()]
     for link in r.links:
         at = frame(r.center(link)[k])
@@ -169,7 +190,7 @@ def canvas_names(canvas: Canvas, r: Result, k: int, frame: Frame, shown: Shown) 
     for name, joint in m.joints.items():
         at = frame(link_place(r, joint.links[1], m.joint_points(name)[1])[k])
         away = math.atan2(at[1] - middle[1], at[0] - middle[0])
-        canvas.label(name, around(at), *ring(at, 1.0), prefer=away, size=3.4, role="title", leads=False)
+        canvas.label(name, around(at), *ring(at, 1.0), prefer=away, size=3.4, role="title")
     for link in r.links:
         for name, u in load_places(m, link).items():
             if name not in (*m.loads, *m.joints):
@@ -209,8 +230,11 @@ def draw_actions(
     longest: float,
     per_mm: float | None = None,
     values: bool = True,
+    kind: str = "force",
+    clear: bool = False,
 ) -> float | None:
-    """Arrows and curved arrows of actions at their places; returns newtons a millimetre, None without forces."""
+    """Arrows and curved arrows of actions at their places; returns newtons a millimetre, None without forces. ``kind``:
+    of scale; ``clear``: a load's arrow begins or ends at its place where it covers less of what is drawn."""
     some = [a for a in some if np.isfinite(a.force[k]).all() and np.isfinite(a.couple[k])]
     sizes = [float(np.hypot(*a.force[k])) for a in some]
     largest = max(sizes, default=0.0)
@@ -219,7 +243,7 @@ def draw_actions(
     drawn = False
     for a, size in zip(some, sizes, strict=True):
         if size > 1e-9 * largest and size / per_mm > 0.05:
-            draw_force(canvas, r, a, k, frame, shown, per_mm, values)
+            draw_force(canvas, r, a, k, frame, shown, per_mm, values, kind, clear and a.kind == "load")
             drawn = True
         if abs(float(a.couple[k])) > max(1e-9 * max(couples, default=0.0), shown.least["moment"]):
             draw_couple(canvas, r, a, k, frame, shown, values)
@@ -235,14 +259,20 @@ def draw_force(
     shown: Shown,
     per_mm: float,
     values: bool | None,
+    kind: str = "force",
+    clear: bool = False,
 ) -> None:
     """An arrow that leaves its point, or ends there where it pushes inwards; ``values`` None leaves it unnamed."""
     at, (fx, fy) = frame(a.at[k]), map(float, a.force[k])
     dx, dy = fx / per_mm, fy / per_mm
     size = math.hypot(fx, fy)
     inward = _pushes(r, a, k)
+    if clear:
+        strokes = segments([i for i in canvas.items if not isinstance(i, Arrow)])
+        hidden = [_covered(strokes, at, (at[0] + sign * dx, at[1] + sign * dy)) for sign in (1, -1)]
+        inward = inward if hidden[0] == hidden[1] else hidden[0] > hidden[1]
     tail, head = ((at[0] - dx, at[1] - dy), at) if inward else (at, (at[0] + dx, at[1] + dy))
-    canvas.add(Arrow(tail, head, role_of(a.kind), a.of, "force", size))
+    canvas.add(Arrow(tail, head, role_of(a.kind), a.of, kind, size))
     free = tail if inward else head
     side = (free[0] - at[0], free[1] - at[1])
     if values is None:
@@ -251,6 +281,18 @@ def draw_force(
     text = f"{name} = {shown.text('force', size)}" if values else name
     along = [(at[0] + t * side[0], at[1] + t * side[1]) for t in (1.0, 0.8, 0.6)]
     canvas.label(text, *along, prefer=math.atan2(side[1], side[0]), size=2.8, role=role_of(a.kind))
+
+
+def _covered(strokes: Array, start: Point, end: Point) -> int:
+    """How many of twelve places of an arrow, those at its start left out, are on strokes (S, 2, 2)."""
+    along = np.array(
+        [[start[n] + t * (end[n] - start[n]) for n in (0, 1)] for t in np.linspace(0.25, 1.0, 12)]
+    )
+    first, span = strokes[:, 0], strokes[:, 1] - strokes[:, 0]
+    away = along[:, None] - first
+    t = np.clip((away * span).sum(axis=-1) / np.maximum((span**2).sum(axis=-1), 1e-12), 0.0, 1.0)
+    off = np.hypot(*np.moveaxis(away - t[..., None] * span, -1, 0)).min(axis=1, initial=math.inf)
+    return int((off < 0.9).sum())
 
 
 def _pushes(r: Result, a: Action, k: int) -> bool:
@@ -269,7 +311,7 @@ def draw_couple(
 ) -> None:
     """A curved arrow about its place; the sense is drawn, the size written."""
     at, value = frame(a.at[k]), float(a.couple[k])
-    radius = 4.6 if a.kind != "inertia" else 3.4
+    radius = {"inertia": 3.4, "load": 5.8}.get(a.kind, 4.6)
     role = role_of(a.kind)
     canvas.add(*plane_symbols.couple(at, value, radius, role, a.of, value))
     if values is None:

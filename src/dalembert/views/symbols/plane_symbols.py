@@ -82,16 +82,35 @@ def wheel(at: Point, radius: float, angle: float) -> list[Item]:
     return [Circle(at, radius, "pitch"), Line(spoke, "construction")]
 
 
-def spring(a: Point, b: Point, turns: int = 6) -> list[Item]:
-    """A zigzag between two points."""
+def spring(a: Point, b: Point) -> list[Item]:
+    """A coil between two points, seen from the side."""
     length = math.dist(a, b)
+    turns = min(max(6, round(0.3 * length)), 30) + 0.5
     angle = math.atan2(b[1] - a[1], b[0] - a[0])
-    lead, wide = 0.18 * length, min(1.6, 0.2 * length)
-    step = (length - 2 * lead) / (2 * turns)
-    points: list[Point] = [(0, 0), (lead, 0)]
-    points += [(lead + (k + 0.5) * step, wide if k % 2 == 0 else -wide) for k in range(2 * turns)]
-    points += [(length - lead, 0), (length, 0)]
-    return [Line(_rotate(points, a, angle), "spring")]
+    lead, wide = 0.15 * length, min(1.7, 0.2 * length)
+    pitch = (length - 2 * lead) / turns
+    around = [math.pi * k / 7 for k in range(round(14 * turns) + 1)]
+    coil = [
+        (lead + t / (2 * math.pi) * pitch - 0.35 * pitch * math.cos(t), wide * math.sin(t)) for t in around
+    ]
+    return [Line(_rotate([(0.0, 0.0), *coil, (length, 0.0)], a, angle), "spring")]
+
+
+def torsion_spring(at: Point) -> list[Item]:
+    """A spiral about a joint, held outside."""
+    turns, least, most = 2.25, PIN + 0.5, 4.2
+    way = [k / 60 for k in range(61)]
+    spiral = [
+        (at[0] + r * math.cos(t), at[1] + r * math.sin(t))
+        for r, t in ((least + (most - least) * f, 2 * math.pi * turns * f) for f in way)
+    ]
+    return [Line((*spiral, (spiral[-1][0] + 1.6, spiral[-1][1])), "spring")]
+
+
+def torsion_damper(at: Point) -> list[Item]:
+    """A vane in a round pot about a joint."""
+    vane = ((at[0], at[1] + PIN), (at[0], at[1] + 3.0))
+    return [Arc(at, 3.6, math.radians(20), math.radians(160), "spring"), Line(vane, "spring")]
 
 
 def damper(a: Point, b: Point) -> list[Item]:
@@ -122,12 +141,39 @@ def strip_spring(a: Point, b: Point, turns: float = 2.5) -> list[Item]:
     return [Line(_rotate(p, a, angle), "spring") for p in parts]
 
 
+def cylinder(base: Point, end: Point, shortest: float, longest: float) -> list[Item]:
+    """A hydraulic cylinder between its pins: barrel, piston and rod, for the shortest and longest of its lengths in mm.
+
+    Barrel and rod are as long as the shortest length holds; the piston stays in the barrel.
+    """
+    length, angle = math.dist(base, end), math.atan2(end[1] - base[1], end[0] - base[0])
+    half = min(2.2, 0.16 * shortest)
+    mouth = min(0.88 * shortest, shortest - PIN - 1.0)
+    rod = min(0.86 * shortest, max(0.5 * shortest, longest - 0.9 * mouth))
+    head = min(max(length - rod, 0.14 * shortest), 0.94 * mouth)
+    start = 0.1 * shortest
+    barrel: list[Point] = [(start, -half), (mouth, -half), (mouth, half), (start, half)]
+    parts: list[list[Point]] = [
+        [(head, -half), (head, half)],
+        [(head, 0.0), (length, 0.0)],
+        [(0.0, 0.0), (start, 0.0)],
+    ]
+    out: list[Item] = [Polygon(_rotate(barrel, base, angle), "block")]
+    return out + [Line(_rotate(part, base, angle), "link") for part in parts]
+
+
 SPANS: dict[str, Callable[[Point, Point], list[Item]]] = {
     "spring": spring,
     "constant_force_spring": strip_spring,
     "damper": damper,
 }
 """Loads along a span -> their symbols."""
+
+TURNS: dict[str, Callable[[Point], list[Item]]] = {
+    "torsion_spring": torsion_spring,
+    "torsion_damper": torsion_damper,
+}
+"""Loads in the turn of a joint -> their symbols."""
 
 
 def couple(
