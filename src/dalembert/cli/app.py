@@ -152,20 +152,27 @@ def draw(
             "free-bodies",
             "force-polygons",
             "motion",
+            "friction",
             "charts",
             "superposition",
             "animation",
             "all",
-        ],
+        ]
+        | None,
         with_help(
-            "What to draw; motion: velocity and acceleration polygons and instant centres; charts: over a cycle; "
-            "superposition: one load at a time; all (default): mechanism, free bodies, force polygons, charts."
+            "What to draw; motion: velocity and acceleration polygons and instant centres; friction: circles, pins and "
+            "guides; charts: over a cycle; superposition: one load at a time; all: mechanism, free bodies, force "
+            "polygons, charts (default: as many of these as one page holds)."
         ),
-    ] = "all",
+    ] = None,
     at: At = None,
     positions: Positions = None,
     static: Static = False,
     theme: Theme = "light",
+    paper: Annotated[
+        Literal["a4", "letter", "fit"] | None,
+        with_help("Pages of a .pdf: a4 (default), letter, or fit: one as large as the drawing."),
+    ] = None,
     camera: Seen = None,
     names: Names = False,
     question: Annotated[
@@ -179,7 +186,9 @@ def draw(
 
     which = question_view(view) if question else view
     with progress(f"Drawing {file}"):
-        return draw_file(file, output, which, at, positions, static, theme, names, force, changes, camera)
+        return draw_file(
+            file, output, which, at, positions, static, theme, names, force, changes, camera, paper
+        )
 
 
 @app.command(

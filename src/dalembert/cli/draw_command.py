@@ -17,9 +17,10 @@ if TYPE_CHECKING:
     from dalembert.analysis import Result
     from dalembert.model import Mechanism
     from dalembert.views.notation import Notation
+    from dalembert.views.paper.scene import Scene
 
 OK, SOME_NOT_OK = 0, 1
-MOVING = ("animation", "mechanism", "all")
+MOVING = (None, "animation", "mechanism", "all")
 """Views that an animation may stand for."""
 PICTURES = (".svg", ".pdf", ".png", ".dxf", ".gif", ".webp", ".glb")
 
@@ -36,6 +37,7 @@ def draw_file(
     force: bool,
     changes: Changes = AS_IN_FILE,
     camera: str | None = None,
+    paper: str | None = None,
 ) -> int:
     """Draw a file; 1 where some position has a status other than ok."""
     from dalembert.cli.model_argument import load_model
@@ -56,18 +58,57 @@ def draw_file(
         positions = _enough(m, 36 if _moves(view, output) else 72)
     result, at = _solve_at(m, at, static, positions)
     notation = draw.Notation(links="name" if names else "number")
+    left: Sequence[str] = ()
     if output.suffix.lower() == ".glb":
         draw.solid_model(result).save(output, force)
     elif _moves(view, output):
         draw.animation(result, notation, camera=camera_at(camera)).save(output, force, theme)
     else:
-        draw.view(result, view, at, notation, camera_at(camera)).save(output, force, theme)
-    return _announce(result, output)
+        scene, left = _view(result, view, at, notation, camera)
+        scene.save(output, force, theme, _paper(output, paper))
+    done = _announce(result, output)
+    if left:
+        print(f"There is also --view {', '.join(left)}; --view all draws more pages.", file=sys.stderr)
+    return done
 
 
-def question_view(view: str) -> str:
+def _view(
+    r: Result, view: Any, at: str | None, notation: Notation, camera: str | None
+) -> tuple[Scene, Sequence[str]]:
+    """The drawing, and the views that were left out of it."""
+    from dalembert.views import draw
+
+    if view is None:
+        return _first_page(r, at, notation, camera_at(camera))
+    return draw.view(r, view, at, notation, camera_at(camera)), ()
+
+
+def _first_page(r: Result, at: str | None, notation: Notation, camera: Any) -> tuple[Scene, list[str]]:
+    """The mechanism and what else of all views has room on one A4 page; and the views there are besides."""
+    from dalembert.views import draw
+    from dalembert.views.paper.pages import fits
+
+    whole, left = draw.mechanism(r, at, notation, camera=camera), list[str]()
+    for name in draw.together(r)[1:]:
+        more = draw.beside([whole, draw.view(r, name, at, notation, camera)], r.mechanism.title, 180.0)
+        if fits(more):
+            whole = more
+        else:
+            left.append(name)
+    left += ["friction"] if r.friction is not None else []
+    return whole, left + (["motion"] if r.mechanism.dimension == 2 and r.drives else [])
+
+
+def _paper(output: Path, paper: str | None) -> str | None:
+    """The pages of a PDF, A4 unless others are asked for; `fit` is one page as large as the drawing."""
+    if paper is None and output.suffix.lower() == ".pdf":
+        return "a4"
+    return None if paper == "fit" else paper
+
+
+def question_view(view: str | None) -> str:
     """The view of `--question`, which draws the mechanism."""
-    if view not in ("all", "mechanism"):
+    if view not in (None, "mechanism"):
         raise ModelError(f"--question draws the mechanism, and not {view}", "leave out --view")
     return "question"
 

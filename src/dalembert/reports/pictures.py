@@ -7,6 +7,7 @@ from dalembert.views import draw
 from dalembert.views.paper.details import detail_scenes
 from dalembert.views.paper.scene import Scene
 from dalembert.views.plane.mechanism_view import mechanism_scene
+from dalembert.views.question import question_scene
 from dalembert.views.space.camera import ISOMETRIC
 from dalembert.views.space.space_mechanism import space_mechanism_scene
 
@@ -14,7 +15,8 @@ from dalembert.views.space.space_mechanism import space_mechanism_scene
 def given_picture(c: ReportContext) -> Scene:
     """The mechanism with its loads, without friction; of a question without what is asked for."""
     if c.question:
-        return draw.question(c.r, c.k + 1, c.notation, data=False)
+        seen = ISOMETRIC if c.r.mechanism.dimension == 3 else None
+        return question_scene(c.r, c.k, c.notation, seen, data=False)
     if c.r.mechanism.dimension == 3:
         return space_mechanism_scene(c.r, c.k, ISOMETRIC, c.notation, friction=False)
     return mechanism_scene(c.r, c.k, c.notation, friction=False)

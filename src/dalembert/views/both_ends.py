@@ -12,10 +12,14 @@ import numpy as np
 from dalembert.analysis.friction.joint_friction import joints_at_limit, reversing_joints, unknown_names
 from dalembert.analysis.output.columns import unknown_kinds
 from dalembert.views.notation import Shown
+from dalembert.views.paper.lettering import BOLD, break_lines
 from dalembert.views.paper.scene import Scene, Text, stack_scenes
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
+
+WIDTH = 180.0
+"""Room for a heading, mm."""
 
 
 def end_words(r: Result, name: str, end: Result, which: str, k: int, shown: Shown) -> str:
@@ -63,6 +67,7 @@ def at_both_ends(r: Result, k: int, shown: Shown, drawn: Callable[[Result], Scen
         return drawn(r)
     scenes = []
     for words, end, known in ends(r, k, shown) if open_at(r, k) else sides(r, k, shown):
-        scenes.append(Scene((Text((0.0, 0.0), words, 3.6, "title", "start"),), words))
+        lines = enumerate(break_lines(words, 3.6 * BOLD, WIDTH))
+        scenes.append(Scene(tuple(Text((0.0, -4.8 * n), s, 3.6, "title", "start") for n, s in lines), words))
         scenes += [drawn(end)] if known else []
     return stack_scenes(scenes, title=title, width=0.0)

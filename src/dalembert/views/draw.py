@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from dalembert.analysis.methods.applied_forces import whole_actions
 from dalembert.analysis.plane_only import refuse_space
 from dalembert.analysis.result.position_lookup import PositionChoice, position_at
+from dalembert.errors import ModelError
 from dalembert.views import charts as _charts
 from dalembert.views.both_ends import at_both_ends
 from dalembert.views.formats import glb
@@ -30,6 +31,7 @@ from dalembert.views.paper.scene import Scene, stack_scenes
 from dalembert.views.plane.displaced_inertia import displaced_inertia_scene
 from dalembert.views.plane.force_polygons import force_chain_scene, force_polygon_scene, lines_of_action_scene
 from dalembert.views.plane.free_body import components_scene, free_body_scene, free_body_scenes
+from dalembert.views.plane.friction_view import friction_scene
 from dalembert.views.plane.instant_centers import instant_centers_scene
 from dalembert.views.plane.mechanism_view import mechanism_scene, place_title
 from dalembert.views.plane.velocity_polygons import motion_polygon_scene, stands_still
@@ -49,7 +51,9 @@ if TYPE_CHECKING:
 FREE_BODIES = "draw its free bodies"
 """What there is in space in place of drawings of the plane."""
 
-View = Literal["mechanism", "free-bodies", "force-polygons", "charts", "motion", "question", "all"]
+View = Literal[
+    "mechanism", "free-bodies", "friction", "force-polygons", "charts", "motion", "question", "all"
+]
 
 
 def mechanism(
@@ -74,18 +78,12 @@ def mechanism(
 
 
 def question(
-    r: Result,
-    at: PositionChoice = None,
-    notation: Notation | None = None,
-    camera: Sighted = None,
-    data: bool = True,
+    r: Result, at: PositionChoice = None, notation: Notation | None = None, camera: Sighted = None
 ) -> Scene:
-    """The figure of a question: the mechanism with what is given, by name and value, and nothing that was computed.
-
-    Efforts and unknown loads are arrows without a number, all of one length, in their positive sense; there are no
-    reactions, and no equilibrium position is drawn. ``data`` writes below it what the problem states.
+    """The figure of a question: what is given, by name and value, and nothing that was computed. Efforts and unknown
+    loads are arrows without a number, of one length, in their positive sense; no reactions, no equilibrium positions.
     """
-    return question_scene(r, position_at(r, at), notation, _camera(r, camera), data)
+    return question_scene(r, position_at(r, at), notation, _camera(r, camera))
 
 
 def free_body(
@@ -294,33 +292,42 @@ def view(
     camera: Sighted = None,
 ) -> Scene:
     """What `dalembert draw --view` writes."""
+    seen = {"question": question, "free-bodies": free_bodies, "friction": friction}
+    plane = {"force-polygons": force_polygons, "motion": motion, "superposition": superposition}
     if which == "mechanism":
         return mechanism(r, at, notation, camera=camera)
-    if which == "question":
-        return question(r, at, notation, camera)
-    if which == "free-bodies":
-        return free_bodies(r, at, notation, camera)
-    one = {
-        "force-polygons": force_polygons,
-        "motion": motion,
-        "superposition": superposition,
-    }
-    if which in one:
-        return one[which](r, at, notation)
+    if which in seen:
+        return seen[which](r, at, notation, camera)
+    if which in plane:
+        return plane[which](r, at, notation)
     if which == "charts":
         return charts(r, notation)
-    parts = [mechanism(r, at, notation, camera=camera), free_bodies(r, at, notation, camera)]
-    if r.mechanism.dimension == 2:
-        parts.append(force_polygons(r, at, notation))
-    if len(r.status) > 2 and r.drives and r.stability is None:
-        parts.append(charts(r, notation))
-    return stack_scenes(parts, title=r.mechanism.title)
+    return stack_scenes([view(r, one, at, notation, camera) for one in together(r)], title=r.mechanism.title)
+
+
+def together(r: Result) -> list[View]:
+    """The views that `all` shows of a result, the first first."""
+    out: list[View] = ["mechanism", "free-bodies"]
+    out += ["force-polygons"] if r.mechanism.dimension == 2 else []
+    return out + (["charts"] if len(r.status) > 2 and r.drives and r.stability is None else [])
+
+
+def friction(
+    r: Result, at: PositionChoice = None, notation: Notation | None = None, camera: Sighted = None
+) -> Scene:
+    """Friction circles with the lines of the reactions, then every pin and guide with friction at a larger scale."""
+    if r.friction is None:
+        raise ModelError("this mechanism has no friction to draw", "give a joint a coefficient")
+    k, seen = position_at(r, at), _camera(r, camera)
+
+    def render(end: Result) -> Scene:
+        return friction_scene(end, k, Shown(end, notation or Notation(), k), seen)
+
+    return _whole(r, k, notation, render)
 
 
 def _camera(r: Result, camera: Sighted) -> Camera | None:
     """The camera of a mechanism in space, nothing in the plane."""
-    from dalembert.errors import ModelError
-
     if r.mechanism.dimension == 3:
         return camera_of(camera)
     if camera is not None:
@@ -331,7 +338,6 @@ def _camera(r: Result, camera: Sighted) -> Camera | None:
 
 
 def _drive(r: Result, drive: str) -> int:
-    from dalembert.errors import ModelError
     from dalembert.wording import closest
 
     if drive not in r.drives:
@@ -340,7 +346,6 @@ def _drive(r: Result, drive: str) -> int:
 
 
 def _link(r: Result, link: str) -> str:
-    from dalembert.errors import ModelError
     from dalembert.wording import closest
 
     if link not in r.links:
@@ -378,6 +383,7 @@ __all__ = [
     "force_system",
     "free_bodies",
     "free_body",
+    "friction",
     "instant_centers",
     "joint",
     "joints",

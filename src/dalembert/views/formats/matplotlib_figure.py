@@ -14,6 +14,7 @@ from dalembert.arrays import Array, Tree
 from dalembert.views.formats.svg import MARGIN, arc_head, arrow_parts
 from dalembert.views.formats.themes import BACKGROUND, THEMES, Look
 from dalembert.views.paper.lettering import BOLD, SMALL, Box, letters_width, pieces
+from dalembert.views.paper.pages import break_pages
 from dalembert.views.paper.scene import Arc, Arrow, Circle, Group, Item, Line, Polygon, Scene, Text
 
 POINT = 72 / 25.4
@@ -24,10 +25,15 @@ SETTINGS = {"pdf.fonttype": 42, "text.hinting": "none"}
 """Fonts as such in a PDF; letters as wide in a PNG as they are, for what stands behind others is placed by that."""
 
 
-def write_figure(scene: Scene, path: str | Path, theme: str = "light", dpi: int = 200) -> None:
-    """Write a PDF or a PNG, to scale."""
+def write_figure(
+    scene: Scene, path: str | Path, theme: str = "light", dpi: int = 200, paper: str | None = None
+) -> None:
+    """Write a PDF or a PNG, to scale; with ``paper`` a PDF in pages."""
     import matplotlib
 
+    if paper is not None:
+        _write_pages(scene, path, theme, dpi, paper)
+        return
     path = Path(path)
     metadata: Tree = {"Title": scene.title} if path.suffix != ".png" else {}
     if path.suffix == ".pdf":
@@ -37,6 +43,19 @@ def write_figure(scene: Scene, path: str | Path, theme: str = "light", dpi: int 
         for artist in painter.artists(scene.items):
             painter.figure.add_artist(artist)
         painter.figure.savefig(path, dpi=dpi, metadata=metadata, format=path.suffix[1:])
+
+
+def _write_pages(scene: Scene, path: str | Path, theme: str, dpi: int, paper: str) -> None:
+    import matplotlib
+    from matplotlib.backends.backend_pdf import PdfPages
+
+    metadata: Tree = {"Title": scene.title, "CreationDate": None}
+    with matplotlib.rc_context(SETTINGS), PdfPages(path, metadata=metadata) as file:
+        for page in break_pages(scene, paper):
+            painter = _Painter((MARGIN, MARGIN, page.width - MARGIN, page.height - MARGIN), theme, dpi)
+            for artist in painter.artists(page.items):
+                painter.figure.add_artist(artist)
+            file.savefig(painter.figure)
 
 
 def pictures(

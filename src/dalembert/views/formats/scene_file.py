@@ -12,9 +12,12 @@ if TYPE_CHECKING:
     from dalembert.views.paper.scene import Scene
 
 
-def save(scene: Scene, path: str | Path, overwrite: bool = False, theme: str = "light") -> None:
-    """Write .svg, .pdf, .png or .dxf."""
+def save(
+    scene: Scene, path: str | Path, overwrite: bool = False, theme: str = "light", paper: str | None = None
+) -> None:
+    """Write .svg, .pdf, .png or .dxf; with ``paper`` a PDF in pages."""
     from dalembert.views.formats.themes import THEMES
+    from dalembert.views.paper.pages import PAPERS
 
     target = Path(path)
     if theme not in THEMES:
@@ -24,6 +27,8 @@ def save(scene: Scene, path: str | Path, overwrite: bool = False, theme: str = "
         raise ModelError(
             f"{target.name}: drawings are not written as {kind or 'that'}", "use .svg, .pdf, .png or .dxf"
         )
+    if paper is not None and (paper not in PAPERS or kind != ".pdf"):
+        raise ModelError(f"{target.name} has no pages of {paper}", f"a .pdf has: {' or '.join(PAPERS)}")
     with new_file(target, overwrite) as temporary:
         if kind == ".svg":
             temporary.write_text(scene.to_svg(theme), encoding="utf-8")
@@ -36,4 +41,4 @@ def save(scene: Scene, path: str | Path, overwrite: bool = False, theme: str = "
             check_installed("matplotlib", f"writing {kind[1:].upper()}", "plot")
             from dalembert.views.formats.matplotlib_figure import write_figure
 
-            write_figure(scene, temporary, theme)
+            write_figure(scene, temporary, theme, paper=paper)

@@ -171,11 +171,13 @@ class Scene:
 
         return svg_text(self, theme)
 
-    def save(self, path: str | Path, overwrite: bool = False, theme: str = "light") -> None:
-        """Write .svg, .pdf, .png or .dxf; themes: light, dark, print."""
+    def save(
+        self, path: str | Path, overwrite: bool = False, theme: str = "light", paper: str | None = None
+    ) -> None:
+        """Write .svg, .pdf, .png or .dxf; themes: light, dark, print. ``paper``, of a PDF: pages of a4 or letter."""
         from dalembert.views.formats.scene_file import save
 
-        save(self, path, overwrite, theme)
+        save(self, path, overwrite, theme, paper)
 
     def _repr_svg_(self) -> str:
         return self.to_svg()

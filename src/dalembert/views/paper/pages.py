@@ -1,0 +1,130 @@
+"""A drawing broken into pages of paper, in its true size: whole panels, in the rows they stand in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from dalembert.views.paper.scene import Group, Item, Scene, Text
+
+PAPERS = {"a4": (210.0, 297.0), "letter": (215.9, 279.4)}
+"""Width and height of a page, mm."""
+
+MARGIN = 12.0
+GAP = 8.0
+"""Around a page and between panels, mm."""
+
+
+HEADING = 20.0
+"""Room for lines of text above a panel, mm."""
+
+
+class Page(NamedTuple):
+    """A page in mm, with its drawing where it stands from the lower left corner."""
+
+    width: float
+    height: float
+    items: tuple[Item, ...]
+
+
+def room(paper: str = "a4") -> tuple[float, float]:
+    """Width and height that a drawing may have on one page."""
+    width, height = PAPERS[paper]
+    return width - 2 * MARGIN, height - 2 * MARGIN
+
+
+def fits(scene: Scene, paper: str = "a4") -> bool:
+    """Whether a drawing has room on one page."""
+    width, height = _size(scene)
+    return width <= room(paper)[0] and height <= room(paper)[1]
+
+
+def break_pages(scene: Scene, paper: str = "a4") -> list[Page]:
+    """Pages that hold all panels; one that is larger than a page has a page to its size, along if it fits so.
+
+    >>> from dalembert.views.paper.scene import Line, stack_scenes
+    >>> panel = Scene((Line(((0, 0), (100, 100))),))
+    >>> [len(page.items) for page in break_pages(stack_scenes([panel] * 5))]
+    [2, 2, 1]
+    """
+    wide, high = room(paper)
+    out: list[list[list[Scene]]] = [[]]
+    used = 0.0
+    for row in _with_headings(_rows(scene, wide, high)):
+        height = sum(_height(line) + GAP for line in row)
+        if used and used + height - GAP > high:
+            out.append([])
+            used = 0.0
+        out[-1] += row
+        used += height
+    return [_page(lines, paper) for lines in out]
+
+
+def _size(scene: Scene) -> tuple[float, float]:
+    left, bottom, right, top = scene.bounds
+    return right - left, top - bottom
+
+
+def _height(line: Sequence[Scene]) -> float:
+    return max(_size(panel)[1] for panel in line)
+
+
+def _rows(scene: Scene, wide: float, high: float) -> Iterator[list[Scene]]:
+    """Panels that stand side by side, as many as there is room for; stacks that are too high are opened."""
+    line: list[Scene] = []
+    for panel in _panels(scene, high - HEADING):
+        same = bool(line) and abs(panel.bounds[3] - line[0].bounds[3]) < 1e-6
+        if line and not (same and sum(_size(p)[0] + GAP for p in line) + _size(panel)[0] <= wide):
+            yield line
+            line = []
+        line.append(panel)
+    if line:
+        yield line
+
+
+def _panels(scene: Scene, high: float) -> Iterator[Scene]:
+    """What a stack of drawings consists of, or the drawing itself."""
+    if len(scene.items) < 2 or not all(isinstance(item, Group) for item in scene.items):
+        yield scene
+        return
+    for item in scene.items:
+        assert isinstance(item, Group)
+        panel = Scene(item.items, item.name)
+        if _size(panel)[1] > high:
+            yield from _panels(panel, high)
+        else:
+            yield panel
+
+
+def _with_headings(rows: Iterator[list[Scene]]) -> Iterator[list[list[Scene]]]:
+    """Rows with the lines of text alone that stand before them."""
+    kept: list[list[Scene]] = []
+    for row in rows:
+        kept.append(row)
+        if not all(isinstance(item, Text) for panel in row for item in panel.flat()):
+            yield kept
+            kept = []
+    if kept:
+        yield kept
+
+
+def _page(lines: Sequence[Sequence[Scene]], paper: str) -> Page:
+    """The page that holds some rows: upright, along, or as large as they are."""
+    need_wide = max((sum(_size(p)[0] + GAP for p in line) - GAP for line in lines), default=0.0)
+    need_high = sum(_height(line) + GAP for line in lines) - GAP
+    width, height = PAPERS[paper]
+    for width, height in (PAPERS[paper], PAPERS[paper][::-1]):
+        if need_wide <= width - 2 * MARGIN + 1e-6 and need_high <= height - 2 * MARGIN + 1e-6:
+            break
+    else:
+        width, height = need_wide + 2 * MARGIN, need_high + 2 * MARGIN
+    items: list[Item] = []
+    y = height - MARGIN
+    for line in lines:
+        x = MARGIN
+        for panel in line:
+            left, _, right, top = panel.bounds
+            items.append(Group(panel.moved(x - left, y - top).items, panel.title))
+            x += right - left + GAP
+        y -= _height(line) + GAP
+    return Page(width, height, tuple(items))

@@ -1,0 +1,67 @@
+"""Drawings on pages of paper: nothing lost, nothing outside, in order; what one page holds, and what else there is."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+import dalembert as da
+from dalembert.bundled import cases, examples
+from dalembert.cli import main
+from dalembert.views.paper.pages import MARGIN, PAPERS, break_pages
+from dalembert.views.paper.scene import Scene, Text
+from tests.tiers import tiers
+
+AT_REST = "seed-002-7d-engine-at-rest"
+
+
+def words(scene: Scene) -> list[str]:
+    return sorted(t.text for t in scene.texts())
+
+
+@pytest.mark.parametrize("paper", PAPERS)
+@pytest.mark.parametrize("name", tiers(["four_bar"], [AT_REST, *(n for n in examples() if n != "four_bar")]))
+def test_pages_hold_all_of_a_drawing(name: str, paper: str) -> None:
+    whole = da.draw.view(da.solve(da.load((examples() | cases())[name])), "all")
+    pages = break_pages(whole, paper)
+    assert sorted(w for page in pages for w in words(Scene(page.items))) == words(whole)
+    for page in pages:
+        left, bottom, right, top = Scene(page.items).bounds
+        assert min(left, bottom) >= MARGIN - 1e-6
+        assert right <= page.width - MARGIN + 1e-6
+        assert top <= page.height - MARGIN + 1e-6
+        assert sorted((page.width, page.height)) == sorted(PAPERS[paper])
+
+
+def test_a_panel_larger_than_a_page_has_one_to_its_size() -> None:
+    wide = Scene((Text((0.0, 0.0), "W" * 120, 3.0, anchor="start"),))
+    (page,) = break_pages(wide)
+    assert page.width > PAPERS["a4"][1]
+    along = Scene((Text((0.0, 0.0), "W" * 70, 3.0, anchor="start"),))
+    assert [(p.width, p.height) for p in break_pages(along)] == [PAPERS["a4"][::-1]]
+
+
+def test_a_pdf_has_pages(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file, out = str(examples()["four_bar"]), tmp_path / "a.pdf"
+
+    def sizes(*options: str) -> list[tuple[float, ...]]:
+        assert main(["draw", file, "-o", str(out), "--force", *options]) == 0
+        boxes = re.findall(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", out.read_bytes())
+        return [tuple(round(float(x) * 25.4 / 72, 1) for x in box) for box in boxes]
+
+    assert sizes() == [(210.0, 297.0)]
+    assert "There is also --view free-bodies, motion; --view all draws more pages." in capsys.readouterr().err
+    assert sizes("--view", "all", "--paper", "letter") == [(215.9, 279.4)] * 3
+    assert sizes("--view", "mechanism", "--paper", "fit")[0][0] < 150.0
+    assert main(["draw", file, "-o", str(tmp_path / "a.svg"), "--paper", "a4"]) == 2
+    assert "a.svg has no pages of a4; a .pdf has: a4 or letter" in capsys.readouterr().err
+
+
+def test_friction_alone() -> None:
+    r = da.solve(da.load(cases()["seed-002-7a-engine-friction-circles"]))
+    said = " ".join(words(da.draw.friction(r)))
+    assert all(title in said for title in ("Pin O: friction circle", "Joint guide: angle of friction"))
+    with pytest.raises(da.ModelError, match="this mechanism has no friction to draw"):
+        da.draw.friction(da.solve(da.load(examples()["four_bar"])))
