@@ -16,7 +16,7 @@ import sys
 import time
 from statistics import median
 
-from tests.methods.marked_sheets import Made, mistaken_sheets, named_first, slipped_sheets, true_sheet
+from tests.grading.marked_sheets import Made, mistaken_sheets, named_first, slipped_sheets, true_sheet
 
 import dalembert as da
 from dalembert.bundled import cases, examples

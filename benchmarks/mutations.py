@@ -14,7 +14,7 @@ from pathlib import Path
 
 SOURCE = Path(__file__).parents[1] / "src" / "dalembert"
 PACKAGES = {
-    "grading": "grading/ cli/check_answers_command.py cli/check_command.py",
+    "grading": "grading/ cli/answers_commands.py cli/check_command.py",
     "units": "units.py printing.py unit_names.py wording.py",
     **{
         p: f"{p}/"

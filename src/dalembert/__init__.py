@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from dalembert.errors import STATUSES, AnalysisError, DalembertError, ModelError
     from dalembert.exams.variants import variants
     from dalembert.grading.file_answers import check_file
+    from dalembert.grading.marking.grade import grade
     from dalembert.grading.mistakes import check_answers
     from dalembert.machine.balance.balancing import balance
     from dalembert.machine.balance.counterweights import Counterweight
@@ -152,6 +153,7 @@ _NAMES = {
     "errors": "STATUSES AnalysisError DalembertError ModelError",
     "exams.variants": "variants",
     "grading.file_answers": "check_file",
+    "grading.marking.grade": "grade",
     "grading.mistakes": "check_answers",
     "model": (
         "Answer Box CircularSlot ConstantForceSpring Couple Cylinder Damper Drive Expression ForceLoad "
@@ -262,6 +264,7 @@ __all__ = [
     "forces_on",
     "four_bar",
     "friction_circles",
+    "grade",
     "guide_contact",
     "harmonics",
     "hooke_joint",

@@ -16,7 +16,7 @@ from cyclopts import (
 )
 
 from dalembert import __version__
-from dalembert.cli import machine_commands, page_command, variants_command, wrench_command
+from dalembert.cli import answers_commands, machine_commands, page_command, variants_command, wrench_command
 from dalembert.cli.options import (
     AS_IN_FILE,
     AS_USUAL,
@@ -272,9 +272,7 @@ def check_answers(
     changes: Changes = AS_IN_FILE,
 ) -> int:
     """Compare your own figures with what is computed, and name the mistakes that explain the differences."""
-    from dalembert.cli.check_answers_command import grade_answers
-
-    return grade_answers(file, answers, interactive, static, changes, tolerance)
+    return answers_commands.check_sheet(file, answers, interactive, static, changes, tolerance)
 
 
 @app.command(help_epilogue="Examples:\n  dalembert validate\n  dalembert validate > qualification.txt")
@@ -369,6 +367,7 @@ def joints(
 
 
 app.command(wrench_command.wrench, help_epilogue=wrench_command.EXAMPLES)
+app.command(answers_commands.grade, help_epilogue=answers_commands.GRADE)
 app.command(variants_command.variants, help_epilogue=variants_command.EXAMPLES)
 app.command(page_command.page, help_epilogue=page_command.EXAMPLES)
 app.command(machine_commands.shake, help_epilogue=machine_commands.SHAKE)

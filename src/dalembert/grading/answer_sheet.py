@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from dalembert.arrays import Tree
@@ -50,8 +51,8 @@ def read_sheet(tree: object, source: Locator | None = None) -> Sheet:
         about = {key: tree.get(key) for key in ABOUT} if isinstance(tree, Mapping) else {}
         if about.get("tolerance") is not None:
             percent(about["tolerance"])
-        items = list(_items(tree))
-        answers = tuple(_answer(item, path) for path, item in items)
+        items = list(sheet_items(tree))
+        answers: tuple[Answer, ...] = tuple(at_path(path, partial(answer_of, item)) for path, item in items)
     except ModelError as error:
         raise error.at_source(source) from None
     lines = tuple(source.line(path) for path, _ in items) if source else ()
@@ -74,7 +75,7 @@ def figures(tree: object) -> list[Answer]:
 Path = tuple[str | int, ...]
 
 
-def _items(tree: object) -> Iterator[tuple[Path, Tree]]:
+def sheet_items(tree: object) -> Iterator[tuple[Path, Tree]]:
     """Every figure as the keys of an answer, and where it stands."""
     base: Path = ()
     if isinstance(tree, Mapping) and "answers" in tree:
@@ -90,14 +91,14 @@ def _items(tree: object) -> Iterator[tuple[Path, Tree]]:
     yield from (((*base, k), dict(item)) for k, item in enumerate(tree))
 
 
-def _answer(item: Tree, path: Path) -> Answer:
+def answer_of(item: Tree) -> Answer:
+    """The answer of its keys; ModelError where they are wrong."""
     from dalembert.model import Answer
 
     if item.get("quantity") not in KNOWN:
         said = f"there is no quantity {item.get('quantity')!r}"
-        raise ModelError(said, closest(str(item.get("quantity")), [*KNOWN], 40), path)
-    made: Answer = at_path(path, lambda: Answer(**item))
-    return made
+        raise ModelError(said, closest(str(item.get("quantity")), [*KNOWN], 40))
+    return Answer(**item)
 
 
 def at_path(path: Path, make: Callable[[], Any]) -> Any:

@@ -67,8 +67,8 @@ class _Option:
         return self.cost <= 1 and self.off <= SAME
 
 
-def explain(figures: Sequence[Figure], problems: WrongProblems) -> dict[int, Explanation]:
-    """What explains each wrong figure, by its number."""
+def explain(figures: Sequence[Figure], problems: WrongProblems | None) -> dict[int, Explanation]:
+    """What explains each wrong figure, by its number; without a problem only slips in the values do."""
     wrong = [n for n, f in enumerate(figures) if f.judged and not f.met]
     out = {n: Explanation(figures[n].impossible, "sign") for n in wrong if figures[n].impossible}
     wrong = [n for n in wrong if n not in out]
@@ -90,16 +90,16 @@ def _best(options: list[_Option]) -> _Option:
 class _Sheet:
     """The figures of a sheet that are wrong, and those that are not, beside wrong problems."""
 
-    def __init__(self, figures: Sequence[Figure], wrong: list[int], problems: WrongProblems) -> None:
+    def __init__(self, figures: Sequence[Figure], wrong: list[int], problems: WrongProblems | None) -> None:
         self.figures, self.wrong, self.problems = figures, wrong, problems
         self.met = [n for n, f in enumerate(figures) if f.judged and f.met]
-        places = {int(k): n for n, k in enumerate(problems.which)}
+        places = {int(k): n for n, k in enumerate(problems.which)} if problems else {0: 0}
         self.places = {n: places[f.position] for n, f in enumerate(figures) if f.judged}
 
     def options(self) -> list[_Option]:
         """Explanations, without a wrong problem and with each; none further where no later one can be better."""
-        found = [self._covered(self.problems.result, {}, 0.0, 0)]
-        if found[0].order == 0 and found[0].is_exact:
+        found = [self._covered(None if self.problems is None else self.problems.result, {}, 0.0, 0)]
+        if self.problems is None or (found[0].order == 0 and found[0].is_exact):
             return found
         for problem in self.problems:
             if problem.order > found[0].order and found[0].is_exact:
@@ -125,8 +125,10 @@ class _Sheet:
         option.cost += 1
         return option
 
-    def _values(self, result: Result, n: int) -> tuple[Array, ...]:
-        """What a problem answers where figure n asks."""
+    def _values(self, result: Result | None, n: int) -> tuple[Array, ...]:
+        """What a problem answers where figure n asks; what is right without a problem."""
+        if result is None:
+            return self.figures[n].right
         try:
             return values_of(result, self.figures[n].answer, self.places[n])[0]
         except (DalembertError, IndexError):
@@ -145,7 +147,9 @@ class _Sheet:
         by a mistake that comes much nearer."""
         return f.close.off(value) <= f.off / MUCH if f.off <= SMALL else f.close.holds(value)
 
-    def _covered(self, result: Result, named: dict[int, Explanation], off: float, order: int) -> _Option:
+    def _covered(
+        self, result: Result | None, named: dict[int, Explanation], off: float, order: int
+    ) -> _Option:
         """Slips for the figures that are left, those first that explain most of them."""
         rest = [n for n in self.wrong if n not in named]
         slips = {n: self._slips(result, n) for n in rest}
@@ -175,7 +179,7 @@ class _Sheet:
             option.cost += cost
         return option
 
-    def _slips(self, result: Result, n: int) -> dict[str, _Slip]:
+    def _slips(self, result: Result | None, n: int) -> dict[str, _Slip]:
         """Sentences that make one of a problem's values the figure, each with how near it comes."""
         out: dict[str, _Slip] = {}
         for order, h in self._hypotheses(result, n):
@@ -185,13 +189,15 @@ class _Sheet:
                 out[h.sentence] = _Slip(off, order, h.kind)
         return out
 
-    def _hypotheses(self, result: Result, n: int) -> Iterator[tuple[int, Hypothesis]]:
+    def _hypotheses(self, result: Result | None, n: int) -> Iterator[tuple[int, Hypothesis]]:
         f = self.figures[n]
         for value in self._values(result, n):
             for h in of_value(f.series, value):
                 yield 0, h
             for h in of_units(f.series, value):
                 yield 4, h
+        if result is None:
+            return
         for change, sentence in others(result, f):
             try:
                 values, _ = values_of(result, f.answer.model_copy(update=change), self.places[n])

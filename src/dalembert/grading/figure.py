@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -21,7 +22,8 @@ from dalembert.grading.file_answers import (
 )
 from dalembert.grading.quantities import Series, component
 from dalembert.grading.tolerance import Closeness, Target, closeness
-from dalembert.units import file_units
+from dalembert.unit_names import unit
+from dalembert.units import KINDS, NUMBER, Units, file_units
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -109,6 +111,31 @@ def figure(result: Result, answer: Answer, tolerance: object = None) -> Figure:
     return Figure(
         answer, series, position, given, close, right, interval, text, "" if right else why(result, position)
     )
+
+
+def figure_of_key(answer: Answer, right: Answer, tolerance: object = None) -> Figure:
+    """A student's figure beside the value of a key alone; its kind is told by the unit of that value."""
+    units = Units()
+    kind = _kind_of(right.value)
+    vector = right.component is None and (isinstance(right.value, tuple) or "@" in str(right.value))
+    size = len(right.value) if isinstance(right.value, tuple) else 2
+    series = Series(kind, np.zeros((1, size)) if vector else np.zeros(1))
+    known = target(right.value, series, units, "value").value
+    if answer.component != right.component:
+        whole = component(Series(kind, known[None]), answer.component)
+        series, known = Series(whole.kind, np.zeros(1)), np.asarray(whole.values[0])
+    given = target(answer.value, series, units, "value")
+    close = closeness(answer, given, series.kind, units, tolerance)
+    text = computed_text(known, given, series.kind, units, answer.value)
+    return Figure(answer, series, 0, given, close, (known,), False, text, "")
+
+
+def _kind_of(value: object) -> str:
+    """The kind of a number by its unit; a moment before an energy."""
+    first = value[0] if isinstance(value, tuple) else str(value).partition("@")[0]
+    name = re.sub(rf"^\s*(?>{NUMBER})", "", str(first)).strip()
+    dimension = unit(name).dimension if name else KINDS["number"].dimension
+    return next((k for k, kind in KINDS.items() if kind.dimension == dimension), "number")
 
 
 def why(result: Result, position: int) -> str:

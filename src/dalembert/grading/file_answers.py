@@ -350,7 +350,7 @@ def computed_text(found: Array, published: Target, kind: str, units: Units, form
     if published.polar:
         turn = float(np.angle(complex(*found) * complex(*published.value).conjugate()))
         angle = units.unit("angle").of_si(_direction(form, units, published.value) + turn)
-        return f"{own(float(np.hypot(*found))):.{DIGITS}g} @ {angle:.6g}{behind}"
+        return f"{own(float(np.hypot(*found))):.{DIGITS}g}{behind} @ {angle:.6g}"
     clean = np.where(np.abs(found) < 1e-12 * np.abs(found).max(), 0.0, found)
     return _bracket(clean, own) + behind
 

@@ -16,6 +16,7 @@ from dalembert.grading.tolerance import percent
 from dalembert.grading.wrong_problems import WrongProblems
 
 if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
     from dalembert.model import Answer, Mechanism
 
 
@@ -63,11 +64,11 @@ class Problem:
         """Verdicts on the figures of one sheet."""
         if tolerance is not None:
             percent(tolerance)
-        found = [at_path((k,), partial(self._compared, a, tolerance)) for k, a in enumerate(answers)]
+        found = [at_path((k,), partial(self.compared, a, tolerance)) for k, a in enumerate(answers)]
         some = [f for f in found if isinstance(f, Figure)]
-        said = explain(some, self._wrong_problems(some))
+        said = explain(some, self.wrong_problems(some))
         numbers = iter(range(len(some)))
-        return [f if isinstance(f, Verdict) else _verdict(f, said.get(next(numbers))) for f in found]
+        return [f if isinstance(f, Verdict) else verdict_of(f, said.get(next(numbers))) for f in found]
 
     def verdicts_of(self, sheet: Sheet, tolerance: str | None = None) -> list[Verdict]:
         """Verdicts with the lines of the sheet; ``tolerance`` in place of the sheet's own."""
@@ -81,21 +82,20 @@ class Problem:
             raise
         return [v._replace(line=sheet.line(k)) for k, v in enumerate(found)]
 
-    def _compared(self, answer: Answer, tolerance: str | None) -> Figure | Verdict:
-        if answer.quantity not in WORDS | WHOLE:
-            return figure(self.result, answer, tolerance)
+    def compared(self, answer: Answer, tolerance: str | None = None) -> Figure | Verdict:
+        """A figure beside what is computed, or the verdict on a word or a count."""
         r = self.result
-        right = (
-            WHOLE[answer.quantity](r)
-            if answer.quantity in WHOLE
-            else WORDS[answer.quantity](r, position_of(r, answer))
-        )
-        given, met = value_text(answer.value), value_text(answer.value).removesuffix(".0") == str(right)
-        said = "" if met else "another word" if isinstance(right, str) else "another count"
-        kind = "right" if met else "unknown"
-        return Verdict(describe_answer(answer), given, str(right), 0.0 if met else 1.0, met, said, kind)
+        if answer.quantity in WHOLE:
+            return verdict_on_word(answer, WHOLE[answer.quantity](r))
+        if answer.quantity in WORDS:
+            return verdict_on_word(answer, WORDS[answer.quantity](r, position_of(r, answer)))
+        return figure(r, answer, tolerance)
 
-    def _wrong_problems(self, some: Sequence[Figure]) -> WrongProblems:
+    def at(self, place: int) -> Result:
+        """The result at one position alone."""
+        return self.result if len(self.result.status) == 1 else WrongProblems(self.result, (place,)).result
+
+    def wrong_problems(self, some: Sequence[Figure]) -> WrongProblems:
         """The wrong problems at the positions that a sheet asks for."""
         r, which = self.result, tuple(sorted({f.position for f in some}))
         s = r.schedule
@@ -107,10 +107,21 @@ class Problem:
         return self._wrong[key]
 
 
-def _verdict(f: Figure, said: Explanation | None) -> Verdict:
+def verdict_of(f: Figure, said: Explanation | None) -> Verdict:
+    """The verdict on a figure, with what explains it."""
     if not f.judged:
         return Verdict(
             f.words, f.written, f.computed, f.off, False, f"it cannot be judged: {f.reason}", "open"
         )
     mistake, kind = ("", "right") if f.met else said or ("", "unknown")
     return Verdict(f.words, f.written, f.computed, f.off, f.met, mistake, kind)
+
+
+def verdict_on_word(answer: Answer, right: object) -> Verdict:
+    """The verdict on a word or a count."""
+    given, known = (value_text(value).strip().removesuffix(".0") for value in (answer.value, right))
+    met = given == known
+    said = "" if met else "another count" if known.isdigit() else "another word"
+    return Verdict(
+        describe_answer(answer), given, known, 0.0 if met else 1.0, met, said, "right" if met else "unknown"
+    )

@@ -53,12 +53,12 @@ def write_workbook(
 
     book = Workbook(write_only=True)
     try:
-        _sheet(book, "positions", rows).freeze_panes = "C2"
-        _sheet(book, "extremes", _extremes(result, units, axes), (34, 12, 16, 12, 18, 16, 12, 18))
+        add_sheet(book, "positions", rows).freeze_panes = "C2"
+        add_sheet(book, "extremes", _extremes(result, units, axes), (34, 12, 16, 12, 18, 16, 12, 18))
         if len(result.status) > 1 and result.drives and result.stability is None:
             _charts(book, result, units, axes)
-        _sheet(book, "assumptions", _assumptions(result, units, axes), (24, 100))
-        _sheet(book, "about", about.items(), (24, 100))
+        add_sheet(book, "assumptions", _assumptions(result, units, axes), (24, 100))
+        add_sheet(book, "about", about.items(), (24, 100))
         book.save(path)
     except BaseException:
         for sheet in book.worksheets:  # open files of what was being written
@@ -67,7 +67,8 @@ def write_workbook(
         raise
 
 
-def _sheet(book: Any, title: str, rows: Iterable[Sequence[object]], widths: Sequence[int] = ()) -> Any:
+def add_sheet(book: Any, title: str, rows: Iterable[Sequence[object]], widths: Sequence[int] = ()) -> Any:
+    """A sheet of rows of numbers and texts."""
     from openpyxl.utils import get_column_letter
 
     sheet = book.create_sheet(title)
@@ -188,7 +189,7 @@ def _charts(book: Any, result: Result, units: UnitChoice, axes: Axes) -> None:
     columns = [column for d in diagrams for column in (d.x, *d.curves)]
     every = max(1, -(-len(result.status) // MOST_POINTS))
     lists = [nan_to_none(column.values[::every]) for column in columns]
-    numbers = _sheet(book, "chart values", [[c.head for c in columns], *zip(*lists, strict=True)])
+    numbers = add_sheet(book, "chart values", [[c.head for c in columns], *zip(*lists, strict=True)])
     row, column = 1, 1
     for d in diagrams:
         sheet.add_chart(_chart(numbers, d, column, len(lists[0]) + 1), f"A{row}")

@@ -14,7 +14,7 @@ from dalembert.cli import main
 from dalembert.grading.answer_sheet import read_sheet
 from dalembert.grading.mistakes import Problem
 from dalembert.model.files.model_files import read_file
-from tests.methods.marked_sheets import mistaken_sheets, named_first, slipped_sheets, true_sheet
+from tests.grading.marked_sheets import mistaken_sheets, named_first, slipped_sheets, true_sheet
 from tests.tiers import tiers
 
 BUNDLED = cases() | examples()

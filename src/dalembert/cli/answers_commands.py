@@ -1,0 +1,150 @@
+"""`dalembert check-answers` and `grade`: a student's figures against ours, and a class's answers marked."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from dalembert.cli.options import AS_IN_FILE, Changes, Force, Static, output, with_help
+from dalembert.errors import ModelError
+from dalembert.printing import table
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+    from dalembert.arrays import Tree
+    from dalembert.grading.marking.grade import Marks
+    from dalembert.grading.mistakes import Verdict
+
+
+def check_sheet(
+    file: Path,
+    answers: Path | None,
+    interactive: bool,
+    static: bool,
+    changes: Changes = AS_IN_FILE,
+    tolerance: str | None = None,
+) -> int:
+    """Compare figures with what is computed; 1 where one is not right."""
+    from dalembert.cli.model_argument import load_model
+    from dalembert.grading.answer_sheet import read_sheet
+    from dalembert.grading.mistakes import Problem
+    from dalembert.model.files.model_files import read_file
+
+    problem = Problem(load_model(file, changes), static)
+    if interactive:
+        sheet = read_sheet(_ask_figures(problem.result))
+    elif answers is None:
+        raise ModelError("check-answers needs a file of answers", "name one, or answer with --interactive")
+    else:
+        sheet = read_sheet(*read_file(answers))
+    found = problem.verdicts_of(sheet, tolerance)
+    print(_text(found, sheet.file))
+    return 0 if all(v.right for v in found) else 1
+
+
+def _ask_figures(r: Result) -> dict[str, Tree]:
+    """Ask for every effort and joint force; an empty line skips one, the end of the input all that follow."""
+    m = r.mechanism
+    form = "size @ angle" if m.dimension == 2 else "x, y, z"
+    asked = [("effort", d, f"Effort of {d} (a number, or with its unit; empty to skip): ") for d in r.drives]
+    asked += [("unknown_load", name, f"Load {name}: ") for name in r.unknown_loads]
+    for joint in r.joints:
+        i, j = m.joints[joint].links
+        asked.append(("reaction", joint, f"Joint {joint}, force of {i} on {j} ({form}): "))
+    out: dict[str, Tree] = {"effort": {}, "unknown_load": {}, "reaction": {}}
+    for quantity, name, question in asked:
+        try:
+            said = input(question).strip()
+        except EOFError:
+            print()
+            break
+        if said:
+            parts = [part.strip() for part in said.strip("[]").split(",")]
+            out[quantity][name] = parts if quantity == "reaction" and len(parts) > 1 else said
+    return out
+
+
+def _text(found: list[Verdict], file: str) -> str:
+    rows = [[v.quantity, v.given, v.computed, _verdict(v)] for v in found]
+    where = [f"{file}:{v.line}: " if file else "" for v in found]
+    said = [f"{at}{v.quantity}: {v.mistake}." for at, v in zip(where, found, strict=True) if not v.right]
+    right = sum(v.right for v in found)
+    parts = [
+        table(["answer", "yours", "computed", "verdict"], rows, left=1),
+        *said,
+        f"{right} of {len(found)} right.",
+    ]
+    return "\n\n".join(parts[:1]) + "\n\n" + "\n".join(parts[1:])
+
+
+def _verdict(v: Verdict) -> str:
+    if v.right:
+        return "right"
+    return "not judged" if v.kind == "open" else f"off by {100 * v.off:.2g} %"
+
+
+GRADE = """Examples:
+  dalembert grade answers --key exam/key.csv -o marks.xlsx --feedback feedback
+  dalembert grade class.csv --key four_bar.yaml --tolerance 3%
+  dalembert grade answers --key exam/key.csv --rubric rubric.yaml -o marks.xlsx
+
+A rubric changes what it names; here the default shares, all others are 1 or 0:
+  marks: {effort: 4, reaction: 2}
+  share: {rounding: 0.75, sign: 0.5, unit: 0.5, named: 0.5, part: 0.5}
+  mistakes: {weight is taken for mass: 0.25}"""
+
+SHOWN = 10
+"""Mistakes of a class that are printed."""
+
+
+def grade(
+    answers: Annotated[
+        Path, with_help("Folder of sheets (.yaml, .json, .toml, .csv), one a student, or a table (.csv).")
+    ],
+    /,
+    *,
+    key: Annotated[Path, with_help("Key (.csv, .json) that `variants` writes, or a model file.")],
+    rubric: Annotated[Path | None, with_help("Marks and shares: YAML, JSON or TOML.")] = None,
+    output: Annotated[Path | None, output("Workbook to write, .xlsx.")] = None,
+    feedback: Annotated[Path | None, with_help("Folder to write: a text for each student.")] = None,
+    tolerance: Annotated[
+        str | None,
+        with_help("Of figures to which the key gives none, as 3% (default: 0.5 %, or the digits)."),
+    ] = None,
+    static: Static = False,
+    force: Force = False,
+) -> int:
+    """Mark a class's ANSWERS by a key: mistakes named, partial marks, and what follows from own figures counts."""
+    from dalembert.grading.marking.feedback import check_feedback
+    from dalembert.grading.marking.grade import grade as graded
+    from dalembert.saving import check_installed, check_new
+
+    if output is not None:
+        if output.suffix.lower() != ".xlsx":
+            raise ModelError(f"{output} is no name of a workbook", "name it .xlsx")
+        check_installed("openpyxl", "a workbook")
+        check_new(output, force)
+    if feedback is not None:
+        check_feedback(feedback, force)
+    marks = graded(answers, key, rubric, tolerance, static)
+    print(_class_text(marks))
+    if feedback is not None:
+        marks.save_feedback(feedback, force)
+    if output is not None:
+        marks.to_xlsx(output, force)
+    for said in (said for s in marks.students for said in s.problems):
+        print(said, file=sys.stderr)
+    return 1 if any(s.problems for s in marks.students) else 0
+
+
+def _class_text(marks: Marks) -> str:
+    """A row a student, then the mistakes of most students."""
+    rows = [
+        [s.student, s.variant, f"{s.total:.4g}" if s.marks else "-", f"{s.most:.4g}" if s.marks else "-"]
+        for s in marks.students
+    ]
+    parts = [table(["student", "variant", "marks", "of"], rows, left=2)]
+    named = [[sentence, str(count)] for sentence, count in marks.mistakes()[:SHOWN]]
+    parts += [table(["mistake", "students"], named, left=1)] if named else []
+    return "\n\n".join(parts)

@@ -1,0 +1,127 @@
+"""A class's answers: a sheet a student as YAML, JSON, TOML or CSV in a folder, or a table with a row a student."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from dalembert.errors import DalembertError, ModelError
+from dalembert.grading.answer_sheet import ABOUT, sheet_items, short_item
+from dalembert.grading.marking.key import cell_value, place
+from dalembert.grading.marking.table_files import KEYS, Row, read_table
+
+ENDINGS = (".yaml", ".yml", ".json", ".toml", ".csv")
+MOST = 5000
+"""Sheets of a class."""
+
+
+class Given(NamedTuple):
+    """A figure as a student gave it: keys of an answer, the line it stands on."""
+
+    keys: dict[str, Any]
+    line: int
+
+
+@dataclass
+class StudentSheet:
+    """What a student gave; ``problems`` are sentences on what could not be read."""
+
+    student: str
+    file: str
+    variant: str = ""
+    tolerance: str | None = None
+    given: list[Given] = field(default_factory=list)
+    problems: list[str] = field(default_factory=list)
+    line: int = 1
+
+
+def class_sheets(path: str | Path) -> list[StudentSheet]:
+    """The sheets of a folder, or of one file; what cannot be read is a sheet with a sentence."""
+    path = Path(path)
+    if not path.is_dir():
+        if not path.exists():
+            raise ModelError(f"there is no file or folder {path}", "name a folder of answers, or a table")
+        return list(_sheets(path, strict=True))
+    files = sorted(p for p in path.iterdir() if p.suffix.lower() in ENDINGS and not p.name.startswith("."))
+    if not files:
+        raise ModelError(f"there are no answers in {path}", f"they end in {', '.join(ENDINGS)}")
+    found = [sheet for file in files for sheet in _sheets(file)]
+    if len(found) > MOST:
+        raise ModelError(f"there are {len(found)} sheets", f"divide them: at most {MOST}")
+    return found
+
+
+def _sheets(path: Path, strict: bool = False) -> Iterator[StudentSheet]:
+    try:
+        yield from _of_table(path) if path.suffix.lower() == ".csv" else [_of_file(path)]
+    except DalembertError as error:
+        if strict:
+            raise
+        yield StudentSheet(path.stem, str(path), problems=[str(error)])
+
+
+def _of_file(path: Path) -> StudentSheet:
+    """A sheet as `check-answers` reads it; a figure that cannot be read does not spoil the others."""
+    from dalembert.model.files.model_files import read_file
+
+    tree, source = read_file(path)
+    about = {key: tree.get(key) for key in ABOUT} if isinstance(tree, dict) else {}
+    words = {key: "" if value is None else str(value) for key, value in about.items()}
+    sheet = StudentSheet(words.get("student") or path.stem, str(path), words.get("variant", ""))
+    sheet.tolerance = words.get("tolerance") or None
+    try:
+        sheet.given = [Given(item, source.line(at)) for at, item in sheet_items(tree)]
+    except ModelError as error:
+        raise error.at_source(source) from None
+    return sheet
+
+
+def _of_table(path: Path) -> Iterator[StudentSheet]:
+    """Sheets of a table: a row a figure (columns quantity, of, value), or a row a student (columns effort.O2 ...)."""
+    rows = read_table(path)
+    long = any("quantity" in row.cells for row in rows)
+    found: dict[str, StudentSheet] = {}
+    for row in rows:
+        name = row.cells.get("student", path.stem if long else f"row {row.line}")
+        if not long or name not in found:
+            key = name if long else f"{name} {row.line}"
+            found[key] = StudentSheet(name, str(path), row.cells.get("variant", ""), line=row.line)
+        sheet = found[name if long else f"{name} {row.line}"]
+        try:
+            sheet.given += [_long(row)] if long else list(_wide(row))
+        except ModelError as error:
+            sheet.problems.append(str(ModelError(error.what, error.remedy, (), str(path), row.line)))
+    yield from found.values()
+
+
+def _long(row: Row) -> Given:
+    cells = row.cells
+    keys: dict[str, Any] = {name: cells[name] for name in KEYS if name in cells}
+    value = cell_value(cells["value"], cells.get("unit", "")) if "value" in cells else None
+    return Given(keys | {"at": place(cells.get("at")), "value": value}, row.line)
+
+
+def _wide(row: Row) -> Iterator[Given]:
+    for name, text in row.cells.items():
+        if name not in ("student", "variant"):
+            yield Given(named_figure(name, cell_value(text)), row.line)
+
+
+COMPONENTS = ("x", "y", "z", "magnitude", "direction")
+
+
+def named_figure(name: str, value: Any) -> dict[str, Any]:
+    """A figure by the name of its column: effort.O2, reaction.A, reaction.A.crank, speed.rod, reaction.A.x, mobility.
+
+    >>> named_figure("reaction.A.coupler", "155 @ 220")
+    {'quantity': 'reaction', 'of': 'A', 'value': '155 @ 220', 'on': 'coupler'}
+    """
+    quantity, *words = name.split(".")
+    component = words.pop() if len(words) > 1 and words[-1] in COMPONENTS else None
+    on = words.pop() if len(words) > 1 and quantity in ("reaction", "moment") else None
+    if not words:
+        return {"quantity": quantity, "value": value}
+    item = short_item(quantity, ".".join(words), value)
+    return item | ({"component": component} if component else {}) | ({"on": on} if on else {})

@@ -1,0 +1,95 @@
+"""Feedback: a text for each student, in plain sentences."""
+
+from __future__ import annotations
+
+import re
+import secrets
+import shutil
+from collections.abc import Sequence
+from pathlib import Path
+
+from dalembert.errors import ModelError
+from dalembert.grading.marking.student_marks import Mark, StudentMarks
+from dalembert.saving import new_file
+
+
+def check_feedback(folder: Path, overwrite: bool) -> None:
+    """Raise where the folder cannot be written: one that has files is kept."""
+    if not folder.parent.is_dir():
+        raise ModelError(
+            f"cannot write {folder}: there is no folder {folder.parent}", "make it, or name another"
+        )
+    if folder.exists() and not folder.is_dir():
+        raise ModelError(f"{folder} is a file", "name a folder")
+    if folder.is_dir() and any(folder.iterdir()) and not overwrite:
+        raise ModelError(
+            f"{folder} has files", "name another folder, or overwrite: --force, in Python overwrite=True"
+        )
+
+
+def write_feedback(students: Sequence[StudentMarks], folder: str | Path, overwrite: bool = False) -> None:
+    """A Markdown file for each student; a new folder appears whole or not at all."""
+    folder = Path(folder)
+    check_feedback(folder, overwrite)
+    texts = dict(zip(file_names([s.student for s in students]), map(feedback, students), strict=True))
+    if folder.exists():
+        for name, text in texts.items():
+            with new_file(folder / name, overwrite=True) as temporary:
+                temporary.write_text(text, encoding="utf-8")
+        return
+    beside = folder.parent / f".{folder.name[:40]}.{secrets.token_hex(8)}"
+    try:
+        beside.mkdir()
+        for name, text in texts.items():
+            (beside / name).write_text(text, encoding="utf-8")
+        beside.rename(folder)
+    finally:
+        shutil.rmtree(beside, ignore_errors=True)
+
+
+def file_names(students: list[str]) -> list[str]:
+    """A file name for each student: letters, digits and hyphens, none twice.
+
+    >>> file_names(["Ann Lee", "../ann lee", "=1+1"])
+    ['Ann-Lee.md', 'ann-lee-2.md', '1-1.md']
+    """
+    out: list[str] = []
+    seen: set[str] = set()
+    for student in students:
+        stem = re.sub(r"[^\w]+", "-", student).strip("-_")[:60] or "student"
+        name, number = stem, 1
+        while name.lower() in seen:
+            number += 1
+            name = f"{stem}-{number}"
+        seen.add(name.lower())
+        out.append(f"{name}.md")
+    return out
+
+
+def feedback(s: StudentMarks) -> str:
+    """What a student reads: every figure with its marks and why, and what of the sheet was not counted."""
+    lines = [f"# {_plain(s.student)}", ""]
+    lines += [f"Variant {_plain(s.variant)}.", ""] if s.variant else []
+    lines += [f"{s.total:.4g} of {s.most:.4g} marks.", ""]
+    lines += [f"- {_sentence(m)}" for m in s.marks]
+    lines += ["", "Not counted:", "", *(f"- {_plain(said)}" for said in s.problems)] if s.problems else []
+    return "\n".join(lines).replace(_plain(s.file), _plain(Path(s.file).name)).rstrip() + "\n"
+
+
+def _sentence(m: Mark) -> str:
+    counted = "not counted" if m.outcome == "open" else f"{m.marks:.4g} of {m.most:.4g}"
+    head = f"{_plain(m.quantity[:1].upper() + m.quantity[1:])} ({counted}): "
+    if m.outcome == "missing":
+        return head + "there is no answer."
+    given = f"you have {_plain(m.given)}; " if m.given else ""
+    if m.outcome == "right":
+        return head + given + ("right" + (f", but {m.sentence}" if m.sentence else "")) + "."
+    tail = f" Computed: {m.computed}." if m.computed and m.outcome != "follow_through" else ""
+    again = ", as before" if m.outcome == "repeated" else ""
+    return f"{head}{given}{_plain(m.sentence)}{again}.{tail}"
+
+
+def _plain(text: str) -> str:
+    """Text in which Markdown and HTML find nothing to do."""
+    one_line = re.sub(r"\s+", " ", text)
+    return re.sub(r"([\\`*_<>\[\]#|!])", r"\\\1", one_line)

@@ -1,0 +1,232 @@
+"""Marks of a class: every figure judged, the mistakes named, and what follows from a student's own figures counted."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from dalembert.errors import ModelError
+from dalembert.grading.answer_sheet import answer_of
+from dalembert.grading.explanation import explain
+from dalembert.grading.figure import Figure
+from dalembert.grading.file_answers import describe_answer
+from dalembert.grading.marking.class_sheets import StudentSheet, class_sheets
+from dalembert.grading.marking.follow_through import LinkEquations, follow_through
+from dalembert.grading.marking.key import Asked, ExamVariant, Key, read_key
+from dalembert.grading.marking.rubric import Rubric, load_rubric
+from dalembert.grading.marking.student_marks import Mark, StudentMarks, named_mistakes
+from dalembert.grading.mistakes import Verdict, verdict_of
+from dalembert.grading.tolerance import percent
+from dalembert.progress import progress
+from dalembert.wording import quote_value
+
+if TYPE_CHECKING:
+    from dalembert.model import Answer, Mechanism
+
+
+@dataclass
+class Marks:
+    """The marks of a class."""
+
+    students: list[StudentMarks]
+    rubric: Rubric
+
+    def mistakes(self) -> list[tuple[str, int]]:
+        """The mistakes that were named, those of most students first."""
+        return named_mistakes(self.students)
+
+    def to_xlsx(self, path: str | Path, overwrite: bool = False) -> None:
+        """A workbook: marks, figures, mistakes, rubric."""
+        from dalembert.grading.marking.marks_workbook import write_workbook
+
+        write_workbook(self.students, self.rubric, path, overwrite)
+
+    def save_feedback(self, folder: str | Path, overwrite: bool = False) -> None:
+        """A text of plain sentences for each student, in a folder."""
+        from dalembert.grading.marking.feedback import write_feedback
+
+        write_feedback(self.students, folder, overwrite)
+
+
+def grade(
+    answers: str | Path,
+    key: str | Path | Mechanism | Sequence[Mapping[str, Any]],
+    rubric: str | Path | Rubric | None = None,
+    tolerance: str | None = None,
+    static: bool = False,
+) -> Marks:
+    """Marks of a folder of sheets, or of a table, by a key: a CSV or JSON file, its rows, or a model file.
+
+    ``tolerance``, as `3 %`, is that of figures to which the key gives none; ``static`` leaves inertia out. Raises
+    ModelError where the key, the rubric or the folder is wrong; what is wrong with a sheet is a sentence of that
+    student's.
+    """
+    rules = rubric if isinstance(rubric, Rubric) else Rubric() if rubric is None else load_rubric(rubric)
+    tolerance = tolerance or rules.tolerance
+    if tolerance is not None:
+        percent(tolerance)
+    marker = _Marker(read_key(key, static), rules, tolerance)
+    sheets = class_sheets(answers)
+    out = []
+    with progress("Marking", len(sheets)) as step:
+        for k, sheet in enumerate(sheets):
+            step(k, sheet.student)
+            out.append(marker.marked(sheet))
+    return Marks(out, rules)
+
+
+class _Taken(NamedTuple):
+    """What a student gave of an asked figure: compared, or a sentence why it cannot be; part: not all that is asked."""
+
+    asked: Asked
+    given: Answer | None
+    found: Figure | Verdict | None
+    sentence: str
+    part: bool
+    line: int
+
+
+class _Marker:
+    def __init__(self, key: Key, rubric: Rubric, tolerance: str | None) -> None:
+        self.key, self.rubric, self.tolerance = key, rubric, tolerance
+        self.equations: dict[tuple[str, int], LinkEquations] = {}
+        self.checked: set[str] = set()
+
+    def marked(self, sheet: StudentSheet) -> StudentMarks:
+        """The marks of one sheet."""
+        out = StudentMarks(sheet.student, sheet.variant, sheet.file, problems=list(sheet.problems))
+        try:
+            variant = self.key.variant(sheet.variant, sheet.student)
+        except ModelError as error:
+            here = ModelError(error.what, error.remedy, (), sheet.file, sheet.line)
+            out.problems += [] if sheet.problems and not sheet.given else [str(here)]
+            return out
+        out.variant = variant.name
+        if variant.name not in self.checked:
+            variant.check(self.key.file)
+            self.checked.add(variant.name)
+        taken, unused = self._taken(sheet, variant, out.problems)
+        out.problems += [f"{where}: not asked" for where in unused]
+        out.marks = self._marks(variant, taken)
+        return out
+
+    def _taken(
+        self, sheet: StudentSheet, variant: ExamVariant, problems: list[str]
+    ) -> tuple[list[_Taken], list[str]]:
+        """What the sheet has of each asked figure, and what it has beside."""
+        given: list[tuple[Answer | None, str, dict[str, Any], int]] = []
+        for one in sheet.given:
+            try:
+                given.append((answer_of(one.keys), "", one.keys, one.line))
+            except ModelError as error:
+                said = str(ModelError(error.what, error.remedy, (), sheet.file, one.line))
+                given.append((None, said, one.keys, one.line))
+        used: set[int] = set()
+        out = []
+        for asked in variant.asked:
+            fits = [(fit, n) for n, g in enumerate(given) if (fit := _fit(asked.answer, g[2])) is not None]
+            if not fits:
+                out.append(_Taken(asked, None, None, "", False, 0))
+                continue
+            fit, n = min(fits)
+            used.add(n)
+            answer, said, _, line = given[n]
+            taken = self._one(variant, asked, answer, fit == 2, (sheet.file, line))
+            out.append(taken._replace(sentence=said) if said else taken)
+        left = [
+            (said, f"{sheet.file}:{line}: {keys.get('quantity')} {keys.get('of', '')}".rstrip())
+            for n, (_, said, keys, line) in enumerate(given)
+            if n not in used
+        ]
+        problems += [said for said, _ in left if said]
+        return out, [where for said, where in left if not said]
+
+    def _one(
+        self, variant: ExamVariant, asked: Asked, answer: Answer | None, part: bool, where: tuple[str, int]
+    ) -> _Taken:
+        """An answer beside what is computed: what it leaves out is as asked, and no tolerance is the student's own."""
+        if answer is None or answer.value in (None, ""):
+            return _Taken(asked, answer, None, "", part, where[1])
+        keys = ("on", "by") if not (answer.on or answer.by) else ()
+        filled = {k: getattr(asked.answer, k) for k in (*keys, "at", "extreme")}
+        answer = answer.model_copy(update=filled | {"tolerance": asked.answer.tolerance})
+        try:
+            return _Taken(asked, answer, variant.compared(asked, answer, self.tolerance), "", part, where[1])
+        except ModelError as error:
+            said = str(ModelError(error.what, error.remedy, (), *where))
+            return _Taken(asked, answer, None, said, part, where[1])
+
+    def _marks(self, variant: ExamVariant, taken: list[_Taken]) -> list[Mark]:
+        figures = [t.found for t in taken if isinstance(t.found, Figure)]
+        problem = variant.problem
+        said = explain(figures, None if problem is None else problem.wrong_problems(figures))
+        follows = self._follows(variant, figures)
+        paid: set[str] = set()
+        out, n = [], 0
+        for t in taken:
+            verdict, way = t.found if isinstance(t.found, Verdict) else None, ""
+            if isinstance(t.found, Figure):
+                verdict, way = verdict_of(t.found, said.get(n)), follows.get(n, "")
+                n += 1
+            out.append(self._mark(t, verdict, way, paid))
+        return out
+
+    def _follows(self, variant: ExamVariant, figures: list[Figure]) -> dict[int, str]:
+        """Figures that follow from the student's own, position by position."""
+        problem, out = variant.problem, dict[int, str]()
+        if problem is None or problem.result.compiled.contacts or problem.result.schedule.unknown is not None:
+            return out
+        if problem.result.compiled.forcing.separation.any():
+            return out
+        for place in {f.position for f in figures}:
+            here = [n for n, f in enumerate(figures) if f.position == place and f.judged]
+            wrong = [k for k, n in enumerate(here) if not figures[n].met]
+            if len(here) < 2 or not wrong:
+                continue
+            if (variant.name, place) not in self.equations:
+                self.equations[variant.name, place] = LinkEquations(problem.at(place))
+            found = follow_through(self.equations[variant.name, place], [figures[n] for n in here], wrong)
+            out |= {here[k]: said for k, said in found.items()}
+        return out
+
+    def _mark(self, t: _Taken, verdict: Verdict | None, way: str, paid: set[str]) -> Mark:
+        """The marks of a figure; ``paid``: the mistakes that earlier figures have lost marks for."""
+        most = self.rubric.marks_of(t.asked.answer.quantity) if t.asked.marks is None else t.asked.marks
+        words = describe_answer(t.asked.answer)
+        if verdict is None:
+            outcome = "unreadable" if t.sentence else "missing"
+            sentence = t.sentence or "there is no answer"
+            given = "" if t.given is None else quote_value(t.given.value)
+            return Mark(words, given, "", outcome, sentence, most * self.rubric.shares[outcome], most, t.line)
+        outcome, sentence = verdict.kind, verdict.mistake
+        if outcome == "open":
+            return Mark(words, verdict.given, "", outcome, sentence, 0.0, 0.0, t.line)
+        if way and not verdict.right:
+            outcome, sentence = "follow_through", f"{way} with your own figures"
+        elif sentence in paid:
+            outcome = "repeated"
+        elif outcome in ("named", "sign", "unit"):
+            paid.add(sentence)
+        share = self.rubric.share(outcome, sentence)
+        if t.part:
+            share, sentence = (
+                share * self.rubric.shares["part"],
+                "; ".join(filter(None, [sentence, "only its size"])),
+            )
+        return Mark(words, verdict.given, verdict.computed, outcome, sentence, most * share, most, t.line)
+
+
+def _fit(asked: Answer, keys: Mapping[str, Any]) -> int | None:
+    """How a given figure is the one asked: 0 just that, 1 the whole of which it is a component, 2 only its size; None
+    if it is another."""
+    if keys.get("quantity") != asked.quantity or (keys.get("of") or None) != asked.of:
+        return None
+    for name in ("at", "extreme"):
+        if keys.get(name) is not None and str(keys[name]) != str(getattr(asked, name)):
+            return None
+    own = keys.get("component")
+    if own == asked.component:
+        return 0
+    return 1 if own is None else 2 if asked.component is None and own == "magnitude" else None

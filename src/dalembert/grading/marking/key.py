@@ -1,0 +1,225 @@
+"""The key of an exam: what is asked of each variant, its right figure, and the model file that explains wrong ones."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.errors import ModelError
+from dalembert.grading.answer_sheet import answer_of
+from dalembert.grading.figure import Figure, figure_of_key
+from dalembert.grading.file_answers import describe_answer, value_text
+from dalembert.grading.marking.table_files import KEYS, Row, read_table, read_text
+from dalembert.grading.mistakes import Problem, Verdict, verdict_on_word
+from dalembert.grading.quantities import WHOLE, WORDS
+from dalembert.units import NUMBER
+from dalembert.wording import closest, quote_value
+
+if TYPE_CHECKING:
+    from dalembert.model import Answer, Mechanism
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A figure that is asked for: what it is of, with its right value if the key has one; its unit, marks and line."""
+
+    answer: Answer
+    unit: str = ""
+    marks: float | None = None
+    line: int = 0
+
+
+@dataclass
+class ExamVariant:
+    """A variant: what is asked, and its problem, solved when it is needed; None without a model file."""
+
+    name: str
+    asked: list[Asked] = field(default_factory=list)
+    load: Callable[[], Mechanism] | None = None
+    static: bool = False
+
+    @cached_property
+    def problem(self) -> Problem | None:
+        """The problem solved."""
+        return None if self.load is None else Problem(self.load(), self.static)
+
+    def compared(self, asked: Asked, answer: Answer, tolerance: str | None) -> Figure | Verdict:
+        """A student's figure beside the problem's, or without a problem beside the key's; bare numbers in its unit."""
+        answer = answer.model_copy(update={"value": with_units(answer.value, asked.unit)})
+        if self.problem is not None:
+            return self.problem.compared(answer, tolerance)
+        if asked.answer.quantity in WORDS | WHOLE:
+            return verdict_on_word(answer, asked.answer.value)
+        return figure_of_key(answer, asked.answer, tolerance)
+
+    def check(self, file: str) -> None:
+        """Raise where a value of the key cannot be read, or is not that of its problem."""
+        for asked in self.asked:
+            if asked.answer.value is None:
+                continue
+            try:
+                found = self.compared(asked, asked.answer.model_copy(update={"tolerance": None}), None)
+                right = found.met if isinstance(found, Figure) else found.right
+                if not right:
+                    said = f"{describe_answer(asked.answer)} is {value_text(asked.answer.value)} in the key"
+                    raise ModelError(f"{said}, and {found.computed} by the model file", "correct one of them")
+            except ModelError as error:
+                raise ModelError(error.what, error.remedy, error.path, file, asked.line) from None
+
+
+class Key:
+    """All variants by name."""
+
+    def __init__(self, variants: Sequence[ExamVariant], file: str = "") -> None:
+        self.variants, self.file = {plain(v.name): v for v in variants}, file
+
+    def variant(self, name: str, student: str) -> ExamVariant:
+        """The variant that a sheet names, that of a student's name, or the only one."""
+        for said in (name, student):
+            if said and plain(said) in self.variants:
+                return self.variants[plain(said)]
+        if len(self.variants) == 1 and not name:
+            return next(iter(self.variants.values()))
+        known = [v.name for v in self.variants.values()]
+        if name:
+            raise ModelError(f"there is no variant {name!r}", closest(name, known))
+        raise ModelError("the sheet does not say its variant", f"write variant: {known[0]}")
+
+
+def plain(name: str) -> str:
+    """A variant's name as it is compared: case and leading zeros count for nothing.
+
+    >>> plain("07"), plain("A")
+    ('7', 'a')
+    """
+    return name.strip().lstrip("0").lower() or "0"
+
+
+def read_key(source: str | Path | Mechanism | Sequence[Mapping[str, Any]], static: bool = False) -> Key:
+    """The key of a CSV or JSON file or of its rows; of a model file what its answers ask, or all efforts and forces."""
+    from dalembert.model import Mechanism, load
+
+    if isinstance(source, Mechanism):
+        return Key([_of_model(source, static)])
+    if not isinstance(source, (str, Path)):
+        return _of_rows([Row(k + 1, _cells(row)) for k, row in enumerate(source)], Path(), "", static)
+    path = Path(source)
+    if path.suffix.lower() == ".csv":
+        return _of_rows(read_table(path), path.parent, str(path), static)
+    if path.suffix.lower() == ".json":
+        try:
+            tree = json.loads(read_text(path))
+        except (ValueError, RecursionError) as error:
+            line = getattr(error, "lineno", 1)
+            raise ModelError("the key is no JSON", "write a list of figures", (), str(path), line) from None
+        if isinstance(tree, list):
+            return _of_rows([Row(0, _cells(row)) for row in tree], path.parent, str(path), static)
+    return Key([_of_model(load(path), static)], str(path))
+
+
+def _cells(row: object) -> dict[str, str]:
+    if not isinstance(row, Mapping):
+        raise ModelError(
+            f"{quote_value(row)} stands where a figure of the key is needed", "write its quantity"
+        )
+    return {str(k): str(v) for k, v in row.items() if v not in (None, "")}
+
+
+def _of_model(m: Mechanism, static: bool) -> ExamVariant:
+    from dalembert.model import Answer
+
+    out = ExamVariant(m.title or "", load=lambda: m, static=static)
+    none = dict.fromkeys(("value", "exact", "tolerance", "exact_tolerance", "why"))
+    asked = [a.model_copy(update=none) for a in m.answers]
+    if not asked:
+        assert out.problem is not None
+        r = out.problem.result
+        named = {"effort": r.drives, "unknown_load": r.unknown_loads, "reaction": r.joints}
+        asked = [Answer(quantity=q, of=name) for q, names in named.items() for name in names]
+    out.asked = [Asked(a) for a in asked]
+    return out
+
+
+def _of_rows(rows: Sequence[Row], folder: Path, file: str, static: bool) -> Key:
+    out: dict[str, ExamVariant] = {}
+    models: dict[str, str] = {}
+    for row in rows:
+        try:
+            name = row.cells.get("variant", "")
+            v = out.setdefault(plain(name), ExamVariant(name, static=static))
+            model = row.cells.get("file", models.get(plain(name), ""))
+            if model != models.setdefault(plain(name), model):
+                raise ModelError(f"variant {name!r} has two files", f"it had {models[plain(name)]!r}")
+            if model and v.load is None:
+                v.load = _loader(folder, model)
+            v.asked.append(_asked(row, bool(model)))
+        except ModelError as error:
+            raise ModelError(error.what, error.remedy, error.path, file, row.line) from None
+    return Key(list(out.values()), file)
+
+
+def _loader(folder: Path, model: str) -> Callable[[], Mechanism]:
+    """Reads a model file inside the key's folder."""
+    from dalembert.model import load
+
+    path = folder / model
+    if Path(model).is_absolute() or not path.resolve().is_relative_to(folder.resolve()):
+        raise ModelError(f"{model!r} is outside the key's folder", "name a file inside it")
+    return lambda: load(path)
+
+
+def _asked(row: Row, has_model: bool) -> Asked:
+    cells = row.cells
+    if "value" not in cells and not has_model:
+        raise ModelError("the figure has neither a value nor a model file", "give it one of them")
+    item: dict[str, Any] = {k: cells[k] for k in KEYS if k in cells} | {"tolerance": cells.get("tolerance")}
+    item["value"] = cell_value(cells["value"], cells.get("unit", "")) if "value" in cells else None
+    item["at"] = place(cells.get("at"))
+    marks = cells.get("marks")
+    if marks is not None and not (_is_number(marks) and 0 <= float(marks) <= 1e6):
+        raise ModelError(f"{marks!r} are no marks", "write a number, 0 or more")
+    return Asked(answer_of(item), cells.get("unit", ""), None if marks is None else float(marks), row.line)
+
+
+def place(text: str | None) -> object:
+    """A position: its number, or a drive's value."""
+    return int(text) if text and text.isascii() and text.isdigit() and len(text) < 9 else text
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return bool(np.isfinite(float(text)))
+    except ValueError:
+        return False
+
+
+def with_units(value: object, unit: str) -> Any:
+    """A figure with the unit of its bare numbers: a number, `size @ direction`, or a list.
+
+    >>> with_units("154.8 @ 220", "lbf"), with_units([1, "2 kN"], "N"), with_units("3 N", "lbf")
+    ('154.8 lbf @ 220', ['1 N', '2 kN'], '3 N')
+    """
+    if isinstance(value, (list, tuple)):
+        return [with_units(part, unit) for part in value]
+    size, at, direction = str(value).partition("@")
+    if not unit or re.fullmatch(NUMBER, size.strip()) is None:
+        return value
+    return f"{size.strip()} {unit}{' @ ' + direction.strip() if at else ''}"
+
+
+def cell_value(text: str, unit: str = "") -> Any:
+    """A figure of a table: `[x, y]` is a list.
+
+    >>> cell_value("[1, 2 kN]", "N")
+    ['1 N', '2 kN']
+    """
+    text = text.strip()
+    listed = text.startswith("[") and text.endswith("]")
+    return with_units(re.split(r"\s*[,;]\s*", text[1:-1].strip()) if listed else text, unit)

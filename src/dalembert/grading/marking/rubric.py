@@ -1,0 +1,100 @@
+"""The rubric: marks of each quantity, and the share of them that a figure keeps by what is wrong with it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from dalembert.errors import Locator, ModelError
+from dalembert.grading.answer_sheet import KNOWN
+from dalembert.grading.tolerance import percent
+from dalembert.wording import closest, quote_value
+
+SHARES = {
+    "right": 1.0,
+    "follow_through": 1.0,
+    "repeated": 1.0,
+    "rounding": 0.75,
+    "sign": 0.5,
+    "unit": 0.5,
+    "named": 0.5,
+    "part": 0.5,
+    "unknown": 0.0,
+    "unreadable": 0.0,
+    "missing": 0.0,
+}
+"""Share of the marks that a figure keeps: right; right for the student's own earlier wrong figure; wrong by a mistake
+that an earlier figure of the sheet has paid for; nearly right; wrong by a sense, a unit, another mistake that is named;
+a part of what is asked (the size of a force alone); wrong without explanation; no number; not there."""
+
+
+@dataclass(frozen=True)
+class Rubric:
+    """Marks by quantity, shares by outcome, shares by words in the sentence of a mistake, and a tolerance.
+
+    >>> Rubric().marks_of("effort"), Rubric().share("sign", "the sense is opposite")
+    (1.0, 0.5)
+    """
+
+    marks: Mapping[str, float] = field(default_factory=dict)
+    shares: Mapping[str, float] = field(default_factory=lambda: SHARES)
+    mistakes: Mapping[str, float] = field(default_factory=dict)
+    tolerance: str | None = None
+
+    def marks_of(self, quantity: str) -> float:
+        """Marks of a figure of a quantity."""
+        return self.marks.get(quantity, self.marks.get("default", 1.0))
+
+    def share(self, kind: str, sentence: str) -> float:
+        """Share of its marks that a figure keeps."""
+        if kind in ("named", "sign", "unit"):
+            for words, share in self.mistakes.items():
+                if words.lower() in sentence.lower():
+                    return share
+        return self.shares[kind]
+
+
+def load_rubric(path: str | Path) -> Rubric:
+    """The rubric of a YAML, JSON or TOML file; ModelError with file and line."""
+    from dalembert.model.files.model_files import read_file
+
+    tree, source = read_file(path)
+    return read_rubric(tree, source)
+
+
+def read_rubric(tree: object, source: Locator | None = None) -> Rubric:
+    """The rubric of a tree: marks, share, mistakes, tolerance; what is left out is as by default.
+
+    >>> read_rubric({"marks": {"effort": 4}, "share": {"sign": 0.75}}).shares["unit"]
+    0.5
+    """
+    try:
+        if not isinstance(tree, Mapping):
+            raise ModelError("the rubric is no mapping", "write marks: {effort: 4, reaction: 2}")
+        for name in tree:
+            if name not in ("marks", "share", "mistakes", "tolerance"):
+                said = closest(str(name), ["marks", "share", "mistakes", "tolerance"])
+                raise ModelError(f"there is no key {name!r}", said, (name,))
+        if tree.get("tolerance") is not None:
+            percent(tree["tolerance"])
+        marks = _numbers(tree, "marks", [*KNOWN, "default"], 1e6)
+        shares = _numbers(tree, "share", [*SHARES], 1.0)
+        return Rubric(marks, SHARES | shares, _numbers(tree, "mistakes", None, 1.0), tree.get("tolerance"))
+    except ModelError as error:
+        raise error.at_source(source) from None
+
+
+def _numbers(tree: Mapping[str, object], key: str, known: list[str] | None, most: float) -> dict[str, float]:
+    found = tree.get(key) or {}
+    if not isinstance(found, Mapping):
+        raise ModelError(f"{key} is no mapping", f"write {key}: {{NAME: NUMBER}}", (key,))
+    for name, value in found.items():
+        if known is not None and name not in known:
+            raise ModelError(f"there is no {name!r} in {key}", closest(str(name), known, 40), (key, name))
+        number = isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+        if not number or not 0 <= value <= most:
+            what = f"{quote_value(value)} is no number from 0 to {most:g}"
+            raise ModelError(what, "write one", (key, name))
+    return {str(name): float(value) for name, value in found.items()}
