@@ -14,6 +14,7 @@ import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli.describe_commands import JOINT_HEADS, joint_rows
 from dalembert.model.joints.pairs import PAIRS
+from dalembert.saving import new_file
 
 ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "build" / "gallery"
@@ -64,7 +65,8 @@ def gallery() -> None:
     for kind in PAIRS:
         da.draw.joint(kind).save(OUT / f"joint-{kind}.svg", overwrite=True)
         parts.append(f'<img src="joint-{kind}.svg" alt="{kind}">')
-    (OUT / "index.html").write_text(PAGE.format(body="".join(parts)), encoding="utf-8")
+    with new_file(OUT / "index.html", overwrite=True) as temporary:
+        temporary.write_text(PAGE.format(body="".join(parts)), encoding="utf-8")
     print(f"{OUT / 'index.html'}")
 
 

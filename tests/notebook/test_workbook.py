@@ -13,6 +13,7 @@ import pytest
 import dalembert as da
 from dalembert.analysis.output import workbook
 from dalembert.bundled import examples
+from tests.tiers import tiers
 
 FOUR_BAR = da.load(examples()["four_bar"])
 GAP = da.four_bar().with_values({"links.crank.points.A": [0.9, 0.0], "links.coupler.points.B": [0.6, 0.0]})
@@ -95,7 +96,7 @@ def test_characters_that_a_workbook_cannot_hold_are_replaced(tmp_path: Path) -> 
     assert len(title) == 32_767
 
 
-@pytest.mark.parametrize("name", ["truss", "balance_position", "rssr", "two_drives"])
+@pytest.mark.parametrize("name", tiers(["two_drives"], ["truss", "balance_position", "rssr"]))
 def test_every_sort_of_answer_has_a_workbook(name: str, tmp_path: Path) -> None:
     r = da.solve(da.load(examples()[name]))
     book = written(r, tmp_path)
