@@ -15,9 +15,13 @@ def number(value: float, digits: int = 6) -> str:
 
     >>> number(243.237591), number(-0.0), number(1e-17), number(float("nan")), number(1.5e7)
     ('243.238', '0', '1e-17', '-', '1.5e+07')
+    >>> number(123456.7, 5)
+    '123457'
     """
     if not math.isfinite(value):
         return "-"
+    if 10.0**digits <= abs(value) < 1e6:
+        return format(value, ".0f")
     return format(value + 0.0, f".{digits}g")
 
 
@@ -27,7 +31,8 @@ def with_unit(value: float, unit: str, digits: int = 6) -> str:
     >>> with_unit(27.48, "N*m"), with_unit(float("nan"), "N*m")
     ('27.48 N*m', '-')
     """
-    return f"{number(value, digits)} {unit}" if math.isfinite(value) else "-"
+    gap = "*" if unit.startswith("10^") else " "
+    return f"{number(value, digits)}{gap}{unit}" if math.isfinite(value) else "-"
 
 
 def remainder(value: float, decimals: int = 0) -> str:

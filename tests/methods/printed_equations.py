@@ -14,7 +14,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from dalembert.analysis.output.summary.printed_units import unit_with_power
 from dalembert.units import KINDS
+from dalembert.views.notation import pretty
 
 TOKEN = re.compile(
     r"\s*(?:(?P<number>\d+(?:\.\d+)?(?:e[−+-]?\d+)?)|(?P<function>(?:cos|sin|tan|arcsin|arctan)\b)"
@@ -76,6 +78,7 @@ class Reader:
 
     def __init__(self, figures: int = 4, units: Any = None) -> None:
         self.figures, self.known = figures, dict[str, Read]()
+        self.large: dict[str, str] = {}
         self.units = None if units is None else printed_units(units)
         self.idle: list[str] = []
         self.turning = self.crossed = (
@@ -224,12 +227,16 @@ class Reader:
         if re.fullmatch(IN_LETTERS, text):
             return
         kinds = next(kinds for lead, kinds in LEADS.items() if re.match(lead, letters))
-        self.unit(re.split(r"[\s,:]", behind)[0], kinds, text)
+        self.unit(re.split(r"(?<!10.)[\s,:]", behind)[0], kinds, text)
 
     def unit(self, found: str, kinds: str, text: str) -> None:
         """A printed unit is that of one of these kinds."""
         if self.units is not None:
             wanted = [self.units[kind] if kind else "" for kind in kinds.split("|")]
+            if found not in wanted:  # a large number has a power of ten with its unit, the same throughout
+                plain = (unit.replace("·", "*").replace("²", "^2") for unit in wanted)
+                large = [pretty(unit_with_power(unit, p)) for unit in plain for p in (3, 6, 9, 12)]
+                wanted = [self.large.setdefault(kinds, found)] if found in large else wanted
             assert found in wanted, f"{text}: the unit is {found!r}, and should be {' or '.join(wanted)}"
 
     def _equation(self, text: str) -> None:

@@ -48,7 +48,7 @@ def _said(reader: Reader, words: str) -> None:
             del reader.known[sign]
     for sign, rate in re.findall(r"([ωα]_c) = (−?[\d.]+)", words):
         reader.known[sign] = reader.number(rate)
-    conversion = r"As 1 \S+ is ([\d.]+) \S+, (masses|moments) [^.]* are (divided|multiplied) by"
+    conversion = r"As 1 [^,]+? is ([\d.]+) [^,]+, (masses|moments) [^.]* are (divided|multiplied) by"
     for figure, of, how in re.findall(conversion, words):
         factor = float(figure) ** (-1 if how == "divided" else 1)
         reader.factors |= dict.fromkeys("mIJ" if of == "masses" else "IJ", factor)
@@ -80,11 +80,11 @@ def _table(reader: Reader, heads: list[str], rows: Cells) -> None:
 def _units(reader: Reader, caption: str, heads: list[str]) -> None:
     """Units in heads and captions are those of what the heads say."""
     for head in heads:
-        if (found := re.search(r" \((\S*)\)$", head)) is not None:
+        if (found := re.search(r" \(((?:10\S+ )?\S*)\)$", head)) is not None:
             kinds = next(kinds for sign, kinds in HEADS.items() if re.match(sign, head))
             reader.unit(found[1], kinds, head)
     for words, kind in (("[Ff]orces in", "force"), ("(?:couple|moment)s in", "moment")):
-        for unit in re.findall(rf"{words} ([^\s,;]+)", caption):
+        for unit in re.findall(rf"{words} ((?:10\S+ )?[^\s,;]+)", caption):
             reader.unit(unit, kind, caption)
     for unit in re.findall(r"Inertia \((\S+)\)", caption):
         reader.unit(unit, "inertia", caption)

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import pytest
 
 import dalembert as da
+from dalembert.cli import main
 from dalembert.errors import ModelError
 from dalembert.model import json_schema, loads
 from dalembert.unit_names import unit
 from dalembert.units import ALSO_CALLED, BASES, KINDS, Units, file_units, quantity
+from dalembert.views.paper.scene import Text
 from tests.model.test_units import NOT_IN_PINT, REGISTRY
 
 PRODUCTS = {
@@ -167,3 +170,42 @@ def test_the_same_unit_under_both_names_and_every_kind_is_taken() -> None:
         assert file_units({name: KINDS[kind].si}).unit(kind) == unit(KINDS[kind].si)
     assert set(keys) == {*KINDS, *ALSO_CALLED} - {"number"}
     assert Units().own("moment") == ""
+
+
+@pytest.mark.parametrize(("unit", "head"), [("N", "MN"), ("lbf", "10^6 lbf")])
+def test_large_numbers_have_a_common_power_with_their_unit(
+    unit: str, head: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In what is printed and drawn, never `-7.30402e+06 to -4.52185e+06`; files keep the unit stated."""
+    path, table = tmp_path / "press.yaml", tmp_path / "press.csv"
+    path.write_text(f"""
+units: {{length: mm, force: {unit}}}
+links: {{ground: {{points: {{O: [0, 0]}}}}, arm: {{points: {{O: [0, 0], A: [100, 0]}}}}}}
+joints: {{O: {{type: pin, links: [ground, arm]}}}}
+drives: {{O: {{position: {{from: 0, to: 40, count: 3}}}}}}
+loads: {{F: {{type: force, on: arm, at: A, value: [0, -7304020]}}}}
+""")
+    assert main(["solve", str(path), "--csv", str(table), "--units", "file"]) == 0
+    text = capsys.readouterr().out
+    assert "e+0" not in text
+    assert re.search(rf"\|F\| O +{re.escape(head)} +7\.30402 ", text)
+    assert "7304020" in table.read_text()
+    texts = [
+        item.text for item in da.draw.mechanism(da.statics(da.load(path))).flat() if isinstance(item, Text)
+    ]
+    assert any(("7.304" in text and "MN" in text) or "7.304·10⁶ lbf" in text for text in texts)
+
+
+def test_pressures_and_powers_of_a_file_have_their_own_units() -> None:
+    m = loads("""
+units: {length: mm, torque: N*m, pressure: MPa, power: kW}
+links: {ground: {points: {O: [0, 0]}}, arm: {points: {O: [0, 0]}}}
+joints: {O: {type: pin, links: [ground, arm]}}
+drives: {O: {position: 0}}
+loads:
+  T: {type: couple, on: arm, value: 3}
+  F: {type: force, on: arm, at: O, direction: 0, value: {x: [0, 90], y: [2, 4], times: 50 cm^2}}
+""")
+    assert m.loads["T"].value == 3.0
+    assert m.loads["F"].value.at({"O": 0.0}) == pytest.approx(2e6 * 50e-4, rel=1e-15)
+    assert (m.units.text("power"), m.units.text("moment")) == ("kW", "N*m")

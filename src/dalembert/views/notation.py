@@ -14,7 +14,7 @@ import numpy as np
 from dalembert import unit_names
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.rounding import least
-from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.analysis.output.summary.printed_units import Printed, print_scale
 from dalembert.model import GROUND
 
 if TYPE_CHECKING:
@@ -177,7 +177,7 @@ class Figures:
     def text(self, kind: str, value: float, floor: float = 0.0) -> str:
         """The number with its unit."""
         unit = self.unit(kind)
-        gap = "" if unit == "°" else " "
+        gap = "" if unit == "°" else "·" if unit.startswith("10") else " "
         return f"{self.number(kind, value, floor)}{gap}{unit}".strip()
 
     def plain(self, kind: str, value: float) -> str:
@@ -198,6 +198,7 @@ class Shown(Figures):
 
     def __init__(self, r: Result, notation: Notation, k: int | None = None) -> None:
         super().__init__(r.mechanism.units, notation)
+        self.scale = print_scale(r, notation.units)
         self.r = r
         self.least = least(r, k) if k is not None else self.least
         self.order = (GROUND, *r.links)
@@ -315,7 +316,11 @@ def own_name(name: str) -> str:
 def pretty(unit: str) -> str:
     """A unit as it is printed: lbf*in*s^2 gives lbf·in·s².
 
-    >>> pretty("lbf*in*s^2"), pretty("deg")
-    ('lbf·in·s²', '°')
+    >>> pretty("lbf*in*s^2"), pretty("deg"), pretty("10^6 lbf")
+    ('lbf·in·s²', '°', '10⁶ lbf')
     """
-    return unit.replace("*", "·").replace("^2", "²").replace("^3", "³").replace("deg", "°")
+    raised = re.sub(r"\^(-?\d+)", lambda m: m[1].translate(SUPERSCRIPTS), unit)
+    return raised.replace("*", "·").replace("deg", "°")
+
+
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

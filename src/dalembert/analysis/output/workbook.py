@@ -16,7 +16,7 @@ import numpy as np
 from dalembert.analysis.output.columns import Scale, UnitChoice, drive_kinds, in_plane, scale, unknown_kinds
 from dalembert.analysis.output.json_record import nan_to_none
 from dalembert.analysis.output.summary.printed_series import extremes
-from dalembert.analysis.output.summary.printed_units import print_scale
+from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.arrays import Array
 from dalembert.units import KINDS
@@ -94,7 +94,7 @@ def _text(sheet: Any, text: str) -> object:
 
 def _extremes(result: Result, units: UnitChoice, axes: Axes) -> Iterator[list[object]]:
     """Largest and smallest value of each effort, unknown load and reaction, with positions and drives there."""
-    to = print_scale(result, units)
+    to = Printed(None if units == "SI" else result.mechanism.units)
     kinds = {drive: drive_kinds(result, drive)["position"] for drive in result.drives}
     places = [f"{drive} [{to.text(kind)}]" for drive, kind in kinds.items()]
     yield ["over the positions", "unit", "largest", "position", *places, "smallest", "position", *places]

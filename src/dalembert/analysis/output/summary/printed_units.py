@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.output.columns import Scale, UnitChoice, drive_kinds
+from dalembert.analysis.output.columns import Scale, UnitChoice, drive_kinds, load_kind
 from dalembert.analysis.output.rounding import PART, cached, largest, sizes
 from dalembert.arrays import Array, Numeric, Tree
 
@@ -15,21 +17,83 @@ if TYPE_CHECKING:
 
 
 class Printed(Scale):
-    """The units of the file; angular rates to which it gives no unit of their own, in radians."""
+    """The units of the file; angular rates to which it gives no unit of their own, in radians.
+
+    ``powers``: kind -> power of ten that its unit has with it, as kN or 10^3 lbf.
+
+    >>> to = Printed(None, {"force": 6})
+    >>> to.text("force"), to("force", -7304020.0)
+    ('MN', -7.30402)
+    """
+
+    def __init__(self, units: object, powers: Mapping[str, int] | None = None) -> None:
+        super().__init__(units)
+        self.powers = powers or {}
 
     def text(self, kind: str) -> str:
-        return super().text(kind) if self.bare(kind) else RADIANS[kind]
+        own = super().text(kind) if self.bare(kind) else RADIANS[kind]
+        return unit_with_power(own, self.powers.get(kind, 0))
 
     def __call__(self, kind: str, values: Numeric) -> Numeric:
-        return super().__call__(kind, values) if self.bare(kind) else values
+        own = super().__call__(kind, values) if self.bare(kind) else values
+        return own / 10.0 ** self.powers[kind] if kind in self.powers else own
+
+
+PREFIXES = {3: "k", 6: "M", 9: "G", 12: "T"}
+PREFIXED = ("N", "N*m", "W", "J", "Pa")
+"""Units that take a prefix; before others stands the power itself."""
+OF_METRES = {"N*mm": "N*m", "mm/s": "m/s", "mm/s^2": "m/s^2"}
+"""Units of millimetres -> those of metres that stand for a thousand of them."""
+
+
+def unit_with_power(unit: str, power: int) -> str:
+    """A unit times a power of ten.
+
+    >>> unit_with_power("N*m", 3), unit_with_power("N*mm", 9), unit_with_power("lbf*in", 6)
+    ('kN*m', 'MN*m', '10^6 lbf*in')
+    """
+    if power >= 3 and unit in OF_METRES:
+        unit, power = OF_METRES[unit], power - 3
+    if not power:
+        return unit
+    return (
+        f"{PREFIXES[power]}{unit}" if unit in PREFIXED and power in PREFIXES else f"10^{power} {unit}".strip()
+    )
 
 
 RADIANS = {"angular_speed": "rad/s", "angular_acceleration": "rad/s^2"}
 
 
 def print_scale(result: Result, units: UnitChoice) -> Printed:
-    """The scale of a printed answer."""
-    return Printed(None if units == "SI" else result.mechanism.units)
+    """The scale of a printed answer: a kind whose largest number would be printed with an exponent has it with its
+    unit, the same in every table, drawing and report of the result."""
+    plain = Printed(None if units == "SI" else result.mechanism.units)
+    powers = {}
+    for kind, size in cached(result, _extents).items():
+        number = float(abs(plain(kind, float(size[0]))))
+        if math.isfinite(number) and number >= 999_999.5:
+            powers[kind] = 3 * math.floor(math.log10(number * (1 + 1e-6)) / 3)
+    return Printed(None if units == "SI" else result.mechanism.units, powers)
+
+
+def _extents(result: Result) -> Tree:
+    """By kind the largest number of the whole answer (1,), 0 where there is none but rounding."""
+    r, d = result.before, result.compiled.layout.algebra.d
+    turns = np.array([drive_kinds(r, n)["effort"] == "moment" for n in r.drives], bool)
+    couples = np.array([load_kind(r, n) == "moment" for n in r.unknown_loads], bool)
+    arrays = {
+        "force": (r.force_array, r.effort_array[:, ~turns], r.load_array[:, ~couples]),
+        "moment": (r.moment_array, r.effort_array[:, turns], r.load_array[:, couples]),
+        "power": (r.effort_array * r.schedule.speed,),
+        "speed": (r.twist_array[..., :d],),
+        "acceleration": (r.acceleration_array[..., :d],),
+        "angular_speed": (r.twist_array[..., d:],),
+        "angular_acceleration": (r.acceleration_array[..., d:],),
+    }
+    found = {kind: largest(1, *(a.reshape(1, -1) for a in some)) for kind, some in arrays.items()}
+    force = max(float(found["force"][0]), float(found["moment"][0]) / r.compiled.layout.length)
+    noise = {"force": PART * force, "moment": PART * force * r.compiled.layout.length}
+    return {kind: np.where(size > noise.get(kind, 0.0), size, 0.0) for kind, size in found.items()}
 
 
 def without_reactions(result: Result) -> bool:
