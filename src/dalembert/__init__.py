@@ -129,6 +129,7 @@ if TYPE_CHECKING:
         whitworth,
     )
     from dalembert.pages.html_page import page
+    from dalembert.pages.widget import widget
     from dalembert.reports import report
     from dalembert.views import draw
     from dalembert.views.notation import Notation
@@ -175,6 +176,7 @@ _NAMES = {
         "spherical_four_bar stephenson_1 stephenson_2 stephenson_3 toggle_press v_engine watt_1 watt_2 whitworth"
     ),
     "pages.html_page": "page",
+    "pages.widget": "widget",
     "reports": "report",
     "views": "draw",
     "views.notation": "Notation",
@@ -307,6 +309,7 @@ __all__ = [
     "watt_1",
     "watt_2",
     "whitworth",
+    "widget",
     "wrench",
 ]
 

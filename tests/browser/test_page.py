@@ -17,6 +17,8 @@ from tests.browser.opened import FILES
 from tests.pages.test_page_data import PARAMETRIC
 
 FOUR_BAR, ENGINE, SHAPER, LIFT = "four_bar", "engine", "quick_return", "scissor_lift"
+pytestmark = pytest.mark.long
+
 HOSTILE = '</script><img src=x onerror=alert(1)><b>bar</b> & "quote" <!--'
 
 TIP = """(() => { const path = document.querySelectorAll('.gradient g')[1].querySelector('path').getAttribute('d');
