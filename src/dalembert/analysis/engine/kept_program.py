@@ -31,6 +31,10 @@ negative, or no number, where something is in doubt.
 """
 
 
+CACHED = 500_000
+"""Outputs that are checked at once, so that they stay in the cache."""
+
+
 @dataclass(frozen=True)
 class Outputs:
     """A traced structure: its inputs, and arrays of nodes by name, in the order of its outputs."""
@@ -88,6 +92,14 @@ class Outputs:
 
     def balance(self, layout: Layout, out: Array) -> tuple[Array, Array]:
         """Residual over the largest force, and virtual power over force times velocity, at each place."""
+        some = max(CACHED // self.size, 1)
+        parts = [self._balance(layout, out[:, k : k + some]) for k in range(0, out.shape[1], some)]
+        if len(parts) == 1:
+            return parts[0]
+        residual, power = zip(*parts, strict=True)
+        return np.concatenate(residual), np.concatenate(power)
+
+    def _balance(self, layout: Layout, out: Array) -> tuple[Array, Array]:
         per_length = layout.wrench_scale[:, None]
         forces = np.abs(out[self.rows["force"].start : self.rows["loads"].stop])
         forces[self.moments] /= layout.length
