@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -49,16 +50,23 @@ def write_workbook(
     axes: Axes,
 ) -> None:
     """Sheets of positions (the ``rows``), extremes, charts with their numbers, assumptions, and ``about``."""
-    from openpyxl import Workbook
-
-    book = Workbook(write_only=True)
-    try:
+    with new_book(path) as book:
         add_sheet(book, "positions", rows).freeze_panes = "C2"
         add_sheet(book, "extremes", _extremes(result, units, axes), (34, 12, 16, 12, 18, 16, 12, 18))
         if len(result.status) > 1 and result.drives and result.stability is None:
             _charts(book, result, units, axes)
         add_sheet(book, "assumptions", _assumptions(result, units, axes), (24, 100))
         add_sheet(book, "about", about.items(), (24, 100))
+
+
+@contextmanager
+def new_book(path: Path) -> Iterator[Any]:
+    """A workbook to put sheets in, saved at the end; interrupted, it lets go of its sheets without a word."""
+    from openpyxl import Workbook
+
+    book = Workbook(write_only=True)
+    try:
+        yield book
         book.save(path)
     except BaseException:
         for sheet in book.worksheets:  # open files of what was being written

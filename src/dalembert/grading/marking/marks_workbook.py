@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from dalembert.analysis.output.workbook import add_sheet
+from dalembert.analysis.output.workbook import add_sheet, new_book
 from dalembert.grading.marking.rubric import Rubric
 from dalembert.grading.marking.student_marks import StudentMarks, named_mistakes
 from dalembert.saving import check_installed, new_file
@@ -16,13 +16,9 @@ def write_workbook(
 ) -> None:
     """Sheets of marks, figures, mistakes, what could not be read, and the rubric."""
     check_installed("openpyxl", "a workbook")
-    from openpyxl import Workbook
-
-    book = Workbook(write_only=True)
-    for name, rows in _sheets(students, rubric).items():
-        add_sheet(book, name, rows).freeze_panes = "B2"
-    with new_file(path, overwrite) as temporary:
-        book.save(temporary)
+    with new_file(path, overwrite) as temporary, new_book(temporary) as book:
+        for name, rows in _sheets(students, rubric).items():
+            add_sheet(book, name, rows).freeze_panes = "B2"
 
 
 def _sheets(students: Sequence[StudentMarks], rubric: Rubric) -> dict[str, Iterator[Sequence[object]]]:
