@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import importlib.util
 import json
 import re
 from pathlib import Path
@@ -19,6 +20,7 @@ from dalembert.exams.choices import read_choices
 from dalembert.exams.question_sheet import question_sheet
 from dalembert.grading.file_answers import check
 from tests.methods.test_question import falsified
+from tests.model.test_shapes import box_mesh
 
 FOUR_BAR = {"loads.T_4.value": "100..140 lbf*in", "drives.O2.position": "[45, 60, 75]"}
 
@@ -214,3 +216,20 @@ def test_a_folder_is_there_whole_or_not_at_all(tmp_path: Path, monkeypatch: pyte
     some.save(out, overwrite=True)
     assert [p.name for p in tmp_path.iterdir()] == ["exam"]
     assert (out / "key.csv").stat().st_ino != before
+
+
+@pytest.mark.skipif(importlib.util.find_spec("trimesh") is None, reason="extra cad")
+def test_meshes_go_with_the_problems(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "parts").mkdir()
+    box_mesh(tmp_path / "parts" / "box.stl")
+    tree = bracket(value=100, direction="30 deg").to_tree()
+    shape = {"type": "mesh", "file": "parts/box.stl", "density": "7850 kg/m^3"}
+    tree["links"]["arm"] = {"points": {"O": [0, 0], "P": [2, 0]}, "shape": shape}
+    (tmp_path / "arm.json").write_text(json.dumps(tree), encoding="utf-8")
+    m = da.load(tmp_path / "arm.json")
+    some = da.variants(m, {"loads.F.value": "100..200"}, count=2, seed=1, ask=["reaction.O"])
+    monkeypatch.setitem(exam_folder.PARTS, "questions", ())
+    monkeypatch.setitem(exam_folder.PARTS, "solutions", ())
+    some.save(tmp_path / "exam")
+    some.save(tmp_path / "exam", overwrite=True)
+    assert da.load(tmp_path / "exam" / "problems" / "02.yaml").mass("arm") == m.mass("arm")

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from dalembert.exams.variant import Progress, Variant
-    from dalembert.model import Answer
+    from dalembert.model import Answer, Mechanism
 
 RECORD = "variants.json"
 """The seed, what was asked and the values of each variant: the mark of such a folder."""
@@ -66,6 +66,7 @@ def _strange(folder: Path) -> str:
         inside = path.relative_to(folder)
         endings = PARTS.get(inside.parts[0], ())
         made = len(inside.parts) == 2 and path.suffix in endings and path.stem.isdigit()
+        made |= inside.parts[0] == "problems" and (path.suffix.lower() == ".stl" or path.is_dir())
         if not (made or inside.as_posix() in ALONE or (path.is_dir() and inside.as_posix() in PARTS)):
             return inside.as_posix()
     return ""
@@ -110,12 +111,26 @@ def _put_in_place(beside: Path, folder: Path) -> None:
 
 def _write_variant(v: Variant, asked: Sequence[Answer], folder: Path) -> None:
     v.mechanism.save(folder / "problems" / f"{v.name}.yaml")
+    _copy_meshes(v.mechanism, folder / "problems")
     for part, sheet in (("questions", question_sheet), ("solutions", solution_sheet)):
         made = sheet(v.result, asked, v.name)
         for ending in PARTS[part]:
             made.save(folder / part / f"{v.name}{ending}")
     rows = [{**row, "variant": v.name, "value": ""} for row in v.key]
     _write_csv(folder / "answers" / f"{v.name}.csv", SHEET, rows)
+
+
+def _copy_meshes(m: Mechanism, folder: Path) -> None:
+    """The STL files that shapes name, beside the problem as they were beside its file."""
+    for mesh in (getattr(s, "file", None) for link in m.links.values() for s in link.shapes):
+        if mesh is None or Path(mesh.written).is_absolute():
+            continue
+        if ".." in Path(mesh.written).parts:
+            what = f"the mesh {mesh.written} lies outside the folder of the problem"
+            raise ModelError(what, "put it beside the model file, or name it by its whole path")
+        target = folder / mesh.written
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(mesh.path, target)
 
 
 def _write_key(found: Sequence[Variant], asked: Sequence[Answer], seed: int, folder: Path) -> None:
