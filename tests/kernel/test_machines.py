@@ -236,3 +236,24 @@ def test_redundancy_is_refused_with_its_joints() -> None:
     tree["joints"]["B2"] = {"type": "pin", "links": ["bar", "rocker"], "at": ["B", "B"]}
     with pytest.raises(da.ModelError, match="redundant"):
         da.compile(da.mechanism(tree))
+
+
+def test_a_lifted_linkage_is_refused_and_compiled_as_the_sentence_offers() -> None:
+    """Each loop in planes is redundant three times; with a constraint freed the kernel has the analyses' reactions."""
+    heights, plane = {"coupler": "20 mm"}, da.four_bar(positions=4)
+    sentence = (
+        "3 redundant constraint(s) among joints O2, A, B, O4: not all reactions follow from equilibrium, so it cannot "
+        "be compiled; free a constraint, or use the analyses, which mark what is unique"
+    )
+    with pytest.raises(da.ModelError) as refused:
+        da.compile(da.lifted(plane, heights))
+    assert str(refused.value) == sentence
+    marked = da.dynamics(da.lifted(plane, heights))
+    assert set(marked.status) == {"redundant"}
+    assert not marked.unique("A").all()
+    freed = da.lifted(plane, heights, {"B": "spherical", "O4": "cylindrical"})
+    k = da.compile(freed, outputs=["reaction.A", "moment.A", "effort.O2"])
+    r, wanted = k([k.nominal]), da.dynamics(freed, method="careful")
+    assert r.ok.all()
+    assert r.reaction("A")[0] == pytest.approx(wanted.reaction("A"), rel=1e-10, abs=1e-9)
+    assert r.effort("O2")[0] == pytest.approx(marked.effort("O2"), rel=1e-9)
