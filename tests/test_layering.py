@@ -35,7 +35,7 @@ MAY_IMPORT = {
     "analysis": ANALYSIS,
     "analysis.result": ANALYSIS | {"machine"},  # Result.harmonics asks for the shaking force
     "analysis.output": BASE | {"algebra", "model", "analysis"},
-    "grading": BASE | {"core", "model", "analysis", "grading"},
+    "grading": BASE | {"core", "model", "analysis", "machine", "grading"},
     "wrench": BASE | {"algebra", "model", "analysis", "wrench"},
     "machine": ANALYSIS | {"machine"},
     "views": SHOWN | {"views"},

@@ -75,12 +75,12 @@ def check_rate_of_momentum(m: Any) -> None:
     assert np.allclose(s.force, total, rtol=0, atol=1e-12 * (1 + np.abs(total).max()))
 
 
-@over(6, 200)
+@over(4, 200)
 def test_the_shaking_force_is_minus_the_rate_of_momentum(seed: int) -> None:
     check_rate_of_momentum(da.mechanism(random_case(seed).tree))
 
 
-@over(3, 200)
+@over(2, 200)
 def test_the_same_in_space(seed: int) -> None:
     check_rate_of_momentum(da.mechanism(tree_in_space(random_in_space(seed))))
 
@@ -153,6 +153,14 @@ def test_what_is_no_period_is_refused(angle: Any, orders: Any, sentence: str) ->
         da.harmonics(np.cos(angle), angle, orders)
     with pytest.raises(ModelError, match="position 2 has no value"):
         da.harmonics([1.0, np.nan, 1.0, 0.0], turn(4), 1)
+
+
+def test_what_slides_has_no_harmonics() -> None:
+    r = da.dynamics(da.load(examples()["scissor_lift"]))
+    with pytest.raises(ModelError, match="and base_roller slides"):
+        r.harmonics("shaking")
+    with pytest.raises(ModelError, match="no output is named 'shaken'"):
+        da.dynamics(da.load(examples()["engine"])).harmonics("shaken")
 
 
 GAS = """

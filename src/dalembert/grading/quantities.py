@@ -133,6 +133,28 @@ def _of_freedom(freedom: str, order: int) -> Read:
     return lambda r, a: Series(kind, r.freedom(_name(a, r.joints, "joint"), freedom)[order])
 
 
+def _shaking(kind: str, name: str) -> Read:
+    def read(r: Result, a: Answer) -> Series:
+        from dalembert.machine.shaking import shaking
+
+        found = getattr(shaking(r, a.of if name == "moment" else None), name)
+        if found is None:
+            raise ModelError(
+                "there is no shaking couple: no link has a place", "write place: 90 mm", ("quantity",)
+            )
+        return Series(kind, found)
+
+    return read
+
+
+def _energy_fluctuation(r: Result, a: Answer) -> Series:
+    """The same at every position, as an answer names one."""
+    from dalembert.machine.flywheel.flywheels import flywheel
+
+    fluctuation = flywheel(r, _name(a, r.drives, "drive"), inertia=1.0).size.energy
+    return Series("energy", np.full(len(r.status), fluctuation))
+
+
 QUANTITIES: dict[str, Read] = {
     "effort": _effort,
     "drive": _drive,
@@ -165,6 +187,10 @@ QUANTITIES: dict[str, Read] = {
     "power_lost": _friction("power", "power_lost"),
     "lower_face": _face("lower"),
     "upper_face": _face("upper"),
+    "shaking_force": _shaking("force", "force"),
+    "shaking_moment": _shaking("moment", "moment"),
+    "shaking_couple": _shaking("moment", "couple"),
+    "energy_fluctuation": _energy_fluctuation,
     "residual": lambda r, a: Series("number", r.residual),
     "power_balance": lambda r, a: Series("number", r.power_balance),
 }

@@ -24,6 +24,7 @@ from dalembert.analysis.output.columns import Column, Scale, drive_kinds, parts
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.machine.harmonics import Harmonics, harmonics
+from dalembert.machine.whole_cycle import turning_angle
 from dalembert.model import GROUND
 from dalembert.wording import closest
 
@@ -70,12 +71,7 @@ class Shaking:
 
     def harmonics(self, orders: int | Sequence[float] = 4, of: str = "force") -> Harmonics:
         """Harmonics of the `force`, the `moment` or the `couple` over whole turns of the first drive."""
-        r = self.result
-        if not r.drives:
-            raise ModelError(
-                "harmonics are taken over the turn of a drive, and there is none", "drive a joint"
-            )
-        return harmonics(getattr(self, of), r.drive_position(r.drives[0]), orders)
+        return harmonics(getattr(self, of), turning_angle(self.result), orders)
 
     def columns(self) -> Iterator[Column]:
         """Every number: the first drives' positions, force and moment, and their parts."""

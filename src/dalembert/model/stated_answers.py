@@ -54,6 +54,10 @@ Quantity = Literal[
     "friction_force",
     "friction_moment",
     "power_lost",
+    "shaking_force",
+    "shaking_moment",
+    "shaking_couple",
+    "energy_fluctuation",
     "lower_face",
     "upper_face",
     "residual",
@@ -74,7 +78,9 @@ class Answer(Part):
     """
 
     quantity: Quantity = Field(description="what is claimed")
-    of: str | None = Field(None, description="of which joint, drive, load, link or link.point")
+    of: str | None = Field(
+        None, description="of which joint, drive, load, link or link.point; about which point"
+    )
     on: str | None = Field(None, description="the link a reaction acts on; default the joint's j")
     by: str | None = Field(None, description="the link a reaction is exerted by")
     at: object = Field(None, description="position: its number from 1, or the drive's value as text")

@@ -12,6 +12,7 @@ from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.machine.harmonics import Harmonics, harmonics
 from dalembert.machine.shaking import shaking
+from dalembert.machine.whole_cycle import turning_angle
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
@@ -20,9 +21,7 @@ if TYPE_CHECKING:
 
 def harmonics_of(r: Result, of: str, orders: int | Sequence[float] = 4) -> Harmonics:
     """Harmonics of the shaking force or moment, or of a column of the outputs, over the first drive's turns."""
-    if not r.drives:
-        raise ModelError("harmonics are taken over the turn of a drive, and there is none", "drive a joint")
-    return harmonics(_values(r, of), r.drive_position(r.drives[0]), orders)
+    return harmonics(_values(r, of), turning_angle(r), orders)
 
 
 def _values(r: Result, of: str) -> Array:

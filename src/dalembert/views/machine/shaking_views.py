@@ -21,7 +21,7 @@ def shaking_scenes(s: Shaking, notation: Notation | None = None) -> list[Scene]:
     refuse_still(s.result, "a chart")
     r = s.result.before
     shown = Shown(r, notation or Notation())
-    force, moment = s.force / shown.size("force"), s.moment / shown.size("moment")
+    force = s.force / shown.size("force")
     whose = "on the ground" if s.whole else f"of {', '.join(s.links)}"
     out = []
     if r.mechanism.dimension == 2:
@@ -29,13 +29,16 @@ def shaking_scenes(s: Shaking, notation: Notation | None = None) -> list[Scene]:
         out.append(polar_scene({"force": force}, shown.unit("force"), f"Shaking force {whose}", marks=marks))
     out.append(vector_chart(r, force, "force", f"Shaking force {whose}", shown))
     x, label, angle = along(r, shown)
-    about = f"Shaking moment about {s.about}"
-    if moment.ndim > 1:
-        out.append(vector_chart(r, moment, "moment", about, shown))
-    else:
-        out.append(
-            curves_scene(x, {"moment": moment}, label, f"Moment in {shown.unit('moment')}", about, angle)
-        )
+    turning = {f"Shaking moment about {s.about}": s.moment, "Shaking couple": s.couple}
+    for title, values in turning.items():
+        if values is None or not np.nanmax(np.abs(values), initial=0.0) > s.floor("moment"):
+            continue
+        moment = values / shown.size("moment")
+        if moment.ndim > 1:
+            out.append(vector_chart(r, moment, "moment", title, shown))
+        else:
+            unit = f"Moment in {shown.unit('moment')}"
+            out.append(curves_scene(x, {"moment": moment}, label, unit, title, angle))
     try:
         found = s.harmonics(6)
     except ModelError:
