@@ -100,9 +100,9 @@ def test_none_is_near_a_dead_centre() -> None:
     tree = da.slider_crank(crank=0.05, rod=0.2).to_tree()
     tree |= {"drives": {"guide": {"position": "0.2 m"}}, "assembly": {"crank": "80 deg"}}
     tree["loads"] = {"brake": {"type": "couple", "on": "crank", "value": "10 N*m"}}
-    vary = {"drives.guide.position": [f"{x} mm" for x in (151, 180, 200, 220, 249, 249.9, 255)]}
-    some = da.variants(da.mechanism(tree), vary, count=3, seed=1, ask=["effort.guide"])
-    assert sorted(str(v.values["drives.guide.position"]) for v in some) == ["180 mm", "200 mm", "220 mm"]
+    vary = {"drives.guide.position": [f"{x} mm" for x in (151, 200, 220, 249.9, 255)]}
+    some = da.variants(da.mechanism(tree), vary, count=2, seed=1, ask=["effort.guide"])
+    assert sorted(str(v.values["drives.guide.position"]) for v in some) == ["200 mm", "220 mm"]
 
 
 def test_no_usual_mistake_stays_hidden() -> None:
@@ -218,6 +218,7 @@ def test_a_folder_is_there_whole_or_not_at_all(tmp_path: Path, monkeypatch: pyte
     assert (out / "key.csv").stat().st_ino != before
 
 
+@pytest.mark.long
 @pytest.mark.skipif(importlib.util.find_spec("trimesh") is None, reason="extra cad")
 def test_meshes_go_with_the_problems(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "parts").mkdir()

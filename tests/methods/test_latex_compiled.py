@@ -34,9 +34,7 @@ def compiled(report: Report, folder: Path) -> str:
     return said
 
 
-@pytest.mark.parametrize(
-    "name", tiers(PICTURES[:1], [*PICTURES[1:], *list(examples())[::3], *list(cases())[::9]])
-)
+@pytest.mark.parametrize("name", tiers([], [*PICTURES, *list(examples())[::3], *list(cases())[::9]]))
 def test_reports_with_their_drawings_compile_and_fit_the_page(name: str, tmp_path: Path) -> None:
     report = da.report(da.solve(da.load((examples() | cases())[name])))
     said = compiled(report, tmp_path)
@@ -46,14 +44,14 @@ def test_reports_with_their_drawings_compile_and_fit_the_page(name: str, tmp_pat
     assert max(too_wide, default=0.0) < 10.0
 
 
-@pytest.mark.parametrize("sign", tiers(["#%"], [s for s in SIGNS if s.isascii() or s in "éß–"]))
+@pytest.mark.parametrize("sign", tiers([], ["#%", *(s for s in SIGNS if s.isascii() or s in "éß–")]))
 def test_any_name_compiles(sign: str, tmp_path: Path) -> None:
     assert "Output written" in compiled(da.report(da.solve(named(sign))), tmp_path)
 
 
-@pytest.mark.parametrize("name", tiers([], ["four_bar"]))
+@pytest.mark.parametrize("name", tiers(["four_bar"], ["rssr"]))
 def test_question_sheets_compile(name: str, tmp_path: Path) -> None:
     r = da.solve(da.load(examples()[name]))
     assert "Output written" in compiled(
-        question_sheet(r, [da.Answer(quantity="effort", of="O2")], "01"), tmp_path
+        question_sheet(r, [da.Answer(quantity="effort", of=r.drives[0], at=1)], "01"), tmp_path
     )
