@@ -149,6 +149,14 @@ def test_a_key_alone_names_slips_and_gives_its_marks(tmp_path: Path, key: Path) 
     assert outcomes(bare) == [("right", 1.0)]
 
 
+def test_two_sheets_of_one_student_are_both_marked_and_said(tmp_path: Path, key: Path) -> None:
+    marked(tmp_path, "student: Ann\nvariant: 1\nefforts: {O2: 243.2}\n", key, "a.yaml")
+    marked(tmp_path, "student: Ann\nvariant: 1.0\nefforts: {O2: 1}\n", key, "b.yaml")
+    first, second = da.grade(tmp_path / "answers", key).students
+    assert (first.total, second.total, first.problems) == (4, 0, [])
+    assert second.problems[0].endswith("b.yaml:1: there is another sheet of Ann")
+
+
 def test_the_student_states_no_tolerance(tmp_path: Path, key: Path) -> None:
     text = (
         "variant: 1\ntolerance: 50 %\nanswers:\n- {quantity: effort, of: O2, value: 200, tolerance: 50 %}\n"

@@ -62,6 +62,14 @@ def grade(
     ``tolerance``, as `3 %`, is that of figures to which the key gives none; ``static`` leaves inertia out. Raises
     ModelError where the key, the rubric or the folder is wrong; what is wrong with a sheet is a sentence of that
     student's.
+
+    >>> import pathlib, tempfile
+    >>> key = [{"quantity": "effort", "of": "O2", "value": 243.2376, "unit": "lbf*in", "marks": 4}]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = pathlib.Path(folder, "ann.yaml").write_text("efforts: {O2: -243.2}")
+    ...     marks = grade(folder, key)
+    >>> [(s.student, s.total, s.marks[0].outcome) for s in marks.students]
+    [('ann', 2.0, 'sign')]
     """
     rules = rubric if isinstance(rubric, Rubric) else Rubric() if rubric is None else load_rubric(rubric)
     tolerance = tolerance or rules.tolerance
@@ -73,6 +81,8 @@ def grade(
     with progress("Marking", len(sheets)) as step:
         for k, sheet in enumerate(sheets):
             step(k, sheet.student)
+            if any(sheet.student == other.student for other in sheets[:k]):
+                sheet.problems.append(f"{sheet.file}:{sheet.line}: there is another sheet of {sheet.student}")
             out.append(marker.marked(sheet))
     return Marks(out, rules)
 

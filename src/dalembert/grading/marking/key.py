@@ -94,12 +94,12 @@ class Key:
 
 
 def plain(name: str) -> str:
-    """A variant's name as it is compared: case and leading zeros count for nothing.
+    """A variant's name as it is compared: case, leading zeros and what a spreadsheet adds count for nothing.
 
-    >>> plain("07"), plain("A")
-    ('7', 'a')
+    >>> plain("07"), plain("7.0"), plain("A")
+    ('7', '7', 'a')
     """
-    return name.strip().lstrip("0").lower() or "0"
+    return name.strip().removesuffix(".0").lstrip("0").lower() or "0"
 
 
 def read_key(source: str | Path | Mechanism | Sequence[Mapping[str, Any]], static: bool = False) -> Key:
