@@ -13,7 +13,7 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
 import dalembert as da
-from dalembert.bundled import examples
+from dalembert.bundled import cases, examples
 from dalembert.cli import main
 from dalembert.errors import ModelError
 from tests.machine.closed_forms import turn
@@ -197,6 +197,15 @@ def test_the_motion_found_asks_for_a_constant_torque(seed: int) -> None:
     assert f.exact is not None, f.reason
     assert f.exact.residual < 1e-9
     assert sum(f.size.pulses) == pytest.approx(0, abs=1e-8 * max(f.size.energy, 1e-9 * scale))
+
+
+def test_an_even_effort_needs_none() -> None:
+    rotor = da.dynamics(da.load(cases()["ba-01-rotor-with-four-masses"]), positions=72)
+    for r in (shaft("0", 100), shaft("30", 100), rotor):
+        f = da.flywheel(r, Cs=0.02)
+        assert f.inertia == 0
+        assert f.reason == "the effort never differs from its mean"
+        assert "no flywheel is needed" in str(f)
 
 
 def test_what_has_no_flywheel_is_refused() -> None:

@@ -136,17 +136,20 @@ def flywheel(
     (441.64, 0.22374, 0.21434)
     """
     t = TurningMoment(r, drive)
-    panels, torque = resolve(lambda q: t.effort(q, t.speed, inertia=r.inertia), t.edges)
+    panels, torque = resolve(lambda q: t.effort(q, t.speed, inertia=r.inertia), t.edges, t.floor)
     mean = panels.mean(torque)
-    zeros, energies = panels.zeros(torque - mean)
+    even = bool(np.abs(torque - mean).max() <= 100 * t.floor)
+    zeros, energies = panels.zeros(np.zeros_like(torque) if even else torque - mean)
     pulses = np.diff(np.append(energies, energies[:1])) if len(zeros) > 1 else np.zeros(0)
     size = flywheel_size([*pulses], t.speed, Cs, inertia)
     starts = panels.antiderivative(torque - mean)[1]
     curve = np.interp(r.drive_position(t.drive), np.append(panels.low, t.edges[-1]), starts)
     own = t.inertia(panels.points.ravel()).reshape(torque.shape)
     mean_own = panels.mean(own)
-    exact, for_cs, reason = None, None, ""
+    exact, for_cs, reason = None, None, "the effort never differs from its mean" if even else ""
     try:
+        if even:
+            raise AnalysisError(reason)
         exact = speed_fluctuation(t, panels, own, size.inertia)
         for_cs = inertia_for(t, panels, own, Cs, size.inertia - mean_own) if Cs is not None else None
     except AnalysisError as error:

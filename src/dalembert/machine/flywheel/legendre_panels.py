@@ -14,12 +14,13 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from dalembert.arrays import Array
+from dalembert.errors import AnalysisError
 
 POINTS = 12
 """Points of Gauss a panel."""
 RESOLVED = 1e-13
 """Error of the integral over a panel that is let be, of that of the curve's size over the period."""
-MOST_HALVINGS = 45
+MOST_HALVINGS, MOST_PANELS = 45, 10_000
 
 NODES, _ = legendre.leggauss(POINTS)
 TO_COEFFICIENTS = np.linalg.inv(legendre.legvander(NODES, POINTS - 1))
@@ -106,23 +107,30 @@ class Panels:
         return min(found), max(found)
 
 
-def resolve(curve: Callable[[Array], Array], edges: Array) -> tuple[Panels, Array]:
-    """Panels between edges (K + 1,), halved until a curve is resolved on each, and its values at their points."""
+def resolve(curve: Callable[[Array], Array], edges: Array, floor: float = 0.0) -> tuple[Panels, Array]:
+    """Panels between edges (K + 1,), halved until a curve is resolved on each, and its values at their points.
+
+    What is below the ``floor`` is rounding. Raises AnalysisError for a curve too rough to be followed.
+    """
     low, width = edges[:-1], np.diff(edges)
-    period = float(width.sum())
-    kept: list[tuple[float, float, Array]] = []
+    period, kept = float(width.sum()), list[tuple[float, float, Array]]()
+    size = 0.0
     for depth in range(MOST_HALVINGS + 1):
         panels = Panels(low, width)
         values = curve(panels.points.ravel()).reshape(panels.points.shape)
-        size = max([float(np.abs(values).max(initial=0.0)), *(float(np.abs(v).max()) for *_, v in kept)])
-        tail = np.abs(panels.coefficients(values)[-3:]).max(axis=0) * width / period
-        true = (tail <= RESOLVED * size) | (depth == MOST_HALVINGS)
+        size = max(size, float(np.abs(values).max(initial=0.0)))
+        tail = np.abs(panels.coefficients(values)[-3:]).max(axis=0)
+        true = (tail * width / period <= RESOLVED * size) | (tail <= floor) | (depth == MOST_HALVINGS)
         kept += [
             (float(a), float(w), v) for a, w, v in zip(low[true], width[true], values[true], strict=True)
         ]
-        if true.all():
-            break
         half = width[~true] / 2
         low, width = np.concatenate([low[~true], low[~true] + half]), np.concatenate([half, half])
+        if not len(low):
+            break
+        if len(kept) + len(low) > MOST_PANELS:
+            raise AnalysisError(
+                f"the effort is too rough over the cycle: over {MOST_PANELS} pieces do not resolve it"
+            )
     kept.sort(key=lambda panel: panel[0])
     return Panels(*(np.array([p[k] for p in kept]) for k in (0, 1))), np.array([v for *_, v in kept])

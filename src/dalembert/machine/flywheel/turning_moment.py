@@ -46,6 +46,14 @@ class TurningMoment:
         """Effort at angles (n,), with these speeds and accelerations."""
         return self._asked(self.result.mechanism, q, speed, acceleration, inertia).effort(self.drive)[1:]
 
+    @property
+    def floor(self) -> float:
+        """An effort that is nothing but rounding beside the forces in the joints."""
+        r = self.result
+        force = np.nanmax(np.abs(r.force_array), initial=0.0) * r.compiled.layout.length
+        moment = np.nanmax(np.abs(r.moment_array), initial=0.0)
+        return 1e-13 * float(max(force, moment, np.abs(r.effort_array).max(initial=0.0)))
+
     def resistance(self, q: Array, speed: Array, acceleration: Array) -> Array:
         """The effort (n,) that does not go into kinetic energy: loads, weights, springs, dampers and friction."""
         if self.smooth is None:
