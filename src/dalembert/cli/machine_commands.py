@@ -145,7 +145,13 @@ def shake(
     result = solve_over_a_turn(file, static, positions, changes)
     found = shaking(result, _point(result.mechanism, about), links)
     out.deliver(found, lambda units: shaking_text(found, units, orders))
-    return int(not np.isfinite(found.force).all())
+    if np.isfinite(found.force).all():
+        return 0
+    from dalembert.analysis.output.summary.printed_answer import problems_text
+    from dalembert.analysis.output.summary.printed_units import print_scale
+
+    print(problems_text(result, print_scale(result, "file")), file=sys.stderr)
+    return 1
 
 
 SHAKE = """Examples:
