@@ -104,8 +104,8 @@ def _draw_plane(
     frame = fit_frame(every_path(r)[:, k], 120.0, 90.0, unit_size(r, "length"))
     draw_links(canvas, r, k, frame)
     canvas_names(canvas, r, k, frame, shown)
-    per_mm = draw_actions(canvas, r, given, k, frame, shown, 22.0)
-    draw_actions(canvas, r, asked, k, frame, shown, ASKED, per_mm=1 / ASKED, values=False)
+    per_mm = draw_actions(canvas, r, given, k, frame, shown, 22.0, clear=True)
+    draw_actions(canvas, r, asked, k, frame, shown, ASKED, per_mm=1 / ASKED, values=False, clear=True)
     return scale_notes(shown, frame, per_mm)
 
 
