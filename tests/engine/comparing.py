@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -57,9 +58,15 @@ def counted() -> Iterator[list[str]]:
         yield ways
 
 
+def _without_rounding(sentence: str | None) -> str:
+    """A sentence with figures that are rounding (1e-31 N m) as 0, which programs have there."""
+    return re.sub(r"-?\d[.\d]*e-[2-9]\d", "0", sentence or "")
+
+
 def difference(r: Any, s: Any) -> float:
     """Largest difference of two answers over the largest value of its kind (forces, turns in radians, ...)."""
-    assert (r.status, r.reasons, r.mode, r.mobility) == (s.status, s.reasons, s.mode, s.mobility)
+    assert (r.status, r.mode, r.mobility) == (s.status, s.mode, s.mobility)
+    assert [_without_rounding(x) for x in r.reasons] == [_without_rounding(x) for x in s.reasons]
     length = s.compiled.layout.length
     force = np.nanmax(np.abs(s.force_array), initial=0.0)
     least = {
