@@ -114,8 +114,10 @@ def _size_charts(r: Result, kind: str, joints: Sequence[str], notation: Notation
     x, label, angle = along(r, shown)
     read = "reaction" if kind == "force" else "reaction_moment"
     out = []
-    for first in range(0, len(joints), MOST):
-        some = joints[first : first + MOST]
+    many = -(-len(joints) // MOST)
+    each = -(-len(joints) // max(many, 1))  # as many in one as in another
+    for first in range(0, len(joints), max(each, 1)):
+        some = joints[first : first + each]
         sizes = {n: magnitude(stepped_series(r, methodcaller(read, n))) / shown.size(kind) for n in some}
         y_label = f"Joint {kind} in {shown.unit(kind)}"
         out.append(curves_scene(x, sizes, label, y_label, f"Joint {kind}s", angle))

@@ -23,7 +23,8 @@ def motion(sheet: Sheet, c: ReportContext) -> None:
     if not r.drives:
         return
     sheet.heading("Motion")
-    moving = any(np.any(r.speed(link)) or np.any(r.acceleration(link)) for link in r.links)
+    moving = any(np.any(r.speed(n)[c.k]) or np.any(r.acceleration(n)[c.k]) for n in r.links)
+    moving = moving or any(np.any(r.center_acceleration(n)[c.k]) for n in r.links) or not stands_still(r, c.k)
     for n, loop in enumerate(kinematics.loops(r, c.k)):
         names = " – ".join(shown.heading(link) for link in loop.links)
         sheet.text(f"Loop {n + 1} through links {names}: the sides sum to zero.")
@@ -71,9 +72,12 @@ def inertia(sheet: Sheet, c: ReportContext) -> None:
     if not r.inertia or not heavy:
         return
     sheet.heading("Inertia forces")
+    if not any(np.any(r.center_acceleration(n)[c.k]) or np.any(r.acceleration(n)[c.k]) for n in heavy):
+        sheet.text("No mass is accelerated at this position: there are no inertia forces.")
+        shares(sheet, c)
+        return
     units_of_inertia(sheet, c)
-    lines = [line for link in heavy for line in _inertia_lines(c, link)]
-    sheet.equations(lines)
+    sheet.equations([line for link in heavy for line in _inertia_lines(c, link)])
     turned = {k for k in heavy if abs(float(r.acceleration(k)[c.k])) > c.shown.least["angular_acceleration"]}
     displaced = [k for k in heavy if r.mechanism.inertia(k) and k in turned]
     sheet.figure(*(draw.displaced_inertia(r, k, c.k + 1, c.notation) for k in displaced[:3]))

@@ -98,12 +98,12 @@ def _tables(groups: list[list[Column]]) -> list[list[Column]]:
 
 
 def _rows(c: ReportContext, sources: tuple[str, ...], columns: list[Column]) -> list[list[str]]:
-    """A row a source and the sum; rounding is 0."""
+    """A row a source and the sum; rounding is 0. Weights and inertia that do nothing here have none."""
     rows = [
         [source_sign(c, s), *(_part(c, kind, float(v[n])) for _, v, kind in columns)]
         for n, s in enumerate(sources)
-        if c.r.mechanism.dimension == 2
-        or any(abs(float(v[n])) > c.shown.least[kind] for _, v, kind in columns)
+        if (c.r.mechanism.dimension == 2 and s in c.r.mechanism.loads)
+        or any(abs(float(v[n])) > c.shown.least.get(kind, math.inf) for _, v, kind in columns)
     ]
     return [*rows, ["sum", *(_part(c, kind, float(v[-1])) for _, v, kind in columns)]]
 

@@ -77,8 +77,15 @@ class Canvas:
         """A text that stands in a note: what it belongs to is too short to be pointed at."""
         self._below.append(text)
 
-    def scene(self, title: str = "", heading: bool = True, notes: Sequence[str] = (), **given: Any) -> Scene:
-        """The finished drawing, with its title above and notes below."""
+    def scene(
+        self,
+        title: str = "",
+        heading: bool = True,
+        notes: Sequence[str] = (),
+        least: float = 80.0,
+        **given: Any,
+    ) -> Scene:
+        """The finished drawing, with its title above and notes below, at least so wide (mm)."""
         placer = _Placer(self.items)
         left_over = []
         for label in self._labels:
@@ -90,12 +97,12 @@ class Canvas:
             notes = [*notes, f"{words} for a label: {listed}"] if texts else notes
         self._labels, self._below = [], []
         if heading:
-            self._draw_heading(title, notes)
+            self._draw_heading(title, notes, least)
         return Scene(tuple(self.items), title, **given)
 
-    def _draw_heading(self, title: str, notes: Sequence[str]) -> None:
+    def _draw_heading(self, title: str, notes: Sequence[str], least: float) -> None:
         left, bottom, right, top = Scene(tuple(self.items)).bounds
-        width = max(right - left, 80.0)
+        width = max(right - left, least)
         title = ", ".join(unbroken(part) if " = " in part else part for part in title.split(", "))
         for k, line in enumerate(reversed(break_lines(title, 3.6 * BOLD, width))):
             self.add(Text((left, top + 4.5 + 4.8 * k), line, 3.6, "title", "start"))

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from dalembert.analysis.methods.members import displaced_inertia
-from dalembert.views.notation import Notation, Shown
+from dalembert.views.notation import Notation, Shown, own_name
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import Frame, fit_frame, force_scale
 from dalembert.views.paper.scene import Arrow, Line, Point, Scene
@@ -34,7 +34,9 @@ def displaced_inertia_scene(r: Result, link: str, k: int, notation: Notation | N
     canvas.add(*link_shape(r, link, k, frame))
     for name, place in link_points(r, link, k).items():
         canvas.add(*plane_symbols.pin(frame(place)))
-        canvas.label(name, frame(place), size=3.2, role="title", leads=False)
+        if " " not in name:
+            sign = own_name(name) if name in r.mechanism.loads else name
+            canvas.label(sign, frame(place), size=3.2, role="title", leads=False)
     canvas.add(*plane_symbols.mass_center(frame(g)))
     canvas.label("G", frame(g), size=3.0, role="title", leads=False)
     scales = _arrows(canvas, r, link, k, frame, shown)

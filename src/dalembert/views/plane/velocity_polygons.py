@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 Order = Literal["velocity", "acceleration"]
 
-LONGEST = 58.0
+LONGEST = 50.0
 """Largest vector from the pole, mm."""
 
 MOST = 14
@@ -120,7 +120,10 @@ class _Polygon:
         notes = [f"{word}: 1 mm = {self.shown.plain(kind, self.per_mm)}", *notes, self._turns()]
         notes += [", ".join(unbroken(text) for text in self.listed)] if self.listed else []
         return self.canvas.scene(
-            f"{self.order.capitalize()} polygon", notes=notes, scales={self.order: self.per_mm}
+            f"{self.order.capitalize()} polygon",
+            notes=notes,
+            scales={self.order: self.per_mm},
+            least=150.0 if len(self.listed) > 12 else 80.0,
         )
 
     def head(self, vector: Array) -> Point:
@@ -231,11 +234,16 @@ class _Polygon:
                 place = next((p for p in at if math.dist(p, (x, y)) < 0.1), (x, y))
                 names = at.setdefault(place, [])
                 name = primed(s.letter, mark)
-                names += [name] if place != (0.0, 0.0) and name not in names else []
+                names += [name] if name not in names and not self._fixed(s) else []
         middle = np.mean([*at], axis=0)
         for (x, y), names in at.items():
             away = math.atan2(y - middle[1], x - middle[0])
             self.canvas.label(", ".join(names), (x, y), prefer=away, size=3.2, role="title")
+
+    def _fixed(self, s: Spot) -> bool:
+        """Whether a point is a pin of the ground: the pole."""
+        joint = self.r.mechanism.joints.get(s.sign)
+        return joint is not None and joint.hinge and GROUND in joint.links
 
     def _turns(self) -> str:
         """Angular rates of the links in words."""
