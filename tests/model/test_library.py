@@ -74,6 +74,24 @@ def test_the_file_says_the_same_as_the_function(name: str) -> None:
         assert read.assembly[link] == pytest.approx(angle, abs=ROUGH)
 
 
+@pytest.mark.parametrize("name", [name for name in NAMES if loads(template_text(name)).parameters])
+def test_a_dimension_of_the_function_is_the_parameter_of_the_file(name: str) -> None:
+    rng = np.random.default_rng(5)
+    read = loads(template_text(name))
+    signature = inspect.signature(TEMPLATES[name].function).parameters
+    sizes = {
+        key: f"{parameter.in_unit() * (1 + 0.02 * rng.random()):.4g} {parameter.unit}"
+        for key, parameter in read.parameters.items()
+        if key in signature
+    }
+    ours, files = physics(TEMPLATES[name].function(**sizes)), physics(read.with_values(sizes))
+    assert len(sizes) > 3
+    assert ours.keys() == files.keys()
+    for path, value in ours.items():
+        expected = pytest.approx(value, rel=1e-9, abs=1e-13) if isinstance(value, float) else value
+        assert files[path] == expected, path
+
+
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("text", [False, True])
 def test_every_position_is_solved(name: str, text: bool) -> None:

@@ -146,7 +146,7 @@ WRONG = {
     "'rho'?",
     "q: 2|mass: 2 q": "engine.yaml:16: mass of link 'crank': '2 q' has a number beside the parameter 'q'; write 2*q",
     "q: 1/0|mass: q": "engine.yaml:5: parameter 'q': the expression '1/0' has no finite value anywhere; change it, or "
-    "the range of the drive",
+    "what it follows from",
     "q: {value: 3 kg, ranges: 2}|mass: q": "engine.yaml:5: parameter 'q': there is no key 'ranges'; did you "
     "mean 'range'?",
     "q: {value: 3 kg, range: [2 kg, 1 kg]}|mass: q": "engine.yaml:5: parameter 'q': a range is two increasing values; "

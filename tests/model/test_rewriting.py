@@ -334,7 +334,7 @@ joints:
   B: {type: pin, links: [coupler, rocker]}
   O4: {type: pin, links: [ground, rocker]}
 drives:
-  O2: {position: {from: 0, to: 360, count: 72}, speed: 720 deg/s}
+  O2: {position: {from: 0, to: 360, count: 72}, speed: 120 rpm}
 loads:
   torque: {type: couple, on: rocker, value: -10}
 assembly: {coupler: 52.616802, rocker: 96.665427}

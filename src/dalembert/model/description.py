@@ -266,7 +266,8 @@ class Mechanism(Part):
         uses any more is left out). Raises ModelError for a path that does not exist.
         """
         given = {path: as_in_file(value, path) for path, value in values.items()}
-        named = {path: name for path in given if (name := parameter_name(path, self.parameters, self.keys()))}
+        known = self.parameters
+        named = {path: name for path in given if known and (name := parameter_name(path, known, self.keys()))}
         rules = self._later_rules({name: given[path] for path, name in named.items()})
         found = self
         if named:
@@ -276,7 +277,8 @@ class Mechanism(Part):
             path for path in given if path not in named
         ):  # in their order: lists' lengths must agree
             found = replace_value(found, path.split("."), given[path], rules)
-        rules = replace(rules, parameters=used_parameters(found, rules.parameters))
+        if known:
+            rules = replace(rules, parameters=used_parameters(found, rules.parameters))
         changed = Mechanism.model_validate(fields(found), context=rules)
         paths = {f"parameters.{named[path]}" if path in named else path: given[path] for path in given}
         changed._source, changed._changes = self._source, latest(self._changes, paths)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
 from typing import Any
 
 from dalembert.errors import ModelError
@@ -42,12 +43,17 @@ Leaf = float | Expression
 """A number, or a quantity that changes along the motion, which follows from parameters."""
 
 
+PLAIN = (float, str, bool, int, type(None))
+"""Types of values in which nothing follows from parameters."""
+
+
 def dependents(part: object, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Leaf]]:
     """Path and value of everything in a description that follows from its parameters."""
     if isinstance(part, Dependent) or (isinstance(part, Expression) and part.parameters):
         yield path, part
     for key, value in _inside(part):
-        yield from dependents(value, (*path, key))
+        if type(value) not in PLAIN:
+            yield from dependents(value, (*path, key))
 
 
 def with_dependents(
@@ -137,10 +143,16 @@ def unused_parameters(m: Any) -> list[ModelError]:
     ]
 
 
+@lru_cache(maxsize=64)
+def _keys(kind: type[Part]) -> list[tuple[str, str]]:
+    """Keys of a part and their fields, without the parameters themselves."""
+    return [(field.alias or name, name) for name, field in kind.model_fields.items() if name != "parameters"]
+
+
 def _inside(part: object) -> Iterable[tuple[str, Any]]:
     """Keys and values of what may have numbers in it."""
     if isinstance(part, Part):
-        return [(key, value) for key, value in fields(part).items() if key != "parameters"]
+        return [(key, getattr(part, name)) for key, name in _keys(type(part))]
     if isinstance(part, Mapping):
         return part.items()
     if isinstance(part, tuple):

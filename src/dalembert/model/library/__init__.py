@@ -16,50 +16,41 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from dalembert.errors import ModelError
 from dalembert.model.library.engines import in_line_engine, radial_engine, v_engine
-from dalembert.model.library.four_bars import four_bar, inverted_slider_crank, scotch_yoke, slider_crank
-from dalembert.model.library.machines import bucket, five_bar, scissor, toggle_press
-from dalembert.model.library.quick_returns import crank_shaper, whitworth
-from dalembert.model.library.shafts import bevel_differential, double_cardan, hooke_joint, rotating_shaft
-from dalembert.model.library.spatial import bennett, rccc, rssp, rssr, spherical_four_bar
-from dalembert.model.library.stephenson import stephenson_1, stephenson_2, stephenson_3
-from dalembert.model.library.watt import watt_1, watt_2
+from dalembert.model.library.from_files import file_text, template_function
+from dalembert.model.library.scissor_lift import scissor
+from dalembert.model.library.spatial import bennett, rccc, spherical_four_bar
 
 if TYPE_CHECKING:
     from dalembert.model import Mechanism
 
+four_bar = template_function("four_bar")
+slider_crank = template_function("slider_crank")
+inverted_slider_crank = template_function("inverted_slider_crank")
+whitworth = template_function("whitworth")
+crank_shaper = template_function("crank_shaper")
+watt_1 = template_function("watt_1")
+watt_2 = template_function("watt_2")
+stephenson_1 = template_function("stephenson_1")
+stephenson_2 = template_function("stephenson_2")
+stephenson_3 = template_function("stephenson_3")
+scotch_yoke = template_function("scotch_yoke")
+toggle_press = template_function("toggle_press")
+five_bar = template_function("five_bar")
+bucket = template_function("bucket")
+hooke_joint = template_function("hooke_joint")
+double_cardan = template_function("double_cardan")
+bevel_differential = template_function("bevel_differential")
+rotating_shaft = template_function("rotating_shaft")
+rssr = template_function("rssr")
+rssp = template_function("rssp")
+
 __all__ = [
-    "TEMPLATES",
-    "Template",
-    "bennett",
-    "bevel_differential",
-    "bucket",
-    "crank_shaper",
-    "double_cardan",
-    "five_bar",
-    "four_bar",
-    "hooke_joint",
-    "in_line_engine",
-    "inverted_slider_crank",
-    "radial_engine",
-    "rccc",
-    "rotating_shaft",
-    "rssp",
-    "rssr",
-    "scissor",
-    "scotch_yoke",
-    "slider_crank",
-    "spherical_four_bar",
-    "stephenson_1",
-    "stephenson_2",
-    "stephenson_3",
-    "template",
-    "template_text",
-    "toggle_press",
-    "v_engine",
-    "watt_1",
-    "watt_2",
-    "whitworth",
-]
+    "TEMPLATES", "Template", "bennett", "bevel_differential", "bucket", "crank_shaper", "double_cardan",
+    "five_bar", "four_bar", "hooke_joint", "in_line_engine", "inverted_slider_crank", "radial_engine",
+    "rccc", "rotating_shaft", "rssp", "rssr", "scissor", "scotch_yoke", "slider_crank",
+    "spherical_four_bar", "stephenson_1", "stephenson_2", "stephenson_3", "template", "template_text",
+    "toggle_press", "v_engine", "watt_1", "watt_2", "whitworth",
+]  # fmt: skip
 
 
 class Template(NamedTuple):
@@ -69,39 +60,36 @@ class Template(NamedTuple):
     description: str
 
 
-TEMPLATES: dict[str, Template] = {
-    "four_bar": Template(four_bar, "crank, coupler and rocker"),
-    "slider_crank": Template(slider_crank, "engine, pump or compressor; with offset if wanted"),
-    "inverted_slider_crank": Template(
-        inverted_slider_crank, "a block on the crank pin slides along a swinging arm"
-    ),
-    "whitworth": Template(whitworth, "quick return with an arm that goes right round"),
-    "crank_shaper": Template(crank_shaper, "quick return with a swinging lever, as in a shaping machine"),
-    "watt_1": Template(watt_1, "six-bar: a second loop on the coupler and rocker of a four-bar"),
-    "watt_2": Template(watt_2, "six-bar: two four-bars in series"),
-    "stephenson_1": Template(stephenson_1, "six-bar: a second dyad between crank and rocker"),
-    "stephenson_2": Template(stephenson_2, "six-bar: a floating plate on two couplers drives the rocker"),
-    "stephenson_3": Template(stephenson_3, "six-bar: a coupler point drives an output rocker"),
-    "scotch_yoke": Template(scotch_yoke, "the crank pin in a slot moves a yoke as a pure cosine"),
-    "toggle_press": Template(toggle_press, "a crank straightens two toggle links over a ram"),
-    "five_bar": Template(five_bar, "two driven cranks and two couplers, the simplest parallel robot"),
-    "scissor": Template(scissor, "scissor lift of any number of stages"),
-    "bucket": Template(bucket, "excavator bucket moved by a hydraulic cylinder"),
-    "in_line_engine": Template(in_line_engine, "cylinders in line that fire in an order; generated"),
-    "v_engine": Template(v_engine, "cylinders in two banks, two rods on each throw; generated"),
-    "radial_engine": Template(radial_engine, "cylinders in a star on one throw; generated"),
-    "rssr": Template(rssr, "in space: crank, rod with two balls, rocker about any axis"),
-    "rssp": Template(rssp, "in space: crank, rod with two balls, slider along any line"),
-    "rccc": Template(rccc, "in space: a revolute and three cylindrical joints, the general four-bar"),
-    "bennett": Template(bennett, "in space: four axes that should not move, and do"),
-    "spherical_four_bar": Template(spherical_four_bar, "in space: four axes through one point"),
-    "hooke_joint": Template(hooke_joint, "in space: a universal joint between two shafts at an angle"),
-    "double_cardan": Template(double_cardan, "in space: two universal joints that turn evenly"),
-    "bevel_differential": Template(
-        bevel_differential, "in space: a carrier turns by half the sum of two wheels' turns"
-    ),
-    "rotating_shaft": Template(rotating_shaft, "in space: a shaft with masses off its axis on two bearings"),
+DESCRIPTIONS = {
+    "four_bar": "crank, coupler and rocker",
+    "slider_crank": "engine, pump or compressor; with offset if wanted",
+    "inverted_slider_crank": "a block on the crank pin slides along a swinging arm",
+    "whitworth": "quick return with an arm that goes right round",
+    "crank_shaper": "quick return with a swinging lever, as in a shaping machine",
+    "watt_1": "six-bar: a second loop on the coupler and rocker of a four-bar",
+    "watt_2": "six-bar: two four-bars in series",
+    "stephenson_1": "six-bar: a second dyad between crank and rocker",
+    "stephenson_2": "six-bar: a floating plate on two couplers drives the rocker",
+    "stephenson_3": "six-bar: a coupler point drives an output rocker",
+    "scotch_yoke": "the crank pin in a slot moves a yoke as a pure cosine",
+    "toggle_press": "a crank straightens two toggle links over a ram",
+    "five_bar": "two driven cranks and two couplers, the simplest parallel robot",
+    "scissor": "scissor lift of any number of stages",
+    "bucket": "excavator bucket moved by a hydraulic cylinder",
+    "in_line_engine": "cylinders in line that fire in an order; generated",
+    "v_engine": "cylinders in two banks, two rods on each throw; generated",
+    "radial_engine": "cylinders in a star on one throw; generated",
+    "rssr": "in space: crank, rod with two balls, rocker about any axis",
+    "rssp": "in space: crank, rod with two balls, slider along any line",
+    "rccc": "in space: a revolute and three cylindrical joints, the general four-bar",
+    "bennett": "in space: four axes that should not move, and do",
+    "spherical_four_bar": "in space: four axes through one point",
+    "hooke_joint": "in space: a universal joint between two shafts at an angle",
+    "double_cardan": "in space: two universal joints that turn evenly",
+    "bevel_differential": "in space: a carrier turns by half the sum of two wheels' turns",
+    "rotating_shaft": "in space: a shaft with masses off its axis on two bearings",
 }
+TEMPLATES = {name: Template(globals()[name], said) for name, said in DESCRIPTIONS.items()}
 """Name -> function and description, for `dalembert new NAME`."""
 
 
@@ -122,15 +110,12 @@ def template_text(name: str) -> str:
     >>> template_text("four_bar").splitlines()[1]
     'title: Four-bar linkage'
     """
-    from importlib.resources import files
-
     function = _require_known(name).function
-    generated = function if function.__module__.endswith(".engines") else None
-    if generated:
-        said = (generated.__doc__ or "").partition(">>>")[0].replace("`", "").strip().splitlines()
-        head, _, rest = str(generated()).partition("\n")
-        return "\n".join([head, "", *(f"# {line.strip()}".rstrip() for line in said), "", rest])
-    return (files(__package__) / "files" / f"{name}.yaml").read_text(encoding="utf-8")
+    if not function.__module__.endswith(".engines"):
+        return file_text(name)
+    said = (function.__doc__ or "").partition(">>>")[0].replace("`", "").strip().splitlines()
+    head, _, rest = str(function()).partition("\n")
+    return "\n".join([head, "", *(f"# {line.strip()}".rstrip() for line in said), "", rest])
 
 
 def _require_known(name: str) -> Template:

@@ -1,4 +1,4 @@
-"""Spatial four-bars: RSSR, RSSP, RCCC, Bennett's linkage, four revolutes through one point.
+"""Spatial four-bars whose axes follow from one another: RCCC, Bennett's linkage, four revolutes through one point.
 
 Every link is described as it is drawn with the crank at 0: its axes parallel to ground's, its points where they are.
 """
@@ -12,144 +12,11 @@ from typing import TYPE_CHECKING
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.library.compass import FULL_TURN
-from dalembert.model.library.tree_parts import build_mechanism, force, positive, turning
+from dalembert.model.library.tree_parts import build_mechanism, positive, turning
 from dalembert.model.quantities.vectors import Vector, cross, dot, less, plus, times
 
 if TYPE_CHECKING:
     from dalembert.model import Mechanism
-
-
-def rssr(
-    *,
-    crank: float = 0.06,
-    rod: float = 0.25,
-    rocker: float = 0.15,
-    center: Vector = (0.2, 0.05, -0.08),
-    axis: Vector = (0.1, 1.0, 0.0),
-    mass_per_length: float = 2.0,
-    speed: float = 4 * pi,
-    sweep: tuple[float, float] = FULL_TURN,
-    positions: int = 72,
-) -> Mechanism:
-    r"""A spatial crank and rocker: revolute, two balls, revolute (RSSR).
-
-    ::
-
-          B (ball)
-         / \  rod
-        C    \
-              A (ball)
-        O ----/  crank, about z
-
-    `crank` O A in the plane of x and y about the z axis through O, `rod` A B and `rocker` C B in metres; the rocker
-    turns about the line through `center` C along `axis`, and B stands above the plane of C and A that holds the axis.
-    The rod can spin about A B and is set not to. Links uniform and slender with `mass_per_length` in kg/m, gravity
-    along -z; `speed` in rad/s, `sweep` in radians. Raises ModelError where it does not close.
-
-    >>> from dalembert.model.library import rssr
-    >>> rssr().joints["A"].type
-    'spherical'
-    """
-    positive("rssr", crank=crank, rod=rod, rocker=rocker)
-    positive("rssr", "kg/m", mass_per_length=mass_per_length)
-    e = _unit("rssr", "axis", axis)
-    c = _finite("rssr", "center", center)
-
-    def ball(turn: float) -> Vector | None:
-        """B: on the rocker's circle, at the rod's length from A."""
-        gap = less((crank * cos(turn), crank * sin(turn), 0.0), c)
-        along = dot(gap, e)
-        across = less(gap, times(along, e))
-        size = hypot(*across)
-        cosine = (dot(gap, gap) + rocker**2 - rod**2) / (2 * rocker * size) if size else 2.0
-        if abs(cosine) > 1:
-            return None
-        x = times(1 / size, across)
-        y = cross(x, e) if cross(x, e)[2] > 0 else cross(e, x)
-        return plus(c, times(rocker * cosine, x), times(rocker * sqrt(1 - cosine**2), y))
-
-    a, b = (crank, 0.0, 0.0), _closing("rssr", ball, sweep, "the rod or the rocker")
-    return build_mechanism(
-        "Spatial four-bar RSSR",
-        gravity="standard",
-        space="space",
-        links={
-            "ground": {"points": {"O": [0.0, 0.0, 0.0], "C": list(c)}},
-            "crank": slim(mass_per_length, O=(0.0, 0.0, 0.0), A=a),
-            "rod": slim(mass_per_length, A=a, B=b),
-            "rocker": slim(mass_per_length, C=c, B=b),
-        },
-        joints={
-            "O": _on("revolute", "ground", "crank", (0.0, 0.0, 1.0)),
-            "A": {"type": "spherical", "links": ["crank", "rod"]},
-            "B": {"type": "spherical", "links": ["rod", "rocker"]},
-            "C": _on("revolute", "ground", "rocker", e),
-        },
-        drives={"O": turning(sweep, positions, speed)},
-    )
-
-
-def rssp(
-    *,
-    crank: float = 0.06,
-    rod: float = 0.25,
-    guide: Vector = (0.1, 0.05, 0.03),
-    direction: Vector = (1.0, 0.2, 0.3),
-    load: float = -200.0,
-    slider_mass: float = 1.0,
-    mass_per_length: float = 2.0,
-    speed: float = 4 * pi,
-    sweep: tuple[float, float] = FULL_TURN,
-    positions: int = 72,
-) -> Mechanism:
-    r"""A spatial slider-crank: revolute, two balls, prismatic (RSSP).
-
-    ::
-
-              rod    B
-        A -----------[ ]---> direction
-        O/ crank, about z
-
-    `crank` O A about the z axis through O, and `rod` A B, in metres; B slides on the line through `guide` along
-    `direction`, on its far side. `load` in N acts on the slider along the line; `slider_mass` in kg, crank and rod
-    uniform and slender with `mass_per_length` in kg/m, gravity along -z; `speed` in rad/s, `sweep` in radians. The
-    rod can spin about A B and is set not to. Raises ModelError where it does not close.
-
-    >>> from dalembert.model.library import rssp
-    >>> rssp().joints["guide"].type
-    'prismatic'
-    """
-    positive("rssp", crank=crank, rod=rod)
-    positive("rssp", "kg", slider_mass=slider_mass, mass_per_length=mass_per_length)
-    e, g = _unit("rssp", "direction", direction), _finite("rssp", "guide", guide)
-
-    def ball(turn: float) -> Vector | None:
-        gap = less((crank * cos(turn), crank * sin(turn), 0.0), g)
-        along = dot(gap, e)
-        square = rod**2 - dot(gap, gap) + along**2
-        return plus(g, times(along + sqrt(square), e)) if square >= 0 else None
-
-    a, b = (crank, 0.0, 0.0), _closing("rssp", ball, sweep, "the rod")
-    slider = {"points": {"B": list(b)}, "mass": slider_mass, "center": list(b)}
-    return build_mechanism(
-        "Spatial slider-crank RSSP",
-        gravity="standard",
-        space="space",
-        links={
-            "ground": {"points": {"O": [0.0, 0.0, 0.0], "G": list(g)}},
-            "crank": slim(mass_per_length, O=(0.0, 0.0, 0.0), A=a),
-            "rod": slim(mass_per_length, A=a, B=b),
-            "slider": slider,
-        },
-        joints={
-            "O": _on("revolute", "ground", "crank", (0.0, 0.0, 1.0)),
-            "A": {"type": "spherical", "links": ["crank", "rod"]},
-            "B": {"type": "spherical", "links": ["rod", "slider"]},
-            "guide": _on("prismatic", "ground", "slider", e) | {"at": ["G", "B"]},
-        },
-        drives={"O": turning(sweep, positions, speed)},
-        loads={"load": force("slider", "B", tuple(load * x for x in e))},
-    )
 
 
 def rccc(
@@ -362,14 +229,8 @@ def _closing(
     return first
 
 
-def _finite(name: str, key: str, vector: Vector) -> Vector:
-    if len(vector) != 3 or not all(isfinite(x) for x in vector):
-        raise ModelError(f"{name}: {key} is {vector}, not three numbers (x, y, z)", f"give {key} in metres")
-    return vector
-
-
 def _unit(name: str, key: str, vector: Vector) -> Vector:
-    size = hypot(*_finite(name, key, vector))
-    if size == 0:
+    size = hypot(*vector)
+    if not (isfinite(size) and size > 0):
         raise ModelError(f"{name}: {key} has no direction", "give one component other than 0")
     return times(1 / size, vector)

@@ -12,8 +12,6 @@ from dalembert.errors import ModelError
 if TYPE_CHECKING:
     from dalembert.model import Mechanism
 
-Point = tuple[float, float]
-
 
 def slender(mass_per_length: float, **points: float) -> Tree:
     """A uniform slender link along its own x axis, with named points on it.
@@ -29,33 +27,6 @@ def slender(mass_per_length: float, **points: float) -> Tree:
         "mass": mass,
         "center": [(low + high) / 2, 0.0],
         "inertia": mass * length**2 / 12,
-    }
-
-
-def plate(mass_per_area: float, **points: Point) -> Tree:
-    """A uniform triangular plate with a named point at each corner: area rule and m (a2 + b2 + c2) / 36.
-
-    >>> plate(40.0, A=(0.0, 0.0), B=(0.3, 0.0), C=(0.0, 0.4))["mass"]
-    2.4
-    """
-    p, q, r = (complex(*point) for point in points.values())
-    mass = mass_per_area * abs(((q - p).conjugate() * (r - p)).imag) / 2
-    center = (p + q + r) / 3
-    squares = sum(abs(side) ** 2 for side in (q - p, r - q, p - r))
-    return {
-        "points": {name: list(point) for name, point in points.items()},
-        "mass": mass,
-        "center": [center.real, center.imag],
-        "inertia": mass * squares / 36,
-    }
-
-
-def block(mass: float, size: float, **points: Point) -> Tree:
-    """A square block of that size centred on its link's origin."""
-    return {
-        "points": {name: list(point) for name, point in points.items()},
-        "mass": mass,
-        "inertia": mass * size**2 / 6,
     }
 
 
@@ -99,10 +70,6 @@ def force(on: str, at: str, value: object, **more: object) -> Tree:
     } | more
 
 
-def couple(on: str, value: float) -> Tree:
-    return {"type": "couple", "on": on, "value": value}
-
-
 def build_mechanism(title: str, **sections: object) -> Mechanism:
     """The mechanism of a whole tree, through the public constructor with all its checks."""
     from dalembert.model import mechanism
@@ -131,22 +98,3 @@ def positive(template: str, unit: str = "m", /, **values: float) -> None:
                 f"{template}: {name} is {value:g} {unit}, and must be greater than 0",
                 f"give {name} a finite value in {unit}",
             )
-
-
-def points_of(template: str, /, **points: Point) -> Mapping[str, complex]:
-    """Points given as (x, y), as complex numbers; a point that is not two finite numbers is refused by name."""
-    for name, point in points.items():
-        if len(point) != 2 or not all(isfinite(value) for value in point):
-            raise ModelError(
-                f"{template}: {name} is {point}, not two numbers (x, y)", f"give {name} in metres"
-            )
-    return {name: complex(*point) for name, point in points.items()}
-
-
-def slot_holds(template: str, name: str, length: float, needed: float) -> None:
-    """Refuse an arm that ends before the farthest place of its block."""
-    if length < needed:
-        raise ModelError(
-            f"{template}: the block goes out to {needed:.4g} m from O4, and the {name} ends at {length:g} m",
-            f"lengthen the {name} to {needed:.4g} m or more",
-        )

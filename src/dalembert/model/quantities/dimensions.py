@@ -8,7 +8,6 @@ that `theta*r` is a length. A bare 0 has every dimension.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from fractions import Fraction
 
 from dalembert.errors import ModelError
 from dalembert.model.quantities.expressions import Apply, Number, Tree, expression_text
@@ -41,7 +40,7 @@ def dimension(tree: Tree, names: Mapping[str, Powers | None]) -> Powers | None:
     if tree.function == "^":
         return _power(parts[0], _exponent(tree.arguments[1]))
     if tree.function == "sqrt":
-        return _power(parts[0], Fraction(1, 2))
+        return _power(parts[0], 0.5)
     if tree.function in ("+", "-", "abs", "min", "max", "atan2"):
         common = parts[0]
         for other in parts[1:]:
@@ -51,10 +50,10 @@ def dimension(tree: Tree, names: Mapping[str, Powers | None]) -> Powers | None:
     return ANGLE if tree.function in ("asin", "acos", "atan") else NONE
 
 
-def _exponent(tree: Tree) -> Fraction:
+def _exponent(tree: Tree) -> float:
     from dalembert.model.quantities.expressions import evaluate, numpy_functions
 
-    return Fraction(float(evaluate(tree, {}, numpy_functions()))).limit_denominator(1000)
+    return float(evaluate(tree, {}, numpy_functions()))
 
 
 def _product(a: Powers | None, b: Powers | None, sign: int) -> Powers | None:
@@ -64,18 +63,18 @@ def _product(a: Powers | None, b: Powers | None, sign: int) -> Powers | None:
     return a[0] + sign * b[0], a[1] + sign * b[1], a[2] + sign * b[2], angle
 
 
-def _power(a: Powers | None, exponent: Fraction) -> Powers | None:
+def _power(a: Powers | None, exponent: float) -> Powers | None:
     if a is None:
         return None
-    length, mass, time, angle = (None if x is None else _plain(Fraction(x) * exponent) for x in a)
+    length, mass, time, angle = (None if x is None else _plain(x * exponent) for x in a)
     assert length is not None
     assert mass is not None
     assert time is not None
     return length, mass, time, angle
 
 
-def _plain(x: Fraction) -> float:
-    return int(x) if x.denominator == 1 else float(x)
+def _plain(x: float) -> float:
+    return round(x) if abs(x - round(x)) < 1e-9 else x
 
 
 def _common(tree: Apply, a: Powers | None, b: Powers | None) -> Powers | None:
@@ -152,9 +151,16 @@ def kind_of_dimension(given: Powers | None) -> str | None:
 def si_unit(given: Powers | None) -> str:
     """The SI unit of a dimension.
 
-    >>> si_unit((-1, 1, 0, 0)), si_unit((2, 0, 0, None)), si_unit((0, 0, 0, 0))
-    ('kg/m', 'm^2', '')
+    >>> si_unit((-1, 1, 0, 0)), si_unit((1, 1, -2, 0)), si_unit((0, 0, 0, 0))
+    ('kg/m', 'N', '')
     """
+    kind = kind_of_dimension(given)
+    if kind is not None:
+        return KINDS[kind].si
+    return _base_units(given)
+
+
+def _base_units(given: Powers | None) -> str:
     powers = [(n, p) for n, p in zip(("m", "kg", "s", "rad"), given or NONE, strict=True) if p]
     up = [f"{n}^{p:g}" if p != 1 else n for n, p in powers if p > 0]
     down = [f"{n}^{-p:g}" if p != -1 else n for n, p in powers if p < 0]
@@ -165,4 +171,4 @@ def phrase(given: Powers | None) -> str:
     """What a quantity of this dimension is called."""
     kind = kind_of_dimension(given)
     exact = kind is not None and (given is None or given[3] is None or KINDS[kind].dimension[3] == given[3])
-    return KINDS[kind].phrase if kind and exact else f"in {si_unit(given)}"
+    return KINDS[kind].phrase if kind and exact else f"in {_base_units(given)}"

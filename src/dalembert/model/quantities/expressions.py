@@ -17,6 +17,7 @@ import operator
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
@@ -124,7 +125,9 @@ class Expression:
         if not np.isfinite(value).all():
             raise ModelError(
                 f"the expression {quote_value(self.text)} has no finite value {self._where(drives, value)}",
-                "change it, or the range of the drive",
+                "change it, or the range of the drive"
+                if self.names
+                else "change it, or what it follows from",
             )
         return value[()]
 
@@ -233,11 +236,16 @@ def parse_expression(text: str, parameters: Iterable[str] | None = None) -> tupl
 
     With `parameters`, names or none, a number may have a unit behind it.
     """
+    return _parsed(text, None if parameters is None else frozenset(parameters))
+
+
+@lru_cache(maxsize=1024)
+def _parsed(text: str, parameters: frozenset[str] | None) -> tuple[Tree, str]:
     if len(text) > LONGEST:
         raise ModelError(
             f"an expression of {len(text)} characters is too long", f"at most {LONGEST}; use a table instead"
         )
-    parser = _Parser(text.replace("\u2212", "-"), None if parameters is None else frozenset(parameters))
+    parser = _Parser(text.replace("\u2212", "-"), parameters)
     tree = parser.sum(0)
     return tree, text[parser.place :].strip()
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
@@ -51,7 +51,7 @@ class Parameter:
 
     value: float
     dimension: Powers
-    unit: str = ""
+    unit: str = field(default="", compare=False)
     about: str = ""
     range: tuple[float, float] | None = None
 
@@ -283,7 +283,7 @@ def _value(said: object, units: Units | None, found: Parameters, tree: Mapping[s
     expression, of = _read(said, found, {})
     of = of or NONE
     kind = kind_of_dimension(of)
-    name = expression.unit or (si_unit(of) if not kind else units.text(kind) if units else KINDS[kind].si)
+    name = expression.unit or (units.text(kind) if units and kind else si_unit(of))
     return Parameter(Dependent(expression), of, name)
 
 
