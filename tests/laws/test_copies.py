@@ -23,7 +23,7 @@ def whole_copied(tree: Any, **how: Any) -> tuple[Any, Any]:
     return da.dynamics(da.mechanism(tree), method="careful"), da.dynamics(copied, method="careful")
 
 
-@pytest.mark.parametrize("seed", tiers(range(12), range(12, 120), range(120, 600)))
+@pytest.mark.parametrize("seed", tiers([*range(5), 66], range(5, 66), range(67, 600)))
 @pytest.mark.parametrize("mirrored", [False, True])
 def test_a_copy_of_all_has_the_answers_turned_or_mirrored(mirrored: bool, seed: int) -> None:
     angle = np.random.default_rng(seed).uniform(-3, 3)

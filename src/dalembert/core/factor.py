@@ -143,7 +143,8 @@ def _sparse_matrices(layout: Layout, rows: System, row: Array, column: Array) ->
     order = order[(data != 0).any(axis=0)[order]]
     ends = np.searchsorted(columns[order], np.arange(layout.unknowns + 1))
     shape = (count, layout.unknowns)
-    return tuple(csc_array((values, k[order], ends), shape=shape) for values in data[:, order])
+    values = np.ascontiguousarray(data[:, order])  # row by row, as SuperLU takes them
+    return tuple(csc_array((x, k[order], ends), shape=shape) for x in values)
 
 
 def _lu(matrix: csc_array, condition: bool) -> tuple[Any, float]:
