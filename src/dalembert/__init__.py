@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from dalembert.machine.balance.rotors import RotorBalance, balance_rotor
     from dalembert.machine.flywheel.flywheel_size import FlywheelSize, flywheel_size
     from dalembert.machine.flywheel.flywheels import flywheel
+    from dalembert.machine.gyroscopes import Gyroscopic, gyroscopic
     from dalembert.machine.harmonics import harmonics
     from dalembert.machine.shaking import shaking
     from dalembert.model import (
@@ -168,6 +169,7 @@ _NAMES = {
     "machine.balance.rotors": "RotorBalance balance_rotor",
     "machine.flywheel.flywheel_size": "FlywheelSize flywheel_size",
     "machine.flywheel.flywheels": "flywheel",
+    "machine.gyroscopes": "Gyroscopic gyroscopic",
     "machine.harmonics": "harmonics",
     "machine.shaking": "shaking",
     "model.library": (
@@ -212,6 +214,7 @@ __all__ = [
     "Gear",
     "GearFriction",
     "GuideFriction",
+    "Gyroscopic",
     "Kernel",
     "Link",
     "Mechanism",
@@ -268,6 +271,7 @@ __all__ = [
     "friction_circles",
     "grade",
     "guide_contact",
+    "gyroscopic",
     "harmonics",
     "hooke_joint",
     "in_line_engine",

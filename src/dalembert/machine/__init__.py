@@ -4,6 +4,7 @@ In: a ``Result``, or a description. Out: numbers by name, each with its check. I
 no pictures (``views/machine``), no worked letters (``reports/machine_sections``), no command (``cli``).
 
 shaking    force and moment on the ground, two ways; harmonics of any output; even positions over whole turns
+gyroscopes the couple of a rotor whose carrier turns, as the books show it
 balance/   counterweights under bounds, proved best; rotors; engines beside the books' series
 flywheel/  the energy curve, size of a flywheel, and the exact speed over the cycle with it
 motion/    (to come) motion under forces: the equation of motion, simulation, events

@@ -1,0 +1,69 @@
+"""Gyroscopic couples as the books show them: what turns a rotor's angular momentum about with its carrier."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.model import GROUND
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+
+@dataclass(frozen=True)
+class Gyroscopic:
+    """Spin (P,) of a rotor about its axis (P, 3), precession (P, 3) of its carrier across it, rad/s, and the couple.
+
+    ``couple`` (P, 3), N m, is C = I_s w_s (w_p x e) on the rotor; the frame takes -C. ``exact`` (P, 3): the whole rate
+    of the rotor's angular momentum, which has also what follows from accelerations and from an inclined axis.
+    """
+
+    result: Result = field(repr=False)
+    rotor: str
+    carrier: str
+    axis: Array = field(repr=False)
+    spin: Array = field(repr=False)
+    precession: Array = field(repr=False)
+    couple: Array = field(repr=False)
+    exact: Array = field(repr=False)
+
+    def bearing_force(self, apart: float) -> Array:
+        """Size of the pair of bearing forces (P,), N, that the couple is, for bearings so far apart, m."""
+        return np.asarray(np.linalg.norm(self.couple, axis=1) / apart)
+
+
+def gyroscopic(r: Result, rotor: str, carrier: str = GROUND) -> Gyroscopic:
+    """The gyroscopic couple of a link in space that spins in a carrier which itself turns.
+
+    The axis e is that of the spin relative to the carrier, I_s the rotor's inertia about it, w_s its whole spin along
+    it, w_p the carrier's turning across it. Raises ModelError in the plane, and where the rotor does not spin.
+    """
+    if r.mechanism.dimension == 2:
+        raise ModelError(
+            "a gyroscopic couple stands across its rotor's axis: in the plane there is none", "use space"
+        )
+    still = np.zeros((len(r.status), 3))
+    w, held = r.speed(rotor), still if carrier == GROUND else r.speed(carrier)
+    relative = w - held
+    size = np.linalg.norm(relative, axis=1)
+    if not (size > 0).all():
+        raise ModelError(
+            f"{rotor} does not spin in {carrier} everywhere", "drive it, or name another carrier"
+        )
+    e = relative / size[:, None]
+    m = r.mechanism
+    given = m.inertia(rotor)
+    own = np.array(given if np.ndim(given) == 2 else np.diag(np.broadcast_to(given, 3)), float)
+    turned = r.rotation(rotor) @ own @ np.swapaxes(r.rotation(rotor), 1, 2)
+    spin = (w * e).sum(axis=1)
+    precession = held - (held * e).sum(axis=1)[:, None] * e
+    inertia = np.einsum("pi,pij,pj->p", e, turned, e)
+    couple = (inertia * spin)[:, None] * np.cross(precession, e)
+    momentum = np.einsum("pij,pj->pi", turned, w)
+    exact = np.einsum("pij,pj->pi", turned, r.acceleration(rotor)) + np.cross(w, momentum)
+    return Gyroscopic(r, rotor, carrier, e, spin, precession, couple, exact)
