@@ -49,6 +49,17 @@ def test_every_command_that_reads_a_file(run: Run, command: list[str]) -> None:
     assert run(*command, "--set", "density=7850 kg/m^3").status == 0
 
 
+def test_the_report_gives_the_parameters(run: Run, folder: Path) -> None:
+    run("report", "pump.yaml", "-o", "pump.txt", "--at", "60deg", "--method", "matrix", "--set", "bore=60mm")
+    lines = (folder / "pump.txt").read_text(encoding="utf-8").splitlines()
+    rows = [line.split("  ") for line in lines if line.startswith(("bore ", "area ", "density "))]
+    assert [[cell.strip() for cell in row if cell] for row in rows] == [
+        ["bore", "60 mm", "diameter of the piston"],
+        ["density", "7850 kg/m³", "–"],
+        ["area", "pi*bore^2/4 = 2827 mm²", "–"],
+    ]
+
+
 @pytest.mark.parametrize(
     ("setting", "says"),
     [

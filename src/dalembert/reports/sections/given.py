@@ -12,10 +12,11 @@ from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.rounding import PART
 from dalembert.model import GROUND
 from dalembert.model.joints.pairs import AXES
+from dalembert.model.quantities.dependent_numbers import Dependent
 from dalembert.reports.pictures import given_picture
 from dalembert.reports.report_context import ReportContext, as_formula
 from dalembert.reports.sheet import Sheet
-from dalembert.views.notation import Shown, own_name
+from dalembert.views.notation import Shown, own_name, pretty
 from dalembert.views.stated import (
     axes_text,
     drive_text,
@@ -32,6 +33,7 @@ def knowns(sheet: Sheet, c: ReportContext) -> None:
     c = replace(c, shown=Shown(c.r, c.notation))
     r, shown, m = c.r, c.shown, c.r.mechanism
     sheet.heading("Given")
+    sheet.table(["Parameter", "Value", "What it is"], _parameters(c))
     _links(sheet, c)
     stated_axes = axes_text if c.question else lambda _: ""
     joints = [
@@ -55,6 +57,16 @@ def knowns(sheet: Sheet, c: ReportContext) -> None:
     divided = weights_text(shown) if c.question else ""
     sheet.text(f"{divided}{'. ' * bool(divided)}Assumptions: {assumed}. {_convention(c)}")
     sheet.figure(given_picture(c))
+
+
+def _parameters(c: ReportContext) -> list[list[str]]:
+    """The file's parameters: name, what they follow from and their value, in their own units."""
+    rows = []
+    for name, p in c.r.mechanism.parameters.items():
+        number = f"{p.in_unit():.{c.notation.figures}g} {pretty(p.unit)}".strip()
+        follows = f"{p.value.expression.text} = " if isinstance(p.value, Dependent) else ""
+        rows.append([name, follows + number, p.about or "–"])
+    return rows
 
 
 def _links(sheet: Sheet, c: ReportContext) -> None:
