@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import random
+from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +11,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.model import read_text
 from tests.random_mechanisms import random_case
 from tests.tiers import tiers
 
@@ -222,3 +225,26 @@ def test_copies_stay_in_a_file_that_is_saved_unless_they_differ(tmp_path: Path) 
     assert da.load(tmp_path / "b.yaml") == other
     da.convert(tmp_path / "a.yaml", tmp_path / "c.json")
     assert da.load(tmp_path / "c.json") == heavier
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_file_with_copies_and_a_value_of_another_kind_is_read_or_refused(seed: int) -> None:
+    tree, source = read_text(
+        f"{ENGINE}{FOUR}  - {{of: [rod, piston], mirror: {{ground: 90, crank: 5}}, names: [m]}}\n"
+    )
+    rng, junk = random.Random(seed), [None, -1, "x", [], {}, True, "5 @ 3", [None], "unknown", 1e308]
+    for _ in range(100):
+        changed: Any = deepcopy(tree)
+        part: Any = changed[rng.choice(["links", "joints", "drives", "loads", "copies", "assembly"])]
+        while isinstance(part, (dict, list)) and part:
+            key = rng.choice(list(part)) if isinstance(part, dict) else rng.randrange(len(part))
+            if rng.random() < 0.4 or not isinstance(part[key], (dict, list)):
+                part[key] = rng.choice(junk)
+                break
+            part = part[key]
+        said = "text:"
+        try:
+            da.mechanism(changed, source)
+        except da.ModelError as error:
+            said = str(error)
+        assert said.startswith("text:")

@@ -93,6 +93,8 @@ class Copying:
             return point
         new, owner = f"{point}{self.image.ending}", self.tree["links"].get(link)
         points = owner.get("points", {}) if isinstance(owner, dict) else {}
+        if not isinstance(points, dict):
+            return point  # what is wrong with it is said where it is read
         path: Path = ("links", link, "points", new)
         if new in points and path not in self.copied:
             raise ModelError(
@@ -137,7 +139,7 @@ class Copying:
     def between(self, joint: str) -> float:
         """What the angle of a copied joint's j against its i has more than that of the image."""
         links = [str(link) for link in _list(self.joints[joint].get("links"))]
-        i, j = (0.0 if link in self.of else self.image.offset(link) for link in links)
+        i, j = (0.0 if link in self.of else self.image.offset(link) for link in (*links, "", "")[:2])
         return i - j
 
     def drive(self, name: str, drive: Tree) -> Tree:

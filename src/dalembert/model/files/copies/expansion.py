@@ -74,7 +74,10 @@ def expand(tree: Mapping[str, object], rules: Reading) -> tuple[Mapping[str, obj
 
 def _images(entry: Any, tree: Tree, rules: Reading) -> Iterator[Image]:
     keys = mapping(entry, list(KEYS), EXAMPLE)
-    of, links = keys.get("of"), {str(name) for name in tree.get("links") or ()}
+    of, links = (
+        keys.get("of"),
+        {str(name) for name in tree["links"]} if isinstance(tree.get("links"), Mapping) else set(),
+    )
     if not isinstance(of, (list, tuple)) or not of:
         raise ModelError("it says no links", f"write {EXAMPLE}", ("of",) if of is not None else ())
     for k, name in enumerate(of):
