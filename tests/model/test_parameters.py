@@ -219,3 +219,30 @@ def test_angles_and_numbers() -> None:
         loads(ENGINE.replace("direction: tilt", "direction: tilt + 0.5"))
     m = loads(ENGINE.replace("direction: tilt", "direction: tilt + pi/4"))
     assert m.loads["drag"].direction == pytest.approx(np.pi / 18 + np.pi / 4)
+
+
+DEFAULTS = """
+parameters:
+  {w: 10 rad/s, b: 3 rad/s^2, slope: 20 deg, lean: 5 deg, drag: 2 N*s/m, rub: 0.3 N*m*s, far: 10 mm, high: 20 mm}
+links:
+  ground: {points: {O: [0, 0], C: [0, high]}}
+  crank: {points: {O: [0, 0], A: [45 mm, 0]}, mass: 1 kg, center: [far, far]}
+  rod: {points: {A: [0, 0], B: [150 mm, 0]}, mass: 1 kg}
+  piston: {points: {B: [0, 0]}, mass: 1 kg}
+joints:
+  O: {type: pin, links: [ground, crank], damping: rub}
+  A: {type: pin, links: [crank, rod]}
+  B: {type: pin, links: [rod, piston]}
+  C: {type: slider, links: [ground, piston], at: [C, B], direction: slope, angle: lean, damping: drag}
+drives:
+  O: {position: {from: 0, to: 360, count: 4}, speed: w, acceleration: b}
+"""
+
+
+def test_a_parameter_set_to_what_goes_without_saying_is_kept() -> None:
+    """Where a value follows from a parameter it is not left out, be it 0."""
+    m = da.loads(DEFAULTS)
+    zero = m.with_values(dict.fromkeys(m.parameters, 0.0))
+    assert list(zero.parameters) == list(m.parameters)
+    for again in (da.loads(str(zero)), da.mechanism(zero.to_tree())):
+        assert again.with_values({name: p.value for name, p in m.parameters.items()}).to_tree() == m.to_tree()

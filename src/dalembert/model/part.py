@@ -20,7 +20,7 @@ from pydantic import (
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model.files.messages import UnknownKey, translate
-from dalembert.model.quantities.dependent_numbers import Dependent
+from dalembert.model.quantities.dependent_numbers import Dependent, follows
 from dalembert.model.quantities.parameters import Parameters, of_parameters, refuse_other_names, uses
 from dalembert.units import Units, quantity
 from dalembert.wording import closest, quote_value
@@ -139,7 +139,8 @@ class Part(BaseModel):
         for name, model_field in type(self).model_fields.items():
             if name != "type" and not model_field.is_required():
                 default = model_field.get_default(call_default_factory=True)
-                if getattr(self, name) == default:
+                value = getattr(self, name)
+                if value == default and not follows(value):
                     keys.pop(model_field.alias or name, None)
                     keys.pop(name, None)
         return keys

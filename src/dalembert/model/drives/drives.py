@@ -12,6 +12,7 @@ from pydantic import Field, FieldSerializationInfo, ValidationInfo, field_serial
 from dalembert.errors import ModelError
 from dalembert.model.drives.laws import Law, Rise, TimeTable, count, law, law_schema
 from dalembert.model.part import Part, Reading, mapping, reading
+from dalembert.model.quantities.dependent_numbers import Dependent
 from dalembert.model.quantities.figures import in_units
 from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
@@ -104,7 +105,7 @@ class RateValue(DriveValue):
         self.what = what
 
     def parse(self, value: object, kind: str, rules: Reading) -> Rates:
-        if value == 0 and not isinstance(value, (str, bool)):
+        if value == 0 and not isinstance(value, (str, bool, Dependent)):
             return 0.0
         if isinstance(value, (list, tuple)):
             return numbers(value, kind, rules)

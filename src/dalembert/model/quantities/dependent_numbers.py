@@ -37,6 +37,11 @@ class Dependent(float):
         return names_in(self.expression.tree)
 
 
+def follows(value: object) -> bool:
+    """Whether a number, or some component of a vector, follows from parameters, whatever its value is."""
+    return isinstance(value, Dependent) or (isinstance(value, tuple) and any(map(follows, value)))
+
+
 def dependent_text(number: Dependent, kind: str = "") -> str:
     """The expression that a number follows from, as it stands in a file."""
     return expression_with_unit(number.expression, kind)
