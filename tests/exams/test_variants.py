@@ -19,6 +19,7 @@ from dalembert.exams import exam_folder
 from dalembert.exams.choices import read_choices
 from dalembert.exams.question_sheet import question_sheet
 from dalembert.grading.file_answers import check
+from dalembert.reports.sheet import Heading
 from tests.methods.test_question import falsified
 from tests.model.test_shapes import box_mesh
 
@@ -166,6 +167,7 @@ def test_the_question_sheet_says_nothing_of_the_answer() -> None:
     numbers = {round(abs(float(x)), 2) for x in re.findall(r"\d+\.\d+|\d+", text)}
     sizes = {round(abs(float(str(k["value"]).split(" @ ")[0])), 2) for k in one[0].key}
     assert not numbers & sizes
+    assert question_sheet(r, asked).sheet.blocks[-1] == Heading("Working", room=True)
 
 
 def test_the_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -176,6 +178,7 @@ def test_the_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(command) == 0
     assert {p.name for p in (out / "questions").iterdir()} == {"01.pdf", "01.html", "02.pdf", "02.html"}
     assert sorted(p.name for p in out.iterdir())[-1] == "variants.json"
+    assert '<div class="working">' in (out / "questions" / "01.html").read_text(encoding="utf-8")
     assert main(["check", str(out / "problems")]) == 0
     rows = list(csv.DictReader((out / "key.csv").read_text(encoding="utf-8").splitlines()))
     assert [(r["variant"], r["file"], r["of"], r["tolerance"]) for r in rows] == [

@@ -348,6 +348,8 @@ def test_joint_moments_in_space_are_split_too_and_gaps_are_of_solved_positions()
 @pytest.mark.parametrize("without", [False, True])
 def test_files_are_checked_with_or_without_friction(without: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[bool] = []
-    monkeypatch.setattr(check_command, "check_files", lambda *a, friction, **k: asked.append(friction) or 0)
+    monkeypatch.setattr(
+        check_command, "check_files", lambda *a, changes, **k: asked.append(changes.no_friction) or 0
+    )
     assert main(["check", str(examples()["four_bar"]), *(["--no-friction"] if without else [])]) == 0
-    assert asked == [not without]
+    assert asked == [without]

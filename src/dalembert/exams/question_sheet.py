@@ -33,7 +33,7 @@ def question_sheet(
     units = r.mechanism.units
     rows = [(question_words(c.shown, a), blanks(a, figure(r, a), units)) for a in asked]
     sheet.blocks.append(Blanks(tuple(rows)))
-    sheet.heading("Working")
+    sheet.heading("Working", room=True)
     return Report(sheet)
 
 

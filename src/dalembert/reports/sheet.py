@@ -10,10 +10,11 @@ from dalembert.views.paper.scene import Scene
 
 @dataclass(frozen=True)
 class Heading:
-    """A heading of level 1 or 2."""
+    """A heading of level 1 or 2; with ``room`` a third of a page stays free below it to write in, at least."""
 
     text: str
     level: int = 1
+    room: bool = False
 
 
 @dataclass(frozen=True)
@@ -87,9 +88,9 @@ class Sheet:
     subtitle: str = ""
     blocks: list[Block] = field(default_factory=list)
 
-    def heading(self, text: str, level: int = 1) -> None:
+    def heading(self, text: str, level: int = 1, room: bool = False) -> None:
         """A heading."""
-        self.blocks.append(Heading(text, level))
+        self.blocks.append(Heading(text, level, room))
 
     def text(self, text: str) -> None:
         """A paragraph, if there is something to say."""

@@ -65,7 +65,8 @@ def _rich(text: str) -> str:
 
 def _block(b: Block) -> str:
     if isinstance(b, Heading):
-        return rf"\{'sub' * (b.level - 1)}section{{{_words(b.text)}}}"
+        room = r"\nopagebreak\vspace*{0.34\textheight}" if b.room else ""
+        return rf"\{'sub' * (b.level - 1)}section{{{_words(b.text)}}}{room}"
     if isinstance(b, Paragraph):
         return _rich(b.text)
     if isinstance(b, Equations):

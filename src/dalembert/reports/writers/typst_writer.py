@@ -43,7 +43,7 @@ def typst_bytes(sheet: Sheet, kind: str) -> bytes:
 
 def _block(b: Block, pictures: dict[str, bytes]) -> Tree:
     if isinstance(b, Heading):
-        return {"kind": "heading", "level": b.level, "text": b.text}
+        return {"kind": "heading", "level": b.level, "text": b.text, "room": b.room}
     if isinstance(b, Paragraph):
         return {"kind": "paragraph", "parts": _rich(b.text)}
     if isinstance(b, Equations):
