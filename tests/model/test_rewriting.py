@@ -112,7 +112,9 @@ def test_every_number_of_every_file(k: int) -> None:
 
 @pytest.mark.parametrize("path", tiers(bundled()[::40], bundled()), ids=lambda path: path.stem)
 def test_what_is_not_changed_is_saved_to_the_last_byte(path: Path, tmp_path: Path) -> None:
-    for table in path.parent.glob("*.csv"):  # what it refers to: from another folder the points are written out
+    for table in path.parent.glob(
+        "*.csv"
+    ):  # what it refers to: from another folder the points are written out
         shutil.copy(table, tmp_path)
     load(shutil.copy(path, tmp_path)).save(tmp_path / "same.yaml")
     assert (tmp_path / "same.yaml").read_bytes() == path.read_bytes()

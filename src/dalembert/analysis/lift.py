@@ -13,6 +13,7 @@ from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
 from dalembert.model.joints.plane_joints import Gear, Pin, Slider, Slot, Weld
+from dalembert.model.paths import used_parameters, with_dependents
 from dalembert.model.quantities.values import Vector
 from dalembert.wording import closest
 
@@ -48,7 +49,13 @@ def lifted(
     """
     if m.space != "plane":
         raise ModelError("the mechanism is in space already", "lift one of the plane", ("space",))
-    return _Lift(m, dict(offsets or {}), dict(become or {})).mechanism()
+    return _Lift(_in_numbers(m), dict(offsets or {}), dict(become or {})).mechanism()
+
+
+def _in_numbers(m: Mechanism) -> Mechanism:
+    """The mechanism with numbers where they follow from parameters; what changes along the motion keeps them."""
+    plain: Mechanism = with_dependents(m, lambda leaf: float(leaf) if isinstance(leaf, float) else leaf, None)
+    return plain.model_copy(update={"parameters": used_parameters(plain, m.parameters)})
 
 
 class _Lift:
@@ -90,6 +97,7 @@ class _Lift:
             "units": {"angle": "rad"},
             "gravity": [*m.gravity_vector, 0.0] if any(m.gravity_vector) else "none",
             "g": m.g,
+            "parameters": {name: p.tree() for name, p in m.parameters.items()},
             "links": {name: self._link(name) for name in m.links},
             "joints": joints,
             "drives": {name: self._drive(name) for name in m.drives},
