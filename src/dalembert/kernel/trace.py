@@ -16,13 +16,14 @@ from dalembert.core.equilibrium import (
     Known,
     Statement,
     known_sources,
+    load_rows,
     motion,
     reactions,
     statement,
     virtual_power,
 )
 from dalembert.core.equilibrium import Motion as Moving
-from dalembert.core.forcing import Forcing, pair, total_wrench
+from dalembert.core.forcing import Forcing, Source, pair, total_wrench
 from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.geometry import span
 from dalembert.core.layout import Angle, Layout, Pose, System
@@ -87,7 +88,7 @@ class Traced:
 
     closure: those doubts that are squares of what vanishes at a dead centre. unbalanced and loads (L, n): what is left
     of all wrenches on a link, and those that are no reactions; virtual (D, L+1, n) twists at unit speed of each drive,
-    power (D,) of loads and efforts there.
+    power (D,) of loads and efforts there. sources: wrenches of loads by kind, one by one, `asked` the unknown ones.
     """
 
     pose: Pose
@@ -107,6 +108,7 @@ class Traced:
     doubt: list[Node]
     friction: FrictionTrace
     flips: bool
+    sources: dict[str, Source]
 
 
 def trace(p: Problem) -> Traced:
@@ -126,7 +128,8 @@ def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> 
     if p.at_pose is not None:
         p = replace(p, forcing=p.at_pose(p.forcing, pose))
     moving, rows, factors = motion(layout, pose, p.drives.speed, p.drives.acceleration)
-    s, friction = _trace_equilibrium(p, layout, pose, moving, rows, factors)
+    sources = known_sources(layout, p.forcing, pose, moving, p.inertia)
+    s, friction = _trace_equilibrium(p, layout, pose, moving, rows, factors, sources)
     x, idle = friction.x, layout.constraints.idle
     spins = trace_array(p.graph, x[idle])
     x[idle] = 0.0
@@ -138,6 +141,9 @@ def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> 
     force, couple = reactions(layout, pose, rows, found)
     g = p.graph
     reacted = total_wrench(layout, pair(s.unknown, x))
+    if p.known.link.size:
+        unit = load_rows(layout, p.known, pose)
+        sources["asked"] = Source(unit.j, unit.on_j * found.load[:, None])
     return Traced(
         pose=pose,
         twist=trace_array(g, moving.twist),
@@ -163,14 +169,20 @@ def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> 
         ],
         friction=friction,
         flips=placed.flips,
+        sources=sources,
     )
 
 
 def _trace_equilibrium(
-    p: Problem, layout: Layout, pose: Pose, moving: Moving, rows: System, factors: Factor
+    p: Problem,
+    layout: Layout,
+    pose: Pose,
+    moving: Moving,
+    rows: System,
+    factors: Factor,
+    sources: dict[str, Source],
 ) -> tuple[Statement, FrictionTrace]:
     """What is asked of the equilibrium, and its multipliers, with friction where there is any."""
-    sources = known_sources(layout, p.forcing, pose, moving, p.inertia)
 
     def statement_of(*kinds: str) -> Statement:
         loads = total_wrench(layout, *(sources[kind] for kind in kinds))

@@ -21,6 +21,7 @@ from dalembert.analysis.methods.applied_forces import (
     unknown_load_actions,
 )
 from dalembert.analysis.output.columns import Column, Scale, drive_kinds, parts
+from dalembert.analysis.result.transmission_lines import ground_points
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.machine.harmonics import Harmonics, harmonics
@@ -156,18 +157,15 @@ def _chosen(r: Result, links: Iterable[str] | None) -> tuple[str, ...]:
 
 def fixed_point(r: Result, about: About) -> tuple[str, Array]:
     """Name and place (d,) of a fixed point."""
-    m, d = r.mechanism, r.mechanism.dimension
-    joints = {n: m.joint_points(n)[j.links.index(GROUND)] for n, j in m.joints.items() if GROUND in j.links}
-    points = m.points(GROUND) if GROUND in m.links else {}
+    d, points = r.mechanism.dimension, ground_points(r.mechanism)
     if about is None:
-        about = next(iter(joints), (0.0,) * d)
+        about = next((n for n in points if n in r.joints), (0.0,) * d)
     if isinstance(about, str):
-        if about not in joints and about not in points:
+        if about not in points:
             raise ModelError(
-                f"{about!r} is no joint with the ground and no point of it",
-                closest(about, [*joints, *points]),
+                f"{about!r} is no joint with the ground and no point of it", closest(about, list(points))
             )
-        return about, np.array(joints[about] if about in joints else points[about], float)
+        return about, np.array(points[about], float)
     place = np.array(about, float)
     if place.shape != (d,) or not np.isfinite(place).all():
         raise ModelError(f"{about} is no point", f"give {d} numbers, in metres")

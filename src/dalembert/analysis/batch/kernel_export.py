@@ -138,7 +138,7 @@ def casadi_function(k: Kernel, name: str) -> Any:
     try:
         from dalembert.kernel.emit import casadi_function
 
-        sizes = [(n.replace(".", "_"), len(nodes)) for n, nodes in k.nodes.items()]
+        sizes = [(re.sub(r"\W+", "_", n).strip("_"), len(nodes)) for n, nodes in k.nodes.items()]
         return casadi_function.function(plain(k), name, len(k.numbers), sizes)
     except ImportError:
         raise ModelError("casadi is not installed", "pip install 'dalembert[fast]'") from None

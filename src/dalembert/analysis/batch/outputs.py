@@ -4,19 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from dalembert.algebra import plane
 from dalembert.algebra.protocol import Algebra
+from dalembert.analysis.batch.traced_parameters import symbol_functions
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.compile.load_arrays import point_of
 from dalembert.analysis.result.link_motion import place_of
+from dalembert.analysis.result.named_quantities import names_of
+from dalembert.analysis.result.quantity_expressions import parse_quantity
+from dalembert.analysis.result.transmission_lines import angle_between, ground_points, transmission_lines
 from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, trace_array
 from dalembert.kernel.trace import Traced
+from dalembert.model import GROUND, Mechanism
+from dalembert.model.quantities.expressions import evaluate, names_in
 from dalembert.model.quantities.values import Vector
+from dalembert.wording import closest
 
 
 @dataclass(frozen=True)
@@ -26,14 +35,72 @@ class Catalogue:
     graph: Graph
     compiled: Compiled
     traced: Traced
+    speeds: Array
+    """Of the drives (D,)."""
 
     def nodes(self, name: str) -> list[Node]:
         """The components of one output."""
+        if name in self.names:
+            return self._named(name)
+        tree = parse_quantity(name, self.names)
+        parts = {n: self._scalar(n) for n in names_in(tree)}
+        try:
+            with np.errstate(all="ignore"):
+                value = evaluate(tree, parts, symbol_functions(self.graph))
+        except (TypeError, ZeroDivisionError) as error:
+            raise ModelError(
+                f"{name!r} cannot be compiled: {error}", "use powers of whole numbers other than 0"
+            ) from None
+        return list(trace_array(self.graph, np.ravel(np.asarray(value, object))))
+
+    def _named(self, name: str) -> list[Node]:
+        """Of a name without a component."""
         kind, _, of = name.partition(".")
-        if kind not in KINDS or (kind == "residual" and of):
-            there = ", ".join(k if k == "residual" else f"{k}.NAME" for k in KINDS)
-            raise ModelError(f"there is no output {name!r}", f"there are: {there}")
         return list(trace_array(self.graph, np.ravel(np.asarray(KINDS[kind](self, of), object))))
+
+    def _scalar(self, name: str) -> Node:
+        """A number, or a component of a vector."""
+        whole, _, part = name.rpartition(".")
+        vector = self._named(name if name in self.names else whole)
+        if name in self.names and len(vector) == 1:
+            return vector[0]
+        size = len(vector) if len(vector) in (2, 3) else 0
+        there = {**dict(zip("xyz"[:size], vector, strict=False))}
+        if size:
+            there["magnitude"] = sum((x * x for x in vector), self.graph.zero).sqrt()
+        if name in self.names:
+            raise ModelError(
+                f"{name} is a vector, and an expression is of numbers", f"write {name}.x or {name}.magnitude"
+            )
+        if part not in there:
+            raise ModelError(f"{whole} has no component {part!r}", closest(part, list(there)))
+        return there[part]
+
+    @cached_property
+    def names(self) -> list[str]:
+        """Every output there is, without components."""
+        return names_of(self, [word for word in KINDS if self.algebra.d == 2 or word != "angle"])
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The description, on symbols."""
+        return self.compiled.mechanism
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        return self.compiled.links
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        return self.compiled.joints
+
+    @property
+    def drives(self) -> tuple[str, ...]:
+        return tuple(self.compiled.schedule.names)
+
+    @property
+    def unknown_loads(self) -> tuple[str, ...]:
+        return self.compiled.unknown_loads
 
     def defaults(self) -> list[str]:
         """Every effort, unknown load and reaction."""
@@ -115,11 +182,54 @@ def _magnitude(c: Catalogue, joint: str) -> Node:
     return total
 
 
+def _transmission(c: Catalogue, of: str) -> Numeric:
+    lines = []
+    for line in transmission_lines(c.mechanism, of):
+        along = np.asarray(line.along, object)
+        turned = (
+            along if line.link == GROUND else plane.rotate(c.traced.pose.rotation[c.link(line.link)], along)
+        )
+        lines.append(trace_array(c.graph, turned))
+    return angle_between(*lines)
+
+
+def _shaking(c: Catalogue, about: str) -> Array:
+    """Force and moment (n,) about a fixed point that the links exert on all else: what acts on them from outside."""
+    m, t, g = c.mechanism, c.traced, c.algebra
+    outside = [name for name, drive in m.drives.items() if drive.by == "outside"]
+    if outside:
+        raise ModelError(
+            f"the shaking force with drive {outside[0]!r} by: outside is not compiled", "use da.shaking"
+        )
+    points = ground_points(m)
+    joints = [n for n in points if n in c.joints]
+    fixed = points[about or joints[0]] if about or joints else np.zeros(g.d)
+    names = {"force": m.loads_on("point"), "couple": m.loads_on("link")}
+    inner = {
+        k: [load.by == GROUND for load in some.values() if not load.unknown] for k, some in names.items()
+    }
+    total, origin = trace_array(c.graph, np.zeros(g.n)), np.asarray(c.compiled.layout.reference, object)[-1]
+    inner["asked"] = [getattr(m.loads[n], "by", None) == GROUND for n in c.unknown_loads]
+    kinds = [kind for kind in ("weight", "inertia", "force", "couple", "asked") if kind in t.sources]
+    parts = [(t.sources[kind], inner.get(kind)) for kind in kinds]
+    for source, left_out in parts:
+        for k, link in enumerate(source.link):
+            if link == len(c.links) or (left_out is not None and left_out[k]):
+                continue
+            w, arm = source.wrench.reshape(-1, g.n)[k], t.pose.point[link] + origin - fixed
+            total = total + np.concatenate([w[: g.d], w[g.d :] + g.cross(arm, w[: g.d])])
+    return np.asarray(total)
+
+
 KINDS: dict[str, Callable[[Catalogue, str], Numeric]] = {
     "effort": lambda c, of: c.traced.effort[c.drive(of)],
     "load": lambda c, of: c.load(of),
     "reaction": lambda c, of: c.traced.force[c.joint(of)],
     "magnitude": _magnitude,
+    "power": lambda c, of: c.traced.effort[c.drive(of)] * c.speeds[c.drive(of)],
+    "transmission": _transmission,
+    "shaking": lambda c, of: _shaking(c, of)[: c.algebra.d],
+    "shaking_moment": lambda c, of: _shaking(c, of)[c.algebra.d :],
     "moment": lambda c, of: c.traced.moment[c.joint(of)],
     "angle": lambda c, of: c.angle(of),
     "rotation": lambda c, of: c.rotation(of),

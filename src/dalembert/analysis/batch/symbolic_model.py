@@ -163,6 +163,7 @@ class SymbolicForce:
     axes: str
     components: tuple[Scalar, ...]
     unknown: bool = False
+    by: str | None = None
 
     def force(self, drives: object) -> tuple[Scalar, ...]:
         return self.components
@@ -203,10 +204,10 @@ def _load(name: str, load: Any, channel: Channel) -> object:
     if load.ON != "point":
         return load
     if isinstance(load.value, tuple):
-        return SymbolicForce(load.on, load.at, load.axes, node(load.value))
+        return SymbolicForce(load.on, load.at, load.axes, node(load.value), by=load.by)
     size = 1.0 if load.unknown else node(load.value)
     components = tuple(size * x for x in _direction(load.direction))
-    return SymbolicForce(load.on, load.at, load.axes, components, unknown=load.unknown)
+    return SymbolicForce(load.on, load.at, load.axes, components, load.unknown, load.by)
 
 
 def _direction(given: Scalar | Vector) -> tuple[Scalar, ...]:

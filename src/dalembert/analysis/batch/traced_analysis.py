@@ -78,7 +78,7 @@ def trace_analysis(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Res
         contacts=c.contacts,
         at_pose=_pose_loads(inputs, c, moved),
     )
-    return Trace(course, inputs, where, Catalogue(graph, c, _run(problem)), inertia)
+    return Trace(course, inputs, where, Catalogue(graph, c, _run(problem), drives.speed), inertia)
 
 
 def _pose_loads(

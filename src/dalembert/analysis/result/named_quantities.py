@@ -2,19 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
+from dalembert.algebra import plane
 from dalembert.analysis.output.columns import drive_kinds, load_kind
+from dalembert.analysis.result.quantity_expressions import kind_of, parse_quantity
+from dalembert.analysis.result.transmission_lines import (
+    angle_between,
+    ground_points,
+    transmission_lines,
+    transmission_names,
+)
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
+from dalembert.model import GROUND
 from dalembert.model.links.link import CENTER
+from dalembert.model.quantities.expressions import evaluate, names_in, numpy_functions
 from dalembert.wording import closest
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
+    from dalembert.model import Mechanism
 
 
 class Quantity(NamedTuple):
@@ -40,6 +51,25 @@ def _magnitude(r: Result, joint: str) -> Array:
     return np.asarray(np.linalg.norm(r.reaction(joint), axis=-1))
 
 
+def _transmission(r: Result, of: str) -> Array:
+    lines = [
+        np.broadcast_to(line.along, (len(r.status), 2))
+        if line.link == GROUND
+        else plane.rotate(plane.rotation(r.angle(line.link)), line.along)
+        for line in transmission_lines(r.mechanism, of)
+    ]
+    return np.asarray(angle_between(*lines))
+
+
+def _shaking(part: str) -> Read:
+    def read(r: Result, about: str) -> Array:
+        from dalembert.machine.shaking import shaking
+
+        return np.asarray(getattr(shaking(r, about or None), part))
+
+    return read
+
+
 READ: dict[str, tuple[str, str, Read]] = {
     "effort": ("drives", "", _of("effort")),
     "load": ("unknown_loads", "", _of("unknown_load")),
@@ -48,6 +78,10 @@ READ: dict[str, tuple[str, str, Read]] = {
     "moment": ("joints", "moment", _of("reaction_moment")),
     "power_lost": ("joints", "power", _of("power_lost")),
     "drive": ("drives", "", _of("drive_position")),
+    "power": ("drives", "power", lambda r, of: r.effort(of) * r.drive_speed(of)),
+    "transmission": ("hinges", "angle", _transmission),
+    "shaking": ("", "force", _shaking("force")),
+    "shaking_moment": ("fixed points", "moment", _shaking("moment")),
     "angle": ("links", "angle", _of("angle")),
     "rotation": ("links", "number", _of("rotation")),
     "speed": ("links", "angular_speed", _of("speed")),
@@ -66,12 +100,36 @@ READ: dict[str, tuple[str, str, Read]] = {
 """First word of a name -> what it is asked of, its kind (a drive's or load's own where it is empty), how it is read."""
 
 
-def _things(r: Result, of: str) -> list[str]:
+class Named(Protocol):
+    """What has names to ask about: a result, or what is compiled."""
+
+    @property
+    def mechanism(self) -> Mechanism: ...
+    @property
+    def links(self) -> tuple[str, ...]: ...
+    @property
+    def joints(self) -> tuple[str, ...]: ...
+    @property
+    def drives(self) -> tuple[str, ...]: ...
+    @property
+    def unknown_loads(self) -> tuple[str, ...]: ...
+
+
+def things(r: Named, of: str) -> list[str]:
     """What there is to ask about."""
     if of == "points":
         links = r.mechanism.links
         return [f"{link}.{point}" for link in r.links for point in (*links[link].points, CENTER)]
+    if of == "hinges":
+        return transmission_names(r.mechanism)
+    if of == "fixed points":
+        return ["", *ground_points(r.mechanism)]
     return list(getattr(r, of)) if of else [""]
+
+
+def names_of(r: Named, words: Iterable[str]) -> list[str]:
+    """Every name that begins with one of some words, without components."""
+    return [f"{word}.{thing}".rstrip(".") for word in words for thing in things(r, READ[word][0])]
 
 
 def quantity_names(r: Result) -> list[str]:
@@ -83,33 +141,58 @@ def quantity_names(r: Result) -> list[str]:
     """
     plane = r.mechanism.dimension == 2
     left_out = ("rotation" if plane else "angle", *(() if r.friction else ("power_lost",)))
-    return [
-        f"{word}.{thing}".rstrip(".")
-        for word, (of, _, _) in READ.items()
-        if word not in left_out
-        for thing in _things(r, of)
-    ]
+    return names_of(r, [word for word in READ if word not in left_out])
 
 
 def quantity(r: Result, name: str) -> Quantity:
-    """The quantity of a name; of a vector a component behind a dot: x, y, z, magnitude.
+    """The quantity of a name; of a vector a component behind a dot: x, y, z, magnitude; or an expression of such.
 
     >>> import dalembert as da
     >>> r = da.statics(da.four_bar())
     >>> quantity(r, "reaction.A.x").kind, quantity(r, "reaction.A").values.shape
     ('force', (72, 2))
+    >>> quantity(r, "max(abs(effort.O2), 3 N*m)").kind
+    'torque'
     """
-    word, *rest = str(name).split(".")
-    if word in READ:
-        of, kind, read = READ[word]
-        many = 2 if of == "points" else 1 if of else 0
-        thing, parts = ".".join(rest[:many]), rest[many:]
-        if thing in _things(r, of) and len(parts) < 2:
+    found = _named(r, str(name))
+    if found is not None:
+        return found
+    tree = parse_quantity(str(name), quantity_names(r), "quantity")
+    parts = {n: _scalar(r, n) for n in names_in(tree)}
+    with np.errstate(all="ignore"):
+        value = evaluate(tree, {n: q.values for n, q in parts.items()}, numpy_functions())
+    return Quantity(
+        kind_of(tree, lambda n: parts[n].kind) or "number",
+        np.broadcast_to(np.asarray(value, float), (len(r.status),)).copy(),
+    )
+
+
+def _scalar(r: Result, name: str) -> Quantity:
+    found = _named(r, name)
+    if found is None:
+        raise ModelError(f"there is no quantity {name!r}", closest(name, quantity_names(r)))
+    if found.values.ndim > 1:
+        raise ModelError(
+            f"{name} is a vector, and an expression is of numbers", f"write {name}.x or {name}.magnitude"
+        )
+    return found
+
+
+def _named(r: Result, name: str) -> Quantity | None:
+    """The quantity of a single name, or of a component; None where there is none."""
+    word, _, behind = name.partition(".")
+    if word not in READ:
+        return None
+    of, kind, read = READ[word]
+    whole, _, part = behind.rpartition(".")
+    tries = [(behind, []), (whole, [part])] if part.isidentifier() else [(behind, [])]
+    for thing, parts in tries:
+        if thing in things(r, of):
             if not kind:
                 kinds = drive_kinds(r, thing) if of == "drives" else {"load": load_kind(r, thing)}
                 kind = kinds["position" if word == "drive" else word]
             return Quantity(kind, _component(name, read(r, thing), parts))
-    raise ModelError(f"there is no quantity {name!r}", closest(str(name), quantity_names(r)))
+    return None
 
 
 def _component(name: str, values: Array, asked: list[str]) -> Array:

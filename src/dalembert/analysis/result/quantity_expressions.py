@@ -1,0 +1,83 @@
+"""Expressions of quantities, ``reaction.O2.x + reaction.O4.x``: parsed by our grammar, never executed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+
+from dalembert.errors import ModelError
+from dalembert.model.quantities.expressions import (
+    GRAMMAR,
+    Apply,
+    Name,
+    Number,
+    Tree,
+    names_in,
+    parse_expression,
+)
+from dalembert.wording import closest, quote_value
+
+COMPONENTS = ("x", "y", "z", "magnitude")
+"""Of a vector, behind a dot."""
+
+KEEP_KIND = ("+", "-", "max", "min", "abs")
+"""What gives a quantity of the kind of its arguments."""
+
+
+def parse_quantity(text: str, names: Sequence[str], what: str = "output") -> Tree:
+    """The tree of an expression over quantities. Their names may hold signs, such as ``-``: of two names that fit the
+    longer one is meant. Numbers are SI, or have a unit.
+
+    >>> parse_quantity("2*effort.O-2 - 3 kN", ["effort.O", "effort.O-2"]).arguments[1].value
+    3000.0
+    """
+    prefix = "quantity"
+    while prefix in text:
+        prefix += "y"
+    found: list[str] = []
+
+    def marked(match: re.Match[str]) -> str:
+        found.append(match[0])
+        return f"{prefix}{len(found) - 1}"
+
+    one = "|".join(re.escape(name) for name in sorted(names, key=len, reverse=True))
+    plain = re.sub(rf"(?<![\w.])(?:{one})(?:\.(?:{'|'.join(COMPONENTS)}))?(?![\w.])", marked, text)
+    unknown = re.search(r"[^\W\d][\w-]*(?:\.[\w-]+)+", plain)
+    if unknown:
+        raise ModelError(f"there is no {what} {unknown[0]!r}", closest(unknown[0], list(names)))
+    try:
+        tree, rest = parse_expression(plain, ())
+        if rest:
+            raise ModelError(
+                f"{quote_value(plain)} ends with {quote_value(rest)}, which has no place there", GRAMMAR
+            )
+    except ModelError as error:
+        told = re.sub(prefix + r"(\d+)", lambda m: found[int(m[1])], error.what)
+        raise ModelError(told, error.remedy) from None
+    places = {f"{prefix}{k}": name for k, name in enumerate(found)}
+    for name in names_in(tree) - places.keys():
+        raise ModelError(f"there is no {what} {name!r}", closest(name, list(names)))
+    return _renamed(tree, places)
+
+
+def _renamed(tree: Tree, names: dict[str, str]) -> Tree:
+    if isinstance(tree, Name):
+        return Name(names[tree.name])
+    if isinstance(tree, Apply):
+        return Apply(tree.function, tuple(_renamed(argument, names) for argument in tree.arguments))
+    return tree
+
+
+def kind_of(tree: Tree, kind: Callable[[str], str]) -> str:
+    """The kind of an expression's value: that of its quantities while they are added, compared and scaled; a `number`
+    (in SI) otherwise."""
+    if isinstance(tree, Name):
+        return kind(tree.name)
+    if isinstance(tree, Number):
+        return ""
+    kinds = [kind_of(argument, kind) for argument in tree.arguments]
+    scales = (tree.function == "*" and "" in kinds) or (tree.function == "/" and kinds[1] == "")
+    named = set(kinds) - {""}
+    if not named:
+        return ""
+    return named.pop() if len(named) == 1 and (scales or tree.function in KEEP_KIND) else "number"

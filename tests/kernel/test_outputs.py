@@ -1,0 +1,109 @@
+"""Outputs that designers ask for: expressions, transmission angles, shaking forces; beside `da.dynamics`, by name."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.bundled import examples
+from tests.kernel.machines import four_bar
+from tests.kernel.test_derivatives import checked
+
+PLANE = [
+    "reaction.O2.x + reaction.O4.x",
+    "max(abs(effort.O2), 3)",
+    "transmission.B",
+    "-min(transmission.B, 50 deg)",
+    "shaking",
+    "shaking_moment",
+    "shaking_moment.O4",
+    "atan2(shaking.y, shaking.x)",
+    "power.O2",
+    "reaction.A.magnitude^2 - 2*magnitude.B",
+]
+
+
+def agree(m: Any, outputs: list[str]) -> None:
+    r, g = da.compile(m, outputs=outputs)(), da.dynamics(m)
+    for name in outputs:
+        wanted = g[name]
+        assert np.abs(r.value(name)[0] - wanted).max() <= 1e-10 * max(np.abs(wanted).max(), 1e-3), name
+
+
+def test_expressions_are_those_of_a_result() -> None:
+    agree(da.four_bar(), PLANE)
+    agree(da.load(examples()["engine"]), ["shaking", "shaking_moment", "power.O2"])  # a load by: ground
+    agree(da.rssr(), ["shaking", "shaking_moment.z"])
+
+
+def test_derivatives_of_expressions() -> None:
+    outputs = [
+        "max(abs(effort.O2), 6)/transmission.B",
+        "shaking_moment.O4",
+        "shaking.magnitude",
+        "power.O2",
+    ]
+    checked(four_bar(6), outputs, tolerance=1e-6)
+
+
+def test_general_executor_answers_the_same_names() -> None:
+    parallel = {"ground": 0.3, "crank": 0.1, "coupler": 0.3, "rocker": 0.1}
+    m = da.four_bar(**parallel)
+    r, g = da.compile(m, outputs=PLANE)(), da.dynamics(m, method="careful")
+    assert r.redone == 1
+    for name in PLANE:
+        ok = r.ok[0]
+        assert np.allclose(r.value(name)[0][ok], g[name][ok], rtol=1e-8, atol=1e-8), name
+
+
+def test_asked_loads_shake() -> None:
+    text = examples()["four_bar"].read_text(encoding="utf-8")
+    text = text.replace("value: 80 @ 330", "direction: 330, value: unknown").replace(
+        "60 deg,", "60 deg, effort: 3,"
+    )
+    agree(da.loads(text), ["shaking", "shaking_moment"])
+
+
+def test_transmission_angle_by_hand() -> None:
+    r = da.kinematics(da.four_bar())
+    a, b, o4 = r.point("coupler", "A"), r.point("coupler", "B"), r.point("rocker", "O4")
+    u, v = a - b, o4 - b
+    cosine = np.abs((u * v).sum(axis=1)) / np.linalg.norm(u, axis=1) / np.linalg.norm(v, axis=1)
+    assert np.allclose(r["transmission.B"], np.arccos(cosine), atol=1e-12)
+    slide = da.kinematics(da.slider_crank(crank=0.05, rod=0.2))
+    rod = slide.point("rod", "B") - slide.point("rod", "A")
+    assert np.allclose(slide["transmission.B"], np.arccos(np.abs(rod[:, 1]) / 0.2), atol=1e-7)
+
+
+def test_names_with_signs_and_links_with_several_joints() -> None:
+    text = examples()["four_bar"].read_text(encoding="utf-8").replace("O4", "O-4")
+    m = da.loads(text)
+    r = da.dynamics(m)
+    name = "2*reaction.O-4.x-4"
+    assert np.array_equal(r[name], 2 * r.reaction("O-4")[:, 0] - 4)
+    assert np.allclose(da.compile(m, outputs=[name])().value(name)[0], r[name])
+    watt = da.watt_1()
+    several = [n for n in da.compile(watt).trace.catalogue.names if n.count(".") == 3 and "trans" in n]
+    agree(watt, several)
+
+
+@pytest.mark.parametrize(
+    ("output", "message"),
+    [
+        ("efort.O2 + 1", "there is no output 'efort.O2'; did you mean 'effort.O2'?"),
+        ("reaction.A + 3", "write reaction.A.x or reaction.A.magnitude"),
+        ("effort.O2 +", "it stops in the middle"),
+        ("foo(effort.O2)", "there is no function 'foo'"),
+        ("effort.O2 effort.O2", "'effort.O2 effort.O2' ends with 'effort.O2'"),
+        ("transmission.O2", "there is no output 'transmission.O2'; did you mean 'transmission.B'?"),
+        ("effort.O2^0.3", "a traced value to the power 0.3"),
+        ("effort.O2 + 3 bananas", "bananas"),
+    ],
+)
+def test_wrong_expressions(output: str, message: str) -> None:
+    with pytest.raises(da.ModelError, match=re.escape(message)):
+        da.compile(da.four_bar(), outputs=[output])
