@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import secrets
+import shutil
 import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -119,3 +120,37 @@ def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)
     return mask
+
+
+def check_new_folder(folder: Path, overwrite: bool) -> bool:
+    """Raise where a folder cannot be written: before the work; whether it has files, which ``overwrite`` allows."""
+    if not folder.parent.is_dir():
+        raise ModelError(
+            f"cannot write {folder}: there is no folder {folder.parent}", "make it, or name another"
+        )
+    if folder.exists() and not folder.is_dir():
+        raise ModelError(f"{folder} is a file", "name a folder")
+    full = folder.is_dir() and any(folder.iterdir())
+    if full and not overwrite:
+        raise ModelError(
+            f"{folder} has files", "name another folder, or overwrite: --force, in Python overwrite=True"
+        )
+    return full
+
+
+@contextmanager
+def new_folder(folder: Path) -> Iterator[Path]:
+    """A temporary folder that takes the place of `folder`, and of all that is in it, when all is written."""
+    beside = folder.parent / f".{folder.name[:40]}.{secrets.token_hex(8)}"
+    old = beside.with_suffix(".old")
+    try:
+        beside.mkdir()
+        yield beside
+        if folder.exists():
+            folder.rename(old)
+        beside.rename(folder)
+    finally:
+        if old.exists() and not folder.exists():
+            old.rename(folder)
+        for path in (beside, old):
+            shutil.rmtree(path, ignore_errors=True)

@@ -190,7 +190,7 @@ def test_the_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert blank == "02,effort,O2,,,,,,,lbf*in"
     capsys.readouterr()
     assert main(command) == 2
-    assert "exists; name another folder, or replace it: --force" in capsys.readouterr().err
+    assert "has files; name another folder, or overwrite: --force" in capsys.readouterr().err
     (out / "notes.txt").write_text("mine", encoding="utf-8")
     assert main([*command, "--force"]) == 2
     assert "has notes.txt, which would be lost" in capsys.readouterr().err

@@ -116,9 +116,8 @@ def grade(
     force: Force = False,
 ) -> int:
     """Mark a class's ANSWERS by a key: mistakes named, partial marks, and what follows from own figures counts."""
-    from dalembert.grading.marking.feedback import check_feedback
     from dalembert.grading.marking.grade import grade as graded
-    from dalembert.saving import check_installed, check_new
+    from dalembert.saving import check_installed, check_new, check_new_folder
 
     if output is not None:
         if output.suffix.lower() != ".xlsx":
@@ -126,7 +125,7 @@ def grade(
         check_installed("openpyxl", "a workbook")
         check_new(output, force)
     if feedback is not None:
-        check_feedback(feedback, force)
+        check_new_folder(feedback, force)
     marks = graded(answers, key, rubric, tolerance, static)
     print(_class_text(marks))
     if feedback is not None:

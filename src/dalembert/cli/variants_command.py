@@ -3,18 +3,12 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated
 
 from cyclopts import Parameter
 
 from dalembert.cli.options import AS_IN_FILE, At, Changes, Force, ModelFile, Static, output, whole, with_help
-
-if TYPE_CHECKING:
-    from dalembert.exams.variant import Progress
-    from dalembert.exams.variants import Variants
 
 EXAMPLES = """Examples:
   dalembert variants four_bar.yaml --vary "loads.T_4.value=100..140" -o exam
@@ -65,51 +59,15 @@ def variants(
     from dalembert.exams.choices import read_option
     from dalembert.exams.exam_folder import check_folder
     from dalembert.exams.variants import variants as drawn
-
-    check_folder(output, force)
-    choices = dict(map(read_option, vary))
-    with _shown() as progress:
-        found = drawn(
-            load_model(file, changes),
-            choices,
-            count,
-            seed,
-            ask or (),
-            at,
-            static,
-            tolerance,
-            progress,
-        )
-        found.save(output, force, progress)
-    _print_values(found, list(choices))
-    print(f"Written: {output}; --seed {found.seed} draws the same again.", file=sys.stderr)
-    return 0
-
-
-def _print_values(found: Variants, paths: Sequence[str]) -> None:
-    """What was drawn, a row a variant."""
     from dalembert.grading.file_answers import value_text
     from dalembert.printing import tables
 
-    rows = [[v.name, *(value_text(v.values[p]) for p in paths)] for v in found]
-    print(tables(["variant", *paths], rows, 1))
-
-
-@contextmanager
-def _shown() -> Iterator[Progress | None]:
-    """Bars on the terminal's standard error; nothing in a pipe."""
-    if not sys.stderr.isatty():
-        yield None
-        return
-    from rich.console import Console
-    from rich.progress import Progress as Bars
-
-    tasks: dict[str, Any] = {}
-    with Bars(console=Console(stderr=True), transient=True) as bars:
-
-        def progress(what: str, done: int, whole: int) -> None:
-            if what not in tasks:
-                tasks[what] = bars.add_task(what.capitalize(), total=whole)
-            bars.update(tasks[what], completed=done)
-
-        yield progress
+    check_folder(output, force)
+    choices = dict(map(read_option, vary))
+    m = load_model(file, changes)
+    found = drawn(m, choices, count, seed, ask or (), at, static, tolerance)
+    found.save(output, force)
+    rows = [[v.name, *(value_text(v.values[path]) for path in choices)] for v in found]
+    print(tables(["variant", *choices], rows, 1))
+    print(f"Written: {output}; --seed {found.seed} draws the same again.", file=sys.stderr)
+    return 0

@@ -12,7 +12,9 @@ from dalembert.analysis.output.rounding import least
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
+from dalembert.grading.answer_sheet import named_figure
 from dalembert.grading.file_answers import describe_answer, position_of, read, sides_of
+from dalembert.grading.marking import table_files
 from dalembert.grading.quantities import QUANTITIES
 from dalembert.model import GROUND, Answer
 from dalembert.views.notation import Shown, pretty
@@ -21,7 +23,6 @@ from dalembert.wording import closest
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
-COMPONENTS = ("x", "y", "z", "magnitude", "direction")
 CHECKS = ("residual", "power_balance")
 """Quantities that check an answer, and that nobody is asked for."""
 
@@ -82,17 +83,14 @@ def _named(r: Result, one: object) -> list[Answer]:
         return [one]
     if isinstance(one, Mapping):
         return [Answer(**one)]
-    words = str(one).split(".")
-    quantity, words = words[0], words[1:]
+    quantity, *words = str(one).split(".")
     if not words and quantity in ("efforts", "reactions"):
         return [a for a in _forces(r) if a.quantity.startswith(quantity[:-1])]
     if quantity not in QUANTITIES:
         raise ModelError(f"--ask {one}: there is no quantity {quantity!r}", closest(quantity, [*QUANTITIES]))
-    component = words.pop() if len(words) > 1 and words[-1] in COMPONENTS else None
-    on = words.pop() if len(words) > 1 and quantity in ("reaction", "moment") else None
     if not words:
         raise ModelError(f"--ask {one} does not say of what", FORMS)
-    return [Answer(quantity=quantity, of=".".join(words), on=on, component=component)]
+    return [Answer(**named_figure(str(one), None))]
 
 
 def _of_file(r: Result) -> list[Answer]:
@@ -176,16 +174,13 @@ def stated_value(found: Figure, units: object) -> object:
     return f"{key_value(found, units)} {Printed(units).text(found.kind)}".strip()
 
 
-KEY = ("quantity", "of", "on", "by", "at", "extreme", "component", "axes")
-"""Keys of an answer that a key names."""
-
-COLUMNS = ("variant", "file", *KEY, "value", "unit", "tolerance", "marks")
+COLUMNS = table_files.COLUMNS[1:]
 """Columns of a key, one row an asked figure."""
 
 
 def key_row(answer: Answer, found: Figure, units: object) -> dict[str, object]:
     """An asked figure as a key has it, what is empty left out."""
-    row = {name: getattr(answer, name) for name in KEY}
+    row = {name: getattr(answer, name) for name in table_files.KEYS}
     row["axes"] = None if answer.axes == "ground" else answer.axes
     row |= {"value": key_value(found, units), "unit": Printed(units).text(found.kind)}
     return {name: value for name, value in row.items() if value not in (None, "")}

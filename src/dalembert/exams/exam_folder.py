@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import json
-import secrets
 import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,14 +11,14 @@ from typing import TYPE_CHECKING
 from dalembert.errors import ModelError
 from dalembert.exams.asked import COLUMNS
 from dalembert.exams.question_sheet import question_sheet, solution_sheet
-from dalembert.exams.variant import key_rows
-from dalembert.grading.file_answers import describe_answer
-from dalembert.saving import check_installed
+from dalembert.progress import progress
+from dalembert.saving import check_installed, check_new_folder, new_folder
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from dalembert.exams.variant import Progress, Variant
+    from dalembert.arrays import Tree
+    from dalembert.exams.variant import Variant
     from dalembert.model import Answer, Mechanism
 
 RECORD = "variants.json"
@@ -41,18 +40,8 @@ SHEET = ("variant", "quantity", "of", "on", "at", "extreme", "component", "axes"
 def check_folder(folder: Path, overwrite: bool) -> None:
     """Raise where a folder cannot be written, before the work: one that exists is kept, unless it is empty."""
     check_installed("typst", "writing question sheets", "report")
-    if not folder.parent.is_dir():
-        raise ModelError(
-            f"cannot write {folder}: there is no folder {folder.parent}", "make it, or name another"
-        )
-    if folder.exists() and not folder.is_dir():
-        raise ModelError(f"{folder} is a file", "name a folder")
-    if not folder.is_dir() or not any(folder.iterdir()):
+    if not check_new_folder(folder, overwrite):
         return
-    if not overwrite:
-        raise ModelError(
-            f"{folder} exists", "name another folder, or replace it: --force, in Python overwrite=True"
-        )
     strange = _strange(folder)
     if strange:
         raise ModelError(f"{folder} has {strange}, which would be lost", "move it, or name another folder")
@@ -75,38 +64,20 @@ def _strange(folder: Path) -> str:
 def write_folder(
     found: Sequence[Variant],
     asked: Sequence[Answer],
-    seed: int,
+    key: list[Tree],
+    record: Tree,
     folder: Path,
     overwrite: bool,
-    progress: Progress | None = None,
 ) -> None:
     """Write all sheets beside the folder and put them in its place when all is there."""
     check_folder(folder, overwrite)
-    beside = folder.parent / f".{folder.name[:40]}.{secrets.token_hex(8)}"
-    try:
+    with new_folder(folder) as beside, progress("Sheets", len(found)) as step:
         for part in PARTS:
-            (beside / part).mkdir(parents=True)
+            (beside / part).mkdir()
         for k, one in enumerate(found):
+            step(k, one.name)
             _write_variant(one, asked, beside)
-            if progress is not None:
-                progress("sheets written", k + 1, len(found))
-        _write_key(found, asked, seed, beside)
-        _put_in_place(beside, folder)
-    finally:
-        shutil.rmtree(beside, ignore_errors=True)
-
-
-def _put_in_place(beside: Path, folder: Path) -> None:
-    old = folder.parent / f"{beside.name}.old"
-    if folder.exists():
-        folder.rename(old)
-    try:
-        beside.rename(folder)
-    except BaseException:
-        if old.exists() and not folder.exists():
-            old.rename(folder)
-        raise
-    shutil.rmtree(old, ignore_errors=True)
+        _write_key(key, record, beside)
 
 
 def _write_variant(v: Variant, asked: Sequence[Answer], folder: Path) -> None:
@@ -133,17 +104,11 @@ def _copy_meshes(m: Mechanism, folder: Path) -> None:
         shutil.copyfile(mesh.path, target)
 
 
-def _write_key(found: Sequence[Variant], asked: Sequence[Answer], seed: int, folder: Path) -> None:
-    key = key_rows(found, "problems")
+def _write_key(key: list[Tree], record: Tree, folder: Path) -> None:
     _write_csv(folder / "key.csv", COLUMNS, key)
-    (folder / "key.json").write_text(json.dumps(key, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    record = {
-        "title": found[0].mechanism.title,
-        "seed": seed,
-        "asked": [describe_answer(a) for a in asked],
-        "variants": {v.name: dict(v.values) for v in found},
-    }
-    (folder / RECORD).write_text(json.dumps(record, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    for name, tree in (("key.json", key), (RECORD, record)):
+        text = json.dumps(tree, indent=1, ensure_ascii=False)
+        (folder / name).write_text(f"{text}\n", encoding="utf-8")
 
 
 def _write_csv(path: Path, columns: tuple[str, ...], rows: list[dict[str, object]]) -> None:

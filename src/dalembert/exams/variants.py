@@ -17,9 +17,10 @@ from dalembert.errors import ModelError
 from dalembert.exams.asked import asked_quantities, key_row, stated_value
 from dalembert.exams.candidates import Candidate, Unfit, candidate, figure_size
 from dalembert.exams.choices import Choices, read_choices
-from dalembert.exams.variant import Progress, Variant, key_rows
+from dalembert.exams.variant import Variant
 from dalembert.grading.file_answers import describe_answer
 from dalembert.grading.tolerance import NEAR, percent
+from dalembert.progress import progress
 
 if TYPE_CHECKING:
     from dalembert.model import Answer, Mechanism
@@ -56,13 +57,20 @@ class Variants(Sequence[Variant]):
 
     def key(self, folder: str = "") -> list[dict[str, object]]:
         """The key: a row an asked figure, with the file of its variant in a folder."""
-        return key_rows(self.found, folder)
+        start = f"{folder}/" if folder else ""
+        return [{"variant": v.name, "file": f"{start}{v.name}.yaml", **row} for v in self for row in v.key]
 
-    def save(self, folder: str | Path, overwrite: bool = False, progress: Progress | None = None) -> None:
+    def save(self, folder: str | Path, overwrite: bool = False) -> None:
         """Write problems, question sheets, solutions and the key into a new folder, all of it or nothing."""
         from dalembert.exams.exam_folder import write_folder
 
-        write_folder(self.found, self.asked, self.seed, Path(folder), overwrite, progress)
+        record = {
+            "title": self[0].mechanism.title,
+            "seed": self.seed,
+            "asked": [describe_answer(a) for a in self.asked],
+            "variants": {v.name: dict(v.values) for v in self},
+        }
+        write_folder(self.found, self.asked, self.key("problems"), record, Path(folder), overwrite)
 
 
 def variants(
@@ -74,7 +82,6 @@ def variants(
     at: int | str | None = None,
     static: bool = False,
     tolerance: str = "",
-    progress: Progress | None = None,
 ) -> Variants:
     """Variants of a problem with stated values drawn by chance, all different, each solved and checked.
 
@@ -110,12 +117,12 @@ def variants(
     asked = asked_quantities(solve(mechanism, static=static), ask, at)
     seed = secrets.randbelow(10**6) if seed is None else seed
     pool = _Pool(mechanism, asked, near, static)
-    for tried, values in enumerate(_draws(choices, there_are, random.Random(seed))):
-        if len(pool.sound(count)) >= count or tried >= TRIES * count:
-            break
-        pool.add(values)
-        if progress is not None:
-            progress("variants found", len(pool.sound(count)), count)
+    with progress("Variants", count) as step:
+        for tried, values in enumerate(_draws(choices, there_are, random.Random(seed))):
+            if len(pool.sound(count)) >= count or tried >= TRIES * count:
+                break
+            pool.add(values)
+            step(len(pool.sound(count)))
     found = pool.sound(count)
     if len(found) < count:
         raise ModelError(pool.why_so_few(len(found), count, there_are), "give other values, or ask for fewer")

@@ -133,3 +133,21 @@ def short_item(quantity: str, of: str, value: object) -> Tree:
     whole = quantity.startswith(VECTORS) and single and value != ""
     component = {"component": "magnitude"} if whole else {}
     return {"quantity": quantity, "of": of, "value": value} | component
+
+
+COMPONENTS = ("x", "y", "z", "magnitude", "direction")
+
+
+def named_figure(name: str, value: Any) -> dict[str, Any]:
+    """A figure by the name of its column: effort.O2, reaction.A, reaction.A.crank, speed.rod, reaction.A.x, mobility.
+
+    >>> named_figure("reaction.A.coupler", "155 @ 220")
+    {'quantity': 'reaction', 'of': 'A', 'value': '155 @ 220', 'on': 'coupler'}
+    """
+    quantity, *words = name.split(".")
+    component = words.pop() if len(words) > 1 and words[-1] in COMPONENTS else None
+    on = words.pop() if len(words) > 1 and quantity in ("reaction", "moment") else None
+    if not words:
+        return {"quantity": quantity, "value": value}
+    item = short_item(quantity, ".".join(words), value)
+    return item | ({"component": component} if component else {}) | ({"on": on} if on else {})

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from dalembert.errors import DalembertError, ModelError
-from dalembert.grading.answer_sheet import ABOUT, sheet_items, short_item
+from dalembert.grading.answer_sheet import ABOUT, named_figure, sheet_items
 from dalembert.grading.marking.key import cell_value, place
 from dalembert.grading.marking.table_files import KEYS, Row, read_table
 
@@ -107,21 +107,3 @@ def _wide(row: Row) -> Iterator[Given]:
     for name, text in row.cells.items():
         if name not in ("student", "variant"):
             yield Given(named_figure(name, cell_value(text)), row.line)
-
-
-COMPONENTS = ("x", "y", "z", "magnitude", "direction")
-
-
-def named_figure(name: str, value: Any) -> dict[str, Any]:
-    """A figure by the name of its column: effort.O2, reaction.A, reaction.A.crank, speed.rod, reaction.A.x, mobility.
-
-    >>> named_figure("reaction.A.coupler", "155 @ 220")
-    {'quantity': 'reaction', 'of': 'A', 'value': '155 @ 220', 'on': 'coupler'}
-    """
-    quantity, *words = name.split(".")
-    component = words.pop() if len(words) > 1 and words[-1] in COMPONENTS else None
-    on = words.pop() if len(words) > 1 and quantity in ("reaction", "moment") else None
-    if not words:
-        return {"quantity": quantity, "value": value}
-    item = short_item(quantity, ".".join(words), value)
-    return item | ({"component": component} if component else {}) | ({"on": on} if on else {})

@@ -3,48 +3,26 @@
 from __future__ import annotations
 
 import re
-import secrets
-import shutil
 from collections.abc import Sequence
 from pathlib import Path
 
-from dalembert.errors import ModelError
 from dalembert.grading.marking.student_marks import Mark, StudentMarks
-from dalembert.saving import new_file
-
-
-def check_feedback(folder: Path, overwrite: bool) -> None:
-    """Raise where the folder cannot be written: one that has files is kept."""
-    if not folder.parent.is_dir():
-        raise ModelError(
-            f"cannot write {folder}: there is no folder {folder.parent}", "make it, or name another"
-        )
-    if folder.exists() and not folder.is_dir():
-        raise ModelError(f"{folder} is a file", "name a folder")
-    if folder.is_dir() and any(folder.iterdir()) and not overwrite:
-        raise ModelError(
-            f"{folder} has files", "name another folder, or overwrite: --force, in Python overwrite=True"
-        )
+from dalembert.saving import check_new_folder, new_file, new_folder
 
 
 def write_feedback(students: Sequence[StudentMarks], folder: str | Path, overwrite: bool = False) -> None:
     """A Markdown file for each student; a new folder appears whole or not at all."""
     folder = Path(folder)
-    check_feedback(folder, overwrite)
+    check_new_folder(folder, overwrite)
     texts = dict(zip(file_names([s.student for s in students]), map(feedback, students), strict=True))
     if folder.exists():
         for name, text in texts.items():
             with new_file(folder / name, overwrite=True) as temporary:
                 temporary.write_text(text, encoding="utf-8")
         return
-    beside = folder.parent / f".{folder.name[:40]}.{secrets.token_hex(8)}"
-    try:
-        beside.mkdir()
+    with new_folder(folder) as beside:
         for name, text in texts.items():
             (beside / name).write_text(text, encoding="utf-8")
-        beside.rename(folder)
-    finally:
-        shutil.rmtree(beside, ignore_errors=True)
 
 
 def file_names(students: list[str]) -> list[str]:
