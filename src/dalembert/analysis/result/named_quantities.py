@@ -152,7 +152,7 @@ def quantity(r: Result, name: str) -> Quantity:
     >>> quantity(r, "reaction.A.x").kind, quantity(r, "reaction.A").values.shape
     ('force', (72, 2))
     >>> quantity(r, "max(abs(effort.O2), 3 N*m)").kind
-    'torque'
+    'moment'
     """
     found = _named(r, str(name))
     if found is not None:
