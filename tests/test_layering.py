@@ -44,8 +44,9 @@ MAY_IMPORT = {
     "notebook": SHOWN | {"views", "notebook"},
     "pages": SHOWN | {"", "core", "kernel", "views", "pages"},
     "exams": SHOWN | {"grading", "views", "reports", "exams"},
-    "cli": SHOWN | {"", "grading", "views", "reports", "pages", "exams", "cli"},
-    "__init__": SHOWN | {"grading", "views", "reports", "pages", "exams"},
+    "studies": SHOWN | {"", "studies"},
+    "cli": SHOWN | {"", "grading", "views", "reports", "pages", "exams", "studies", "cli"},
+    "__init__": SHOWN | {"grading", "views", "reports", "pages", "exams", "studies"},
     "__main__": {"cli"},
 }
 """Room (or file beside them) -> rooms that its files may import, with the rooms inside these; a room that is not named
@@ -61,9 +62,10 @@ FACADES = {
     "machine.shaking",
     "wrench.system",
     "analysis.batch.design_sweep",
+    "studies.design_study",
 }
-"""Result, Mechanism, Scene, Kernel, Sweep, System, and the answers of `machine`, which print themselves: their methods
-call what is built on them, by imports inside the methods."""
+"""Result, Mechanism, Scene, Kernel, Sweep, Study, System, and the answers of `machine`, which print themselves: their
+methods call what is built on them, by imports inside the methods."""
 SHOWING = {"notebook", "views"}
 """What they call to show themselves."""
 

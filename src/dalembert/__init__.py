@@ -132,6 +132,7 @@ if TYPE_CHECKING:
     from dalembert.pages.html_page import page
     from dalembert.pages.widget import widget
     from dalembert.reports import report
+    from dalembert.studies import Study, StudyResult, study
     from dalembert.views import draw
     from dalembert.views.notation import Notation
     from dalembert.views.paper.scene import Scene
@@ -180,6 +181,7 @@ _NAMES = {
     "pages.html_page": "page",
     "pages.widget": "widget",
     "reports": "report",
+    "studies": "Study StudyResult study",
     "views": "draw",
     "views.notation": "Notation",
     "views.paper.scene": "Scene",
@@ -238,6 +240,8 @@ __all__ = [
     "Sphere",
     "Spring",
     "StlMesh",
+    "Study",
+    "StudyResult",
     "Sweep",
     "Table",
     "TimeTable",
@@ -304,6 +308,7 @@ __all__ = [
     "stephenson_1",
     "stephenson_2",
     "stephenson_3",
+    "study",
     "superposition",
     "sweep",
     "toggle_press",

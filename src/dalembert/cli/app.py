@@ -16,7 +16,8 @@ from cyclopts import (
 )
 
 from dalembert import __version__
-from dalembert.cli import answers_commands, machine_commands, page_command, variants_command, wrench_command
+from dalembert.cli import answers_commands, page_command, variants_command, wrench_command
+from dalembert.cli.machine import machine_commands
 from dalembert.cli.options import (
     AS_IN_FILE,
     AS_USUAL,
@@ -38,6 +39,7 @@ from dalembert.cli.options import (
     target,
     with_help,
 )
+from dalembert.cli.studies import study_commands
 from dalembert.progress import progress
 from dalembert.wording import closest
 
@@ -373,6 +375,7 @@ app.command(page_command.page, help_epilogue=page_command.EXAMPLES)
 app.command(machine_commands.shake, help_epilogue=machine_commands.SHAKE)
 app.command(machine_commands.balance, help_epilogue=machine_commands.BALANCE)
 app.command(machine_commands.flywheel, help_epilogue=machine_commands.FLYWHEEL)
+app.command(study_commands.study)
 
 
 def command_line_error(error: CycloptsError, arguments: list[str]) -> str:

@@ -124,6 +124,10 @@ class Kernel:
     derivatives: bool
     lanes: int
 
+    def __reduce__(self) -> tuple[Any, ...]:  # pickled by its recipe, and compiled anew with as many lanes
+        own = self.mechanism, self.numbers, self.outputs, self.reduce, self.derivatives
+        return compile, (*own, not self.trace.inertia, self.lanes)
+
     def _repr_html_(self) -> str:
         from dalembert.notebook.html_views import kernel_html
 

@@ -227,7 +227,7 @@ def balance(
     out: Outputs = NO_OUTPUTS,
 ) -> int:
     """Counterweights on links of FILE that leave least shaking, within bounds, proved best."""
-    from dalembert.cli.counterweight_argument import bounds_of, sum_of
+    from dalembert.cli.machine.counterweight_argument import bounds_of, sum_of
     from dalembert.cli.model_argument import load_model
     from dalembert.machine.balance.balancing import balance as balanced
     from dalembert.machine.output.balance_text import balance_text

@@ -1,0 +1,4 @@
+"""The commands of machine design: shake, balance, flywheel.
+
+In: a command line. Out: text and files. Imports what the commands do.
+"""

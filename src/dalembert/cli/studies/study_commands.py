@@ -1,0 +1,200 @@
+"""`dalembert study`: run, resume, extend, show, design and export."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from cyclopts import App, Parameter
+
+from dalembert.cli.options import Force, flag, output, whole, with_help
+from dalembert.errors import ModelError
+from dalembert.progress import progress
+
+if TYPE_CHECKING:
+    from dalembert.studies import Study, StudyResult
+
+study = App(
+    name="study",
+    help="Many designs of one mechanism: drawn, analysed, stored, resumed; what they say together.",
+    help_epilogue="""Examples:
+  dalembert study run study.yaml -o pump.zarr
+  dalembert study resume pump.zarr
+  dalembert study extend pump.zarr --designs 1e6
+  dalembert study show pump.zarr --contributions linear
+  dalembert study design pump.zarr 4711 -o worst.yaml
+  dalembert study export pump.zarr -o pump.csv""",
+)
+
+StudyFile = Annotated[Path, with_help("Study file: YAML, JSON or TOML.")]
+StorePath = Annotated[Path, with_help("Store of a study, a folder.")]
+Either = Annotated[Path, with_help("Store of a study, or its study file.")]
+Threads = Annotated[int | None, Parameter(converter=whole(1), help="Threads (default: one a core).")]
+Scheduler = Annotated[
+    str | None, with_help("Address of a dask scheduler whose workers compute, as tcp://host:8786.")
+]
+
+
+@study.command(
+    help_epilogue="Examples:\n  dalembert study run study.yaml\n  dalembert study run study.yaml -o pump.zarr"
+)
+def run(
+    file: StudyFile,
+    /,
+    *,
+    output: Annotated[Path | None, output("Store to make (default: FILE with the ending .zarr).")] = None,
+    threads: Threads = None,
+    scheduler: Scheduler = None,
+) -> int:
+    """Run the study of FILE into a new store, and show what it says."""
+    from dalembert.studies.store import Store
+    from dalembert.studies.study_file import load_study
+
+    store = output or file.with_suffix(".zarr")
+    if Store(store).exists():
+        raise ModelError(
+            f"{store} is there already", f"dalembert study resume {store}, or name another with -o"
+        )
+    return _run(load_study(file), store, threads, scheduler)
+
+
+@study.command(help_epilogue="Examples:\n  dalembert study resume pump.zarr")
+def resume(
+    study: Either,
+    /,
+    *,
+    output: Annotated[Path | None, output("Store of a study file (default: with the ending .zarr).")] = None,
+    threads: Threads = None,
+    scheduler: Scheduler = None,
+) -> int:
+    """Go on with a study that was stopped: blocks that are missing or broken are computed, the others checked."""
+    store = study if study.is_dir() else output or study.with_suffix(".zarr")
+    _stored(store)
+    return _run(_read(study), store, threads, scheduler)
+
+
+@study.command(help_epilogue="Examples:\n  dalembert study extend pump.zarr --designs 1e6")
+def extend(
+    store: StorePath,
+    /,
+    *,
+    designs: Annotated[float, with_help("How many designs it shall have altogether.")],
+    threads: Threads = None,
+    scheduler: Scheduler = None,
+) -> int:
+    """Add designs to a study drawn by random or sobol; those that are there stay as they are."""
+    if designs != int(designs):
+        raise ModelError(f"--designs {designs} is no whole number", "give one, as 100000 or 1e6")
+    return _run(_stored(store).study.extended(int(designs)), store, threads, scheduler)
+
+
+@study.command(
+    help_epilogue="Examples:\n  dalembert study show pump.zarr\n  dalembert study show pump.zarr --contributions sobol"
+)
+def show(
+    store: StorePath,
+    /,
+    *,
+    contributions: Annotated[
+        Literal["linear", "sobol"] | None,
+        with_help(
+            "What each number contributes to the variance, by derivatives or by sampling; and the worst case."
+        ),
+    ] = None,
+    unused: Annotated[bool, flag("Name numbers that change no output.")] = False,
+) -> int:
+    """Print statuses, percentiles, histograms, worst and best designs, and the share that keeps the limits."""
+    from dalembert.studies.summary import contributions_text, summary
+
+    found = _stored(store)
+    print(summary(found))
+    if contributions:
+        print("\n" + contributions_text(found.study, contributions))
+    if unused:
+        names = ", ".join(found.study.idle())
+        print(f"\nNumbers that change no output: {names or 'none'}")
+    return 0
+
+
+@study.command(help_epilogue="Examples:\n  dalembert study design pump.zarr 4711 -o design.yaml")
+def design(
+    study: Either,
+    number: Annotated[int, Parameter(converter=whole(0), help="Number of the design, from 0.")],
+    /,
+    *,
+    output: Annotated[
+        Path | None, output("Write the design's model file, to solve, draw and report.")
+    ] = None,
+    force: Force = False,
+) -> int:
+    """Print the numbers of one design, made again exactly; or write its model file."""
+    from dalembert.studies.summary import design_text
+
+    found = _read(study)
+    print(design_text(found, number))
+    if output is not None:
+        found.mechanism_of(number).save(output, force)
+    return 0
+
+
+@study.command(help_epilogue="Examples:\n  dalembert study export pump.zarr -o pump.csv")
+def export(
+    store: StorePath,
+    /,
+    *,
+    output: Annotated[Path, output("File to write, .csv or .nc (netCDF): numbers, status and outputs, SI.")],
+    force: Force = False,
+) -> int:
+    """Write all designs to one file."""
+    from dalembert.studies.study_export import export_study
+
+    export_study(_stored(store), output, force)
+    return 0
+
+
+def _stored(store: Path) -> StudyResult:
+    from dalembert.studies import StudyResult
+
+    return StudyResult.open(store)
+
+
+def _read(path: Path) -> Study:
+    """The study of a store, or of a file."""
+    from dalembert.studies.study_file import load_study
+
+    return _stored(path).study if path.is_dir() else load_study(path)
+
+
+def _run(study: Study, store: Path, threads: int | None, scheduler: str | None) -> int:
+    """Run with a bar on the terminal, and show."""
+    from dalembert.studies.summary import summary
+
+    if study.why_slow:
+        print(f"Not compiled, design by design: {study.why_slow}.", file=sys.stderr)
+    if unused := study.idle():
+        print(f"Changes no output: {', '.join(unused)}.", file=sys.stderr)
+    try:
+        with progress("Studying", study.count) as step:
+            found = study.run(store, threads=threads, scheduler=scheduler, progress=_rate(step))
+    except KeyboardInterrupt:
+        print(f"Stopped. Finished blocks are kept: dalembert study resume {store}", file=sys.stderr)
+        raise
+    print(summary(found))
+    return 0
+
+
+def _rate(step: Callable[..., Any]) -> Callable[[int, int], None]:
+    """Tells the bar the rate and the time left."""
+    begun, first = time.perf_counter(), [-1]
+
+    def tell(done: int, count: int) -> None:
+        if first[0] < 0:
+            first[0] = done
+        rate = (done - first[0]) / (time.perf_counter() - begun)
+        left = f", {(count - done) / rate:.0f} s left" if rate > 0 else ""
+        step(done, f"{done:,} of {count:,} designs, {rate:,.0f} a second{left}")
+
+    return tell

@@ -1,0 +1,189 @@
+"""What computes a block of designs: the compiled kernel, or where it does not reach the analyses, one by one."""
+
+from __future__ import annotations
+
+import hashlib
+import threading
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
+
+import numpy as np
+
+from dalembert.analysis.batch.batch_result import CODES, NUMBERED, among, first_mark
+from dalembert.analysis.batch.compiled_kernel import Kernel
+from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
+from dalembert.analysis.batch.over_positions import reduce_positions
+from dalembert.analysis.result.named_quantities import quantity
+from dalembert.analysis.result.result import Result
+from dalembert.analysis.solution import solve
+from dalembert.arrays import Array
+from dalembert.errors import DalembertError, ModelError
+from dalembert.model import Mechanism
+
+ONE_AT_A_TIME = threading.Lock()
+"""The general executor keeps programs with their memory: one thread at a time."""
+PROBED = 64
+"""Designs whose bits stand for those of all, when it is asked whether two programs are the same."""
+UNSURE = (CODES.index("undecided"), CODES.index("at_rest"))
+"""Marks of designs that the kernel leaves to the general executor."""
+Block = dict[str, Array]
+"""Arrays of a block by output, its designs first, and ``status``, the marks of `batch_result.CODES`."""
+
+
+class Engine(Protocol):
+    """Computes blocks: the same bits for a design whatever block it is in."""
+
+    @property
+    def outputs(self) -> tuple[str, ...]: ...
+
+    @property
+    def why(self) -> str: ...
+
+    @property
+    def text(self) -> str: ...
+
+    @property
+    def positions(self) -> int: ...
+
+    def block(self, values: Array) -> Block: ...
+
+
+@dataclass(frozen=True)
+class KernelEngine:
+    """The compiled kernel on one thread, and the general executor where the kernel is not sure."""
+
+    kernel: Kernel
+    at: Array | None
+    why: str = ""
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        return self.kernel.outputs
+
+    @property
+    def positions(self) -> int:
+        return len(self.kernel.trace.course.schedule.position if self.at is None else self.at)
+
+    @property
+    def text(self) -> str:
+        """The program before it is machine code: what is computed, whatever the version is called."""
+        runner = self.kernel.runner
+        return str(runner.machine(runner.way(self.positions))[1].text)
+
+    def block(self, values: Array) -> Block:
+        found = self.kernel(values, self.at, threads=1, redo=False)
+        parts = {name: found.value(name) for name in self.outputs} | {"status": found.code}
+        unsure = among(found.code, UNSURE)
+        again = np.flatnonzero(unsure.any(axis=tuple(range(1, unsure.ndim))))
+        if len(again):
+            with ONE_AT_A_TIME:
+                sure = self.kernel(values[again], self.at, threads=1)
+            for name in self.outputs:
+                parts[name][again] = sure.value(name)
+            parts["status"][again] = sure.code
+        return parts
+
+
+@dataclass(frozen=True)
+class AnalysisEngine:
+    """`da.solve` of one design after the other."""
+
+    mechanism: Mechanism
+    numbers: tuple[str, ...]
+    outputs: tuple[str, ...]
+    reduce: str | None
+    static: bool
+    count: int | None
+    why: str
+
+    @cached_property
+    def nominal(self) -> Result:
+        return solve(self.mechanism, self.static, self.count)
+
+    @property
+    def positions(self) -> int:
+        return len(self.nominal.status)
+
+    @property
+    def text(self) -> str:
+        return f"analyses of {self.outputs}, {self.reduce}, static {self.static}, positions {self.count}"
+
+    def _reduced(self, result: Result) -> Block:
+        """Outputs of one design, at a reversal of both sides if reduced, else of the first."""
+        sides = result.sides if self.reduce else result.sides[:1]
+        both = {name: [quantity(side, name).values for side in sides] for name in self.outputs}
+        if self.reduce is None:
+            return {name: values[0] for name, values in both.items()}
+        found = {name: reduce_positions(self.reduce, np.concatenate(values)) for name, values in both.items()}
+        if self.reduce == "argpeak":
+            found = {name: value % len(result.status) for name, value in found.items()}
+        return found
+
+    @cached_property
+    def shapes(self) -> dict[str, tuple[int, ...]]:
+        return {name: np.shape(value) for name, value in self._reduced(self.nominal).items()}
+
+    def block(self, values: Array) -> Block:
+        count = () if self.reduce else (self.positions,)
+        parts = {name: np.full((len(values), *shape), np.nan) for name, shape in self.shapes.items()}
+        marks = np.full((len(values), *count), CODES.index("failed"), np.uint8)
+        with ONE_AT_A_TIME:
+            for d, design in enumerate(values):
+                try:
+                    given = dict(zip(self.numbers, design.tolist(), strict=True))
+                    result = solve(self.mechanism.with_values(given), self.static, self.count)
+                    own = self._reduced(result)
+                except DalembertError:
+                    continue
+                codes = [CODES.index(s) if s in CODES else CODES.index("failed") for s in result.status]
+                found = np.array(codes, np.uint8)
+                marks[d] = first_mark(found) if self.reduce else found
+                numbered = marks[d] if self.reduce else found
+                for name, value in own.items():
+                    value[~among(np.asarray(numbered), NUMBERED)] = np.nan
+                    parts[name][d] = value
+        return parts | {"status": marks}
+
+
+def make_engine(
+    m: Mechanism,
+    paths: Sequence[str],
+    outputs: Sequence[str] | None,
+    reduce: str | None,
+    static: bool,
+    positions: int | None,
+    lanes: int | None = None,
+) -> Engine:
+    """The kernel where it reaches, else the analyses, with the sentence why; raises ModelError where neither does."""
+    try:
+        at = None if positions is None else m.schedule(positions).position
+        kernel = compile_kernel(m, paths, outputs, reduce, static=static, lanes=lanes)
+        kernel.course(at)
+    except ModelError as error:
+        if reduce is None and m.schedule().unknown is not None:
+            what = "designs differ in the number of their equilibrium positions"
+            raise ModelError(what, 'reduce over them: reduce="peak"') from None
+        try:
+            names = tuple(outputs or _defaults(solve(m, static, positions)))
+            engine = AnalysisEngine(m, tuple(paths), names, reduce, static, positions, error.what)
+            _ = engine.shapes
+        except ModelError:
+            raise error from None
+        return engine
+    return KernelEngine(kernel, at)
+
+
+def _defaults(r: Result) -> list[str]:
+    return [f"effort.{d}" for d in r.drives] + [f"reaction.{j}" for j in r.joints]
+
+
+def program_print(engine: Engine, values: Array) -> str:
+    """A print of the program and of the bits that it gives for some designs on this processor."""
+    found: dict[str, Any] = engine.block(values[: PROBED if not engine.why else 1])
+    total = hashlib.sha256(engine.text.encode())
+    total.update(np.ascontiguousarray(values[:PROBED]).tobytes())
+    for name in sorted(found):
+        total.update(np.ascontiguousarray(found[name]).tobytes())
+    return total.hexdigest()[:16]

@@ -1,0 +1,219 @@
+"""Where the spread of an output comes from: each number's contribution, worst case, numbers that change nothing."""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from dalembert.analysis.batch.batch_result import NUMBERED, among
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.studies.block_engines import make_engine
+from dalembert.studies.sampling import Plan
+
+if TYPE_CHECKING:
+    from dalembert.studies.design_study import Study
+
+CORNERS = 12
+"""Numbers of which all corners are tried; of more, that of the signs of the derivatives."""
+STEP = 1e-3
+"""Part of the standard deviation that a difference goes."""
+SAMPLE = 256
+"""Designs among which the place of a peak is compared."""
+OFTEN = 0.01
+"""Share of designs from which on a peak that moves is said."""
+
+
+class Contributions(NamedTuple):
+    """Shares of the variance by path, the standard deviation, SI, of sobol the total shares too, and what to mind."""
+
+    shares: dict[str, float]
+    sigma: float
+    total: dict[str, float]
+    note: str
+
+
+class WorstCase(NamedTuple):
+    """The largest value, SI, the corner that has it, and what was assumed."""
+
+    value: float
+    at: dict[str, float]
+    assumed: str
+
+
+def contributions(study: Study, output: str, by: str, designs: int) -> Contributions:
+    """What `Study.contributions` does."""
+    if by not in ("linear", "sobol"):
+        raise ModelError(f"there are no contributions by {by!r}", "there are: linear, sobol")
+    _check(study, output)
+    return _linear(study, output) if by == "linear" else _sobol(study, output, designs)
+
+
+def _check(study: Study, output: str) -> None:
+    if study.plan.table is not None:
+        raise ModelError("a table says no spread", "give vary= spreads")
+    if study.plan.mixing is not None:
+        raise ModelError("shares of correlated numbers are not defined", "leave the correlation out")
+    if output not in study.outputs:
+        raise ModelError(f"{output!r} is no output of the study", f"there are: {', '.join(study.outputs)}")
+    if study.reduce in (None, "envelope", "argpeak"):
+        raise ModelError(
+            f"reduced by {study.reduce} it is no single number", 'use reduce="peak", "rms", "mean"'
+        )
+
+
+def _answers(study: Study, output: str, values: Array) -> Array:
+    """One number a design (design,)."""
+    found = study.engine.block(np.ascontiguousarray(values))[output]
+    if found.ndim > 1:
+        raise ModelError(f"{output} has {found[0].size} numbers a design", "ask for a scalar, as magnitude.A")
+    return found
+
+
+def _middle(study: Study) -> Array:
+    """The centre of each spread."""
+    return np.array([sum(s.ends) / 2 for s in study.plan.spreads])
+
+
+def slopes(study: Study, output: str) -> Array:
+    """Derivatives of an output with respect to the numbers at the middle: central differences of tiny steps."""
+    middle, sigma = _middle(study), np.array([s.sigma for s in study.plan.spreads])
+    steps = np.diag(STEP * sigma)
+    found = _answers(study, output, np.concatenate([middle + steps, middle - steps]))
+    high, low = np.split(found, 2)
+    return np.asarray((high - low) / np.where(sigma > 0, 2 * STEP * sigma, 1.0))
+
+
+def _linear(study: Study, output: str) -> Contributions:
+    """Shares (slope times standard deviation) squared, and whether they can be trusted."""
+    sigma = np.array([s.sigma for s in study.plan.spreads])
+    parts = (slopes(study, output) * sigma) ** 2
+    total = float(parts.sum())
+    shares = parts / total if total > 0 else parts
+    return Contributions(
+        dict(zip(study.paths, shares.tolist(), strict=True)),
+        total**0.5,
+        {},
+        _trust(study, output, total**0.5),
+    )
+
+
+def _trust(study: Study, output: str, linear: float) -> str:
+    """Where the linear answer misleads: the peak is at another position in other designs, or the spread is another."""
+    plan = Plan(study.paths, study.plan.spreads, "random", SAMPLE, study.plan.seed)
+    values = plan.values(0, SAMPLE)
+    found = _answers(study, output, values)
+    sampled = float(np.nanstd(found))
+    said = f"the linear standard deviation is {linear:.4g}, of {SAMPLE} designs {sampled:.4g} (SI)"
+    if study.reduce == "peak" and (jump := _jump(study, output, values)):
+        return f'{jump}: {said}; trust by="sobol"'
+    if np.isfinite(sampled) and abs(sampled - linear) > 0.25 * max(sampled, linear):
+        return f'it is not linear: {said}; trust by="sobol"'
+    return ""
+
+
+def _jump(study: Study, output: str, values: Array) -> str:
+    """Where the peak is at another position than in most designs, and in how many; empty where it hardly ever is."""
+    places = _places(study, output, values)
+    often, times = np.unique(places[np.isfinite(places)], return_counts=True)
+    first = often[times.argmax()] if len(often) else 0.0
+    off = np.abs(often - first)
+    away = np.minimum(off, study.engine.positions - off) > 1
+    if times[away].sum() <= OFTEN * len(values):
+        return ""
+    other = int(often[away][times[away].argmax()]) + 1
+    share = times[away].sum() / len(values)
+    return f"the peak jumps between positions {int(first) + 1} and {other} (in {share:.0%} of {len(values)} designs)"
+
+
+def _places(study: Study, output: str, values: Array) -> Array:
+    """Position of the peak of each design, from 0."""
+    options = ("argpeak", study.static, study.positions, study.lanes)
+    return make_engine(study.mechanism, study.paths, (output,), *options).block(values)[output]
+
+
+def _sobol(study: Study, output: str, designs: int) -> Contributions:
+    """First-order and total Sobol indices (Saltelli 2010, Jansen 1999), from designs * (numbers + 2) designs."""
+    d, n = len(study.paths), designs
+    if n < 2 or n & (n - 1):
+        raise ModelError(f"{n} designs are no power of two", "give 4096, for example")
+    both = Plan(
+        tuple(f"{path} {half}" for half in "AB" for path in study.paths),
+        study.plan.spreads * 2,
+        "sobol",
+        n,
+        study.plan.seed,
+    ).values(0, n)
+    a, b = both[:, :d], both[:, d:]
+    mixed = []
+    for j in range(d):
+        ab = a.copy()
+        ab[:, j] = b[:, j]
+        mixed.append(ab)
+    size = max(1, study.block_size())
+    rows = np.concatenate([a, b, *mixed])
+    answers = np.concatenate([_answers(study, output, rows[k : k + size]) for k in range(0, len(rows), size)])
+    y = answers.reshape(d + 2, n)
+    good = np.isfinite(y).all(axis=0)
+    if good.sum() < 2:
+        raise ModelError(f"hardly a design has a value of {output}", "make the spreads smaller")
+    y = y[:, good] - y[:2, good].mean()
+    fa, fb, fab = y[0], y[1], y[2:]
+    variance = float(np.var(y[:2]))
+    unit = variance if variance > 0 else 1.0
+    first = (fb * (fab - fa)).mean(axis=1) / unit
+    total = ((fa - fab) ** 2).mean(axis=1) / (2 * unit)
+    lost = int((~good).sum())
+    note = f"{lost} of {n} rows left out, in which some design has no value" if lost else ""
+    named = (dict(zip(study.paths, of.tolist(), strict=True)) for of in (first, total))
+    return Contributions(next(named), variance**0.5, next(named), note)
+
+
+def worst_case(study: Study, output: str) -> WorstCase:
+    """What `Study.worst_case` does."""
+    _check(study, output)
+    ends = np.array([s.ends for s in study.plan.spreads])
+    if len(ends) <= CORNERS:
+        corners = np.array(list(product(*ends)))
+        assumed = f"the largest of all {len(corners)} corners; between them it is not sought"
+    else:
+        up = slopes(study, output) >= 0
+        corners = np.array([np.where(up, ends[:, 1], ends[:, 0])])
+        assumed = (
+            "the output rises or falls with each number all the way: one corner, by the derivatives' signs"
+        )
+    found = _answers(study, output, corners)
+    lost = int((~np.isfinite(found)).sum())
+    if lost:
+        assumed += f"; {lost} corners have no value"
+    if lost == len(found):
+        raise ModelError(f"no corner has a value of {output}", "make the spreads smaller")
+    k = int(np.nanargmax(found))
+    return WorstCase(float(found[k]), dict(zip(study.paths, corners[k].tolist(), strict=True)), assumed)
+
+
+def idle(study: Study) -> tuple[str, ...]:
+    """What `Study.idle` does."""
+    if study.plan.table is not None:
+        low, high = study.plan.table.min(axis=0), study.plan.table.max(axis=0)
+    else:
+        low, high = np.array([s.ends for s in study.plan.spreads]).T
+    middle = (low + high) / 2
+    rows = [middle]
+    for j in range(len(middle)):
+        for end in (low, high):
+            moved = middle.copy()
+            moved[j] = end[j]
+            rows.append(moved)
+    found = study.engine.block(np.array(rows))
+    out = []
+    for j, path in enumerate(study.paths):
+        same = all(
+            np.array_equal(a[[0, 0]], a[1 + 2 * j : 3 + 2 * j], equal_nan=a.dtype != np.uint8)
+            for a in found.values()
+        )
+        if same and among(np.ravel(found["status"])[:1], NUMBERED)[0]:
+            out.append(path)
+    return tuple(out)

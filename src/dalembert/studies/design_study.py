@@ -1,0 +1,366 @@
+"""``da.study``: many designs of one mechanism, as a pure function from the number of a block to its arrays."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.analysis.solution import solve
+from dalembert.arrays import Array, Tree
+from dalembert.errors import ModelError
+from dalembert.model import Mechanism
+from dalembert.studies.block_engines import Block, Engine, KernelEngine, make_engine, program_print
+from dalembert.studies.limits import Limit, output_kinds, read_limit
+from dalembert.studies.sampling import Plan
+from dalembert.studies.spreads import Spread, read_spread
+from dalembert.studies.varied_numbers import check_twofold, reader, varied_numbers
+from dalembert.wording import quote_value
+
+if TYPE_CHECKING:
+    import os
+
+    from dalembert.analysis.batch.symbolic_model import Number
+    from dalembert.studies.study_result import StudyResult
+
+BLOCK_BYTES = 64 << 20
+"""Bytes that a block takes at most."""
+MOST_BLOCKS = 5_000
+"""Blocks of one store that are checked in a few seconds."""
+
+
+def study(
+    mechanism: Mechanism,
+    vary: Mapping[str, object] | Sequence[str],
+    outputs: Sequence[str] | str | None = None,
+    reduce: str | None = "peak",
+    designs: int = 10_000,
+    draw: str | Mapping[str, Sequence[object]] = "random",
+    seed: int = 0,
+    *,
+    limits: Mapping[str, str] | None = None,
+    correlation: Mapping[tuple[str, str], float] | None = None,
+    static: bool = False,
+    positions: int | None = None,
+    keep: bool = False,
+    lanes: int | None = None,
+) -> Study:
+    """Many designs of a mechanism, each drawn by its number from how the numbers of the model file spread.
+
+    ``vary``: path or parameter -> spread: ``"± 0.05 mm"`` (normal, three standard deviations, cut there), ``"normal
+    2 %"``, ``"uniform ± 5 %"``, ``"70..90 N"``, ``"70..90 N in 5"``, a list, or ``"range"`` of a parameter that states
+    one. A vector's path means each component. ``outputs``, ``reduce``, ``static``: as in `da.compile`. ``draw``:
+    ``random``, ``sobol``, ``latin``, ``factorial`` (all combinations of levels), or the designs themselves, path ->
+    values, with ``vary`` a list of paths or empty. ``limits``: output -> ``"< 45 N*m"``. ``correlation``: of two paths,
+    between -1 and 1, of their normal scores. ``keep``: store the drawn numbers too. Raises ModelError.
+
+    >>> import dalembert as da
+    >>> s = da.study(da.four_bar(), {"links.coupler.mass": "± 5 %"}, ["effort.O2"], designs=1000, seed=7)
+    >>> r = s.run()
+    >>> r["effort.O2"].shape, int(r.ok.sum())
+    ((1000,), 1000)
+    """
+    given = dict.fromkeys(vary, "") if not isinstance(vary, Mapping) else dict(vary)
+    table = dict(draw) if isinstance(draw, Mapping) else None
+    if table is None and not given:
+        raise ModelError("nothing varies", "give path: spread, as stroke: ± 0.1 mm", ("vary",))
+    if isinstance(designs, bool) or designs != int(designs):
+        raise ModelError(f"{designs!r} is no number of designs", "give a whole number", ("designs",))
+    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or not 0 <= seed < 2**63:
+        raise ModelError(f"the seed {seed!r} is no whole number of 0 or more", "give one, as 7", ("seed",))
+    numbers, spreads, rows = (
+        _spreads(mechanism, given) if table is None else (*_columns(mechanism, given, table),)
+    )
+    check_twofold(mechanism, numbers)
+    paths = tuple(n.path for n in numbers)
+    how = "table" if table is not None else str(draw)
+    mixing = _mixing(paths, correlation or {}, how)
+    plan = Plan(paths, spreads, how, int(designs), int(seed), rows, mixing)
+    names = (outputs,) if isinstance(outputs, str) else tuple(outputs) if outputs else None
+    if names and len(set(names)) < len(names):
+        raise ModelError("an output is asked for twice", "leave one of them out", ("outputs",))
+    found = Study(mechanism, plan, names, reduce, static, positions, keep, lanes)
+    _ = found.engine  # what cannot be computed is refused here
+    return found.with_limits(limits or {})
+
+
+def _at(path: str, error: ModelError) -> ModelError:
+    what = error.what if path in error.what else f"{path}: {error.what}"
+    return ModelError(what, error.remedy, ("vary", path))
+
+
+Found = tuple[list["Number"], tuple[Spread, ...], Array | None]
+
+
+def _spreads(m: Mechanism, given: Mapping[str, object]) -> Found:
+    numbers, spreads = [], []
+    for path, said in given.items():
+        try:
+            for number in varied_numbers(m, str(path)):
+                limits = m.parameters[number.path].range if number.parameter else None
+                spreads.append(read_spread(said, number.value, reader(m, number), limits))
+                numbers.append(number)
+        except ModelError as error:
+            raise _at(str(path), error) from None
+    return numbers, tuple(spreads), None
+
+
+def _columns(m: Mechanism, given: Mapping[str, object], table: Mapping[str, Sequence[object]]) -> Found:
+    """The designs of a table: path -> values."""
+    if extra := [path for path in given if path not in table]:
+        raise ModelError(f"the table has no column {extra[0]!r}", f"it has: {', '.join(table)}", ("vary",))
+    numbers, columns = [], list[list[float]]()
+    for path, values in table.items():
+        try:
+            own = varied_numbers(m, path)
+            if len(own) != 1:
+                raise ModelError(f"{path!r} is a vector", f"give a column of {own[0].path!r}, and so on")
+            si = reader(m, own[0])
+            columns.append([si(v.item() if isinstance(v, np.generic) else v) for v in values])
+        except ModelError as error:
+            raise _at(path, error) from None
+        numbers += own
+    if not columns or len({len(c) for c in columns}) > 1 or not columns[0]:
+        raise ModelError(
+            "a table of designs needs columns of one length", "give a value of each path for each"
+        )
+    return numbers, (), np.ascontiguousarray(np.array(columns).T)
+
+
+def _mixing(paths: Sequence[str], given: Mapping[tuple[str, str], float], draw: str) -> Array | None:
+    """The triangle that makes correlated normal scores."""
+    if not given:
+        return None
+    if draw in ("table", "factorial"):
+        raise ModelError(f"a {draw} has no correlation", "leave it out, or draw at random", ("correlation",))
+    matrix = np.eye(len(paths))
+    for pair, r in given.items():
+        for path in pair:
+            if path not in paths:
+                raise ModelError(
+                    f"correlation names {path!r}, which does not vary",
+                    f"there are: {', '.join(paths)}",
+                    ("correlation",),
+                )
+        i, j = (paths.index(path) for path in pair)
+        if i == j or isinstance(r, bool) or not isinstance(r, (int, float)) or not -1 < r < 1:
+            raise ModelError(
+                f"{quote_value(r)} is no correlation of two numbers",
+                "give one between -1 and 1",
+                ("correlation",),
+            )
+        matrix[i, j] = matrix[j, i] = r
+    try:
+        return np.asarray(np.linalg.cholesky(matrix))
+    except np.linalg.LinAlgError:
+        raise ModelError(
+            "the correlations contradict each other", "make some of them smaller", ("correlation",)
+        ) from None
+
+
+@dataclass(frozen=True)
+class Study:
+    """What is varied, how it is drawn and what is asked; `run` answers. Two equal ones give the same bits anywhere."""
+
+    mechanism: Mechanism
+    plan: Plan
+    asked: tuple[str, ...] | None
+    reduce: str | None = "peak"
+    static: bool = False
+    positions: int | None = None
+    keep: bool = False
+    lanes: int | None = None
+    limits: tuple[Limit, ...] = ()
+    cache: dict[str, Any] = field(default_factory=dict, repr=False, compare=False)
+
+    def __getstate__(self) -> Tree:
+        return {**self.__dict__, "cache": {}}
+
+    def __repr__(self) -> str:
+        what = f"{len(self.paths)} numbers, {self.count:,} designs by {self.plan.draw}"
+        return f"<Study of {self.mechanism.title!r}: {what}, {', '.join(self.outputs)}>"
+
+    @property
+    def engine(self) -> Engine:
+        """What computes a block."""
+        if "engine" not in self.cache:
+            self.cache["engine"] = make_engine(
+                self.mechanism, self.paths, self.asked, self.reduce, self.static, self.positions, self.lanes
+            )
+        found: Engine = self.cache["engine"]
+        return found
+
+    @property
+    def paths(self) -> tuple[str, ...]:
+        """Paths of the numbers that vary."""
+        return self.plan.paths
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """What is answered of each design."""
+        return self.asked if self.asked is not None else self.engine.outputs
+
+    @property
+    def kinds(self) -> dict[str, str]:
+        """What each output is, of `units.KINDS`."""
+        if "kinds" not in self.cache:
+            nominal = solve(self.mechanism, self.static, self.positions)
+            self.cache["kinds"] = output_kinds(nominal, self.outputs, self.reduce)
+        found: dict[str, str] = self.cache["kinds"]
+        return found
+
+    def with_limits(self, limits: Mapping[str, str]) -> Study:
+        """The same study with other limits: output -> what it has to keep, as ``"< 45 N*m"``."""
+        read = tuple(
+            read_limit(str(name), said, self.kinds, self.mechanism.units) for name, said in limits.items()
+        )
+        return replace(self, limits=read, cache=self.cache)
+
+    @property
+    def count(self) -> int:
+        """How many designs."""
+        return self.plan.count
+
+    @property
+    def why_slow(self) -> str:
+        """Why the kernel does not reach, where designs are analysed one by one; else empty."""
+        return self.engine.why
+
+    def block_size(self) -> int:
+        """Designs of a block of a new store: a power of two of some million design-positions, at most 64 MB."""
+        engine = self.engine
+        kept = 1 if self.reduce else engine.positions
+        each = 8 * (len(self.paths) + 3 * kept * len(self.outputs))
+        most = min(4_000_000 // engine.positions, BLOCK_BYTES // each) if not engine.why else 64
+        size = 1 << max(0, min(most, max(self.count // 16, 16 if engine.why else 4096)).bit_length() - 1)
+        while self.count / size > MOST_BLOCKS:
+            size *= 2
+        return size
+
+    def block(self, start: int, stop: int) -> tuple[Block, float]:
+        """Arrays of designs ``start`` to ``stop``, and the milliseconds they took."""
+        begun = time.perf_counter()
+        values = self.plan.values(start, stop)
+        found = self.engine.block(values)
+        if self.keep:
+            found |= {path: np.ascontiguousarray(values[:, j]) for j, path in enumerate(self.paths)}
+        return found, (time.perf_counter() - begun) * 1e3
+
+    def design(self, n: int) -> dict[str, float]:
+        """The numbers of a design by path, SI; designs are numbered from 0."""
+        if not 0 <= n < self.count:
+            raise ModelError(f"there is no design {n}", f"there are 0 to {self.count - 1}")
+        return dict(zip(self.paths, self.plan.values(n, n + 1)[0].tolist(), strict=True))
+
+    def mechanism_of(self, n: int) -> Mechanism:
+        """The mechanism of a design, to be analysed, drawn and saved as any other."""
+        return self.mechanism.with_values(self.design(n))
+
+    def extended(self, designs: int) -> Study:
+        """The same study of more designs; those that there are stay as they are."""
+        if not self.plan.extendable:
+            raise ModelError(
+                f"a study drawn by {self.plan.draw} is whole", "only random and sobol ones can be extended"
+            )
+        if designs < self.count:
+            raise ModelError(f"the study has {self.count} designs already", f"ask for more than {designs}")
+        return replace(self, plan=replace(self.plan, designs=designs), cache=self.cache)
+
+    @cached_property
+    def prints(self) -> dict[str, str]:
+        """What may not change between the runs of one store: what is computed, asked, and by which program."""
+        tree = self.mechanism.to_tree()
+        for key in ("title", "source", "answers"):
+            tree.pop(key, None)
+        for name, given in tree.get("parameters", {}).items():
+            tree["parameters"][name] = given["value"] if isinstance(given, dict) else given
+        asked = self.tree()
+        if self.plan.extendable:
+            asked.pop("designs")
+        asked.pop("limits")
+        if self.plan.table is not None:
+            asked["table"] = _print(np.ascontiguousarray(self.plan.table).tobytes())
+        first = self.plan.values(0, 64 if self.plan.extendable else min(64, self.count))
+        return {
+            "model": _print(json.dumps(tree, sort_keys=True).encode()),
+            "study": _print(json.dumps(asked, sort_keys=True).encode()),
+            "program": program_print(self.engine, first),
+        }
+
+    def tree(self) -> Tree:
+        """The study in plain values, of which `study_of_tree` makes it again; a table of designs apart."""
+        p = self.plan
+        spreads = [{"kind": s.kind, "a": s.a, "b": s.b, "levels": list(s.levels)} for s in p.spreads]
+        return {
+            "vary": list(p.paths),
+            "spreads": spreads,
+            "draw": p.draw,
+            "designs": p.designs,
+            "seed": p.seed,
+            "mixing": None if p.mixing is None else p.mixing.tolist(),
+            "outputs": list(self.outputs),
+            "reduce": self.reduce,
+            "static": self.static,
+            "positions": self.positions,
+            "keep": self.keep,
+            "lanes": self.engine.kernel.lanes if isinstance(self.engine, KernelEngine) else None,
+            "limits": {limit.output: limit.text for limit in self.limits},
+        }
+
+    def run(
+        self,
+        store: str | os.PathLike[str] | None = None,
+        *,
+        threads: int | None = None,
+        scheduler: Any = None,
+        progress: Callable[[int, int], object] | None = None,
+        check: bool = True,
+    ) -> StudyResult:
+        """Compute the blocks that are not there yet, into a store on disk, which resumes what it has, or in memory.
+
+        threads: default one a core. scheduler: the address of a dask scheduler or a dask client, whose workers compute
+        then. progress: called with (designs done, designs). check: compare what is stored with its checksums first.
+        The same bits whatever the workers, the order, and how often it was stopped. Ctrl-C finishes the blocks under
+        way, which are kept.
+        """
+        from dalembert.studies.running import run_study
+
+        return run_study(self, store, threads, scheduler, progress, check)
+
+    def contributions(self, output: str, by: str = "linear", designs: int = 4096) -> Any:
+        """What each number contributes to the variance of an output, by ``linear`` or ``sobol``: `Contributions`."""
+        from dalembert.studies.contributions import contributions
+
+        return contributions(self, output, by, designs)
+
+    def worst_case(self, output: str) -> Any:
+        """The largest value of an output over the corners of all spreads; a `WorstCase`."""
+        from dalembert.studies.contributions import worst_case
+
+        return worst_case(self, output)
+
+    def idle(self) -> tuple[str, ...]:
+        """Numbers that change no output, moved one at a time to both ends of what they spread over."""
+        from dalembert.studies.contributions import idle
+
+        return idle(self)
+
+
+def study_of_tree(m: Mechanism, tree: Tree, table: Array | None = None) -> Study:
+    """The study that `Study.tree` describes."""
+    spreads = tuple(Spread(s["kind"], s["a"], s["b"], tuple(s["levels"])) for s in tree["spreads"])
+    mixing = None if tree["mixing"] is None else np.array(tree["mixing"])
+    plan = Plan(tuple(tree["vary"]), spreads, tree["draw"], tree["designs"], tree["seed"], table, mixing)
+    options = (tree["reduce"], tree["static"], tree["positions"], tree["keep"], tree["lanes"])
+    found = Study(m, plan, tuple(tree["outputs"]), *options)
+    return found.with_limits(tree["limits"])
+
+
+def _print(text: bytes) -> str:
+    return hashlib.sha256(text).hexdigest()[:16]

@@ -1,0 +1,76 @@
+"""Limits that outputs of a study have to keep, for the share of its designs that do."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from dalembert.analysis.result.named_quantities import quantity
+from dalembert.analysis.result.result import Result
+from dalembert.arrays import Array, Flags
+from dalembert.errors import ModelError
+from dalembert.units import NUMBER, Units
+from dalembert.units import quantity as read_quantity
+from dalembert.wording import closest, quote_value
+
+FORMS = "write '< 45 N*m', '>= 3 kN', or '2..5 kN'"
+BETWEEN = re.compile(rf"({NUMBER})\s*(.*?)\s*\.\.\s*({NUMBER})\s*(.*)")
+
+
+class Limit(NamedTuple):
+    """An output, the least and largest value it may have, SI, and the words they were given in."""
+
+    output: str
+    low: float
+    high: float
+    text: str
+
+    def kept(self, values: Array) -> Flags:
+        """Whether each design (first axis) keeps it, in all components and positions; no number does not."""
+        good = (values >= self.low) & (values <= self.high)
+        return np.asarray(good.reshape(len(values), -1).all(axis=1))
+
+
+def output_kinds(nominal: Result, outputs: Sequence[str], reduce: str | None) -> dict[str, str]:
+    """What each output is, of `units.KINDS`; those that a result has no name for are numbers."""
+    found = {}
+    for name in outputs:
+        try:
+            found[name] = "number" if reduce == "argpeak" else quantity(nominal, name).kind
+        except ModelError:
+            found[name] = "number"
+    return found
+
+
+def read_limit(name: str, said: object, kinds: Mapping[str, str], units: Units) -> Limit:
+    """What an output has to keep, in words; raises ModelError."""
+    if name not in kinds:
+        raise ModelError(
+            f"limits names {name!r}, which is no output of the study",
+            closest(name, list(kinds)),
+            ("limits", name),
+        )
+    text = " ".join(str(said).split())
+    try:
+        low, high = _ends(text, kinds[name], units)
+    except ModelError as error:
+        raise ModelError(f"limit of {name}: {error.what}", error.remedy, ("limits", name)) from None
+    if not low < high:
+        raise ModelError(f"limit of {name}: {text!r} leaves nothing between", FORMS, ("limits", name))
+    return Limit(name, low, high, text)
+
+
+def _ends(text: str, kind: str, units: Units) -> tuple[float, float]:
+    if found := BETWEEN.fullmatch(text):
+        low, first, high, last = found.groups()
+        a = read_quantity(f"{low} {first or last}".strip(), kind, units)
+        return a, read_quantity(f"{high} {last or first}".strip(), kind, units)
+    sign = re.match(r"<=?|>=?|≤|≥", text)
+    if sign is None:
+        raise ModelError(f"{quote_value(text)} is no limit", FORMS)
+    value = read_quantity(text[sign.end() :].strip(), kind, units)
+    return (-math.inf, value) if sign[0] in ("<", "<=", "≤") else (value, math.inf)

@@ -1,0 +1,195 @@
+"""Designs by their number: each follows from the seed, the path and its number alone.
+
+So any part of them can be made by anybody in any order, with the same bits; nothing is remembered between designs.
+Random numbers are Philox's, addressed by counter, a row of its own for each path.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import prod
+from typing import Any
+
+import numpy as np
+
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.studies.spreads import Spread
+from dalembert.wording import closest
+
+DRAWS = ("random", "sobol", "latin", "factorial", "table")
+MOST = 10**12
+"""Designs of one study."""
+BITS = 30
+"""Of a Sobol number; there are two to this power."""
+LOW = 16
+"""Bits of a Sobol point's number that are looked up in one table."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Which designs there are: values (design, number) in SI by the number of the design, from 0."""
+
+    paths: tuple[str, ...]
+    spreads: tuple[Spread, ...]
+    draw: str = "random"
+    designs: int = 0
+    seed: int = 0
+    table: Array | None = field(default=None, repr=False)
+    mixing: Array | None = field(default=None, repr=False)
+    """Of correlated numbers the lower triangle that makes their normal scores from independent ones."""
+
+    def __post_init__(self) -> None:
+        if self.draw not in DRAWS:
+            raise ModelError(f"there is no way to draw {self.draw!r}", closest(self.draw, list(DRAWS)))
+        if self.draw == "factorial" and any(s.kind != "levels" for s in self.spreads):
+            k = next(k for k, s in enumerate(self.spreads) if s.kind != "levels")
+            what = f"{self.paths[k]}: a factorial needs levels"
+            raise ModelError(what, "write a list, or 70..90 N in 5", (self.paths[k],))
+        most = 2**BITS if self.draw == "sobol" else MOST
+        if not 1 <= self.count <= most:
+            more = "; more can be drawn at random" if self.draw == "sobol" else ""
+            raise ModelError(
+                f"{self.count} designs are asked for", f"ask for 1 to {most}{more}", ("designs",)
+            )
+
+    @property
+    def count(self) -> int:
+        """How many designs."""
+        if self.draw == "factorial":
+            return prod(len(s.levels) for s in self.spreads)
+        return self.designs if self.table is None else len(self.table)
+
+    @property
+    def extendable(self) -> bool:
+        """Whether more designs leave those that there are as they were."""
+        return self.draw in ("random", "sobol")
+
+    def values(self, start: int, stop: int) -> Array:
+        """Designs ``start`` to ``stop``, always the same bits."""
+        if self.table is not None:
+            return np.ascontiguousarray(self.table[start:stop])
+        out = np.empty((stop - start, len(self.paths)))
+        if self.draw == "factorial":
+            place = np.arange(start, stop)
+            for j in range(len(self.paths) - 1, -1, -1):
+                levels = np.asarray(self.spreads[j].levels)
+                place, k = np.divmod(place, len(levels))
+                out[:, j] = levels[k]
+            return out
+        for j, u in enumerate(self._shares(start, stop)):
+            out[:, j] = self.spreads[j].at(u)
+        return out
+
+    def _shares(self, start: int, stop: int) -> Iterator[Array]:
+        """Share of the designs below each number's value, path by path."""
+        rows = self._independent(start, stop)
+        if self.mixing is None:
+            return rows
+        from scipy.special import ndtr, ndtri
+
+        scores = np.stack([ndtri(u) for u in rows])
+        return iter(ndtr(sum_in_order(self.mixing, scores)))
+
+    def _independent(self, start: int, stop: int) -> Iterator[Array]:
+        if self.draw == "sobol":
+            yield from self._sobol(np.arange(start, stop))
+            return
+        for path in self.paths:
+            u = uniforms(self.seed, path, start, stop)
+            if self.draw == "latin":
+                u = (permuted(np.arange(start, stop), self.count, self.seed, path) + u) / self.count
+            yield u
+
+    @cached_property
+    def _sobol(self) -> Sobol:
+        return Sobol(self.seed, len(self.paths), self.count)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in self.__dict__.items() if name != "_sobol"}
+
+
+def sum_in_order(matrix: Array, rows: Array) -> Array:
+    """The product, summed in one order whatever the number of columns: a BLAS sums as it likes."""
+    out = np.zeros_like(rows)
+    for i in range(len(matrix)):
+        for j in range(i + 1):
+            if matrix[i, j]:
+                out[i] += matrix[i, j] * rows[j]
+    return out
+
+
+def _key(seed: int, path: str) -> Array:
+    name = int.from_bytes(hashlib.sha256(path.encode()).digest()[:8], "little")
+    return np.array([seed % 2**64, name], np.uint64)
+
+
+def uniforms(seed: int, path: str, start: int, stop: int) -> Array:
+    """Numbers ``start`` to ``stop`` of the endless row of a seed and a path, between 0 and 1 and never either.
+
+    >>> bool((uniforms(7, "r", 5, 9) == uniforms(7, "r", 0, 100)[5:9]).all())
+    True
+    """
+    first = start // 4  # Philox makes four numbers a count
+    raw = np.random.Philox(key=_key(seed, path), counter=[first, 0, 0, 0]).random_raw(stop - 4 * first)
+    return np.asarray(((raw[start - 4 * first :] >> np.uint64(11)) + 0.5) * 2.0**-53)
+
+
+def permuted(index: Array, count: int, seed: int, path: str) -> Array:
+    """Place of each index in a permutation of ``count`` things: rounds of a Feistel network until inside."""
+    half = np.uint64((max(2, int(count - 1).bit_length()) + 1) // 2)
+    mask = np.uint64((1 << int(half)) - 1)
+    keys = np.random.Philox(key=_key(seed, f"{path} permuted")).random_raw(6)
+
+    def rounds(x: Array) -> Array:
+        left, right = x >> half, x & mask
+        for key in keys:
+            f = (right + key) * np.uint64(0x9E3779B97F4A7C15)
+            f ^= f >> np.uint64(29)
+            f *= np.uint64(0xBF58476D1CE4E5B9)
+            left, right = right, (left ^ f ^ (f >> np.uint64(32))) & mask
+        return np.asarray((left << half) | right)
+
+    x = rounds(np.asarray(index, np.uint64))
+    while (out := x >= np.uint64(count)).any():
+        x[out] = rounds(x[out])
+    return x
+
+
+class Sobol:
+    """Scrambled Sobol points by number: the exclusive or of one direction for each bit of the number's Gray code.
+
+    The directions are those of scipy's points 0, 1, 2, 4, ..., so that all the others are scipy's too.
+    """
+
+    def __init__(self, seed: int, numbers: int, count: int) -> None:
+        from scipy.stats import qmc
+
+        row = qmc.Sobol(numbers, scramble=True, bits=BITS, rng=np.random.default_rng(seed))
+        self.shift, at, directions = self._next(row), 1, list[Array]()
+        for k in range(max(1, int(count - 1).bit_length())):
+            if (1 << k) > at:
+                row.fast_forward((1 << k) - at)
+            point, at = self._next(row), (1 << k) + 1
+            directions.append(point ^ self.shift ^ (directions[-1] if k else np.uint64(0)))
+        self.directions = np.array(directions, np.uint64)  # (bit, number)
+        table = np.zeros((numbers, 1), np.uint64)
+        for v in self.directions[:LOW]:
+            table = np.concatenate([table, table ^ v[:, None]], axis=1)
+        self.table = table
+
+    @staticmethod
+    def _next(row: Any) -> Array:
+        return np.asarray(row.random(1)[0] * 2.0**BITS, np.uint64)
+
+    def __call__(self, index: Array) -> Iterator[Array]:
+        gray = index ^ (index >> 1)
+        low, high = gray & ((1 << LOW) - 1), gray >> LOW
+        for table, shift, directions in zip(self.table, self.shift, self.directions.T, strict=True):
+            x = table[low % len(table)] ^ shift
+            for k, direction in enumerate(directions[LOW:]):
+                x ^= np.where((high >> k) & 1, direction, np.uint64(0))
+            yield (x + 0.5) * 2.0**-BITS

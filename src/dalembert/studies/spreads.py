@@ -1,0 +1,146 @@
+"""How one number varies from design to design: a distribution or levels, from the words of a study."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.units import NUMBER
+from dalembert.wording import quote_value
+
+CUT = 3.0
+"""A tolerance is so many standard deviations: a normal distribution that ends there."""
+MOST = 1_000_000
+"""Levels that one number may have."""
+FORMS = "write '± 0.05 mm', 'normal 2 %', 'uniform ± 5 %', '70..90 N', '70..90 N in 5' or a list, [70 N, 80 N, 90 N]"
+RANGE = re.compile(rf"({NUMBER})\s*(.*?)\s*\.\.\s*({NUMBER})\s*(.*?)(?:\s+in\s+(\d+))?")
+PLUS_MINUS = re.compile(r"±|\+/?-")
+
+
+@dataclass(frozen=True)
+class Spread:
+    """One number of a design, SI.
+
+    kind: ``tolerance`` (normal of mean a, cut at a ± b, where b is three standard deviations), ``normal`` (mean a,
+    standard deviation b), ``uniform`` from a to b, or ``levels``, which are equally likely.
+    """
+
+    kind: str
+    a: float = 0.0
+    b: float = 0.0
+    levels: tuple[float, ...] = ()
+
+    def at(self, u: Array) -> Array:
+        """The value below which the share u (0 to 1) of the designs lies."""
+        from scipy.special import ndtr, ndtri
+
+        if self.kind == "uniform":
+            return np.asarray(self.a + u * (self.b - self.a))
+        if self.kind == "normal":
+            return np.asarray(self.a + self.b * ndtri(u))
+        if self.kind == "tolerance":
+            low = ndtr(-CUT)
+            return np.asarray(self.a + self.b / CUT * ndtri(low + u * (1 - 2 * low)))
+        place = np.minimum((u * len(self.levels)).astype(int), len(self.levels) - 1)
+        return np.asarray(np.asarray(self.levels)[place])
+
+    @property
+    def sigma(self) -> float:
+        """Standard deviation."""
+        if self.kind == "uniform":
+            return (self.b - self.a) / math.sqrt(12)
+        if self.kind == "normal":
+            return self.b
+        if self.kind == "levels":
+            return float(np.std(self.levels))
+        density = math.exp(-CUT * CUT / 2) / math.sqrt(2 * math.pi)
+        return self.b / CUT * math.sqrt(1 - 2 * CUT * density / math.erf(CUT / math.sqrt(2)))
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Least and largest value; of a normal distribution three standard deviations either way."""
+        if self.kind == "uniform":
+            return self.a, self.b
+        if self.kind == "levels":
+            return min(self.levels), max(self.levels)
+        half = CUT * self.b if self.kind == "normal" else self.b
+        return self.a - half, self.a + half
+
+
+def read_spread(
+    given: object, nominal: float, si: Callable[[object], float], limits: tuple[float, float] | None = None
+) -> Spread:
+    """The spread that a text or a list says about a number that is ``nominal``; ``si`` reads a quantity.
+
+    limits: what the word ``range`` means, the range stated with a parameter.
+
+    >>> read_spread("± 5 %", 20.0, float)
+    Spread(kind='tolerance', a=20.0, b=1.0, levels=())
+    >>> read_spread("70..90 in 3", 80.0, float).levels
+    (70.0, 80.0, 90.0)
+    """
+    if isinstance(given, Spread):
+        return given
+    if isinstance(given, (list, tuple, np.ndarray)):
+        return _levels(given, si)
+    text = " ".join(str(given).replace("\u2212", "-").split()) if isinstance(given, str) else ""
+    if text == "range":
+        if limits is None:
+            raise ModelError("it states no range", "only a parameter with range: [LOW, HIGH] does; " + FORMS)
+        return Spread("uniform", *limits)
+    if found := RANGE.fullmatch(text):
+        return _range(found, si)
+    kind, rest = "tolerance", text
+    for word in ("uniform", "normal"):
+        if text.startswith(word):
+            kind, rest = word, text.removeprefix(word).strip()
+    sign = PLUS_MINUS.match(rest)
+    if not rest or (kind != "normal" and not sign) or (kind == "normal" and sign):
+        raise ModelError(f"{quote_value(given)} says no spread", FORMS)
+    half = _size(rest[sign.end() :] if sign else rest, nominal, si)
+    return (
+        Spread("uniform", nominal - half, nominal + half)
+        if kind == "uniform"
+        else Spread(kind, nominal, half)
+    )
+
+
+def _size(text: str, nominal: float, si: Callable[[object], float]) -> float:
+    """A tolerance or standard deviation, of which a percentage is one of the nominal value."""
+    text = text.strip()
+    percent = re.fullmatch(rf"({NUMBER})\s*%", text)
+    found = abs(nominal) * float(percent[1]) / 100 if percent else si(text)
+    if percent and nominal == 0 and float(percent[1]):
+        raise ModelError(f"{text} of a number that is 0 is nothing", "give it with a unit, as ± 0.05 mm")
+    if not found > 0:
+        raise ModelError(f"a tolerance of {quote_value(text)} is not positive", "give one above zero")
+    return found
+
+
+def _range(found: re.Match[str], si: Callable[[object], float]) -> Spread:
+    low, first, high, last, count = found.groups()
+    if first and last and first != last:
+        raise ModelError(f"the range begins in {first} and ends in {last}", "write one unit")
+    a, b = si(f"{low} {first or last}".strip()), si(f"{high} {last or first}".strip())
+    if not a < b:
+        raise ModelError(f"the range from {low} to {high} is empty", "write the smaller end first: 70..90 N")
+    if count is None:
+        return Spread("uniform", a, b)
+    if not 2 <= int(count) <= MOST:
+        raise ModelError(f"{count} levels are asked for", f"ask for 2 to {MOST}")
+    return Spread("levels", levels=tuple(np.linspace(a, b, int(count)).tolist()))
+
+
+def _levels(given: object, si: Callable[[object], float]) -> Spread:
+    found = tuple(si(value) for value in list(given))  # type: ignore[call-overload]
+    if not found or len(found) > MOST:
+        raise ModelError(f"a list of {len(found)} values says no levels", f"give 1 to {MOST}")
+    if len(set(found)) < len(found):
+        raise ModelError("a value stands twice in the list", "leave one of them out")
+    return Spread("levels", levels=found)

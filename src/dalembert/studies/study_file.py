@@ -1,0 +1,245 @@
+"""study.yaml: a study beside its model file, in the words and units of that file."""
+
+from __future__ import annotations
+
+import csv
+import os
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from dalembert.arrays import Tree
+from dalembert.errors import ModelError
+from dalembert.model import Mechanism, load
+from dalembert.model.files.model_files import read_file
+from dalembert.model.part import check_keys
+from dalembert.studies.design_study import Study, study
+from dalembert.studies.sampling import DRAWS
+from dalembert.units import NUMBER
+from dalembert.wording import closest, quote_value
+
+KEYS = {
+    "study": "version of this format, 1",
+    "model": "the model file, beside this file",
+    "title": "what the study is",
+    "vary": "path or parameter -> its spread",
+    "outputs": "names of quantities, as effort.O2",
+    "reduce": "over the positions: peak, mean, rms, envelope, argpeak, norm8, or none",
+    "designs": "how many",
+    "draw": "random, sobol, latin or factorial",
+    "table": "a .csv file of designs in place of designs and draw: a column a path, its head `path [unit]`",
+    "seed": "a whole number that draws the same designs again",
+    "limits": "output -> what it has to keep, as < 45 N*m",
+    "correlation": "'path, path' -> correlation of two numbers",
+    "static": "true leaves inertia out",
+    "positions": "number of positions in place of the file's",
+    "keep": "true stores the drawn numbers too",
+}
+LARGEST = 50_000_000
+"""Bytes of a table of designs."""
+
+
+def load_study(path: str | os.PathLike[str]) -> Study:
+    """The study of a file; raises ModelError with file and line."""
+    tree, source = read_file(path)
+    try:
+        if not isinstance(tree, Mapping):
+            raise ModelError(
+                f"{quote_value(tree)} stands where a mapping is needed", "write model: ... and vary: ..."
+            )
+        return _study(tree, Path(path).parent)
+    except ModelError as error:
+        raise error.at_source(source) from None
+
+
+def _study(tree: Mapping[str, Any], folder: Path) -> Study:
+    if "links" in tree:
+        raise ModelError("this is a model file", "a study names it: model: FILE", ("links",))
+    check_keys(tree, list(KEYS))
+    if tree.get("study", 1) != 1 or isinstance(tree.get("study"), bool):
+        raise ModelError(
+            f"{quote_value(tree['study'])} is no version of the format", "write study: 1", ("study",)
+        )
+    mechanism = _model(tree, folder)
+    options = _options(tree)
+    vary: Any = _texts(_mapping(tree, "vary", "stroke: ± 0.1 mm")) if "vary" in tree else {}
+    table = tree.get("table")
+    if table is not None:
+        for key in ("designs", "draw", "seed"):
+            if key in tree:
+                raise ModelError(
+                    f"table and {key} are both given", f"leave {key} out: the table is the designs", (key,)
+                )
+        if vary:
+            raise ModelError(
+                "table and vary are both given",
+                "leave vary out: the table's heads say what varies",
+                ("vary",),
+            )
+        options["draw"] = _table(folder / str(table))
+    elif "vary" not in tree:
+        raise ModelError("the key 'vary' is missing", "write vary: {stroke: ± 0.1 mm}", ())
+    elif "designs" not in tree and tree.get("draw") != "factorial":
+        raise ModelError("the key 'designs' is missing", "write designs: 10000", ())
+    try:
+        return study(mechanism, vary, **options)
+    except ModelError as error:
+        raise _placed(error, tree) from None
+
+
+def _placed(error: ModelError, tree: Mapping[str, Any]) -> ModelError:
+    """The error at the key of the study that it is about."""
+    if error.file or (error.path[:1] and error.path[0] in tree):
+        return error
+    place: tuple[str | int, ...] = ()
+    outputs = tree.get("outputs")
+    for k, name in enumerate(outputs if isinstance(outputs, list) else [outputs]):
+        if name is not None and (repr(name) in error.what or str(name) in error.what):
+            place = ("outputs", k) if isinstance(outputs, list) else ("outputs",)
+    if not place:
+        words = {
+            "reduc": "reduce",
+            "designs": "designs",
+            "factorial": "draw",
+            "draw": "draw",
+            "position": "positions",
+        }
+        place = next(((key,) for word, key in words.items() if word in error.what and key in tree), ())
+    return ModelError(error.what, error.remedy, place or ("vary",) * ("vary" in tree))
+
+
+def _model(tree: Mapping[str, Any], folder: Path) -> Mechanism:
+    name = tree.get("model")
+    if not isinstance(name, str) or not name:
+        raise ModelError(
+            "the study names no model file", "write model: pump.yaml", ("model",) * ("model" in tree)
+        )
+    path = folder / name
+    if not path.is_file():
+        raise ModelError(
+            f"there is no model file {path}", "name one, from the folder of this file", ("model",)
+        )
+    return load(path)
+
+
+def _options(tree: Mapping[str, Any]) -> Tree:
+    """The arguments of `study` that stand in a file."""
+    out: Tree = {}
+    outputs = tree.get("outputs")
+    if outputs is not None:
+        names = [outputs] if isinstance(outputs, str) else outputs
+        if not isinstance(names, list) or not names or not all(isinstance(n, str) for n in names):
+            raise ModelError(
+                f"outputs are {quote_value(outputs)}", "write outputs: [effort.O2, magnitude.A]", ("outputs",)
+            )
+        out["outputs"] = names
+    if "reduce" in tree:
+        reduce = tree["reduce"]
+        if reduce is not None and not isinstance(reduce, str):
+            raise ModelError(
+                f"{quote_value(reduce)} is no reduction", "write reduce: peak, or none", ("reduce",)
+            )
+        out["reduce"] = None if reduce in (None, "none") else reduce
+    for key in ("designs", "seed", "positions"):
+        if key in tree:
+            out[key] = _whole(tree[key], key)
+    if "draw" in tree:
+        draw = tree["draw"]
+        names = [d for d in DRAWS if d != "table"]
+        if draw not in names:
+            raise ModelError(
+                f"there is no way to draw {quote_value(draw)}", closest(str(draw), names), ("draw",)
+            )
+        out["draw"] = draw
+    for key in ("static", "keep"):
+        if key in tree:
+            if not isinstance(tree[key], bool):
+                raise ModelError(f"{key} is {quote_value(tree[key])}", f"write {key}: true, or false", (key,))
+            out[key] = tree[key]
+    if "limits" in tree:
+        out["limits"] = _mapping(tree, "limits", "effort.O2: < 45 N*m")
+    if "correlation" in tree:
+        out["correlation"] = dict(map(_pair, _mapping(tree, "correlation", "'stroke, bore': 0.5").items()))
+    return out
+
+
+def _pair(item: tuple[Any, Any]) -> tuple[tuple[str, str], Any]:
+    paths = [path.strip() for path in str(item[0]).split(",")]
+    if len(paths) != 2:
+        raise ModelError(
+            f"{quote_value(item[0])} names no two paths",
+            "write 'stroke, bore': 0.5",
+            ("correlation", item[0]),
+        )
+    return (paths[0], paths[1]), item[1]
+
+
+def _whole(value: Any, key: str) -> int:
+    least = 0 if key == "seed" else 1
+    number = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < 1e18
+    if number and value == int(value) >= least:
+        return int(value)
+    what = f"{key} is {quote_value(value)}, which is no whole number of {least} or more"
+    raise ModelError(what, f"write {key}: 1000", (key,))
+
+
+def _mapping(tree: Mapping[str, Any], key: str, example: str) -> dict[str, Any]:
+    value = tree[key]
+    if not isinstance(value, Mapping) or not value:
+        raise ModelError(
+            f"{key} is {quote_value(value)}, not a mapping", f"write {key}: {{{example}}}", (key,)
+        )
+    return dict(value)
+
+
+def _texts(vary: Mapping[str, Any]) -> dict[str, object]:
+    """Spreads with the bare numbers of lists as texts, which the file's units count for."""
+
+    def text(value: Any) -> Any:
+        return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
+
+    return {p: [text(x) for x in said] if isinstance(said, list) else text(said) for p, said in vary.items()}
+
+
+def _table(path: Path) -> dict[str, list[str]]:
+    """Path -> values of a CSV file of designs, each with the unit of its column."""
+    try:
+        if path.stat().st_size > LARGEST:
+            raise ModelError(f"{path} is larger than {LARGEST // 10**6} MB", "leave designs out", ("table",))
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        said = getattr(error, "strerror", None) or "it is not UTF-8"
+        raise ModelError(f"cannot read {path}: {str(said).lower()}", "name a .csv file", ("table",)) from None
+    rows = [(k, row) for k, row in enumerate(csv.reader(lines), 1) if any(cell.strip() for cell in row)]
+    if len(rows) < 2:
+        raise ModelError(
+            "the table has no designs", "write a head, `stroke [mm], bore [mm]`, and rows", (), str(path), 1
+        )
+    heads = [re.fullmatch(r"\s*([^\[\]]*?)\s*(?:\[(.*)\])?\s*", head) for head in rows[0][1]]
+    if not all(h and h[1] for h in heads) or len({h[1] for h in heads if h}) < len(heads):
+        raise ModelError(
+            "a head is empty, or stands twice", "write `path [unit]` once each", (), str(path), rows[0][0]
+        )
+    out: dict[str, list[str]] = {h[1]: [] for h in heads if h}
+    for line, row in rows[1:]:
+        if len(row) != len(heads):
+            raise ModelError(
+                f"{len(row)} numbers stand below {len(heads)} heads",
+                "give one below each",
+                (),
+                str(path),
+                line,
+            )
+        for head, cell in zip(heads, row, strict=True):
+            assert head is not None
+            if not re.fullmatch(NUMBER, cell.strip()):
+                raise ModelError(
+                    f"{quote_value(cell)} is no number",
+                    "write one, its unit in the head",
+                    (),
+                    str(path),
+                    line,
+                )
+            out[head[1]].append(f"{cell.strip()} {head[2] or ''}".strip())
+    return out

@@ -1,0 +1,184 @@
+"""What the designs of a study say together: counts by status, percentiles, worst and best, what keeps its limits."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from dalembert.analysis.batch.batch_result import CODES, SOLVED, among, first_mark
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.errors import STATUSES, ModelError
+from dalembert.studies.design_study import Study, study_of_tree
+from dalembert.studies.limits import Limit, read_limit
+from dalembert.studies.store import Store
+from dalembert.wording import closest
+
+if TYPE_CHECKING:
+    import xarray
+
+PERCENTILES = (0.1, 5.0, 50.0, 95.0, 99.9)
+
+
+class Failure(NamedTuple):
+    """Designs that are not solved for one reason: status, how many, the first of them, the sentence."""
+
+    status: str
+    designs: int
+    first: tuple[int, ...]
+    sentence: str
+
+
+class StudyResult:
+    """Answers of a study by output, SI, NaN where there is none: ``r["effort.O2"]`` (design, ...).
+
+    Of a store that is not finished the designs that are there; `done` says which.
+    """
+
+    def __init__(self, study: Study, arrays: Mapping[str, Any], ledger: Ints, block: int) -> None:
+        self.study, self.arrays, self.ledger, self.block = study, arrays, ledger, block
+
+    @classmethod
+    def open(cls, path: str | os.PathLike[str]) -> StudyResult:
+        """The results of a store, finished or not; the study is that of its own attributes."""
+        store = Store(path)
+        found = store.open("r")
+        study = stored_study(store, found)
+        return cls(study, store.arrays, store.ledger(), int(found["block"]))
+
+    def __repr__(self) -> str:
+        return f"<StudyResult: {int(self.done.sum()):,} of {self.study.count:,} designs, {self.counts()}>"
+
+    @property
+    def done(self) -> Flags:
+        """Which designs are there."""
+        return np.repeat(self.ledger[:, 0] > 0, self.block)[: self.study.count]
+
+    def __getitem__(self, name: str) -> Array:
+        if name not in self.arrays or name == "ledger":
+            raise ModelError(f"the study has not kept {name!r}", closest(name, list(self.study.outputs)))
+        values = np.array(self.arrays[name][: self.study.count])
+        values[~self.done] = 255 if values.dtype == np.uint8 else np.nan
+        return values
+
+    __iter__ = None  # a result is no sequence
+
+    @property
+    def status(self) -> Array:
+        """Code of each design; of one with several positions that of the first that is not solved."""
+        names = np.array([*CODES, *[""] * (256 - len(CODES))], object)
+        return names[self._marks]
+
+    @property
+    def _marks(self) -> Array:
+        marks = self["status"]
+        return marks if marks.ndim == 1 else np.where(marks[:, 0] == 255, 255, first_mark(marks))
+
+    @property
+    def ok(self) -> Flags:
+        """Which designs are solved at all positions."""
+        return among(self._marks, SOLVED)
+
+    def counts(self) -> dict[str, int]:
+        """Designs by status, from the ledger alone."""
+        total = self.ledger[:, 2:].sum(axis=0)
+        return {name: int(n) for name, n in zip(CODES, total, strict=False) if n}
+
+    def failed(self, some: int = 5) -> list[Failure]:
+        """Designs that are not solved, by status, with the numbers of the first few."""
+        marks, out = self._marks, []
+        for mark in np.unique(marks[~among(marks, (*SOLVED, 255))]):
+            where = np.flatnonzero(marks == mark)
+            code = CODES[mark]
+            sentence = STATUSES[code].sentence if code in STATUSES else "Its values are refused."
+            out.append(Failure(code, len(where), tuple(where[:some].tolist()), sentence))
+        return out
+
+    def values(self, name: str) -> Array:
+        """The finite numbers of an output of one number a design, in the order of the designs."""
+        found = self._single(name)
+        return found[np.isfinite(found)]
+
+    def _single(self, name: str) -> Array:
+        found = self[name]
+        if found.ndim > 1:
+            raise ModelError(
+                f"{name} has {found[0].size} numbers a design",
+                'ask for one: reduce="peak" of a scalar, as magnitude.A',
+            )
+        return found
+
+    def worst(self, name: str) -> int:
+        """Number of the design with the greatest value."""
+        return self._extreme(name, np.nanargmax)
+
+    def best(self, name: str) -> int:
+        """Number of the design with the least value."""
+        return self._extreme(name, np.nanargmin)
+
+    def _extreme(self, name: str, where: Any) -> int:
+        found = self._single(name)
+        if not np.isfinite(found).any():
+            raise ModelError(f"no design has a value of {name}", "see failed()")
+        return int(where(found))
+
+    def percentiles(self, name: str, of: tuple[float, ...] = PERCENTILES) -> dict[float, float]:
+        """Percent -> value that so many percent of the solved designs do not exceed."""
+        values = self.values(name)
+        found = np.percentile(values, of) if len(values) else np.full(len(of), np.nan)
+        return dict(zip(of, found.tolist(), strict=True))
+
+    def histogram(self, name: str, bins: int = 40) -> tuple[Ints, Array]:
+        """Designs in each of some equal intervals, and the intervals' ends."""
+        counts, ends = np.histogram(self.values(name), bins)
+        return counts, ends
+
+    def share(self, output: str, limit: str) -> float:
+        """Share of the designs that keep a limit, as ``"< 45 N*m"``; a failed design keeps none."""
+        return self._share(read_limit(output, limit, self.kinds, self.study.mechanism.units))
+
+    def _share(self, limit: Limit) -> float:
+        return float(limit.kept(self[limit.output])[self.done].mean())
+
+    def shares(self) -> dict[str, float]:
+        """The same for the limits of the study, and under "all" of the designs that keep them all together."""
+        done, limits = self.done, self.study.limits
+        kept = [limit.kept(self[limit.output])[done] for limit in limits]
+        found = {
+            f"{limit.output} {limit.text}": float(k.mean()) for limit, k in zip(limits, kept, strict=True)
+        }
+        return found | ({"all": float(np.logical_and.reduce(kept).mean())} if len(kept) > 1 else {})
+
+    @property
+    def kinds(self) -> dict[str, str]:
+        """What each output is, of `units.KINDS`."""
+        return self.study.kinds
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Outputs over the designs with their numbers as coordinates, SI."""
+        from dalembert.saving import check_installed
+        from dalembert.units import KINDS
+
+        check_installed("xarray", "a dataset")
+        import xarray
+
+        values = self.study.plan.values(0, self.study.count)
+        data: dict[str, Any] = {"status": ("design", self.status.astype(str))}
+        for name in self.study.outputs:
+            array = self[name]
+            rest = [f"{name} axis {k}" for k in range(1, array.ndim)]
+            data[name] = (("design", *rest), array, {"units": KINDS[self.kinds[name]].si})
+        names = {path: ("design", values[:, j]) for j, path in enumerate(self.study.paths)}
+        return xarray.Dataset(data, coords=names, attrs={"title": self.study.mechanism.title or ""})
+
+
+def stored_study(store: Store, found: Mapping[str, Any]) -> Study:
+    """The study that a store's attributes describe, of as many designs as it has."""
+    from dalembert.model import loads
+
+    m = loads(found["model"], name=f"the model in {store.path}")
+    table = np.asarray(store.group["table"][:]) if "table" in store.group else None
+    tree = {**found["study"], "designs": found["designs"]}
+    return study_of_tree(m, tree, table)

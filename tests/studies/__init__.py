@@ -1,0 +1,1 @@
+"""Studies: many designs drawn, stored, resumed."""
