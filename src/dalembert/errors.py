@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import NamedTuple, Protocol
 
 
@@ -42,6 +43,21 @@ class ModelError(DalembertError, ValueError):
         if source is None or self.file:
             return self
         return ModelError(self.what, self.remedy, self.path, source.name, source.line(self.path))
+
+
+@contextmanager
+def errors_at(*path: str | int, file: str = "", line: int = 0) -> Iterator[None]:
+    """Errors of a description in here are said with the keys, and if there is one the file and line, that they are at.
+
+    >>> with errors_at("answers", 2):
+    ...     raise ModelError("this is wrong")
+    Traceback (most recent call last):
+    dalembert.errors.ModelError: this is wrong
+    """
+    try:
+        yield
+    except ModelError as e:
+        raise ModelError(e.what, e.remedy, (*path, *e.path), file or e.file, line or e.line) from None
 
 
 class AnalysisError(DalembertError):

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from dalembert.arrays import Tree
-from dalembert.errors import Locator, ModelError
+from dalembert.errors import Locator, ModelError, errors_at
 from dalembert.grading.quantities import QUANTITIES, WHOLE, WORDS
 from dalembert.grading.tolerance import percent
 from dalembert.wording import closest, quote_value
@@ -48,23 +47,24 @@ def read_sheet(tree: object, source: Locator | None = None) -> Sheet:
     'magnitude'
     """
     try:
-        about = {key: tree.get(key) for key in ABOUT} if isinstance(tree, Mapping) else {}
-        if about.get("tolerance") is not None:
-            percent(about["tolerance"])
-        items = list(sheet_items(tree))
-        answers: tuple[Answer, ...] = tuple(at_path(path, partial(answer_of, item)) for path, item in items)
+        about = about_sheet(tree)
+        if isinstance(tree, Mapping) and tree.get("tolerance") is not None:
+            percent(tree["tolerance"])
+        items, answers = list(sheet_items(tree)), []
+        for path, item in items:
+            with errors_at(*path):
+                answers.append(answer_of(item))
     except ModelError as error:
         raise error.at_source(source) from None
     lines = tuple(source.line(path) for path, _ in items) if source else ()
-    words = {key: "" if value is None else str(value) for key, value in about.items()}
-    return Sheet(
-        answers,
-        lines,
-        words.get("tolerance") or None,
-        words.get("student", ""),
-        words.get("variant", ""),
-        source.name if source else "",
-    )
+    name, tolerance = source.name if source else "", about["tolerance"] or None
+    return Sheet(tuple(answers), lines, tolerance, about["student"], about["variant"], name)
+
+
+def about_sheet(tree: object) -> dict[str, str]:
+    """What a sheet says beside its figures; empty where it does not."""
+    found = {key: tree.get(key) for key in ABOUT} if isinstance(tree, Mapping) else dict.fromkeys(ABOUT)
+    return {key: "" if value is None else str(value) for key, value in found.items()}
 
 
 def figures(tree: object) -> list[Answer]:
@@ -99,14 +99,6 @@ def answer_of(item: Tree) -> Answer:
         said = f"there is no quantity {item.get('quantity')!r}"
         raise ModelError(said, closest(str(item.get("quantity")), [*KNOWN], 40))
     return Answer(**item)
-
-
-def at_path(path: Path, make: Callable[[], Any]) -> Any:
-    """What is made; what is wrong with it is said with its path."""
-    try:
-        return make()
-    except ModelError as error:
-        raise ModelError(error.what, error.remedy, (*path, *error.path), error.file, error.line) from None
 
 
 VECTORS = ("reaction", "center", "velocity", "position", "point")

@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.arrays import Array
-from dalembert.errors import STATUSES, ModelError
+from dalembert.errors import ModelError
 from dalembert.grading.file_answers import (
     computed_text,
     describe_answer,
     position_of,
     read,
+    reason_at,
     sides_of,
     target,
     value_text,
@@ -70,11 +71,9 @@ class Figure:
     @cached_property
     def off(self) -> float:
         """Relative difference from the nearest right value; 0 within an interval."""
-        return (
-            0.0
-            if self.met and self.interval
-            else min((self.close.off(v) for v in self.right), default=np.nan)
-        )
+        if self.met and self.interval:
+            return 0.0
+        return min((self.close.off(v) for v in self.right), default=np.nan)
 
     @property
     def impossible(self) -> str:
@@ -140,8 +139,7 @@ def _kind_of(value: object) -> str:
 
 def why(result: Result, position: int) -> str:
     """Why there is no number at a position."""
-    said = result.reasons[position] or STATUSES[result.status[position]].sentence
-    return "it depends on the elasticity of the links" if result.status[position] == "ok" else said
+    return reason_at(result, position) or "it depends on the elasticity of the links"
 
 
 def values_of(result: Result, answer: Answer, position: int) -> tuple[tuple[Array, ...], bool]:

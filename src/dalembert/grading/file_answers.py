@@ -12,7 +12,7 @@ import numpy as np
 
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.arrays import Array
-from dalembert.errors import STATUSES, ModelError
+from dalembert.errors import STATUSES, ModelError, errors_at
 from dalembert.grading.quantities import QUANTITIES, WHOLE, WORDS, Series, component, size
 from dalembert.grading.tolerance import Target, radians
 from dalembert.unit_names import unit
@@ -79,9 +79,10 @@ def _row(result: Result, answer: Answer, number: int, case: str) -> Row:
     source = result.mechanism.source
     path = ("answers", number)
     try:
-        row = _compare(result, answer, case)
+        with errors_at(*path):
+            row = _compare(result, answer, case)
     except ModelError as error:
-        raise ModelError(error.what, error.remedy, (*path, *error.path)).at_source(source) from None
+        raise error.at_source(source) from None
     return row._replace(line=source.line(path) if source else 0)
 
 
@@ -90,7 +91,7 @@ def _compare(result: Result, answer: Answer, case: str) -> Row:
         return _word(answer, case, WHOLE[answer.quantity](result), "")
     if answer.quantity in WORDS:
         position = position_of(result, answer)
-        return _word(answer, case, WORDS[answer.quantity](result, position), _reason(result, position))
+        return _word(answer, case, WORDS[answer.quantity](result, position), reason_at(result, position))
     if answer.quantity not in QUANTITIES:
         known = [*QUANTITIES, *WORDS, *WHOLE]
         raise ModelError(
@@ -137,27 +138,18 @@ def _at_text(at: object) -> str:
 
 
 def _word(answer: Answer, case: str, found: str | int | None, problem: str) -> Row:
-    ok = found is not None and str(found) == _plain(answer.value)
-    computed = "-" if found is None else str(found)
-    return Row(
-        case,
-        describe_answer(answer),
-        _plain(answer.value),
-        "",
-        computed,
-        "",
-        "",
-        ok,
-        answer.why or "",
-        "" if ok else problem,
-    )
+    published, computed = _plain(answer.value), "-" if found is None else str(found)
+    ok = computed == published
+    why, said = answer.why or "", "" if ok else problem
+    return Row(case, describe_answer(answer), published, "", computed, "", "", ok, why, said)
 
 
 def _plain(value: object) -> str:
     return str(int(value)) if isinstance(value, float) and value.is_integer() else str(value)
 
 
-def _reason(result: Result, position: int) -> str:
+def reason_at(result: Result, position: int) -> str:
+    """Why a position is not solved; empty where it is."""
     if result.status[position] == "ok":
         return ""
     return result.reasons[position] or STATUSES[result.status[position]].sentence
@@ -200,10 +192,8 @@ def _position_name(result: Result, at: object) -> int:
         )
     drive = result.drives[0]
     kind = drive_kinds(result, drive)["position"]
-    try:
+    with errors_at("at"):
         wanted = quantity(at, kind, file_units(result.mechanism.units))
-    except ModelError as error:
-        raise ModelError(error.what, error.remedy, ("at",)) from None
     away = np.abs(_apart(result.drive_position(drive), wanted, kind))
     if not away.min() < SAME_POSITION:
         raise ModelError(
@@ -228,14 +218,12 @@ def target(value: object, series: Series, units: Units, key: str) -> Target:
 
     rules = Reading(units, dimension=series.values.shape[-1])
     depth = series.values.ndim - 1
-    try:
+    with errors_at(key):
         if depth == 2:
             rows = check_vector(value, rules, "")
             read: Any = [at_item(k, vector, row, series.kind, rules) for k, row in enumerate(rows)]
         else:
             read = vector(value, series.kind, rules) if depth else quantity(value, series.kind, units)
-    except ModelError as error:
-        raise ModelError(error.what, error.remedy, (key, *error.path)) from None
     polar = depth == 1 and isinstance(value, str)
     return Target(np.array(read, dtype=float), _unit_of(value, series.kind, units), polar)
 
@@ -258,21 +246,14 @@ def _difference(result: Result, answer: Answer, series: Series, case: str) -> Ro
     scale = _scale((exact or published).value, series)
     away = _away(found, published.value, series.kind)
     allowed, said = _tolerance(answer.tolerance, scale, series.kind, units, TOLERANCE, "tolerance")
-    near = away <= allowed
     met = exact is None or _meets_exact(found, exact, answer, series, units)
-    problem = _reason(result, position) or ("" if met else "The exact value is missed.")
-    return Row(
-        case,
-        describe_answer(answer),
-        value_text(answer.value),
-        "" if exact is None else _shorten(value_text(answer.exact)),
-        computed_text(found, published, series.kind, units, answer.value),
-        said,
-        _deviation(away, _size(published.value) and scale, series.kind, published.unit),
-        near and met,
-        answer.why or "",
-        "" if near and met else problem,
-    )
+    problem = reason_at(result, position) or ("" if met else "The exact value is missed.")
+    texts = value_text(answer.value), "" if exact is None else _shorten(value_text(answer.exact))
+    computed = computed_text(found, published, series.kind, units, answer.value)
+    off = _deviation(away, _size(published.value) and scale, series.kind, published.unit)
+    ok = away <= allowed and met
+    why, problem = answer.why or "", "" if ok else problem
+    return Row(case, describe_answer(answer), *texts, computed, said, off, ok, why, problem)
 
 
 def _meets_exact(found: Array, exact: Target, answer: Answer, series: Series, units: Units) -> bool:
@@ -309,10 +290,8 @@ def _tolerance(
         return default * scale, f"{default:g}"
     if isinstance(given, str) and given.strip().endswith("%"):
         return _percent(given, key) / 100 * scale, given.strip()
-    try:
+    with errors_at(key):
         return quantity(given, kind, units), value_text(given)
-    except ModelError as error:
-        raise ModelError(error.what, error.remedy, (key,)) from None
 
 
 def _percent(text: str, key: str) -> float:

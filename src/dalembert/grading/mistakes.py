@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
-from dalembert.errors import ModelError
-from dalembert.grading.answer_sheet import Sheet, at_path
+from dalembert.errors import ModelError, errors_at
+from dalembert.grading.answer_sheet import Sheet
 from dalembert.grading.explanation import Explanation, explain
 from dalembert.grading.figure import Figure, figure
 from dalembert.grading.file_answers import describe_answer, position_of, value_text
@@ -64,7 +63,10 @@ class Problem:
         """Verdicts on the figures of one sheet."""
         if tolerance is not None:
             percent(tolerance)
-        found = [at_path((k,), partial(self.compared, a, tolerance)) for k, a in enumerate(answers)]
+        found = []
+        for k, answer in enumerate(answers):
+            with errors_at(k):
+                found.append(self.compared(answer, tolerance))
         some = [f for f in found if isinstance(f, Figure)]
         said = explain(some, self.wrong_problems(some))
         numbers = iter(range(len(some)))

@@ -38,14 +38,12 @@ def _name(answer: Answer, names: Iterable[str], kind: str) -> str:
     return answer.of
 
 
-def _effort(r: Result, a: Answer) -> Series:
-    drive = _name(a, r.drives, "drive")
-    return Series(drive_kinds(r, drive)["effort"], r.effort(drive))
+def _of_drive(number: str, method: str) -> Read:
+    def read(r: Result, a: Answer) -> Series:
+        drive = _name(a, r.drives, "drive")
+        return Series(drive_kinds(r, drive)[number], getattr(r, method)(drive))
 
-
-def _drive(r: Result, a: Answer) -> Series:
-    drive = _name(a, r.drives, "drive")
-    return Series(drive_kinds(r, drive)["position"], r.drive_position(drive))
+    return read
 
 
 def _unknown_load(r: Result, a: Answer) -> Series:
@@ -53,14 +51,14 @@ def _unknown_load(r: Result, a: Answer) -> Series:
     return Series(load_kind(r, load), r.unknown_load(load))
 
 
-def _reaction(r: Result, a: Answer) -> Series:
-    joint = _name(a, r.joints, "joint")
-    return Series("force", r.reaction(joint, _on(r, a, joint), a.axes))
+def _of_joint(kind: str, method: str) -> Read:
+    """What a joint exerts on the link that the answer names, in its axes."""
 
+    def read(r: Result, a: Answer) -> Series:
+        joint = _name(a, r.joints, "joint")
+        return Series(kind, getattr(r, method)(joint, _on(r, a, joint), a.axes))
 
-def _moment(r: Result, a: Answer) -> Series:
-    joint = _name(a, r.joints, "joint")
-    return Series("moment", r.reaction_moment(joint, _on(r, a, joint), a.axes))
+    return read
 
 
 def _on(r: Result, a: Answer, joint: str) -> str | None:
@@ -156,11 +154,11 @@ def _energy_fluctuation(r: Result, a: Answer) -> Series:
 
 
 QUANTITIES: dict[str, Read] = {
-    "effort": _effort,
-    "drive": _drive,
+    "effort": _of_drive("effort", "effort"),
+    "drive": _of_drive("position", "drive_position"),
     "unknown_load": _unknown_load,
-    "reaction": _reaction,
-    "moment": _moment,
+    "reaction": _of_joint("force", "reaction"),
+    "moment": _of_joint("moment", "reaction_moment"),
     "position": _of_link("length", "position"),
     "velocity": _of_link("speed", "velocity"),
     "angle": _of_link("angle", "angle"),

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from dalembert.arrays import Array
-from dalembert.errors import ModelError
+from dalembert.errors import ModelError, errors_at
 from dalembert.unit_names import unit
 from dalembert.units import NUMBER, Units, quantity
 from dalembert.wording import quote_value
@@ -132,10 +132,8 @@ def relative(tolerance: object, size: float, kind: str, units: Units) -> float:
     """
     if isinstance(tolerance, str) and tolerance.strip().endswith("%"):
         return percent(tolerance)
-    try:
+    with errors_at("tolerance"):
         allowed = quantity(tolerance, kind, units)
-    except ModelError as error:
-        raise ModelError(error.what, error.remedy, ("tolerance",)) from None
     return allowed if kind == "angle" else allowed / (size or 1.0)
 
 

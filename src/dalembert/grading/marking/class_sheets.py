@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from dalembert.errors import DalembertError, ModelError
-from dalembert.grading.answer_sheet import ABOUT, named_figure, sheet_items
+from dalembert.grading.answer_sheet import about_sheet, named_figure, sheet_items
 from dalembert.grading.marking.key import cell_value, place
 from dalembert.grading.marking.table_files import KEYS, Row, read_table
 
@@ -67,10 +67,10 @@ def _of_file(path: Path) -> StudentSheet:
     from dalembert.model.files.model_files import read_file
 
     tree, source = read_file(path)
-    about = {key: tree.get(key) for key in ABOUT} if isinstance(tree, dict) else {}
-    words = {key: "" if value is None else str(value) for key, value in about.items()}
-    sheet = StudentSheet(words.get("student") or path.stem, str(path), words.get("variant", ""))
-    sheet.tolerance = words.get("tolerance") or None
+    about = about_sheet(tree)
+    sheet = StudentSheet(
+        about["student"] or path.stem, str(path), about["variant"], about["tolerance"] or None
+    )
     try:
         sheet.given = [Given(item, source.line(at)) for at, item in sheet_items(tree)]
     except ModelError as error:

@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.errors import ModelError
+from dalembert.errors import ModelError, errors_at
 from dalembert.grading.answer_sheet import answer_of
 from dalembert.grading.figure import Figure, figure_of_key
 from dalembert.grading.file_answers import describe_answer, value_text
-from dalembert.grading.marking.table_files import KEYS, Row, read_table, read_text
+from dalembert.grading.marking.table_files import KEYS, Row, read_table
 from dalembert.grading.mistakes import Problem, Verdict, verdict_on_word
 from dalembert.grading.quantities import WHOLE, WORDS
+from dalembert.model.quantities.column_files import file_text
 from dalembert.units import NUMBER
 from dalembert.wording import closest, quote_value
 
@@ -64,14 +65,11 @@ class ExamVariant:
         for asked in self.asked:
             if asked.answer.value is None:
                 continue
-            try:
+            with errors_at(file=file, line=asked.line):
                 found = self.compared(asked, asked.answer.model_copy(update={"tolerance": None}), None)
-                right = found.met if isinstance(found, Figure) else found.right
-                if not right:
+                if not (found.met if isinstance(found, Figure) else found.right):
                     said = f"{describe_answer(asked.answer)} is {value_text(asked.answer.value)} in the key"
                     raise ModelError(f"{said}, and {found.computed} by the model file", "correct one of them")
-            except ModelError as error:
-                raise ModelError(error.what, error.remedy, error.path, file, asked.line) from None
 
 
 class Key:
@@ -115,7 +113,7 @@ def read_key(source: str | Path | Mechanism | Sequence[Mapping[str, Any]], stati
         return _of_rows(read_table(path), path.parent, str(path), static)
     if path.suffix.lower() == ".json":
         try:
-            tree = json.loads(read_text(path))
+            tree = json.loads(file_text(path))
         except (ValueError, RecursionError) as error:
             line = getattr(error, "lineno", 1)
             raise ModelError("the key is no JSON", "write a list of figures", (), str(path), line) from None
@@ -151,7 +149,7 @@ def _of_rows(rows: Sequence[Row], folder: Path, file: str, static: bool) -> Key:
     out: dict[str, ExamVariant] = {}
     models: dict[str, str] = {}
     for row in rows:
-        try:
+        with errors_at(file=file, line=row.line):
             name = row.cells.get("variant", "")
             v = out.setdefault(plain(name), ExamVariant(name, static=static))
             model = row.cells.get("file", models.get(plain(name), ""))
@@ -160,8 +158,6 @@ def _of_rows(rows: Sequence[Row], folder: Path, file: str, static: bool) -> Key:
             if model and v.load is None:
                 v.load = _loader(folder, model)
             v.asked.append(_asked(row, bool(model)))
-        except ModelError as error:
-            raise ModelError(error.what, error.remedy, error.path, file, row.line) from None
     return Key(list(out.values()), file)
 
 

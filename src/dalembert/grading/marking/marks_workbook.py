@@ -17,18 +17,14 @@ def write_workbook(
     """Sheets of marks, figures, mistakes, what could not be read, and the rubric."""
     check_installed("openpyxl", "a workbook")
     with new_file(path, overwrite) as temporary, new_book(temporary) as book:
-        for name, rows in _sheets(students, rubric).items():
+        for name, rows in (
+            ("marks", _marks(students)),
+            ("figures", _figures(students)),
+            ("mistakes", [("mistake", "students"), *named_mistakes(students)]),
+            ("not read", _problems(students)),
+            ("rubric", _rubric(rubric)),
+        ):
             add_sheet(book, name, rows).freeze_panes = "B2"
-
-
-def _sheets(students: Sequence[StudentMarks], rubric: Rubric) -> dict[str, Iterator[Sequence[object]]]:
-    return {
-        "marks": _marks(students),
-        "figures": _figures(students),
-        "mistakes": iter([("mistake", "students"), *named_mistakes(students)]),
-        "not read": _problems(students),
-        "rubric": _rubric(rubric),
-    }
 
 
 def _marks(students: Sequence[StudentMarks]) -> Iterator[Sequence[object]]:

@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from dalembert.errors import ModelError
+from dalembert.model.quantities.column_files import file_text
 
-LARGEST, MOST_ROWS = 10_000_000, 100_000
-"""Bytes and rows of a table."""
+MOST_ROWS = 100_000
+"""Rows of a table."""
 
 
 class Row(NamedTuple):
@@ -23,7 +24,7 @@ class Row(NamedTuple):
 
 def read_table(path: Path) -> list[Row]:
     """The rows of a CSV file, its columns in lower case; `,`, `;` or tabs between them."""
-    text = read_text(path)
+    text = file_text(path)
     first = text.lstrip("\r\n").split("\n", 1)[0]
     between = max(",;\t", key=first.count)
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=between, strict=True)
@@ -61,24 +62,3 @@ KEYS = ("quantity", "of", "on", "by", "at", "extreme", "component", "axes")
 
 COLUMNS = ("student", "variant", "file", *KEYS, "value", "unit", "tolerance", "marks")
 """Columns that are found in whatever case."""
-
-
-def read_text(path: Path) -> str:
-    """The text of a file, UTF-8, of bounded size."""
-    try:
-        if not path.is_file():
-            raise ModelError("it is no file", "name a table of text", (), str(path), 1)
-        with path.open("rb") as file:
-            content = file.read(LARGEST + 1)
-    except OSError as error:
-        said = f"it cannot be read: {(error.strerror or str(error)).lower()}"
-        raise ModelError(said, "check its name and permissions", (), str(path), 1) from None
-    if len(content) > LARGEST:
-        raise ModelError(f"the file has more than {LARGEST} bytes", "divide it", (), str(path), 1)
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = content[: error.start].count(b"\n") + 1
-        raise ModelError(
-            "the file is no text in UTF-8", "save it as CSV, UTF-8", (), str(path), line
-        ) from None

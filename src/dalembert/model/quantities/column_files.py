@@ -41,7 +41,7 @@ def read_columns(file: str, asked: Sequence[str | int], rules: Reading) -> list[
     """The columns asked for, by names in the head or numbers from 1; raises ModelError with file and line."""
     path = find_file(file, rules)
     file = os.path.join(rules.folder, file)
-    text = _text(path, file)
+    text = file_text(path, file)
     rows = [
         (n, line) for n, line in enumerate(text.split("\n"), 1) if line.strip() and line.strip()[0] != "#"
     ]
@@ -84,7 +84,9 @@ def find_file(file: str, rules: Reading) -> Path:
     return found
 
 
-def _text(path: Path, file: str) -> str:
+def file_text(path: Path, file: str = "") -> str:
+    """The text of a file of bounded size; ModelError with ``file``, its path by default, and the line."""
+    file = file or str(path)
     try:
         if not path.is_file():
             raise _error("no ordinary file", "name a text file of columns", file, 1)
