@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dalembert.analysis.methods.inertia_couples import turning
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model import GROUND
@@ -56,14 +57,11 @@ def gyroscopic(r: Result, rotor: str, carrier: str = GROUND) -> Gyroscopic:
             f"{rotor} does not spin in {carrier} everywhere", "drive it, or name another carrier"
         )
     e = relative / size[:, None]
-    m = r.mechanism
-    given = m.inertia(rotor)
-    own = np.array(given if np.ndim(given) == 2 else np.diag(np.broadcast_to(given, 3)), float)
-    turned = r.rotation(rotor) @ own @ np.swapaxes(r.rotation(rotor), 1, 2)
+    own, turned = turning(r, rotor), r.rotation(rotor)
+    axis = (np.swapaxes(turned, 1, 2) @ e[..., None])[..., 0]
+    inertia = np.einsum("pi,ij,pj->p", axis, own.inertia, axis)
     spin = (w * e).sum(axis=1)
     precession = held - (held * e).sum(axis=1)[:, None] * e
-    inertia = np.einsum("pi,pij,pj->p", e, turned, e)
     couple = (inertia * spin)[:, None] * np.cross(precession, e)
-    momentum = np.einsum("pij,pj->pi", turned, w)
-    exact = np.einsum("pij,pj->pi", turned, r.acceleration(rotor)) + np.cross(w, momentum)
+    exact = (turned @ (own.rate + own.gyroscopic)[..., None])[..., 0]
     return Gyroscopic(r, rotor, carrier, e, spin, precession, couple, exact)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dalembert.algebra.plane import across
 from dalembert.analysis.methods.applied_forces import (
     Action,
     effort_actions,
@@ -92,14 +93,8 @@ class Shaking:
 
     def record(self, to: Scale) -> Tree:
         """Its other numbers by name, in the units of a scale."""
-        return {
-            "shaking": {
-                "links": self.links,
-                "about": self.about,
-                "point": to("length", self.point),
-                "whole": self.whole,
-            }
-        }
+        said = {"links": self.links, "about": self.about, "whole": self.whole}
+        return {"shaking": {**said, "point": to("length", self.point)}}
 
     def __str__(self) -> str:
         """What `dalembert shake` prints."""
@@ -144,7 +139,7 @@ def _couple(r: Result, loads: Sequence[Action]) -> Array | None:
     places = {link: r.mechanism.links[link].place for link in r.links}
     if not any(places.values()):
         return None
-    return np.asarray(sum(places[a.link] * np.stack([-a.force[:, 1], a.force[:, 0]], axis=-1) for a in loads))
+    return np.asarray(sum(places[a.link] * across(a.force) for a in loads))
 
 
 def _chosen(r: Result, links: Iterable[str] | None) -> tuple[str, ...]:

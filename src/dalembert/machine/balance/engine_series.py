@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from dalembert.algebra.plane import across
 from dalembert.analysis.methods.applied_forces import link_place
 from dalembert.analysis.plane_only import refuse_space
 from dalembert.arrays import Array
@@ -61,9 +62,9 @@ def cylinders(m: Mechanism) -> tuple[Cylinder, ...]:
     for joint in m.joints.values():  # throws welded to the shaft turn with it
         if not joint.freedoms:
             i, j = joint.links
-            on_ground |= {
-                b: on_ground[a] for a, b in ((i, j), (j, i)) if a in on_ground and b not in on_ground
-            }
+            for a, b in ((i, j), (j, i)):
+                if a in on_ground:
+                    on_ground.setdefault(b, on_ground[a])
     out = []
     for guide, links in sliders.items():
         piston = _other(links, GROUND)
@@ -95,18 +96,11 @@ def engine_series(r: Result) -> EngineSeries:
         raise ModelError(
             "there is no cylinder: a piston on the ground, a rod, a crank", "ask for the shaking force"
         )
-    m, force, couple = r.mechanism, np.zeros((len(r.status), 2)), np.zeros((len(r.status), 2))
-    counted: set[str] = set()
-    for c in found:
-        for link, part in _parts(r, c):
-            force += part
-            couple += m.links[link].place * np.stack([-part[:, 1], part[:, 0]], axis=-1)
-        counted |= {c.piston, c.rod}
-    for link in r.links:
-        if link not in counted:
-            part = -m.mass(link) * r.center_acceleration(link)
-            force += part
-            couple += m.links[link].place * np.stack([-part[:, 1], part[:, 0]], axis=-1)
+    m, counted = r.mechanism, {link for c in found for link in (c.piston, c.rod)}
+    parts = [part for c in found for part in _parts(r, c)]
+    parts += [(n, -m.mass(n) * r.center_acceleration(n)) for n in r.links if n not in counted]
+    force = np.sum([f for _, f in parts], axis=0)
+    couple = np.sum([m.links[link].place * across(f) for link, f in parts], axis=0)
     return EngineSeries(shaking(r, found[0].axis), found, force, couple)
 
 
@@ -115,9 +109,8 @@ def _parts(r: Result, c: Cylinder) -> list[tuple[str, Array]]:
     m, guide = r.mechanism, r.mechanism.joints[c.guide]
     described: Any = guide
     line = float(described.direction or 0.0)
-    along, center = np.array([np.cos(line), np.sin(line)]), _ground_point(m, c.axis)
-    pin = _joint_point(r, c.pin, c.rod)
-    gudgeon = _joint_point(r, c.gudgeon, c.rod)
+    along, center = np.array([np.cos(line), np.sin(line)]), _point(m, c.axis, GROUND)
+    pin, gudgeon = (link_place(r, c.rod, _point(m, joint, c.rod)) for joint in (c.pin, c.gudgeon))
     arm, rod = pin - center, gudgeon - pin
     crank, length = (float(np.hypot(*v[0])) for v in (arm, rod))
     off = gudgeon - center
@@ -133,7 +126,7 @@ def _parts(r: Result, c: Cylinder) -> list[tuple[str, Array]]:
     ratio = crank / length
     going = w**2 * (np.cos(q) + ratio * np.cos(2 * q)) + alpha * (np.sin(q) + ratio / 2 * np.sin(2 * q))
     mass = m.mass(c.rod)
-    turning = w[:, None] ** 2 * arm - alpha[:, None] * np.stack([-arm[:, 1], arm[:, 0]], axis=-1)
+    turning = w[:, None] ** 2 * arm - alpha[:, None] * across(arm)
     to_and_fro = crank * going[:, None] * side
     return [
         (c.rod, mass * (1 - share) * turning),
@@ -144,9 +137,7 @@ def _parts(r: Result, c: Cylinder) -> list[tuple[str, Array]]:
 
 def _share(m: Mechanism, c: Cylinder, length: float) -> float:
     """Part of the rod's mass that the book moves to the piston: its centre's way along the rod."""
-    a, b = (
-        np.array(m.joint_points(joint)[m.joints[joint].links.index(c.rod)]) for joint in (c.pin, c.gudgeon)
-    )
+    a, b = (_point(m, joint, c.rod) for joint in (c.pin, c.gudgeon))
     return float((np.array(m.center(c.rod)) - a) @ (b - a)) / length**2
 
 
@@ -154,10 +145,5 @@ def _other(links: tuple[str, str], link: str) -> str:
     return links[1] if links[0] == link else links[0]
 
 
-def _ground_point(m: Mechanism, joint: str) -> Array:
-    return np.array(m.joint_points(joint)[m.joints[joint].links.index(GROUND)])
-
-
-def _joint_point(r: Result, joint: str, link: str) -> Array:
-    m = r.mechanism
-    return link_place(r, link, m.joint_points(joint)[m.joints[joint].links.index(link)])
+def _point(m: Mechanism, joint: str, link: str) -> Array:
+    return np.array(m.joint_points(joint)[m.joints[joint].links.index(link)])

@@ -22,9 +22,6 @@ from dalembert.machine.balance.counterweights import Counterweight, base_point
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
-NUMBERS = 4
-"""Mass numbers of a counterweight: m, X, Y, I."""
-
 
 def mass_columns(
     r: Result, weights: dict[str, Counterweight], about: Array, drive: str | None

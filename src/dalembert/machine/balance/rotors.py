@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import joint_place, state
+from dalembert.analysis.methods.inertia_couples import inertia_matrix
 from dalembert.analysis.solution import kinematics
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
@@ -88,14 +89,12 @@ def balance_rotor(m: Mechanism, planes: tuple[float, float], radii: Sequence[flo
     at_b = -(t - a * s) / (b - a)
     found = np.array([-s - at_b, at_b])
     angle, size = np.angle(found), np.abs(found)
-    spots = np.stack(
-        [np.array([ra, rb]) * np.cos(angle), np.array([ra, rb]) * np.sin(angle), [a, b]], axis=-1
-    )
+    radius = np.array([ra, rb])
+    spots = np.stack([radius * np.cos(angle), radius * np.sin(angle), [a, b]], axis=-1)
     link = r.rotation(shaft)[0].T
     centers = (origin + spots @ frame - r.position(shaft)[0]) @ link.T
-    return RotorBalance(
-        m, shaft, (a, b), (complex(s), complex(t)), size, angle, size / np.array([ra, rb]), centers
-    )
+    unbalance = complex(s), complex(t)
+    return RotorBalance(m, shaft, (a, b), unbalance, size, angle, size / radius, centers)
 
 
 def _axes(r: Result) -> tuple[str, Array, Array]:
@@ -126,9 +125,7 @@ def _unbalance(r: Result, link: str, origin: Array, frame: Array) -> tuple[compl
     """S and T of one link: with the products of inertia about its centre in T."""
     m = r.mechanism
     mass, c = m.mass(link), frame @ (r.center(link)[0] - origin)
-    given = m.inertia(link)
-    own = np.array(given if np.ndim(given) == 2 else np.diag(np.broadcast_to(given, 3)), float)
     turned = frame @ r.rotation(link)[0]
-    products = turned @ own @ turned.T
+    products = turned @ inertia_matrix(r, link) @ turned.T
     u = complex(c[0], c[1])
     return mass * u, mass * c[2] * u - complex(products[0, 2], products[1, 2])

@@ -58,12 +58,11 @@ class FlywheelSize:
         if height is not None:
             return self.inertia / (round_ * height * (radius**2 + _positive(height, "height") ** 2 / 4))
         assert breadth is not None
-        wanted, side = self.inertia / (round_ * _positive(breadth, "breadth")), 0.0
-        for _ in range(100):  # h (R^2 + h^2 / 4) = wanted rises with h and is convex: Newton from above
-            start = side or wanted / radius**2
-            side = start - (start * (radius**2 + start**2 / 4) - wanted) / (radius**2 + 0.75 * start**2)
-            if abs(side - start) <= 1e-15 * abs(side):
-                break
+        wanted = self.inertia / (
+            round_ * _positive(breadth, "breadth")
+        )  # h^3 / 4 + R^2 h: a cubic of one root
+        turned = math.asinh(0.75 * math.sqrt(3) * wanted / radius**3) / 3
+        side = 4 * radius / math.sqrt(3) * math.sinh(turned)
         if side > 2 * radius:
             raise ModelError(
                 f"the rim would be {side:.4g} m high about a mean radius of {radius:.4g} m",

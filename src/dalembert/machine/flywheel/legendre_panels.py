@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -22,6 +23,7 @@ RESOLVED = 1e-13
 """Error of the integral over a panel that is let be, of that of the curve's size over the period."""
 MOST_HALVINGS, MOST_PANELS = 45, 10_000
 
+ENDS = np.array([-1.0, 1.0])
 NODES, _ = legendre.leggauss(POINTS)
 TO_COEFFICIENTS = np.linalg.inv(legendre.legvander(NODES, POINTS - 1))
 
@@ -72,39 +74,35 @@ class Panels:
         """Where a curve changes its sign, in order, and its integral from the period's begin up to there."""
         c = self.coefficients(values)
         starts = self.antiderivative(values)[1]
-        ends = legendre.legval(np.array([-1.0, 1.0]), c)
+        ends = legendre.legval(ENDS, c)
         signs = np.sign(np.column_stack([ends[:, :1], values, ends[:, 1:]]))
-        at, area = [], []
+        jumps = np.flatnonzero(np.sign(ends[:-1, 1]) * np.sign(ends[1:, 0]) < 0) + 1  # between two panels
+        at, area = [*self.low[jumps]], [*starts[jumps]]
         for k in np.flatnonzero((signs != signs[:, :1]).any(axis=1)):
-            roots = legendre.legroots(c[:, k])
-            real = np.sort(roots.real[(np.abs(roots.imag) < 1e-9) & (roots.real >= -1) & (roots.real < 1)])
-            whole = legendre.legint(c[:, k], lbnd=-1)
-            at += list(self.low[k] + self.width[k] * (real + 1) / 2)
-            area += list(starts[k] + legendre.legval(real, whole) * self.width[k] / 2)
-        for k in np.flatnonzero(
-            np.sign(ends[:-1, 1]) * np.sign(ends[1:, 0]) < 0
-        ):  # a jump between two panels
-            at.append(float(self.low[k + 1]))
-            area.append(float(starts[k + 1]))
+            real, whole = _roots(c[:, k]), legendre.legint(c[:, k], lbnd=-1)
+            at += [*self._at(k, real)]
+            area += [*(starts[k] + legendre.legval(real, whole) * self.width[k] / 2)]
         order = np.argsort(at, kind="stable")
         return np.array(at)[order], np.array(area)[order]
 
     def extremes(self, values: Array) -> tuple[tuple[float, float], tuple[float, float]]:
         """Least and greatest value with where they are, on the curve itself."""
-        slopes = self.derivative(values)
-        found = [(float(v), float(q)) for q, v in zip(self.points.ravel(), values.ravel(), strict=True)]
-        c = self.coefficients(values)
-        for k in np.flatnonzero((np.sign(slopes) != np.sign(slopes[:, :1])).any(axis=1)):
-            roots = legendre.legroots(legendre.legder(c[:, k]))
-            inside = roots.real[(np.abs(roots.imag) < 1e-9) & (np.abs(roots.real) <= 1)]
-            found += [
-                (float(legendre.legval(x, c[:, k])), float(self.low[k] + self.width[k] * (x + 1) / 2))
-                for x in inside
-            ]
-        ends = np.asarray(legendre.legval(np.array([-1.0, 1.0]), c))
-        found += [(float(v), float(a)) for v, a in zip(ends[:, 0], self.low, strict=True)]
-        found += [(float(v), float(b)) for v, b in zip(ends[:, 1], self.low + self.width, strict=True)]
+        c, slopes = self.coefficients(values), np.sign(self.derivative(values))
+        found = [*zip(values.ravel().tolist(), self.points.ravel().tolist(), strict=True)]
+        for k, turns in enumerate((slopes != slopes[:, :1]).any(axis=1)):
+            x = np.array([*ENDS, *(_roots(legendre.legder(c[:, k])) if turns else ())])
+            found += zip(legendre.legval(x, c[:, k]).tolist(), self._at(k, x).tolist(), strict=True)
         return min(found), max(found)
+
+    def _at(self, k: Any, x: Array) -> Array:
+        """Places from -1 to 1 of a panel along the period."""
+        return np.asarray(self.low[k] + self.width[k] * (x + 1) / 2)
+
+
+def _roots(c: Array) -> Array:
+    """Real roots of a Legendre series from -1 up to 1."""
+    roots = legendre.legroots(c)
+    return np.sort(roots.real[(np.abs(roots.imag) < 1e-9) & (roots.real >= -1) & (roots.real < 1)])
 
 
 def resolve(curve: Callable[[Array], Array], edges: Array, floor: float = 0.0) -> tuple[Panels, Array]:

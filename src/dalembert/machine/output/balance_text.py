@@ -25,17 +25,11 @@ def balance_text(b: Balance, units: UnitChoice = "file") -> str:
     for link, p in b.placed.items():
         x, y = round_components([float(to("length", v)) for v in p.center])
         turned = number(math.degrees(p.angle), 5) if p.moment else "-"
-        size = "-" if p.radius is None else number(float(to("length", p.radius)))
-        moment = number(float(to("mass", to("length", p.moment))))
-        rows.append([link, moment, turned, number(float(to("mass", p.mass))), number(x), number(y), size])
-    heads = [
-        "counterweight\non link",
-        f"m r\n{mass}*{length}",
-        "angle\ndeg",
-        f"mass\n{mass}",
-        f"centre x\n{length}",
-    ]
-    weights = table([*heads, f"y\n{length}", f"disc radius\n{length}"], rows)
+        size = "-" if p.radius is None else to.number("length", p.radius)
+        moment = to.number("mass", to("length", p.moment))
+        rows.append([link, moment, turned, to.number("mass", p.mass), number(x), number(y), size])
+    heads = ["counterweight\non link", f"m r\n{mass}*{length}", "angle\ndeg", f"mass\n{mass}"]
+    weights = table([*heads, *(f"{x}\n{length}" for x in ("centre x", "y", "disc radius"))], rows)
     words = "Angles and centres in link axes; m r and its angle from the link's base point."
     return "\n\n".join([heading(b.result), weights, words, _sizes(b, to), wrap(proof(b))])
 
@@ -48,18 +42,13 @@ def comparison_rows(b: Balance, text: Callable[[str, float], str]) -> list[list[
             new = after[name][k]
             floor = 1e-12 * old[k]
             share = number(100 * new / old[k] if new > floor else 0.0, 4) + " %" if old[k] else "-"
-            rows.append(
-                [
-                    f"{what} {name}",
-                    *(text(KINDS[name], v if v > floor else 0.0) for v in (old[k], new)),
-                    share,
-                ]
-            )
+            sizes = [text(KINDS[name], v if v > floor else 0.0) for v in (old[k], new)]
+            rows.append([f"{what} {name}", *sizes, share])
     return rows
 
 
 def _sizes(b: Balance, to: Printed) -> str:
-    rows = comparison_rows(b, lambda kind, value: f"{number(float(to(kind, value)))} {to.text(kind)}")
+    rows = comparison_rows(b, to.quantity)
     about = f"Moment about {b.before.about}; weights, which are constant, are left out of force and moment."
     return f"{table(['', 'before', 'after', 'left'], rows)}\n{wrap(about)}"
 

@@ -21,23 +21,18 @@ def flywheel_text(f: Flywheel, units: UnitChoice = "file") -> str:
     to = print_scale(f.result, units)
     energy, angle = to.text("energy"), to.text("angle")
     rows = []
-    for k, (q, e) in enumerate(zip(f.zeros, f.energies, strict=True)):
+    for q, e, pulse in zip(f.zeros, f.energies, f.size.pulses, strict=True):
         mark = "slowest" if q == f.slowest else "fastest" if q == f.fastest else ""
-        rows.append([*(number(float(to(kind, v))) for kind, v in (("angle", q), ("energy", e))), mark])
-        rows[-1].insert(2, number(float(to("energy", f.size.pulses[k]))))
+        energies = [to.number("energy", x) for x in (e, pulse)]
+        rows.append([to.number("angle", q), *energies, mark])
     pulses = table([f"{f.drive}\n{angle}", f"energy\n{energy}", f"pulse after\n{energy}", "speed"], rows, 0)
     words = (
-        f"The effort of {f.drive} at steady speed has the mean {_text(to, 'moment', f.mean)}; where it crosses "
+        f"The effort of {f.drive} at steady speed has the mean {to.quantity('moment', f.mean)}; where it crosses "
         "the mean, E is the energy asked for above it since the first position, the pulses are the areas between."
     )
-    blocks = [
-        heading(f.result),
-        wrap(words),
-        pulses if rows else "It never differs from its mean: no flywheel is needed.",
-    ]
-    blocks.append(_sizes(f, to))
-    blocks.append(wrap(comparison(f, lambda kind, value: _text(to, kind, value))))
-    return "\n\n".join(blocks)
+    none = "It never differs from its mean: no flywheel is needed."
+    said = wrap(comparison(f, to.quantity))
+    return "\n\n".join([heading(f.result), wrap(words), pulses if rows else none, _sizes(f, to), said])
 
 
 def _sizes(f: Flywheel, to: Printed) -> str:
@@ -51,12 +46,12 @@ def _sizes(f: Flywheel, to: Printed) -> str:
     heads = ["flywheel", f"inertia\n{to.text('inertia')}", "Cs", f"least speed\n{unit}", f"greatest\n{unit}"]
     share = f.coefficient_of_energy
     work = f", {number(100 * share, 4)} % of the work of the cycle" if math.isfinite(share) else ""
-    return f"dE = {_text(to, 'energy', f.size.energy)}{work}\n\n{table(heads, rows)}"
+    return f"dE = {to.quantity('energy', f.size.energy)}{work}\n\n{table(heads, rows)}"
 
 
 def _cells(to: Printed, inertia: float, fluctuation: float, low: float, high: float) -> list[str]:
-    speeds = [number(float(to("angular_speed", w))) for w in (low, high)]
-    return [number(float(to("inertia", inertia))), number(fluctuation, 5), *speeds]
+    speeds = [to.number("angular_speed", w) for w in (low, high)]
+    return [to.number("inertia", inertia), number(fluctuation, 5), *speeds]
 
 
 def comparison(f: Flywheel, text: Callable[[str, float], str]) -> str:
@@ -83,7 +78,3 @@ def _percent(s: SpeedFluctuation, asked: float) -> str:
         return ""
     off = 100 * (s.fluctuation / asked - 1)
     return f", {number(abs(off), 3)} % {'more' if off > 0 else 'less'}"
-
-
-def _text(to: Printed, kind: str, value: float) -> str:
-    return f"{number(float(to(kind, value)))} {to.text(kind)}"

@@ -24,9 +24,8 @@ if TYPE_CHECKING:
 
 def heading(r: Result) -> str:
     """Title, source and what the numbers rest on."""
-    said = [
-        f"{key} {value}" for key, value in r.assumptions.items() if key in ("gravity", "inertia", "friction")
-    ]
+    of = ("gravity", "inertia", "friction")
+    said = [f"{key} {value}" for key, value in r.assumptions.items() if key in of]
     lines = [r.mechanism.title, r.mechanism.source_text, wrap(f"Assumptions: {', '.join(said)}")]
     return "\n".join(line for line in lines if line)
 
@@ -44,30 +43,19 @@ def shaking_text(s: Shaking, units: UnitChoice = "file", orders: int | Sequence[
 def _values(s: Shaking, to: Printed) -> str:
     """One position: components. Several: greatest size with its place, mean and rms, of the whole and its parts."""
     r, d, single = s.result, s.result.mechanism.dimension, len(s.result.status) == 1
-    named: list[tuple[str, str, Array]] = [
-        ("shaking force", "force", s.force),
-        ("shaking moment", "moment", s.moment),
-    ]
+    named = [("shaking force", "force", s.force), ("shaking moment", "moment", s.moment)]
     named += [] if s.couple is None else [("shaking couple", "moment", s.couple)]
-    named += [
-        (f"  {n}", kind, v)
-        for n, w in s.parts.items()
-        for kind, v in zip(("force", "moment"), w, strict=True)
-    ]
+    for name, (force, moment) in s.parts.items():
+        named += [(f"  {name}", "force", force), (f"  {name}", "moment", moment)]
     rows = []
     for name, kind, values in named:
         size, k = greatest(values)
         if not size > s.floor(kind):
             continue
         components = np.atleast_1d(values[0] if single else values.mean(axis=0))
-        cells = [number(float(to(kind, v)) if abs(v) > s.floor(kind) else 0.0) for v in components]
+        cells = [to.number(kind, v if abs(v) > s.floor(kind) else 0.0) for v in components]
         if not single:
-            cells = [
-                number(float(to(kind, size))),
-                where(r, to, k),
-                number(float(to(kind, rms(values)))),
-                *cells,
-            ]
+            cells = [to.number(kind, size), where(r, to, k), to.number(kind, rms(values)), *cells]
         rows.append([name, to.text(kind), *cells, *[""] * (d - len(components))])
     axes = list("xyz"[:d])
     heads = axes if single else ["greatest", "at", "rms", *(f"mean {a}" for a in axes)]
@@ -98,26 +86,20 @@ def _engine(s: Shaking, to: Printed) -> list[str]:
     from dalembert.machine.balance.engine_series import cylinders, engine_series
 
     r = s.result
-    if (
-        r.mechanism.dimension == 3
-        or not s.whole
-        or not cylinders(r.mechanism)
-        or not s.parts["inertia"][0].any()
-    ):
+    some = r.mechanism.dimension == 2 and s.whole and cylinders(r.mechanism)
+    if not some or not s.parts["inertia"][0].any():
         return []
     try:
         e = engine_series(r)
         angle = r.drive_position(r.drives[0])
-        some = {"force": (e.exact.parts["inertia"][0], e.force)}
-        if s.couple is not None:
-            some["couple"] = (s.couple, e.couple)
+        both = [("force", "force", e.exact.parts["inertia"][0], e.force)]
+        both += [] if s.couple is None else [("couple", "moment", s.couple, e.couple)]
         rows = []
-        for name, both in some.items():
-            exact, book = (harmonics(v, angle, [1, 2, 4, 6]) for v in both)
-            kind = "force" if name == "force" else "moment"
+        for name, kind, *sides in both:
+            exact, book = (harmonics(v, angle, [1, 2, 4, 6]) for v in sides)
             for k, order in enumerate(exact.order):
                 sizes = [part[k] for h in (exact, book) for part in (abs(h.forward), abs(h.backward))]
-                cells = [number(float(to(kind, v)) if v > s.floor(kind) else 0.0) for v in sizes]
+                cells = [to.number(kind, v if v > s.floor(kind) else 0.0) for v in sizes]
                 rows.append([f"{name} {to.text(kind)}", number(order), *cells])
     except ModelError:
         return []
@@ -131,8 +113,8 @@ def harmonic_table(head: str, h: Harmonics, factor: float = 1.0, floor: float = 
     """Amplitude and phase of each order, of vectors by component, in the plane also the parts that turn."""
     floor = max(floor, 1e-12 * float(np.max(h.amplitude, initial=0.0)))
     names = [""] if h.amplitude.ndim == 1 else list("xyz"[: h.amplitude.shape[1]])
-    heads = ["order", *(f"{head.split(chr(10))[0]} {n}\n{head.split(chr(10))[-1]}\tphase" for n in names)]
-    heads = [x for part in heads for x in part.split("\t")]
+    name, _, unit = head.partition("\n")
+    heads = ["order", *(x for n in names for x in (f"{name} {n}\n{unit or name}", "phase"))]
     turning = len(names) == 2
     heads += ["with it", "against"] if turning else []
     rows = []
@@ -140,10 +122,7 @@ def harmonic_table(head: str, h: Harmonics, factor: float = 1.0, floor: float = 
         row = [number(order)]
         for c in range(len(names)):
             a, phase = (float(np.reshape(v, (len(h.order), -1))[k, c]) for v in (h.amplitude, h.phase))
-            row += [
-                number(factor * a if a > floor else 0.0),
-                _phase(phase, order) if a > floor else "-",
-            ]
+            row += [number(factor * a), _phase(phase, order)] if a > floor else ["0", "-"]
         for part in (h.forward, h.backward) if turning else ():
             row.append(number(factor * float(abs(part[k])) if abs(part[k]) > floor else 0.0))
         rows.append(row)

@@ -11,6 +11,7 @@ import numpy as np
 from dalembert.analysis.output.columns import Scale, UnitChoice, drive_kinds, load_kind
 from dalembert.analysis.output.rounding import PART, cached, largest, sizes
 from dalembert.arrays import Array, Numeric, Tree
+from dalembert.printing import number
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -37,6 +38,14 @@ class Printed(Scale):
     def __call__(self, kind: str, values: Numeric) -> Numeric:
         own = super().__call__(kind, values) if self.bare(kind) else values
         return own / 10.0 ** self.powers[kind] if kind in self.powers else own
+
+    def number(self, kind: str, value: float) -> str:
+        """One number in its unit, as text."""
+        return number(float(self(kind, value)))
+
+    def quantity(self, kind: str, value: float) -> str:
+        """The same with the unit."""
+        return f"{self.number(kind, value)} {self.text(kind)}"
 
 
 PREFIXES = {3: "k", 6: "M", 9: "G", 12: "T"}
@@ -70,9 +79,9 @@ def print_scale(result: Result, units: UnitChoice) -> Printed:
     plain = Printed(None if units == "SI" else result.mechanism.units)
     powers = {}
     for kind, size in cached(result, _extents).items():
-        number = float(abs(plain(kind, float(size[0]))))
-        if math.isfinite(number) and number >= 999_999.5:
-            powers[kind] = 3 * math.floor(math.log10(number * (1 + 1e-6)) / 3)
+        most = float(abs(plain(kind, float(size[0]))))
+        if math.isfinite(most) and most >= 999_999.5:
+            powers[kind] = 3 * math.floor(math.log10(most * (1 + 1e-6)) / 3)
     return Printed(None if units == "SI" else result.mechanism.units, powers)
 
 
