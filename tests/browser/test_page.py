@@ -164,7 +164,7 @@ def test_a_typed_number(opened: Any) -> None:
     page = opened(FOUR_BAR)
     page.run("document.querySelectorAll('details').forEach(d => d.open = true)")
     box = page.page.locator(
-        'input[data-path="links.rocker.mass"], input[data-path="links.rocker.inertia"]'
+        'input[data-path="loads.resistance.value"], input[data-path="links.rocker.inertia"]'
     ).first
     path = box.get_attribute("data-path")
     before = page.value(path)
@@ -300,6 +300,20 @@ def test_what_is_saved(opened: Any, button: str, ending: str, begins: str, tmp_p
     text = (tmp_path / "saved").read_text(encoding="utf-8")
     assert begins in text[:200]
     page.requests[1:] = [url for url in page.requests[1:] if not url.startswith("blob:")]
+
+
+def test_space_is_seen_from_elsewhere_and_computed_anew(opened: Any) -> None:
+    page = opened("rssr")
+    before = page.run("document.querySelector('.stage path[data-link]').getAttribute('d')")
+    page.drag(".stage svg", 80, 30)
+    assert page.run("document.querySelector('.stage path[data-link]').getAttribute('d')") != before
+    page.run("document.querySelectorAll('details').forEach(d => d.open = true)")
+    assert page.page.locator(".body:visible .equation").count() == 6
+    box = page.page.locator('input[data-path="loads.resistance.value"]')
+    box.fill("3")
+    box.press("Enter")
+    page.frame()
+    agrees(page, "O")
 
 
 def test_names_are_off_for_many_joints_and_can_be_had(opened: Any) -> None:

@@ -91,8 +91,33 @@ def test_equations_of_a_free_body_add_up() -> None:
             assert np.abs(out[rows].sum(axis=0)).max() < 1e-11 * np.abs(out[rows]).max()
 
 
+SPACE = sorted(set(FILES) - set(PLANE))
+
+
+@pytest.mark.parametrize("name", tiers(["rssr"], sorted(set(SPACE) - {"rssr"})))
+def test_in_space_too(name: str) -> None:
+    """Curves are those of the analysis, and what acts on each link adds up to nothing in six equations."""
+    m = da.load(FILES[name])
+    data = json.loads(json.dumps(page_data(m)))
+    out, swept = run_page(data), with_cycle(m)
+    r = da.dynamics(swept) if m.has_speeds else da.statics(swept)
+    right = r.ok & np.isin(out[-1], (0, 9))
+    assert right.any()
+    largest = max(np.abs(r.force_array[right]).max(initial=0), 1e-9)
+    for curve in (c for chart in data["views"]["charts"] for c in chart["curves"]):
+        kind, _, of = curve["of"].partition(".")
+        exact = r.effort(of) if kind == "effort" else np.linalg.norm(r.reaction(of), axis=-1)
+        assert out[curve["row"]][right] == pytest.approx(exact[right], rel=1e-8, abs=1e-8 * largest)
+    for body in data["views"]["bodies"]:
+        terms = body["equations"]["terms"]
+        for k in range(3):
+            for rows in ([t["f"][k] for t in terms], [t["m"][k] for t in terms]):
+                some = out[rows][:, right]
+                assert np.abs(some.sum(axis=0)).max() < 1e-9 * max(np.abs(some).max(initial=0), largest)
+
+
 def test_saved_text_is_the_mechanism() -> None:
-    for name in ("four_bar", "engine", "quick_return"):
+    for name in ("four_bar", "engine", "quick_return", "rssr"):
         m = da.load(FILES[name])
         data = page_data(m)
         parts, values = data["template"], [n["value"] for n in data["numbers"]]

@@ -1,6 +1,6 @@
 /** The drawing of a mechanism or of a free body: items, arrows at a stated scale, labels that keep out of the way. */
 
-import type { Data, Drawing, FreeBody, Pair } from "./data";
+import type { Data, Drawing, FreeBody, Pair, Rows } from "./data";
 import { action, item, Paper, type Part, type Shown } from "./items";
 import type { Kernel } from "./kernel";
 import { label, type Placed, Placer } from "./labels";
@@ -19,14 +19,12 @@ export function roundUp(x: number): number {
 
 /** Height in mm of a drawing of some width whose cycle finds room in it. */
 export function heightFor(kernel: Kernel, d: Drawing, w: number): number {
-  const rows = d.items.flatMap((i) => (i.t === "hull" || i.t === "path" ? i.p : i.t === "symbol" ? [i.p] : []));
-  const reach = [0, 1].map((c) => {
-    let low = Infinity, high = -Infinity;
-    for (const p of rows)
-      for (let k = 0; k < kernel.count; k++)
-        if (kernel.good(k)) (low = Math.min(low, kernel.value(p[c], k))), (high = Math.max(high, kernel.value(p[c], k)));
-    return high - low;
-  });
+  const rows = d.items.flatMap((i) => (i.t === "hull" || i.t === "path" ? i.p : i.t === "symbol" || i.t === "pair" ? [i.p] : []));
+  const paper = new Paper(kernel, 1), low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+  for (const p of rows)
+    for (let k = 0; k < kernel.count; k++)
+      if (kernel.good(k)) paper.seen(p, (r) => kernel.value(r, k)).forEach((x, c) => ((low[c] = Math.min(low[c], x)), (high[c] = Math.max(high[c], x))));
+  const reach = [high[0] - low[0], high[1] - low[1]];
   const aspect = reach[1] / reach[0];
   return Number.isFinite(aspect) ? Math.min(Math.max(w * aspect * 1.05, 96), 150) : 120;
 }
@@ -40,7 +38,7 @@ export function board(parent: Element, kernel: Kernel, d: Drawing & { middle?: P
                       w: number, h: number, units: Data["units"], name: string): Board {
   const size = { length: units.length.size, force: units.force.size };
   const svg = canvas(parent, w, h, name), paper = new Paper(kernel, d.per_mm);
-  const cyclic: Part[] = [], live: Part[] = [], arrows: Shown[] = [], names: { l: Placed; p: Pair; q?: Pair }[] = [];
+  const cyclic: Part[] = [], live: Part[] = [], arrows: Shown[] = [], names: { l: Placed; p: Rows; q?: Rows }[] = [];
   let perMm = d.force;
   if (d.middle) paper.middle = d.middle;
   const drawn = make("g", svg), acting = make("g", svg), lettered = make("g", svg);
@@ -53,20 +51,21 @@ export function board(parent: Element, kernel: Kernel, d: Drawing & { middle?: P
 
   function centre(): void {
     if (!about) return;
-    const h = kernel.here, [x0, x1] = span(about.map((r) => h[r[0]])), [y0, y1] = span(about.map((r) => h[r[1]]));
+    const seen = about.map((r) => paper.here(r)), [x0, x1] = span(seen.map((p) => p[0])), [y0, y1] = span(seen.map((p) => p[1]));
     if (Number.isFinite(x0 + x1 + y0 + y1)) paper.middle = [(x0 + x1) / 2, (y0 + y1) / 2];
   }
 
   /** Scales anew: the whole cycle finds room, the largest force is as long as it was. */
   function fit(): void {
     const xs: number[] = [], ys: number[] = [];
-    const points = about ?? d.items.flatMap((i) => (i.t === "hull" || i.t === "path" ? i.p : i.t === "symbol" ? [i.p] : []));
+    const points = about ?? d.items.flatMap((i) => (i.t === "hull" || i.t === "path" ? i.p : i.t === "symbol" || i.t === "pair" ? [i.p] : []));
     const step = Math.max(1, Math.floor(kernel.count / 72));
     for (const p of points)
       for (let k = 0; k < kernel.count; k += about ? kernel.count : step)
         if (about || kernel.good(k)) {
-          xs.push(about ? kernel.here[p[0]] : kernel.value(p[0], k));
-          ys.push(about ? kernel.here[p[1]] : kernel.value(p[1], k));
+          const [x, y] = about ? paper.here(p) : paper.seen(p, (r) => kernel.value(r, k));
+          xs.push(x);
+          ys.push(y);
         }
     if (xs.length) {
       const [x0, x1] = span(xs), [y0, y1] = span(ys), room = about ? [46, 40] : [w * 0.76, h * 0.74];
@@ -77,7 +76,7 @@ export function board(parent: Element, kernel: Kernel, d: Drawing & { middle?: P
     let most = 0;
     for (const a of d.arrows)
       if (a.t === "force")
-        for (let k = 0; k < kernel.count; k++) if (kernel.good(k)) most = Math.max(most, Math.hypot(kernel.value(a.f[0], k), kernel.value(a.f[1], k)));
+        for (let k = 0; k < kernel.count; k++) if (kernel.good(k)) most = Math.max(most, Math.hypot(...a.f.map((r) => kernel.value(r, k))));
     if (most > 0) perMm = roundUp(most / (about ? 26 : 22) / size.force) * size.force;
   }
 

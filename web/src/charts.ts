@@ -38,6 +38,10 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, tim
     t.addEventListener("keydown", (e) => e.key === "Enter" && pick(x));
     return t;
   });
+  const least = data.noise[c.kind as "force"] ?? 0, value = (x: Curve, k: number): number => {
+    const v = kernel.value(x.row, k);
+    return Math.abs(v) < least ? 0 : v;
+  };
   let y = (v: number): number => v;
   const at = (k: number): number => x0 + (k / last) * w;
 
@@ -46,7 +50,7 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, tim
     for (const x of c.curves)
       for (let k = 0; k < kernel.count; k++)
         if (kernel.good(k)) {
-          const v = kernel.value(x.row, k) / unit.size;
+          const v = value(x, k) / unit.size;
           low = Math.min(low, v);
           high = Math.max(high, v);
         }
@@ -74,7 +78,7 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, tim
     }
     grid.setAttribute("d", lattice);
     axis.setAttribute("d", `M${x0} ${y0}v${h}` + (low < 0 && high > 0 ? `M${x0} ${short(y(0))}h${w}` : ""));
-    lines.forEach((line, n) => line.setAttribute("d", run((k) => at(k), (k) => y(kernel.value(c.curves[n].row, k)))));
+    lines.forEach((line, n) => line.setAttribute("d", run((k) => at(k), (k) => y(value(c.curves[n], k)))));
   }
 
   function run(fx: (k: number) => number, fy: (k: number) => number): string {

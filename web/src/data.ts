@@ -1,6 +1,8 @@
 /** The data of a page, as `dalembert.pages.page_data` writes it. A row is a place among the kernel's outputs; a number
  * is a place among the numbers of the description. SI and radians. */
 
+/** Rows of a point or vector: two in the plane, three in space. */
+export type Rows = number[];
 export type Pair = [number, number];
 /** Values along the positions: even steps, or the bytes of 64-bit numbers. */
 export type Series = string | { from: number; to: number; count: number };
@@ -9,26 +11,29 @@ export interface Channel { name: string; values: Series; table?: Table }
 export interface Module { wasm: string; heap: number; row: number; count: number; outputs: number; channels: string[] }
 export interface NumberField {
   path: string; label: string; value: number; unit: string; size: number;
-  parameter?: boolean; about?: string; range?: Pair;
+  parameter?: boolean; about?: string; range?: Rows;
 }
-export interface Drive { name: string; unit: string; size: number; position: Series; turns: boolean; p: Pair; link: string }
+export interface Drive { name: string; unit: string; size: number; position: Series; turns: boolean; p: Rows; link: string }
 
 /** Something drawn: a symbol at a point, a stretched symbol between two, a hull, a path, a trace, a circle. */
 export type Item =
-  | { t: "symbol"; svg: string; p: Pair; e?: Pair; per_mm?: number }
-  | { t: "span"; svg: string; length: number; p: [Pair, Pair]; load: string }
-  | { t: "hull"; role: string; p: Pair[]; link: string }
-  | { t: "path"; role: string; p: Pair[] }
-  | { t: "trace"; role: string; p: [Pair]; joint: string }
-  | { t: "circle"; role: string; p: Pair; r: number };
-export interface Force { t: "force"; role: string; of: string; kind: string; link: string; name: string; p: Pair; f: Pair }
-export interface Couple { t: "couple"; role: string; of: string; kind: string; link: string; name: string; p: Pair; m: number }
-export type Action = Force | Couple;
-export interface Label { text: string; p: Pair; q?: Pair; role: string; kind: string; link?: string }
-export interface Term { name: string; f: Pair; m: number }
+  | { t: "symbol"; svg: string; p: Rows; e?: Rows; per_mm?: number }
+  | { t: "pair"; shape: "round" | "block" | "ball"; p: Rows; e: Rows; fixed: boolean }
+  | { t: "span"; svg: string; length: number; p: [Rows, Rows]; load: string }
+  | { t: "hull"; role: string; p: Rows[]; link: string }
+  | { t: "path"; role: string; p: Rows[] }
+  | { t: "trace"; role: string; p: [Rows]; joint: string }
+  | { t: "circle"; role: string; p: Rows; r: number };
+export interface Force { t: "force"; role: string; of: string; kind: string; link: string; name: string; p: Rows; f: Rows }
+/** In space: an arrow with two heads along the axis of a couple. */
+export interface Moment { t: "moment"; role: string; of: string; kind: string; link: string; name: string; p: Rows; f: Rows }
+export interface Couple { t: "couple"; role: string; of: string; kind: string; link: string; name: string; p: Rows; m: number }
+export type Action = Force | Couple | Moment;
+export interface Label { text: string; p: Rows; q?: Rows; role: string; kind: string; link?: string }
+export interface Term { name: string; f: Rows; m: number | Rows }
 export interface Drawing { per_mm: number; items: Item[]; labels: Label[]; arrows: Action[]; force: number }
 export interface FreeBody extends Drawing {
-  link: string; title: string; member: string; about: Pair[]; equations: { about: string; terms: Term[] };
+  link: string; title: string; member: string; about: Rows[]; equations: { about: string; terms: Term[] };
 }
 export interface Curve { row: number; name: string; role: string; of: string; f?: Pair }
 export interface Chart { title: string; kind: string; curves: Curve[] }
@@ -38,18 +43,19 @@ export interface TableRow { name: string; kind: string; rows: number[] }
 /** Numbers of a point in axes whose origin and x direction are rows. */
 export interface End { n: Pair; at: Pair; e: Pair }
 export type Handle =
-  | { kind: "joint" | "point" | "center"; name: string; p: Pair; ends: End[]; by?: number[] }
-  | { kind: "load"; name: string; p: Pair; f: Pair; e: Pair; components?: Pair; size?: number; direction?: number }
-  | { kind: "direction"; name: string; p: Pair; along: Pair; direction: number; e: Pair };
+  | { kind: "joint" | "point" | "center"; name: string; p: Rows; ends: End[]; by?: number[] }
+  | { kind: "load"; name: string; p: Rows; f: Rows; e: Pair; components?: Pair; size?: number; direction?: number }
+  | { kind: "direction"; name: string; p: Rows; along: Pair; direction: number; e: Pair };
 
 export interface Data {
   format: string; version: string; title: string; source: string;
   units: Record<string, { unit: string; size: number }>;
+  noise: { force: number; moment: number };
   kernel: Module; channels: Channel[]; only_at_positions: boolean;
   gradient?: Module & { curves: number[]; numbers: number[] };
   numbers: NumberField[]; template: string[]; drives: Drive[]; handles: Handle[];
   views: {
-    mechanism: Drawing & { middle: Pair }; bodies: FreeBody[];
+    mechanism: Drawing & { middle?: Pair }; bodies: FreeBody[];
     polygons: { force: number; links: Polygon[] }; charts: Chart[]; table: TableRow[];
   };
   statuses: Record<string, { status: string; sentence: string }>;

@@ -1,7 +1,7 @@
 /** What can be taken hold of: joints, points, mass centres, tips of loads, directions, and the driven link. */
 
 import type { Board } from "./board";
-import type { Data, End, Handle, Pair } from "./data";
+import type { Data, End, Handle, Pair, Rows } from "./data";
 import type { Kernel } from "./kernel";
 import { make, type Point } from "./svg";
 
@@ -24,7 +24,7 @@ function set(kernel: Kernel, end: End, held: number[], x: number, y: number): vo
 const held = (kernel: Kernel, e: End): number[] => [...e.at, ...e.e].map((r) => kernel.here[r]);
 
 /** Parameters that bring a joint as near to a place as they can: Gauss and Newton's steps, damped, by differences. */
-function follow(kernel: Kernel, p: Pair, by: number[], x: number, y: number): void {
+function follow(kernel: Kernel, p: Rows, by: number[], x: number, y: number): void {
   const u = kernel.values, out = new Float64Array(kernel.here.length), trial = u.slice();
   const miss = (): Pair | null => {
     kernel.other(trial, out);

@@ -1,16 +1,33 @@
 /** Parts of a mechanism as SVG elements that follow the kernel's rows: symbols placed, hulls, traces, arrows. */
 
-import type { Action, Item, Pair } from "./data";
+import type { Action, Item, Rows } from "./data";
 import type { Kernel } from "./kernel";
 import { label, type Placed, type Placer } from "./labels";
 import { Arrow, hull, make, path, plain, type Point, short } from "./svg";
 
-/** From metres to paper, about a middle that may move. */
+/** From metres to paper, about a middle that may move; in space through a camera that looks from azimuth and elevation. */
 export class Paper {
   middle: Point = [0, 0];
+  azimuth = -Math.PI / 3;
+  elevation = 0.45;
   constructor(readonly kernel: Kernel, public perMm: number) {}
-  point(at: Pair): Point {
-    return this.of(this.kernel.here[at[0]], this.kernel.here[at[1]]);
+  /** Components of a vector to the right and up, metres or newtons, whatever it is of. */
+  seen(rows: Rows, value: (row: number) => number): Point {
+    const x = value(rows[0]), y = value(rows[1]);
+    if (rows.length < 3) return [x, y];
+    const ca = Math.cos(this.azimuth), sa = Math.sin(this.azimuth), ce = Math.cos(this.elevation), se = Math.sin(this.elevation);
+    return [ca * y - sa * x, ce * value(rows[2]) - se * (ca * x + sa * y)];
+  }
+  /** How near to the eye a vector's tip is. */
+  depth(rows: Rows): number {
+    const [x, y, z] = rows.map((r) => this.kernel.here[r]), ce = Math.cos(this.elevation);
+    return ce * (Math.cos(this.azimuth) * x + Math.sin(this.azimuth) * y) + Math.sin(this.elevation) * z;
+  }
+  here(rows: Rows): Point {
+    return this.seen(rows, (r) => this.kernel.here[r]);
+  }
+  point(at: Rows): Point {
+    return this.of(...this.here(at));
   }
   of(x: number, y: number): Point {
     return [(x - this.middle[0]) / this.perMm, (this.middle[1] - y) / this.perMm];
@@ -61,6 +78,7 @@ export function item(parent: Element, i: Item, paper: Paper): Part {
       },
     };
   }
+  if (i.t === "pair") return pair(parent, i, paper);
   const line = make("path", parent, { class: `l-${i.role}`, style: "fill:none" });
   if (i.t === "trace") return { update: () => line.setAttribute("d", trace(k, paper, i.p[0])) };
   const corners = (): Point[] => i.p.map((p) => paper.point(p));
@@ -82,8 +100,31 @@ export function item(parent: Element, i: Item, paper: Paper): Part {
   };
 }
 
+/** A joint in space: a cylinder or a block along its axis, or a ball. */
+function pair(parent: Element, i: Item & { t: "pair" }, paper: Paper): Part {
+  const g = make("g", parent), look = i.fixed ? "support" : "block";
+  const side = make("path", g, { class: `l-${look}` }), end = make("path", g, { class: `l-${i.shape === "ball" ? look : "pin"}` });
+  const half = i.shape === "block" ? 4.2 : 3.4, r = i.shape === "block" ? 2.2 : 1.7;
+  return {
+    update() {
+      const [x, y] = paper.point(i.p), [ex, ey] = paper.here(i.e), away = paper.depth(i.e);
+      g.setAttribute("transform", `translate(${short(x)} ${short(y)}) rotate(${short((-Math.atan2(ey, ex) * 180) / Math.PI)})`);
+      if (i.shape === "ball") return side.setAttribute("d", `M${r} 0A${r} ${r} 0 1 0 ${-r} 0A${r} ${r} 0 1 0 ${r} 0Z`);
+      const long = half * Math.hypot(ex, ey), wide = r * Math.abs(away), near = away >= 0 ? long : -long;
+      if (i.shape === "round") {
+        side.setAttribute("d", `M${short(-long)} ${-r}L${short(long)} ${-r}A${short(wide)} ${r} 0 0 1 ${short(long)} ${r}L${short(-long)} ${r}A${short(wide)} ${r} 0 0 1 ${short(-long)} ${-r}Z`);
+        end.setAttribute("d", `M${short(near + wide)} 0A${short(wide)} ${r} 0 1 0 ${short(near - wide)} 0A${short(wide)} ${r} 0 1 0 ${short(near + wide)} 0Z`);
+      } else {
+        side.setAttribute("d", `M${short(-long - wide)} ${-r}H${short(long + wide)}V${r}H${short(-long - wide)}Z`);
+        end.setAttribute("d", `M${short(near - wide)} ${-r}H${short(near + wide)}V${r}H${short(near - wide)}Z`);
+      }
+    },
+    mark: (placer) => placer.disc(paper.point(i.p), 2.4),
+  };
+}
+
 /** The way of a point over the cycle, broken where there is no answer. */
-function trace(k: Kernel, paper: Paper, p: Pair): string {
+function trace(k: Kernel, paper: Paper, p: Rows): string {
   let d = "", pen = false;
   for (let c = 0; c <= k.count; c++) {
     const n = c < k.count ? c : 0;
@@ -91,7 +132,7 @@ function trace(k: Kernel, paper: Paper, p: Pair): string {
       pen = false;
       continue;
     }
-    const [x, y] = paper.of(k.value(p[0], n), k.value(p[1], n));
+    const [x, y] = paper.of(...paper.seen(p, (r) => k.value(r, n)));
     d += `${pen ? "L" : "M"}${short(x)} ${short(y)}`;
     pen = true;
   }
@@ -102,19 +143,25 @@ function trace(k: Kernel, paper: Paper, p: Pair): string {
 export interface Shown extends Part { label: Placed; anchor(): Point[] | null }
 
 /** A force as an arrow from its point, or to it where it pushes inwards; a couple as a curved arrow. */
-export function action(parent: Element, a: Action, paper: Paper, perMm: () => number, about?: Pair[]): Shown {
-  return a.t === "force" ? force(parent, a, paper, perMm, about) : couple(parent, a, paper);
+export function action(parent: Element, a: Action, paper: Paper, perMm: () => number, about?: Rows[]): Shown {
+  return a.t === "couple" ? couple(parent, a, paper) : force(parent, a, paper, perMm, about);
 }
 
-function force(parent: Element, a: Action & { t: "force" }, paper: Paper, perMm: () => number, about?: Pair[]): Shown {
-  const v = paper.kernel.here, arrow = new Arrow(parent, a.role, a.name), l = label(parent, a.role, a.name, 3.4);
+/** Length in mm of the arrow of a moment in space: its size is written, its axis drawn. */
+const MOMENT = 13;
+
+function force(parent: Element, a: Action & { t: "force" | "moment" }, paper: Paper, perMm: () => number, about?: Rows[]): Shown {
+  const arrow = new Arrow(parent, a.role, a.name), second = a.t === "moment" ? new Arrow(parent, a.role) : null;
+  const l = label(parent, a.role, a.name, 3.4);
   let tail: Point = [0, 0], tip: Point = [0, 0], free: Point = [0, 0], shown = false;
   return {
     label: l,
     update() {
-      const p = paper.point(a.p), s = perMm(), d: Point = [v[a.f[0]] / s, -v[a.f[1]] / s];
+      const p = paper.point(a.p), [fx, fy] = paper.here(a.f);
+      const whole = second ? Math.hypot(...a.f.map((r) => paper.kernel.here[r])) / MOMENT || 1 : perMm();
+      const d: Point = [fx / whole, -fy / whole];
       let inward = false;
-      if (about && about.length > 1) {
+      if (about && about.length > 1 && !second) {
         const some = about.map((r) => paper.point(r));
         const mean = [0, 1].map((c) => some.reduce((t, q) => t + q[c], 0) / some.length);
         inward = d[0] * (mean[0] - p[0]) + d[1] * (mean[1] - p[1]) > 1e-9;
@@ -122,6 +169,7 @@ function force(parent: Element, a: Action & { t: "force" }, paper: Paper, perMm:
       [tail, tip] = inward ? [[p[0] - d[0], p[1] - d[1]], p] : [p, [p[0] + d[0], p[1] + d[1]]];
       free = inward ? tail : tip;
       shown = arrow.set(tail, tip);
+      second?.set(tail, [tail[0] + 0.78 * (tip[0] - tail[0]), tail[1] + 0.78 * (tip[1] - tail[1])]);
       l.el.setAttribute("visibility", shown ? "visible" : "hidden");
     },
     mark: (placer) => shown && placer.line(tail, tip),

@@ -68,14 +68,14 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
   const seek = (x: number) => show(x), pick = (c: Curve) => ((picked = c), request(true));
   const views = [...(kernel.count > 1 ? data.views.charts.map((c) => chart(side, data, kernel, c, () => t, seek, pick, () => picked)) : [])];
   const select = html("select", panelOf("Free body", true), { "aria-label": "link" });
-  data.views.bodies.forEach((b, k) => (html("option", select, { value: k }, `${b.title}, ${b.member} member`)));
+  data.views.bodies.forEach((b, k) => (html("option", select, { value: k }, `${b.title}${b.member && `, ${b.member} member`}`)));
   const bodyBox = html("div", select.parentElement!);
   const bodies = data.views.bodies.map((b) => {
     const box = html("div", bodyBox, { class: "body" });
     const drawn = board(box, kernel, b, b.about, 110, 100, data.units, `free body of ${b.title}`);
     return { box, drawn, sums: equations(box, data, kernel, b) };
   });
-  const polygonBox = panelOf("Force polygon");
+  const polygonBox = data.views.polygons.links.length ? panelOf("Force polygon") : html("div", null);
   const polygons = data.views.polygons.links.map((p) => polygon(polygonBox, data, kernel, p));
   const polars = kernel.count > 2 ? data.views.charts.flatMap((c) => c.curves).filter((c) => c.f) : [];
   const polarBox = polars.length ? panelOf("Polar diagrams") : null;
@@ -111,6 +111,26 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
     if (k >= 0) (select.value = String(k)), request(false);
   });
   slider.addEventListener("input", () => show(+slider.value));
+  if (data.views.mechanism.arrows.concat(...data.views.bodies.map((b) => b.arrows)).some((a) => a.p.length > 2)) orbit();
+
+  /** In space the background is dragged to look from elsewhere. */
+  function orbit(): void {
+    const papers = [m, ...bodies.map((b) => b.drawn)];
+    html("span", switches, {}, "drag to look from elsewhere");
+    for (const one of papers) {
+      one.svg.style.cursor = "move";
+      one.svg.addEventListener("pointerdown", (e) => one.svg.setPointerCapture(e.pointerId));
+      one.svg.addEventListener("pointermove", (e) => {
+        if (!one.svg.hasPointerCapture(e.pointerId)) return;
+        for (const p of papers) {
+          p.paper.azimuth -= 0.01 * e.movementX;
+          p.paper.elevation = Math.min(Math.max(p.paper.elevation + 0.01 * e.movementY, -1.55), 1.55);
+          p.fit();
+        }
+        request(true);
+      });
+    }
+  }
 
   let asked = 0, whole = true, runs = 0;
   function changed(): void {

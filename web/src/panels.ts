@@ -1,7 +1,7 @@
 /** Panels beside the drawing: the numbers that can be changed, the answers in numbers, a free body's equations, method. */
 
 import { figures } from "./charts";
-import type { Data, FreeBody, NumberField } from "./data";
+import type { Data, FreeBody, NumberField, Term } from "./data";
 import type { Kernel } from "./kernel";
 import { html, plain } from "./svg";
 
@@ -83,7 +83,7 @@ export function answersPanel(parent: Element, data: Data, kernel: Kernel): Numbe
         const v = r.rows.map((n) => kernel.here[n] / unit.size);
         const one = (x: number) => (unit.unit === "°" ? `${figures(x, 5)}°` : `${figures(x)} ${unit.unit}`);
         cell.textContent = !kernel.solved ? "–" : v.length === 1 ? one(v[0])
-          : `${one(Math.hypot(...v))} at ${figures((Math.atan2(v[1], v[0]) * 180) / Math.PI)}°  (${figures(v[0])}, ${figures(v[1])})`;
+          : `${one(Math.hypot(...v))}${v.length === 2 ? ` at ${figures((Math.atan2(v[1], v[0]) * 180) / Math.PI)}°` : ""}  (${v.map((x) => figures(x)).join(", ")})`;
       }
     },
   };
@@ -91,25 +91,24 @@ export function answersPanel(parent: Element, data: Data, kernel: Kernel): Numbe
 
 /** Sums of forces and moments on a link, in signs and in numbers. */
 export function equations(parent: Element, data: Data, kernel: Kernel, b: FreeBody): Numbers {
-  const lines = [0, 1, 2].map(() => html("p", parent, { class: "equation" }));
-  const { terms, about } = b.equations, force = data.units.force, moment = data.units.moment;
+  const { terms, about } = b.equations, n = terms[0]?.f.length ?? 2, letters = ["x", "y", "z"].slice(0, n);
+  const sums = letters.map((x, k) => ({ head: `ΣF${x}`, unit: data.units.force, sign: (t: Term) => plain(t.name) + x, row: (t: Term) => t.f[k] }));
+  if (n === 2) sums.push({ head: `ΣM about ${about}`, unit: data.units.moment, sign: (t) => `M(${plain(t.name)})`, row: (t) => t.m as number });
+  else letters.forEach((x, k) => sums.push({ head: `ΣM${x} about ${about}`, unit: data.units.moment, sign: (t) => `M${x}(${plain(t.name)})`, row: (t) => (t.m as number[])[k] }));
+  const lines = sums.map((sum) => ({ sum, el: html("p", parent, { class: "equation" }) }));
   return {
     update() {
-      const heads = ["ΣFx", "ΣFy", `ΣM about ${about}`];
-      lines.forEach((line, n) => {
-        const unit = n < 2 ? force : moment;
-        const values = terms.map((t) => kernel.here[n < 2 ? t.f[n] : t.m] / unit.size);
-        const largest = Math.max(...values.map(Math.abs), 0), some = values.map((v, k) => ({ v, k })).filter((x) => Math.abs(x.v) > 1e-9 * largest);
+      for (const { sum, el } of lines) {
+        const values = terms.map((t) => kernel.here[sum.row(t)] / sum.unit.size), largest = Math.max(...values.map(Math.abs), 0);
+        const some = values.map((v, k) => ({ v, k })).filter((x) => Math.abs(x.v) > 1e-9 * largest);
         if (!kernel.solved || !some.length) {
-          line.textContent = `${heads[n]}: ${kernel.solved ? "nothing acts" : "no answer here"}`;
-          return;
+          el.textContent = `${sum.head}: ${kernel.solved ? "nothing acts" : "no answer here"}`;
+          continue;
         }
-        const index = n < 2 ? "xy"[n] : "";
-        const signs = some.map((x) => (n < 2 ? plain(terms[x.k].name) + index : `M(${plain(terms[x.k].name)})`)).join(" + ");
-        const sum = some.reduce((t, x) => t + x.v, 0), shown = Math.abs(sum) < 1e-9 * largest ? 0 : sum;
+        const signs = some.map((x) => sum.sign(terms[x.k])).join(" + "), total = some.reduce((t, x) => t + x.v, 0);
         const numbers = some.map((x, k) => (x.v < 0 ? (k ? " − " : "−") : k ? " + " : "") + figures(Math.abs(x.v))).join("");
-        line.textContent = `${heads[n]}: ${signs} = ${numbers} = ${figures(shown)} ${unit.unit}`;
-      });
+        el.textContent = `${sum.head}: ${signs} = ${numbers} = ${figures(Math.abs(total) < 1e-9 * largest ? 0 : total)} ${sum.unit.unit}`;
+      }
     },
   };
 }

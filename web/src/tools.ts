@@ -1,7 +1,7 @@
 /** Beyond the drawing: derivatives as arrows, a cloud of tolerances, undo, the state in the address, files. */
 
 import type { Board } from "./board";
-import type { Curve, Data, Handle } from "./data";
+import type { Curve, Data, Handle, Rows } from "./data";
 import type { Kernel } from "./kernel";
 import { Arrow, make, plain } from "./svg";
 
@@ -47,7 +47,7 @@ export class Cloud {
   private readonly out: Float64Array;
   private readonly numbers: number[];
   readonly canvas: HTMLCanvasElement;
-  constructor(parent: Element, private readonly b: Board, data: Data, private readonly kernel: Kernel, private readonly places: [number, number][]) {
+  constructor(parent: Element, private readonly b: Board, data: Data, private readonly kernel: Kernel, private readonly places: Rows[]) {
     this.numbers = data.numbers.flatMap((n, k) => (/\.points\./.test(n.path) || n.path.endsWith(".center.0") || n.path.endsWith(".center.1") ? [k] : []));
     this.canvas = document.createElement("canvas");
     this.canvas.className = "cloud";
@@ -76,8 +76,8 @@ export class Cloud {
       k.other(trial, this.out);
       const mark = this.out[this.out.length - 1];
       if (mark !== 0 && mark !== 9) continue;
-      for (const [x, y] of this.places) {
-        const [px, py] = this.b.paper.of(this.out[x], this.out[y]);
+      for (const p of this.places) {
+        const [px, py] = this.b.paper.of(...this.b.paper.seen(p, (r) => this.out[r]));
         g.fillRect((px - view.x) * scale + (w - view.width * scale) / 2, (py - view.y) * scale + (h - view.height * scale) / 2, dots, dots);
       }
       if (row !== undefined) (sum += this.out[row]), (squares += this.out[row] ** 2), count++;

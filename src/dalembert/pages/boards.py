@@ -31,10 +31,12 @@ CURVES = 6
 class Boards:
     """All that is shown of one mechanism; ``actions`` in nodes."""
 
-    def __init__(self, known: Result, rows: Rows, actions: Sequence[Action]) -> None:
+    def __init__(
+        self, known: Result, rows: Rows, actions: Sequence[Action], items: Items | None = None
+    ) -> None:
         self.known, self.rows, self.actions = known, rows, actions
-        self.frame = whole_frame(known, 0, 120.0, 90.0)
-        self.items = Items(rows.r, known, rows, self.frame)
+        self.items = items or Items(rows.r, known, rows, whole_frame(known, 0, 120.0, 90.0))
+        self.frame = self.items.frame
         self.shown = Shown(known, Notation())
         self.numbered = _numbered(known, actions)
 
@@ -185,9 +187,9 @@ class Boards:
             curve = {"row": row, "name": name, "role": "load", "of": f"load.{name}"}
             out.append({"title": name, "kind": load_kind(r, name), "curves": [curve]})
         for k, joint in enumerate(r.joints):
-            x, y = self.rows.r.force_array[0, k]
+            x, y, *_ = self.rows.r.force_array[0, k]
             role = f"curve-{k % CURVES + 1}"
-            size = self.rows.of((x * x + y * y).sqrt())
+            size = self.rows.of(self._force(k))
             curves.append(
                 {
                     "row": size,
@@ -201,6 +203,11 @@ class Boards:
             c["role"] for c in curves
         }
         return [*out, {"title": "Joint forces", "kind": "force", "curves": curves}]
+
+    def _force(self, k: int) -> Numeric:
+        """Magnitude of the force of joint number k, a node."""
+        x, y = self.rows.r.force_array[0, k]
+        return (x * x + y * y).sqrt()
 
     def table(self) -> list[Tree]:
         """Numbers of a position: what is driven, efforts, loads asked for, joint forces, links' motion."""
@@ -235,7 +242,9 @@ def _numbered(known: Result, actions: Sequence[Action]) -> list[Action]:
     """The action of the result beside each of the nodes; what has no number in the file is nothing there."""
     there = {_key(a): a for a in whole_actions(known)}
     count = len(known.status)
-    nothing: Tree = {"at": np.zeros((count, 2)), "force": np.zeros((count, 2)), "couple": np.zeros(count)}
+    d = known._d
+    couple = np.zeros(count if d == 2 else (count, 3))
+    nothing: Tree = {"at": np.zeros((count, d)), "force": np.zeros((count, d)), "couple": couple}
     return [there.get(_key(a)) or replace(a, **nothing) for a in actions]
 
 

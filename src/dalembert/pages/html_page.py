@@ -21,11 +21,11 @@ POLICY = (
 
 
 def page(m: Mechanism, path: str | Path | None = None, static: bool = False, overwrite: bool = False) -> str:
-    """The HTML of a live page of a mechanism of the plane; written to ``path`` where that is given.
+    """The HTML of a live page of a mechanism; written to ``path`` where that is given.
 
     Every drawn number is computed by the kernel's WebAssembly in the page: joints, loads and every number of the file
     can be changed, and all forces follow. static: leave inertia out. overwrite: replace a file that is there.
-    Raises ModelError for what only the analyses can do (space, redundant mechanisms, positions that are asked for).
+    Raises ModelError for what only the analyses can do (redundant mechanisms, positions that are asked for).
 
     >>> import dalembert as da
     >>> html = da.page(da.four_bar())

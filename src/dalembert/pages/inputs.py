@@ -25,6 +25,7 @@ KIND_OF = {
     "points": "length",
     "center": "length",
     "mass": "mass",
+    "weight": "force",
     "inertia": "inertia",
     "direction": "angle",
     "radius": "length",
@@ -45,16 +46,27 @@ def _candidates(m: Mechanism) -> Iterator[tuple[str, object]]:
     for name, link in m.links.items():
         yield from ((f"links.{name}.points.{p}", m.point(name, p)) for p in link.points)
         if name != GROUND and m.mass(name):
-            yield from ((f"links.{name}.{key}", getattr(link, key)) for key in ("mass", "center", "inertia"))
+            yield from (
+                (f"links.{name}.{key}", getattr(link, key)) for key in ("mass", "weight", "center", "inertia")
+            )
     for name, joint in m.joints.items():
         friction = getattr(joint, "friction", None) if m.friction.enabled else None
         yield from (
             (f"joints.{name}.friction.{k}", getattr(friction, k, None)) for k in ("coefficient", "radius")
         )
-        yield f"joints.{name}.direction", getattr(joint, "direction", None)
+        if m.dimension == 2:
+            yield f"joints.{name}.direction", getattr(joint, "direction", None)
     for name, load in m.loads.items():
         if not load.unknown:
-            keys = ("value", "direction", "stiffness", "free_length", "free_angle", "damping", "force")
+            keys = (
+                "value",
+                *(("direction",) if m.dimension == 2 else ()),
+                "stiffness",
+                "free_length",
+                "free_angle",
+                "damping",
+                "force",
+            )
             yield from ((f"loads.{name}.{key}", getattr(load, key, None)) for key in keys)
     if m.friction.enabled:
         yield "friction.coefficient", m.friction.coefficient
@@ -176,6 +188,8 @@ def handles(b: Boards, k: Kernel) -> list[Tree]:
 
     ``n``: the places of the numbers that change. ``at`` and ``e``: rows of the origin and x axis of their axes.
     """
+    if b.known.mechanism.dimension == 3:
+        return []
     found = _Handles(b, {n.path: i for i, n in enumerate(k.trace.numbers)})
     return [*found.joints(), *found.points(), *found.loads(), *found.directions()]
 

@@ -7,8 +7,11 @@ import zlib
 from collections.abc import Sequence
 from importlib.metadata import version
 
+import numpy as np
+
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.kernel_export import plain
+from dalembert.analysis.batch.symbolic_model import geometric
 from dalembert.analysis.batch.traced_analysis import trace_analysis
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.arrays import Tree
@@ -29,6 +32,7 @@ from dalembert.pages.inputs import (
     template,
 )
 from dalembert.pages.rows import Rows
+from dalembert.pages.space_boards import SpaceBoards
 from dalembert.pages.sweep import with_cycle
 from dalembert.pages.symbolic_result import symbolic_actions, symbolic_result
 from dalembert.views.formats.svg import rule
@@ -60,15 +64,13 @@ def page_data(m: Mechanism, static: bool = False) -> Tree:
 
     static: leave inertia out.
     """
-    if m.dimension == 3:
-        raise ModelError("pages of spatial mechanisms are not there yet", "draw it, or make an animation")
     m = with_cycle(m)
     inertia = m.has_speeds and not static
     k = _kernel(m, inertia)
     r = symbolic_result(k)
     known = at_schedule(m, k.trace.course.schedule, inertia)
     rows = Rows(k.trace.catalogue.graph, r)
-    b = Boards(known, rows, symbolic_actions(r, k))
+    b = (SpaceBoards if m.dimension == 3 else Boards)(known, rows, symbolic_actions(r, k))
     views: Tree = {
         "mechanism": b.mechanism(),
         "bodies": b.free_bodies(),
@@ -86,6 +88,7 @@ def page_data(m: Mechanism, static: bool = False) -> Tree:
         "title": m.title or "A mechanism",
         "source": m.source_text,
         "units": {kind: {"unit": b.shown.unit(kind), "size": b.shown.size(kind)} for kind in UNITS},
+        "noise": _noise(b),
         "kernel": _module(program, len(k.trace.course.schedule.position)),
         "numbers": number_fields(b, k),
         "template": template(m, k),
@@ -108,8 +111,14 @@ def page_data(m: Mechanism, static: bool = False) -> Tree:
 
 def _kernel(m: Mechanism, inertia: bool) -> Kernel:
     """The kernel with every number free that the trace takes as such; no machine code is made."""
+    free = numbers_of(m)
     try:
-        trace = trace_analysis(m, numbers_of(m), inertia)
+        try:
+            trace = trace_analysis(m, free, inertia)
+        except ModelError:
+            if m.dimension == 2:
+                raise
+            trace = trace_analysis(m, [path for path in free if not geometric(m, path)], inertia)
     except ModelError as error:
         raise error.at_source(m.source) from None
     return Kernel(m, trace, (), None, False, LANES)
@@ -144,6 +153,14 @@ def _gradient(k: Kernel, b: Boards, charts: Sequence[Tree]) -> Tree | None:
             return {"fields": fields, "channels": program.inputs_in_use("channel")}
         curves = curves[: len(curves) // 2]
     return None
+
+
+def _noise(b: Boards) -> Tree:
+    """Forces and moments that are nothing but rounding beside the largest force of the cycle."""
+    with np.errstate(all="ignore"):
+        sizes = [np.nan_to_num(np.abs(a.force)).max(initial=0.0) for a in b.numbered]
+    force = 1e-12 * float(max(sizes, default=0.0))
+    return {"force": force, "moment": force * b.known.compiled.layout.length}
 
 
 def _sentences() -> Tree:

@@ -15,7 +15,7 @@ BUNDLE = Path(__file__).with_name("bundle")
 
 
 def widget(m: Mechanism, static: bool = False) -> Any:
-    """The live page of a mechanism of the plane in Jupyter; needs the extra ``notebook``, and works offline.
+    """The live page of a mechanism in Jupyter; needs the extra ``notebook``, and works offline.
 
     ``w.mechanism`` is the mechanism as it has been dragged, ``w.result`` its answer, ``w.changes`` the numbers that
     were changed, by path, SI; ``w.observe(f, "changes")`` calls f after each change. Set ``w.mechanism`` to show

@@ -202,7 +202,7 @@ def local_axes(joint: Joint, at: Geometry, on_i: Array, on_j: Array, moment: boo
         first, second = (AXES.index(name) for name in pair.turns)
         n, p = space.rotate(on_i, at.on_i[first]), space.rotate(on_j, at.on_j[second])
         third = 3 - first - second
-        axes = np.empty((*n.shape[:-1], 3, 3))
+        axes = np.empty((*n.shape[:-1], 3, 3), np.result_type(n, p))
         axes[..., first, :], axes[..., second, :] = n, p
         axes[..., third, :] = space.cross(n, p) * (1.0 if (second - first) % 3 == 1 else -1.0)
         return axes

@@ -169,11 +169,26 @@ var y = class {
 	kernel;
 	perMm;
 	middle = [0, 0];
+	azimuth = -Math.PI / 3;
+	elevation = .45;
 	constructor(e, t) {
 		this.kernel = e, this.perMm = t;
 	}
+	seen(e, t) {
+		let n = t(e[0]), r = t(e[1]);
+		if (e.length < 3) return [n, r];
+		let i = Math.cos(this.azimuth), a = Math.sin(this.azimuth), o = Math.cos(this.elevation), s = Math.sin(this.elevation);
+		return [i * r - a * n, o * t(e[2]) - s * (i * n + a * r)];
+	}
+	depth(e) {
+		let [t, n, r] = e.map((e) => this.kernel.here[e]);
+		return Math.cos(this.elevation) * (Math.cos(this.azimuth) * t + Math.sin(this.azimuth) * n) + Math.sin(this.elevation) * r;
+	}
+	here(e) {
+		return this.seen(e, (e) => this.kernel.here[e]);
+	}
 	point(e) {
-		return this.of(this.kernel.here[e[0]], this.kernel.here[e[1]]);
+		return this.of(...this.here(e));
 	}
 	of(e, t) {
 		return [(e - this.middle[0]) / this.perMm, (this.middle[1] - t) / this.perMm];
@@ -211,11 +226,12 @@ function b(t, i, a) {
 			r.setAttribute("cx", n(e)), r.setAttribute("cy", n(t)), r.setAttribute("r", n(Math.abs(s[i.r]) / a.perMm));
 		} };
 	}
+	if (i.t === "pair") return x(t, i, a);
 	let c = e("path", t, {
 		class: `l-${i.role}`,
 		style: "fill:none"
 	});
-	if (i.t === "trace") return { update: () => c.setAttribute("d", x(o, a, i.p[0])) };
+	if (i.t === "trace") return { update: () => c.setAttribute("d", S(o, a, i.p[0])) };
 	let l = () => i.p.map((e) => a.point(e)), u = (e) => {
 		let t = i.t === "hull" ? f(l()) : l();
 		for (let n = 0; n + 1 < t.length; n++) e.line(t[n], t[n + 1]);
@@ -232,7 +248,19 @@ function b(t, i, a) {
 		mark: u
 	});
 }
-function x(e, t, r) {
+function x(t, r, i) {
+	let a = e("g", t), o = r.fixed ? "support" : "block", s = e("path", a, { class: `l-${o}` }), c = e("path", a, { class: `l-${r.shape === "ball" ? o : "pin"}` }), l = r.shape === "block" ? 4.2 : 3.4, u = r.shape === "block" ? 2.2 : 1.7;
+	return {
+		update() {
+			let [e, t] = i.point(r.p), [o, d] = i.here(r.e), f = i.depth(r.e);
+			if (a.setAttribute("transform", `translate(${n(e)} ${n(t)}) rotate(${n(-Math.atan2(d, o) * 180 / Math.PI)})`), r.shape === "ball") return s.setAttribute("d", `M${u} 0A${u} ${u} 0 1 0 ${-u} 0A${u} ${u} 0 1 0 ${u} 0Z`);
+			let p = l * Math.hypot(o, d), m = u * Math.abs(f), h = f >= 0 ? p : -p;
+			r.shape === "round" ? (s.setAttribute("d", `M${n(-p)} ${-u}L${n(p)} ${-u}A${n(m)} ${u} 0 0 1 ${n(p)} ${u}L${n(-p)} ${u}A${n(m)} ${u} 0 0 1 ${n(-p)} ${-u}Z`), c.setAttribute("d", `M${n(h + m)} 0A${n(m)} ${u} 0 1 0 ${n(h - m)} 0A${n(m)} ${u} 0 1 0 ${n(h + m)} 0Z`)) : (s.setAttribute("d", `M${n(-p - m)} ${-u}H${n(p + m)}V${u}H${n(-p - m)}Z`), c.setAttribute("d", `M${n(h - m)} ${-u}H${n(h + m)}V${u}H${n(h - m)}Z`));
+		},
+		mark: (e) => e.disc(i.point(r.p), 2.4)
+	};
+}
+function S(e, t, r) {
 	let i = "", a = !1;
 	for (let o = 0; o <= e.count; o++) {
 		let s = o < e.count ? o : 0;
@@ -240,25 +268,26 @@ function x(e, t, r) {
 			a = !1;
 			continue;
 		}
-		let [c, l] = t.of(e.value(r[0], s), e.value(r[1], s));
+		let [c, l] = t.of(...t.seen(r, (t) => e.value(t, s)));
 		i += `${a ? "L" : "M"}${n(c)} ${n(l)}`, a = !0;
 	}
 	return i;
 }
-function S(e, t, n, r, i) {
-	return t.t === "force" ? C(e, t, n, r, i) : T(e, t, n);
-}
 function C(e, t, n, r, i) {
-	let a = n.kernel.here, o = new d(e, t.role, t.name), s = h(e, t.role, t.name, 3.4), c = [0, 0], l = [0, 0], u = [0, 0], f = !1;
+	return t.t === "couple" ? D(e, t, n) : T(e, t, n, r, i);
+}
+var w = 13;
+function T(e, t, n, r, i) {
+	let a = new d(e, t.role, t.name), o = t.t === "moment" ? new d(e, t.role) : null, s = h(e, t.role, t.name, 3.4), c = [0, 0], l = [0, 0], u = [0, 0], f = !1;
 	return {
 		label: s,
 		update() {
-			let e = n.point(t.p), d = r(), p = [a[t.f[0]] / d, -a[t.f[1]] / d], m = !1;
-			if (i && i.length > 1) {
+			let e = n.point(t.p), [d, p] = n.here(t.f), m = o ? Math.hypot(...t.f.map((e) => n.kernel.here[e])) / w || 1 : r(), h = [d / m, -p / m], g = !1;
+			if (i && i.length > 1 && !o) {
 				let t = i.map((e) => n.point(e)), r = [0, 1].map((e) => t.reduce((t, n) => t + n[e], 0) / t.length);
-				m = p[0] * (r[0] - e[0]) + p[1] * (r[1] - e[1]) > 1e-9;
+				g = h[0] * (r[0] - e[0]) + h[1] * (r[1] - e[1]) > 1e-9;
 			}
-			[c, l] = m ? [[e[0] - p[0], e[1] - p[1]], e] : [e, [e[0] + p[0], e[1] + p[1]]], u = m ? c : l, f = o.set(c, l), s.el.setAttribute("visibility", f ? "visible" : "hidden");
+			[c, l] = g ? [[e[0] - h[0], e[1] - h[1]], e] : [e, [e[0] + h[0], e[1] + h[1]]], u = g ? c : l, f = a.set(c, l), o?.set(c, [c[0] + .78 * (l[0] - c[0]), c[1] + .78 * (l[1] - c[1])]), s.el.setAttribute("visibility", f ? "visible" : "hidden");
 		},
 		mark: (e) => f && e.line(c, l),
 		anchor() {
@@ -272,8 +301,8 @@ function C(e, t, n, r, i) {
 		}
 	};
 }
-var w = 4.6;
-function T(t, r, i) {
+var E = 4.6;
+function D(t, r, i) {
 	let a = i.kernel.here, s = e("g", t), c = h(t, r.role, r.name, 3.4);
 	e("title", s).textContent = o(r.name), e("path", s, {
 		class: `l-${r.role}`,
@@ -291,16 +320,16 @@ function T(t, r, i) {
 			l = Number.isFinite(o) && Math.abs(o) > 1e-9, s.setAttribute("display", l ? "inline" : "none"), c.el.setAttribute("visibility", l ? "visible" : "hidden"), s.setAttribute("transform", `translate(${n(e)} ${n(t)}) scale(${o < 0 ? -1 : 1} 1)`);
 		},
 		mark(e) {
-			l && e.disc(i.point(r.p), w * .7);
+			l && e.disc(i.point(r.p), E * .7);
 		},
 		anchor() {
 			let [e, t] = i.point(r.p);
-			return l ? [[e, t - w], [0, -1]] : null;
+			return l ? [[e, t - E], [0, -1]] : null;
 		}
 	};
 }
 // src/board.ts
-var E = [
+var O = [
 	1,
 	1.25,
 	1.5,
@@ -313,35 +342,33 @@ var E = [
 	8,
 	10
 ];
-function D(e) {
+function k(e) {
 	if (!(e > 0) || !Number.isFinite(e)) return 1;
 	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
-	return t * (E.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
+	return t * (O.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
 }
-function O(e, t, n) {
-	let r = t.items.flatMap((e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" ? [e.p] : []), i = [0, 1].map((t) => {
-		let n = Infinity, i = -Infinity;
-		for (let a of r) for (let r = 0; r < e.count; r++) e.good(r) && (n = Math.min(n, e.value(a[t], r)), i = Math.max(i, e.value(a[t], r)));
-		return i - n;
-	}), a = i[1] / i[0];
-	return Number.isFinite(a) ? Math.min(Math.max(n * a * 1.05, 96), 150) : 120;
+function A(e, t, n) {
+	let r = t.items.flatMap((e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : []), i = new y(e, 1), a = [Infinity, Infinity], o = [-Infinity, -Infinity];
+	for (let t of r) for (let n = 0; n < e.count; n++) e.good(n) && i.seen(t, (t) => e.value(t, n)).forEach((e, t) => (a[t] = Math.min(a[t], e), o[t] = Math.max(o[t], e)));
+	let s = [o[0] - a[0], o[1] - a[1]], c = s[1] / s[0];
+	return Number.isFinite(c) ? Math.min(Math.max(n * c * 1.05, 96), 150) : 120;
 }
-function k(t, n, r, i) {
+function j(t, n, r, i) {
 	return e("svg", t, {
 		viewBox: `${-n / 2} ${-r / 2} ${n} ${r}`,
 		role: "img",
 		"aria-label": i
 	});
 }
-function A(t, n, r, i, a, o, s, c) {
+function M(t, n, r, i, a, o, s, c) {
 	let l = {
 		length: s.length.size,
 		force: s.force.size
-	}, u = k(t, a, o, c), d = new y(n, r.per_mm), f = [], p = [], m = [], _ = [], v = r.force;
+	}, u = j(t, a, o, c), d = new y(n, r.per_mm), f = [], p = [], m = [], _ = [], v = r.force;
 	r.middle && (d.middle = r.middle);
-	let x = e("g", u), C = e("g", u), w = e("g", u);
+	let x = e("g", u), S = e("g", u), w = e("g", u);
 	for (let e of r.items) (e.t === "trace" ? f : p).push(b(x, e, d));
-	for (let e of r.arrows) m.push(S(C, e, d, () => v, i ?? void 0));
+	for (let e of r.arrows) m.push(C(S, e, d, () => v, i ?? void 0));
 	for (let e of r.labels) _.push({
 		l: h(w, e.role, e.text, e.kind === "joint" ? 3.8 : 3.3),
 		p: e.p,
@@ -357,32 +384,35 @@ function A(t, n, r, i, a, o, s, c) {
 		-o / 2,
 		a / 2,
 		o / 2 - 4
-	], O = (e) => [Math.min(...e), Math.max(...e)];
-	function A() {
+	], D = (e) => [Math.min(...e), Math.max(...e)];
+	function O() {
 		if (!i) return;
-		let e = n.here, [t, r] = O(i.map((t) => e[t[0]])), [a, o] = O(i.map((t) => e[t[1]]));
-		Number.isFinite(t + r + a + o) && (d.middle = [(t + r) / 2, (a + o) / 2]);
+		let e = i.map((e) => d.here(e)), [t, n] = D(e.map((e) => e[0])), [r, a] = D(e.map((e) => e[1]));
+		Number.isFinite(t + n + r + a) && (d.middle = [(t + n) / 2, (r + a) / 2]);
 	}
-	function j() {
-		let e = [], t = [], s = i ?? r.items.flatMap((e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" ? [e.p] : []), c = Math.max(1, Math.floor(n.count / 72));
-		for (let r of s) for (let a = 0; a < n.count; a += i ? n.count : c) (i || n.good(a)) && (e.push(i ? n.here[r[0]] : n.value(r[0], a)), t.push(i ? n.here[r[1]] : n.value(r[1], a)));
+	function A() {
+		let e = [], t = [], s = i ?? r.items.flatMap((e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : []), c = Math.max(1, Math.floor(n.count / 72));
+		for (let r of s) for (let a = 0; a < n.count; a += i ? n.count : c) if (i || n.good(a)) {
+			let [o, s] = i ? d.here(r) : d.seen(r, (e) => n.value(e, a));
+			e.push(o), t.push(s);
+		}
 		if (e.length) {
-			let [n, s] = O(e), [c, u] = O(t), f = i ? [46, 40] : [a * .76, o * .74], p = Math.max((s - n) / f[0], (u - c) / f[1]) || r.per_mm;
-			i || (d.middle = [(n + s) / 2, (c + u) / 2]), d.perMm = D(p / l.length) * l.length;
+			let [n, s] = D(e), [c, u] = D(t), f = i ? [46, 40] : [a * .76, o * .74], p = Math.max((s - n) / f[0], (u - c) / f[1]) || r.per_mm;
+			i || (d.middle = [(n + s) / 2, (c + u) / 2]), d.perMm = k(p / l.length) * l.length;
 		}
 		let u = 0;
-		for (let e of r.arrows) if (e.t === "force") for (let t = 0; t < n.count; t++) n.good(t) && (u = Math.max(u, Math.hypot(n.value(e.f[0], t), n.value(e.f[1], t))));
-		u > 0 && (v = D(u / (i ? 26 : 22) / l.force) * l.force);
+		for (let e of r.arrows) if (e.t === "force") for (let t = 0; t < n.count; t++) n.good(t) && (u = Math.max(u, Math.hypot(...e.f.map((e) => n.value(e, t)))));
+		u > 0 && (v = k(u / (i ? 26 : 22) / l.force) * l.force);
 	}
 	let M = {
 		svg: u,
 		paper: d,
-		fit: j,
+		fit: A,
 		force: () => v,
 		names: r.labels.filter((e) => e.kind === "joint").length <= 8,
 		update(e) {
-			if (e && f.forEach((e) => e.update()), C.setAttribute("visibility", n.solved ? "visible" : "hidden"), !n.finite) return;
-			A(), p.forEach((e) => e.update()), m.forEach((e) => e.update());
+			if (e && f.forEach((e) => e.update()), S.setAttribute("visibility", n.solved ? "visible" : "hidden"), !n.finite) return;
+			O(), p.forEach((e) => e.update()), m.forEach((e) => e.update());
 			let t = new g(E);
 			p.forEach((e) => e.mark?.(t)), m.forEach((e) => e.mark?.(t));
 			for (let { l: e, p: n, q: r } of _) {
@@ -415,7 +445,7 @@ function A(t, n, r, i, a, o, s, c) {
 	return M;
 }
 // src/charts.ts
-var j = 120, M = 52;
+var ee = 120, te = 52;
 function N(e, t, n) {
 	let r = (t - e) / n, i = 10 ** Math.floor(Math.log10(r || 1)), a = i * ([
 		1,
@@ -427,13 +457,13 @@ function N(e, t, n) {
 	return o;
 }
 var P = (e, t = 4) => Number.isFinite(e) ? String(+e.toPrecision(t)).replace("-", "−") : "–";
-function ee(r, i, o, s, c, u, d, f) {
+function ne(r, i, o, s, c, u, d, f) {
 	let p = t("figure", r, { class: "chart" }), m = i.units[s.kind] ?? {
 		unit: "",
 		size: 1
 	};
 	t("figcaption", p, {}, `${s.title}, ${m.unit}`);
-	let h = Math.min(Math.max(...s.curves.map((e) => l(e.name, 3))) + 4, 36), g = k(p, j, M, s.title), _ = 104 - h, v = e("path", g, {
+	let h = Math.min(Math.max(...s.curves.map((e) => l(e.name, 3))) + 4, 36), g = j(p, ee, te, s.title), _ = 104 - h, v = e("path", g, {
 		class: "l-grid",
 		style: "fill:none"
 	}), y = e("path", g, {
@@ -455,23 +485,26 @@ function ee(r, i, o, s, c, u, d, f) {
 			role: "button"
 		});
 		return a(r, t.name, 3), e("title", r).textContent = "show what lowers its peak", r.addEventListener("click", () => d(t)), r.addEventListener("keydown", (e) => e.key === "Enter" && d(t)), r;
-	}), D = (e) => e, O = (e) => -44 + e / T * _;
-	function A() {
+	}), D = i.noise[s.kind] ?? 0, O = (e, t) => {
+		let n = o.value(e.row, t);
+		return Math.abs(n) < D ? 0 : n;
+	}, k = (e) => e, A = (e) => -44 + e / T * _;
+	function M() {
 		let t = Infinity, r = -Infinity;
 		for (let e of s.curves) for (let n = 0; n < o.count; n++) if (o.good(n)) {
-			let i = o.value(e.row, n) / m.size;
+			let i = O(e, n) / m.size;
 			t = Math.min(t, i), r = Math.max(r, i);
 		}
 		t <= r || ([t, r] = [0, 1]), t > 0 && t < .4 * r && (t = 0), r < 0 && r > .4 * t && (r = 0), r - t < 1e-9 * Math.max(Math.abs(r), 1e-9) && ([t, r] = [Math.min(t, 0), Math.max(r, 0) || 1]);
 		let i = N(t, r, 4), a = .04 * (r - t);
-		[t, r] = [t - a, r + a], D = (e) => 18 - (e / m.size - t) / (r - t) * 39, b.replaceChildren();
+		[t, r] = [t - a, r + a], k = (e) => 18 - (e / m.size - t) / (r - t) * 39, b.replaceChildren();
 		let c = "";
-		for (let t of i) c += `M-44 ${n(D(t * m.size))}h${_}`, e("text", b, {
+		for (let t of i) c += `M-44 ${n(k(t * m.size))}h${_}`, e("text", b, {
 			class: "l-note-t",
 			"font-size": 2.6,
 			"text-anchor": "end",
 			x: -45.2,
-			y: D(t * m.size) + .9
+			y: k(t * m.size) + .9
 		}).textContent = P(t, 5);
 		if (w) {
 			let t = [0, T].map((e) => o.position(w.name, e) / w.size);
@@ -493,9 +526,9 @@ function ee(r, i, o, s, c, u, d, f) {
 				y: 24.6
 			}).textContent = `${w.name}, ${w.unit}`;
 		}
-		v.setAttribute("d", c), y.setAttribute("d", "M-44 -21v39" + (t < 0 && r > 0 ? `M-44 ${n(D(0))}h${_}` : "")), x.forEach((e, t) => e.setAttribute("d", ee((e) => O(e), (e) => D(o.value(s.curves[t].row, e)))));
+		v.setAttribute("d", c), y.setAttribute("d", "M-44 -21v39" + (t < 0 && r > 0 ? `M-44 ${n(k(0))}h${_}` : "")), x.forEach((e, t) => e.setAttribute("d", ne((e) => A(e), (e) => k(O(s.curves[t], e)))));
 	}
-	function ee(e, t) {
+	function ne(e, t) {
 		let r = "", i = !1;
 		for (let a = 0; a < o.count; a++) o.good(a) && (r += `${i ? "L" : "M"}${n(e(a))} ${n(t(a))}`), i = o.good(a);
 		return r;
@@ -506,15 +539,15 @@ function ee(r, i, o, s, c, u, d, f) {
 	return g.addEventListener("pointerdown", (e) => {
 		e.target.closest(".key") || (g.setPointerCapture(e.pointerId), F(e));
 	}), g.addEventListener("pointermove", (e) => e.buttons && g.hasPointerCapture(e.pointerId) && F(e)), { update(e) {
-		e && A();
+		e && M();
 		let t = Math.min(c(), T);
-		S.setAttribute("d", `M${n(O(t))} -21v39`), s.curves.forEach((e, r) => {
-			C[r].setAttribute("visibility", o.solved ? "visible" : "hidden"), o.solved && (C[r].setAttribute("cx", n(O(t))), C[r].setAttribute("cy", n(D(o.here[e.row])))), E[r].classList.toggle("picked", f() === e);
+		S.setAttribute("d", `M${n(A(t))} -21v39`), s.curves.forEach((e, r) => {
+			C[r].setAttribute("visibility", o.solved ? "visible" : "hidden"), o.solved && (C[r].setAttribute("cx", n(A(t))), C[r].setAttribute("cy", n(k(o.here[e.row])))), E[r].classList.toggle("picked", f() === e);
 		});
 	} };
 }
 function F(r, i, a, o) {
-	let s = t("figure", r, { class: "polar" }), c = t("figcaption", s, {}, `Joint ${a.name}`), l = k(s, 66, 66, `polar diagram of joint ${a.name}`), u = e("path", l, {
+	let s = t("figure", r, { class: "polar" }), c = t("figcaption", s, {}, `Joint ${a.name}`), l = j(s, 66, 66, `polar diagram of joint ${a.name}`), u = e("path", l, {
 		class: "l-grid",
 		style: "fill:none"
 	}), f = e("path", l, {
@@ -526,7 +559,7 @@ function F(r, i, a, o) {
 		if (e) {
 			let e = 0;
 			for (let n = 0; n < i.count; n++) i.good(n) && (e = Math.max(e, Math.hypot(i.value(t, n), i.value(r, n))));
-			m = D(e / 28 / o.size) * o.size || o.size;
+			m = k(e / 28 / o.size) * o.size || o.size;
 			let s = "", l = !1;
 			for (let e = 0; e < i.count; e++) i.good(e) && (s += `${l ? "L" : "M"}${n(i.value(t, e) / m)} ${n(-i.value(r, e) / m)}`), l = i.good(e);
 			f.setAttribute("d", s + (i.cyclic && s && !s.slice(1).includes("M") ? "Z" : "")), u.setAttribute("d", "M-30 0H30M0 -30V30M15 0A15 15 0 1 0 -15 0A15 15 0 1 0 15 0M30 0A30 30 0 1 0 -30 0A30 30 0 1 0 30 0"), c.textContent = `Joint ${a.name}: 1 mm = ${P(m / o.size)} ${o.unit}`;
@@ -535,10 +568,10 @@ function F(r, i, a, o) {
 		p.set([0, 0], i.solved ? [s[t] / m, -s[r] / m] : [0, 0]);
 	} };
 }
-function te(n, i, a, o) {
+function re(n, i, a, o) {
 	let s = t("figure", n, { class: "polygon" }), c = i.units.force;
 	t("figcaption", s, {}, `Force polygon of link ${o.title}`);
-	let l = k(s, 110, 80, `force polygon of link ${o.title}`), u = e("g", l), f = o.sides.map((e) => new d(l, e.role, e.name)), p = o.sides.map((e) => h(u, e.role, e.name, 3)), m = e("path", l, {
+	let l = j(s, 110, 80, `force polygon of link ${o.title}`), u = e("g", l), f = o.sides.map((e) => new d(l, e.role, e.name)), p = o.sides.map((e) => h(u, e.role, e.name, 3)), m = e("path", l, {
 		class: "l-gap",
 		style: "fill:none"
 	}), _ = e("text", l, {
@@ -561,7 +594,7 @@ function te(n, i, a, o) {
 				Math.max(...n),
 				Math.min(...i),
 				Math.max(...i)
-			], v = D(Math.max((u - s) / 66, (h - d) / 48) / c.size) * c.size, y = t.map(([e, t]) => [(e - (s + u) / 2) / v, (t - (d + h) / 2) / v]), b = new g([
+			], v = k(Math.max((u - s) / 66, (h - d) / 48) / c.size) * c.size, y = t.map(([e, t]) => [(e - (s + u) / 2) / v, (t - (d + h) / 2) / v]), b = new g([
 				-55,
 				-40,
 				55,
@@ -583,16 +616,16 @@ function te(n, i, a, o) {
 	};
 }
 // src/handles.ts
-function ne(t, n, r, i, a) {
+function ie(t, n, r, i, a) {
 	let o = e("g", t.svg, { class: "handles" }), s = n.handles.map((e) => oe(o, t, e, r, i, a));
-	return z(t, n, r, i), () => r.finite && s.forEach((e) => e());
+	return se(t, n, r, i), () => r.finite && s.forEach((e) => e());
 }
-function re(e, t, n, r, i) {
+function I(e, t, n, r, i) {
 	let [a, o, s, c] = n;
 	e.values[t.n[0]] = s * (r - a) + c * (i - o), e.values[t.n[1]] = s * (i - o) - c * (r - a);
 }
-var ie = (e, t) => [...t.at, ...t.e].map((t) => e.here[t]);
-function I(e, t, n, r, i) {
+var ae = (e, t) => [...t.at, ...t.e].map((t) => e.here[t]);
+function L(e, t, n, r, i) {
 	let a = e.values, o = new Float64Array(e.here.length), s = a.slice(), c = () => {
 		e.other(s, o);
 		let n = [r - o[t[0]], i - o[t[1]]];
@@ -620,7 +653,7 @@ function I(e, t, n, r, i) {
 		}
 	}
 }
-function ae(e) {
+function R(e) {
 	return "by" in e && e.by ? e.by : e.kind === "load" ? [...e.components ?? [], ...[e.size, e.direction].filter((e) => e !== void 0)] : e.kind === "direction" ? [e.direction] : e.ends.flatMap((e) => e.n);
 }
 function oe(t, n, r, i, a, o) {
@@ -646,29 +679,29 @@ function oe(t, n, r, i, a, o) {
 		let e = l.point(r.p);
 		return r.kind === "load" ? [e[0] + u[r.f[0]] / o(), e[1] - u[r.f[1]] / o()] : r.kind === "direction" ? [e[0] + 16 * u[r.along[0]], e[1] - 16 * u[r.along[1]]] : e;
 	}, m = () => {
-		d = "ends" in r ? r.ends.map((e) => ie(i, e)) : [r.e.map((e) => u[e])], f = !0;
+		d = "ends" in r ? r.ends.map((e) => ae(i, e)) : [r.e.map((e) => u[e])], f = !0;
 	}, h = (e) => {
 		let [t, n] = l.metres(e);
-		if ("by" in r && r.by) I(i, r.p, r.by, t, n);
-		else if ("ends" in r) r.ends.forEach((e, r) => re(i, e, d[r], t, n));
+		if ("by" in r && r.by) L(i, r.p, r.by, t, n);
+		else if ("ends" in r) r.ends.forEach((e, r) => I(i, e, d[r], t, n));
 		else {
 			let [t, n] = d[0], a = l.point(r.p), s = e[0] - a[0], c = a[1] - e[1], u = [t * s + n * c, t * c - n * s];
-			r.kind === "direction" ? i.values[r.direction] = L(Math.atan2(u[1], u[0]), i.values[r.direction]) : r.components ? r.components.forEach((e, t) => i.values[e] = u[t] * o()) : g(r, u);
+			r.kind === "direction" ? i.values[r.direction] = z(Math.atan2(u[1], u[0]), i.values[r.direction]) : r.components ? r.components.forEach((e, t) => i.values[e] = u[t] * o()) : g(r, u);
 		}
 		a.changed();
 	}, g = (e, t) => {
 		let n = i.values, r = Math.hypot(...t) * o(), a = Math.sign(n[e.size]) || 1;
-		if (e.direction !== void 0) n[e.direction] = L(Math.atan2(a * t[1], a * t[0]), n[e.direction]), n[e.size] = a * r;
+		if (e.direction !== void 0) n[e.direction] = z(Math.atan2(a * t[1], a * t[0]), n[e.direction]), n[e.size] = a * r;
 		else {
 			let r = [u[e.f[0]], u[e.f[1]]], [i, s] = d[0], c = [i * r[0] + s * r[1], i * r[1] - s * r[0]], l = Math.hypot(...c) || 1;
 			n[e.size] = a * (t[0] * c[0] + t[1] * c[1]) * o() / l;
 		}
 	}, _ = () => {
-		f && a.finished(ae(r)), f = !1;
+		f && a.finished(R(r)), f = !1;
 	};
 	return c.addEventListener("pointerdown", (e) => {
 		e.stopPropagation(), c.setPointerCapture(e.pointerId), m();
-	}), c.addEventListener("pointermove", (e) => f && h(R(n, e))), c.addEventListener("pointerup", _), c.addEventListener("pointercancel", _), c.addEventListener("keydown", (e) => {
+	}), c.addEventListener("pointermove", (e) => f && h(B(n, e))), c.addEventListener("pointerup", _), c.addEventListener("pointercancel", _), c.addEventListener("keydown", (e) => {
 		let t = {
 			ArrowLeft: [-1, 0],
 			ArrowRight: [1, 0],
@@ -685,16 +718,16 @@ function oe(t, n, r, i, a, o) {
 		c.setAttribute("visibility", Number.isFinite(e + t) ? "visible" : "hidden"), c.setAttribute("cx", e.toFixed(2)), c.setAttribute("cy", t.toFixed(2));
 	};
 }
-var L = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI));
-function R(e, t) {
+var z = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI));
+function B(e, t) {
 	let n = new DOMPoint(t.clientX, t.clientY).matrixTransform(e.svg.getScreenCTM().inverse());
 	return [n.x, n.y];
 }
-function z(e, t, n, r) {
+function se(e, t, n, r) {
 	let i = t.drives[0];
 	if (!i || n.count < 2) return;
 	let a = 0, o = 0, s = !1, c = (t) => {
-		let n = R(e, t), r = e.paper.point(i.p);
+		let n = B(e, t), r = e.paper.point(i.p);
 		return i.turns ? Math.atan2(r[1] - n[1], n[0] - r[0]) : 0;
 	};
 	e.svg.addEventListener("pointerdown", (t) => {
@@ -706,27 +739,27 @@ function z(e, t, n, r) {
 		]);
 	}), e.svg.addEventListener("pointermove", (e) => {
 		if (!s) return;
-		let t = (n.position(i.name, n.count - 1) - n.position(i.name, 0)) / (n.count - 1), l = c(e), u = o + L(l - a, 0) / t;
+		let t = (n.position(i.name, n.count - 1) - n.position(i.name, 0)) / (n.count - 1), l = c(e), u = o + z(l - a, 0) / t;
 		n.cyclic && (u = (u % n.count + n.count) % n.count), [a, o] = [l, u], r.seek(u);
 	}), e.svg.addEventListener("pointerup", () => s = !1);
 }
 // src/kernel.ts
-var B = /* @__PURE__ */ new Set([
+var V = /* @__PURE__ */ new Set([
 	0,
 	9,
 	12,
 	13
 ]);
-function V(e) {
+function H(e) {
 	return Uint8Array.from(atob(e), (e) => e.charCodeAt(0));
 }
-function H(e) {
-	if (typeof e == "string") return new Float64Array(V(e).buffer);
+function U(e) {
+	if (typeof e == "string") return new Float64Array(H(e).buffer);
 	let t = (e.to - e.from) / Math.max(e.count - 1, 1);
 	return Float64Array.from({ length: e.count }, (n, r) => r === e.count - 1 ? e.to : e.from + r * t);
 }
-async function U(e) {
-	let t = new Blob([V(e)]).stream().pipeThrough(new DecompressionStream("deflate"));
+async function ce(e) {
+	let t = new Blob([H(e)]).stream().pipeThrough(new DecompressionStream("deflate"));
 	return new Response(t).arrayBuffer();
 }
 var W = class e {
@@ -747,18 +780,18 @@ var W = class e {
 		o > t.buffer.byteLength && t.grow(Math.ceil((o - t.buffer.byteLength) / 65536)), [this.values, this.path, this.out] = a.map((e, n) => new Float64Array(t.buffer, this.places[n], e));
 	}
 	static async create(t, n) {
-		let { instance: r } = await WebAssembly.instantiate(await U(t.wasm)), { memory: i, run: a } = r.exports;
+		let { instance: r } = await WebAssembly.instantiate(await ce(t.wasm)), { memory: i, run: a } = r.exports;
 		return new e(a, i, t, n, t.row);
 	}
 	call(e) {
 		this.run(this.places[0], this.places[1], this.places[2], Math.ceil(e / 2));
 	}
-}, se = class {
+}, G = class {
 	table;
 	breaks;
 	pieces;
 	constructor(e) {
-		this.table = e, this.breaks = H(e.breaks), this.pieces = H(e.pieces);
+		this.table = e, this.breaks = U(e.breaks), this.pieces = U(e.pieces);
 	}
 	at(e) {
 		let { breaks: t, pieces: n } = this, r = t.length - 1, { period: i, order: a } = this.table, o = t[0], s = i ? o + ((e - o) % i + i) % i : Math.min(Math.max(e, o), t[r]), c = 0, l = r - 1;
@@ -770,7 +803,7 @@ var W = class e {
 		for (let e = 0; e < a; e++) u = u * (s - t[c]) + n[e * r + c];
 		return u;
 	}
-}, ce = class e {
+}, le = class e {
 	data;
 	whole;
 	one;
@@ -784,9 +817,9 @@ var W = class e {
 	positions;
 	channels;
 	constructor(e, t, n, r) {
-		this.data = e, this.whole = t, this.one = n, this.slope = r, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.here = new Float64Array(e.kernel.outputs + 1), this.positions = new Map(e.drives.map((e) => [e.name, H(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
-			values: H(e.values),
-			pieces: e.table && new se(e.table),
+		this.data = e, this.whole = t, this.one = n, this.slope = r, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.here = new Float64Array(e.kernel.outputs + 1), this.positions = new Map(e.drives.map((e) => [e.name, U(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
+			values: U(e.values),
+			pieces: e.table && new G(e.table),
 			drive: e.table ? e.table.drive : e.name.replace(/^position /, "")
 		}])), e.kernel.channels.forEach((e, n) => {
 			let r = this.channels.get(e).values;
@@ -853,7 +886,7 @@ var W = class e {
 		});
 	}
 	good(e) {
-		return B.has(this.rows[this.rows.length - this.row + e]);
+		return V.has(this.rows[this.rows.length - this.row + e]);
 	}
 	get mark() {
 		return this.here[this.here.length - 1];
@@ -862,18 +895,18 @@ var W = class e {
 		return this.here.every(Number.isFinite);
 	}
 	get solved() {
-		return B.has(this.mark);
+		return V.has(this.mark);
 	}
 	value(e, t) {
 		return this.rows[e * this.row + t];
 	}
 };
 // src/panels.ts
-function le(e, n, r = !1) {
+function ue(e, n, r = !1) {
 	let i = t("details", e, { class: "panel" });
 	return i.open = r, t("summary", i, {}, n), t("div", i);
 }
-function ue(e, n, r, i) {
+function de(e, n, r, i) {
 	let a = [], o = /* @__PURE__ */ new Map(), s = (n) => {
 		let r = o.get(n);
 		if (!r) {
@@ -886,7 +919,7 @@ function ue(e, n, r, i) {
 		n: t
 	})).sort((e, t) => Number(t.field.parameter ?? !1) - Number(e.field.parameter ?? !1));
 	for (let { field: e, n } of c) {
-		let [o, c] = e.parameter ? ["Parameters", e.label] : G(e.label), u = t("label", s(o), { title: e.about ?? e.path });
+		let [o, c] = e.parameter ? ["Parameters", e.label] : K(e.label), u = t("label", s(o), { title: e.about ?? e.path });
 		t("span", u, {}, c);
 		let d = t("input", u, {
 			type: "number",
@@ -903,7 +936,7 @@ function ue(e, n, r, i) {
 			Number.isFinite(t) && (r.values[n] = t * e.size, i(n, a));
 		};
 		if (d.addEventListener("change", () => d.value.trim() === "" ? l(f) : p(+d.value, !0)), e.parameter) {
-			let [n, r] = e.range ?? K(e.value), i = t("input", u, {
+			let [n, r] = e.range ?? q(e.value), i = t("input", u, {
 				type: "range",
 				min: n / e.size,
 				max: r / e.size,
@@ -920,15 +953,15 @@ function ue(e, n, r, i) {
 	};
 	return { update: () => a.forEach(l) };
 }
-function G(e) {
+function K(e) {
 	let t = e.indexOf(": ");
 	return t < 0 ? ["Others", e] : [e.slice(0, t), e.slice(t + 2)];
 }
-function K(e) {
+function q(e) {
 	let t = .5 * Math.abs(e) || 1;
 	return [e - t, e + t];
 }
-function de(e, n, r) {
+function fe(e, n, r) {
 	let i = t("tbody", t("table", e, { class: "answers" })), a = n.views.table.map((e) => {
 		let r = t("tr", i), a = n.units[e.kind] ?? {
 			unit: "",
@@ -943,44 +976,59 @@ function de(e, n, r) {
 	return { update() {
 		for (let { r: e, unit: t, cell: n } of a) {
 			let i = e.rows.map((e) => r.here[e] / t.size), a = (e) => t.unit === "°" ? `${P(e, 5)}°` : `${P(e)} ${t.unit}`;
-			n.textContent = r.solved ? i.length === 1 ? a(i[0]) : `${a(Math.hypot(...i))} at ${P(Math.atan2(i[1], i[0]) * 180 / Math.PI)}°  (${P(i[0])}, ${P(i[1])})` : "–";
+			n.textContent = r.solved ? i.length === 1 ? a(i[0]) : `${a(Math.hypot(...i))}${i.length === 2 ? ` at ${P(Math.atan2(i[1], i[0]) * 180 / Math.PI)}°` : ""}  (${i.map((e) => P(e)).join(", ")})` : "–";
 		}
 	} };
 }
-function fe(e, n, r, i) {
-	let a = [
-		0,
-		1,
-		2
-	].map(() => t("p", e, { class: "equation" })), { terms: s, about: c } = i.equations, l = n.units.force, u = n.units.moment;
+function pe(e, n, r, i) {
+	let { terms: a, about: s } = i.equations, c = a[0]?.f.length ?? 2, l = [
+		"x",
+		"y",
+		"z"
+	].slice(0, c), u = l.map((e, t) => ({
+		head: `ΣF${e}`,
+		unit: n.units.force,
+		sign: (t) => o(t.name) + e,
+		row: (e) => e.f[t]
+	}));
+	c === 2 ? u.push({
+		head: `ΣM about ${s}`,
+		unit: n.units.moment,
+		sign: (e) => `M(${o(e.name)})`,
+		row: (e) => e.m
+	}) : l.forEach((e, t) => u.push({
+		head: `ΣM${e} about ${s}`,
+		unit: n.units.moment,
+		sign: (t) => `M${e}(${o(t.name)})`,
+		row: (e) => e.m[t]
+	}));
+	let d = u.map((n) => ({
+		sum: n,
+		el: t("p", e, { class: "equation" })
+	}));
 	return { update() {
-		let e = [
-			"ΣFx",
-			"ΣFy",
-			`ΣM about ${c}`
-		];
-		a.forEach((t, n) => {
-			let i = n < 2 ? l : u, a = s.map((e) => r.here[n < 2 ? e.f[n] : e.m] / i.size), c = Math.max(...a.map(Math.abs), 0), d = a.map((e, t) => ({
+		for (let { sum: e, el: t } of d) {
+			let n = a.map((t) => r.here[e.row(t)] / e.unit.size), i = Math.max(...n.map(Math.abs), 0), o = n.map((e, t) => ({
 				v: e,
 				k: t
-			})).filter((e) => Math.abs(e.v) > 1e-9 * c);
-			if (!r.solved || !d.length) {
-				t.textContent = `${e[n]}: ${r.solved ? "nothing acts" : "no answer here"}`;
-				return;
+			})).filter((e) => Math.abs(e.v) > 1e-9 * i);
+			if (!r.solved || !o.length) {
+				t.textContent = `${e.head}: ${r.solved ? "nothing acts" : "no answer here"}`;
+				continue;
 			}
-			let f = n < 2 ? "xy"[n] : "", p = d.map((e) => n < 2 ? o(s[e.k].name) + f : `M(${o(s[e.k].name)})`).join(" + "), m = d.reduce((e, t) => e + t.v, 0), h = Math.abs(m) < 1e-9 * c ? 0 : m, g = d.map((e, t) => (e.v < 0 ? t ? " − " : "−" : t ? " + " : "") + P(Math.abs(e.v))).join("");
-			t.textContent = `${e[n]}: ${p} = ${g} = ${P(h)} ${i.unit}`;
-		});
+			let s = o.map((t) => e.sign(a[t.k])).join(" + "), c = o.reduce((e, t) => e + t.v, 0), l = o.map((e, t) => (e.v < 0 ? t ? " − " : "−" : t ? " + " : "") + P(Math.abs(e.v))).join("");
+			t.textContent = `${e.head}: ${s} = ${l} = ${P(Math.abs(c) < 1e-9 * i ? 0 : c)} ${e.unit.unit}`;
+		}
 	} };
 }
-function pe(e, n) {
+function me(e, n) {
 	t("p", e, {}, "Forces and motion are found by one linear system at each position (D'Alembert's principle); every number drawn here is computed anew from the numbers beside it, in double precision.");
 	let r = t("dl", e);
 	for (let [e, i] of Object.entries(n.assumptions)) t("dt", r, {}, e), t("dd", r, {}, i);
 	n.source && t("p", e, {}, `Source: ${n.source}`), t("p", e, {}, `Made with dalembert ${n.version}.`);
 }
 // src/page.css?inline
-var me = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.35em .8em;position:sticky;top:0}.dalembert h1{margin:0;font-size:1.15em;display:inline}.dalembert .bar{flex-wrap:wrap;align-items:center;gap:.5em;margin-top:.25em;display:flex}.dalembert .bar input{min-width:8em;accent-color:var(--accent);flex:1}.dalembert .readout{font-variant-numeric:tabular-nums;min-width:9em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);min-height:1.45em;margin:.1em 0 0;font-size:.92em}.dalembert main{grid-template-columns:minmax(0,7fr) minmax(0,5fr);align-items:start;gap:.8em;padding:.8em;display:grid}.dalembert .stage{position:sticky;top:6.2em}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .stage svg{touch-action:none;max-height:calc(100vh - 9em)}.dalembert .cloud{pointer-events:none;width:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;gap:1em;font-size:.9em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=number]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-link]{cursor:pointer}.dalembert.unsolved svg:not(.chart svg){opacity:.3}@media (max-width:800px){.dalembert main{grid-template-columns:minmax(0,1fr)}.dalembert .stage{position:static}.dalembert .polar{width:100%}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert summary~div>button,.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}", he = class {
+var he = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.35em .8em;position:sticky;top:0}.dalembert h1{margin:0;font-size:1.15em;display:inline}.dalembert .bar{flex-wrap:wrap;align-items:center;gap:.5em;margin-top:.25em;display:flex}.dalembert .bar input{min-width:8em;accent-color:var(--accent);flex:1}.dalembert .readout{font-variant-numeric:tabular-nums;min-width:9em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);min-height:1.45em;margin:.1em 0 0;font-size:.92em}.dalembert main{grid-template-columns:minmax(0,7fr) minmax(0,5fr);align-items:start;gap:.8em;padding:.8em;display:grid}.dalembert .stage{position:sticky;top:6.2em}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .stage svg{touch-action:none;max-height:calc(100vh - 9em)}.dalembert .cloud{pointer-events:none;width:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;gap:1em;font-size:.9em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=number]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-link]{cursor:pointer}.dalembert.unsolved svg:not(.chart svg){opacity:.3}@media (max-width:800px){.dalembert main{grid-template-columns:minmax(0,1fr)}.dalembert .stage{position:static}.dalembert .polar{width:100%}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert summary~div>button,.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}", ge = class {
 	b;
 	data;
 	kernel;
@@ -1012,7 +1060,7 @@ var me = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--
 			t.set(r, [r[0] + 14 * i / u, r[1] - 14 * a / u], .5);
 		});
 	}
-}, ge = class {
+}, _e = class {
 	b;
 	kernel;
 	places;
@@ -1039,9 +1087,9 @@ var me = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--
 			this.numbers.forEach((e, n) => f[e] = u[e] + d * t[n]), l.other(f, this.out);
 			let n = this.out[this.out.length - 1];
 			if (n === 0 || n === 9) {
-				for (let [e, t] of this.places) {
-					let [n, l] = this.b.paper.of(this.out[e], this.out[t]);
-					o.fillRect((n - s.x) * c + (i - s.width * c) / 2, (l - s.y) * c + (a - s.height * c) / 2, r, r);
+				for (let e of this.places) {
+					let [t, n] = this.b.paper.of(...this.b.paper.seen(e, (e) => this.out[e]));
+					o.fillRect((t - s.x) * c + (i - s.width * c) / 2, (n - s.y) * c + (a - s.height * c) / 2, r, r);
 				}
 				e !== void 0 && (p += this.out[e], m += this.out[e] ** 2, h++);
 			}
@@ -1056,7 +1104,7 @@ var me = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--
 	reach() {
 		return this.b.svg.viewBox.baseVal.width * .5 * this.b.paper.perMm;
 	}
-}, _e = class {
+}, ve = class {
 	kernel;
 	past = [];
 	future = [];
@@ -1075,11 +1123,11 @@ var me = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--
 		return [this.past.length > 0, this.future.length > 0];
 	}
 };
-function ve(e, t, n) {
+function ye(e, t, n) {
 	let r = e.numbers.flatMap((e, n) => t.values[n] === e.value ? [] : [`${encodeURIComponent(e.path)}=${t.values[n]}`]);
 	return ["t=" + +n.toFixed(4), ...r].join("&");
 }
-function ye(e, t, n) {
+function be(e, t, n) {
 	let r = 0;
 	for (let i of n.replace(/^#/, "").split("&")) {
 		let [n, a] = i.split("="), o = Number(a);
@@ -1099,10 +1147,10 @@ function ye(e, t, n) {
 	}
 	return r;
 }
-function be(e, t) {
+function xe(e, t) {
 	return e.template.map((e, n) => n % 2 ? String(t.values[+e]) : e).join("");
 }
-function xe(e, t) {
+function Se(e, t) {
 	let n = (e) => /[",\n]/.test(e) || /^[=+\-@]/.test(e) ? `"${e.replace(/^([=+\-@])/, "'$1").replace(/"/g, "\"\"")}"` : e, r = e.views.charts.flatMap((t) => t.curves.map((n) => ({
 		x: n,
 		unit: e.units[t.kind] ?? {
@@ -1124,25 +1172,25 @@ function xe(e, t) {
 	}
 	return i.join("\n") + "\n";
 }
-function Se(t, n) {
+function Ce(t, n) {
 	let r = t.cloneNode(!0), { width: i, height: a } = t.viewBox.baseVal;
 	r.querySelectorAll(".handles").forEach((e) => e.remove()), r.setAttribute("xmlns", "http://www.w3.org/2000/svg"), r.setAttribute("width", `${i}mm`), r.setAttribute("height", `${a}mm`), r.setAttribute("font-family", "'DejaVu Sans', Arial, sans-serif");
 	let o = e("style", null);
 	return o.textContent = n, r.prepend(o), new XMLSerializer().serializeToString(r);
 }
-function q(e, t, n) {
+function J(e, t, n) {
 	let r = document.createElement("a");
 	r.href = URL.createObjectURL(new Blob([t], { type: n })), r.download = e, r.click(), setTimeout(() => URL.revokeObjectURL(r.href), 1e3);
 }
-var Ce = (e) => o(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism";
+var we = (e) => o(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism";
 // src/page.ts
-async function J(e, n, r = {}) {
+async function Y(e, n, r = {}) {
 	if (n.format !== "dalembert-page/1") throw Error(`this page cannot show data of the form ${n.format}`);
-	let i = await ce.create(n), a = document.createElement("div");
+	let i = await le.create(n), a = document.createElement("div");
 	a.className = "dalembert", i.cycle();
 	let s = t("style", a);
-	s.textContent = me + n.style.light + `@media (prefers-color-scheme:dark){${n.style.dark}}@media print{` + n.style.light + "}";
-	let c = new _e(i), l = [], u = r.address ? ye(n, i, location.hash) : 0;
+	s.textContent = he + n.style.light + `@media (prefers-color-scheme:dark){${n.style.dark}}@media print{` + n.style.light + "}";
+	let c = new ve(i), l = [], u = r.address ? be(n, i, location.hash) : 0;
 	c.note();
 	let d = t("header", a), f = t("main", a);
 	t("h1", d, {}, n.title);
@@ -1163,7 +1211,7 @@ async function J(e, n, r = {}) {
 		max: i.end,
 		step: n.only_at_positions ? 1 : "any",
 		"aria-label": "place of the cycle"
-	}), _ = t("output", p, { class: "readout" }), v = m("↶", "undo (Ctrl+Z)", () => we(!0)), y = m("↷", "redo (Ctrl+Y)", () => we(!1));
+	}), _ = t("output", p, { class: "readout" }), v = m("↶", "undo (Ctrl+Z)", () => Z(!0)), y = m("↷", "redo (Ctrl+Y)", () => Z(!1));
 	m("Reset", "all numbers as in the file", () => {
 		i.values.set(n.numbers.map((e) => e.value)), X([]), Y();
 	});
@@ -1179,71 +1227,81 @@ async function J(e, n, r = {}) {
 	let x = t("section", f, {
 		class: "stage",
 		"aria-label": "mechanism"
-	}), S = A(x, i, n.views.mechanism, null, 170, O(i, n.views.mechanism, 170), n.units, "the mechanism"), C = n.views.charts.flatMap((e) => e.curves).find((e) => n.gradient?.curves.includes(e.row)), w = new he(S, n, i), T = new ge(x, S, n, i, n.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), E = ne(S, n, i, {
+	}), S = M(x, i, n.views.mechanism, null, 170, A(i, n.views.mechanism, 170), n.units, "the mechanism"), C = n.views.charts.flatMap((e) => e.curves).find((e) => n.gradient?.curves.includes(e.row)), w = new ge(S, n, i), T = new _e(x, S, n, i, n.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), E = ie(S, n, i, {
 		changed: () => Y(),
 		finished: X,
-		seek: (e) => Z(e),
+		seek: (e) => Q(e),
 		time: () => u
-	}, () => S.force()), D = t("div", x, { class: "switches" }), k = (e, n, r, i) => {
+	}, () => S.force()), D = t("div", x, { class: "switches" }), O = (e, n, r, i) => {
 		let a = t("label", D, { title: n }), o = t("input", a, { type: "checkbox" });
-		return o.checked = r, a.append(e), o.addEventListener("change", () => (i(o.checked), Q(!0))), o;
+		return o.checked = r, a.append(e), o.addEventListener("change", () => (i(o.checked), $(!0))), o;
 	};
-	k("names", "names of joints", S.names, (e) => S.names = e), n.gradient && k("what lowers the peak", "arrows: moving a joint this way lowers the peak of the chosen curve", !1, (e) => w.on = e), n.handles.some((e) => e.kind === "joint") && k("tolerances", "a thousand machines with points up to 0.5 % of the drawing's width off", !1, (e) => T.on = e);
-	let j = t("span", D, { class: "spread" }), M = t("section", f, {
+	O("names", "names of joints", S.names, (e) => S.names = e), n.gradient && O("what lowers the peak", "arrows: moving a joint this way lowers the peak of the chosen curve", !1, (e) => w.on = e), n.handles.some((e) => e.kind === "joint") && O("tolerances", "a thousand machines with points up to 0.5 % of the drawing's width off", !1, (e) => T.on = e);
+	let k = t("span", D, { class: "spread" }), j = t("section", f, {
 		class: "side",
 		"aria-label": "results"
-	}), N = (e) => Z(e), re = (e) => (C = e, Q(!0)), ie = [...i.count > 1 ? n.views.charts.map((e) => ee(M, n, i, e, () => u, N, re, () => C)) : []], I = t("select", W("Free body", !0), { "aria-label": "link" });
-	n.views.bodies.forEach((e, n) => t("option", I, { value: n }, `${e.title}, ${e.member} member`));
-	let ae = t("div", I.parentElement), oe = n.views.bodies.map((e) => {
+	}), ee = (e) => Q(e), te = (e) => (C = e, $(!0)), N = [...i.count > 1 ? n.views.charts.map((e) => ne(j, n, i, e, () => u, ee, te, () => C)) : []], I = t("select", U("Free body", !0), { "aria-label": "link" });
+	n.views.bodies.forEach((e, n) => t("option", I, { value: n }, `${e.title}${e.member && `, ${e.member} member`}`));
+	let ae = t("div", I.parentElement), L = n.views.bodies.map((e) => {
 		let r = t("div", ae, { class: "body" });
 		return {
 			box: r,
-			drawn: A(r, i, e, e.about, 110, 100, n.units, `free body of ${e.title}`),
-			sums: fe(r, n, i, e)
+			drawn: M(r, i, e, e.about, 110, 100, n.units, `free body of ${e.title}`),
+			sums: pe(r, n, i, e)
 		};
-	}), L = W("Force polygon"), R = n.views.polygons.links.map((e) => te(L, n, i, e)), z = i.count > 2 ? n.views.charts.flatMap((e) => e.curves).filter((e) => e.f) : [], B = z.length ? W("Polar diagrams") : null, V = B ? z.map((e) => F(B, i, e, n.units.force)) : [], H = de(W("Numbers of this position"), n, i), U = ue(W("Change numbers", n.numbers.some((e) => e.parameter)), n, i, (e, t) => {
+	}), R = n.views.polygons.links.length ? U("Force polygon") : t("div", null), oe = n.views.polygons.links.map((e) => re(R, n, i, e)), z = i.count > 2 ? n.views.charts.flatMap((e) => e.curves).filter((e) => e.f) : [], B = z.length ? U("Polar diagrams") : null, se = B ? z.map((e) => F(B, i, e, n.units.force)) : [], V = fe(U("Numbers of this position"), n, i), H = de(U("Change numbers", n.numbers.some((e) => e.parameter)), n, i, (e, t) => {
 		Y(), t && X([e]);
 	});
-	pe(W("Method and assumptions"), n), se();
-	function W(e, t = !1) {
-		return le(M, e, t);
+	me(U("Method and assumptions"), n), ce();
+	function U(e, t = !1) {
+		return ue(j, e, t);
 	}
-	function se() {
-		let e = W("Save and share"), a = Ce(n.title), o = (n, r) => t("button", e, { type: "button" }, n).addEventListener("click", r);
-		o("Model file", () => q(`${a}.yaml`, be(n, i), "text/yaml")), o("Curves as CSV", () => q(`${a}.csv`, xe(n, i), "text/csv")), o("Drawing as SVG", () => q(`${a}.svg`, Se(S.svg, n.style.light), "image/svg+xml")), o("Print", () => window.print()), r.address && o("Copy link", () => {
-			location.hash = ve(n, i, u), navigator.clipboard?.writeText(location.href);
+	function ce() {
+		let e = U("Save and share"), a = we(n.title), o = (n, r) => t("button", e, { type: "button" }, n).addEventListener("click", r);
+		o("Model file", () => J(`${a}.yaml`, xe(n, i), "text/yaml")), o("Curves as CSV", () => J(`${a}.csv`, Se(n, i), "text/csv")), o("Drawing as SVG", () => J(`${a}.svg`, Ce(S.svg, n.style.light), "image/svg+xml")), o("Print", () => window.print()), r.address && o("Copy link", () => {
+			location.hash = ye(n, i, u), navigator.clipboard?.writeText(location.href);
 		});
 	}
-	I.addEventListener("change", () => Q(!1)), S.svg.addEventListener("click", (e) => {
+	I.addEventListener("change", () => $(!1)), S.svg.addEventListener("click", (e) => {
 		let t = e.target.closest("[data-link]")?.dataset.link, r = n.views.bodies.findIndex((e) => e.link === t);
-		r >= 0 && (I.value = String(r), Q(!1));
-	}), g.addEventListener("input", () => Z(+g.value));
-	let G = 0, K = !0, J = 0;
+		r >= 0 && (I.value = String(r), $(!1));
+	}), g.addEventListener("input", () => Q(+g.value)), n.views.mechanism.arrows.concat(...n.views.bodies.map((e) => e.arrows)).some((e) => e.p.length > 2) && W();
+	function W() {
+		let e = [S, ...L.map((e) => e.drawn)];
+		t("span", D, {}, "drag to look from elsewhere");
+		for (let t of e) t.svg.style.cursor = "move", t.svg.addEventListener("pointerdown", (e) => t.svg.setPointerCapture(e.pointerId)), t.svg.addEventListener("pointermove", (n) => {
+			if (t.svg.hasPointerCapture(n.pointerId)) {
+				for (let t of e) t.paper.azimuth -= .01 * n.movementX, t.paper.elevation = Math.min(Math.max(t.paper.elevation + .01 * n.movementY, -1.55), 1.55), t.fit();
+				$(!0);
+			}
+		});
+	}
+	let G = 0, K = !0, q = 0;
 	function Y() {
-		Q(!0);
+		$(!0);
 	}
 	function X(e) {
-		c.note(), S.fit(), Q(!0), U.update(), r.edited && e.length && r.edited(Object.fromEntries(e.map((e) => [n.numbers[e].path, i.values[e]]))), r.address && window.history.replaceState(null, "", "#" + ve(n, i, u));
-	}
-	function we(e) {
-		c.go(e) && (Q(!0), U.update(), r.edited?.(Object.fromEntries(n.numbers.map((e, t) => [e.path, i.values[t]]))));
+		c.note(), S.fit(), $(!0), H.update(), r.edited && e.length && r.edited(Object.fromEntries(e.map((e) => [n.numbers[e].path, i.values[e]]))), r.address && window.history.replaceState(null, "", "#" + ye(n, i, u));
 	}
 	function Z(e) {
-		u = Math.min(Math.max(e, 0), i.end), n.only_at_positions && (u = Math.round(u)), Q(!1);
+		c.go(e) && ($(!0), H.update(), r.edited?.(Object.fromEntries(n.numbers.map((e, t) => [e.path, i.values[t]]))));
+	}
+	function Q(e) {
+		u = Math.min(Math.max(e, 0), i.end), n.only_at_positions && (u = Math.round(u)), $(!1);
 	}
 	function Te() {
-		if (J) return Ee();
+		if (q) return Ee();
 		h.textContent = "❚❚";
 		let e = performance.now(), t = (r) => {
 			let a = u + (r - e) / 1e3 / 6 * i.end;
-			e = r, Z(a >= i.end ? 0 : a), (!n.only_at_positions || a >= 1) && (J = requestAnimationFrame(t));
+			e = r, Q(a >= i.end ? 0 : a), (!n.only_at_positions || a >= 1) && (q = requestAnimationFrame(t));
 		};
-		J = requestAnimationFrame(t);
+		q = requestAnimationFrame(t);
 	}
 	function Ee() {
-		cancelAnimationFrame(J), J = 0, h.textContent = "▶";
+		cancelAnimationFrame(q), q = 0, h.textContent = "▶";
 	}
-	function Q(e) {
+	function $(e) {
 		K ||= e, G ||= requestAnimationFrame(() => {
 			G = 0;
 			let e = performance.now();
@@ -1256,49 +1314,49 @@ async function J(e, n, r = {}) {
 		let t = i.solved, r = n.statuses[String(i.mark)];
 		a.classList.toggle("unsolved", !t), b.textContent = r && i.mark ? r.sentence : "", S.update(e), E(), w.update(C);
 		let o = T.update(C?.row);
-		j.textContent = o && C ? Oe(o, C) : "", ie.forEach((t) => t.update(e));
+		k.textContent = o && C ? ke(o, C) : "", N.forEach((t) => t.update(e));
 		let s = +I.value;
-		oe.forEach((t, n) => {
-			t.box.hidden = n !== s, n === s && $(t.box) && (t.drawn.update(e), t.sums.update());
-		}), R.forEach((t, n) => {
-			t.figure.hidden = n !== s, n === s && $(t.figure) && t.update(e);
-		}), V.forEach((t) => t.update(e)), $(L), H.update(), g.value = String(u), _.textContent = n.drives.map((e) => `${e.name} = ${P(i.position(e.name, u) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), [v.disabled, y.disabled] = c.can.map((e) => !e);
+		L.forEach((t, n) => {
+			t.box.hidden = n !== s, n === s && Oe(t.box) && (t.drawn.update(e), t.sums.update());
+		}), oe.forEach((t, n) => {
+			t.figure.hidden = n !== s, n === s && Oe(t.figure) && t.update(e);
+		}), se.forEach((t) => t.update(e)), Oe(R), V.update(), g.value = String(u), _.textContent = n.drives.map((e) => `${e.name} = ${P(i.position(e.name, u) / e.size, 5)}${e.unit === "°" ? "" : " "}${e.unit}`).join(", "), [v.disabled, y.disabled] = c.can.map((e) => !e);
 	}
-	let $ = (e) => e.closest("details")?.open ?? !0;
-	function Oe(e, t) {
+	let Oe = (e) => e.closest("details")?.open ?? !0;
+	function ke(e, t) {
 		let r = n.views.charts.find((e) => e.curves.includes(t)).kind, i = n.units[r] ?? {
 			unit: "",
 			size: 1
 		};
 		return `${o(t.name)}: ${P(e.mean / i.size)} ± ${P(e.sigma / i.size, 2)} ${i.unit} (1 σ)`;
 	}
-	return a.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => Q(!0))), a.addEventListener("keydown", (e) => {
+	return a.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => $(!0))), a.addEventListener("keydown", (e) => {
 		let t = /INPUT|SELECT|TEXTAREA/.test(e.target.tagName);
-		(e.ctrlKey || e.metaKey) && !t && /^[zy]$/i.test(e.key) ? (e.preventDefault(), we(e.key.toLowerCase() === "z" && !e.shiftKey)) : e.key === " " && !t && e.target.tagName !== "BUTTON" && i.count > 1 && (e.preventDefault(), Te());
-	}), a.tabIndex = -1, i.cycle(), i.at(u), e.replaceChildren(a), S.fit(), De(), U.update(), {
+		(e.ctrlKey || e.metaKey) && !t && /^[zy]$/i.test(e.key) ? (e.preventDefault(), Z(e.key.toLowerCase() === "z" && !e.shiftKey)) : e.key === " " && !t && e.target.tagName !== "BUTTON" && i.count > 1 && (e.preventDefault(), Te());
+	}), a.tabIndex = -1, i.cycle(), i.at(u), e.replaceChildren(a), S.fit(), De(), H.update(), {
 		kernel: i,
 		data: n,
 		times: l,
-		show: Z,
+		show: Q,
 		set(e, t) {
 			let r = n.numbers.findIndex((t) => t.path === e);
 			if (r < 0) throw Error(`there is no number ${e}`);
 			i.values[r] = t, X([]);
 		},
-		text: () => be(n, i),
+		text: () => xe(n, i),
 		remove: () => (Ee(), a.remove())
 	};
 }
 // src/main.ts
-var Y = { async render({ model: e, el: t }) {
+var X = { async render({ model: e, el: t }) {
 	let n = (t) => {
 		e.set("changes", {
 			...e.get("changes"),
 			...t
 		}), e.save_changes();
-	}, r = await J(t, e.get("data"), { edited: n }), i = async () => {
-		r.remove(), r = await J(t, e.get("data"), { edited: n });
+	}, r = await Y(t, e.get("data"), { edited: n }), i = async () => {
+		r.remove(), r = await Y(t, e.get("data"), { edited: n });
 	};
 	return e.on("change:data", i), () => (e.off("change:data", i), r.remove());
 } };
-export { Y as default, J as mount };
+export { X as default, Y as mount };
