@@ -21,7 +21,7 @@ MOST = 15
 
 BASE = {"arrays", "errors", "wording", "printing", "unit_names", "units", "saving", "bundled", "progress"}
 ANALYSIS = BASE | {"algebra", "core", "kernel", "model", "analysis"}
-SHOWN = ANALYSIS - {"core", "kernel"} | {"wrench", "machine"}
+SHOWN = ANALYSIS - {"core", "kernel"} | {"wrench", "machine", "optimization"}
 MAY_IMPORT = {
     **{name: set[str]() for name in ("arrays", "errors", "wording", "printing", "bundled", "progress")},
     **dict.fromkeys(("saving", "unit_names", "units"), BASE),
@@ -38,6 +38,7 @@ MAY_IMPORT = {
     "grading": BASE | {"core", "model", "analysis", "machine", "grading"},
     "wrench": BASE | {"algebra", "model", "analysis", "wrench"},
     "machine": ANALYSIS | {"machine"},
+    "optimization": ANALYSIS - {"core", "kernel"} | {"machine", "optimization"},
     "views": SHOWN | {"views"},
     "views.symbols": SHOWN | {"views.paper", "views.space", "views.symbols"},
     "reports": SHOWN | {"views", "reports"},

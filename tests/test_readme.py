@@ -63,7 +63,9 @@ def test_the_guide_has_every_status() -> None:
         assert f"| `{code}` | {status.sentence} | {status.remedy}".rstrip() in page
 
 
-@pytest.mark.parametrize("page", ["friction.md", "force-systems.md", "machine.md", "notebooks.md"])
+@pytest.mark.parametrize(
+    "page", ["friction.md", "force-systems.md", "machine.md", "notebooks.md", "optimization.md"]
+)
 def test_pages_run(page: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)
     flags = doctest.NORMALIZE_WHITESPACE

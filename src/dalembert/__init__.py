@@ -129,6 +129,8 @@ if TYPE_CHECKING:
         watt_2,
         whitworth,
     )
+    from dalembert.optimization.optimizing import optimize
+    from dalembert.optimization.optimum import Optimum
     from dalembert.pages.html_page import page
     from dalembert.pages.widget import widget
     from dalembert.reports import report
@@ -178,6 +180,8 @@ _NAMES = {
         "inverted_slider_crank radial_engine rccc rotating_shaft rssp rssr scissor scotch_yoke slider_crank "
         "spherical_four_bar stephenson_1 stephenson_2 stephenson_3 toggle_press v_engine watt_1 watt_2 whitworth"
     ),
+    "optimization.optimizing": "optimize",
+    "optimization.optimum": "Optimum",
     "pages.html_page": "page",
     "pages.widget": "widget",
     "reports": "report",
@@ -224,6 +228,7 @@ __all__ = [
     "ModelError",
     "Notation",
     "Offset",
+    "Optimum",
     "Pin",
     "PinFriction",
     "Range",
@@ -289,6 +294,7 @@ __all__ = [
     "mechanism",
     "members",
     "mobility",
+    "optimize",
     "order_of_solution",
     "other_solutions",
     "page",

@@ -139,7 +139,7 @@ def _labels(m: Mechanism, path: str, given: Sequence[Any]) -> Labels:
     found = given if plain else [value_at(one, keys) for one in changed]
     if parameter is not None:
         found = [getattr(value, "value", value) for value in found]
-    unit = _unit(changed[-1], path) if parameter is None else KINDS[parameter.kind or "number"].si
+    unit = unit_at(changed[-1], path) if parameter is None else KINDS[parameter.kind or "number"].si
     if all(map(_is_number, found)):
         return Labels(tuple(map(float, found)), unit, tuple(given))
     return Labels(tuple(map(str, given)), "", tuple(given))
@@ -161,7 +161,7 @@ def _kept(r: Result) -> list[str]:
     return [n for n in names if n not in {f"moment.{j}" for j in free}]
 
 
-def _unit(m: Mechanism, path: str) -> str:
+def unit_at(m: Mechanism, path: str) -> str:
     """SI unit of the number at a path, as a saved file has it."""
     part: Any = m.to_tree()
     for key in path.split("."):

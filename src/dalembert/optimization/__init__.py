@@ -1,0 +1,11 @@
+"""Designs that are best by an aim, within bounds and conditions: many starts side by side in the compiled analysis.
+
+In: a ``Mechanism``, numbers that vary with their bounds, an aim and conditions over outputs. Out: an ``Optimum`` with
+the mechanism found. Imports ``analysis`` and ``machine`` and what these import; no pictures, no command (``cli``).
+
+aims              the words of an aim and of conditions; their values and exact gradients for many designs
+side_by_side      quasi-Newton steps of all starts at once, one call of the kernel for each
+polishing         the best of them, each by itself: the least largest value t with |T_k| <= t at every position
+optimizing        ``da.optimize``: starts, search, discrete steps, the best that keeps every condition
+optimum           what was found, before and after
+"""

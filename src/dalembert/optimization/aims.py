@@ -1,0 +1,188 @@
+"""Aims and conditions in words, `peak effort.O2` and `transmission.B >= 33 deg`, for many designs at once."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from dalembert.analysis.batch.compiled_kernel import Kernel, compile  # noqa: A004
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.model import Mechanism
+from dalembert.wording import closest
+
+WORDS = ("peak", "mean", "rms", "norm8")
+"""What is made of a quantity over the cycle: its largest magnitude, its mean, root mean square, a smooth peak."""
+
+WEIGHT = 100.0
+"""Of the mean square of a broken condition, over its usual size, against the aim over its value before."""
+
+
+class Aim(NamedTuple):
+    """What is to be least: a reduction of an expression of outputs."""
+
+    word: str
+    of: str
+
+
+class Condition(NamedTuple):
+    """What has to hold at every position: an expression, not negative where it does."""
+
+    text: str
+    margin: str
+
+
+def parse_aim(text: str) -> Aim:
+    """An aim from its words; without one of them the peak is meant.
+
+    >>> parse_aim("rms shaking.x"), parse_aim("effort.O2").word
+    (Aim(word='rms', of='shaking.x'), 'peak')
+    """
+    word, _, rest = text.strip().partition(" ")
+    if word in WORDS:
+        return Aim(word, rest.strip())
+    if re.fullmatch(r"[a-z]\w*", word) and re.match(r"[a-z]+\.", rest.strip()):
+        raise ModelError(f"{text!r} begins with {word!r}, which is no aim", closest(word, list(WORDS)))
+    return Aim("peak", text.strip())
+
+
+def parse_condition(text: str) -> Condition:
+    """A condition at every position: two expressions with >= or <= between; `peak` stands for both signs.
+
+    >>> parse_condition("transmission.B >= 33 deg").margin
+    '(transmission.B) - (33 deg)'
+    >>> parse_condition("peak effort.O2 <= 3 N*m").margin
+    '(3 N*m) - (abs(effort.O2))'
+    """
+    parts = re.split(r"\s*(>=|<=|>|<|=)\s*", text.strip())
+    if len(parts) != 3 or parts[1] == "=" or not (parts[0] and parts[2]):
+        raise ModelError(f"{text!r} is no condition", "write one like transmission.B >= 33 deg")
+    left, sign, right = parts
+    word, _, rest = left.partition(" ")
+    if word == "peak":
+        left = f"abs({rest})"
+    elif word in WORDS:
+        raise ModelError(
+            f"{text!r} bounds a {word}", "a condition holds at every position: leave it out, or write peak"
+        )
+    big, small = (left, right) if sign[0] == ">" else (right, left)
+    return Condition(text.strip(), f"({big}) - ({small})")
+
+
+class Value(NamedTuple):
+    """Of many designs the aim over its value before with its gradient, and what broken conditions add to both."""
+
+    value: Array  # (design,), infinite where there is no answer
+    slope: Array  # (design, number)
+
+
+class Rows(NamedTuple):
+    """Of one design the aim's quantity (P,) and margins (condition, P), with their gradients in a last axis."""
+
+    aim: Array
+    aim_slope: Array
+    margin: Array
+    margin_slope: Array
+
+
+@dataclass(frozen=True)
+class Problem:
+    """An aim and conditions of a mechanism over numbers in a box; its designs are places u in the unit box."""
+
+    mechanism: Mechanism
+    vary: tuple[str, ...]
+    low: Array
+    high: Array
+    aim: Aim
+    conditions: tuple[Condition, ...]
+    positions: Array
+    static: bool = False
+
+    def kernel(self, outputs: Sequence[str], reduce: str | None) -> Kernel:
+        return compile(self.mechanism, self.vary, list(outputs), reduce, derivatives=True, static=self.static)
+
+    @cached_property
+    def smooth(self) -> Kernel:
+        """The aim, of a peak its smooth stand-in."""
+        return self.kernel([self.aim.of], "norm8" if self.aim.word == "peak" else self.aim.word)
+
+    @cached_property
+    def broken(self) -> Kernel:
+        """Mean squares of what conditions lack."""
+        return self.kernel([f"max(0, -({c.margin}))^2" for c in self.conditions], "mean")
+
+    @cached_property
+    def rows(self) -> Kernel:
+        """Everything at every position."""
+        return self.kernel(list(dict.fromkeys([self.aim.of, *self.margins])), None)
+
+    @property
+    def margins(self) -> list[str]:
+        return [c.margin for c in self.conditions]
+
+    @property
+    def span(self) -> Array:
+        return self.high - self.low
+
+    @cached_property
+    def nominal(self) -> Array:
+        """The description's own numbers as a place, in the box."""
+        wide = np.where(self.span > 0, self.span, 1.0)
+        return np.clip((self.smooth.nominal - self.low) / wide, 0.0, 1.0)
+
+    def numbers(self, u: Array) -> Array:
+        return np.asarray(self.low + u * self.span)
+
+    @cached_property
+    def scale(self) -> float:
+        """Usual size of the aim's quantity: its root mean square, of the description's own numbers."""
+        found = self.at(self.nominal).aim
+        return (float(np.sqrt(np.nanmean(found**2))) or 1.0) if np.isfinite(found).any() else 1.0
+
+    @cached_property
+    def sizes(self) -> Array:
+        """Usual size of each margin, of the description's own numbers."""
+        found = self.at(self.nominal).margin
+        return np.array([np.nanmax(np.abs(m), initial=0.0) or 1.0 for m in found])
+
+    def __call__(self, u: Array) -> Value:
+        """The aim and what broken conditions cost, of many places (design, number)."""
+        values = self.numbers(u)
+        r = self.smooth(values, self.positions, redo=False)
+        value, slope = r.value(self.aim.of) / self.scale, r.gradient(self.aim.of) / self.scale
+        if self.conditions:
+            b = self.broken(values, self.positions, redo=False)
+            for name, size in zip(self.broken.outputs, self.sizes, strict=True):
+                value = value + WEIGHT / size**2 * b.value(name)
+                slope = slope + WEIGHT / size**2 * b.gradient(name)
+        slope = slope * self.span
+        ok = np.isfinite(value) & np.isfinite(slope).all(axis=1)
+        return Value(np.where(ok, value, np.inf), np.where(ok[:, None], slope, 0.0))
+
+    def at(self, u: Array) -> Rows:
+        """Every position of one place; NaN where there is no answer."""
+        r = self.rows(self.numbers(u[None]), self.positions, threads=1)
+        margin = [r.value(m)[0] for m in self.margins]
+        slope = [r.gradient(m)[0] * self.span for m in self.margins]
+        count, n = len(self.positions), len(self.low)
+        return Rows(
+            r.value(self.aim.of)[0],
+            r.gradient(self.aim.of)[0] * self.span,
+            np.array(margin).reshape(-1, count),
+            np.array(slope).reshape(-1, count, n),
+        )
+
+    def sharp(self, u: Array) -> tuple[float, Array]:
+        """The aim itself of one place, with the gradient of where a peak stands; infinite where there is none."""
+        from dalembert.analysis.batch.over_positions import reduce_positions, slope
+
+        rows = self.at(u)
+        if not np.isfinite(rows.aim).all():
+            return np.inf, np.zeros(len(u))
+        value = reduce_positions(self.aim.word, rows.aim[:, None])
+        return float(value[0]), slope(self.aim.word, rows.aim[:, None], rows.aim_slope[:, None, :])[0]

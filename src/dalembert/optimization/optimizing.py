@@ -1,0 +1,220 @@
+"""``da.optimize``: the design that is best by an aim, within bounds and conditions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import product
+
+import numpy as np
+
+from dalembert.analysis.batch.design_sweep import unit_at
+from dalembert.analysis.batch.symbolic_model import Number, numbers
+from dalembert.analysis.solution import solve
+from dalembert.arrays import Array, Flags
+from dalembert.errors import ModelError
+from dalembert.machine.whole_cycle import over_a_turn
+from dalembert.model import Mechanism
+from dalembert.optimization.aims import Problem, parse_aim, parse_condition
+from dalembert.optimization.optimum import Optimum
+from dalembert.optimization.polishing import polish
+from dalembert.optimization.side_by_side import minimize
+from dalembert.progress import progress
+from dalembert.units import KINDS
+from dalembert.wording import quote_value
+
+POLISHED = 10
+"""Of the best starts, how many are polished."""
+MOST_DRAWN = 100
+"""Designs drawn at random for each start, where few of them have an answer."""
+KEPT = 1e-6
+"""Part of its usual size by which a condition may be missed, from rounding."""
+SAME = 1e-3
+"""Part of the aim within which two designs are said to be equally good."""
+CORNERS = 10
+"""Stepped numbers of which all neighbours are looked at together; of more, the nearest steps alone."""
+
+Bounds = Mapping[str, Sequence[object]]
+
+
+def optimize(
+    mechanism: Mechanism,
+    vary: Bounds,
+    least: str,
+    where: str | Sequence[str] = (),
+    starts: int = 1000,
+    seed: int = 0,
+    positions: int | None = None,
+    static: bool = False,
+) -> Optimum:
+    """The best of a mechanism's designs: numbers within bounds, an aim that is least, conditions at every position.
+
+    vary: path -> (low, high), or (low, high, step) where only whole steps from low can be made; texts are read as
+    in the file ("13 in"), plain numbers are SI; of a vector the bounds hold for each component. least: ``peak``,
+    ``mean``, ``rms`` or ``norm8`` of an output or an expression of outputs (`da.compile`). where: conditions such as
+    ``transmission.B >= 33 deg`` or ``peak magnitude.A <= 2 kN``. starts: designs drawn at random from the bounds,
+    beside the mechanism's own, all improved side by side with exact gradients; the best ten are polished one by one.
+    Raises ModelError for unknown names, empty bounds, and where no design in the bounds has an answer.
+
+    >>> import dalembert as da
+    >>> best = da.optimize(
+    ...     da.four_bar(), vary={"links.ground.points.O4.0": (0.28, 0.36)}, least="peak effort.O2", starts=8
+    ... )
+    >>> best.value < best.value_before, best.feasible
+    (True, True)
+    """
+    try:
+        p, steps, found = _problem(mechanism, vary, least, where, positions, static)
+        return _best(p, steps, found, starts, seed)
+    except ModelError as error:
+        raise error.at_source(mechanism.source) from None
+
+
+def _problem(
+    m: Mechanism, vary: Bounds, least: str, where: str | Sequence[str], positions: int | None, static: bool
+) -> tuple[Problem, Array, tuple[Number, ...]]:
+    """The problem, the steps of its numbers (NaN where there are none), and the numbers."""
+    if not vary:
+        raise ModelError("nothing varies", 'give vary={"links.crank.points.A.0": (0.1, 0.15)}')
+    found, low, high, steps = list[Number](), list[float](), list[float](), list[float]()
+    for path, given in vary.items():
+        mine = numbers(m, [path])
+        ends = _ends(m, path, given, len(mine))
+        found += mine
+        for into, of in zip((low, high, steps), ends, strict=True):
+            into += of.tolist()
+    texts = [where] if isinstance(where, str) else where
+    schedule = m.schedule(over_a_turn(m, positions))
+    problem = Problem(
+        m,
+        tuple(vary),
+        np.array(low),
+        np.array(high),
+        parse_aim(least),
+        tuple(parse_condition(text) for text in texts),
+        schedule.position,
+        static,
+    )
+    return problem, np.array(steps), tuple(found)
+
+
+def _ends(m: Mechanism, path: str, given: Sequence[object], count: int) -> tuple[Array, Array, Array]:
+    """Low, high and step (count,) of the numbers at a path."""
+    if not isinstance(given, Sequence) or isinstance(given, str) or len(given) not in (2, 3):
+        raise ModelError(
+            f"the bounds of {path!r} are {quote_value(given)}", "give (low, high) or (low, high, step)"
+        )
+
+    def read(value: object) -> Array:
+        if isinstance(value, str):
+            return np.array([n.value for n in numbers(m.with_values({path: value}), [path])])
+        return np.broadcast_to(np.asarray(value, float), (count,))
+
+    low, high = read(given[0]), read(given[1])
+    step = np.full(count, np.nan) if len(given) == 2 else read(given[2])
+    if not np.isfinite([low, high]).all() or (low > high).any() or (step <= 0).any():
+        raise ModelError(
+            f"the bounds of {path!r} go from {quote_value(given[0])} to {quote_value(given[1])}",
+            "give a low one, a high one that is not below it, and a step above zero",
+        )
+    return low, high, step
+
+
+def _best(p: Problem, steps: Array, found: tuple[Number, ...], starts: int, seed: int) -> Optimum:
+    places = _starts(p, starts, seed)
+    with progress("Improving designs") as step:
+        places, values = minimize(p, places, progress=lambda done: step(done))
+    order = np.argsort(values)[:POLISHED]
+    with progress("Polishing designs", len(order)) as step:
+        ends = []
+        for k, start in enumerate(places[order]):
+            ends.append(_stepped(p, polish(p, start), steps))
+            step(k + 1)
+    ends += [_stepped(p, u, steps) for u in places[order]]
+    judged = [judge(p, u) for u in ends]
+    best = min(range(len(ends)), key=lambda k: judged[k])
+    alike = [j for j in judged[: len(order)] if j[0] <= 0 and j[1] <= judged[best][1] * (1 + SAME)]
+    return _optimum(p, ends[best], found, judged[best][0] <= 0, len(alike), len(order), len(places))
+
+
+def _starts(p: Problem, count: int, seed: int) -> Array:
+    """Places that have an answer: the description's own, then random ones."""
+    if isinstance(count, bool) or not isinstance(count, int | np.integer) or not 1 <= count <= 1_000_000:
+        raise ModelError(f"starts={count!r} is no number of starts", "give 1 to 1,000,000")
+    draw, got, drawn = np.random.default_rng(seed), 0, 0
+    found = [p.nominal[None]] if np.isfinite(p(p.nominal[None]).value[0]) else []
+    while got < count and drawn < MOST_DRAWN * count:
+        u = draw.random((max(count, 64), len(p.low)))
+        drawn += len(u)
+        u = u[np.isfinite(p(u).value)][: count - got]
+        got += len(u)
+        found.append(u)
+    places = np.concatenate(found)
+    if not len(places):
+        raise ModelError(
+            f"none of {drawn:,} designs drawn from the bounds has an answer at every position",
+            "narrow the bounds, or the range of the drive",
+        )
+    return places
+
+
+def judge(p: Problem, u: Array) -> tuple[float, float]:
+    """What a place lacks of its conditions, zero where it keeps them, and its aim; the smaller the better."""
+    r = p.at(u)
+    lacks = float(-(r.margin / p.sizes[:, None]).min(initial=0.0)) if np.isfinite(r.margin).all() else np.inf
+    return (lacks if lacks > KEPT else 0.0), p.sharp(u)[0]
+
+
+def _stepped(p: Problem, u: Array, steps: Array) -> Array:
+    """The place on whole steps, its other numbers polished again."""
+    free = np.isnan(steps)
+    if free.all():
+        return u
+    span = np.where(p.span > 0, p.span, 1.0)
+    pitch = np.where(free, 1.0, np.minimum(steps / span, np.where(p.span > 0, np.inf, 1.0)))
+    count = np.floor(1 / pitch[~free] + 1e-9)
+    down = np.clip(np.floor(u[~free] / pitch[~free]), 0, count)
+    up = np.minimum(down + 1, count)
+    near = np.clip(np.rint(u[~free] / pitch[~free]), 0, count)
+    choices = product(*zip(down, up, strict=True)) if len(near) <= CORNERS else [near]
+    places = np.array([_on(u, ~free, np.array(c) * pitch[~free]) for c in choices])
+    order = np.argsort(p(places).value)[:3]
+    ends = [polish(p, places[k], free) for k in order]
+    return min(ends, key=lambda end: judge(p, end))
+
+
+def _on(u: Array, which: Flags, values: Array) -> Array:
+    out = u.copy()
+    out[which] = np.minimum(values, 1.0)
+    return out
+
+
+def _optimum(
+    p: Problem, u: Array, found: tuple[Number, ...], feasible: bool, alike: int, polished: int, started: int
+) -> Optimum:
+    m, values = p.mechanism, p.numbers(u)
+    best = m.with_values({n.path: float(v) for n, v in zip(found, values, strict=True)})
+    count = None if len(p.positions) == len(m.schedule().position) else len(p.positions)
+    return Optimum(
+        mechanism=best,
+        numbers=tuple(n.path for n in found),
+        values=values,
+        nominal=np.array([n.value for n in found]),
+        bounds=np.stack([p.low, p.high], axis=1),
+        aim=p.aim,
+        conditions=p.conditions,
+        before=solve(m, p.static, count),
+        after=solve(best, p.static, count),
+        feasible=feasible,
+        found=alike,
+        polished=polished,
+        started=started,
+        kinds=tuple(_kind(best, n) for n in found),
+    )
+
+
+def _kind(m: Mechanism, n: Number) -> str:
+    """What a number is, of `units.KINDS`."""
+    if n.parameter:
+        return m.parameters[n.path].kind or "number"
+    unit = unit_at(m, n.path)
+    return next((kind for kind, of in KINDS.items() if of.si == unit), "number")

@@ -1,0 +1,94 @@
+"""Quasi-Newton steps (BFGS) of many starts in a box at once: one call of the function for a step of all of them.
+
+Nocedal and Wright, Numerical Optimization, chapter 6; at its bounds a start moves along them, by projection.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array
+from dalembert.optimization.aims import Value
+
+ENOUGH = 1e-4
+"""Share of the decrease that the slope promises which a step has to bring."""
+FIRST = 0.1
+"""Longest first step, of the box."""
+SMALLEST = 1e-9
+"""A step below this part of the box ends a start; so does a gain below it."""
+
+
+class Search(NamedTuple):
+    """State of all starts: place, value, slope, inverse of the curvature."""
+
+    u: Array
+    value: Array
+    slope: Array
+    curvature: Array
+
+
+def minimize(
+    of: Callable[[Array], Value], u: Array, steps: int = 150, progress: Callable[[int], object] | None = None
+) -> tuple[Array, Array]:
+    """Places (start, number) and values, from starts in the unit box of which all have a value."""
+    u, found = u.copy(), of(u)
+    value, slope = found.value.copy(), found.slope.copy()
+    n = u.shape[1]
+    inverse = np.broadcast_to(np.eye(n), (len(u), n, n)).copy()
+    fresh, length, tries = np.ones(len(u), bool), np.ones(len(u)), np.zeros(len(u), int)
+    going = np.isfinite(value)
+    for step in range(steps):
+        k = np.flatnonzero(going)
+        if not k.size:
+            break
+        way = _direction(u[k], slope[k], inverse[k])
+        unit = np.where(fresh[k], FIRST / np.maximum(np.abs(way).max(axis=1), 1e-300), 1.0)
+        trial = np.clip(u[k] + (unit * length[k])[:, None] * way, 0.0, 1.0)
+        moved = trial - u[k]
+        new = of(trial)
+        promised = (slope[k] * moved).sum(axis=1)
+        better = new.value <= value[k] + ENOUGH * promised
+        gain = value[k] - new.value
+        _update(inverse, fresh, k[better], moved[better], (new.slope - slope[k])[better])
+        small = np.abs(moved).max(axis=1) < SMALLEST
+        done = small | (better & (gain < SMALLEST * np.maximum(np.abs(value[k]), SMALLEST)) & ~fresh[k])
+        b = k[better]
+        u[b], value[b], slope[b] = trial[better], new.value[better], new.slope[better]
+        length[k] = np.where(better, 1.0, 0.3 * length[k])
+        tries[k] = np.where(better, 0, tries[k] + 1)
+        again = k[~better & (tries[k] == 6)]
+        inverse[again], fresh[again], length[again] = np.eye(n), True, 1e-2
+        going[k[done | (tries[k] > 12)]] = False
+        if progress is not None:
+            progress(step + 1)
+    return u, value
+
+
+def _direction(u: Array, slope: Array, inverse: Array) -> Array:
+    """Downhill (start, number), none through a bound where the slope pushes against it."""
+    held = ((u <= 0) & (slope > 0)) | ((u >= 1) & (slope < 0))
+    free = np.where(held, 0.0, slope)
+    way = -np.einsum("sij,sj->si", inverse, free)
+    way = np.where(held, 0.0, way)
+    uphill = (way * free).sum(axis=1) >= 0
+    return np.where(uphill[:, None], -free, way)
+
+
+def _update(inverse: Array, fresh: Array, k: Array, s: Array, y: Array) -> None:
+    """The inverses of the curvature after steps s with changes y of the slope, where these curve upwards."""
+    sy = (s * y).sum(axis=1)
+    good = sy > 1e-12 * np.linalg.norm(s, axis=1) * np.linalg.norm(y, axis=1)
+    k, s, y, sy = k[good], s[good], y[good], sy[good]
+    if not k.size:
+        return
+    start = fresh[k]
+    size = np.where(start, sy / np.maximum((y * y).sum(axis=1), 1e-300), 1.0)
+    h = np.where(start[:, None, None], np.eye(s.shape[1]) * size[:, None, None], inverse[k])
+    hy = np.einsum("sij,sj->si", h, y)
+    factor = (1 + (y * hy).sum(axis=1) / sy) / sy
+    cross = np.einsum("si,sj->sij", hy, s) / sy[:, None, None]
+    inverse[k] = h + factor[:, None, None] * np.einsum("si,sj->sij", s, s) - cross - cross.swapaxes(1, 2)
+    fresh[k] = False

@@ -1,0 +1,116 @@
+"""`da.optimize`: against a grid of designs, against a published mechanism's known figure, and by its own laws."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.bundled import cases
+from dalembert.optimization.aims import Problem, parse_aim, parse_condition
+
+WHERE = ("transmission.B >= 33 deg",)
+BOX = {"links.ground.points.O4.0": (0.28, 0.36), "links.rocker.points.B.0": (0.2, 0.28)}
+
+
+def norton() -> da.Mechanism:
+    """Norton's example 11-3 over a turn at constant speed, with a counterweight welded to the coupler."""
+    text = cases()["seed-003-norton-11-3"].read_text(encoding="utf-8").split("# The book rounds")[0]
+    for old, new in (
+        ("  rocker:  {", "  cw: {points: {W: [0, 0]}, weight: 0, center: [0, 0], inertia: 0}\n  rocker:  {"),
+        ("  O4: {type", "  W: {type: weld, links: [coupler, cw], at: [A, W]}\n  O4: {type"),
+        ("position: 60,", "position: {from: 0, to: 360, count: 72},"),
+        (", acceleration: -40 rad/s^2", ""),
+    ):
+        assert old in text
+        text = text.replace(old, new)
+    return da.loads(text)
+
+
+def test_peak_torque_of_norton_11_3() -> None:
+    vary = {
+        "links.ground.points.O4": ("[17 in, -2 in]", "[21 in, 2 in]"),
+        "links.coupler.points.B": ("[13 in, -2 in]", "[17 in, 2 in]"),
+        "links.cw.weight": (0.0, "10 lbf"),
+        "links.cw.center": ("[-15 in, -15 in]", "[15 in, 15 in]"),
+    }
+    best = da.optimize(norton(), vary, "peak effort.O2", WHERE, starts=40)
+    assert best.feasible
+    assert best.value_before == pytest.approx(42.487, abs=1e-3)
+    assert best.value == pytest.approx(23.4184, abs=1e-3)  # differential evolution: 23.4204
+    r = da.dynamics(best.mechanism)
+    assert np.abs(r["effort.O2"]).max() == best.value
+    assert np.degrees(r["transmission.B"]).min() >= 33 - 1e-4
+
+
+def test_no_design_of_a_grid_is_better() -> None:
+    m, where = da.four_bar(), ("transmission.B >= 50 deg", "peak magnitude.O4 <= 130 N")
+    best = da.optimize(m, BOX, "rms effort.O2", where, starts=20, seed=3)
+    grid = np.array(np.meshgrid(*(np.linspace(*ends, 61) for ends in BOX.values()))).reshape(2, -1).T
+    r = da.compile(m, vary=list(BOX), outputs=["effort.O2", "transmission.B", "magnitude.O4"])(grid)
+    good = (r.value("transmission.B").min(axis=1) >= np.radians(50)) & (r.magnitude("O4").max(axis=1) <= 130)
+    values = np.sqrt((r.effort("O2") ** 2).mean(axis=1))[good & r.ok.all(axis=1)]
+    assert best.feasible
+    assert values.min() * (1 - 0.02) <= best.value <= values.min() * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("aim", ["peak effort.O2", "mean power.O2", "rms shaking.magnitude"])
+def test_gradients_of_aim_and_conditions(aim: str) -> None:
+    m, low, high = da.four_bar(), np.array([0.28, 0.2]), np.array([0.36, 0.28])
+    conditions = tuple(map(parse_condition, ("transmission.B >= 60 deg", "magnitude.A <= 40")))
+    p = Problem(m, tuple(BOX), low, high, parse_aim(aim), conditions, m.schedule().position)
+    u = np.array([[0.31, 0.52], [0.7, 0.4]])
+    for k, h in enumerate(np.eye(2) * 1e-6):
+        slope = (p(u + h).value - p(u - h).value) / 2e-6
+        assert np.allclose(slope, p(u).slope[:, k], rtol=1e-6, atol=1e-7)
+
+
+def test_steps() -> None:
+    vary: Any = {**BOX, "links.rocker.points.B.0": (0.2, 0.28, "5 mm")}
+    best = da.optimize(da.four_bar(), vary, "peak effort.O2", starts=10)
+    steps = (best.values[1] - 0.2) / 0.005
+    assert abs(steps - round(steps)) < 1e-9
+    free = da.optimize(da.four_bar(), BOX, "peak effort.O2", starts=10)
+    assert free.value <= best.value <= 1.05 * free.value
+
+
+def test_the_same_again_and_written(tmp_path: Path) -> None:
+    one, two = (da.optimize(da.four_bar(), BOX, "peak effort.O2", WHERE, starts=10, seed=5) for _ in range(2))
+    assert np.array_equal(one.values, two.values)
+    one.save(tmp_path / "best.yaml")
+    again = da.dynamics(da.load(tmp_path / "best.yaml"))
+    assert np.abs(again["effort.O2"]).max() == pytest.approx(one.value, rel=1e-12)
+    assert "room of transmission.B >= 33 deg [deg]" in str(one)
+
+
+def test_conditions_that_no_design_keeps() -> None:
+    best = da.optimize(da.four_bar(), BOX, "peak effort.O2", "transmission.B >= 89 deg", starts=5)
+    assert not best.feasible
+    assert "No design was found that keeps every condition" in str(best)
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"vary": {}}, "nothing varies"),
+        ({"vary": {"links.crank.mas": (1, 2)}}, "mas"),
+        ({"vary": {"links.crank.mass": (2, 1)}}, "the bounds of 'links.crank.mass' go from 2 to 1"),
+        ({"vary": {"links.crank.mass": (1, "2 in")}}, "'2 in' is a length, and a mass is needed"),
+        ({"vary": {"links.crank.mass": (1, 2, 0)}}, "a step above zero"),
+        ({"vary": {"links.crank.mass": 3}}, "give (low, high) or (low, high, step)"),
+        ({"least": "peek effort.O2"}, "'peek', which is no aim; did you mean 'peak'?"),
+        ({"least": "peak efort.O2"}, "there is no output 'efort.O2'; did you mean 'effort.O2'?"),
+        ({"where": "transmission.B"}, "'transmission.B' is no condition"),
+        ({"where": "rms effort.O2 <= 3"}, "bounds a rms"),
+        ({"starts": 0}, "starts=0 is no number of starts"),
+        ({"vary": {"links.crank.points.A.0": (1.0, 1.1)}}, "has an answer at every position"),
+    ],
+)
+def test_wrong_problems(changed: dict[str, Any], message: str) -> None:
+    given: dict[str, Any] = {"vary": BOX, "least": "peak effort.O2", "starts": 3, **changed}
+    with pytest.raises(da.ModelError, match=re.escape(message)):
+        da.optimize(da.four_bar(), **given)
