@@ -60,6 +60,7 @@ FACADES = {
     "analysis.batch.compiled_kernel",
     "machine.balance.balancing",
     "machine.flywheel.flywheels",
+    "machine.motion.simulation",
     "machine.shaking",
     "wrench.system",
     "analysis.batch.design_sweep",

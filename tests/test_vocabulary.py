@@ -23,7 +23,6 @@ OTHER_WORDS = {
     "pivot": "joint",
     "linkage_pair": "joint",
     "kinematic_pair": "joint",
-    "motor": "drive",
     "actuator": "drive",
     "degree_of_freedom": "freedom",
     "dof": "freedom",

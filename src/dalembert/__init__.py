@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from dalembert.machine.flywheel.flywheels import flywheel
     from dalembert.machine.gyroscopes import Gyroscopic, gyroscopic
     from dalembert.machine.harmonics import harmonics
+    from dalembert.machine.motion.simulation import Simulation, simulate
     from dalembert.machine.shaking import shaking
     from dalembert.model import (
         Answer,
@@ -174,6 +175,7 @@ _NAMES = {
     "machine.flywheel.flywheels": "flywheel",
     "machine.gyroscopes": "Gyroscopic gyroscopic",
     "machine.harmonics": "harmonics",
+    "machine.motion.simulation": "Simulation simulate",
     "machine.shaking": "shaking",
     "model.library": (
         "bennett bevel_differential bucket crank_shaper double_cardan five_bar four_bar hooke_joint in_line_engine "
@@ -237,6 +239,7 @@ __all__ = [
     "Rolling",
     "RotorBalance",
     "Scene",
+    "Simulation",
     "SlenderBar",
     "Slider",
     "Slot",
@@ -307,6 +310,7 @@ __all__ = [
     "scissor",
     "scotch_yoke",
     "shaking",
+    "simulate",
     "slider_crank",
     "solve",
     "spherical_four_bar",

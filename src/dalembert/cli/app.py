@@ -376,6 +376,7 @@ app.command(machine_commands.shake, help_epilogue=machine_commands.SHAKE)
 app.command(machine_commands.balance, help_epilogue=machine_commands.BALANCE)
 app.command(machine_commands.flywheel, help_epilogue=machine_commands.FLYWHEEL)
 app.command(study_commands.study)
+app.command(machine_commands.simulate, help_epilogue=machine_commands.SIMULATE)
 
 
 def command_line_error(error: CycloptsError, arguments: list[str]) -> str:
@@ -393,8 +394,7 @@ def _report_error(error: CycloptsError, asked: str) -> str:
     if isinstance(error, UnknownCommandError):
         return f"there is no command {asked!r}; {closest(asked, _commands())}"
     if isinstance(error, UnusedCliTokensError):
-        extra = " ".join(error.unused_tokens or ())
-        return f"{extra!r} is one too many; what has spaces stands in quotes"
+        return f"{' '.join(error.unused_tokens or ())!r} is one too many; what has spaces stands in quotes"
     missing = isinstance(error, MissingArgumentError) and re.search(r"parameter (\S+) requires", str(error))
     sentence = f"{asked} needs {missing[1]}" if missing else str(error).strip().rstrip(".")
     return sentence[:1].lower() + sentence[1:]

@@ -7,7 +7,7 @@ shaking    force and moment on the ground, two ways; harmonics of any output; ev
 gyroscopes the couple of a rotor whose carrier turns, as the books show it
 balance/   counterweights under bounds, proved best; rotors; engines beside the books' series
 flywheel/  the energy curve, size of a flywheel, and the exact speed over the cycle with it
-motion/    (to come) motion under forces: the equation of motion, simulation, events
+motion/    motion under forces: the equation of motion, simulation, events
 members/   (to come) forces inside links, stresses, pins and bearings, choice of a motor
 output/    what all answers of this room have in common: columns, record, table
 """

@@ -16,6 +16,7 @@ from dalembert.model.assembly import Pose, PoseValue
 from dalembert.model.drives.driven_freedoms import drive_freedoms, refuse_empty, with_freedoms
 from dalembert.model.drives.drives import Drive
 from dalembert.model.drives.schedule import Schedule, schedule
+from dalembert.model.drives.starting import Start, StartValue, started
 from dalembert.model.files.messages import of_originals, together
 from dalembert.model.files.source import Source
 from dalembert.model.gravity import STANDARD, Gravity, GravityValue
@@ -90,6 +91,10 @@ class Mechanism(Part):
     assembly: dict[Name, Annotated[Pose, PoseValue()]] = Field(
         default_factory=dict,
         description="approximate angle, or [x, y, angle], of links: chooses the assembly mode",
+    )
+    start: Annotated[Mapping[str, Start], StartValue()] = Field(
+        default_factory=dict,
+        description="position and speed at time 0 of the drives that forces move: used by simulate",
     )
     answers: tuple[Answer, ...] = Field((), description="published answers, compared by `check`")
     _source: Source | None = PrivateAttr(None)
@@ -250,12 +255,12 @@ class Mechanism(Part):
 
     def schedule(self, positions: int | None = None) -> Schedule:
         """What the drives do, position by position; `positions` replaces the file's counts."""
-        return schedule(self.drives, positions)
+        return schedule(started(self.drives, self.start), positions)
 
     @property
     def has_speeds(self) -> bool:
         """Whether some drive has a speed, an acceleration or a law, so that inertia counts."""
-        return any(drive.moves for drive in self.drives.values())
+        return any(drive.moves for drive in started(self.drives, self.start).values())
 
     def with_values(self, values: Mapping[str, object]) -> Mechanism:
         """Another mechanism with some values replaced, each named by its path.

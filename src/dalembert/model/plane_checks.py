@@ -126,6 +126,12 @@ def _friction(m: Mechanism, name: str, joint: JointPart) -> Iterator[ModelError]
 
 def _drives(m: Mechanism) -> Iterator[ModelError]:
     taken: dict[tuple[str, str | None], str] = {}
+    for name in m.start.keys() - m.drives.keys():
+        yield ModelError(
+            f"start names the drive {name!r}, which is not there",
+            closest(name, list(m.drives)) if m.drives else f"write drives: {{{name}: {{effort: 0}}}}",
+            ("start", name),
+        )
     for name, drive in m.drives.items():
         joint, path = drive.joint or name, ("drives", name)
         yield from _word(name, joint, path)
@@ -139,6 +145,13 @@ def _drives(m: Mechanism) -> Iterator[ModelError]:
             continue
         yield from _freedom(name, drive.freedom, joint, m.joints[joint])
         yield from _axis(name, drive, joint, m.joints[joint])
+        if drive.position is None and drive.law is None and name not in m.start:
+            yield ModelError(
+                f"drive {name!r} has {'a motor' if drive.motor else 'an effort'} and no start",
+                f"write start: {{{name}: {{position: {'60 deg' if drive.turns else '0 mm'}, speed: 0}}}}, "
+                "or its position",
+                path,
+            )
         other = taken.setdefault((joint, drive.freedom), name)
         if other != name:
             yield ModelError(
@@ -230,7 +243,7 @@ def _coordinate(m: Mechanism, name: str, what: str, path: tuple[str | int, ...])
         remedy = "an effort goes by drives and time: write it as a load, or against a drive"
         yield ModelError(f"{what} uses {name!r}", remedy, path)
     elif found is None:
-        if not any(drive.law is not None for drive in m.drives.values()):
+        if not m.start and not any(drive.law is not None for drive in m.drives.values()):
             remedy = "give a drive a law, which says when it is where, or go by the drive"
             yield ModelError(f"{what} goes by time, and no drive has a law of motion", remedy, path)
     elif found[0] == "links":

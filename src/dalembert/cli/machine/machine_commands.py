@@ -1,4 +1,4 @@
-"""`dalembert shake`, `balance`, `flywheel`: machine design on top of the analysis; what its commands have in common."""
+"""`dalembert shake`, `balance`, `flywheel`, `simulate`: machine design on top of the analysis."""
 
 from __future__ import annotations
 
@@ -253,6 +253,49 @@ BALANCE = """Examples:
   dalembert balance four_bar.yaml --on crank rocker
   dalembert balance four_bar.yaml --on crank:radius=60mm,mass=3kg rocker --least max --of force=1,torque=0.5
   dalembert balance engine.yaml --on crank --output balanced.yaml --drawing balance.svg"""
+
+
+def simulate(
+    file: ModelFile,
+    /,
+    *,
+    until: Annotated[
+        list[str],
+        Parameter(
+            consume_multiple=True,
+            negative=(),
+            help='When it ends: a time (2s), or a condition ("O2.speed = 0 rad/s"); the first of several.',
+        ),
+    ],
+    event: Annotated[
+        list[str] | None,
+        Parameter(negative=(), help='Condition to note when it is met: "O2.position = 90 deg".'),
+    ] = None,
+    count: Annotated[
+        int, Parameter(help="Instants in the answer, evenly in time, besides the events.")
+    ] = 201,
+    tolerance: Annotated[float | None, with_help("Relative error of a step (default: 1e-11).")] = None,
+    changes: Changes = AS_IN_FILE,
+    out: Outputs = NO_OUTPUTS,
+) -> int:
+    """Motion of FILE under forces: motors, loads, springs and friction, with every joint force."""
+    from dalembert.cli.model_argument import load_model
+    from dalembert.machine.motion import simulation
+    from dalembert.machine.output.simulation_text import simulation_text
+
+    out.check(file)
+    m = load_model(file, changes)
+    found = simulation.simulate(
+        m, until, events=event or (), count=count, tolerance=tolerance or simulation.TOLERANCE
+    )
+    out.deliver(found, lambda units: simulation_text(found, units))
+    return 1 if found.ended.startswith("stopped") else 0
+
+
+SIMULATE = """Examples:
+  dalembert simulate press.yaml --until 2s --drawing speed.svg
+  dalembert simulate press.yaml --until 10s "O2.speed = 30 rad/s" --csv motion.csv
+  dalembert simulate crane.yaml --until 1s --event "O2.position = 90 deg" --json -"""
 
 
 def _point(m: Mechanism, about: str | None) -> str | Sequence[float] | None:

@@ -11,6 +11,7 @@ from pydantic import Field, FieldSerializationInfo, ValidationInfo, field_serial
 
 from dalembert.errors import ModelError
 from dalembert.model.drives.laws import Law, Rise, TimeTable, count, law, law_schema
+from dalembert.model.drives.motors import MotorCurve, motor_curve, motor_schema
 from dalembert.model.part import Part, Reading, mapping, reading
 from dalembert.model.quantities.dependent_numbers import Dependent
 from dalembert.model.quantities.figures import in_units
@@ -22,6 +23,7 @@ from dalembert.model.quantities.values import (
     Value,
     Vector,
     at_item,
+    check_sign,
     direction_vector,
     numbers,
     value_text,
@@ -125,6 +127,28 @@ class LawValue(DriveValue):
         return law_schema()
 
 
+class MotorValue(DriveValue):
+    """A motor: effort as a function of speed."""
+
+    def parse(self, value: object, kind: str, rules: Reading) -> MotorCurve:
+        return motor_curve(value, kind, rules)
+
+    def json_schema(self) -> JsonSchema:
+        return motor_schema()
+
+
+class BrakeValue(DriveValue):
+    """The size of a dry couple or force."""
+
+    what = "effort"
+
+    def parse(self, value: object, kind: str, rules: Reading) -> float:
+        return check_sign(rules.quantity(value, kind), value, "not negative")
+
+    def json_schema(self) -> JsonSchema:
+        return NUMBER_OR_TEXT
+
+
 class EffortValue(DriveValue):
     """A known effort, which may change along the motion."""
 
@@ -214,6 +238,12 @@ class Drive(Part):
     effort: Annotated[Varying, EffortValue()] | None = Field(
         None, description="known effort: a moment on a turn, a force on a slide; then a load must be unknown"
     )
+    motor: Annotated[MotorCurve, MotorValue()] | None = Field(
+        None, description="effort as a function of speed, of a drive that `start` lets go: used by simulate"
+    )
+    brake: Annotated[float, BrakeValue()] = Field(
+        0.0, description="dry effort against the motion of its freedom, which holds at rest: used by simulate"
+    )
     range: Annotated[tuple[float, float], Interval()] | None = Field(
         None, description="[a, b]: where an unknown position is sought; default one turn"
     )
@@ -253,11 +283,13 @@ class Drive(Part):
     def _one_motion(self) -> Self:
         if self.law is not None:
             self._refuse("a law of motion", "position", "speed", "acceleration", "range")
-        elif self.position is None:
+        elif self.position is None and self.motor is None and self.effort is None:
             raise ModelError(
                 "its position is not said",
                 "write position: 60 deg, or {from: ..., to: ..., count: ...}, or a law",
             )
+        if self.motor is not None:
+            self._refuse("a motor", "effort", "law", "range")
         if self.unknown:
             self._refuse("an unknown position", "speed", "acceleration")
             self._check_unknown()
@@ -309,10 +341,19 @@ class Drive(Part):
         }
 
     @field_serializer(
-        "position", "speed", "acceleration", "law", "effort", "range", when_used="json", return_type=Any
+        "position",
+        "speed",
+        "acceleration",
+        "law",
+        "effort",
+        "motor",
+        "brake",
+        "range",
+        when_used="json",
+        return_type=Any,
     )
     def _serialize(self, value: object, info: FieldSerializationInfo) -> object:
-        what = info.field_name if info.field_name in TURN else ""
+        what = "effort" if info.field_name == "brake" else info.field_name if info.field_name in TURN else ""
         with in_units(info.context):
             return _tree(value, kind_of(self.freedom, str(what)))
 
@@ -330,6 +371,6 @@ def _tree(value: Any, kind: str) -> object:
             "to": value_text(value.stop, kind),
             "count": value.count,
         }
-    if isinstance(value, (Rise, TimeTable)):
+    if isinstance(value, (Rise, TimeTable, MotorCurve)):
         return value.tree(kind)
     return value if value is None or value == UNKNOWN else varying_tree(value, kind)

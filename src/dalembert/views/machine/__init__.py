@@ -1,4 +1,4 @@
-"""Drawings of machine design: shaking forces, balance, flywheels.
+"""Drawings of machine design: shaking forces, balance, flywheels, motion under forces.
 
 In: an answer of ``machine``. Out: ``Scene``. Imports ``machine`` and what ``views`` imports.
 """
@@ -15,12 +15,16 @@ def scenes_of(answer: Any, notation: Notation | None = None) -> list[Scene]:
     """The drawings of an answer, by what it is."""
     from dalembert.machine.balance.balancing import Balance
     from dalembert.machine.flywheel.flywheels import Flywheel
+    from dalembert.machine.motion.simulation import Simulation
     from dalembert.views.machine.balance_views import balance_scenes
     from dalembert.views.machine.flywheel_views import flywheel_scenes
     from dalembert.views.machine.shaking_views import shaking_scenes
+    from dalembert.views.machine.simulation_views import simulation_scenes
 
     if isinstance(answer, Balance):
         return balance_scenes(answer, notation)
     if isinstance(answer, Flywheel):
         return flywheel_scenes(answer, notation)
+    if isinstance(answer, Simulation):
+        return simulation_scenes(answer, notation)
     return shaking_scenes(answer, notation)

@@ -1,0 +1,115 @@
+"""What moves each drive: a given effort, a motor with its switches, nothing; or a prescribed motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from dalembert.analysis.compile.pose_loads import TIME
+from dalembert.arrays import Array, Flags
+from dalembert.errors import ModelError
+from dalembert.model import Mechanism
+from dalembert.model.drives.drives import Drive, Range
+from dalembert.model.drives.motors import Switch
+from dalembert.model.drives.starting import Start
+
+
+@dataclass
+class Moving:
+    """How the drives of a mechanism move: ``free`` (D,) by forces from ``position`` and ``speed``, the others at a
+    constant ``acceleration`` (D,); ``on`` (D,): which motors are switched on."""
+
+    m: Mechanism
+    free: Flags
+    position: Array
+    speed: Array
+    acceleration: Array
+    on: Flags = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.names = tuple(self.m.drives)
+        self.drives = tuple(self.m.drives.values())
+        self.motors = {k: d.motor for k, d in enumerate(self.drives) if d.motor is not None}
+        self.brake = np.array([d.brake for d in self.drives])
+        self.by_time = any(TIME in getattr(d.effort, "names", ()) for d in self.drives)
+        self.on = np.array([self._begins(k) for k in range(len(self.names))])
+
+    def _begins(self, k: int) -> bool:
+        motor = self.motors.get(k)
+        return motor is not None and (
+            motor.on is None or self.switched(motor.on, k, 0.0, self.position, self.speed) == 0
+        )
+
+    def switched(self, switch: Switch, k: int, t: float, q: Array, u: Array) -> float:
+        """What a motor is switched by, less the value it is switched at."""
+        by, value = switch
+        return float({"time": t, "position": q[k], "speed": u[k]}[by] - value)
+
+    def effort(self, t: float, q: Array, u: Array) -> Array:
+        """Efforts (D,) of motors and those that are given, without brakes."""
+        out = np.zeros(len(q))
+        for k, drive in enumerate(self.drives):
+            if drive.effort is not None:
+                names = {**dict(zip(self.names, q, strict=True)), TIME: t}
+                out[k] = drive.effort.at(names) if hasattr(drive.effort, "at") else drive.effort
+            elif k in self.motors and self.on[k]:
+                out[k] = self.motors[k].at(u[k])
+        return out
+
+
+def moving(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mechanism, Moving]:
+    """The mechanism with all its drives prescribed where they start, and how they move."""
+    if start:
+        m = m.model_copy(update={"start": {**m.start, **start}})
+    free = [n for n, d in m.drives.items() if n in m.start or d.motor is not None or d.effort is not None]
+    if not free:
+        raise ModelError(
+            "no drive is let go: none has a start, a motor or an effort",
+            "write start: {O2: {position: 60 deg, speed: 0}}, with the name of a drive",
+            ("drives",),
+        )
+    at = {name: _at_start(name, d, m.start.get(name), name in free) for name, d in m.drives.items()}
+    q, u, a = np.array(list(at.values())).T
+    drives = {
+        name: d.model_copy(
+            update={
+                "position": at[name][0],
+                "speed": 1.0,
+                "acceleration": 0.0,
+                **dict.fromkeys(("effort", "motor", "law", "range")),
+                "brake": 0.0,
+            }
+        )
+        for name, d in m.drives.items()
+    }
+    unknown = [name for name, load in m.loads.items() if load.unknown]
+    if unknown:
+        raise ModelError(
+            f"load {unknown[0]!r} is asked for, and forces move the machine",
+            "give it a value",
+            ("loads", unknown[0], "value"),
+        )
+    prescribed = m.model_copy(update={"drives": drives, "start": {}, "answers": ()})
+    return prescribed, Moving(m, np.array([n in free for n in m.drives]), q, u, a)
+
+
+def _at_start(name: str, d: Drive, start: Start | None, free: bool) -> tuple[float, float, float]:
+    """Position, speed and acceleration at time 0."""
+    if start is not None:
+        return start.position, start.speed, 0.0
+    if d.law is not None:
+        raise ModelError(
+            f"drive {name!r} has a law of motion, and other drives are moved by forces",
+            "prescribe it by position, speed and acceleration at time 0",
+            ("drives", name, "law"),
+        )
+    if d.position is None or isinstance(d.position, str):
+        raise ModelError(
+            f"drive {name!r} has no position to start at",
+            f"write start: {{{name}: {{position: ..., speed: 0}}}}",
+            ("drives", name),
+        )
+    first = d.position.start if isinstance(d.position, Range) else np.ravel(d.position)[0]
+    rate = float(np.ravel(d.acceleration)[0])
+    return float(first), float(np.ravel(d.speed)[0]), 0.0 if free else rate

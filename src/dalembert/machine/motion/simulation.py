@@ -1,0 +1,248 @@
+"""`da.simulate`: the motion of a machine under forces, with every joint force along it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.analysis.one_pass import at_schedule
+from dalembert.analysis.output.columns import Column, Scale, columns
+from dalembert.analysis.result.closure_residual import closure_gap
+from dalembert.arrays import Array, Tree
+from dalembert.errors import ModelError
+from dalembert.machine.motion.driving import Moving, moving
+from dalembert.machine.motion.energies import energies
+from dalembert.machine.motion.integration import Integration
+from dalembert.machine.motion.occurrences import Condition, Event
+from dalembert.model import Mechanism, Schedule
+from dalembert.model.drives.drives import SLIDE, TURN
+from dalembert.model.drives.starting import Start, StartValue
+from dalembert.units import quantity
+from dalembert.wording import closest
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+TOLERANCE, MOST = 1e-11, 100_000
+"""Of the integration, relative; and the most instants that are kept."""
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """A motion under forces: ``result`` has every joint force at the instants ``time`` (T,), s.
+
+    ``applied`` (T, D): what acts in each drive's freedom, brakes included. ``works``: J since the start, (T,), by name.
+    ``kinetic``, ``potential`` (T,). Checks: ``energy_residual``, the gap of the energy balance over the largest energy;
+    ``law_residual``, of the efforts that the found motion asks for when it is prescribed, over the largest; and
+    ``closure``, of the loops, m or rad.
+    """
+
+    result: Result
+    time: Array
+    applied: Array
+    works: Mapping[str, Array]
+    kinetic: Array
+    potential: Array
+    events: tuple[Event, ...]
+    ended: str
+    energy_residual: float
+    law_residual: float
+    closure: float
+    evaluations: int = field(repr=False, default=0)
+
+    @property
+    def drives(self) -> tuple[str, ...]:
+        """Names of the drives."""
+        return self.result.drives
+
+    def position(self, drive: str) -> Array:
+        """Position of a drive (T,), rad or m, whole turns counted."""
+        return self.result.drive_position(drive)
+
+    def speed(self, drive: str) -> Array:
+        """Speed of a drive (T,), rad/s or m/s."""
+        return self.result.drive_speed(drive)
+
+    def acceleration(self, drive: str) -> Array:
+        """Acceleration of a drive (T,), rad/s2 or m/s2."""
+        return self.result.drive_acceleration(drive)
+
+    def event(self, name: str) -> list[Event]:
+        """Events whose name or sentence begins so."""
+        return [e for e in self.events if e.name.startswith(name) or e.sentence.startswith(name)]
+
+    def columns(self) -> Iterator[Column]:
+        """Time, all numbers of the result, works and energies."""
+        yield Column("time", "time", self.time)
+        yield from columns(self.result)
+        for k, drive in enumerate(self.drives):
+            kind = (TURN if self.result.mechanism.drives[drive].turns else SLIDE)["effort"]
+            yield Column(f"applied {drive}", kind, self.applied[:, k])
+        for name, values in self.works.items():
+            yield Column(f"work of {name}", "energy", values)
+        yield Column("kinetic energy", "energy", self.kinetic)
+        yield Column("potential energy", "energy", self.potential)
+
+    def record(self, to: Scale) -> Tree:
+        """Events, the end and the checks."""
+        return {
+            "ended": self.ended,
+            "events": [
+                {"time": float(np.asarray(to("time", e.time))), "name": e.name, "sentence": e.sentence}
+                for e in self.events
+            ],
+            "energy_residual": self.energy_residual,
+            "law_residual": self.law_residual,
+            "closure": self.closure,
+        }
+
+    def __str__(self) -> str:
+        """What `dalembert simulate` prints."""
+        from dalembert.machine.output.simulation_text import simulation_text
+
+        return simulation_text(self)
+
+
+def simulate(
+    m: Mechanism,
+    until: str | float | Sequence[str | float],
+    start: Mapping[str, Any] | None = None,
+    events: Sequence[str] = (),
+    count: int = 201,
+    tolerance: float = TOLERANCE,
+) -> Simulation:
+    """Motion under forces: motors, given efforts, loads, weights, springs, dampers and dry friction.
+
+    (V^T M V) u' + h(q, u) = tau for the drives that ``start`` lets go; the others stay prescribed. ``until``: a time
+    (``"2 s"``, or seconds), a condition such as ``"O2.speed = 0 rad/s"`` or ``"O2.position = 90 deg"``, or several,
+    the first ends it. ``start``: in place of the file's, ``{"O2": {"position": "60 deg", "speed": 0}}``. ``events``:
+    conditions that are noted. ``count``: instants in the answer, evenly in time, besides the events; without a time the
+    steps of the integration. Dry friction sticks and lets go; nothing is smoothed. Raises ModelError for a model that
+    forces cannot move. Hairer, Norsett, Wanner, Solving ODEs I, II.5 (DOP853).
+
+    >>> import dalembert as da
+    >>> m = da.slider_crank(crank=0.05, rod=0.2)
+    >>> s = da.simulate(m, until="0.5 s", start={"O2": {"position": "30 deg", "speed": "20 rad/s"}})
+    >>> bool(s.energy_residual < 1e-9), bool(s.law_residual < 1e-9)
+    (True, True)
+    """
+    try:
+        prescribed, moves = moving(m, _start(m, start))
+        end, conditions = _ends(m, until, events)
+        _check(count, tolerance)
+        times = np.linspace(0.0, end, count)[1:] if np.isfinite(end) else None
+        run = Integration(prescribed, moves, end, times, conditions, tolerance)
+    except ModelError as error:
+        raise error.at_source(m.source) from None
+    run.run()
+    return _answer(m, prescribed, moves, run)
+
+
+def _check(count: int, tolerance: float) -> None:
+    if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST:
+        raise ModelError(f"{count} instants are asked for", f"ask for 2 to {MOST}")
+    if not 1e-14 <= tolerance <= 1e-3:
+        raise ModelError(f"the tolerance {tolerance:g} is not between 1e-14 and 1e-3", "leave it out: 1e-11")
+
+
+def _start(m: Mechanism, start: Mapping[str, Any] | None) -> dict[str, Start]:
+    """Starts given in the call, read as the file reads them."""
+    if not start:
+        return {}
+    for name in start:
+        if name not in m.drives:
+            raise ModelError(
+                f"start names the drive {name!r}, which is not there", closest(name, list(m.drives))
+            )
+    return StartValue().starts(start, m._later_rules({}))
+
+
+CONDITION = re.compile(r"\s*(?P<drive>\S+)\.(?P<what>position|speed)\s*=\s*(?P<value>.+?)\s*")
+
+
+def _ends(
+    m: Mechanism, until: str | float | Sequence[str | float], events: Sequence[str]
+) -> tuple[float, list[Condition]]:
+    """The end, infinite where only conditions end it, and the conditions."""
+    several = [until] if isinstance(until, (str, float, int)) else list(until)
+    times = [u for u in several if not (isinstance(u, str) and "=" in u)]
+    said = [(str(u), True) for u in several if u not in times] + [(e, False) for e in events]
+    conditions = [_condition(m, text, stops) for text, stops in said]
+    end = min((quantity(u, "time", m.units.of_texts()) for u in times), default=np.inf)
+    if not end > 0 or not several:
+        raise ModelError("the simulation does not say until when", 'write until="2 s"')
+    return end, conditions
+
+
+def _condition(m: Mechanism, text: str, stops: bool) -> Condition:
+    found = CONDITION.fullmatch(text)
+    if found is None:
+        raise ModelError(f"{text!r} is no condition", 'write "O2.speed = 0 rad/s" or "O2.position = 90 deg"')
+    drive = found["drive"]
+    if drive not in m.drives:
+        raise ModelError(f"the condition {text!r} names no drive", closest(drive, list(m.drives)))
+    kinds = TURN if m.drives[drive].turns else SLIDE
+    what = found["what"]
+    value = (
+        0.0
+        if found["value"] == "0"
+        else quantity(found["value"], kinds["" if what == "position" else what], m.units.of_texts())
+    )
+    return Condition(text.strip(), list(m.drives).index(drive), what, value, stops)
+
+
+def _answer(m: Mechanism, prescribed: Mechanism, moves: Moving, run: Integration) -> Simulation:
+    """The analysis along the motion that was found, and the checks."""
+    t, q, u, a, applied, works = run.track.columns()
+    kept = np.append(True, np.diff(t) > 0)  # of an event the state behind it
+    kept[:-1] = np.append(np.diff(t) > 0, True)[:-1]
+    t, q, u, a, applied, works = (x[kept] for x in (t, q, u, a, applied, works))
+    result = at_schedule(prescribed, Schedule(tuple(m.drives), q, u, a, time=t), inertia=True)
+    kinetic, potential = energies(result)
+    named = {name: works[:, k] for k, name in enumerate(m.drives)}
+    named |= {
+        name: works[:, len(m.drives) + k] for k, name in enumerate(("brakes", "loads", "dampers", "friction"))
+    }
+    named = {name: w for name, w in named.items() if name in m.drives or w.any()}
+    return Simulation(
+        result=result,
+        time=t,
+        applied=applied,
+        works=named,
+        kinetic=kinetic,
+        potential=potential,
+        events=tuple(run.events),
+        ended=run.ended or f"at {t[-1]:.6g} s",
+        energy_residual=_energy_residual(kinetic, potential, named),
+        law_residual=_law_residual(result, applied, moves),
+        closure=float(np.nanmax(closure_gap(result), initial=0.0)),
+        evaluations=run.evaluations,
+    )
+
+
+def _energy_residual(kinetic: Array, potential: Array, works: Mapping[str, Array]) -> float:
+    exchanged = [kinetic, potential - potential[0], *works.values()]
+    largest = max(float(np.nanmax(np.abs(x), initial=0.0)) for x in exchanged)
+    gap = (kinetic - kinetic[0]) + (potential - potential[0]) - sum(works.values())
+    return float(np.nanmax(np.abs(gap), initial=0.0)) / (largest or 1.0)
+
+
+def _law_residual(r: Result, applied: Array, moves: Moving) -> float:
+    """The found motion, prescribed, asks for the efforts that made it: where they are numbers, and nothing reverses."""
+    sure = np.array([s in ("ok", "self_locking") for s in r.status])
+    asked = r.effort_array[sure][:, moves.free]
+    largest = max(
+        float(np.abs(x).max(initial=0.0)) for x in (asked, applied[sure][:, moves.free], _inertial(r)[sure])
+    )
+    gap = np.abs(asked - applied[sure][:, moves.free])
+    return float(gap.max(initial=0.0)) / (largest or 1.0)
+
+
+def _inertial(r: Result) -> Array:
+    """Size (T,) of the forces in the joints as moments, beside which an effort may be nothing."""
+    force = np.abs(np.nan_to_num(r.force_array)).reshape(len(r.status), -1).max(axis=1, initial=0.0)
+    return np.asarray(force * r.compiled.layout.length)

@@ -1,0 +1,175 @@
+"""What friction and brakes do at the moment: the test of rest is the analysis of the machine at rest there."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dalembert.analysis.one_pass import at_schedule
+from dalembert.analysis.result.result import Result
+from dalembert.arrays import Array, Flags
+from dalembert.machine.motion.driving import Moving
+from dalembert.machine.motion.equation import Equation, StoppedError, Terms
+from dalembert.machine.motion.occurrences import Event
+from dalembert.model import Mechanism, Schedule
+from dalembert.model.drives.motors import Switch
+
+STILL = 1e-9
+"""A speed below this part of the greatest there has been is rest, at an event where it passes zero."""
+INSTANTS = 400
+"""At so many instants it is asked whether what rests by friction is still held."""
+
+
+def at_state(m: Mechanism, first: Array, t: float, q: Array, u: Array, a: Array) -> Result:
+    """The analysis at one state (its second position), led by the start, which decides the assembly mode."""
+    turns = np.array([d.turns for d in m.drives.values()])
+    whole = np.where(turns, 2 * np.pi * np.round((q - first) / (2 * np.pi)), 0.0)
+    position, speed, rate = (np.stack(pair) for pair in ((first + whole, q), (u, u), (a, a)))
+    schedule = Schedule(tuple(m.drives), position, speed, rate, np.array([t, t]))
+    return at_schedule(m, schedule, inertia=True)
+
+
+def holding_efforts(r: Result, k: int) -> tuple[float, float]:
+    """Least and greatest effort of a drive, at the second position, between which its contacts stay at rest."""
+    name = r.drives[k]
+    low, high = r.interval(name)[1]
+    held = r.holding(name)[1]
+    if np.isfinite(held).any() or np.isinf(held).any():
+        low, high = (x if np.isnan(h) else h for x, h in zip((low, high), held, strict=True))
+    return float(low), float(high)
+
+
+class Contacting:
+    """A motion's contacts and brakes at the moment: senses, and which drives they hold at rest."""
+
+    def __init__(self, m: Mechanism, moving: Moving) -> None:
+        self.m, self.moving, self.equation = m, moving, Equation(m)
+        self.d = len(moving.names)
+        self.locked: Flags = np.zeros(self.d, bool)
+        self.sense, self.toward = np.ones(self.equation.contacts), np.ones(self.d)
+        self.rubs: Flags = moving.free & (self.equation.rough | (moving.brake > 0))
+        self.events: list[Event] = []
+        self.switched: set[tuple[int, str]] = set()
+        self.evaluations = 0
+
+    def at(self, t: float, y: Array) -> tuple[Array, Array, Terms]:
+        """Accelerations (D,), efforts (D,) of the drives with their brakes, and the terms."""
+        q, u = y[: self.d], y[self.d : 2 * self.d]
+        self.evaluations += 1
+        tau = self.moving.effort(t, q, u) - self.moving.brake * self.toward
+        free, given = (
+            self.moving.free & ~self.locked,
+            np.where(self.moving.free, 0.0, self.moving.acceleration),
+        )
+        a, effort, terms = self.equation.accelerations(t, q, u, given, tau, free, self.sense)
+        return a, np.where(free, tau, effort), terms
+
+    def rate(self, t: float, y: Array) -> Array:
+        """Time derivative of positions, speeds and works."""
+        a, effort, terms = self.at(t, y)
+        u = y[self.d : 2 * self.d]
+        braking = -self.moving.brake * self.toward * u * ~self.locked
+        return np.concatenate([u, a, (effort * u) - braking, [braking.sum()], terms.power])
+
+    def note(self, t: float, name: str, sentence: str) -> None:
+        self.events.append(Event(t, name, sentence))
+
+    def _settle_start(self, t: float, y: Array) -> None:
+        """Senses at the start; what stands there is held, or goes the way it is pushed."""
+        u = y[self.d : 2 * self.d]
+        rates = self.equation(t, y[: self.d], u, np.zeros(self.d), self.sense).rates
+        self.sense = np.where(rates < 0, -1.0, 1.0)
+        self.toward = np.where(u < 0, -1.0, 1.0)
+        for k in np.flatnonzero(self.rubs & (u == 0)):
+            self._settle(int(k), t, y)
+
+    def _range(self, k: int, t: float, y: Array) -> tuple[float, float, float]:
+        """Effort that acts on a drive at rest, and the least and greatest with which it stays there."""
+        q, u = y[: self.d], y[self.d : 2 * self.d]
+        held = self.locked.copy()
+        self.locked[k] = True
+        try:
+            a = self.at(t, y)[0] if not self.locked[self.moving.free].all() else np.zeros(self.d)
+        finally:
+            self.locked = held
+        r = at_state(self.m, self.moving.position, t, q, u, a)
+        low, high = holding_efforts(r, k)
+        if np.isnan(low) or np.isnan(high):
+            raise StoppedError(f"{self.moving.names[k]} stands, and {r.reasons[1] or r.status[1]}")
+        tau = float(self.moving.effort(t, q, u)[k])
+        return tau, low - self.moving.brake[k], high + self.moving.brake[k]
+
+    def _settle(self, k: int, t: float, y: Array) -> None:
+        """Lock a drive that stands and is held, or let it go in the sense of the end that is passed."""
+        tau, low, high = self._range(k, t, y)
+        name, was = self.moving.names[k], self.locked[k]
+        wide = high - low > 1e-12 * max(abs(low), abs(high), 1e-300)
+        if wide and low <= tau <= high:
+            self.locked[k] = True
+            why = "its motor stalls" if k in self.moving.motors and self.moving.on[k] else "friction holds it"
+            self.note(
+                t,
+                "rest",
+                f"{name} comes to rest and stays: {why}; effort {tau:.6g}, held from {low:.6g} to {high:.6g}",
+            )
+            return
+        self.locked[k] = False
+        self.toward[k] = 1.0 if tau > high or (not wide and tau >= (low + high) / 2) else -1.0
+        there = self.equation(t, y[: self.d], y[self.d : 2 * self.d], np.zeros(self.d), self.sense).rates
+        ahead = np.zeros(self.d)
+        ahead[k] = self.toward[k]
+        pushed = self.equation(t, y[: self.d], ahead, np.zeros(self.d), self.sense).rates
+        still = np.abs(there) <= STILL * np.abs(pushed)
+        self.sense = np.where(still & (pushed != 0), np.where(pushed < 0, -1.0, 1.0), self.sense)
+        if t > 0 or was:
+            self.note(t, "start" if was else "reversal", f"{name} {'starts again' if was else 'turns back'}")
+
+    def _held(self, t: float, y: Array) -> list[int]:
+        """Locked drives that are no longer held."""
+        out = []
+        for k in np.flatnonzero(self.locked):
+            tau, low, high = self._range(int(k), t, y)
+            if not low <= tau <= high:
+                out.append(int(k))
+        return out
+
+    def _still_held(self, t: float, y: Array) -> bool:
+        return not self._held(t, y)
+
+    def _switches(self, k: int) -> list[tuple[str, Switch]]:
+        """Switches of a motor that wait."""
+        pairs = (("on", self.moving.motors[k].on), ("off", self.moving.motors[k].off))
+        waiting = [(key, s) for key, s in pairs if s is not None and (k, key) not in self.switched]
+        return [(key, s) for key, s in waiting if key == "off" or not self.moving.on[k]]
+
+    def _let_go(self, t: float, end: float, y: Array) -> float:
+        """When what stands is no longer held; motors that are switched by time are, at theirs."""
+        switches = [
+            (s[1], k, key) for k in self.moving.motors for key, s in self._switches(k) if s[0] == "time"
+        ]
+        switches = [s for s in switches if s[0] > t]
+        stop = min([end, *(s[0] for s in switches)])
+        if self.moving.by_time or self._loads_by_time():
+            steps = np.linspace(t, stop, INSTANTS)[1:]
+            for before, after in zip([t, *steps[:-1]], steps, strict=True):
+                if self._held(after, y):
+                    return self._halve(before, after, y)
+        if stop < end:
+            for when, k, key in switches:
+                if when == stop:
+                    self.moving.on[k] = key == "on"
+                    self.switched.add((k, key))
+                    self.note(when, f"motor {key}", f"the motor of {self.moving.names[k]} is switched {key}")
+            return stop if self._held(stop, y) else self._let_go(stop, end, y)
+        return end
+
+    def _loads_by_time(self) -> bool:
+        loads = self.m.loads.values()
+        return any("time" in getattr(v, "names", ()) for load in loads for v in getattr(load, "varying", ()))
+
+    def _halve(self, low: float, high: float, y: Array) -> float:
+        while high - low > 1e-14 * high:
+            middle = (low + high) / 2
+            if middle in (low, high):
+                break
+            low, high = (low, middle) if self._held(middle, y) else (middle, high)
+        return high

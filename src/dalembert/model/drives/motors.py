@@ -1,0 +1,179 @@
+"""Motors: the effort of a drive as a function of its speed, switched on and off."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.model.part import Reading, mapping
+from dalembert.model.quantities.values import NUMBER_OR_TEXT, JsonSchema, at_item, numbers, value_text
+
+EXAMPLE = "{stall: 40 N*m, no_load: 30 rad/s}, or {curve: {speed: [0 rpm, 900 rpm], torque: [40, 0]}}"
+KEYS = ["stall", "no_load", "curve", "on", "off"]
+SWITCHES = ("time", "position", "speed")
+
+Switch = tuple[str, float]
+"""What a motor is switched by, one of ``SWITCHES``, and at which value of it."""
+
+
+@dataclass(frozen=True, slots=True)
+class MotorCurve:
+    """Effort over speed by straight lines between points; beyond both ends the last line goes on if ``straight`` (given
+    by stall and no-load), else the last effort holds. Off before ``on`` and from ``off``."""
+
+    speed: tuple[float, ...]
+    effort: tuple[float, ...]
+    straight: bool = False
+    on: Switch | None = None
+    off: Switch | None = None
+
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """Speeds at which its line has a corner."""
+        return () if self.straight else self.speed
+
+    def at(self, speed: Array | float) -> Array | float:
+        """Effort at a speed, switched on.
+
+        >>> MotorCurve((0.0, 150.0), (40.0, 0.0), straight=True).at(75.0)
+        20.0
+        """
+        import numpy as np
+
+        if self.straight:
+            return self.effort[0] * (1 - speed / self.speed[1])
+        return np.asarray(np.interp(speed, self.speed, self.effort))[()]
+
+    def tree(self, kind: str) -> dict[str, object]:
+        """As a file says it."""
+        kinds = of_kind(kind)
+        tree: dict[str, object] = (
+            {
+                "stall": value_text(self.effort[0], kinds["effort"]),
+                "no_load": value_text(self.speed[1], kinds["speed"]),
+            }
+            if self.straight
+            else {
+                "curve": {
+                    "speed": [value_text(x, kinds["speed"]) for x in self.speed],
+                    kinds["name"]: [value_text(x, kinds["effort"]) for x in self.effort],
+                }
+            }
+        )
+        for key, switch in (("on", self.on), ("off", self.off)):
+            if switch is not None:
+                tree[key] = value_text(switch[1], kinds[switch[0]])
+        return tree
+
+
+def of_kind(kind: str) -> dict[str, str]:
+    """Kinds of a motor's numbers, from that of its position."""
+    if kind == "angle":
+        return {
+            "effort": "moment",
+            "speed": "angular_speed",
+            "position": kind,
+            "time": "time",
+            "name": "torque",
+        }
+    return {"effort": "force", "speed": "speed", "position": kind, "time": "time", "name": "force"}
+
+
+def motor_curve(value: object, kind: str, rules: Reading) -> MotorCurve:
+    """The motor that a mapping describes; ``kind`` is that of the drive's position."""
+    if isinstance(value, MotorCurve):
+        return value
+    keys, kinds = mapping(value, KEYS, f"motor: {EXAMPLE}"), of_kind(kind)
+    line = {"stall", "no_load"} & set(keys)
+    if ("curve" in keys) == bool(line) or (line and len(line) < 2):
+        raise ModelError("a motor has stall and no_load, or a curve", f"write motor: {EXAMPLE}")
+    switches = [at_item(k, _switch, keys[k], kinds, rules) if k in keys else None for k in ("on", "off")]
+    if "curve" in keys:
+        speed, effort = at_item("curve", _curve, keys["curve"], kinds, rules)
+        return MotorCurve(speed, effort, False, *switches)
+    stall = at_item("stall", rules.quantity, keys["stall"], kinds["effort"])
+    free = at_item("no_load", rules.quantity, keys["no_load"], kinds["speed"])
+    if not stall or not free or (stall > 0) != (free > 0):
+        raise ModelError(
+            f"a motor that stalls at {keys['stall']} and runs free at {keys['no_load']} does not drive",
+            "give both the same sign, and neither 0: negative ones drive against the freedom",
+            ("no_load",),
+        )
+    return MotorCurve((0.0, free), (stall, 0.0), True, *switches)
+
+
+def _curve(value: object, kinds: Mapping[str, str], rules: Reading) -> tuple[tuple[float, ...], ...]:
+    keys = mapping(value, ["speed", kinds["name"]], f"curve: {{speed: [...], {kinds['name']}: [...]}}")
+    for key in ("speed", kinds["name"]):
+        if key not in keys:
+            raise ModelError(
+                f"the curve has no {key}", f"write curve: {{speed: [...], {kinds['name']}: [...]}}"
+            )
+    speed = at_item("speed", _numbers, keys["speed"], kinds["speed"], rules)
+    effort = at_item(kinds["name"], _numbers, keys[kinds["name"]], kinds["effort"], rules)
+    if len(speed) != len(effort) or len(speed) < 2:
+        raise ModelError(
+            f"the curve has {len(speed)} speeds and {len(effort)} values of {kinds['name']}",
+            "give equally many, at least two",
+            (kinds["name"],),
+        )
+    for k, (a, b) in enumerate(pairwise(speed)):
+        if not a < b:
+            raise ModelError(
+                f"the curve is no function of the speed: point {k + 2} is not at a greater speed than point {k + 1}",
+                "give each speed once, rising",
+                ("speed",),
+            )
+    return speed, effort
+
+
+def _numbers(value: object, kind: str, rules: Reading) -> tuple[float, ...]:
+    """Numbers of a list; a bare 0 is a speed in any unit."""
+    if not isinstance(value, Sequence) or isinstance(value, str):
+        raise ModelError("a curve is two lists", f"write motor: {EXAMPLE}")
+    return tuple(
+        0.0 if x == 0 and not isinstance(x, (str, bool)) else numbers([x], kind, rules)[0] for x in value
+    )
+
+
+def _switch(value: object, kinds: Mapping[str, str], rules: Reading) -> Switch:
+    """A time, a position or a speed, as its unit says."""
+    for by in SWITCHES:
+        try:
+            return by, rules.quantity(value, kinds[by])
+        except ModelError:
+            if not isinstance(value, str):
+                break
+    raise ModelError(
+        f"{value!r} says neither when, nor where, nor at which speed", "write 0.5 s, 90 deg or 300 rpm"
+    )
+
+
+def motor_schema() -> JsonSchema:
+    """Of a motor in a file."""
+    many = {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 2}
+    switch = "a time, a position or a speed at which it is switched "
+    return {
+        "type": "object",
+        "properties": {
+            "stall": NUMBER_OR_TEXT | {"description": "effort at rest"},
+            "no_load": NUMBER_OR_TEXT | {"description": "speed without effort; a straight line between"},
+            "curve": {
+                "type": "object",
+                "description": "straight lines between points, constant beyond",
+                "properties": {
+                    "speed": many | {"description": "rising speeds"},
+                    "torque": many | {"description": "of a turn, at each speed"},
+                    "force": many | {"description": "of a slide, at each speed"},
+                },
+                "required": ["speed"],
+                "additionalProperties": False,
+            },
+            "on": NUMBER_OR_TEXT | {"description": switch + "on"},
+            "off": NUMBER_OR_TEXT | {"description": switch + "off"},
+        },
+        "additionalProperties": False,
+    }
