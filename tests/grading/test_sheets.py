@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -27,8 +28,14 @@ SAMPLE = ["st-03-slider-crank-75-lbft", "dk-01-rod-on-two-tracks", "seed-001-ea-
 REST = sorted(BUNDLED.keys() - {*SAMPLE})
 
 
+@cache
+def solved(name: str) -> Problem:
+    """A bundled problem solved once for all sheets."""
+    return Problem(da.load(BUNDLED[name]))
+
+
 def verdicts(name: str, tree: Any, **more: Any) -> list[Any]:
-    return da.check_answers(da.load(BUNDLED[name]), read_sheet(tree).answers, **more)
+    return solved(name).verdicts(read_sheet(tree).answers, **more)
 
 
 def tree_of(name: str) -> dict[str, Any]:

@@ -164,7 +164,7 @@ def test_boxes_are_those_of_a_bounded_least_squares_solver(four_bar: Any) -> Non
     assert b.numbers[:, 1:3].ravel() == pytest.approx(s.x, abs=1e-7)
 
 
-@over(6, 200)
+@over(4, 200)
 def test_no_other_counterweights_leave_less(seed: int) -> None:
     """Least squares at right angles to the columns, or a dual value as large; the linear model is the machine."""
     m = crank_machine(seed, count=18)

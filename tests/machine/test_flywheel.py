@@ -188,7 +188,7 @@ def test_the_flywheel_for_a_fluctuation_gives_it() -> None:
     assert coarse < f.size.energy < 1.02 * coarse  # at positions only the extremes are missed
 
 
-@over(4, 200)
+@over(3, 200)
 def test_the_motion_found_asks_for_a_constant_torque(seed: int) -> None:
     r = da.dynamics(crank_machine(seed, damped=seed % 3 == 0))
     assert r.ok.all(), r.problems()

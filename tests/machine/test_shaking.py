@@ -75,7 +75,7 @@ def check_rate_of_momentum(m: Any) -> None:
     assert np.allclose(s.force, total, rtol=0, atol=1e-12 * (1 + np.abs(total).max()))
 
 
-@over(4, 200)
+@over(3, 200)
 def test_the_shaking_force_is_minus_the_rate_of_momentum(seed: int) -> None:
     check_rate_of_momentum(da.mechanism(random_case(seed).tree))
 
