@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from tests.pages.test_page_data import PARAMETRIC
 
 FOUR_BAR, ENGINE, SHAPER, LIFT = "four_bar", "engine", "quick_return", "scissor_lift"
 pytestmark = pytest.mark.long
+AXE = Path(__file__).parents[2] / "web" / "node_modules" / "axe-core" / "axe.min.js"
 
 HOSTILE = '</script><img src=x onerror=alert(1)><b>bar</b> & "quote" <!--'
 
@@ -391,6 +393,23 @@ def test_every_control_has_a_name(opened: Any) -> None:
     page.run("document.querySelectorAll('details').forEach(d => d.open = true)")
     nameless = page.run(NAMELESS)
     assert nameless == []
+
+
+@pytest.mark.parametrize(("name", "scheme"), [(FOUR_BAR, "light"), (FOUR_BAR, "dark"), ("rssr", "light")])
+def test_nothing_is_in_the_way_of_those_who_see_or_reach_less(opened: Any, name: str, scheme: str) -> None:
+    """By axe-core, which `make web` brings: names, roles, contrast, order."""
+    if not AXE.exists():
+        pytest.skip("web/node_modules has no axe-core: make web")
+    page = opened(name, color_scheme=scheme)
+    page.run("document.querySelectorAll('details').forEach(d => d.open = true)")
+    page.page.evaluate(AXE.read_text(encoding="utf-8"))
+    faults = page.page.evaluate("async () => (await axe.run()).violations")
+    serious = [
+        (f["id"], [n["html"][:90] for n in f["nodes"][:3]])
+        for f in faults
+        if f["impact"] in ("serious", "critical")
+    ]
+    assert serious == []
 
 
 def test_friction_is_greyed_where_it_has_no_answer(opened: Any) -> None:

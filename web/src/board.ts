@@ -30,7 +30,7 @@ export function heightFor(kernel: Kernel, d: Drawing, w: number): number {
 }
 
 export function canvas(parent: Element, width: number, height: number, name: string): SVGSVGElement {
-  return make("svg", parent, { viewBox: `${-width / 2} ${-height / 2} ${width} ${height}`, role: "img", "aria-label": name });
+  return make("svg", parent, { viewBox: `${-width / 2} ${-height / 2} ${width} ${height}`, role: "group", "aria-label": name });
 }
 
 /** ``units``: the reader's, for round scales. */

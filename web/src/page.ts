@@ -29,7 +29,7 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
   html("h1", header, {}, data.title);
   const bar = html("div", header, { class: "bar", role: "toolbar", "aria-label": "cycle and page" });
   const button = (name: string, said: string, act: () => void): HTMLButtonElement => {
-    const b = html("button", bar, { type: "button", title: said, "aria-label": said }, name);
+    const b = html("button", bar, { type: "button", title: said, ...(/^\w/.test(name) ? {} : { "aria-label": said }) }, name);
     b.addEventListener("click", act);
     return b;
   };

@@ -356,7 +356,7 @@ function A(e, t, n) {
 function j(t, n, r, i) {
 	return e("svg", t, {
 		viewBox: `${-n / 2} ${-r / 2} ${n} ${r}`,
-		role: "img",
+		role: "group",
 		"aria-label": i
 	});
 }
@@ -1202,7 +1202,7 @@ async function Y(e, n, r = {}) {
 		let i = t("button", p, {
 			type: "button",
 			title: n,
-			"aria-label": n
+			.../^\w/.test(e) ? {} : { "aria-label": n }
 		}, e);
 		return i.addEventListener("click", r), i;
 	}, h = m("▶", "play along the cycle (space)", () => Te()), g = t("input", p, {
