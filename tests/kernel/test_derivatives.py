@@ -53,7 +53,9 @@ def test_every_load() -> None:
     checked(four_bar(8), ["effort.O2", "reaction.A", "angle.rocker"])
 
 
-@pytest.mark.parametrize("reduce", ["peak", "mean", "rms", "envelope", "norm8"])
+@pytest.mark.parametrize(
+    "reduce", ["peak", "mean", "rms", "envelope", "norm8", "refined_peak", "refined_place"]
+)
 def test_reductions(reduce: str) -> None:
     checked(four_bar(24), ["effort.O2", "magnitude.B"], reduce, tolerance=1e-6)
 

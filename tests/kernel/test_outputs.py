@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.batch.over_positions import reduce_sides
 from dalembert.bundled import examples
 from tests.kernel.machines import four_bar
 from tests.kernel.test_derivatives import checked
@@ -107,3 +108,26 @@ def test_names_with_signs_and_links_with_several_joints() -> None:
 def test_wrong_expressions(output: str, message: str) -> None:
     with pytest.raises(da.ModelError, match=re.escape(message)):
         da.compile(da.four_bar(), outputs=[output])
+
+
+def test_peaks_between_positions() -> None:
+    few, many = (da.four_bar(positions=n) for n in (24, 2400))
+    true = np.abs(da.dynamics(many)["effort.O2"])
+    for reduce, wanted in (("refined_peak", true.max()), ("refined_place", true.argmax() / 100)):
+        k = da.compile(few, outputs=["effort.O2", "reaction.A"], reduce=reduce)
+        r = k()
+        assert r.value("effort.O2")[0] == pytest.approx(wanted, rel=5e-3)
+        with pytest.raises(da.ModelError, match="not evenly spaced"):
+            k(positions=[0.0, 0.1, 0.3, 0.4])
+    open_ = np.linspace(0.0, 1.0, 5)
+    values = (open_ - 0.9) ** 2 + 1  # largest at the first position, which has no neighbour
+    assert reduce_sides("refined_peak", [values]) == values[0]
+    wave = np.cos(2 * np.pi * np.arange(48) / 48 - 0.05) * 3
+    assert reduce_sides("refined_place", [wave], cycle=True) == pytest.approx(0.05 * 48 / 2 / np.pi, abs=2e-3)
+
+
+def test_share_of_the_cycle_above_a_limit() -> None:
+    m = da.four_bar()
+    share = da.compile(m, outputs=["(1 + sign(magnitude.B - 30 N))/2"], reduce="mean")
+    wanted = (da.dynamics(m)["magnitude.B"] > 30).mean()
+    assert share().value(share.outputs[0])[0] == pytest.approx(wanted)

@@ -14,7 +14,7 @@ import numpy as np
 from dalembert.analysis.batch.batch_result import CODES, NUMBERED, among, first_mark
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
-from dalembert.analysis.batch.over_positions import reduce_positions
+from dalembert.analysis.batch.over_positions import REFINED, is_cycle, reduce_sides
 from dalembert.analysis.result.named_quantities import quantity
 from dalembert.analysis.result.result import Result
 from dalembert.analysis.solution import solve
@@ -116,10 +116,9 @@ class AnalysisEngine:
         both = {name: [quantity(side, name).values for side in sides] for name in self.outputs}
         if self.reduce is None:
             return {name: values[0] for name, values in both.items()}
-        found = {name: reduce_positions(self.reduce, np.concatenate(values)) for name, values in both.items()}
-        if self.reduce == "argpeak":
-            found = {name: value % len(result.status) for name, value in found.items()}
-        return found
+        turns = [result.mechanism.drives[name].turns for name in result.drives]
+        cycle = self.reduce in REFINED and is_cycle(result.schedule.position, turns)
+        return {name: reduce_sides(self.reduce, values, cycle) for name, values in both.items()}
 
     @cached_property
     def shapes(self) -> dict[str, tuple[int, ...]]:

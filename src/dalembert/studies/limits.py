@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from dalembert.analysis.batch.over_positions import PLACES
 from dalembert.analysis.result.named_quantities import quantity
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
@@ -40,7 +41,7 @@ def output_kinds(nominal: Result, outputs: Sequence[str], reduce: str | None) ->
     found = {}
     for name in outputs:
         try:
-            found[name] = "number" if reduce == "argpeak" else quantity(nominal, name).kind
+            found[name] = "number" if reduce in PLACES else quantity(nominal, name).kind
         except ModelError:
             found[name] = "number"
     return found

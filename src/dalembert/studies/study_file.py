@@ -25,7 +25,7 @@ KEYS = {
     "title": "what the study is",
     "vary": "path or parameter -> its spread",
     "outputs": "names of quantities, as effort.O2",
-    "reduce": "over the positions: peak, mean, rms, envelope, argpeak, norm8, or none",
+    "reduce": "over the positions: peak, mean, rms, envelope, argpeak, norm8, refined_peak, refined_place, or none",
     "designs": "how many",
     "draw": "random, sobol, latin or factorial",
     "table": "a .csv file of designs in place of designs and draw: a column a path, its head `path [unit]`",

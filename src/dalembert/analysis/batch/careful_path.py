@@ -61,7 +61,8 @@ def redone(
         for side, one in zip(result.sides, sides, strict=True)
     ]
     if k.reduce:
-        _reduction(k, d, sides, slopes_, found)
+        cycle = k.reduce in over_positions.REFINED and course.cycle
+        _reduction(k, d, sides, slopes_, found, cycle)
         return
     if len(sides) > 1:
         found.open_after()
@@ -74,19 +75,24 @@ def redone(
 
 
 def _reduction(
-    k: Kernel, d: int, sides: list[dict[str, Array]], rates: list[dict[str, Array]], found: Sides
+    k: Kernel,
+    d: int,
+    sides: list[dict[str, Array]],
+    rates: list[dict[str, Array]],
+    found: Sides,
+    cycle: bool,
 ) -> None:
     """Reductions over the positions, those with two numbers taken twice."""
     assert k.reduce is not None
     for name, array in found.arrays.items():
-        value = np.concatenate([side[name] for side in sides])
-        reduced = over_positions.reduce_positions(k.reduce, value)
-        if k.reduce == "argpeak":
-            reduced = reduced % len(sides[0][name])
-        array[d] = reduced.reshape(array[d].shape)
+        values = [side[name] for side in sides]
+        array[d] = over_positions.reduce_sides(k.reduce, values, cycle).reshape(array[d].shape)
         if rates[0]:
-            rate = np.concatenate([side[name] for side in rates])
-            slope = over_positions.slope(k.reduce, value, rate)
+            each = [side[name] for side in rates]
+            value, rate = np.concatenate(values), np.concatenate(each)
+            if k.reduce in over_positions.REFINED:
+                value, rate = (over_positions.larger_side(values, some) for some in (values, each))
+            slope = over_positions.slope(k.reduce, value, rate, cycle)
             found.rates[name][d] = slope.reshape(found.rates[name][d].shape)
 
 

@@ -50,7 +50,7 @@ def compile(  # noqa: A001
     """An analysis as machine code: for one structure in the plane or in space, whatever the numbers at ``vary``.
 
     outputs: names such as ``effort.O2``, ``reaction.A``, ``angle.coupler``; default all efforts and reactions.
-    reduce: over the positions, ``peak``, ``mean``, ``rms``, ``envelope``, ``argpeak``, ``norm8``; default none.
+    reduce: over the positions, ``peak``, ``mean``, ``rms``, ``envelope`` or others (docs/kernel.md); default none.
     derivatives: exact ones of every output with respect to every number. static: leave inertia out.
     lanes: values side by side (8 AVX-512, 4 AVX2, 2 NEON, 1 none); default as the processor has them.
     Raises ModelError for what only the analyses can do (redundancy, unknown positions).

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from dalembert.analysis.batch.over_positions import is_cycle
 from dalembert.analysis.batch.traced_parameters import traced, varies
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.compile.pose_loads import TIME, coordinates
@@ -44,6 +45,12 @@ class Course:
         with np.errstate(all="ignore"):
             found = quick_answer(self.compiled, inertia=True, forces=False)
         return found if isinstance(found, Positions) else positions(self.compiled)
+
+    @cached_property
+    def cycle(self) -> bool:
+        """Whether its positions come round; raises ModelError where they are not even."""
+        drives = [self.mechanism.drives[name].turns for name in self.schedule.names]
+        return is_cycle(self.schedule.position, drives)
 
     @cached_property
     def pose(self) -> Pose:

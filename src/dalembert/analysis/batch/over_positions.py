@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import NamedTuple
+
 import numpy as np
 
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Flags, Ints
 from dalembert.errors import ModelError
 from dalembert.kernel.emit.reductions import PLACED
 
@@ -15,9 +18,16 @@ PARTS: dict[str, tuple[str, ...]] = {
     "envelope": ("min", "max"),
     "argpeak": ("argpeak",),
     "norm8": ("power8",),
+    "refined_peak": ("argpeak",),
+    "refined_place": ("argpeak",),
 }
-"""Largest magnitude; mean; root mean square; (least, largest); place of the largest magnitude, from 0; and the smooth
-stand-in of the peak, the eighth root of the mean of the eighth powers."""
+"""Largest magnitude; mean; root mean square; (least, largest); place of the largest magnitude, from 0; the smooth
+stand-in of the peak, the eighth root of the mean of the eighth powers; and the peak between the positions, by a
+parabola through the largest magnitude and its neighbours, and its place."""
+
+REFINED = ("refined_peak", "refined_place")
+PLACES = ("argpeak", "refined_place")
+"""Reductions that are places among the positions."""
 
 
 def check(reduce: str | None) -> None:
@@ -43,8 +53,82 @@ def finish_reduction(reduce: str, parts: list[Array], count: int) -> Array:
     return np.asarray(parts[0])
 
 
-def reduce_positions(reduce: str, values: Array) -> Array:
-    """The reduction of values over their first axis."""
+def is_cycle(position: Array, turns: Sequence[bool]) -> bool:
+    """Whether positions (P, D) come round: the step behind the last leads to the first, whole turns away where a drive
+    turns. Raises ModelError where they are not evenly spaced, as then no parabola is laid through neighbours."""
+    if len(position) < 3:
+        return False
+    steps = np.diff(position, axis=0)
+    size = np.abs(steps).max(axis=0)
+    if (np.ptp(steps, axis=0) > 1e-6 * size).any():
+        raise ModelError(
+            "the positions are not evenly spaced, and a peak is refined between even ones", 'reduce by "peak"'
+        )
+    whole = len(position) * steps.mean(axis=0)
+    over = np.where(turns, whole - 2 * np.pi * np.rint(whole / (2 * np.pi)), whole)
+    return bool((np.abs(over) <= 1e-6 * np.maximum(size, 1e-300)).all())
+
+
+class Parabola(NamedTuple):
+    """Through three values, side by side: place of its vertex from the middle one, Lagrange's weights there (which are
+    the derivatives of the vertex, too), and derivatives of the place; first axis the three values."""
+
+    place: Array
+    weights: Array
+    place_slope: Array
+
+
+def parabola(values: Array, inner: Flags) -> Parabola:
+    """Of values (3, ...), the middle one the largest or the least; the middle itself where not ``inner``."""
+    before, middle, after = values
+    bend = before - 2 * middle + after
+    flat = ~inner | (bend == 0) | ~np.isfinite(bend)
+    bend = np.where(flat, 1.0, bend)
+    rise = np.where(flat, 0.0, after - before)
+    x = np.clip(-rise / (2 * bend), -0.5, 0.5)
+    weights = np.stack([x * (x - 1) / 2, 1 - x * x, x * (x + 1) / 2])
+    slope = np.stack([(1 - 2 * x) / (2 * bend), 2 * x / bend, -(1 + 2 * x) / (2 * bend)])
+    return Parabola(x, weights, np.where(flat, 0.0, slope))
+
+
+def neighbours(place: Ints, count: int, cycle: bool) -> tuple[Ints, Flags]:
+    """Places (3, ...) before, at and behind some, and whether there are such."""
+    three = place + np.array([-1, 0, 1]).reshape(-1, *(1,) * place.ndim)
+    inner = (three >= 0).all(axis=0) & (three < count).all(axis=0) | (cycle and count > 2)
+    return three % count, inner
+
+
+def refine(reduce: str, place: Array, values: Array, inner: Flags, count: int) -> Array:
+    """The refined peak, or its place, from values (3, ...) at a place and its neighbours."""
+    found = parabola(values, inner)
+    if reduce == "refined_peak":
+        return np.asarray(np.abs((found.weights * values).sum(axis=0)))
+    return np.asarray((place + found.place) % count)
+
+
+def refined_slope(reduce: str, values: Array, rates: Array, inner: Flags) -> Array:
+    """Derivatives (..., number) of that, from those of the values (3, ..., number)."""
+    found = parabola(values, inner)
+    if reduce == "refined_peak":
+        return np.asarray(np.sign(values[1])[..., None] * (found.weights[..., None] * rates).sum(axis=0))
+    return np.asarray((found.place_slope[..., None] * rates).sum(axis=0))
+
+
+def _refined(reduce: str, values: Array, cycle: bool) -> tuple[Ints, Array, Flags]:
+    """Places (3, component) about the peaks of values (position, component), the values there, and which are inner."""
+    peaks = np.nan_to_num(np.abs(values)).argmax(axis=0)
+    three, inner = neighbours(peaks, len(values), cycle)
+    return three, values[three, np.arange(values.shape[1])], inner
+
+
+def reduce_positions(reduce: str, values: Array, cycle: bool = False) -> Array:
+    """The reduction of values (position, ...) over their first axis; ``cycle``: behind the last position is the
+    first."""
+    if reduce in REFINED:
+        table = values.reshape(len(values), -1)
+        three, near, inner = _refined(reduce, table, cycle)
+        found = refine(reduce, three[1], near, inner, len(values))
+        return np.where(np.isnan(table).any(axis=0), np.nan, found).reshape(values.shape[1:])
     size = np.abs(values)
     if reduce == "peak":
         return np.asarray(size.max(axis=0))
@@ -60,9 +144,29 @@ def reduce_positions(reduce: str, values: Array) -> Array:
     return np.asarray(largest * mean ** (1 / power))
 
 
-def slope(reduce: str, values: Array, rates: Array) -> Array:
+def reduce_sides(reduce: str, sides: Sequence[Array], cycle: bool = False) -> Array:
+    """The reduction of values just before reversals and just after them, or of the same ones; of places among the
+    positions. No parabola goes from one side to the other."""
+    if reduce in REFINED:
+        return reduce_positions(reduce, larger_side(sides, sides), cycle)
+    found = reduce_positions(reduce, np.concatenate(sides))
+    return found % len(sides[0]) if reduce == "argpeak" else found
+
+
+def larger_side(by: Sequence[Array], sides: Sequence[Array]) -> Array:
+    """Of one or two arrays that whose place in ``by`` has the larger magnitude; these may have fewer axes."""
+    if len(sides) == 1:
+        return sides[0]
+    second = np.abs(by[1]) > np.abs(by[0])
+    return np.where(second.reshape(second.shape + (1,) * (sides[0].ndim - second.ndim)), sides[1], sides[0])
+
+
+def slope(reduce: str, values: Array, rates: Array, cycle: bool = False) -> Array:
     """Derivatives (component[, side of the envelope], number) of the reduction of values (position, component), from
     theirs (position, component, number)."""
+    if reduce in REFINED:
+        three, near, inner = _refined(reduce, values, cycle)
+        return refined_slope(reduce, near, rates[three, np.arange(values.shape[1])], inner)
     if reduce == "mean":
         return np.asarray(rates.mean(axis=0))
     if reduce in ("rms", "norm8"):

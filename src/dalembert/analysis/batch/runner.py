@@ -230,12 +230,16 @@ class Runner:
     def _reduced_result(self, job: Job, slots: Slots, out: Array, count: int) -> Arrays:
         """Arrays by output: (design[, component][, side]) and gradients, from the parts of the reductions."""
         k = self.k
-        parts, places, slot = {}, {}, 0
+        parts: dict[tuple[int, str], Array] = {}
+        places: dict[tuple[int, str], Array] = {}
+        slot = 0
         for key in slots:
             parts[key] = out[:, slot]
             if key[1] in PLACED:
                 places[key] = out[:, slot + 1]
             slot += 2 if key[1] in PLACED else 1
+        if k.reduce in over_positions.REFINED:
+            return self._refined(job, places)
         found, arrays, node = {}, {}, 0
         wanted = over_positions.with_places(k.reduce) if k.derivatives else over_positions.PARTS[k.reduce]
         for name, nodes in k.nodes.items():
@@ -249,6 +253,34 @@ class Runner:
         if not k.derivatives:
             return arrays, {}
         return arrays, slopes(self, job, found, parts, places, count)
+
+    def _refined(self, job: Job, places: dict[tuple[int, str], Array]) -> Arrays:
+        """Peaks between the positions and their places, and gradients: each from three positions."""
+        k, arrays, slopes_, first = self.k, {}, {}, 0
+        program, machine, _ = self.machine("gradient" if k.derivatives else "pairs")
+        columns, common = self.inputs(program, job.course)
+        flat, n, cycle = sum(len(of) for of in k.nodes.values()), len(k.trace.numbers), job.course.cycle
+        for name, nodes in k.nodes.items():
+            each, rates = [], []
+            for m in range(first, first + len(nodes)):
+                place = places[m, "argpeak"]
+                place = np.where(np.isfinite(place) & (place < len(columns)), place, 0).astype(int)
+                three, inner = over_positions.neighbours(place, len(columns), cycle)
+                out = np.stack(
+                    [
+                        self.at_pairs(program, machine, job.values, columns[at], common, job.threads)[0]
+                        for at in three
+                    ]
+                )
+                each.append(over_positions.refine(k.reduce, place, out[..., m], inner, len(columns)))
+                if k.derivatives:
+                    mine = out[..., flat + m * n : flat + (m + 1) * n]
+                    rates.append(over_positions.refined_slope(k.reduce, out[..., m], mine, inner))
+            first += len(nodes)
+            arrays[name] = each[0] if len(each) == 1 else np.stack(each, axis=1)
+            if k.derivatives:
+                slopes_[name] = rates[0] if len(rates) == 1 else np.stack(rates, axis=1)
+        return arrays, slopes_
 
 
 def _room(job: Job, each: tuple[int, ...]) -> int:
