@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dalembert.analysis.batch import over_positions
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
@@ -66,6 +67,8 @@ def study(
     >>> r["effort.O2"].shape, int(r.ok.sum())
     ((1000,), 1000)
     """
+    over_positions.check(reduce)
+    _check_counts(lanes=lanes, positions=positions)
     given = dict.fromkeys(vary, "") if not isinstance(vary, Mapping) else dict(vary)
     table = dict(draw) if isinstance(draw, Mapping) else None
     if table is None and not given:
@@ -88,6 +91,12 @@ def study(
     found = Study(mechanism, plan, names, reduce, static, positions, keep, lanes)
     _ = found.engine  # what cannot be computed is refused here
     return found.with_limits(limits or {})
+
+
+def _check_counts(**given: int | None) -> None:
+    for name, count in given.items():
+        if count is not None and (isinstance(count, bool) or not isinstance(count, int) or count < 1):
+            raise ModelError(f"{name}={count!r} is no number of {name}", "give 1 or more, or leave it out")
 
 
 def _at(path: str, error: ModelError) -> ModelError:
@@ -149,7 +158,11 @@ def _mixing(paths: Sequence[str], given: Mapping[tuple[str, str], float], draw: 
                     ("correlation",),
                 )
         i, j = (paths.index(path) for path in pair)
-        if i == j or isinstance(r, bool) or not isinstance(r, (int, float)) or not -1 < r < 1:
+        if i == j:
+            raise ModelError(
+                f"correlation names {paths[i]!r} with itself", "name two paths", ("correlation",)
+            )
+        if isinstance(r, bool) or not isinstance(r, (int, float)) or not -1 < r < 1:
             raise ModelError(
                 f"{quote_value(r)} is no correlation of two numbers",
                 "give one between -1 and 1",

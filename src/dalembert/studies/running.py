@@ -59,14 +59,11 @@ def run_study(
             ledger = store.ledger()
             todo = [b for b, row in enumerate(ledger) if not row[0]]
             if check:
-                broken = [
-                    b
-                    for b, row in enumerate(ledger)
-                    if row[0] and not store.sound(b, block, study.count, int(row[0]))
-                ]
+                there = [b for b in range(len(ledger)) if b not in set(todo)]
+                broken = [b for b in there if not store.sound(b, block, study.count, ledger[b])]
                 for b in broken:
                     store.forget(b)
-                todo = sorted({*todo, *broken})
+                todo = sorted([*todo, *broken])
             _compute(study, _Target(store, block, study.count), todo, threads, scheduler, progress)
         except OSError as error:
             raise unwritable(store.path, error) from None

@@ -19,7 +19,8 @@ CUT = 3.0
 MOST = 1_000_000
 """Levels that one number may have."""
 FORMS = "write '± 0.05 mm', 'normal 2 %', 'uniform ± 5 %', '70..90 N', '70..90 N in 5' or a list, [70 N, 80 N, 90 N]"
-RANGE = re.compile(rf"({NUMBER})\s*(.*?)\s*\.\.\s*({NUMBER})\s*(.*?)(?:\s+in\s+(\d+))?")
+RANGE = re.compile(rf"({NUMBER})\s*(.*?)\s*\.\.\s*({NUMBER})\s*(.*)")
+COUNT = re.compile(r"(.*\S) in (\d+)")
 PLUS_MINUS = re.compile(r"±|\+/?-")
 
 
@@ -94,8 +95,9 @@ def read_spread(
         if limits is None:
             raise ModelError("it states no range", "only a parameter with range: [LOW, HIGH] does; " + FORMS)
         return Spread("uniform", *limits)
-    if found := RANGE.fullmatch(text):
-        return _range(found, si)
+    counted = COUNT.fullmatch(text)  # not the inches of "2..3 in"
+    if found := RANGE.fullmatch(counted[1] if counted else text):
+        return _range(found, counted[2] if counted else None, si)
     kind, rest = "tolerance", text
     for word in ("uniform", "normal"):
         if text.startswith(word):
@@ -123,8 +125,8 @@ def _size(text: str, nominal: float, si: Callable[[object], float]) -> float:
     return found
 
 
-def _range(found: re.Match[str], si: Callable[[object], float]) -> Spread:
-    low, first, high, last, count = found.groups()
+def _range(found: re.Match[str], count: str | None, si: Callable[[object], float]) -> Spread:
+    low, first, high, last = (part.strip() for part in found.groups())
     if first and last and first != last:
         raise ModelError(f"the range begins in {first} and ends in {last}", "write one unit")
     a, b = si(f"{low} {first or last}".strip()), si(f"{high} {last or first}".strip())

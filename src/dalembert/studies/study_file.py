@@ -130,9 +130,8 @@ def _options(tree: Mapping[str, Any]) -> Tree:
     if outputs is not None:
         names = [outputs] if isinstance(outputs, str) else outputs
         if not isinstance(names, list) or not names or not all(isinstance(n, str) for n in names):
-            raise ModelError(
-                f"outputs are {quote_value(outputs)}", "write outputs: [effort.O2, magnitude.A]", ("outputs",)
-            )
+            what = "outputs are not a list of names"
+            raise ModelError(what, "write outputs: [effort.O2, magnitude.A]", ("outputs",))
         out["outputs"] = names
     if "reduce" in tree:
         reduce = tree["reduce"]
@@ -187,9 +186,8 @@ def _whole(value: Any, key: str) -> int:
 def _mapping(tree: Mapping[str, Any], key: str, example: str) -> dict[str, Any]:
     value = tree[key]
     if not isinstance(value, Mapping) or not value:
-        raise ModelError(
-            f"{key} is {quote_value(value)}, not a mapping", f"write {key}: {{{example}}}", (key,)
-        )
+        what = f"{key} is empty" if value == {} else f"{key} is {quote_value(value)}, not a mapping"
+        raise ModelError(what, f"write {key}: {{{example}}}", (key,))
     return dict(value)
 
 

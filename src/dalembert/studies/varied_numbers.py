@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from dalembert.analysis.batch.symbolic_model import Number, numbers
+from dalembert.analysis.batch.symbolic_model import DRIVEN, Number, numbers, refuse_twofold
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
 from dalembert.model.paths import parameter_name, value_at
@@ -17,14 +17,19 @@ SAME = {"mass": ("weight", "shape"), "weight": ("mass", "shape"), "center": ("sh
 
 
 def varied_numbers(m: Mechanism, path: str) -> list[Number]:
-    """The numbers behind a path: of a vector its components; a drive's single position too, which no kernel varies."""
+    """The numbers behind a path: of a vector its components; a drive's position too, which no kernel varies."""
     keys = path.split(".")
-    if not parameter_name(path, m.parameters, m.keys()):
-        value = value_at(m, keys)
-        if value is None:
-            _refuse_absent(m, path, keys)
-        if keys[0] == "drives" and isinstance(value, (int, float)) and not isinstance(value, bool):
-            return [Number(path, float(value))]
+    if name := parameter_name(path, m.parameters, m.keys()):
+        return [Number(name, float(m.parameters[name].value), parameter=True)]
+    value = value_at(m, keys)
+    if value is None:
+        _refuse_absent(m, path, keys)
+    if keys[0] == "drives" and isinstance(value, (int, float)) and not isinstance(value, bool):
+        return [Number(path, float(value))]
+    if keys[0] == "drives" and keys[2:3] and keys[2] in DRIVEN:
+        raise ModelError(
+            f"{path!r} is no single number", f"vary {path}.from or {path}.to, where it has them", keys
+        )
     return list(numbers(m, [path]))
 
 
@@ -41,7 +46,7 @@ def _refuse_absent(m: Mechanism, path: str, keys: list[str]) -> None:
 
 def check_twofold(m: Mechanism, found: Iterable[Number]) -> None:
     """Raise ModelError for a number that is varied twice, or follows from another."""
-    numbers(m, [n.path for n in found if not n.path.startswith("drives.")])
+    refuse_twofold(m, list(found))
     paths = [n.path for n in found]
     twice = next((p for p in paths if paths.count(p) > 1), "")
     if twice:

@@ -52,7 +52,7 @@ def numbers(m: Mechanism, vary: Iterable[str]) -> tuple[Number, ...]:
         value = value_at(m, path.split("."))
         _refuse_law(m, path)
         out += _numbers(path, value)
-    _refuse_twofold(m, out)
+    refuse_twofold(m, out)
     double = next((n.path for k, n in enumerate(out) if n.path in {o.path for o in out[:k]}), None)
     if double:
         raise ModelError(f"{double!r} is varied twice", "name it once")
@@ -73,7 +73,7 @@ def _parameter(m: Mechanism, name: str) -> Number:
     return Number(name, float(m.parameters[name].value), parameter=True)
 
 
-def _refuse_twofold(m: Mechanism, given: list[Number]) -> None:
+def refuse_twofold(m: Mechanism, given: list[Number]) -> None:
     """Raise ModelError for a number that follows from a parameter given beside it."""
     for parameter in (n for n in given if n.parameter):
         followers = set(reached(m, parameter.path))
