@@ -114,3 +114,55 @@ def test_wrong_problems(changed: dict[str, Any], message: str) -> None:
     given: dict[str, Any] = {"vary": BOX, "least": "peak effort.O2", "starts": 3, **changed}
     with pytest.raises(da.ModelError, match=re.escape(message)):
         da.optimize(da.four_bar(), **given)
+
+
+FILE = """\
+optimize: 1
+model: four_bar.yaml
+vary:
+  links.ground.points.O4.0: [280 mm, 360 mm]
+  links.rocker.points.B: ["[200 mm, 0]", "[280 mm, 0]"]
+least: peak effort.O2
+where: [transmission.B >= 33 deg]
+starts: 5
+"""
+
+
+def written(folder: Path, text: str = FILE) -> Path:
+    da.four_bar().save(folder / "four_bar.yaml", overwrite=True)
+    (folder / "optimize.yaml").write_text(text, encoding="utf-8")
+    return folder / "optimize.yaml"
+
+
+def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    from dalembert.cli.studies.optimize_command import optimize
+
+    file, best = written(tmp_path), tmp_path / "best.yaml"
+    assert optimize(file, output=best) == 0
+    same = da.optimize(da.four_bar(), BOX, "peak effort.O2", WHERE, starts=5)
+    found = float(np.abs(da.dynamics(da.load(best))["effort.O2"]).max())
+    assert found == pytest.approx(same.value, rel=1e-5)
+    assert "peak effort.O2" in capsys.readouterr().out
+    with pytest.raises(da.ModelError, match=r"is there already|exists"):
+        optimize(file, output=best)
+    assert optimize(written(tmp_path, FILE.replace("33", "89"))) == 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("four_bar.yaml", "none.yaml", "optimize.yaml:2: there is no model file"),
+        ("least: peak effort.O2", "least: 3", "optimize.yaml:6: nothing is to be least"),
+        ("least:", "last:", "optimize.yaml:6: there is no key 'last'; did you mean 'least'?"),
+        ("[280 mm, 360 mm]", "280 mm", "optimize.yaml:4: the bounds of 'links.ground.points.O4.0'"),
+        ("starts: 5", "starts: many", "optimize.yaml:8: starts is 'many'"),
+        ("optimize: 1", "optimize: 2", "optimize.yaml:1: 2 is no version"),
+        ("effort.O2", "efort.O2", "optimize.yaml:1: there is no output 'efort.O2'"),
+        ("280 mm,", "280 kg,", "'280 kg' is a mass, and a length is needed"),
+    ],
+)
+def test_wrong_files(tmp_path: Path, old: str, new: str, message: str) -> None:
+    from dalembert.optimization.optimize_file import optimize_file
+
+    with pytest.raises(da.ModelError, match=re.escape(message)):
+        optimize_file(written(tmp_path, FILE.replace(old, new, 1)))

@@ -39,7 +39,7 @@ from dalembert.cli.options import (
     target,
     with_help,
 )
-from dalembert.cli.studies import study_commands
+from dalembert.cli.studies import optimize_command, study_commands
 from dalembert.progress import progress
 from dalembert.wording import closest
 
@@ -354,9 +354,7 @@ def joints(
     *,
     output: Annotated[
         Path | None,
-        output(
-            "Draw them: all in one .svg, .pdf, .png or .dxf, or, without an ending, a picture each in a folder."
-        ),
+        output("Draw them: all in one .svg, .pdf, .png or .dxf; without an ending, each in a folder."),
     ] = None,
     camera: Seen = None,
     theme: Theme = "light",
@@ -376,6 +374,7 @@ app.command(machine_commands.shake, help_epilogue=machine_commands.SHAKE)
 app.command(machine_commands.balance, help_epilogue=machine_commands.BALANCE)
 app.command(machine_commands.flywheel, help_epilogue=machine_commands.FLYWHEEL)
 app.command(study_commands.study)
+app.command(optimize_command.optimize, help_epilogue=optimize_command.OPTIMIZE)
 app.command(machine_commands.simulate, help_epilogue=machine_commands.SIMULATE)
 
 

@@ -7,5 +7,6 @@ aims              the words of an aim and of conditions; their values and exact 
 side_by_side      quasi-Newton steps of all starts at once, one call of the kernel for each
 polishing         the best of them, each by itself: the least largest value t with |T_k| <= t at every position
 optimizing        ``da.optimize``: starts, search, discrete steps, the best that keeps every condition
+optimize_file     the same from a file beside the model file
 optimum           what was found, before and after
 """

@@ -66,7 +66,7 @@ def optimize(
         p, steps, found = _problem(mechanism, vary, least, where, positions, static)
         return _best(p, steps, found, starts, seed)
     except ModelError as error:
-        raise error.at_source(mechanism.source) from None
+        raise (error.at_source(mechanism.source) if error.path else error) from None
 
 
 def _problem(

@@ -1,0 +1,45 @@
+"""`dalembert optimize`: the best design within bounds and conditions."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from dalembert.cli.options import Force, with_help
+from dalembert.cli.options import output as output_to
+
+OPTIMIZE = """Examples:
+  dalembert optimize optimize.yaml
+  dalembert optimize optimize.yaml -o best.yaml
+
+optimize.yaml:
+  model: press.yaml
+  vary:
+    links.ground.points.O4.0: [280 mm, 360 mm]
+    links.crank.mass: [1 kg, 3 kg, 0.5 kg]      (low, high, step)
+  least: peak effort.O2
+  where: [transmission.B >= 40 deg]
+
+Exit status: 0 found; 1 no design keeps every condition; 2 the file is wrong."""
+
+
+def optimize(
+    file: Annotated[Path, with_help("File with model, vary, least and where: YAML, JSON or TOML.")],
+    /,
+    *,
+    output: Annotated[
+        Path | None, output_to("Write the model file of the design found here: .yaml, .json, .toml.")
+    ] = None,
+    force: Force = False,
+) -> int:
+    """Find the numbers of a model file for which something is least, within bounds and conditions."""
+    from dalembert.optimization.optimize_file import optimize_file
+    from dalembert.saving import check_new
+
+    if output is not None:
+        check_new(output, force)
+    found = optimize_file(file)
+    print(found)
+    if output is not None:
+        found.save(output, force)
+    return 0 if found.feasible else 1
