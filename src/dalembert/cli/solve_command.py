@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
@@ -89,15 +90,24 @@ def _check_targets(file: Path, wanted: Wanted) -> None:
             raise ModelError(
                 f"--{kind} - asks for {PACKAGES[kind][1]} on the screen, which is no text", "name a file"
             )
-    if str(wanted.json) == "-" and str(wanted.csv) == "-":
+    check_targets(file, {kind: getattr(wanted, kind) for kind in ENDINGS}, wanted.force)
+
+
+def check_targets(file: Path, targets: Mapping[str, Path | None], force: bool) -> None:
+    """Raise where two answers go to one place, or one to a file of another kind, that is there, or that needs a
+    package."""
+    if str(targets["json"]) == "-" and str(targets["csv"]) == "-":
         raise ModelError("--json - and --csv - both ask for the screen", "name a file for one of them")
     taken = {os.path.realpath(file): "the model file"}
-    for kind, path in wanted.files.items():
-        _check_ending(kind, path)
+    for kind, path in targets.items():
+        if path is None or str(path) == "-":
+            continue
+        if kind in ENDINGS:
+            _check_ending(kind, path)
         if os.path.realpath(path) in taken:
             raise ModelError(f"--{kind} {path}: that is {taken[os.path.realpath(path)]}", "name another file")
         taken[os.path.realpath(path)] = f"the file of --{kind} already"
-        check_new(path, wanted.force)
+        check_new(path, force)
         if kind in PACKAGES:
             check_installed(*PACKAGES[kind])
 

@@ -12,7 +12,7 @@ from dalembert.analysis.output.rounding import least
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
-from dalembert.grading.answer_sheet import named_figure
+from dalembert.grading.answer_sheet import named_figure, without_value
 from dalembert.grading.file_answers import describe_answer, position_of, read, sides_of
 from dalembert.grading.marking import table_files
 from dalembert.grading.quantities import QUANTITIES
@@ -95,12 +95,8 @@ def _named(r: Result, one: object) -> list[Answer]:
 
 def _of_file(r: Result) -> list[Answer]:
     """The quantities of the file's own answers, without their values."""
-    none = dict.fromkeys(("value", "exact", "tolerance", "exact_tolerance", "why"))
-    return [
-        a.model_copy(update=none)
-        for a in r.mechanism.answers
-        if a.quantity in QUANTITIES and a.quantity not in CHECKS
-    ]
+    some = (a for a in r.mechanism.answers if a.quantity in QUANTITIES and a.quantity not in CHECKS)
+    return [without_value(a) for a in some]
 
 
 def _forces(r: Result) -> list[Answer]:

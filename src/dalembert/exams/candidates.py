@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Tree
 from dalembert.errors import NUMBERED, STATUSES, DalembertError
@@ -58,12 +59,10 @@ class Candidate:
 
     def near_zero(self, usual: Sequence[float]) -> int | None:
         """Which figure is near zero beside its usual size, if one is."""
-        small = (
-            k
-            for k, (f, size) in enumerate(zip(self.figures, usual, strict=True))
-            if f.kind not in ("angle", "number") and figure_size(f) < SMALL * size
-        )
-        return next(small, None)
+        for k, (f, size) in enumerate(zip(self.figures, usual, strict=True)):
+            if f.kind not in ("angle", "number") and figure_size(f) < SMALL * size:
+                return k
+        return None
 
     def same(self, other: Candidate, near: float) -> bool:
         """Whether all figures are those of another one."""
@@ -132,11 +131,7 @@ def _beside(r: Result, k: int, drive: str, static: bool) -> list[float]:
         values[f"drives.{name}.acceleration"] = float(r.drive_acceleration(name)[k])
     if m.dimension == 2:
         values["assembly"] = {link: float(r.angle(link)[k]) for link in r.links}
-    turns = (
-        m.drives[drive].turns
-        if m.drives[drive].freedom
-        else m.joints[m.drive_joint(drive)].freedoms[0] != "slide"
-    )
+    turns = drive_kinds(r, drive)["position"] == "angle"
     step = ASIDE["turn"] if turns else ASIDE["slide"] * r.compiled.layout.length
     at = values[f"drives.{drive}.position"]
     values[f"drives.{drive}.position"] = [at - step, at, at + step]

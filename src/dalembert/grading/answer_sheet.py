@@ -67,6 +67,11 @@ def about_sheet(tree: object) -> dict[str, str]:
     return {key: "" if value is None else str(value) for key, value in found.items()}
 
 
+def without_value(answer: Answer) -> Answer:
+    """What an answer is of, without what stands in the file for it."""
+    return answer.model_copy(update=dict.fromkeys(("value", "exact", "tolerance", "exact_tolerance", "why")))
+
+
 def figures(tree: object) -> list[Answer]:
     """The answers of a sheet, as in a model file's `answers` or {efforts: {O2: 27.5}, reactions: {A: 155 @ 40}}."""
     return list(read_sheet(tree).answers)

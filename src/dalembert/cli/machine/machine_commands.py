@@ -53,18 +53,10 @@ class Outputs:
 
     def check(self, file: Path) -> None:
         """Refused before the work, not behind it."""
-        from dalembert.saving import check_new
+        from dalembert.cli.solve_command import check_targets
 
-        if str(self.json) == "-" and str(self.csv) == "-":
-            raise ModelError("--json - and --csv - both ask for the screen", "name a file for one of them")
-        taken = {file.resolve()}
-        for path in (self.json, self.csv, self.drawing, self.report):
-            if path is None or str(path) == "-":
-                continue
-            if path.resolve() in taken:
-                raise ModelError(f"{path} is named twice", "name another file")
-            taken.add(path.resolve())
-            check_new(path, self.force)
+        targets = {name: getattr(self, name) for name in ("json", "csv", "drawing", "report")}
+        check_targets(file, targets, self.force)
 
     def deliver(self, answer: Any, text: Callable[[Literal["SI", "file"]], str]) -> None:
         """Print and write an answer of ``machine``."""

@@ -126,32 +126,33 @@ class _Marker:
         self, sheet: StudentSheet, variant: ExamVariant, problems: list[str]
     ) -> tuple[list[_Taken], list[str]]:
         """What the sheet has of each asked figure, and what it has beside."""
-        given: list[tuple[Answer | None, str, dict[str, Any], int]] = []
+        given: list[tuple[Answer | None, str]] = []
         for one in sheet.given:
             try:
-                given.append((answer_of(one.keys), "", one.keys, one.line))
+                given.append((answer_of(one.keys), ""))
             except ModelError as error:
-                said = str(ModelError(error.what, error.remedy, (), sheet.file, one.line))
-                given.append((None, said, one.keys, one.line))
+                given.append((None, str(ModelError(error.what, error.remedy, (), sheet.file, one.line))))
         used: set[int] = set()
         out = []
         for asked in variant.asked:
-            fits = [(fit, n) for n, g in enumerate(given) if (fit := _fit(asked.answer, g[2])) is not None]
+            fits = [
+                (f, n) for n, g in enumerate(sheet.given) if (f := _fit(asked.answer, g.keys)) is not None
+            ]
             if not fits:
                 out.append(_Taken(asked, None, None, "", False, 0))
                 continue
             fit, n = min(fits)
             used.add(n)
-            answer, said, _, line = given[n]
-            taken = self._one(variant, asked, answer, fit == 2, (sheet.file, line))
+            answer, said = given[n]
+            taken = self._one(variant, asked, answer, fit == 2, (sheet.file, sheet.given[n].line))
             out.append(taken._replace(sentence=said) if said else taken)
-        left = [
-            (said, f"{sheet.file}:{line}: {keys.get('quantity')} {keys.get('of', '')}".rstrip())
-            for n, (_, said, keys, line) in enumerate(given)
-            if n not in used
-        ]
-        problems += [said for said, _ in left if said]
-        return out, [where for said, where in left if not said]
+        unused = []
+        for n, (keys, line) in enumerate(sheet.given):
+            if n not in used and given[n][1]:
+                problems.append(given[n][1])
+            elif n not in used:
+                unused.append(f"{sheet.file}:{line}: {keys.get('quantity')} {keys.get('of', '')}".rstrip())
+        return out, unused
 
     def _one(
         self, variant: ExamVariant, asked: Asked, answer: Answer | None, part: bool, where: tuple[str, int]
@@ -221,10 +222,8 @@ class _Marker:
             paid.add(sentence)
         share = self.rubric.share(outcome, sentence)
         if t.part:
-            share, sentence = (
-                share * self.rubric.shares["part"],
-                "; ".join(filter(None, [sentence, "only its size"])),
-            )
+            share *= self.rubric.shares["part"]
+            sentence = "; ".join(filter(None, [sentence, "only its size"]))
         return Mark(words, verdict.given, verdict.computed, outcome, sentence, most * share, most, t.line)
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.errors import ModelError, errors_at
-from dalembert.grading.answer_sheet import answer_of
+from dalembert.grading.answer_sheet import answer_of, without_value
 from dalembert.grading.figure import Figure, figure_of_key
 from dalembert.grading.file_answers import describe_answer, value_text
 from dalembert.grading.marking.table_files import KEYS, Row, read_table
@@ -134,8 +134,7 @@ def _of_model(m: Mechanism, static: bool) -> ExamVariant:
     from dalembert.model import Answer
 
     out = ExamVariant(m.title or "", load=lambda: m, static=static)
-    none = dict.fromkeys(("value", "exact", "tolerance", "exact_tolerance", "why"))
-    asked = [a.model_copy(update=none) for a in m.answers]
+    asked = [without_value(a) for a in m.answers]
     if not asked:
         assert out.problem is not None
         r = out.problem.result

@@ -21,15 +21,12 @@ def balance_scenes(b: Balance, notation: Notation | None = None) -> list[Scene]:
     if len(b.result.status) < 3 or not b.result.drives:
         return out
     drive = b.result.drives[0]
-    some: list[tuple[str, dict[str, Array]]] = [
-        (
-            f"Shaking moment about {b.before.about}",
-            {n: without_weight(s, "moment") for n, s in sides.items()},
-        ),
-        (f"Torque of {drive}", {n: s.result.effort(drive) for n, s in sides.items()}),
-    ]
+    some: dict[str, dict[str, Array]] = {
+        f"Shaking moment about {b.before.about}": {n: without_weight(s, "moment") for n, s in sides.items()},
+        f"Torque of {drive}": {n: s.result.effort(drive) for n, s in sides.items()},
+    }
     x, label, angle = along(b.result, shown)
-    for title, curves in some:
+    for title, curves in some.items():
         series = {name: values / shown.size("moment") for name, values in curves.items()}
         out.append(curves_scene(x, series, label, f"Moment in {shown.unit('moment')}", title, angle))
     other = "torque" if "torque" not in b.of else "force"
@@ -38,8 +35,5 @@ def balance_scenes(b: Balance, notation: Notation | None = None) -> list[Scene]:
     except ModelError:  # the other asks for bounds that are not given
         return out
     of = " and ".join(b.of)
-    title = f"Trade-off: {b.least} of {of} against {other}"
-    out.append(
-        curves_scene(pairs[:, 0], {other: pairs[:, 1]}, f"{of} left in %", f"{other} left in %", title)
-    )
-    return out
+    title, left = f"Trade-off: {b.least} of {of} against {other}", {other: pairs[:, 1]}
+    return [*out, curves_scene(pairs[:, 0], left, f"{of} left in %", f"{other} left in %", title)]

@@ -19,18 +19,12 @@ def flywheel_scenes(f: Flywheel, notation: Notation | None = None) -> list[Scene
     torque = f.torque / shown.size("moment")
     series = {"effort": torque, "mean": np.full_like(torque, f.mean / shown.size("moment"))}
     out = [curves_scene(x, series, label, f"Torque in {shown.unit('moment')}", "Turning moment", unit == "°")]
-    energy = {"E": f.energy / shown.size("energy")}
-    out.append(
-        curves_scene(
-            x, energy, label, f"Energy in {shown.unit('energy')}", "Energy above the mean", unit == "°"
-        )
-    )
+    energy, title = {"E": f.energy / shown.size("energy")}, "Energy above the mean"
+    out.append(curves_scene(x, energy, label, f"Energy in {shown.unit('energy')}", title, unit == "°"))
     if f.exact is not None:
         some = {"book's flywheel": f.exact} | ({"exact for Cs": f.exact_size} if f.exact_size else {})
-        percent = {
-            n: 100 * (np.interp(np.sort(q), s.angle, s.speed) / abs(f.size.speed) - 1)
-            for n, s in some.items()
-        }
+        speeds = {n: np.interp(np.sort(q), s.angle, s.speed) for n, s in some.items()}
+        percent = {n: 100 * (speed / abs(f.size.speed) - 1) for n, speed in speeds.items()}
         title = "Speed off its mean"
         out.append(curves_scene(np.sort(x), percent, label, "Speed off its mean in %", title, unit == "°"))
     return out

@@ -43,10 +43,8 @@ def shaking_scenes(s: Shaking, notation: Notation | None = None) -> list[Scene]:
         found = s.harmonics(6)
     except ModelError:
         return out
-    return [
-        *out,
-        harmonics_scene(found, 1 / shown.size("force"), shown.unit("force"), "Harmonics of the force"),
-    ]
+    title = "Harmonics of the force"
+    return [*out, harmonics_scene(found, 1 / shown.size("force"), shown.unit("force"), title)]
 
 
 WIDTH, HEIGHT = 84.0, 40.0
