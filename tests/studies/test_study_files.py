@@ -43,7 +43,7 @@ WRONG: list[tuple[dict[str, str | None], int, str]] = [
     ({"vary": "{links.rod: ± 1 %}"}, 3, "'links.rod' is no number; name a number, or a vector of numbers"),
     ({"vary": "{links.crank.mass: ± 1 %}"}, 3, "has no number; give mass a value in the model file first"),
     ({"vary": "{title: ± 1 %}"}, 3, "which is no number; give it a number in the description first"),
-    ({"vary": "{drives.O.position: ± 1 deg}"}, 3, "is no single number; vary drives.O.position.from or"),
+    ({"vary": "{drives.O.position: ± 1 deg}"}, 3, "is no single number; leave it out: a single position"),
     ({"vary": "{stroke: ± 0.5 kg}"}, 3, "stroke: '0.5 kg' is a mass, and a length is needed; write one"),
     ({"vary": "{stroke: 50..60 N}"}, 3, "stroke: '50 N' is a force, and a length is needed; write one"),
     ({"vary": "{stroke: ± 0.5 furl}"}, 3, "stroke: there is no unit 'furl'; choose among m, meter"),

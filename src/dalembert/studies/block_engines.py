@@ -139,10 +139,11 @@ class AnalysisEngine:
                 codes = [CODES.index(s) if s in CODES else CODES.index("failed") for s in result.status]
                 found = np.array(codes, np.uint8)
                 marks[d] = first_mark(found) if self.reduce else found
-                numbered = marks[d] if self.reduce else found
+                good = among(np.asarray(marks[d]), NUMBERED)
                 for name, value in own.items():
-                    value[~among(np.asarray(numbered), NUMBERED)] = np.nan
-                    parts[name][d] = value
+                    parts[name][d] = np.where(
+                        good.reshape(good.shape + (1,) * (value.ndim - good.ndim)), value, np.nan
+                    )
         return parts | {"status": marks}
 
 

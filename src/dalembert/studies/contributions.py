@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from dalembert.analysis.batch.batch_result import NUMBERED, among
+from dalembert.analysis.batch.over_positions import PLACES
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.studies.block_engines import make_engine
@@ -58,7 +59,7 @@ def _check(study: Study, output: str) -> None:
         raise ModelError("shares of correlated numbers are not defined", "leave the correlation out")
     if output not in study.outputs:
         raise ModelError(f"{output!r} is no output of the study", f"there are: {', '.join(study.outputs)}")
-    if study.reduce in (None, "envelope", "argpeak"):
+    if study.reduce in (None, "envelope", *PLACES):
         raise ModelError(
             f"reduced by {study.reduce} it is no single number", 'use reduce="peak", "rms", "mean"'
         )

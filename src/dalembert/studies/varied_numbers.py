@@ -27,9 +27,7 @@ def varied_numbers(m: Mechanism, path: str) -> list[Number]:
     if keys[0] == "drives" and isinstance(value, (int, float)) and not isinstance(value, bool):
         return [Number(path, float(value))]
     if keys[0] == "drives" and keys[2:3] and keys[2] in DRIVEN:
-        raise ModelError(
-            f"{path!r} is no single number", f"vary {path}.from or {path}.to, where it has them", keys
-        )
+        raise ModelError(f"{path!r} is no single number", "leave it out: a single position may vary", keys)
     return list(numbers(m, [path]))
 
 
