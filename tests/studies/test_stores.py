@@ -114,6 +114,24 @@ def test_a_second_run_is_refused_while_one_writes(study: Study, store: Path) -> 
 
 
 @pytest.mark.parametrize(
+    "how",
+    [
+        {"draw": "factorial"},
+        {"draw": "latin"},
+        {"draw": {"stroke": ["50 mm", "60 mm"]}},
+        {"reduce": None, "keep": True},
+    ],
+)
+def test_a_store_knows_its_study(how: dict[str, object], tmp_path: Path) -> None:
+    vary = {"stroke": "50..60 mm in 3"} if how.get("draw") == "factorial" else {"stroke": "range"}
+    s = da.study(da.load(examples()["pump"]), vary, ["effort.O", "reaction.A"], **{"designs": 5, **how})
+    found = s.run(tmp_path / "s")
+    again = StudyResult.open(tmp_path / "s").study.run(tmp_path / "s")
+    assert np.array_equal(found["reaction.A"], again["reaction.A"])
+    assert again.study.prints == s.prints
+
+
+@pytest.mark.parametrize(
     ("changed", "sentence"),
     [
         ({"seed": 4}, "what is varied, drawn or asked for has changed since, and results would be mixed"),

@@ -314,7 +314,7 @@ class Study:
             "vary": list(p.paths),
             "spreads": spreads,
             "draw": p.draw,
-            "designs": p.designs,
+            "designs": p.count,
             "seed": p.seed,
             "mixing": None if p.mixing is None else p.mixing.tolist(),
             "outputs": list(self.outputs),

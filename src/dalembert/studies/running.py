@@ -57,13 +57,12 @@ def run_study(
         try:
             block = _opened(study, store)
             ledger = store.ledger()
-            todo = [b for b, row in enumerate(ledger) if not row[0]]
-            if check:
-                there = [b for b in range(len(ledger)) if b not in set(todo)]
-                broken = [b for b in there if not store.sound(b, block, study.count, ledger[b])]
-                for b in broken:
+            todo = []
+            for b, row in enumerate(ledger):
+                if row[0] and check and not store.sound(b, block, study.count, row):
                     store.forget(b)
-                todo = sorted([*todo, *broken])
+                    row[0] = 0
+                todo += [] if row[0] else [b]
             _compute(study, _Target(store, block, study.count), todo, threads, scheduler, progress)
         except OSError as error:
             raise unwritable(store.path, error) from None

@@ -47,12 +47,18 @@ def _outputs(r: StudyResult) -> list[str]:
         line = "".join(BLOCKS[round(8 * n / counts.max())] for n in counts.tolist())
         low, high = (to(kind, edges[k]) for k in (0, -1))
         pictures.append([name, f"{low:.5g}", line, f"{high:.5g}", to.text(kind)])
+    more = [name for name in r.study.outputs if r.arrays[name].ndim > 1]
+    said = [f"Several numbers a design, to be read in Python or by export: {', '.join(more)}"] if more else []
     if not rows:
-        return []
+        return said
     percents = [f"{p:g} %" for p in PERCENTILES]
     heads = ["output", "unit", "mean", "sigma", *percents, "least (design)", "greatest (design)"]
     reduce = f"Over the positions: {r.study.reduce}." if r.study.reduce else ""
-    return [f"{reduce}\n{table(heads, rows, 2)}".strip(), table(["", "from", "", "to", ""], pictures, 1)]
+    return [
+        f"{reduce}\n{table(heads, rows, 2)}".strip(),
+        table(["", "from", "", "to", ""], pictures, 1),
+        *said,
+    ]
 
 
 def _limits(r: StudyResult) -> list[str]:
