@@ -91,18 +91,10 @@ def _text(rows: Sequence[Row], every: bool) -> str:
 
 def _answers_table(rows: Sequence[Row]) -> str:
     """One line an answer; the names of cases stand above theirs."""
-    cells = [
-        [
-            row.quantity,
-            row.published,
-            row.exact or "-",
-            row.computed,
-            row.tolerance,
-            row.deviation,
-            _mark(row),
-        ]
-        for row in rows
-    ]
+    cells = []
+    for row in rows:
+        figures = [row.published, row.exact or "-", row.computed, row.tolerance, row.deviation]
+        cells.append([row.quantity, *figures, _mark(row.ok)])
     heads = ["quantity", "published", "exact", "computed", "tolerance", "deviation", "ok"]
     head, rule, *lines = table(heads, cells, 1).splitlines()
     if len({row.case for row in rows}) == 1:
@@ -120,25 +112,15 @@ def _case_table(rows: Sequence[Row]) -> str:
     by_case: dict[str, list[Row]] = {}
     for row in rows:
         by_case.setdefault(row.case, []).append(row)
-    cells = [
-        [
-            case,
-            str(len(of)),
-            str(sum(1 for r in of if r.exact)),
-            str(sum(1 for r in of if r.ok)),
-            _verdict(of),
-        ]
-        for case, of in by_case.items()
-    ]
+    cells = []
+    for case, of in by_case.items():
+        counts = len(of), sum(bool(r.exact) for r in of), sum(r.ok for r in of)
+        cells.append([case, *map(str, counts), _mark(all(r.ok for r in of))])
     return table(["case", "answers", "exact", "agree", "ok"], cells, 1)
 
 
-def _mark(row: Row) -> str:
-    return "yes" if row.ok else "NO"
-
-
-def _verdict(rows: Sequence[Row]) -> str:
-    return "yes" if all(row.ok for row in rows) else "NO"
+def _mark(ok: bool) -> str:
+    return "yes" if ok else "NO"
 
 
 def _failure(row: Row) -> str:

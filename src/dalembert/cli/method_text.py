@@ -163,9 +163,7 @@ def _powers(found: VirtualWork, drive: int, k: int, to: Printed) -> str:
     unit = "rad" if angular else to.text("length")
     per = to("length", 1.0) if angular else 1.0
     length = r.compiled.layout.length
-    reach = (
-        1.0 if angular else 1 / length
-    )  # turn of a link that moves its ends by its length, or by the drive's
+    reach = 1.0 if angular else 1 / length  # the turn that moves a link's ends by its length, or the drive's
     force = np.array([a.force[k] for a in found.actions])
     couple = np.array([a.couple[k] for a in found.actions])
     load = max(_largest(force), _largest(couple) / length)
@@ -182,13 +180,8 @@ def _powers(found: VirtualWork, drive: int, k: int, to: Printed) -> str:
     rows = [[a.source, *(x for part in numbers for x in part[n])] for n, a in enumerate(found.actions)]
     total = float(found.power[:, k, drive].sum()) * to(kind, 1.0)
     heads = HEADS if r.mechanism.dimension == 2 else SPACE_HEADS
-    rows.append(
-        [
-            "sum",
-            *[""] * (len(heads) - 2),
-            number(round_components([total], load * reach * length * to(kind, 1.0))[0]),
-        ]
-    )
+    beside = load * reach * length * to(kind, 1.0)
+    rows.append(["sum", *[""] * (len(heads) - 2), number(round_components([total], beside)[0])])
     units = f"forces in {to.text('force')}, couples in {to.text('moment')}, moves in {to.text('length')}"
     return (
         f"1 {unit} of {name}: {units}, turns in rad\n\n"
@@ -227,17 +220,13 @@ def fixed_point_text(result: Result) -> str:
     heads += [f"friction\n{name}" for name in table.friction] + ["change"]
     every = [[f"{row[0]:.0f}", *(number(v, 8) for v in row[1:-1]), f"{row[-1]:.1e}"] for row in table.rows()]
     every[0][-1] = "-"
-    rows = (
-        every if len(every) <= MOST_STEPS else [*every[: MOST_STEPS - 3], ["..."] * len(heads), *every[-2:]]
-    )
-    end = (
-        f"arrives after {table.steps} steps"
-        if table.arrived
-        else f"has not arrived after {table.steps} steps"
-    )
+    rows = every
+    if len(every) > MOST_STEPS:
+        rows = [*every[: MOST_STEPS - 3], ["..."] * len(heads), *every[-2:]]
+    end = "arrives" if table.arrived else "has not arrived"
     words = (
-        f"The taught iteration {end}; each step leaves {table.rate:.3g} of the change. Friction on j in N or N*m; "
-        "solve, set friction by the reactions found, solve again."
+        f"The taught iteration {end} after {table.steps} steps; each step leaves {table.rate:.3g} of the change. "
+        "Friction on j in N or N*m; solve, set friction by the reactions found, solve again."
     )
     return f"{tables(heads, rows, 1)}\n{wrap(words)}"
 

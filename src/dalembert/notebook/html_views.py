@@ -123,11 +123,8 @@ def system_html(s: System) -> str:
         else:
             rows.append([name, *_cells(to("force", part.vector)), *_cells(to("length", part.at)), ""])
     total = s.reduced()
-    sums = [
-        *_cells(to("force", total.force)),
-        *_cells(to("length", total.at)),
-        *_cells(to("moment", total.vector)),
-    ]
+    named = {"force": total.force, "length": total.at, "moment": total.vector}
+    sums = [cell for kind, vector in named.items() for cell in _cells(to(kind, vector))]
     rows = [[*row, *[""] * (len(heads) - len(row))] for row in [*rows, ["sum at the origin", *sums]]]
     words = f"It reduces to: {s.kind()}. {s.equilibrium().sentence}"
     return card(

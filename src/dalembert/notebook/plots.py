@@ -96,13 +96,8 @@ def _parts(name: str, values: Array) -> dict[str, Array]:
 
 def _whole(names: Mapping[str, Array]) -> list[str]:
     """Quantities without their components, each once."""
-    return list(
-        dict.fromkeys(
-            name.removesuffix(".magnitude").removesuffix(".x")
-            for name in names
-            if name[-2:] not in (".y", ".z")
-        )
-    )
+    first = (name for name in names if name[-2:] not in (".y", ".z"))
+    return list(dict.fromkeys(name.removesuffix(".magnitude").removesuffix(".x") for name in first))
 
 
 def polar(r: Result, joints: Sequence[str], axes: Axes, ax: Any, notation: Notation | None) -> Any:

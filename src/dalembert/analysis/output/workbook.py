@@ -29,7 +29,7 @@ MOST_CURVES, MOST_DIAGRAMS, MOST_POINTS = 12, 6, 20_000
 """Curves in a chart, those of the largest forces; polar diagrams; points of a curve, evenly taken from more."""
 WIDTH, HEIGHT = 20.0, 9.5
 """Size of a chart, cm."""
-SHOWN_UNITS = (
+SHOWN_UNITS = [
     "length",
     "angle",
     "force",
@@ -38,7 +38,7 @@ SHOWN_UNITS = (
     "inertia",
     "angular_speed",
     "angular_acceleration",
-)
+]
 
 
 def write_workbook(
@@ -109,11 +109,8 @@ def _extremes(result: Result, units: UnitChoice, axes: Axes) -> Iterator[list[ob
     where = [nan_to_none(to(kind, result.drive_position(drive))) for drive, kind in kinds.items()]
     for e in extremes(result, to, axes):
         ends = ((e.largest, e.most), (e.smallest, e.least))
-        yield [
-            e.name,
-            e.unit,
-            *(cell for value, k in ends for cell in (value, k + 1, *(of[k] for of in where))),
-        ]
+        cells = (cell for value, k in ends for cell in (value, k + 1, *(of[k] for of in where)))
+        yield [e.name, e.unit, *cells]
 
 
 def _assumptions(result: Result, units: UnitChoice, axes: Axes) -> Iterator[tuple[str, object]]:
@@ -128,10 +125,8 @@ def _assumptions(result: Result, units: UnitChoice, axes: Axes) -> Iterator[tupl
     yield "positions solved", int(result.ok.sum())
     for name in ("residual", "power_balance"):
         values = np.abs(getattr(result, name))
-        yield (
-            f"largest {name.replace('_', ' ')}",
-            float(np.nanmax(values)) if np.isfinite(values).any() else None,
-        )
+        largest = float(np.nanmax(values)) if np.isfinite(values).any() else None
+        yield f"largest {name.replace('_', ' ')}", largest
     yield "program", f"dalembert {sys.modules['dalembert'].__version__}"
 
 

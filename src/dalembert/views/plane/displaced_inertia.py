@@ -24,11 +24,8 @@ def displaced_inertia_scene(r: Result, link: str, k: int, notation: Notation | N
     shown = Shown(r, notation or Notation(), k)
     found = displaced_inertia(r, link)
     g, at = found.center[k], found.at[k]
-    places = [
-        *link_points(r, link, k).values(),
-        tuple(g),
-        *([tuple(at)] if _has_acceleration(r, link, k, shown) else []),
-    ]
+    places = [*link_points(r, link, k).values(), tuple(g)]
+    places += [tuple(at)] if _has_acceleration(r, link, k, shown) else []
     frame = fit_frame(places, 40.0, 34.0, unit_size(r, "length", shown.notation))
     canvas = Canvas()
     canvas.add(*link_shape(r, link, k, frame))

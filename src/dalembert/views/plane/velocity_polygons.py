@@ -73,18 +73,8 @@ def motion_polygon_scene(
         )
         found = {link: {sign: v * unit for sign, v in some.items()} for link, some in found.items()}
     sizes = [math.hypot(*v) for some in found.values() for v in some.values()]
-    polygon = _Polygon(
-        r,
-        k,
-        order,
-        shown,
-        motion,
-        points,
-        found,
-        force_scale(sizes, LONGEST, unit_size(r, kind_of(order), shown.notation)),
-        unit,
-    )
-    return polygon.scene(notes)
+    per_mm = force_scale(sizes, LONGEST, unit_size(r, kind_of(order), shown.notation))
+    return _Polygon(r, k, order, shown, motion, points, found, per_mm, unit).scene(notes)
 
 
 def kind_of(order: Order) -> str:
@@ -150,9 +140,8 @@ class _Polygon:
                 told.add(s.sign)
                 name = f"{self.order[0]}_{{{flat(s.sign)}}}"
                 text = f"{name} = {self.shown.text(kind_of(self.order), size)}"
-                self._arrow(
-                    (0.0, 0.0), head, s.sign, size, text if s.joint else "", "" if s.joint else "-part"
-                )
+                beside, role = (text, "") if s.joint else ("", "-part")
+                self._arrow((0.0, 0.0), head, s.sign, size, beside, role)
                 self.listed += [] if s.joint else [text]
 
     def _arrow(self, tail: Point, head: Point, of: str, size: float, text: str, role: str = "") -> None:
