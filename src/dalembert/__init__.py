@@ -132,6 +132,7 @@ if TYPE_CHECKING:
     )
     from dalembert.optimization.optimizing import optimize
     from dalembert.optimization.optimum import Optimum
+    from dalembert.optimization.synthesis import Synthesis, synthesize
     from dalembert.pages.html_page import page
     from dalembert.pages.widget import widget
     from dalembert.reports import report
@@ -184,6 +185,7 @@ _NAMES = {
     ),
     "optimization.optimizing": "optimize",
     "optimization.optimum": "Optimum",
+    "optimization.synthesis": "Synthesis synthesize",
     "pages.html_page": "page",
     "pages.widget": "widget",
     "reports": "report",
@@ -251,6 +253,7 @@ __all__ = [
     "Study",
     "StudyResult",
     "Sweep",
+    "Synthesis",
     "Table",
     "TimeTable",
     "TorsionDamper",
@@ -321,6 +324,7 @@ __all__ = [
     "study",
     "superposition",
     "sweep",
+    "synthesize",
     "toggle_press",
     "v_engine",
     "variants",

@@ -31,6 +31,7 @@ def norton() -> da.Mechanism:
     return da.loads(text)
 
 
+@pytest.mark.long
 def test_peak_torque_of_norton_11_3() -> None:
     vary = {
         "links.ground.points.O4": ("[17 in, -2 in]", "[21 in, 2 in]"),
@@ -69,6 +70,7 @@ def test_gradients_of_aim_and_conditions(aim: str) -> None:
         assert np.allclose(slope, p(u).slope[:, k], rtol=1e-6, atol=1e-7)
 
 
+@pytest.mark.long
 def test_steps() -> None:
     vary: Any = {**BOX, "links.rocker.points.B.0": (0.2, 0.28, "5 mm")}
     best = da.optimize(da.four_bar(), vary, "peak effort.O2", starts=10)
@@ -87,6 +89,7 @@ def test_the_same_again_and_written(tmp_path: Path) -> None:
     assert "room of transmission.B >= 33 deg [deg]" in str(one)
 
 
+@pytest.mark.long
 def test_conditions_that_no_design_keeps() -> None:
     best = da.optimize(da.four_bar(), BOX, "peak effort.O2", "transmission.B >= 89 deg", starts=5)
     assert not best.feasible

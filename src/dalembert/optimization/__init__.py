@@ -8,5 +8,6 @@ side_by_side      quasi-Newton steps of all starts at once, one call of the kern
 polishing         the best of them, each by itself: the least largest value t with |T_k| <= t at every position
 optimizing        ``da.optimize``: starts, search, discrete steps, the best that keeps every condition
 optimize_file     the same from a file beside the model file
+synthesis         ``da.synthesize``: outputs that take given values, by least squares
 optimum           what was found, before and after
 """

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import product
 
 import numpy as np
@@ -73,28 +73,33 @@ def _problem(
     m: Mechanism, vary: Bounds, least: str, where: str | Sequence[str], positions: int | None, static: bool
 ) -> tuple[Problem, Array, tuple[Number, ...]]:
     """The problem, the steps of its numbers (NaN where there are none), and the numbers."""
-    if not vary:
-        raise ModelError("nothing varies", 'give vary={"links.crank.points.A.0": (0.1, 0.15)}')
-    found, low, high, steps = list[Number](), list[float](), list[float](), list[float]()
-    for path, given in vary.items():
-        mine = numbers(m, [path])
-        ends = _ends(m, path, given, len(mine))
-        found += mine
-        for into, of in zip((low, high, steps), ends, strict=True):
-            into += of.tolist()
+    found, low, high, steps = bounds_of(m, vary)
     texts = [where] if isinstance(where, str) else where
     schedule = m.schedule(over_a_turn(m, positions))
     problem = Problem(
         m,
         tuple(vary),
-        np.array(low),
-        np.array(high),
+        low,
+        high,
         parse_aim(least),
         tuple(parse_condition(text) for text in texts),
         schedule.position,
         static,
     )
-    return problem, np.array(steps), tuple(found)
+    return problem, steps, found
+
+
+def bounds_of(m: Mechanism, vary: Bounds) -> tuple[tuple[Number, ...], Array, Array, Array]:
+    """The numbers that vary, their low and high ends, and their steps, NaN where there are none."""
+    if not vary:
+        raise ModelError("nothing varies", 'give vary={"links.crank.points.A.0": (0.1, 0.15)}')
+    found, ends = list[Number](), list[tuple[Array, Array, Array]]()
+    for path, given in vary.items():
+        mine = numbers(m, [path])
+        ends.append(_ends(m, path, given, len(mine)))
+        found += mine
+    low, high, steps = (np.concatenate(of) for of in zip(*ends, strict=True))
+    return tuple(found), low, high, steps
 
 
 def _ends(m: Mechanism, path: str, given: Sequence[object], count: int) -> tuple[Array, Array, Array]:
@@ -138,14 +143,19 @@ def _best(p: Problem, steps: Array, found: tuple[Number, ...], starts: int, seed
 
 def _starts(p: Problem, count: int, seed: int) -> Array:
     """Places that have an answer: the description's own, then random ones."""
+    return random_places(lambda u: np.isfinite(p(u).value), p.nominal, count, seed)
+
+
+def random_places(answers: Callable[[Array], Flags], own: Array, count: int, seed: int) -> Array:
+    """Places (start, number) in the unit box that have an answer: a given one, then random ones."""
     if isinstance(count, bool) or not isinstance(count, int | np.integer) or not 1 <= count <= 1_000_000:
         raise ModelError(f"starts={count!r} is no number of starts", "give 1 to 1,000,000")
     draw, got, drawn = np.random.default_rng(seed), 0, 0
-    found = [p.nominal[None]] if np.isfinite(p(p.nominal[None]).value[0]) else []
+    found = [own[None][answers(own[None])]]
     while got < count and drawn < MOST_DRAWN * count:
-        u = draw.random((max(count, 64), len(p.low)))
+        u = draw.random((max(count, 64), len(own)))
         drawn += len(u)
-        u = u[np.isfinite(p(u).value)][: count - got]
+        u = u[answers(u)][: count - got]
         got += len(u)
         found.append(u)
     places = np.concatenate(found)
