@@ -61,6 +61,8 @@ FACADES = {
     "machine.balance.balancing",
     "machine.flywheel.flywheels",
     "machine.motion.simulation",
+    "machine.members.member_forces",
+    "machine.members.member_table",
     "machine.shaking",
     "wrench.system",
     "analysis.batch.design_sweep",

@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from dalembert.machine.flywheel.flywheels import flywheel
     from dalembert.machine.gyroscopes import Gyroscopic, gyroscopic
     from dalembert.machine.harmonics import harmonics
+    from dalembert.machine.members.member_forces import MemberForces, member_forces
     from dalembert.machine.motion.simulation import Simulation, simulate
     from dalembert.machine.shaking import shaking
     from dalembert.model import (
@@ -81,6 +82,7 @@ if TYPE_CHECKING:
         Range,
         Rise,
         Rolling,
+        Section,
         SlenderBar,
         Slider,
         Slot,
@@ -165,7 +167,7 @@ _NAMES = {
     "model": (
         "Answer Box CircularSlot ConstantForceSpring Couple Cylinder Damper Drive Expression ForceLoad "
         "FrictionDefaults Gear GearFriction GuideFriction Link Mechanism Offset Pin PinFriction Range "
-        "Rise Rolling SlenderBar Slider Slot SlotFriction SpaceJoint Sphere Spring StlMesh Table "
+        "Rise Rolling Section SlenderBar Slider Slot SlotFriction SpaceJoint Sphere Spring StlMesh Table "
         "TimeTable TorsionDamper TorsionSpring Tube Weld convert json_schema load loads mechanism"
     ),
     "machine.balance.balancing": "balance",
@@ -177,6 +179,7 @@ _NAMES = {
     "machine.gyroscopes": "Gyroscopic gyroscopic",
     "machine.harmonics": "harmonics",
     "machine.motion.simulation": "Simulation simulate",
+    "machine.members.member_forces": "MemberForces member_forces",
     "machine.shaking": "shaking",
     "model.library": (
         "bennett bevel_differential bucket crank_shaper double_cardan five_bar four_bar hooke_joint in_line_engine "
@@ -228,6 +231,7 @@ __all__ = [
     "Kernel",
     "Link",
     "Mechanism",
+    "MemberForces",
     "Mobility",
     "ModelError",
     "Notation",
@@ -241,6 +245,7 @@ __all__ = [
     "Rolling",
     "RotorBalance",
     "Scene",
+    "Section",
     "Simulation",
     "SlenderBar",
     "Slider",
@@ -298,6 +303,7 @@ __all__ = [
     "load",
     "loads",
     "mechanism",
+    "member_forces",
     "members",
     "mobility",
     "optimize",

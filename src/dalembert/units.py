@@ -57,6 +57,8 @@ KINDS: dict[str, Kind] = {
     ),
     "density": _kind("a density", "kg/m^3", (-3, 1, 0, 0), "mass length^-3", "7850 kg/m^3"),
     "area": _kind("an area", "m^2", (2, 0, 0, 0), "length^2", "2 cm^2"),
+    "section_modulus": _kind("a section modulus", "m^3", (3, 0, 0, 0), "length^3", "4 cm^3"),
+    "second_moment": _kind("a second moment of area", "m^4", (4, 0, 0, 0), "length^4", "12 cm^4"),
     "power": _kind("a power", "W", (2, 1, -3, 0), "force length time^-1", "2 kW"),
     "energy": _kind("an energy", "J", MOMENT, "force length", "20 J"),
     "pressure": _kind("a pressure", "N/m^2", (-1, 1, -2, 0), "force length^-2", "6 N/mm^2"),

@@ -17,7 +17,7 @@ from cyclopts import (
 
 from dalembert import __version__
 from dalembert.cli import answers_commands, page_command, variants_command, wrench_command
-from dalembert.cli.machine import machine_commands
+from dalembert.cli.machine import machine_commands, member_commands
 from dalembert.cli.options import (
     AS_IN_FILE,
     AS_USUAL,
@@ -370,12 +370,10 @@ app.command(wrench_command.wrench, help_epilogue=wrench_command.EXAMPLES)
 app.command(answers_commands.grade, help_epilogue=answers_commands.GRADE)
 app.command(variants_command.variants, help_epilogue=variants_command.EXAMPLES)
 app.command(page_command.page, help_epilogue=page_command.EXAMPLES)
-app.command(machine_commands.shake, help_epilogue=machine_commands.SHAKE)
-app.command(machine_commands.balance, help_epilogue=machine_commands.BALANCE)
-app.command(machine_commands.flywheel, help_epilogue=machine_commands.FLYWHEEL)
+for computes, its_examples in (machine_commands.COMMANDS | member_commands.COMMANDS).items():
+    app.command(computes, help_epilogue=its_examples)
 app.command(study_commands.study)
 app.command(optimize_command.optimize, help_epilogue=optimize_command.OPTIMIZE)
-app.command(machine_commands.simulate, help_epilogue=machine_commands.SIMULATE)
 
 
 def command_line_error(error: CycloptsError, arguments: list[str]) -> str:

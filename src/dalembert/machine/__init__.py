@@ -8,6 +8,6 @@ gyroscopes the couple of a rotor whose carrier turns, as the books show it
 balance/   counterweights under bounds, proved best; rotors; engines beside the books' series
 flywheel/  the energy curve, size of a flywheel, and the exact speed over the cycle with it
 motion/    motion under forces: the equation of motion, simulation, events
-members/   (to come) forces inside links, stresses, pins and bearings, choice of a motor
+members/   forces inside links, stresses, fatigue, buckling; pins and bearings
 output/    what all answers of this room have in common: columns, record, table
 """

@@ -25,6 +25,7 @@ from dalembert.model.joints.friction_keys import (
 from dalembert.model.joints.plane_joints import CircularSlot, Gear, Joint, Pin, Rolling, Slider, Slot, Weld
 from dalembert.model.joints.space_joints import SpaceJoint
 from dalembert.model.links.link import GROUND, Link, Offset
+from dalembert.model.links.sections import Section
 from dalembert.model.links.shapes import Box, Cylinder, SlenderBar, Sphere, StlMesh, Tube
 from dalembert.model.load_types import (
     ConstantForceSpring,
@@ -69,6 +70,7 @@ __all__ = [
     "Rise",
     "Rolling",
     "Schedule",
+    "Section",
     "SlenderBar",
     "Slider",
     "Slot",

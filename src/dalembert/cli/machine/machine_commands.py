@@ -290,6 +290,15 @@ SIMULATE = """Examples:
   dalembert simulate crane.yaml --until 1s --event "O2.position = 90 deg" --json -"""
 
 
+COMMANDS: dict[Callable[..., int], str] = {
+    shake: SHAKE,
+    balance: BALANCE,
+    flywheel: FLYWHEEL,
+    simulate: SIMULATE,
+}
+"""Each with its examples."""
+
+
 def _point(m: Mechanism, about: str | None) -> str | Sequence[float] | None:
     """A vector in the units of the file, or a name."""
     if about is None or not about.lstrip().startswith("["):

@@ -10,6 +10,7 @@ from pydantic import Discriminator, Field, Tag, ValidationInfo, model_validator
 
 from dalembert.arrays import Numeric, Tree
 from dalembert.errors import ModelError
+from dalembert.model.links.sections import MassAlong, Members, Section
 from dalembert.model.links.shapes import (
     MassProperties,
     Shape,
@@ -221,6 +222,14 @@ class Link(Part):
     shape: Shapes | None = Field(
         None, description="what it looks like, one shape or a list: gives mass, center and inertia"
     )
+    mass_along: Annotated[str, MassAlong()] = Field(
+        "lumped",
+        description="for the forces inside it: mass along its members uniform, by its shape, or lumped (default)",
+    )
+    members: Annotated[tuple[tuple[str, str], ...], Members()] | None = Field(
+        None, description="its straight members, [[A, B], [B, C]]; default the line through its joints"
+    )
+    section: Section | None = Field(None, description="section of its members: {rectangle: [20 mm, 40 mm]}")
 
     @model_validator(mode="after")
     def _place_in_the_plane(self, info: ValidationInfo) -> Self:
@@ -243,7 +252,20 @@ class Link(Part):
             )
         for point in self.points:
             self.point(point)
+        self._check_members()
         return self
+
+    def _check_members(self) -> None:
+        for k, pair in enumerate(self.members or ()):
+            a, b = (at_item("members", at_item, k, self.point, end) for end in pair)
+            if a == b:
+                raise ModelError(
+                    f"points {pair[0]!r} and {pair[1]!r} are in one place",
+                    "name two that are apart",
+                    ("members", k),
+                )
+        if self.mass_along == "shape" and not self.shapes:
+            raise ModelError("mass_along is by a shape, and there is none", "write uniform", ("mass_along",))
 
     @property
     def shapes(self) -> tuple[ShapePart, ...]:

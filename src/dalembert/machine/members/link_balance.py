@@ -1,0 +1,123 @@
+"""All that acts on a link in its own axes, its weight and inertia spread along its members where its mass is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from dalembert.analysis.methods.applied_forces import Action, on_link, whole_actions
+from dalembert.arrays import Array, Ints
+from dalembert.machine.members.straight_members import Straight, in_space
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+
+@dataclass(frozen=True)
+class Wrench:
+    """A force and a couple (P, 3) at a place (P, 3), all in link axes; number of its member and its foot there (P,)."""
+
+    place: Array
+    force: Array
+    couple: Array
+    member: Ints
+    foot: Array
+
+    def about(self, point: Array) -> Array:
+        """Its moment (P, 3) about a point (3,)."""
+        return np.asarray(self.couple + np.cross(self.place - point, self.force))
+
+
+class Loads(NamedTuple):
+    """What acts at feet, and what mass along a member (by its number) does in all."""
+
+    seated: list[Wrench]
+    spread: list[tuple[int, Wrench]]
+
+
+class LinkBalance:
+    """A link's motion and what acts on it, in its own axes, with three components; ``unknown`` (P,) is 0 or NaN."""
+
+    def __init__(self, r: Result, link: str) -> None:
+        self.r, self.link = r, link
+        count, d = len(r.status), r.mechanism.dimension
+        self.rotation = np.tile(np.eye(3), (count, 1, 1))
+        self.rotation[:, :d, :d] = r.rotation(link)
+        self.actions = on_link(whole_actions(r), link)
+        self.unknown = np.zeros(count)
+        for name in r.joints:
+            if link in r.mechanism.joints[name].links:
+                self.unknown += np.where(np.isfinite(r.reaction(name)).all(axis=-1), 0.0, np.nan)
+        self.center = in_space(r.mechanism.center(link))
+        gravity = np.array(r.mechanism.gravity_vector, float)
+        self.gravity = self.own(np.broadcast_to(gravity, (count, d)))
+        self.acceleration, self.rate = np.zeros((count, 3)), np.zeros((count, 3, 3))
+        if r.inertia:
+            self.acceleration = self.own(r.center_acceleration(link))
+            alpha, w = (_cross(self.own_couple(v)) for v in (r.acceleration(link), r.speed(link)))
+            self.rate = alpha + w @ w
+
+    def own(self, v: Array) -> Array:
+        """Vectors (P, d) of ground axes in link axes (P, 3)."""
+        return np.asarray(np.einsum("pji,pj->pi", self.rotation, in_space(v)))
+
+    def own_couple(self, v: Array) -> Array:
+        """The same of a couple or a turning: (P,) in the plane."""
+        return self.own(v if v.ndim > 1 else np.stack([0 * v, 0 * v, v], axis=-1))
+
+    def place(self, a: Action) -> Array:
+        """Where an action acts (P, 3)."""
+        return self.own(a.at - self.r.position(self.link))
+
+    def joints(self) -> Array:
+        """Places (N, 3) of its joints over all positions."""
+        some = [self.place(a) for a in self.actions if a.kind == "joint"]
+        places: Array = np.concatenate(some) if some else np.zeros((0, 3))
+        return np.asarray(places[np.isfinite(places).all(axis=1)])
+
+    def distributed(self, e: Straight) -> tuple[Array, Array]:
+        """Force on unit mass along a member: c0 - c1 s, both (P, 3), by gravity and acceleration."""
+        at_start = self.acceleration + self.rate @ (e.start - self.center)
+        return self.gravity - at_start, self.rate @ e.along
+
+    def loads(self, members: tuple[Straight, ...]) -> Loads:
+        """All that acts; what mass along members does is taken off weight and inertia at the centre."""
+        zero = np.zeros_like(self.acceleration)
+        out = Loads([], [])
+        force, couple = zero, zero
+        for a in self.actions:
+            one, about = self.own(a.force), self.own_couple(a.couple)
+            if a.kind in ("weight", "inertia"):
+                force, couple = force + one, couple + about
+            else:
+                out.seated.append(_seated(members, self.place(a), one, about))
+        for k, e in enumerate(members):
+            c0, c1 = self.distributed(e)
+            for p in e.mass:
+                m0, m1, m2 = (p.density * (p.end**n - p.start**n) / n for n in (1, 2, 3))
+                moment = np.cross(e.along, m1 * c0 - m2 * c1)
+                start, foot = zero + e.start, np.full(len(zero), p.end)
+                spread = Wrench(start, m0 * c0 - m1 * c1, moment, np.full(len(zero), k), foot)
+                force, couple = force - spread.force, couple - spread.about(self.center)
+                out.spread.append((k, spread))
+        out.seated.append(_seated(members, zero + self.center, force, couple))
+        return out
+
+
+def _seated(members: tuple[Straight, ...], place: Array, force: Array, couple: Array) -> Wrench:
+    """A wrench at its foot on the nearest member."""
+    feet = [e.foot(place) for e in members]
+    member = np.argmin(np.nan_to_num(np.array([off for _, off in feet])), axis=0)
+    foot = np.take_along_axis(np.array([s for s, _ in feet]), member[None], axis=0)[0]
+    return Wrench(place, force, couple, member, foot)
+
+
+def _cross(v: Array) -> Array:
+    """Matrices (P, 3, 3) of the product with vectors (P, 3)."""
+    out = np.zeros((len(v), 3, 3))
+    for k in range(3):
+        out[:, (k + 2) % 3, (k + 1) % 3] = v[:, k]
+        out[:, (k + 1) % 3, (k + 2) % 3] = -v[:, k]
+    return out

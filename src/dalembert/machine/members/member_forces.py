@@ -1,0 +1,262 @@
+"""Axial force, shear, torsion and bending moment along the members of a link, at every position.
+
+N = F.t (tension +), V_y = -F.y, V_z = F.z, T = M.t with F, M what the part beyond s exerts on the part before it, about
+the cut; dN/ds = -q_t, dV_y/ds = q_y, dV_z/ds = -q_z, dM_z/ds = V_y, dM_y/ds = V_z with q = mu (g - a).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from dalembert.analysis.output.columns import Column, Scale
+from dalembert.arrays import Array, Flags, Tree
+from dalembert.errors import ModelError
+from dalembert.machine.members.link_balance import LinkBalance, Loads, Wrench
+from dalembert.machine.members.straight_members import Straight, beyond, members_of
+from dalembert.wording import closest
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+    from dalembert.machine.members.stresses import Buckling, Stresses
+    from dalembert.model.links.sections import Section
+
+ORDER = ("axial", "shear", "shear z", "torsion", "bending y", "bending")
+"""Rows of the inner forces: N, V_y, V_z, T, M_y, M_z."""
+KINDS = ("force", "force", "force", "moment", "moment", "moment")
+IN_PLANE = ("axial", "shear", "bending")
+
+
+@dataclass(frozen=True)
+class MemberCurve:
+    """Inner forces of one straight member: ``edges`` (P, J + 1), m, and cubics (P, J, 6, 4) in s between them."""
+
+    member: Straight
+    edges: Array = field(repr=False)
+    cubics: Array = field(repr=False)
+
+    @property
+    def name(self) -> str:
+        """Its ends."""
+        return "-".join(self.member.ends)
+
+    def at(self, s: float | Array, side: Literal["before", "behind"] | None = None) -> Array:
+        """All six (P, S, 6) at distances s (S,) from the start, m; at a force or couple on the side asked for.
+
+        By default what is just behind it, at the end of the member what is before it.
+        """
+        places = self.member.rounded(np.atleast_1d(np.asarray(s, float)))
+        if (places < 0).any() or (places > self.member.length).any():
+            raise ModelError(f"{s} m is not along member {self.name}", f"give 0 to {self.member.length:g} m")
+        before = (places == self.member.length) if side is None else np.full(len(places), side == "before")
+        inner = self.edges[:, 1:-1, None]
+        piece = np.where(before, (inner < places).sum(axis=1), (inner <= places).sum(axis=1))
+        chosen = np.take_along_axis(self.cubics, piece[:, :, None, None], axis=1)
+        return np.asarray((chosen * places[:, None, None] ** np.arange(4)).sum(axis=-1))
+
+    def extremes(self, of: str) -> tuple[Array, Array, Array, Array]:
+        """Least and greatest value (P,) of one of ``ORDER``, each with its place (P,), m: least, at, greatest, at.
+
+        Exact: ends of the pieces and the zeros of the derivative, which is a quadratic.
+        """
+        c = self.cubics[:, :, ORDER.index(of), :]
+        low, high = self.edges[:, :-1], self.edges[:, 1:]
+        s = np.stack([low, high, *_stationary(c)], axis=-1)
+        inside = (s >= low[..., None]) & (s <= high[..., None]) & (high > low)[..., None]
+        s = np.where(inside, s, low[..., None])
+        values = np.where(inside, (c[..., None, :] * s[..., None] ** np.arange(4)).sum(axis=-1), np.nan)
+        flat, places = values.reshape(len(values), -1), s.reshape(len(values), -1)
+        out = []
+        for sign in (-1.0, 1.0):
+            k = np.argmax(np.where(np.isnan(flat), -np.inf, sign * flat), axis=1)[:, None]
+            out += [np.take_along_axis(x, k, axis=1)[:, 0] for x in (flat, places)]
+        return out[0], out[1], out[2], out[3]
+
+    def greatest(self, of: str) -> tuple[Array, Array]:
+        """The value largest in size (P,) of one of ``ORDER`` and its place (P,), m."""
+        least, at_least, most, at_most = self.extremes(of)
+        down = -least > most
+        return np.where(down, least, most), np.where(down, at_least, at_most)
+
+
+def _stationary(c: Array) -> tuple[Array, Array]:
+    """Where the derivative of cubics (..., 4) is zero, NaN where it is not; a quadratic has one place."""
+    a, b, k = 3 * c[..., 3], 2 * c[..., 2], c[..., 1]
+    with np.errstate(all="ignore"):
+        q = -0.5 * (b + np.copysign(np.sqrt(b * b - 4 * a * k), b))
+        return q / a, k / q
+
+
+@dataclass(frozen=True)
+class MemberForces:
+    """What a link carries inside: a curve for each straight member; ``residual`` (P,), how little is left over.
+
+    ``residual``: force and moment that do not close at the end, over the largest on the link; NaN where unknown.
+    """
+
+    result: Result = field(repr=False)
+    link: str
+    curves: tuple[MemberCurve, ...]
+    residual: Array = field(repr=False)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The inner forces that there are, of ``ORDER``: three in the plane, six in space."""
+        return IN_PLANE if self.result.mechanism.dimension == 2 else ORDER
+
+    def curve(self, member: str | None = None) -> MemberCurve:
+        """The curve of one member, by its name `A-B`; the only one by default."""
+        known = {c.name: c for c in self.curves}
+        if member is None and len(known) == 1:
+            return self.curves[0]
+        if member not in known:
+            raise ModelError(f"link {self.link!r} has no member {member!r}", closest(str(member), [*known]))
+        return known[member]
+
+    def at(
+        self, s: float | Array, member: str | None = None, side: Literal["before", "behind"] | None = None
+    ) -> dict[str, Array]:
+        """Inner forces by name, (P,) at a distance s from the start of a member, (P, S) at several."""
+        found = self.curve(member).at(s, side)
+        found = found[:, 0] if np.ndim(s) == 0 else found
+        return {n: found[..., ORDER.index(n)] for n in self.names}
+
+    def largest(self, of: str) -> tuple[float, str, float, int]:
+        """Over the cycle: the value largest in size, its member, place (m) and position (from 0)."""
+        best = (0.0, self.curves[0].name, 0.0, 0)
+        for curve in self.curves:
+            values, places = curve.greatest(of)
+            if np.isfinite(values).any():
+                k = int(np.nanargmax(np.abs(values)))
+                if abs(values[k]) > abs(best[0]):
+                    best = float(values[k]), curve.name, float(places[k]), k
+        return best if np.isfinite(self.residual).any() else (np.nan, *best[1:])
+
+    def stress(self, section: Section | Tree | None = None) -> Stresses:
+        """Stresses of a section, by default that of the file, with safety against yield and fatigue."""
+        from dalembert.machine.members.stresses import stresses
+
+        return stresses(self, section)
+
+    def buckling(self, section: Section | Tree | None = None, ends: float = 1.0) -> Buckling:
+        """Critical compression of the link as a column, by Euler or Johnson, beside the greatest of the cycle."""
+        from dalembert.machine.members.stresses import buckling
+
+        return buckling(self, section, ends)
+
+    def columns(self) -> Iterator[Column]:
+        """Least and greatest of each inner force, with places."""
+        for curve in self.curves:
+            name = self.link if len(self.curves) == 1 else f"{self.link} {curve.name}"
+            for of in self.names:
+                kind = KINDS[ORDER.index(of)]
+                for word, values, places in zip(
+                    ("least", "greatest"), curve.extremes(of)[::2], curve.extremes(of)[1::2], strict=True
+                ):
+                    yield Column(f"{of} {name} {word}", kind, values)
+                    yield Column(f"{of} {name} {word} at", "length", places)
+        yield Column(f"residual {self.link}", "number", self.residual)
+
+    def record(self, to: Scale) -> Tree:
+        """The largest over the cycle, by name, in the units of a scale."""
+        out: Tree = {}
+        for of in self.names:
+            value, member, place, k = self.largest(of)
+            kind = KINDS[ORDER.index(of)]
+            out[of] = {
+                "largest": to(kind, value),
+                "member": member,
+                "at": to("length", place),
+                "position": k + 1,
+            }
+        return out
+
+
+def member_forces(r: Result, link: str) -> MemberForces:
+    """Axial force, shear and bending moment inside a link, in space also torsion and both planes, at any place.
+
+    The link is its `members`, straight lines between its points, or the line through its joints. Its mass lies along
+    them as `mass_along` says; what of mass, centre and inertia that leaves over acts at the mass centre, so that every
+    link is in balance (``residual``). What acts beside the line does so by a stiff bracket at its foot. NaN where the
+    reactions are not unique. Raises ModelError for a link without length, and for one whose joints are on no line.
+
+    >>> import dalembert as da
+    >>> from dalembert.bundled import examples
+    >>> f = da.member_forces(da.dynamics(da.load(examples()["four_bar"])), "rocker")
+    >>> bool(f.residual.max() < 1e-9), sorted(f.at(0.05))
+    (True, ['axial', 'bending', 'shear'])
+    """
+    if link not in r.links:
+        raise ModelError(f"there is no moving link {link!r}", closest(link, list(r.links)))
+    acting = LinkBalance(r, link)
+    members = members_of(r.mechanism, link, acting.joints())
+    loads, far = acting.loads(members), beyond(members)
+    curves = tuple(_curve(acting, e, k, far[k], loads) for k, e in enumerate(members))
+    return MemberForces(r, link, curves, _residual(acting, loads))
+
+
+def _curve(acting: LinkBalance, e: Straight, k: int, far: Flags, loads: Loads) -> MemberCurve:
+    """Cubics of member number k: sums of what is beyond each piece, and the mass on it."""
+    count, masses = len(acting.unknown), {0.0, e.length, *(x for p in e.mass for x in (p.start, p.end))}
+    feet = [np.where(w.member == k, w.foot, 0.0) for w in loads.seated if (w.member == k).any()]
+    fixed = [np.full(count, x) for x in masses]
+    edges = np.sort(np.stack([*feet, *fixed], axis=1), axis=1)
+    low, high = edges[:, :-1], edges[:, 1:]
+    cubics = np.zeros((count, high.shape[1], 6, 4))
+    for w in loads.seated:
+        on = (w.member == k)[:, None] & (w.foot[:, None] >= high)
+        _add(cubics, e, np.asarray(on | far[w.member][:, None]), w)
+    for j, w in loads.spread:
+        if far[j]:
+            _add(cubics, e, np.ones_like(high, bool), w)
+    density = sum(
+        (np.where((low >= p.start) & (high <= p.end), p.density, 0.0) for p in e.mass), np.zeros_like(high)
+    )
+    if e.mass:
+        _add_mass(cubics, edges, density, *(v @ e.axes.T for v in acting.distributed(e)))
+    return MemberCurve(e, edges, cubics + acting.unknown[:, None, None, None])
+
+
+def _add(cubics: Array, e: Straight, on: Flags, w: Wrench) -> None:
+    """Inner forces of a wrench where it is beyond the cut (P, J)."""
+    force, moment = w.force @ e.axes.T, w.about(e.start) @ e.axes.T
+    n, y, z = (np.where(on, force[:, i, None], 0.0) for i in range(3))
+    cubics[:, :, 0, 0] += n
+    cubics[:, :, 1, 0] -= y
+    cubics[:, :, 2, 0] += z
+    cubics[:, :, 3:, 0] += np.where(on[..., None], moment[:, None, :], 0.0)
+    cubics[:, :, 4, 1] += z
+    cubics[:, :, 5, 1] -= y
+
+
+def _add_mass(cubics: Array, edges: Array, density: Array, c0: Array, c1: Array) -> None:
+    """Inner forces of mass (P, J) per length under q = density (c0 - c1 s), both (P, 3) in member axes."""
+    low, u = edges[:, :-1], edges[:, 1:]
+    on = [density * (u**n - low**n) / n for n in (1, 2, 3)]
+    s0, s1, s2 = (
+        np.cumsum(m[:, ::-1], axis=1)[:, ::-1] - m + density * u**n / n for n, m in enumerate(on, 1)
+    )
+    c0, c1 = c0[:, None, :], c1[:, None, :]
+    s0, s1, s2, mu = (x[..., None] for x in (s0, s1, s2, density))
+    force = np.stack([c0 * s0 - c1 * s1, -mu * c0, mu * c1 / 2, np.zeros_like(mu * c0)], axis=-1)
+    arm = np.stack([c0 * s1 - c1 * s2, c1 * s1 - c0 * s0, mu * c0 / 2, -mu * c1 / 6], axis=-1)
+    cubics[:, :, 0] += force[:, :, 0]
+    cubics[:, :, 1] -= force[:, :, 1]
+    cubics[:, :, 2] += force[:, :, 2]
+    cubics[:, :, 4] -= arm[:, :, 2]
+    cubics[:, :, 5] += arm[:, :, 1]
+
+
+def _residual(acting: LinkBalance, loads: Loads) -> Array:
+    """What is left of forces and moments about the centre, over the largest."""
+    wrenches = [*loads.seated, *(w for _, w in loads.spread)]
+    forces = np.array([w.force for w in wrenches])
+    moments = np.array([w.about(acting.center) for w in wrenches])
+    length = acting.r.compiled.layout.length
+    largest = [float(np.nanmax(np.abs(x), initial=0.0)) for x in (forces, moments)]
+    size = max(largest[0], largest[1] / length) or 1.0
+    off = [np.abs(x.sum(axis=0)).max(axis=1) for x in (forces, moments)]
+    return np.asarray(np.maximum(off[0], off[1] / length) / size + acting.unknown)

@@ -1,0 +1,173 @@
+"""The straight members of a link, the mass along each, and where what acts on the link has its foot."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags
+from dalembert.errors import ModelError
+from dalembert.model import Box
+
+if TYPE_CHECKING:
+    from dalembert.model import Mechanism
+
+FLAT = 1e-9
+"""Off a line by less than this part of its length is on it."""
+DIGITS = 12
+"""Places along a member are told apart to so many decimals of its length."""
+
+
+@dataclass(frozen=True)
+class MassPiece:
+    """Mass per length between two distances from the start of a member, kg/m and m."""
+
+    start: float
+    end: float
+    density: float
+
+
+@dataclass(frozen=True)
+class Straight:
+    """A straight member in link axes: its ends by name, start (3,), length, axes (3, 3) in rows t, y, z; its mass."""
+
+    ends: tuple[str, str]
+    start: Array
+    length: float
+    axes: Array
+    mass: tuple[MassPiece, ...] = ()
+
+    @property
+    def along(self) -> Array:
+        """Unit vector t (3,) from the first end to the second."""
+        return np.asarray(self.axes[0])
+
+    def foot(self, places: Array) -> tuple[Array, Array]:
+        """Of places (..., 3): distance of the nearest place on the member from its start, and distance from there."""
+        s = np.clip((places - self.start) @ self.along, 0.0, self.length)
+        off = np.linalg.norm(places - self.start - s[..., None] * self.along, axis=-1)
+        return self.rounded(s), off
+
+    def rounded(self, s: Array | float) -> Array:
+        """Distances without rounding noise, so that a place is on one side of a force or on the other."""
+        return np.asarray(np.round(np.asarray(s) / self.length, DIGITS) * self.length)
+
+
+def in_space(vector: Sequence[float] | Array) -> Array:
+    """Vectors (..., 2) of the plane, or (..., 3), with three components."""
+    v = np.asarray(vector, float)
+    return v if v.shape[-1] == 3 else np.concatenate([v, np.zeros((*v.shape[:-1], 1))], axis=-1)
+
+
+def straight(ends: tuple[str, str], a: Array, b: Array) -> Straight:
+    """The member from a to b: y is t turned by +90 degrees about the link's z axis, or y where t is along that."""
+    length = float(np.linalg.norm(b - a))
+    t = (b - a) / length
+    across = np.cross((0.0, 0.0, 1.0), t)
+    y = across / np.linalg.norm(across) if np.linalg.norm(across) > FLAT else np.array([0.0, 1.0, 0.0])
+    return Straight(ends, a, length, np.array([t, y, np.cross(t, y)]))
+
+
+def members_of(m: Mechanism, link: str, joints: Array) -> tuple[Straight, ...]:
+    """The members of a link: as its file says, or the line through the places (N, 3) of its joints, link axes.
+
+    Raises ModelError where these are on no line.
+    """
+    part = m.links[link]
+    if part.members:
+        found = [straight(pair, *(in_space(m.point(link, end)) for end in pair)) for pair in part.members]
+    else:
+        found = [_line(m, link, joints)]
+    return tuple(_with_mass(m, link, found))
+
+
+def _line(m: Mechanism, link: str, joints: Array) -> Straight:
+    """The line through joints, as far as named points go that are on it; of one joint through all points."""
+    points = {name: in_space(p) for name, p in m.points(link).items()}
+    named = np.array([*points.values()]).reshape(-1, 3)
+    spread = joints if len(joints) and _size(joints) > 0 else np.concatenate([joints, named])
+    listed = ", ".join(points) or "none"
+    if not len(spread) or not _size(spread) > 0:
+        raise ModelError(
+            f"link {link!r} has no length: its points are {listed}",
+            "name two points of it: members: [[A, B]]",
+            ("links", link),
+        )
+    middle = spread.mean(axis=0)
+    t = np.linalg.svd(spread - middle, full_matrices=False)[2][0]
+    size = _size(spread)
+    if (_off(spread, middle, t) > FLAT * size).any():
+        raise ModelError(
+            f"the joints of link {link!r} are on no line; its points are {listed}",
+            "say which straight members it has: members: [[A, B], [B, C]]",
+            ("links", link),
+        )
+    on = {n: float((p - middle) @ t) for n, p in points.items() if _off(p, middle, t) <= FLAT * size}
+    s = np.concatenate([(spread - middle) @ t, [*on.values()]])
+    order = [*on.values()] if len(on) > 1 else list((spread - middle) @ t)
+    sign = -1.0 if order[0] > order[-1] or (order[0] == order[-1] and order[0] > s.mean()) else 1.0
+    low, high = (s.min(), s.max())[:: int(sign)]
+    ends = tuple(next((n for n, x in on.items() if abs(x - e) <= FLAT * size), "") for e in (low, high))
+    return straight((ends[0] or "start", ends[1] or "end"), middle + low * t, middle + high * t)
+
+
+def _size(places: Array) -> float:
+    return float(np.linalg.norm(np.ptp(places, axis=0)))
+
+
+def _off(places: Array, middle: Array, t: Array) -> Array:
+    arm = places - middle
+    return np.asarray(np.linalg.norm(arm - (arm @ t)[..., None] * t, axis=-1))
+
+
+def _with_mass(m: Mechanism, link: str, found: list[Straight]) -> list[Straight]:
+    """The members with their mass: all of it evenly, or what of the shape lies along them."""
+    part = m.links[link]
+    if part.mass_along == "uniform":
+        density = m.mass(link) / sum(e.length for e in found)
+        return [
+            Straight(e.ends, e.start, e.length, e.axes, (MassPiece(0.0, e.length, density),)) for e in found
+        ]
+    if part.mass_along == "lumped":
+        return found
+    pieces: list[list[MassPiece]] = [[] for _ in found]
+    solids = [shape.solid(part.point) for shape in part.shapes]
+    volume = sum(s.volume for s in solids)
+    for shape, solid in zip(part.shapes, solids, strict=True):
+        mass = solid.volume * (m.mass(link) / volume if shape.density is None else shape.density)
+        for direction, middle, length in _prisms(shape, part.point):
+            for e, own in zip(found, pieces, strict=True):
+                on_line = _off(middle[None], e.start, e.along)[0] <= FLAT * e.length
+                if abs(direction @ e.along) > 1 - FLAT and on_line:
+                    s = float((middle - e.start) @ e.along)
+                    low, high = (float(np.clip(s + x * length / 2, 0.0, e.length)) for x in (-1, 1))
+                    if high > low:
+                        own.append(MassPiece(low, high, mass / length))
+    return [Straight(e.ends, e.start, e.length, e.axes, tuple(p)) for e, p in zip(found, pieces, strict=True)]
+
+
+def _prisms(shape: Any, points: Any) -> list[tuple[Array, Array, float]]:
+    """Directions along which a shape has the same section all the way, with its middle and length."""
+    if isinstance(shape, Box):
+        return [(np.array(a), shape.middle(), x) for a, x in zip(shape.own_axes, shape.size, strict=True)]
+    if hasattr(shape, "line"):
+        length, middle, axis = shape.line(points)
+        return [(axis, middle, float(length))]
+    return []
+
+
+def beyond(members: Sequence[Straight]) -> Flags:
+    """(E, E): whether member f is on the far side of member e, behind its second end."""
+    out = np.zeros((len(members), len(members)), bool)
+    for k, e in enumerate(members):
+        met, found = {e.ends[1]}, True
+        while found:
+            found = False
+            for j, f in enumerate(members):
+                if j != k and not out[k, j] and met & {*f.ends}:
+                    out[k, j] = found = True
+                    met |= {*f.ends}
+    return out

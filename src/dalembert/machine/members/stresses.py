@@ -1,0 +1,261 @@
+"""Stress of a section along a member, safety against yield, fatigue of each fibre, and buckling of the link.
+
+sigma = N/A - M_z y / I_z + M_y z / I_y at a fibre (y, z); von Mises at the outer fibres with torsion, and at the axis
+with shear and torsion, the larger. No notches, no stress concentration.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.arrays import Array, Tree
+from dalembert.errors import ModelError
+from dalembert.machine.members.member_forces import MemberCurve
+from dalembert.model.links.sections import Section
+
+if TYPE_CHECKING:
+    from dalembert.machine.members.member_forces import MemberForces
+
+SAMPLES, STEPS = 33, 60
+"""Places on each piece of a member where a stress is looked at first, and halvings about the greatest of them."""
+STATIONS = 129
+"""Places along a member where fatigue is looked at, three times, closer each time about the worst."""
+FIBRES = 72
+"""Fibres round a circle that bends in both planes."""
+
+
+@dataclass(frozen=True)
+class Fatigue:
+    """Worst fibre over the cycle: place (m) on a member, mean and amplitude of its stress, Pa, and the safety.
+
+    By Goodman 1 / n = amplitude / endurance + mean / ultimate, a mean in compression left out; None without these.
+    """
+
+    member: str
+    place: float
+    mean: float
+    amplitude: float
+    safety: float | None
+
+
+@dataclass(frozen=True)
+class Stresses:
+    """Greatest von Mises stress (P,) of a link, Pa, with its member and place (P,), m; ``normal`` (P,) is sigma there.
+
+    ``largest``: over the cycle, ``position`` (from 0) where; ``safety`` against yield, None without a yield stress.
+    """
+
+    forces: MemberForces = field(repr=False)
+    section: Section
+    equivalent: Array = field(repr=False)
+    member: tuple[str, ...] = field(repr=False)
+    place: Array = field(repr=False)
+    normal: Array = field(repr=False)
+
+    @property
+    def position(self) -> int:
+        """Where it is largest, from 0."""
+        return int(np.nanargmax(self.equivalent)) if np.isfinite(self.equivalent).any() else 0
+
+    @property
+    def largest(self) -> float:
+        """The largest of the cycle, Pa."""
+        return float(self.equivalent[self.position])
+
+    @property
+    def safety(self) -> float | None:
+        """Yield stress over the largest."""
+        given = self.section.yield_stress
+        return None if given is None else given / self.largest if self.largest else math.inf
+
+    def parts(self) -> tuple[float, float]:
+        """What N and what M make of the normal stress at the largest, Pa."""
+        k = self.position
+        comps = self.forces.curve(self.member[k]).at(float(self.place[k]))[k, 0]
+        direct = float(comps[0] / self.section.area_of)
+        return direct, float(self.normal[k]) - direct
+
+    def fatigue(self) -> Fatigue:
+        """The fibre that is worst over the cycle, by Goodman where endurance and ultimate stress are given, else by the
+        amplitude alone. NaN where a position has no answer.
+        """
+        found = [_fatigue(self.forces, curve, self.section) for curve in self.forces.curves]
+        use = [_utilisation(self.section, f.mean, f.amplitude) for f in found]
+        return found[int(np.argmax(use))]
+
+
+@dataclass(frozen=True)
+class Buckling:
+    """Critical compression of a link, N, by `Euler` or `Johnson`, and its greatest compression of the cycle, N.
+
+    ``position`` (from 0) where; ``safety`` critical / compression, infinite without compression; ``two_force``: whether
+    it bends by nothing, so that the formula holds: else it is for comparison.
+    """
+
+    critical: float
+    formula: str
+    slenderness: float
+    compression: float
+    position: int
+    safety: float
+    two_force: bool
+
+
+def section_of(forces: MemberForces, given: Section | Tree | None) -> Section:
+    """The section asked for, or that of the file."""
+    if isinstance(given, Mapping):
+        return Section(**given)
+    found = given or forces.result.mechanism.links[forces.link].section
+    if found is None:
+        remedy = "give it one: section: {rectangle: [20 mm, 40 mm]}"
+        raise ModelError(f"link {forces.link!r} has no section", remedy, ("links", forces.link))
+    return found
+
+
+def fibre_stress(s: Section, comps: Array, plane: bool, places: Array | None = None) -> Array:
+    """Normal stress (..., F) of inner forces (..., 6) at fibres (F, 2), by default the outer ones."""
+    direct = comps[..., 0] / s.area_of
+    (iy, iz), y = s.second_moments, s.reach[0]
+    if places is None and s.round and not plane:
+        bend = np.hypot(comps[..., 4], comps[..., 5]) * y / iz
+        return np.stack([direct + bend, direct - bend], axis=-1)
+    at = outer_fibres(s, plane) if places is None else places
+    bent = comps[..., 4, None] * at[:, 1] / iy - comps[..., 5, None] * at[:, 0] / iz
+    return np.asarray(direct[..., None] + bent)
+
+
+def outer_fibres(s: Section, plane: bool) -> Array:
+    """Places (F, 2) of the fibres that are stressed most: y = +-, in space the corners, or round a circle."""
+    y, z = s.reach
+    if plane:
+        return np.array([[y, 0.0], [-y, 0.0]])
+    if s.round:
+        angle = 2 * math.pi * np.arange(FIBRES) / FIBRES
+        return y * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    s.torsion  # noqa: B018  numbers alone say nothing of bending two ways: refused
+    return np.array([[a * y, b * z] for a in (1, -1) for b in (1, -1)])
+
+
+def equivalent_stress(s: Section, comps: Array, plane: bool) -> Array:
+    """Von Mises stress (...): at the outer fibre with torsion, at the axis with shear and torsion, the larger."""
+    sigma = np.abs(fibre_stress(s, comps, plane)).max(axis=-1)
+    twist = 0.0 if plane else np.abs(comps[..., 3]) / s.torsion
+    shear = s.shear * np.hypot(comps[..., 1], comps[..., 2])
+    axis = (comps[..., 0] / s.area_of) ** 2 + 3 * (shear + twist) ** 2
+    return np.asarray(np.sqrt(np.maximum(sigma**2 + 3 * twist**2, axis)))
+
+
+def stresses(forces: MemberForces, given: Section | Tree | None = None) -> Stresses:
+    """The greatest stress of a link at every position."""
+    s, plane = section_of(forces, given), forces.result.mechanism.dimension == 2
+    found = [_greatest(curve, lambda comps: equivalent_stress(s, comps, plane)) for curve in forces.curves]
+    values = np.array([f[0] for f in found])
+    k = np.argmax(np.nan_to_num(values), axis=0)
+    place = np.take_along_axis(np.array([f[1] for f in found]), k[None], axis=0)[0]
+    comps = np.take_along_axis(np.array([f[2] for f in found]), k[None, :, None], axis=0)[0]
+    sigma = fibre_stress(s, comps, plane)
+    normal = np.take_along_axis(sigma, np.argmax(np.abs(np.nan_to_num(sigma)), axis=-1)[:, None], axis=-1)
+    names = tuple(forces.curves[j].name for j in k)
+    return Stresses(forces, s, np.take_along_axis(values, k[None], axis=0)[0], names, place, normal[:, 0])
+
+
+def _greatest(curve: MemberCurve, f: Callable[[Array], Array]) -> tuple[Array, Array, Array]:
+    """Greatest value (P,) of f of the inner forces along a member, its place (P,), and the forces there (P, 6)."""
+    low, high = curve.edges[:, :-1], curve.edges[:, 1:]
+    best = [np.full(len(low), -np.inf), low[:, 0], np.zeros((len(low), 6))]
+    for j in range(low.shape[1]):
+        a, b = low[:, j], high[:, j]
+
+        def value(s: Array, cubics: Array = curve.cubics[:, j]) -> tuple[Array, Array]:
+            powers = s[..., None, None] ** np.arange(4)
+            comps = (cubics[(slice(None), *[None] * (s.ndim - 1))] * powers).sum(axis=-1)
+            return f(comps), comps
+
+        grid = a[:, None] + (b - a)[:, None] * np.linspace(0, 1, SAMPLES)
+        k = np.argmax(np.nan_to_num(value(grid)[0]), axis=1)
+        left, right = (
+            np.take_along_axis(grid, np.clip(k + d, 0, SAMPLES - 1)[:, None], 1)[:, 0] for d in (-1, 1)
+        )
+        for _ in range(STEPS):
+            third = (right - left) / 3
+            up = value(left + third)[0] < value(right - third)[0]
+            left, right = np.where(up, left + third, left), np.where(up, right, right - third)
+        for s in (a, b, (left + right) / 2):
+            found, comps = value(s)
+            better = ((found > best[0]) | np.isnan(found)) & (b > a)
+            best = [
+                np.where(better, found, best[0]),
+                np.where(better, s, best[1]),
+                np.where(better[:, None], comps, best[2]),
+            ]
+    return best[0], best[1], best[2]
+
+
+def _utilisation(s: Section, mean: Array | float, amplitude: Array | float) -> Array:
+    """1 / n by Goodman, or the amplitude where the material is not given."""
+    if s.endurance is None or s.ultimate is None:
+        return np.asarray(amplitude)
+    return np.asarray(np.asarray(amplitude) / s.endurance + np.maximum(mean, 0.0) / s.ultimate)
+
+
+def _fatigue(forces: MemberForces, curve: MemberCurve, s: Section) -> Fatigue:
+    """The worst fibre of a member: at even stations, then closer about the worst, on both sides of every force."""
+    plane, length = forces.result.mechanism.dimension == 2, curve.member.length
+    at = outer_fibres(s, plane)
+    low, high = 0.0, length
+    best = (-math.inf, 0.0, math.nan, math.nan)
+    for _ in range(3):
+        places = np.linspace(low, high, STATIONS)
+        if high - low == length:
+            places = np.union1d(places, curve.edges[0][np.isfinite(curve.edges[0])])
+        for side in ("before", "behind"):
+            inner = places[(places > 0) if side == "before" else (places < length)]
+            sigma = fibre_stress(s, curve.at(inner, side), plane, at)
+            mean, swing = (sigma.max(axis=0) + sigma.min(axis=0)) / 2, np.ptp(sigma, axis=0) / 2
+            use = _utilisation(s, mean, swing)
+            if np.isnan(use).any():
+                return Fatigue(curve.name, 0.0, math.nan, math.nan, None)
+            k = np.unravel_index(np.argmax(use), use.shape)
+            if use[k] > best[0]:
+                best = (float(use[k]), float(inner[k[0]]), float(mean[k]), float(swing[k]))
+        step = (high - low) / (STATIONS - 1)
+        low, high = max(0.0, best[1] - step), min(length, best[1] + step)
+    known = s.endurance is not None and s.ultimate is not None
+    safety = (1 / best[0] if best[0] > 0 else math.inf) if known else None
+    return Fatigue(curve.name, best[1], best[2], best[3], safety)
+
+
+def buckling(forces: MemberForces, given: Section | Tree | None = None, ends: float = 1.0) -> Buckling:
+    """Euler's N = pi^2 E I / (k L)^2, or below slenderness pi sqrt(2 E / S_y) Johnson's, with the least I.
+
+    ``ends``: k, 1 between pins. N = A S_y (1 - S_y (k L / i)^2 / (4 pi^2 E)), i^2 = I / A. Raises ModelError for a
+    bent link, and without Young's modulus.
+    """
+    from dalembert.analysis.methods.members import members
+
+    s = section_of(forces, given)
+    if s.elasticity is None:
+        path = ("links", forces.link, "section")
+        raise ModelError(
+            f"the section of {forces.link!r} has no elasticity", "give elasticity: 210 GPa", path
+        )
+    curve = forces.curve()
+    inertia, area = min(s.second_moments), s.area_of
+    slender = ends * curve.member.length / math.sqrt(inertia / area)
+    euler = math.pi**2 * s.elasticity * area / slender**2
+    critical, formula = euler, "Euler"
+    if s.yield_stress is not None and slender < math.pi * math.sqrt(2 * s.elasticity / s.yield_stress):
+        critical = area * s.yield_stress * (1 - s.yield_stress * slender**2 / (4 * math.pi**2 * s.elasticity))
+        formula = "Johnson"
+    least = curve.extremes("axial")[0]
+    known = np.isfinite(least).any()
+    k = int(np.nanargmin(least)) if known else 0
+    compression = max(0.0, -float(least[k])) if known else math.nan
+    safety = critical / compression if compression else math.inf
+    kind = members(forces.result)[forces.link].kind
+    return Buckling(critical, formula, slender, compression, k, safety, kind in ("two-force", "zero-force"))

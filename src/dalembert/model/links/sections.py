@@ -1,0 +1,190 @@
+"""The section of a straight member: its numbers for stress and buckling, from a shape or as given."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, Self
+
+from pydantic import Field, ValidationInfo, model_validator
+
+from dalembert.errors import ModelError
+from dalembert.model.links.shapes import Lengths
+from dalembert.model.part import Part
+from dalembert.model.quantities.values import JsonSchema, Scalar, Value, Vector, name, pair_of_names
+
+MASS_ALONG = ("uniform", "shape", "lumped")
+
+
+class MassAlong(Value):
+    """How a link's mass lies along its members."""
+
+    def read(self, value: object, info: ValidationInfo) -> str:
+        if value not in MASS_ALONG:
+            raise ModelError(
+                f"{value!r} is no way to lay out mass along a member", f"write {', '.join(MASS_ALONG)}"
+            )
+        return str(value)
+
+    def json_schema(self) -> JsonSchema:
+        return {"enum": list(MASS_ALONG)}
+
+
+class Members(Value):
+    """`[[A, B], [B, C]]`: straight members by two points of the link each, or a single `[A, B]`."""
+
+    def read(self, value: Any, info: ValidationInfo) -> tuple[tuple[str, str], ...]:
+        example = "write [[A, B], [B, C]]"
+        if not isinstance(value, (list, tuple)) or not value:
+            raise ModelError("no members stand where a list is needed", example)
+        pairs = value if isinstance(value[0], (list, tuple)) else [value]
+        found = tuple(pair_of_names(pair) for pair in pairs)
+        met = [{name(found[0][0])}]
+        for a, b in found:
+            at_a, at_b = (next((s for s in met if end in s), {end}) for end in (a, b))
+            if at_a is at_b:
+                what = (
+                    f"the members close a ring at {a!r} and {b!r}: the forces in it are not found by statics"
+                )
+                raise ModelError(what, "leave one of them out: members are a tree")
+            met = [s for s in met if s is not at_a and s is not at_b] + [at_a | at_b]
+        if len(met) > 1:
+            raise ModelError("the members hang together nowhere", "let each begin at a point of another")
+        return found
+
+    def write(self, value: tuple[tuple[str, str], ...]) -> object:
+        return [list(pair) for pair in value]
+
+    def json_schema(self) -> JsonSchema:
+        pair = {"type": "array", "items": {"type": ["string", "integer"]}, "minItems": 2, "maxItems": 2}
+        return {"anyOf": [pair, {"type": "array", "items": pair, "minItems": 1}]}
+
+
+Stress = Annotated[float, Scalar("pressure", "positive")]
+
+
+class Section(Part):
+    """The section of a member, by one shape or by area, modulus and inertia; and the strength of its material.
+
+    y lies across the member in the plane of bending (z the normal of the plane). ``area`` A, ``modulus`` W = I / e,
+    ``inertia`` I, second moment of area.
+
+    >>> s = Section(rectangle=("20 mm", "40 mm"))
+    >>> round(s.area_of, 9), round(s.second_moments[1], 13)    # m2; m4 in the plane
+    (0.0008, 1.066667e-07)
+    """
+
+    rectangle: Annotated[Vector, Lengths(2, "write rectangle: [across the plane, in the plane]")] | None = (
+        Field(None, description="[across the plane, in the plane]: lengths")
+    )
+    circle: Annotated[float, Scalar("length", "positive")] | None = Field(None, description="diameter")
+    tube: Annotated[Vector, Lengths(2, "write tube: [inner, outer diameter]")] | None = Field(
+        None, description="[inner, outer] diameter"
+    )
+    I: Annotated[Vector, Lengths(4, "write I: [height, width, web, flange]")] | None = Field(  # noqa: E741
+        None, description="[height in the plane, width, thickness of web, of flange]: lengths"
+    )
+    area: Annotated[float, Scalar("area", "positive")] | None = Field(None, description="A, length^2")
+    modulus: Annotated[float, Scalar("section_modulus", "positive")] | None = Field(
+        None, description="W = I / e, length^3"
+    )
+    inertia: Annotated[float, Scalar("second_moment", "positive")] | None = Field(
+        None, description="second moment of area I, length^4"
+    )
+    yield_stress: Stress | None = Field(None, description="of the material, force per area")
+    ultimate: Stress | None = Field(None, description="ultimate stress of the material")
+    endurance: Stress | None = Field(None, description="endurance stress of the material")
+    elasticity: Stress | None = Field(None, description="Young's modulus of the material")
+
+    @model_validator(mode="after")
+    def _one_size(self) -> Self:
+        shapes = [k for k in ("rectangle", "circle", "tube", "I") if getattr(self, k) is not None]
+        given = [k for k in ("area", "modulus", "inertia") if getattr(self, k) is not None]
+        if len(shapes) + bool(given) != 1:
+            what = f"{' and '.join([*shapes, *given])} give it twice" if shapes else "the section has no size"
+            raise ModelError(
+                what, "write one of rectangle, circle, tube, I, or area, modulus and inertia", given[:1]
+            )
+        if given and len(given) < 3:
+            missing = next(k for k in ("area", "modulus", "inertia") if k not in given)
+            raise ModelError(
+                f"the section has no {missing}", "give area, modulus and inertia, or a shape", ()
+            )
+        if self.tube and self.tube[0] >= self.tube[1]:
+            raise ModelError("the inner diameter is not smaller", "write tube: [inner, outer]", ("tube",))
+        if self.I and (self.I[2] >= self.I[1] or 2 * self.I[3] >= self.I[0]):
+            raise ModelError("web and flanges do not fit", "write I: [height, width, web, flange]", ("I",))
+        return self
+
+    @property
+    def round(self) -> bool:
+        """Whether it bends the same way about every axis."""
+        return self.circle is not None or self.tube is not None
+
+    @property
+    def _diameters(self) -> tuple[float, float]:
+        inner, outer = self.tube or (0.0, self.circle or 0.0)
+        return inner, outer
+
+    @property
+    def area_of(self) -> float:
+        """A, m2."""
+        if self.area is not None:
+            return self.area
+        if self.rectangle:
+            return self.rectangle[0] * self.rectangle[1]
+        if self.I:
+            h, b, web, flange = self.I
+            return 2 * b * flange + (h - 2 * flange) * web
+        inner, outer = self._diameters
+        return math.pi / 4 * (outer**2 - inner**2)
+
+    @property
+    def second_moments(self) -> tuple[float, float]:
+        """(about y, about z), m4: in the plane it bends about z."""
+        if self.inertia is not None:
+            return self.inertia, self.inertia
+        if self.rectangle:
+            b, h = self.rectangle
+            return h * b**3 / 12, b * h**3 / 12
+        if self.I:
+            h, b, web, flange = self.I
+            clear = h - 2 * flange
+            return (2 * flange * b**3 + clear * web**3) / 12, (b * h**3 - (b - web) * clear**3) / 12
+        inner, outer = self._diameters
+        return (math.pi / 64 * (outer**4 - inner**4),) * 2
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """How far its outermost fibres are from the axis along y and z, m."""
+        if self.inertia is not None and self.modulus is not None:
+            return (self.inertia / self.modulus,) * 2
+        if self.rectangle:
+            return self.rectangle[1] / 2, self.rectangle[0] / 2
+        if self.I:
+            return self.I[0] / 2, self.I[1] / 2
+        return (self._diameters[1] / 2,) * 2
+
+    @property
+    def shear(self) -> float:
+        """Greatest shear stress over the shear force, 1/m2: 3/2 A, 4/3 A, 2/A of a thin tube, that of a web."""
+        if self.I:
+            return 1 / (self.I[2] * (self.I[0] - 2 * self.I[3]))
+        if self.round:
+            inner, outer = (d / 2 for d in self._diameters)
+            return 4 / 3 / self.area_of * (outer**2 + outer * inner + inner**2) / (outer**2 + inner**2)
+        return 1.5 / self.area_of
+
+    @property
+    def torsion(self) -> float:
+        """Torque over its greatest shear stress, m3; rectangles by a b^2 / (3 + 1.8 b/a), a the longer side."""
+        if self.round:
+            inner, outer = self._diameters
+            return math.pi / 16 * (outer**4 - inner**4) / outer
+        if self.rectangle:
+            short, long = sorted(self.rectangle)
+            return long * short**2 / (3 + 1.8 * short / long)
+        if self.I:
+            h, b, web, flange = self.I
+            return (2 * b * flange**3 + (h - 2 * flange) * web**3) / 3 / max(web, flange)
+        remedy = "give a rectangle, a circle, a tube or an I"
+        raise ModelError("a section by its numbers says nothing of torsion, nor of bending two ways", remedy)

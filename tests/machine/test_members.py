@@ -1,0 +1,298 @@
+"""Forces inside links: a link cut in two and welded, rates along the member, ends, scaling, closed forms."""
+
+from __future__ import annotations
+
+import json
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.analysis.methods.applied_forces import on_link, whole_actions
+from dalembert.bundled import examples
+from dalembert.cli import main
+from dalembert.machine.members.link_balance import LinkBalance
+from tests.random_mechanisms import random_case
+from tests.random_space import random_case as random_in_space
+from tests.random_space import tree as tree_in_space
+from tests.tiers import over
+
+ARM = """
+links:
+  ground: {points: {O: [0, 0]}}
+  arm: {points: {O: [0, 0], A: [0.6, 0]}, mass: 2, center: [0.3, 0], inertia: 0.06, mass_along: uniform,
+        section: {rectangle: [20 mm, 40 mm], yield_stress: 250 MPa}}
+joints:
+  O: {type: pin, links: [ground, arm]}
+drives:
+  O: {position: 0, speed: 100 rad/s, acceleration: 500 rad/s^2}
+"""
+"""STR-3."""
+
+
+def test_an_arm_that_turns_about_one_end() -> None:
+    f = da.member_forces(da.dynamics(da.loads(ARM)), "arm")
+    root, middle = f.at(0.0), f.at(0.3)
+    assert root["axial"] == pytest.approx(6000, rel=1e-12)
+    assert middle["axial"] == pytest.approx(4500, rel=1e-12)
+    assert abs(root["bending"]) == pytest.approx(120, rel=1e-12)
+    assert abs(root["shear"]) == pytest.approx(300, rel=1e-12)
+    s = f.stress()
+    assert s.largest == pytest.approx(30e6, rel=1e-12)
+    assert s.place[0] == 0
+    assert s.safety == pytest.approx(250 / 30, rel=1e-12)
+
+
+def test_a_falling_chimney_breaks_at_a_third() -> None:
+    """STR-1: released at an angle from the vertical, with the acceleration that leaves no effort."""
+    angle, g = 0.7, 9.80665
+    text = ARM.replace("position: 0, speed: 100", f"position: {np.pi / 2 - angle} rad, speed: 0")
+    text = text.replace("acceleration: 500", f"acceleration: {-1.5 * g * np.sin(angle) / 0.6}")
+    r = da.dynamics(da.loads("gravity: standard\n" + text))
+    assert abs(r.effort("O")[0]) < 1e-12
+    value, _, place, _ = da.member_forces(r, "arm").largest("bending")
+    assert place / 0.6 == pytest.approx(1 / 3, rel=1e-9)
+    assert abs(value) == pytest.approx(2 * g * 0.6 * np.sin(angle) / 27, rel=1e-9)
+
+
+def uniform(tree: Any, link: str, f: Any, d: int) -> None:
+    """Make a link a slender bar along its member, in the description."""
+    (curve,) = f.curves
+    e, acting = curve.member, tree["links"][link]
+    middle, mass = e.start + e.along * e.length / 2, 3.0
+    for key in ("weight", "shape"):
+        acting.pop(key, None)
+    acting |= {"mass": mass, "center": [float(x) for x in middle[:d]], "mass_along": "uniform"}
+    acting["inertia"] = bar_inertia(e.along, e.length, mass, d)
+
+
+def bar_inertia(t: Any, length: float, mass: float, d: int) -> Any:
+    own = mass * length**2 / 12 * (np.eye(3) - np.outer(t, t))
+    return float(own[2, 2]) if d == 2 else [[float(x) for x in row] for row in (own + own.T) / 2]
+
+
+def cut_and_weld(m: Any, link: str, slender: bool) -> bool:
+    """Whether a link could be cut in two: then the weld's reaction on the near part is N, V, M there."""
+    d, tree = m.dimension, m.to_tree()
+    f = da.member_forces(da.dynamics(m), link)
+    if len(f.curves) != 1:
+        return False
+    if slender:
+        uniform(tree, link, f, d)
+    m = da.mechanism(tree)
+    r = da.dynamics(m)
+    f, acting = da.member_forces(r, link), LinkBalance(r, link)
+    e = f.curves[0].member
+    feet = {
+        a.of: e.foot(acting.place(a))[0]
+        for a in on_link(whole_actions(r), link)
+        if a.kind in ("joint", "load", "spring", "damper")
+    }
+    some = np.sort(np.concatenate([*feet.values(), [0.0, e.length, float(e.foot(acting.center)[0])]]))
+    gap = int(np.argmax(np.diff(some)))
+    s = float(0.4 * some[gap] + 0.6 * some[gap + 1])
+    far = {name for name, places in feet.items() if (places > s).all()}
+    if some[gap + 1] - some[gap] < 0.02 * e.length or any((feet[n] > s).any() for n in feet.keys() - far):
+        return False
+    split(tree, link, e, s, far, bool(e.foot(acting.center)[0] > s), slender, d)
+    welded = da.dynamics(da.mechanism(tree))
+    weld = "Weld cut"
+    force, couple = welded.reaction(weld, link), welded.reaction_moment(weld, link)
+    turn = acting.rotation
+    there = [np.einsum("kj,pij,pi->pk", e.axes, turn, wide(v)) for v in (force, couple)]
+    expected = np.concatenate([there[0] * [1, -1, 1], there[1]], axis=1)
+    found = f.curves[0].at(s)[:, 0]
+    length = r.compiled.layout.length
+    size = max(float(np.nanmax(np.abs(a.force), initial=1e-9)) for a in on_link(whole_actions(r), link))
+    size = max(size, *(float(np.nanmax(np.abs(a.couple), initial=0.0)) / length for a in acting.actions))
+    gaps = np.abs(found - expected) / [1, 1, 1, length, length, length]
+    assert np.nanmax(gaps, initial=0.0) < 1e-8 * size, (link, s, found, expected)
+    assert np.isfinite(found[np.isfinite(acting.unknown)]).all()
+    assert np.nanmax(f.residual, initial=0.0) < 1e-9
+    return True
+
+
+def wide(v: Any) -> Any:
+    """Forces (P, 2) and couples (P,) of the plane with three components."""
+    if v.ndim == 1:
+        return np.stack([0 * v, 0 * v, v], axis=-1)
+    return v if v.shape[1] == 3 else np.concatenate([v, 0 * v[:, :1]], axis=1)
+
+
+def split(tree: Any, link: str, e: Any, s: float, far: set[str], heavy: bool, slender: bool, d: int) -> None:
+    """The description with the part beyond s as a link of its own, welded on."""
+    near = tree["links"][link]
+    other = json.loads(json.dumps(near))
+    tree["links"]["Far part"] = other
+    place = e.start + s * e.along
+    for acting, low, high in ((near, 0.0, s), (other, s, e.length)):
+        acting["points"]["Weld cut"] = [float(x) for x in place[:d]]
+        if slender:
+            mass = 3.0 * (high - low) / e.length
+            acting |= {"mass": mass, "center": [float(x) for x in (e.start + (low + high) / 2 * e.along)[:d]]}
+            acting["inertia"] = bar_inertia(e.along, high - low, mass, d)
+    if not slender:
+        light = near if heavy else other
+        for key in ("mass", "weight", "inertia", "shape"):
+            light.pop(key, None)
+    tree["joints"]["Weld cut"] = {"type": "weld", "links": [link, "Far part"]}
+    for name, joint in tree["joints"].items():
+        if name in far:
+            joint["links"] = ["Far part" if n == link else n for n in joint["links"]]
+    for name, load in tree.get("loads", {}).items():
+        if name in far and load.get("on") == link:
+            load["on"] = "Far part"
+        if name in far and "between" in load:
+            load["between"] = [b.replace(f"{link}.", "Far part.") for b in load["between"]]
+    if link in tree.get("assembly", {}):
+        tree["assembly"]["Far part"] = tree["assembly"][link]
+
+
+def check_cuts(m: Any, first: int, most: int = 2) -> int:
+    """Cut some links, the first by its number; how many could be."""
+    done, links = 0, [n for n in m.links if n != "ground"]
+    for k in range(len(links)):
+        link = links[(first + k) % len(links)]
+        if any(j.wheels for j in m.joints.values() if link in j.links):
+            continue
+        with suppress(da.ModelError):  # no line through its joints
+            done += cut_and_weld(m, link, slender=bool((first + done) % 2))
+        if done == most:
+            break
+    return done
+
+
+def check_rates(f: Any) -> None:
+    """Derivatives are the load, M' = V; a joint's force is what the member begins or ends with."""
+    for curve in f.curves:
+        low, high, c = curve.edges[:, :-1], curve.edges[:, 1:], curve.cubics
+        acting = LinkBalance(f.result, f.link)
+        density = sum(p.density for p in curve.member.mass)
+        c0, c1 = (density * v @ curve.member.axes.T for v in acting.distributed(curve.member))
+        for t in (0.2, 0.7):
+            s = low + t * (high - low)
+            powers = s[..., None, None] ** np.arange(4)
+            value = (c * powers).sum(axis=-1)
+            slope = (c[..., 1:] * np.arange(1, 4) * powers[..., :3]).sum(axis=-1)
+            q = c0[:, None, :] - c1[:, None, :] * s[..., None]
+            expected = [-q[..., 0], q[..., 1], -q[..., 2], 0 * s, value[..., 2], value[..., 1]]
+            size = np.nanmax(np.abs(value), initial=1.0)
+            for k, rate in enumerate(expected):
+                there = (high > low) & np.isfinite(rate)
+                assert (
+                    np.abs((slope[..., k] - rate)[there]).max(initial=0.0) < 1e-9 * size / curve.member.length
+                )
+
+
+def test_rates_along_a_member_are_the_load_and_the_shear() -> None:
+    tree = da.load(examples()["four_bar"]).to_tree()
+    tree["links"]["coupler"]["mass_along"] = "uniform"
+    r = da.dynamics(da.mechanism(tree))
+    f = da.member_forces(r, "coupler")
+    check_rates(f)
+    near, far = f.at(0.0), f.at(f.curves[0].member.length)
+    e = f.curves[0].member.along[:2]
+    for joint, found, sign in (("A", near, -1), ("B", far, 1)):
+        force = np.einsum("pij,pi->pj", r.rotation("coupler"), r.reaction(joint, "coupler"))
+        assert np.allclose(sign * force @ e, found["axial"], rtol=1e-12, atol=1e-9)
+        assert np.allclose(-sign * force @ [-e[1], e[0]], found["shear"], rtol=1e-12, atol=1e-9)
+        assert np.abs(found["bending"]).max() < 1e-12
+
+
+def test_extremes_are_exact_and_scale_with_units() -> None:
+    r = da.dynamics(da.load(examples()["engine"]), positions=24)
+    f = da.member_forces(r, "rod")
+    (curve,) = f.curves
+    fine = curve.at(np.linspace(0, curve.member.length, 2001))
+    for of, k in (("axial", 0), ("shear", 1), ("bending", 5)):
+        least, _, most, _ = curve.extremes(of)
+        assert (fine[:, 1:-1, k].max(axis=1) <= most + 1e-12 * np.abs(most).max()).all()
+        assert (fine[:, 1:-1, k].min(axis=1) >= least - 1e-12 * np.abs(most).max()).all()
+    a, b = (da.member_forces(da.dynamics(da.loads(t)), "arm").stress() for t in (ARM, IN_INCHES))
+    assert a.largest == pytest.approx(b.largest, rel=1e-12)
+
+
+IN_INCHES = """
+units: {length: in, mass: lbm}
+links:
+  ground: {points: {O: [0, 0]}}
+  arm: {points: {O: [0, 0], A: [0.6 m, 0]}, mass: 2 kg, center: [0.3 m, 0], inertia: 0.06 kg*m^2, members: [[O, A]],
+        mass_along: uniform, section: {rectangle: [20 mm, 40 mm]}}
+joints: {O: {type: pin, links: [ground, arm]}}
+drives: {O: {position: 0, speed: 100 rad/s, acceleration: 500 rad/s^2}}
+"""
+
+
+def test_fatigue_and_buckling_of_a_rod_in_the_hand() -> None:
+    """A pendulum rod pushed and pulled: sigma = F/A, so that mean and amplitude are those of the force."""
+    text = """
+links:
+  ground: {points: {O: [0, 0]}}
+  slider: {points: {A: [0, 0]}}
+  rod: {points: {A: [0, 0], B: [1, 0]}, section: {circle: 20 mm, elasticity: 200 GPa, yield_stress: 250 MPa,
+        ultimate: 400 MPa, endurance: 200 MPa}}
+joints:
+  O: {type: slider, links: [ground, slider], at: [O, A], direction: 0}
+  A: {type: weld, links: [slider, rod]}
+drives: {O: {position: {from: 0, to: 1, count: 3}, speed: 1}}
+loads: {F: {type: force, on: rod, at: B, value: [{against: O, x: [0, 0.5, 1], y: [20 kN, -10 kN, 5 kN]}, 0]}}
+"""
+    f = da.member_forces(da.dynamics(da.loads(text)), "rod")
+    area = np.pi / 4 * 0.02**2
+    s, b = f.stress(), f.buckling()
+    found = s.fatigue()
+    assert s.largest == pytest.approx(20e3 / area, rel=1e-12)
+    assert (found.mean, found.amplitude) == pytest.approx((5e3 / area, 15e3 / area), rel=1e-12)
+    assert found.safety == pytest.approx(1 / (15e3 / area / 200e6 + 5e3 / area / 400e6), rel=1e-12)
+    assert b.compression == pytest.approx(10e3, rel=1e-12)
+    assert (b.formula, b.position) == ("Euler", 1)
+    assert b.critical == pytest.approx(np.pi**2 * 200e9 * np.pi / 64 * 0.02**4, rel=1e-12)
+    short = f.buckling({"circle": 0.2, "elasticity": 200e9, "yield_stress": 250e6})
+    thin = (1 / 0.05) ** 2 * 250e6 / (4 * np.pi**2 * 200e9)
+    assert short.formula == "Johnson"
+    assert short.critical == pytest.approx(np.pi * 0.01 * 250e6 * (1 - thin), rel=1e-12)
+
+
+def test_the_command_writes_what_it_says(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "arm.yaml"
+    file.write_text(ARM, encoding="utf-8")
+    assert (
+        main(["members", str(file), "--json", str(tmp_path / "a.json"), "--csv", str(tmp_path / "a.csv")])
+        == 0
+    )
+    assert "6000" in capsys.readouterr().out
+    found = json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))["members"]["arm"]
+    assert found["bending"]["largest"] == pytest.approx(-120, rel=1e-12)
+    assert "stress arm [N/m^2]" in (tmp_path / "a.csv").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("rectangle: [20 mm, 40 mm], ", "", "the section has no size; write one of rectangle"),
+        ("rectangle: [20 mm, 40 mm]", "area: 8 cm^2", "the section has no modulus"),
+        ("rectangle: [20 mm, 40 mm]", "circle: 20 mm, area: 8 cm^2", "give it twice"),
+        ("mass_along: uniform", "mass_along: shape", "mass_along is by a shape, and there is none"),
+        ("mass_along: uniform", "members: [[O, Q]]", "there is no point 'Q'"),
+        ("mass_along: uniform", "members: [[O, A], [A, O]]", "the members close a ring"),
+    ],
+)
+def test_what_is_wrong_has_its_line_and_remedy(old: str, new: str, said: str, tmp_path: Path) -> None:
+    file = tmp_path / "arm.yaml"
+    file.write_text(ARM.replace(old, new), encoding="utf-8")
+    with pytest.raises(da.ModelError, match=r"arm.yaml:[45]: ") as error:
+        da.load(file)
+    assert said in str(error.value)
+
+
+@over(2, 200)
+def test_a_link_cut_in_two_and_welded_says_what_it_carries(seed: int) -> None:
+    check_cuts(da.mechanism(random_case(seed).tree), seed)
+
+
+@over(2, 100)
+def test_so_it_does_in_space(seed: int) -> None:
+    check_cuts(da.mechanism(tree_in_space(random_in_space(seed))), seed)
