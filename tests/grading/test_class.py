@@ -19,7 +19,7 @@ from tests.grading.made_class import named_rate, write_class, write_variants
 from tests.tiers import tiers
 
 BUNDLED = cases() | examples()
-COUNT = 10
+COUNT = 8
 STATIC = "seed-002-3-four-link-three-forces"
 MADE = {
     "four_bar": ("loads.T_4.value", [8.0, 12.0, 16.0]),

@@ -75,12 +75,12 @@ def check_rate_of_momentum(m: Any) -> None:
     assert np.allclose(s.force, total, rtol=0, atol=1e-12 * (1 + np.abs(total).max()))
 
 
-@over(3, 200)
+@over(2, 200)
 def test_the_shaking_force_is_minus_the_rate_of_momentum(seed: int) -> None:
     check_rate_of_momentum(da.mechanism(random_case(seed).tree))
 
 
-@over(2, 200)
+@over(1, 200)
 def test_the_same_in_space(seed: int) -> None:
     check_rate_of_momentum(da.mechanism(tree_in_space(random_in_space(seed))))
 
