@@ -151,7 +151,7 @@ def split(tree: Any, link: str, e: Any, s: float, far: set[str], heavy: bool, sl
         tree["assembly"]["Far part"] = tree["assembly"][link]
 
 
-def check_cuts(m: Any, first: int, most: int = 2) -> int:
+def check_cuts(m: Any, first: int, most: int = 1) -> int:
     """Cut some links, the first by its number; how many could be."""
     done, links = 0, [n for n in m.links if n != "ground"]
     for k in range(len(links)):
