@@ -106,8 +106,8 @@ def cut_and_weld(m: Any, link: str, slender: bool) -> bool:
     expected = np.concatenate([there[0] * [1, -1, 1], there[1]], axis=1)
     found = f.curves[0].at(s)[:, 0]
     length = r.compiled.layout.length
-    size = max(float(np.nanmax(np.abs(a.force), initial=1e-9)) for a in on_link(whole_actions(r), link))
-    size = max(size, *(float(np.nanmax(np.abs(a.couple), initial=0.0)) / length for a in acting.actions))
+    size = max(float(np.nanmax(np.abs(a.force), initial=1e-9)) for a in whole_actions(r))
+    size = max(size, *(float(np.nanmax(np.abs(a.couple), initial=0.0)) / length for a in whole_actions(r)))
     gaps = np.abs(found - expected) / [1, 1, 1, length, length, length]
     assert np.nanmax(gaps, initial=0.0) < 1e-8 * size, (link, s, found, expected)
     assert np.isfinite(found[np.isfinite(acting.unknown)]).all()
