@@ -266,7 +266,7 @@ def simulate(
     count: Annotated[
         int, Parameter(help="Instants in the answer, evenly in time, besides the events.")
     ] = 201,
-    tolerance: Annotated[float | None, with_help("Relative error of a step (default: 1e-11).")] = None,
+    tolerance: Annotated[float | None, with_help("Relative error of a step (default: 1e-12).")] = None,
     changes: Changes = AS_IN_FILE,
     out: Outputs = NO_OUTPUTS,
 ) -> int:

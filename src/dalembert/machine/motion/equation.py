@@ -26,8 +26,12 @@ from dalembert.kernel.graph import Node, trace_array
 from dalembert.kernel.program import Program
 from dalembert.model import Mechanism
 
-STEPS, SAME = 40, 1e-13
-"""Newton's steps for accelerations with friction, and the change of one, over the largest, that ends them."""
+STEPS, SAME, ROUNDING = 40, 1e-13, 1e-10
+"""Newton's steps for accelerations with friction; the change of one, over the largest, that ends them; and that below
+which they end where it does not fall any more."""
+
+
+OPEN = "there the mechanism does not close, or its drives do not place its links"
 
 
 class StoppedError(AnalysisError):
@@ -57,7 +61,11 @@ class Equation:
         effort = [n for name in self.names for n in trace.catalogue.nodes(f"effort.{name}")]
         mass = [n for row in gradients(graph, effort, numbers[count:]) for n in row]
         own, senses, rates = _contacts(trace)
-        nodes = [*effort, *mass, *_powers(trace), *rates]
+        turns = list(trace_array(graph, trace.catalogue.traced.pose.turn)) if m.dimension == 2 else []
+        self.turns = trace.course.pose.turn[0].copy() if turns else np.zeros(0)
+        if not any(name.startswith("known turn") for _, name in trace.inputs.named):
+            turns = []
+        nodes = [*effort, *mass, *_powers(trace), *rates, *turns]
         inputs = [graph.input("channel", f"sense {k}", 1.0) for k in range(len(senses))]
         places = {n.index: new for n, new in zip(senses, inputs, strict=True) if isinstance(n, Node)}
         found = graph.substitute(plain(kernel, nodes, marked=False).outputs, places)
@@ -65,9 +73,9 @@ class Equation:
         self.joints = own
         self.contacts, self.rough = len(senses), trace.catalogue.compiled.contacts is not None
         self.channels = [self._channel(trace, n, inputs) for n in program.inputs_in_use("channel")]
-        self.size = (len(effort), len(mass), 3, len(rates))
+        self.parts = (len(effort), len(mass), 3, len(rates), len(turns))
         self.run = _compiled(program, 2 * count, len(self.channels))
-        self.last = np.zeros(count)
+        self.last, self.size = np.zeros(count), 1e-300
 
     def _channel(self, trace: Trace, node: Node, senses: list[Node]) -> Callable[[float, Array, Array], Any]:
         """How an input is found from the time, the positions and the senses."""
@@ -79,6 +87,9 @@ class Equation:
         if what == "position" and of in self.names:
             k = self.names.index(of)
             return lambda t, q, sense: q[k]
+        if what == "known" and of.startswith("turn"):  # whole turns are counted from the last state on
+            k, wave = int(of.split()[-1]), {"cos": np.cos, "sin": np.sin}.get(of.split()[1])
+            return lambda t, q, sense: self.turns[k] if wave is None else wave(self.turns[k])
         if name == TIME:
             return lambda t, q, sense: t
         if name in trace.inputs.varying and not any("." in n for n in trace.inputs.varying[name].names):
@@ -92,8 +103,11 @@ class Equation:
     def __call__(self, t: float, q: Array, u: Array, a: Array, sense: Array) -> Terms:
         out = self.run([*u, *a], [float(f(t, q, sense)) for f in self.channels])
         d = len(u)
-        ends = np.cumsum(self.size)
-        return Terms(out[:d], out[d : ends[1]].reshape(d, d), out[ends[1] : ends[2]], out[ends[2] :])
+        ends = np.cumsum(self.parts)
+        if self.parts[4] and np.isfinite(out[ends[3] :]).all():
+            self.turns = out[ends[3] :]
+        mass, power = out[d : ends[1]].reshape(d, d), out[ends[1] : ends[2]]
+        return Terms(out[:d], mass, power, out[ends[2] : ends[3]])
 
     def accelerations(
         self, t: float, q: Array, u: Array, given: Array, tau: Array, free: Array, sense: Array
@@ -103,22 +117,30 @@ class Equation:
         Raises StoppedError where there are none: the mechanism does not close, or is singular, or jams.
         """
         a = np.where(free, self.last if self.rough else 0.0, given)
-        size = max(float(np.abs(given).max(initial=0.0)), 1e-300)
+        if len(a) == 1 and free[0] and not self.rough:
+            e = self(t, q, u, a, sense)
+            step = _solve(e.mass, tau - e.effort)
+            if not np.isfinite(step[0]):
+                raise StoppedError(OPEN)
+            return a + step, tau, e
+        before = np.inf
         for _ in range(STEPS):
             e = self(t, q, u, a, sense)
             inner = e.mass[np.ix_(free, free)]
             if not (np.isfinite(e.effort).all() and np.isfinite(inner).all()):
-                raise StoppedError("there the mechanism does not close, or its drives do not place its links")
-            if free.any():
-                step = np.zeros_like(a)
-                step[free] = _solve(inner, (tau - e.effort)[free])
-                a, effort = a + step, e.effort + e.mass @ step
-            else:
+                raise StoppedError(OPEN)
+            if not free.any():
                 return a, e.effort, e
-            size = max(size, float(np.abs(a).max()))
-            if not self.rough or np.abs(step).max() <= SAME * size:
+            pushed = np.abs(tau).max() / max(float(np.abs(inner).max()), 1e-300)
+            self.size = max(self.size, float(pushed))  # what rounding is measured by, of the whole motion
+            step = np.zeros_like(a)
+            step[free] = _solve(inner, (tau - e.effort)[free])
+            a, effort, change = a + step, e.effort + e.mass @ step, float(np.abs(step).max())
+            self.size = max(self.size, float(np.abs(a).max()))
+            if not self.rough or change <= SAME * self.size or before <= change <= ROUNDING * self.size:
                 self.last = a
                 return a, effort, e
+            before = change
         raise StoppedError("there it jams: no acceleration satisfies the law of friction")
 
 

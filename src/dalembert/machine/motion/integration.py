@@ -16,6 +16,8 @@ from dalembert.machine.motion.occurrences import Condition, Guard, Track
 from dalembert.machine.motion.standstill import STILL, Contacting
 from dalembert.model import Mechanism
 
+COARSEST = 1e-9
+"""Tolerance up to which steps with friction are taken again that are refused."""
 CHATTER, MANY = 1e-9, 40
 """So many events within this part of the time that has gone by are chatter."""
 
@@ -83,6 +85,9 @@ class Integration(Contacting):
         while solver.status == "running":
             before, from_ = solver.t, solver.y.copy()
             solver.step()
+            if solver.status == "failed" and self.equation.rough and self.tolerance < COARSEST:
+                self.tolerance *= 10  # forces with friction are found to fewer digits than that
+                return before, from_
             if solver.status == "failed" or not np.isfinite(solver.y).all():
                 raise StoppedError("there the steps of the integration become too small")
             dense: Any = None

@@ -27,7 +27,7 @@ from dalembert.wording import closest
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
-TOLERANCE, MOST = 1e-11, 100_000
+TOLERANCE, MOST = 1e-12, 100_000
 """Of the integration, relative; and the most instants that are kept."""
 
 
@@ -146,7 +146,7 @@ def _check(count: int, tolerance: float) -> None:
     if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST:
         raise ModelError(f"{count} instants are asked for", f"ask for 2 to {MOST}")
     if not 1e-14 <= tolerance <= 1e-3:
-        raise ModelError(f"the tolerance {tolerance:g} is not between 1e-14 and 1e-3", "leave it out: 1e-11")
+        raise ModelError(f"the tolerance {tolerance:g} is not between 1e-14 and 1e-3", "leave it out: 1e-12")
 
 
 def _start(m: Mechanism, start: Mapping[str, Any] | None) -> dict[str, Start]:

@@ -61,7 +61,8 @@ class Contacting:
             np.where(self.moving.free, 0.0, self.moving.acceleration),
         )
         a, effort, terms = self.equation.accelerations(t, q, u, given, tau, free, self.sense)
-        return a, np.where(free, tau, effort), terms
+        held = self.moving.effort(t, q, u) if self.equation.rough else effort
+        return a, np.where(free, tau, np.where(self.moving.free, held, effort)), terms
 
     def rate(self, t: float, y: Array) -> Array:
         """Time derivative of positions, speeds and works."""
