@@ -7,8 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import dalembert as da
+from dalembert.errors import ModelError
+from tests.random_mechanisms import random_case
+from tests.tiers import tiers
 
 ROTOR = """
 links:
@@ -143,3 +147,98 @@ start:
     assert -s.works["brakes"][-1] == pytest.approx(6000, rel=1e-8)
     assert s.result.effort("C")[50] == pytest.approx(60.0)
     assert math.isclose(s.result.effort("C")[-1], 0.0, abs_tol=1e-9)
+
+
+FOUR_BAR = """
+gravity: standard
+links:
+  ground: {points: {O2: [0, 0], O4: [0.2, 0]}}
+  crank: {points: {O2: [0, 0], A: [0.05, 0]}, mass: 1 kg, inertia: 0.02 kg*m^2}
+  coupler: {points: {A: [0, 0], B: [0.15, 0]}, mass: 1.2 kg, center: [0.07, 0], inertia: 0.003 kg*m^2}
+  rocker: {points: {O4: [0, 0], B: [0.12, 0]}, mass: 0.8 kg, center: [0.06, 0], inertia: 0.004 kg*m^2}
+joints:
+  O2: {type: pin, links: [ground, crank]}
+  A: {type: pin, links: [crank, coupler]}
+  B: {type: pin, links: [coupler, rocker]}
+  O4: {type: pin, links: [ground, rocker]}
+drives: {O2: {effort: 0}}
+start: {O2: {position: 60 deg, speed: 30 rad/s}}
+assembly: {coupler: 40, rocker: 90}
+"""
+
+
+def own_energies(q: float) -> tuple[float, float]:
+    """J and potential energy of that four-bar by its vector loop in complex numbers: nothing of the program's."""
+    a, ground = 0.05 * np.exp(1j * q), 0.2
+    d = ground - a
+    far = abs(d)
+    spread = math.acos((0.15**2 + far**2 - 0.12**2) / (2 * 0.15 * far))
+    three = np.angle(d) + spread
+    four = np.angle(a + 0.15 * np.exp(1j * three) - ground)
+    rows = np.array(
+        [[-0.15 * math.sin(three), 0.12 * math.sin(four)], [0.15 * math.cos(three), -0.12 * math.cos(four)]]
+    )
+    w3, w4 = np.linalg.solve(rows, [0.05 * math.sin(q), -0.05 * math.cos(q)])
+    v3 = 1j * a + 0.07j * w3 * np.exp(1j * three)
+    inertia = 0.02 + 0.003 * w3**2 + 1.2 * abs(v3) ** 2 + (0.004 + 0.8 * 0.06**2) * w4**2
+    height = 1.2 * (a + 0.07 * np.exp(1j * three)).imag + 0.8 * 0.06 * math.sin(four)
+    return float(inertia), float(9.80665 * height)
+
+
+def test_a_four_bar_is_that_of_an_integrator_of_its_own() -> None:
+    """Lagrange's equation with J and V of the loop, their slopes by differences of the eighth order."""
+    step = 0.02
+    weights = np.array([1 / 280, -4 / 105, 1 / 5, -4 / 5, 0, 4 / 5, -1 / 5, 4 / 105, -1 / 280]) / step
+
+    def rate(_: float, y: np.ndarray) -> list[float]:
+        around = np.array([own_energies(y[0] + k * step) for k in range(-4, 5)])
+        slope_j, slope_v = weights @ around
+        return [y[1], -(slope_j * y[1] ** 2 / 2 + slope_v) / own_energies(y[0])[0]]
+
+    known = solve_ivp(rate, (0, 0.5), [math.pi / 3, 30.0], method="DOP853", rtol=1e-11, atol=1e-12)
+    s = da.simulate(da.loads(FOUR_BAR), "0.5 s", count=11)
+    assert s.position("O2")[-1] == pytest.approx(known.y[0, -1], rel=1e-8)
+    assert s.speed("O2")[-1] == pytest.approx(known.y[1, -1], rel=1e-8)
+
+
+@pytest.mark.parametrize("turns", tiers([5], [1000]))
+def test_a_conservative_four_bar_keeps_its_energy(turns: int) -> None:
+    s = da.simulate(da.loads(FOUR_BAR), f"O2.position = {60 + 360 * turns} deg", tolerance=1e-13, count=2)
+    assert s.energy_residual < 1e-9
+    assert s.closure < 1e-12
+
+
+@pytest.mark.parametrize("seed", tiers([6], [1, 4, 5, *range(7, 13)]))
+def test_the_motion_found_asks_for_the_efforts_that_made_it(seed: int) -> None:
+    """Simulate, prescribe, compare: random mechanisms, of groups without a closed form too."""
+    m = da.mechanism(random_case(seed).tree)
+    drives = {name: np.ravel(getattr(d.position, "start", d.position))[0] for name, d in m.drives.items()}
+    start = {name: {"position": float(q), "speed": 0.3} for name, q in drives.items()}
+    s = da.simulate(m, 0.05, start=start, count=4)
+    assert not s.ended.startswith("stopped")
+    assert s.law_residual < 1e-9
+    assert s.energy_residual < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("drives", "sentence"),
+    [
+        (
+            "drives: {O: {motor: {stall: 4 N*m, no_load: 3 rad/s}}}",
+            "drive 'O' has a motor and no start; write start:",
+        ),
+        (
+            "drives: {O: {motor: {curve: {speed: [0, 9 rpm, 9 rpm], torque: [4, 2, 0]}}}}\nstart: {O: {position: 0}}",
+            "no function of the speed: point 3",
+        ),
+        ("drives: {O: {motor: {stall: 4 N*m}}}\nstart: {O: {position: 0}}", "stall and no_load, or a curve"),
+        (
+            "drives: {O: {effort: 0}}\nstart: {P: {position: 0}}",
+            "start names the drive 'P', which is not there",
+        ),
+    ],
+)
+def test_what_is_wrong_says_so_at_its_line(drives: str, sentence: str) -> None:
+    with pytest.raises(ModelError, match=r"text:\d+: ") as caught:
+        rotor(1, drives)
+    assert sentence in str(caught.value)

@@ -8,7 +8,7 @@ inputs, so that between two events everything is smooth.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -31,6 +31,8 @@ STEPS, SAME, ROUNDING = 40, 1e-13, 1e-10
 which they end where it does not fall any more."""
 
 
+NEAR = 1e-7
+"""How far the pose of a state may be from the one that Newton's steps began at, so that they have ended."""
 OPEN = "there the mechanism does not close, or its drives do not place its links"
 
 
@@ -48,6 +50,25 @@ class Terms(NamedTuple):
     rates: Array
 
 
+@dataclass
+class LastPose:
+    """The pose of the last state, where whole turns are counted from and Newton's steps begin; a course of one."""
+
+    pose: Pose
+    followed: Any
+
+    def follow(self, values: Array) -> float:
+        """Take another pose, all its numbers in a row; how far it is, in m or rad."""
+        sizes = np.cumsum([part[0].size for part in self.pose])
+        parts = np.split(values, sizes[:-1])
+        new = Pose(*(x.reshape(part[:1].shape) for x, part in zip(parts, self.pose, strict=True)))
+        if not np.isfinite(values).all():
+            return 0.0
+        far = max(float(np.abs(x - y[:1]).max(initial=0.0)) for x, y in zip(new, self.pose, strict=True))
+        self.pose = new
+        return far
+
+
 class Equation:
     """Efforts that a state of all drives asks for, of a mechanism whose drives are all prescribed."""
 
@@ -61,11 +82,13 @@ class Equation:
         effort = [n for name in self.names for n in trace.catalogue.nodes(f"effort.{name}")]
         mass = [n for row in gradients(graph, effort, numbers[count:]) for n in row]
         own, senses, rates = _contacts(trace)
-        turns = list(trace_array(graph, trace.catalogue.traced.pose.turn)) if m.dimension == 2 else []
-        self.turns = trace.course.pose.turn[0].copy() if turns else np.zeros(0)
-        if not any(name.startswith("known turn") for _, name in trace.inputs.named):
-            turns = []
-        nodes = [*effort, *mass, *_powers(trace), *rates, *turns]
+        self.known = LastPose(trace.course.pose, trace.course.followed)
+        asked = [name for kind, name in trace.inputs.named if kind == "channel" and name.startswith("known ")]
+        pose = (
+            [n for a in trace.catalogue.traced.pose for n in trace_array(graph, a).ravel()] if asked else []
+        )
+        self.by_newton = any(not name.startswith("known turn") for name in asked)
+        nodes = [*effort, *mass, *_powers(trace), *rates, *pose]
         inputs = [graph.input("channel", f"sense {k}", 1.0) for k in range(len(senses))]
         places = {n.index: new for n, new in zip(senses, inputs, strict=True) if isinstance(n, Node)}
         found = graph.substitute(plain(kernel, nodes, marked=False).outputs, places)
@@ -73,7 +96,7 @@ class Equation:
         self.joints = own
         self.contacts, self.rough = len(senses), trace.catalogue.compiled.contacts is not None
         self.channels = [self._channel(trace, n, inputs) for n in program.inputs_in_use("channel")]
-        self.parts = (len(effort), len(mass), 3, len(rates), len(turns))
+        self.parts = (len(effort), len(mass), 3, len(rates), len(pose))
         self.run = _compiled(program, 2 * count, len(self.channels))
         self.last, self.size = np.zeros(count), 1e-300
 
@@ -87,9 +110,9 @@ class Equation:
         if what == "position" and of in self.names:
             k = self.names.index(of)
             return lambda t, q, sense: q[k]
-        if what == "known" and of.startswith("turn"):  # whole turns are counted from the last state on
-            k, wave = int(of.split()[-1]), {"cos": np.cos, "sin": np.sin}.get(of.split()[1])
-            return lambda t, q, sense: self.turns[k] if wave is None else wave(self.turns[k])
+        if what == "known":
+            found = trace.inputs.found[node]
+            return lambda t, q, sense: np.ravel(found(self.known))[0]  # type: ignore[arg-type]
         if name == TIME:
             return lambda t, q, sense: t
         if name in trace.inputs.varying and not any("." in n for n in trace.inputs.varying[name].names):
@@ -101,11 +124,11 @@ class Equation:
         )
 
     def __call__(self, t: float, q: Array, u: Array, a: Array, sense: Array) -> Terms:
-        out = self.run([*u, *a], [float(f(t, q, sense)) for f in self.channels])
-        d = len(u)
-        ends = np.cumsum(self.parts)
-        if self.parts[4] and np.isfinite(out[ends[3] :]).all():
-            self.turns = out[ends[3] :]
+        d, ends = len(u), np.cumsum(self.parts)
+        for _ in range(STEPS):
+            out = self.run([*u, *a], [float(f(t, q, sense)) for f in self.channels])
+            if not self.parts[4] or self.known.follow(out[ends[3] :]) <= NEAR or not self.by_newton:
+                break
         mass, power = out[d : ends[1]].reshape(d, d), out[ends[1] : ends[2]]
         return Terms(out[:d], mass, power, out[ends[2] : ends[3]])
 

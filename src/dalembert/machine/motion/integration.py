@@ -16,6 +16,8 @@ from dalembert.machine.motion.occurrences import Condition, Guard, Track
 from dalembert.machine.motion.standstill import STILL, Contacting
 from dalembert.model import Mechanism
 
+TINY, TRIES = 1e-12, 100
+"""So many steps below this part of the time are no progress."""
 COARSEST = 1e-9
 """Tolerance up to which steps with friction are taken again that are refused."""
 CHATTER, MANY = 1e-9, 40
@@ -81,10 +83,16 @@ class Integration(Contacting):
     def _segment(self, t: float, y: Array) -> tuple[float, Array]:
         """To the first event, or the end."""
         guards = self._guards(t, y)
-        solver = self._solver(t, y, self.end)
+        solver, tiny = self._solver(t, y, self.end), 0
         while solver.status == "running":
             before, from_ = solver.t, solver.y.copy()
             solver.step()
+            span = self.end if np.isfinite(self.end) else solver.t
+            tiny = tiny + 1 if solver.step_size is not None and solver.step_size < TINY * span else 0
+            if tiny > TRIES:
+                raise StoppedError(
+                    "there the steps become too small, as where something has next to no inertia"
+                )
             if solver.status == "failed" and self.equation.rough and self.tolerance < COARSEST:
                 self.tolerance *= 10  # forces with friction are found to fewer digits than that
                 return before, from_
