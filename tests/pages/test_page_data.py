@@ -54,7 +54,10 @@ def test_every_number_is_that_of_the_analyses(name: str) -> None:
     there = {(a.of, a.kind, a.link): [] for a in whole_actions(r)}
     for a in whole_actions(r):
         there[a.of, a.kind, a.link].append(a)
-    largest = max((np.abs(a.force[right]).max(initial=0) for some in there.values() for a in some), default=0)
+    sizes = [
+        np.abs(x[right]).max(initial=0) for some in there.values() for a in some for x in (a.force, a.couple)
+    ]
+    largest = max(sizes, default=0)
     reach = max(np.abs(r.point_array[right]).max(initial=0.0), 1e-3)
     seen = 0
     for arrow in data["views"]["mechanism"]["arrows"]:

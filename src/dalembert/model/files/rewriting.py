@@ -76,6 +76,8 @@ def _own_text(m: Mechanism, source: Source) -> str | None:
     text = source.text.removeprefix(mark)
     tree = read_text(text, source.form, source.name)[0]
     values = dict(_values(m, tree)) | dict(listed_columns(m, tree))
+    known = tree.get("parameters") or {}
+    values |= {("parameters", name): REMOVED for name in known if name not in m.parameters}
     for _ in range(ROUNDS):
         try:
             changed = splice(text, source.form, values)
