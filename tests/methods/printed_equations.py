@@ -232,11 +232,17 @@ class Reader:
     def unit(self, found: str, kinds: str, text: str) -> None:
         """A printed unit is that of one of these kinds."""
         if self.units is not None:
-            wanted = [self.units[kind] if kind else "" for kind in kinds.split("|")]
-            if found not in wanted:  # a large number has a power of ten with its unit, the same throughout
-                plain = (unit.replace("·", "*").replace("²", "^2") for unit in wanted)
-                large = [pretty(unit_with_power(unit, p)) for unit in plain for p in (3, 6, 9, 12)]
-                wanted = [self.large.setdefault(kinds, found)] if found in large else wanted
+            kind_units = {kind: self.units[kind] if kind else "" for kind in kinds.split("|")}
+            wanted = list(kind_units.values())
+            for (
+                kind,
+                unit,
+            ) in kind_units.items():  # a large number has a power of ten, one for a kind throughout
+                plain = unit.replace("·", "*").replace("²", "^2")
+                if found not in wanted and found in [
+                    pretty(unit_with_power(plain, p)) for p in (3, 6, 9, 12)
+                ]:
+                    wanted = [self.large.setdefault(kind, found)]
             assert found in wanted, f"{text}: the unit is {found!r}, and should be {' or '.join(wanted)}"
 
     def _equation(self, text: str) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from dalembert import unit_names
 from dalembert.reports.formula import plain, write_mixed
 from dalembert.reports.sheet import Equations, Heading, Matrix, Paragraph, Sheet, Table
 from dalembert.reports.writers.plain_writer import _equation
@@ -253,6 +254,24 @@ def _counts(reader: Reader, heads: list[str], rows: Cells) -> None:
     assert sum(int(row[-1]) for row in rows[:-1]) == int(rows[-1][-1])
 
 
+def _parameters(reader: Reader, heads: list[str], rows: Cells) -> None:
+    """Values in their own units, which follow from one another as is printed; their names are those of this table."""
+    outside, reader.known = reader.known, {"pi": Read(math.pi, 0.0)}
+    for name, cell, _ in rows:
+        follows, _, stated = cell.rpartition(" = ")
+        figure, _, unit = stated.partition(" ")
+        size = unit_names.unit(unit.translate(AS_TYPED)).si(1.0) if unit else 1.0
+        found = times(reader.number(figure), Read(size, 0.0))
+        if follows:
+            text = re.sub(r"(\w+)\^(\d+)", r"(\1^\2)", follows).replace("*", "·").replace("-", "−")
+            reader.agree(reader.expression(text), found, f"{name}: {cell}")
+        reader.known[name] = found
+    reader.known = outside
+
+
+AS_TYPED = str.maketrans({"·": "*", "°": "deg", "²": "^2", "³": "^3", "⁴": "^4"})
+
+
 HEADS = {
     "Points|Centre|[xyz] |G_": "length",
     "θ": "angle",
@@ -289,6 +308,7 @@ def _unknowns(reader: Reader, heads: list[str], rows: Cells) -> None:
 
 
 TABLES: dict[str, Any] = {
+    "Parameter|Value|What it is": _parameters,
     "Unknown|Value": _unknowns,
     "Link|Points": _links,
     "Link|J_xx": _inertias,

@@ -83,8 +83,12 @@ def _columns(c: ReportContext, joint: str, force: Array) -> list[Column]:
     out: list[Column] = [
         (as_formula(along(sign, axis)), part, "force") for axis, part in zip("xyz", force.T, strict=False)
     ]
-    out.append((f"$|{sign}|$", magnitude(force), "force"))
-    return [*out, ("angle °", directions(force), "direction")] if force.shape[-1] == 2 else out
+    size = magnitude(force)
+    out.append((f"$|{sign}|$", size, "force"))
+    if force.shape[-1] == 2:
+        seen = size > c.shown.least["force"]
+        out.append(("angle °", np.where(seen, directions(force), np.nan), "direction"))
+    return out
 
 
 def _tables(groups: list[list[Column]]) -> list[list[Column]]:

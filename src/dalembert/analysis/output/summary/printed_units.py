@@ -75,14 +75,21 @@ RADIANS = {"angular_speed": "rad/s", "angular_acceleration": "rad/s^2"}
 
 def print_scale(result: Result, units: UnitChoice) -> Printed:
     """The scale of a printed answer: a kind whose largest number would be printed with an exponent has it with its
-    unit, the same in every table, drawing and report of the result."""
+    unit, the same in every table, drawing and report of the result. Forces and moments have one power, so that
+    arms stay in the unit of the file: kN times mm is N*m."""
     plain = Printed(None if units == "SI" else result.mechanism.units)
-    powers = {}
-    for kind, size in cached(result, _extents).items():
-        most = float(abs(plain(kind, float(size[0]))))
-        if math.isfinite(most) and most >= 999_999.5:
-            powers[kind] = 3 * math.floor(math.log10(most * (1 + 1e-6)) / 3)
+    most = {k: float(abs(plain(k, float(size[0])))) for k, size in cached(result, _extents).items()}
+    powers = {k: p for k, size in most.items() if (p := _power(size))}
+    common = max(powers.get("force", 0), 3 if "moment" in powers else 0, _power(most["moment"] / 1e3))
+    if common:
+        powers |= {"force": common, "moment": common}
     return Printed(None if units == "SI" else result.mechanism.units, powers)
+
+
+def _power(most: float) -> int:
+    """The power of ten, a multiple of three, of a number that would be printed with an exponent; else 0."""
+    large = math.isfinite(most) and most >= 999_999.5
+    return 3 * math.floor(math.log10(most * (1 + 1e-6)) / 3) if large else 0
 
 
 def _extents(result: Result) -> Tree:
