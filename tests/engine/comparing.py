@@ -75,6 +75,11 @@ def difference(r: Any, s: Any) -> float:
         "load_array": force * min(length, 1.0),
     }
     least |= {"moment_array": force * length, "turn_array": 1.0, "rotation_array": 1.0, "point_array": length}
+    # Where links turn, an acceleration is a sum of terms of the size w^2 (and w v): where they cancel, as in a Hooke
+    # joint whose shaft is at its fastest, what is left is their rounding, which has no figures to compare.
+    twist = np.abs(s.twist_array)
+    turning = np.nanmax(twist[..., s.mechanism.dimension :], initial=0.0)
+    least["acceleration_array"] = turning * np.nanmax(twist, initial=0.0)
     worst = 0.0
     for name in ARRAYS:
         mine, other = getattr(r, name), getattr(s, name)

@@ -47,16 +47,11 @@ def break_pages(scene: Scene, paper: str = "a4") -> list[Page]:
     >>> [len(page.items) for page in break_pages(stack_scenes([panel] * 5))]
     [2, 2, 1]
     """
-    wide, high = room(paper)
     out: list[list[list[Scene]]] = [[]]
-    used = 0.0
-    for row in _with_headings(_rows(scene, wide, high)):
-        height = sum(_height(line) + GAP for line in row)
-        if used and used + height - GAP > high:
+    for row in _with_headings(_rows(scene, *room(paper))):
+        if out[-1] and _sheet([*out[-1], *row], paper) is None:
             out.append([])
-            used = 0.0
         out[-1] += row
-        used += height
     return [_page(lines, paper) for lines in out]
 
 
@@ -70,9 +65,9 @@ def _height(line: Sequence[Scene]) -> float:
 
 
 def _rows(scene: Scene, wide: float, high: float) -> Iterator[list[Scene]]:
-    """Panels that stand side by side, as many as there is room for; stacks that are too high are opened."""
+    """Panels that stand side by side, as many as there is room for; stacks that are too large are opened."""
     line: list[Scene] = []
-    for panel in _panels(scene, high - HEADING):
+    for panel in _panels(scene, wide, high):
         same = bool(line) and abs(panel.bounds[3] - line[0].bounds[3]) < 1e-6
         if line and not (same and sum(_size(p)[0] + GAP for p in line) + _size(panel)[0] <= wide):
             yield line
@@ -82,7 +77,7 @@ def _rows(scene: Scene, wide: float, high: float) -> Iterator[list[Scene]]:
         yield line
 
 
-def _panels(scene: Scene, high: float) -> Iterator[Scene]:
+def _panels(scene: Scene, wide: float, high: float) -> Iterator[Scene]:
     """What a stack of drawings consists of, or the drawing itself."""
     if len(scene.items) < 2 or not all(isinstance(item, Group) for item in scene.items):
         yield scene
@@ -90,10 +85,13 @@ def _panels(scene: Scene, high: float) -> Iterator[Scene]:
     for item in scene.items:
         assert isinstance(item, Group)
         panel = Scene(item.items, item.name)
-        if _size(panel)[1] > high:
-            yield from _panels(panel, high)
-        else:
+        width, height = _size(panel)
+        upright = width <= wide and height <= high - HEADING
+        along = width <= high and height <= wide - HEADING
+        if upright or along:
             yield panel
+        else:
+            yield from _panels(panel, wide, high)
 
 
 def _with_headings(rows: Iterator[list[Scene]]) -> Iterator[list[list[Scene]]]:
@@ -108,16 +106,22 @@ def _with_headings(rows: Iterator[list[Scene]]) -> Iterator[list[list[Scene]]]:
         yield kept
 
 
+def _need(lines: Sequence[Sequence[Scene]]) -> tuple[float, float]:
+    """Width and height of a page that just holds some rows."""
+    wide = max((sum(_size(p)[0] + GAP for p in line) - GAP for line in lines), default=0.0)
+    return wide + 2 * MARGIN, sum(_height(line) + GAP for line in lines) - GAP + 2 * MARGIN
+
+
+def _sheet(lines: Sequence[Sequence[Scene]], paper: str) -> tuple[float, float] | None:
+    """The paper upright, or along, whichever first holds some rows; a wide row leaves only the height of one along."""
+    wide, high = _need(lines)
+    ways = (PAPERS[paper], PAPERS[paper][::-1])
+    return next((way for way in ways if wide <= way[0] + 1e-6 and high <= way[1] + 1e-6), None)
+
+
 def _page(lines: Sequence[Sequence[Scene]], paper: str) -> Page:
     """The page that holds some rows: upright, along, or as large as they are."""
-    need_wide = max((sum(_size(p)[0] + GAP for p in line) - GAP for line in lines), default=0.0)
-    need_high = sum(_height(line) + GAP for line in lines) - GAP
-    width, height = PAPERS[paper]
-    for width, height in (PAPERS[paper], PAPERS[paper][::-1]):
-        if need_wide <= width - 2 * MARGIN + 1e-6 and need_high <= height - 2 * MARGIN + 1e-6:
-            break
-    else:
-        width, height = need_wide + 2 * MARGIN, need_high + 2 * MARGIN
+    width, height = _sheet(lines, paper) or _need(lines)
     items: list[Item] = []
     y = height - MARGIN
     for line in lines:
