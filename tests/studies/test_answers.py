@@ -116,7 +116,7 @@ def test_blocks_computed_by_a_dask_cluster_have_the_same_bits(tmp_path: Path) ->
         distributed.LocalCluster(
             n_workers=1, threads_per_worker=2, processes=False, dashboard_address=None, protocol="inproc://"
         ) as cluster,
-        distributed.Client(cluster) as client,
+        distributed.Client(cluster, set_as_default=False) as client,
     ):
         found = s.run(tmp_path / "s", scheduler=client)
     assert len(found.ledger) > 1

@@ -231,7 +231,7 @@ def _on_dask(study: Study, target: Any, todo: Any, scheduler: Any, tell: Callabl
 
     own = isinstance(scheduler, str)
     try:
-        client = Client(scheduler) if own else scheduler
+        client = Client(scheduler, set_as_default=False) if own else scheduler
     except (OSError, ValueError) as error:
         raise ModelError(
             f"no dask scheduler answers at {scheduler}: {error}", "start one: dask scheduler"

@@ -197,6 +197,10 @@ def _condition(m: Mechanism, text: str, stops: bool) -> Condition:
 
 def _answer(m: Mechanism, prescribed: Mechanism, moves: Moving, run: Integration) -> Simulation:
     """The analysis along the motion that was found, and the checks."""
+    if not run.track.rows:
+        raise ModelError(
+            f"the motion cannot begin: {run.ended}", "start elsewhere, or with another speed", ("start",)
+        )
     t, q, u, a, applied, works = run.track.columns()
     kept = np.append(True, np.diff(t) > 0)  # of an event the state behind it
     kept[:-1] = np.append(np.diff(t) > 0, True)[:-1]
