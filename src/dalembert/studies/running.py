@@ -246,7 +246,7 @@ def _on_dask(study: Study, target: Any, todo: Any, scheduler: Any, tell: Callabl
             return client.submit(compute_block, spec, program, b, first, stop, pure=False)
 
         width = IN_FLIGHT * max(1, sum(client.nthreads().values()))
-        waiting = as_completed([send(b) for b in _some(rest, width)])
+        waiting = as_completed([send(b) for b in _some(rest, width)], loop=client.loop)
         for future in waiting:
             b, found, ms = future.result()
             target.put(b, found, ms)
