@@ -111,11 +111,18 @@ def test_spins_that_friction_decides_are_refused() -> None:
 
 def test_every_output() -> None:
     m = MACHINES["rssr"]()
-    of = {"effort": "O", "load": "", "residual": "", "point": "rod.B"} | dict.fromkeys(
-        ("reaction", "magnitude", "moment"), "A"
-    )
+    of = {
+        "effort": "O",
+        "load": "",
+        "residual": "",
+        "point": "rod.B",
+        "power": "O",
+        "shaking": "",
+    } | dict.fromkeys(("reaction", "magnitude", "moment"), "A")
     names = [".".join(filter(None, (kind, of.get(kind.partition("_")[0], "rod")))) for kind in KINDS]
-    names = [n for n in names if n.partition(".")[0] not in ("load", "angle")]
+    names = [
+        n for n in names if n.partition(".")[0] not in ("load", "angle", "transmission", "shaking_moment")
+    ]
     k = da.compile(m, vary=["links.rocker.points.B"], outputs=names, lanes=1)
     r = k(k.nominal + 0.001)
     g = general(m, k, r.values[0])
