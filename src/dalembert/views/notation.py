@@ -7,7 +7,7 @@ import re
 from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
@@ -40,6 +40,8 @@ class Notation:
     decimals: int | None = None
     torque: int = 1
     axes: Literal["ground", "link"] = "ground"
+    scaled: ClassVar[bool] = True
+    """Whether the largest number of the answer decides a unit's power of ten: kN for N."""
 
     def number(self, value: float) -> str:
         """A number for show.
@@ -198,7 +200,8 @@ class Shown(Figures):
 
     def __init__(self, r: Result, notation: Notation, k: int | None = None) -> None:
         super().__init__(r.mechanism.units, notation)
-        self.scale = print_scale(r, notation.units)
+        if notation.scaled:
+            self.scale = print_scale(r, notation.units)
         self.r = r
         self.least = least(r, k) if k is not None else self.least
         self.order = (GROUND, *r.links)

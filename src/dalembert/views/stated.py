@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, get_args
+from typing import Any, get_args
 
 import numpy as np
 
@@ -18,16 +18,15 @@ from dalembert.model.part import Part
 from dalembert.model.quantities.values import Scalar
 from dalembert.views.notation import Notation, Shown, own_name
 
-if TYPE_CHECKING:
-    pass
-
-
 class AsGiven(Notation):
-    """A notation that writes numbers with the figures they were given with, up to six.
+    """A notation that writes numbers with the figures they were given with, up to six, and in the units of the file
+    itself: a power of ten with a unit would tell how large the answer is.
 
     >>> AsGiven().number(80.0), AsGiven().degrees(math.radians(60.0))
     ('80', '60')
     """
+
+    scaled = False
 
     def number(self, value: float) -> str:
         """A number for show."""
