@@ -5,12 +5,15 @@ The suite runs as many processes as there are cores; threads of linear algebra i
 
 import os
 import random
+import signal
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is imported
+# A shell's background jobs ignore Ctrl-C, and what they start with them: programs that tests interrupt do not.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 settings.register_profile("patient", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("ci", settings.get_profile("patient"), derandomize=True, database=None)

@@ -18,6 +18,7 @@ from dalembert.model.part import Part
 from dalembert.model.quantities.values import Scalar
 from dalembert.views.notation import Notation, Shown, own_name
 
+
 class AsGiven(Notation):
     """A notation that writes numbers with the figures they were given with, up to six, and in the units of the file
     itself: a power of ten with a unit would tell how large the answer is.
