@@ -145,3 +145,10 @@ def test_a_worker_killed_on_the_way_changes_no_bit(tmp_path: Path) -> None:
 
         found = s.run(tmp_path / "s", scheduler=cluster.scheduler_address, progress=kill)
     assert np.array_equal(found["effort.O"], s.run()["effort.O"])
+
+
+def test_a_number_at_its_default_has_its_kind() -> None:
+    """A direction of 0, which a saved file leaves out, is an angle all the same."""
+    m = da.load(examples()["engine"])
+    s = da.study(m, {"joints.cylinder.direction": "uniform ± 1 deg"}, ["effort.O2"], designs=4)
+    assert s.plan.spreads[0].ends == pytest.approx((-np.pi / 180, np.pi / 180))

@@ -7,8 +7,7 @@ from itertools import product
 
 import numpy as np
 
-from dalembert.analysis.batch.design_sweep import unit_at
-from dalembert.analysis.batch.symbolic_model import Number, numbers
+from dalembert.analysis.batch.symbolic_model import Number, number_kinds, numbers
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
@@ -19,7 +18,6 @@ from dalembert.optimization.optimum import Optimum
 from dalembert.optimization.polishing import polish
 from dalembert.optimization.side_by_side import minimize
 from dalembert.progress import progress
-from dalembert.units import KINDS
 from dalembert.wording import quote_value
 
 POLISHED = 10
@@ -218,13 +216,5 @@ def _optimum(
         found=alike,
         polished=polished,
         started=started,
-        kinds=tuple(_kind(best, n) for n in found),
+        kinds=number_kinds(m, found),
     )
-
-
-def _kind(m: Mechanism, n: Number) -> str:
-    """What a number is, of `units.KINDS`."""
-    if n.parameter:
-        return m.parameters[n.path].kind or "number"
-    unit = unit_at(m, n.path)
-    return next((kind for kind, of in KINDS.items() if of.si == unit), "number")

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dalembert.analysis.batch.compiled_kernel import Kernel
+from dalembert.analysis.batch.symbolic_model import number_kinds
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.arrays import Array, Tree
 from dalembert.model import GROUND, Mechanism
@@ -20,20 +21,6 @@ from dalembert.model.quantities.tables import Table
 from dalembert.pages.boards import Boards
 from dalembert.units import KINDS
 from dalembert.views.notation import pretty
-
-KIND_OF = {
-    "points": "length",
-    "center": "length",
-    "mass": "mass",
-    "weight": "force",
-    "inertia": "inertia",
-    "direction": "angle",
-    "radius": "length",
-    "coefficient": "number",
-    "free_length": "length",
-    "free_angle": "angle",
-}
-"""Key of a number -> its kind, where that is always the same."""
 
 
 def numbers_of(m: Mechanism) -> list[str]:
@@ -106,20 +93,6 @@ def _follows(m: Mechanism, path: str) -> bool:
     return getattr(link, "shape", None) is not None
 
 
-def kind_of(m: Mechanism, path: str) -> str:
-    """The kind of the number at a path."""
-    if path in m.parameters:
-        return m.parameters[path].kind or ""
-    group, name, *_ = keys = path.split(".")
-    if group == "drives":
-        return ("angular_" if m.drives[name].turns else "") + keys[2]
-    if group == "loads" and keys[2] in ("value", "force"):
-        return "moment" if m.loads[name].ON == "link" else "force"
-    if group == "loads" and keys[2] in ("stiffness", "damping"):
-        return ("torsion_" if m.loads[name].ON == "turn" else "") + keys[2]
-    return next((KIND_OF[key] for key in keys[1:] if key in KIND_OF), "number")
-
-
 AXES = ("x", "y", "z")
 
 
@@ -137,11 +110,10 @@ def label(path: str) -> str:
 def number_fields(b: Boards, k: Kernel) -> list[Tree]:
     """Every number with its path, words, SI value, unit and size of that unit."""
     out, m = list[Tree](), b.known.mechanism
-    for n in k.trace.numbers:
+    for n, kind in zip(k.trace.numbers, number_kinds(m, k.trace.numbers), strict=True):
         if n.path in m.parameters:
             out.append(_parameter_field(n.path, n.value, m.parameters[n.path]))
             continue
-        kind = kind_of(m, n.path)
         out.append(
             {
                 "path": n.path,
@@ -329,14 +301,14 @@ def template(m: Mechanism, k: Kernel) -> list[str]:
     """
     from dalembert.model.files.model_files import tree_text
 
-    tree = m.to_tree()
+    tree, kinds = m.to_tree(), number_kinds(m, k.trace.numbers)
     for i, n in enumerate(k.trace.numbers):
         if n.path in m.parameters:
             _put_parameter(
                 tree["parameters"], n.path, f"@@{i}@@ {si_unit(m.parameters[n.path].dimension)}".strip()
             )
         else:
-            _put(tree, n.keys, f"@@{i}@@ {KINDS[kind_of(m, n.path)].si}".strip(), m)
+            _put(tree, n.keys, f"@@{i}@@ {KINDS[kinds[i]].si}".strip(), m)
     return tree_text(tree).split("@@")
 
 

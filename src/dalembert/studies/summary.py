@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from dalembert.analysis.batch.symbolic_model import number_kinds
 from dalembert.analysis.output.columns import Scale
 from dalembert.printing import table
 from dalembert.studies.design_study import Study
 from dalembert.studies.study_result import PERCENTILES, StudyResult
+from dalembert.studies.varied_numbers import varied_numbers
 
 BLOCKS = " ▁▂▃▄▅▆▇█"
 """Heights of a histogram's columns."""
@@ -68,12 +70,12 @@ def _limits(r: StudyResult) -> list[str]:
 
 def design_text(study: Study, n: int) -> str:
     """The numbers of a design, in the units of the model file."""
-    from dalembert.studies.varied_numbers import kind_at, varied_numbers
-
-    to, rows = Scale(study.mechanism.units), []
-    for path, value in study.design(n).items():
-        kind = kind_at(study.mechanism, varied_numbers(study.mechanism, path)[0]) or "number"
-        rows.append([path, f"{to(kind, value):.12g}", to.text(kind)])
+    to, design = Scale(study.mechanism.units), study.design(n)
+    kinds = number_kinds(study.mechanism, [varied_numbers(study.mechanism, path)[0] for path in design])
+    rows = [
+        [path, f"{to(kind, value):.12g}", to.text(kind)]
+        for (path, value), kind in zip(design.items(), kinds, strict=True)
+    ]
     return table(["number", f"design {n}", "unit"], rows, 1)
 
 

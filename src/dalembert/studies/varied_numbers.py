@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any
 
-from dalembert.analysis.batch.symbolic_model import DRIVEN, Number, numbers, refuse_twofold
+from dalembert.analysis.batch.symbolic_model import DRIVEN, Number, number_kinds, numbers, refuse_twofold
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
 from dalembert.model.paths import parameter_name, value_at
-from dalembert.units import KINDS, quantity
+from dalembert.units import quantity
 from dalembert.wording import quote_value
 
 SAME = {"mass": ("weight", "shape"), "weight": ("mass", "shape"), "center": ("shape",), "inertia": ("shape",)}
@@ -51,29 +50,18 @@ def check_twofold(m: Mechanism, found: Iterable[Number]) -> None:
         raise ModelError(f"{twice!r} is varied twice", "name it once", (twice,))
 
 
-def kind_at(m: Mechanism, number: Number) -> str:
-    """What the number at a path is, of `units.KINDS`; empty for a parameter of a kind without a name."""
-    if number.parameter:
-        return m.parameters[number.path].kind or ""
-    part: Any = m.with_values({number.path: float(number.value)}).to_tree()
-    for key in number.keys:
-        part = part[int(key)] if isinstance(part, list) else part.get(key) if isinstance(part, dict) else None
-    unit = part.partition(" ")[2] if isinstance(part, str) else ""
-    return next((kind for kind, of in KINDS.items() if of.si == unit), "number")
-
-
 def reader(m: Mechanism, number: Number) -> Callable[[object], float]:
     """A reader of quantities at a number's place: texts by the file's units, plain numbers in SI."""
-    kind = kind_at(m, number)
+    nameless = number.parameter and m.parameters[number.path].kind is None
+    (kind,) = number_kinds(m, [number])
 
     def si(value: object) -> float:
         if isinstance(value, bool) or value is None:
             raise ModelError(f"{quote_value(value)} is no quantity", "write a number with its unit")
         if not isinstance(value, str):
             return quantity(value, "number")
-        if kind:
-            return quantity(value, kind, m.units)
-        changed = m.with_values({number.path: value})
-        return float(changed.parameters[number.path].value)
+        if nameless:
+            return float(m.with_values({number.path: value}).parameters[number.path].value)
+        return quantity(value, kind, m.units)
 
     return si

@@ -13,6 +13,7 @@ import numpy as np
 from dalembert.analysis.batch.batch_result import CODES
 from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
 from dalembert.analysis.batch.over_positions import check, reduce_positions
+from dalembert.analysis.batch.symbolic_model import Number, number_kinds
 from dalembert.analysis.output.columns import Scale, UnitChoice, drive_kinds, in_plane
 from dalembert.analysis.result.named_quantities import Quantity, quantity, quantity_names
 from dalembert.analysis.result.result import Result
@@ -21,6 +22,7 @@ from dalembert.arrays import Array, Tree
 from dalembert.errors import SOLVED, STATUSES, ModelError
 from dalembert.model import Mechanism
 from dalembert.model.paths import value_at
+from dalembert.model.quantities.parameters import Parameter
 from dalembert.progress import progress as progress_line
 from dalembert.saving import check_installed
 from dalembert.units import KINDS
@@ -114,16 +116,17 @@ def _shape(given: Values, together: bool) -> tuple[int, ...]:
 
 
 class Labels(NamedTuple):
-    """Values of a path, SI, with their unit, or texts where they are no single numbers; and as they were given."""
+    """Values of a path, SI, and what they are, of `units.KINDS`, or texts where they are no single numbers; and as they
+    were given."""
 
     values: tuple[Any, ...]
-    unit: str
+    kind: str
     given: tuple[Any, ...]
 
     @property
-    def kind(self) -> str:
-        """What the numbers are, of ``units.KINDS``."""
-        return next((kind for kind, of in KINDS.items() if of.si == self.unit), "number")
+    def unit(self) -> str:
+        """SI unit of the values."""
+        return KINDS[self.kind].si
 
     @property
     def texts(self) -> list[str]:
@@ -134,15 +137,13 @@ class Labels(NamedTuple):
 def _labels(m: Mechanism, path: str, given: Sequence[Any]) -> Labels:
     plain = all(map(_is_number, given))
     changed = [m.with_values({path: v}) for v in ((min(given), max(given)) if plain else given)]
-    parameter = m.parameters.get(path.removeprefix("parameters."))
-    keys = path.split(".") if parameter is None else ["parameters", path.removeprefix("parameters.")]
-    found = given if plain else [value_at(one, keys) for one in changed]
-    if parameter is not None:
-        found = [getattr(value, "value", value) for value in found]
-    unit = unit_at(changed[-1], path) if parameter is None else KINDS[parameter.kind or "number"].si
+    name = path.removeprefix("parameters.")
+    number = Number(name if name in m.parameters else path, 0.0, name in m.parameters)
+    found = given if plain else [value_at(one, number.keys) for one in changed]
+    found = [value.value if isinstance(value, Parameter) else value for value in found]
     if all(map(_is_number, found)):
-        return Labels(tuple(map(float, found)), unit, tuple(given))
-    return Labels(tuple(map(str, given)), "", tuple(given))
+        return Labels(tuple(map(float, found)), number_kinds(changed[-1], [number])[0], tuple(given))
+    return Labels(tuple(map(str, given)), "number", tuple(given))
 
 
 def _is_number(value: object) -> bool:
@@ -159,14 +160,6 @@ def _kept(r: Result) -> list[str]:
     names = [n for n in quantity_names(r) if n.split(".")[0] in KEPT]
     free = [j for j in r.joints if in_plane(r) and r.friction is None and r.mechanism.joints[j].hinge]
     return [n for n in names if n not in {f"moment.{j}" for j in free}]
-
-
-def unit_at(m: Mechanism, path: str) -> str:
-    """SI unit of the number at a path, as a saved file has it."""
-    part: Any = m.to_tree()
-    for key in path.split("."):
-        part = part[int(key)] if isinstance(part, list) else part.get(key) if isinstance(part, dict) else None
-    return part.partition(" ")[2] if isinstance(part, str) else ""
 
 
 def _analysis(

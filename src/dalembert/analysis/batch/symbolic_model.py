@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -18,6 +18,7 @@ from dalembert.model.quantities.figures import unit_vector
 from dalembert.model.quantities.parameters import values_of
 from dalembert.model.quantities.values import Vector
 from dalembert.model.quantities.vectors import length, unit
+from dalembert.units import KINDS
 
 DRIVEN = ("position", "law", "range")
 """Keys of a drive that are given when a kernel is called."""
@@ -117,6 +118,26 @@ def _numbers(path: str, value: object) -> list[Number]:
     raise ModelError(
         f"{path!r} is no number", "name a number, or a vector of numbers, of the description", keys
     )
+
+
+ANY = 1.25
+"""A number that stands nowhere by default: a file leaves out what is."""
+
+
+def number_kinds(m: Mechanism, numbers: Sequence[Number]) -> tuple[str, ...]:
+    """What each number is, of `units.KINDS`: by the unit that a saved file writes in its place."""
+    found = [n for n in numbers if not n.parameter]
+    tree = with_numbers(m, found, [ANY] * len(found)).to_tree() if found else {}
+    return tuple(
+        _kind(tree, n) if not n.parameter else m.parameters[n.path].kind or "number" for n in numbers
+    )
+
+
+def _kind(tree: Any, number: Number) -> str:
+    for key in number.keys:
+        tree = tree[int(key)] if isinstance(tree, list) else tree.get(key) if isinstance(tree, dict) else None
+    unit = tree.partition(" ")[2] if isinstance(tree, str) else ""
+    return next((kind for kind, of in KINDS.items() if of.si == unit), "number")
 
 
 def geometric(m: Mechanism, path: str) -> bool:
