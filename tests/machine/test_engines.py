@@ -10,7 +10,6 @@ import pytest
 
 import dalembert as da
 from dalembert.errors import ModelError
-from dalembert.machine.output.shaking_text import shaking_text
 from tests.machine.closed_forms import crank_points, shaking_of, turn
 
 
@@ -130,7 +129,7 @@ def test_the_unbalanced_force_across_a_stroke() -> None:
 
 
 def test_the_text_has_both_series() -> None:
-    said = shaking_text(da.shaking(da.dynamics(da.in_line_engine())))
+    said = str(da.shaking(da.dynamics(da.in_line_engine())))
     assert "4 cylinders, by the book's two harmonics: its force is off by 4.61 %" in said.replace("\n", " ")
 
 

@@ -21,11 +21,12 @@ from dalembert.analysis.methods.applied_forces import (
     magnitude,
     unknown_load_actions,
 )
-from dalembert.analysis.output.columns import Column, Scale, drive_kinds, parts
+from dalembert.analysis.output.columns import Column, Scale, parts
 from dalembert.analysis.result.transmission_lines import ground_points
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.machine.harmonics import Harmonics, harmonics
+from dalembert.machine.output.answer import Answer
 from dalembert.machine.whole_cycle import turning_angle
 from dalembert.model import GROUND
 from dalembert.wording import closest
@@ -43,13 +44,15 @@ Wrench = tuple[Array, Array]
 
 
 @dataclass(frozen=True)
-class Shaking:
+class Shaking(Answer):
     """Force (P, d) and moment (P,), in space (P, 3), that some links exert on all else, about a fixed point (d,).
 
     ``parts``: the same by cause: `inertia`, `weight`, `external`. ``residual`` (P,): difference to what the joints,
     drives, springs and dampers carry, over ``largest``, the largest single force of the cycle; NaN where unknown.
     ``couple`` (P, 2), in the plane where links have a `place` z along the normal: sum of z k x F over the links.
     """
+
+    NAME = "shaking"
 
     result: Result = field(repr=False)
     links: tuple[str, ...]
@@ -77,9 +80,7 @@ class Shaking:
 
     def columns(self) -> Iterator[Column]:
         """Every number: the first drives' positions, force and moment, and their parts."""
-        r = self.result
-        for drive in r.drives:
-            yield Column(f"drive {drive}", drive_kinds(r, drive)["position"], r.drive_position(drive))
+        yield from self.drive_columns()
         whole = {"shaking": (self.force, self.moment)}
         for name, (force, moment) in (whole | self.parts).items():
             for axis, values in parts(force):
@@ -95,12 +96,6 @@ class Shaking:
         """Its other numbers by name, in the units of a scale."""
         said = {"links": self.links, "about": self.about, "whole": self.whole}
         return {"shaking": {**said, "point": to("length", self.point)}}
-
-    def __str__(self) -> str:
-        """What `dalembert shake` prints."""
-        from dalembert.machine.output.shaking_text import shaking_text
-
-        return shaking_text(self)
 
 
 def shaking(r: Result, about: About = None, links: Iterable[str] | None = None) -> Shaking:

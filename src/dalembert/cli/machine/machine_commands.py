@@ -26,6 +26,7 @@ from dalembert.errors import ModelError
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
+    from dalembert.machine.output.answer import Answer
     from dalembert.model import Mechanism
 
 
@@ -58,8 +59,8 @@ class Outputs:
         targets = {name: getattr(self, name) for name in ("json", "csv", "drawing", "report")}
         check_targets(file, targets, self.force)
 
-    def deliver(self, answer: Any, text: Callable[[Literal["SI", "file"]], str]) -> None:
-        """Print and write an answer of ``machine``."""
+    def deliver(self, answer: Answer, **choice: Any) -> None:
+        """Print and write an answer of ``machine``; with a choice of what is printed."""
         from dalembert.machine.output import written
         from dalembert.saving import new_file
 
@@ -76,23 +77,22 @@ class Outputs:
                 ):
                     write(answer, stream, units)
         if not silent:
-            print(text("SI" if self.units == "si" else "file"))
-        self._draw(answer)
+            print(answer.text("SI" if self.units == "si" else "file", **choice))
+        if self.drawing is not None or self.report is not None:
+            self._draw(answer)
         for path in (self.json, self.csv, self.drawing, self.report):
             if path is not None and str(path) != "-":
                 print(f"Written: {path}", file=sys.stderr)
 
-    def _draw(self, answer: Any) -> None:
-        if self.drawing is not None or self.report is not None:
-            from dalembert.views import draw
+    def _draw(self, answer: Answer) -> None:
+        from dalembert.reports import report
+        from dalembert.views import draw
 
-            notation = draw.Notation(units="SI" if self.units == "si" else "file")
-            if self.drawing is not None:
-                draw.machine(answer, notation).save(self.drawing, self.force, self.theme)
-            if self.report is not None:
-                from dalembert.reports import report
-
-                report(answer, notation=notation).save(self.report, self.force)
+        notation = draw.Notation(units="SI" if self.units == "si" else "file")
+        if self.drawing is not None:
+            draw.machine(answer, notation).save(self.drawing, self.force, self.theme)
+        if self.report is not None:
+            report(answer, notation=notation).save(self.report, self.force)
 
 
 NO_OUTPUTS = Outputs()
@@ -130,13 +130,12 @@ def shake(
     """Shaking force and moment of FILE: what the machine exerts on its foundation, and the harmonics."""
     import numpy as np
 
-    from dalembert.machine.output.shaking_text import shaking_text
     from dalembert.machine.shaking import shaking
 
     out.check(file)
     result = solve_over_a_turn(file, static, positions, changes)
     found = shaking(result, _point(result.mechanism, about), links)
-    out.deliver(found, lambda units: shaking_text(found, units, orders))
+    out.deliver(found, orders=orders)
     if np.isfinite(found.force).all():
         return 0
     from dalembert.analysis.output.summary.printed_answer import problems_text
@@ -169,7 +168,6 @@ def flywheel(
 ) -> int:
     """Flywheel of FILE: energy curve, inertia from Cs or back, and the exact speed over the cycle."""
     from dalembert.machine.flywheel import flywheels
-    from dalembert.machine.output.flywheel_text import flywheel_text
     from dalembert.units import file_units, quantity
 
     out.check(file)
@@ -179,7 +177,7 @@ def flywheel(
         found = flywheels.flywheel(result, None, cs, given)
     except ModelError as error:
         raise error.at_source(result.mechanism.source) from None
-    out.deliver(found, lambda units: flywheel_text(found, units))
+    out.deliver(found)
     return 0
 
 
@@ -222,7 +220,6 @@ def balance(
     from dalembert.cli.machine.counterweight_argument import bounds_of, sum_of
     from dalembert.cli.model_argument import load_model
     from dalembert.machine.balance.balancing import balance as balanced
-    from dalembert.machine.output.balance_text import balance_text
     from dalembert.saving import check_new
 
     out.check(file)
@@ -237,7 +234,7 @@ def balance(
     if output is not None:
         found.mechanism.save(output, out.force)
         print(f"Written: {output}", file=sys.stderr)
-    out.deliver(found, lambda units: balance_text(found, units))
+    out.deliver(found)
     return 0
 
 
@@ -273,14 +270,13 @@ def simulate(
     """Motion of FILE under forces: motors, loads, springs and friction, with every joint force."""
     from dalembert.cli.model_argument import load_model
     from dalembert.machine.motion import simulation
-    from dalembert.machine.output.simulation_text import simulation_text
 
     out.check(file)
     m = load_model(file, changes)
     found = simulation.simulate(
         m, until, events=event or (), count=count, tolerance=tolerance or simulation.TOLERANCE
     )
-    out.deliver(found, lambda units: simulation_text(found, units))
+    out.deliver(found)
     return 1 if found.ended.startswith("stopped") else 0
 
 

@@ -29,7 +29,6 @@ def members(
 ) -> int:
     """Axial force, shear and bending moment inside links of FILE; stress, safety and buckling of their sections."""
     from dalembert.machine.members.member_table import member_table
-    from dalembert.machine.output.member_text import member_text
 
     out.check(file)
     result = solve_over_a_turn(file, static, positions, changes)
@@ -37,7 +36,7 @@ def members(
         found = member_table(result, links)
     except ModelError as error:
         raise error.at_source(result.mechanism.source) from None
-    out.deliver(found, lambda units: member_text(found, units))
+    out.deliver(found)
     return 0
 
 

@@ -17,6 +17,7 @@ from dalembert.errors import AnalysisError, ModelError
 from dalembert.machine.balance.balance_problem import Problem, Solved
 from dalembert.machine.balance.counterweights import Counterweight, Wanted, base_point, counterweights
 from dalembert.machine.balance.mass_columns import mass_columns
+from dalembert.machine.output.answer import Answer
 from dalembert.machine.output.written import greatest, rms
 from dalembert.machine.shaking import About, Shaking, shaking
 from dalembert.machine.whole_cycle import over_a_turn
@@ -47,13 +48,15 @@ class Placed:
 
 
 @dataclass(frozen=True)
-class Balance:
+class Balance(Answer):
     """Counterweights by link, what is left, and the proof that no others leave less.
 
     ``before``, ``after``: shaking without and with them. ``numbers`` (W, 4): m, X, Y, I of each. ``bound``: no
     counterweights within the bounds leave less than this part of what ``of`` was before; ``value``: what these leave;
     their difference is the ``gap``. ``residual``: how far the mechanism with them, analysed anew, is off.
     """
+
+    NAME = "balance"
 
     result: Result = field(repr=False)
     weights: dict[str, Counterweight]
@@ -157,12 +160,6 @@ class Balance:
         proof = {"value": self.value, "bound": self.bound, "gap": self.gap, "residual": self.residual}
         said = {"least": self.least, "of": self.of, "about": self.before.about, "complete": self.complete}
         return {"balance": {**said, "counterweights": weights, **sizes, **proof, "missing": self.missing()}}
-
-    def __str__(self) -> str:
-        """What `dalembert balance` prints."""
-        from dalembert.machine.output.balance_text import balance_text
-
-        return balance_text(self)
 
 
 def balance(

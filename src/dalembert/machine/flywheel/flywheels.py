@@ -15,13 +15,14 @@ from dalembert.machine.flywheel.flywheel_size import FlywheelSize, flywheel_size
 from dalembert.machine.flywheel.legendre_panels import resolve
 from dalembert.machine.flywheel.speed_fluctuation import SpeedFluctuation, inertia_for, speed_fluctuation
 from dalembert.machine.flywheel.turning_moment import TurningMoment
+from dalembert.machine.output.answer import Answer
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
 @dataclass(frozen=True)
-class Flywheel:
+class Flywheel(Answer):
     """Energy curve of a drive at steady speed, the flywheel by the book's rule, and the exact speed with it.
 
     ``torque`` (P,) effort of the drive, ``energy`` (P,) E(q) = int (T - T_m) dq from the first position, both at the
@@ -30,6 +31,8 @@ class Flywheel:
     the exact C_s is the one asked for (None where the inertia was given, or where it cannot be had). Where E is
     greatest the machine has asked most, and is slowest.
     """
+
+    NAME = "flywheel"
 
     result: Result = field(repr=False)
     drive: str
@@ -96,12 +99,6 @@ class Flywheel:
             name: _speed_record(s, to) for name, s in (("exact", self.exact), ("for_Cs", self.exact_size))
         }
         return {"flywheel": {"drive": self.drive, **book, **exact, "reason": self.reason or None}}
-
-    def __str__(self) -> str:
-        """What `dalembert flywheel` prints."""
-        from dalembert.machine.output.flywheel_text import flywheel_text
-
-        return flywheel_text(self)
 
 
 def _speed_record(s: SpeedFluctuation | None, to: Scale) -> Tree | None:

@@ -6,19 +6,22 @@ from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING
 
-from dalembert.analysis.output.columns import Column, Scale, drive_kinds
+from dalembert.analysis.output.columns import Column, Scale
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
 from dalembert.machine.members.member_forces import MemberForces, member_forces
 from dalembert.machine.members.stresses import Buckling, Stresses
+from dalembert.machine.output.answer import Answer
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
 
 @dataclass(frozen=True)
-class MemberTable:
+class MemberTable(Answer):
     """Links by name; ``stress`` and ``buckling`` of those with a section; ``left_out``: why others are not there."""
+
+    NAME = "member"
 
     result: Result = field(repr=False)
     links: dict[str, MemberForces]
@@ -28,9 +31,7 @@ class MemberTable:
 
     def columns(self) -> Iterator[Column]:
         """The drives' positions, every inner force, and the greatest stress."""
-        r = self.result
-        for drive in r.drives:
-            yield Column(f"drive {drive}", drive_kinds(r, drive)["position"], r.drive_position(drive))
+        yield from self.drive_columns()
         for link, forces in self.links.items():
             yield from forces.columns()
             if link in self.stress:
@@ -50,12 +51,6 @@ class MemberTable:
                     b[key] = to("force", b[key])
                 out[link]["buckling"] = b | {"position": b["position"] + 1}
         return {"members": out, "left_out": self.left_out}
-
-    def __str__(self) -> str:
-        """What `dalembert members` prints."""
-        from dalembert.machine.output.member_text import member_text
-
-        return member_text(self)
 
 
 def _stress_record(s: Stresses, to: Scale) -> Tree:

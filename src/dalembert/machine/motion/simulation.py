@@ -18,6 +18,7 @@ from dalembert.machine.motion.driving import Moving, moving
 from dalembert.machine.motion.energies import energies
 from dalembert.machine.motion.integration import Integration
 from dalembert.machine.motion.occurrences import Condition, Event
+from dalembert.machine.output.answer import Answer
 from dalembert.model import Mechanism, Schedule
 from dalembert.model.drives.drives import SLIDE, TURN
 from dalembert.model.drives.starting import Start, StartValue
@@ -32,7 +33,7 @@ TOLERANCE, MOST = 1e-12, 100_000
 
 
 @dataclass(frozen=True)
-class Simulation:
+class Simulation(Answer):
     """A motion under forces: ``result`` has every joint force at the instants ``time`` (T,), s.
 
     ``applied`` (T, D): what acts in each drive's freedom, brakes included. ``works``: J since the start, (T,), by name.
@@ -40,6 +41,8 @@ class Simulation:
     ``law_residual``, of the efforts that the found motion asks for when it is prescribed, over the largest; and
     ``closure``, of the loops, m or rad.
     """
+
+    NAME = "simulation"
 
     result: Result
     time: Array
@@ -99,12 +102,6 @@ class Simulation:
             "law_residual": self.law_residual,
             "closure": self.closure,
         }
-
-    def __str__(self) -> str:
-        """What `dalembert simulate` prints."""
-        from dalembert.machine.output.simulation_text import simulation_text
-
-        return simulation_text(self)
 
 
 def simulate(

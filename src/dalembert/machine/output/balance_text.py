@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from dalembert.analysis.output.columns import UnitChoice
-from dalembert.analysis.output.summary.printed_units import Printed, print_scale
-from dalembert.machine.output.shaking_text import heading
-from dalembert.printing import number, remainder, round_components, table, wrap
+from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.printing import Part, Table, number, remainder, round_components, wrap
 
 if TYPE_CHECKING:
     from dalembert.machine.balance.balancing import Balance
 
-KINDS = {"force": "force", "moment": "moment", "torque": "moment"}
 
-
-def balance_text(b: Balance, units: UnitChoice = "file") -> str:
+def balance_parts(b: Balance, to: Printed) -> Iterator[Part]:
     """The counterweights, what is left of force, moment and torque, and the proof."""
-    to = print_scale(b.result, units)
     length, mass = to.text("length"), to.text("mass")
     rows = []
     for link, p in b.placed.items():
@@ -29,12 +24,14 @@ def balance_text(b: Balance, units: UnitChoice = "file") -> str:
         moment = to.number("mass", to("length", p.moment))
         rows.append([link, moment, turned, to.number("mass", p.mass), number(x), number(y), size])
     heads = ["counterweight\non link", f"m r\n{mass}*{length}", "angle\ndeg", f"mass\n{mass}"]
-    weights = table([*heads, *(f"{x}\n{length}" for x in ("centre x", "y", "disc radius"))], rows)
-    words = "Angles and centres in link axes; m r and its angle from the link's base point."
-    return "\n\n".join([heading(b.result), weights, words, _sizes(b, to), wrap(proof(b))])
+    yield Table([*heads, *(f"{x}\n{length}" for x in ("centre x", "y", "disc radius"))], rows)
+    yield "Angles and centres in link axes; m r and its angle from the link's base point."
+    about = f"Moment about {b.before.about}; weights, which are constant, are left out of force and moment."
+    yield Table(["", "before", "after", "left"], _comparison_rows(b, to), note=wrap(about))
+    yield proof(b)
 
 
-def comparison_rows(b: Balance, text: Callable[[str, float], str]) -> list[list[str]]:
+def _comparison_rows(b: Balance, to: Printed) -> list[list[str]]:
     """Rms and greatest value of each quantity before and after, and their ratio."""
     before, after, rows = b.sizes(after=False), b.sizes(), []
     for name, old in before.items():
@@ -42,15 +39,10 @@ def comparison_rows(b: Balance, text: Callable[[str, float], str]) -> list[list[
             new = after[name][k]
             floor = 1e-12 * old[k]
             share = number(100 * new / old[k] if new > floor else 0.0, 4) + " %" if old[k] else "-"
-            sizes = [text(KINDS[name], v if v > floor else 0.0) for v in (old[k], new)]
+            kind = "force" if name == "force" else "moment"
+            sizes = [to.quantity(kind, v if v > floor else 0.0) for v in (old[k], new)]
             rows.append([f"{what} {name}", *sizes, share])
     return rows
-
-
-def _sizes(b: Balance, to: Printed) -> str:
-    rows = comparison_rows(b, to.quantity)
-    about = f"Moment about {b.before.about}; weights, which are constant, are left out of force and moment."
-    return f"{table(['', 'before', 'after', 'left'], rows)}\n{wrap(about)}"
 
 
 def proof(b: Balance) -> str:

@@ -3,39 +3,39 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from dalembert.analysis.output.columns import UnitChoice
-from dalembert.analysis.output.summary.printed_units import Printed, print_scale
+from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.machine.flywheel.speed_fluctuation import SpeedFluctuation
-from dalembert.machine.output.shaking_text import heading
-from dalembert.printing import number, remainder, table, wrap
+from dalembert.printing import Part, Table, number, remainder
 
 if TYPE_CHECKING:
     from dalembert.machine.flywheel.flywheels import Flywheel
 
 
-def flywheel_text(f: Flywheel, units: UnitChoice = "file") -> str:
+def flywheel_parts(f: Flywheel, to: Printed) -> Iterator[Part]:
     """The energy curve, the book's flywheel, the exact speed and how far both differ."""
-    to = print_scale(f.result, units)
     energy, angle = to.text("energy"), to.text("angle")
     rows = []
     for q, e, pulse in zip(f.zeros, f.energies, f.size.pulses, strict=True):
         mark = "slowest" if q == f.slowest else "fastest" if q == f.fastest else ""
         energies = [to.number("energy", x) for x in (e, pulse)]
         rows.append([to.number("angle", q), *energies, mark])
-    pulses = table([f"{f.drive}\n{angle}", f"energy\n{energy}", f"pulse after\n{energy}", "speed"], rows, 0)
-    words = (
+    yield (
         f"The effort of {f.drive} at steady speed has the mean {to.quantity('moment', f.mean)}; where it crosses "
         "the mean, E is the energy asked for above it since the first position, the pulses are the areas between."
     )
-    none = "It never differs from its mean: no flywheel is needed."
-    said = wrap(comparison(f, to.quantity))
-    return "\n\n".join([heading(f.result), wrap(words), pulses if rows else none, _sizes(f, to), said])
+    heads = [f"{f.drive}\n{angle}", f"energy\n{energy}", f"pulse after\n{energy}", "speed"]
+    yield Table(heads, rows, 0) if rows else "It never differs from its mean: no flywheel is needed."
+    share = f.coefficient_of_energy
+    work = f", {number(100 * share, 4)} % of the work of the cycle" if math.isfinite(share) else ""
+    yield f"dE = {to.quantity('energy', f.size.energy)}{work}"
+    yield _sizes(f, to)
+    yield comparison(f, to)
 
 
-def _sizes(f: Flywheel, to: Printed) -> str:
+def _sizes(f: Flywheel, to: Printed) -> Table:
     low, high = f.size.limits
     rows = [["by dE / (Cs w^2)", *_cells(to, f.size.inertia, f.size.fluctuation, low, high)]]
     some = (("its exact speed", f.exact), ("for that Cs, exact", f.exact_size))
@@ -44,9 +44,7 @@ def _sizes(f: Flywheel, to: Printed) -> str:
     ]
     unit = to.text("angular_speed")
     heads = ["flywheel", f"inertia\n{to.text('inertia')}", "Cs", f"least speed\n{unit}", f"greatest\n{unit}"]
-    share = f.coefficient_of_energy
-    work = f", {number(100 * share, 4)} % of the work of the cycle" if math.isfinite(share) else ""
-    return f"dE = {to.quantity('energy', f.size.energy)}{work}\n\n{table(heads, rows)}"
+    return Table(heads, rows)
 
 
 def _cells(to: Printed, inertia: float, fluctuation: float, low: float, high: float) -> list[str]:
@@ -54,19 +52,21 @@ def _cells(to: Printed, inertia: float, fluctuation: float, low: float, high: fl
     return [to.number("inertia", inertia), number(fluctuation, 5), *speeds]
 
 
-def comparison(f: Flywheel, text: Callable[[str, float], str]) -> str:
+def comparison(f: Flywheel, to: Printed) -> str:
     """What the book's rule leaves out, in a sentence."""
     if f.exact is None:
         return f"No exact speed: {f.reason}."
     said = (
-        f"The links have an inertia of their own of {text('inertia', f.own)} on the mean, as seen from {f.drive}, "
-        f"which dE / (Cs w^2) leaves out: with that flywheel Cs is {number(f.exact.fluctuation, 5)}"
+        f"The links have an inertia of their own of {to.quantity('inertia', f.own)} on the mean, as seen from "
+        f"{f.drive}, which dE / (Cs w^2) leaves out: with that flywheel Cs is {number(f.exact.fluctuation, 5)}"
         f"{_percent(f.exact, f.size.fluctuation)}. "
     )
     if f.exact_size is not None:
         rule = f.size.inertia - f.own
-        said += f"For the Cs asked for {text('inertia', f.exact_size.inertia)} will do" + (
-            f"; the rule less the links' own inertia says {text('inertia', rule)}. " if rule > 0 else ". "
+        said += f"For the Cs asked for {to.quantity('inertia', f.exact_size.inertia)} will do" + (
+            f"; the rule less the links' own inertia says {to.quantity('inertia', rule)}. "
+            if rule > 0
+            else ". "
         )
     elif f.reason:
         said += f"The flywheel for just that Cs is not found: {f.reason}. "

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from dalembert.analysis.output.columns import UnitChoice
 from dalembert.analysis.output.summary.printed_series import where
-from dalembert.analysis.output.summary.printed_units import Printed, print_scale
+from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.machine.members.member_forces import KINDS, ORDER
-from dalembert.machine.output.shaking_text import heading
-from dalembert.printing import number, remainder, tables, wrap
+from dalembert.printing import Part, Table, number, remainder
 
 if TYPE_CHECKING:
     from dalembert.machine.members.member_forces import MemberForces
@@ -29,7 +28,19 @@ def floors(f: MemberForces) -> dict[str, float]:
     return {"force": NONE * max(force, moment / length), "moment": NONE * max(force * length, moment)}
 
 
-def largest_rows(t: MemberTable, to: Printed) -> list[list[str]]:
+def member_parts(t: MemberTable, to: Printed) -> Iterator[Part]:
+    """The largest inner forces of each link with place and position, stresses, buckling, and what was left out."""
+    heads = ["link", "largest", "", "unit", "member", f"at\n{to.text('length')}", "where"]
+    rows = _largest_rows(t, to)
+    yield Table(heads, rows, 2) if rows else "Nothing is carried inside the links."
+    yield from (table for table in (_stress_table(t, to), _buckling_table(t, to)) if table.rows)
+    said = "N tension +; the distance is from the first end of the member. "
+    known = [float(x) for f in t.links.values() for x in f.residual[f.residual == f.residual]]
+    yield said + (f"Forces and moments close on every link within {remainder(max(known))}." if known else "")
+    yield from (f"Left out: {why}." for why in t.left_out.values())
+
+
+def _largest_rows(t: MemberTable, to: Printed) -> list[list[str]]:
     """Link, quantity, value, unit, member, place and position of the largest of each inner force."""
     rows = []
     for link, f in t.links.items():
@@ -38,32 +49,12 @@ def largest_rows(t: MemberTable, to: Printed) -> list[list[str]]:
             kind = KINDS[ORDER.index(of)]
             value, member, place, k = f.largest(of)
             if abs(value) > least[kind] or math.isnan(value):
-                shown = [
-                    number(float(to(kind, value))),
-                    to.text(kind),
-                    member,
-                    number(float(to("length", place))),
-                ]
+                shown = [to.number(kind, value), to.text(kind), member, to.number("length", place)]
                 rows.append([link, f"{SIGNS[of]} {of}", *shown, where(t.result, to, k)])
     return rows
 
 
-def member_text(t: MemberTable, units: UnitChoice = "file") -> str:
-    """The largest inner forces of each link with place and position, stresses, buckling, and what was left out."""
-    r, to = t.result, print_scale(t.result, units)
-    length = to.text("length")
-    rows = largest_rows(t, to)
-    heads = ["link", "largest", "", "unit", "member", f"at\n{length}", "where"]
-    blocks = [heading(r), tables(heads, rows, 2) if rows else "Nothing is carried inside the links."]
-    blocks += _stress_table(t, to) + _buckling_table(t, to)
-    said = "N tension +; the distance is from the first end of the member. "
-    known = [float(x) for f in t.links.values() for x in f.residual[f.residual == f.residual]]
-    said += f"Forces and moments close on every link within {remainder(max(known))}." if known else ""
-    blocks += [wrap(said), *(wrap(f"Left out: {why}.") for why in t.left_out.values())]
-    return "\n\n".join(blocks)
-
-
-def _stress_table(t: MemberTable, to: Printed) -> list[str]:
+def _stress_table(t: MemberTable, to: Printed) -> Table:
     rows = []
     for link, s in t.stress.items():
         f, k = s.fatigue(), s.position
@@ -76,23 +67,16 @@ def _stress_table(t: MemberTable, to: Printed) -> list[str]:
     unit = to.text("pressure")
     heads = ["stress\nof link", f"largest\n{unit}", "by N\n", "by M\n", f"at\n{to.text('length')}", "where\n"]
     heads += ["safety,\nyield", "fatigue:\nmean", "ampli-\ntude", "safety,\nGoodman"]
-    return [tables(heads, rows, 1)] if rows else []
+    return Table(heads, rows)
 
 
-def _buckling_table(t: MemberTable, to: Printed) -> list[str]:
+def _buckling_table(t: MemberTable, to: Printed) -> Table:
     rows = []
     for link, b in t.buckling.items():
         sizes = [number(float(to("force", x)), 5) for x in (b.compression, b.critical)]
         safety = "-" if math.isinf(b.safety) else number(b.safety, 4)
         note = "" if b.two_force else "bent as well: for comparison"
         rows.append([link, sizes[0], sizes[1], b.formula, number(b.slenderness, 4), safety, note])
-    heads = [
-        "buckling\nof link",
-        f"compression\n{to.text('force')}",
-        "critical\n",
-        "by\n",
-        "slender-\nness",
-        "safety\n",
-        "",
-    ]
-    return [tables(heads, rows, 1)] if rows else []
+    heads = ["buckling\nof link", f"compression\n{to.text('force')}", "critical\n", "by\n"]
+    heads += ["slender-\nness", "safety\n", ""]
+    return Table(heads, rows)

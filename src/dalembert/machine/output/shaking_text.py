@@ -3,44 +3,39 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.output.columns import UnitChoice
 from dalembert.analysis.output.summary.printed_series import where
-from dalembert.analysis.output.summary.printed_units import Printed, print_scale
-from dalembert.arrays import Array
+from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.errors import ModelError
 from dalembert.machine.harmonics import Harmonics, harmonics
 from dalembert.machine.output.written import greatest, rms
-from dalembert.printing import number, remainder, round_components, table, tables, wrap
+from dalembert.printing import Part, Table, number, remainder, round_components, wrap
 
 if TYPE_CHECKING:
-    from dalembert.analysis.result.result import Result
     from dalembert.machine.shaking import Shaking
 
 
-def heading(r: Result) -> str:
-    """Title, source and what the numbers rest on."""
-    of = ("gravity", "inertia", "friction")
-    said = [f"{key} {value}" for key, value in r.assumptions.items() if key in of]
-    lines = [r.mechanism.title, r.mechanism.source_text, wrap(f"Assumptions: {', '.join(said)}")]
-    return "\n".join(line for line in lines if line)
-
-
-def shaking_text(s: Shaking, units: UnitChoice = "file", orders: int | Sequence[float] = 4) -> str:
+def shaking_parts(s: Shaking, to: Printed, orders: int | Sequence[float] = 4) -> Iterator[Part]:
     """Greatest, mean and rms values, their parts, and the harmonics where the positions are a period."""
-    r, to = s.result, print_scale(s.result, units)
     whose = "The machine" if s.whole else f"{', '.join(s.links)}"
     what = "on the ground" if s.whole else "on all else"
-    blocks = [heading(r), wrap(f"{whose} {what}: force, and moment about {s.about}, in ground axes.")]
-    blocks += [_values(s, to), *_harmonic_tables(s, to, orders), *_engine(s, to), _check(s)]
-    return "\n\n".join(blocks)
+    yield f"{whose} {what}: force, and moment about {s.about}, in ground axes."
+    yield _values(s, to)
+    yield from _harmonic_tables(s, to, orders)
+    yield from _engine(s, to)
+    known = s.residual[np.isfinite(s.residual)]
+    yield (
+        f"By momentum, without any reaction; by the reactions the same within {remainder(float(known.max()))}."
+        if len(known)
+        else "The reactions have no value here: the momentum alone says it."
+    )
 
 
-def _values(s: Shaking, to: Printed) -> str:
+def _values(s: Shaking, to: Printed) -> Part:
     """One position: components. Several: greatest size with its place, mean and rms, of the whole and its parts."""
     r, d, single = s.result, s.result.mechanism.dimension, len(s.result.status) == 1
     named = [("shaking force", "force", s.force), ("shaking moment", "moment", s.moment)]
@@ -59,18 +54,18 @@ def _values(s: Shaking, to: Printed) -> str:
         rows.append([name, to.text(kind), *cells, *[""] * (d - len(components))])
     axes = list("xyz"[:d])
     heads = axes if single else ["greatest", "at", "rms", *(f"mean {a}" for a in axes)]
-    return tables(["", "unit", *heads], rows, 2) if rows else "Nothing shakes the ground."
+    return Table(["", "unit", *heads], rows, 2) if rows else "Nothing shakes the ground."
 
 
-def _harmonic_tables(s: Shaking, to: Printed, orders: int | Sequence[float]) -> list[str]:
+def _harmonic_tables(s: Shaking, to: Printed, orders: int | Sequence[float]) -> list[Part]:
     if not s.result.drives or len(s.result.status) < 3:
         return []
     try:
         some = ("force", "moment", *(["couple"] if s.couple is not None else []))
         found = {kind: s.harmonics(orders, kind) for kind in some}
     except ModelError as error:
-        return [wrap(f"No harmonics: {error}.")]
-    out = []
+        return [f"No harmonics: {error}."]
+    out: list[Part] = []
     for kind, h in found.items():
         if np.any(h.amplitude > s.floor(kind)):
             unit = "force" if kind == "force" else "moment"
@@ -81,7 +76,7 @@ def _harmonic_tables(s: Shaking, to: Printed, orders: int | Sequence[float]) -> 
     return [f"Harmonics over {period} of {drive}: amplitude, and phase in deg (a cos(k q - phase))", *out]
 
 
-def _engine(s: Shaking, to: Printed) -> list[str]:
+def _engine(s: Shaking, to: Printed) -> list[Part]:
     """Of an engine, the book's two harmonics beside the exact ones."""
     from dalembert.machine.balance.engine_series import cylinders, engine_series
 
@@ -106,10 +101,10 @@ def _engine(s: Shaking, to: Printed) -> list[str]:
     heads = ["inertia", "order", "exact: with", "against", "book: with", "against"]
     said = f"{len(e.cylinders)} cylinder{'s' * (len(e.cylinders) > 1)}, by the book's two harmonics: "
     said += f"its force is off by {number(100 * e.loss, 3)} % of the largest at most."
-    return [f"{table(heads, rows, 1)}\n{wrap(said)}"]
+    return [Table(heads, rows, note=wrap(said))]
 
 
-def harmonic_table(head: str, h: Harmonics, factor: float = 1.0, floor: float = 0.0) -> str:
+def harmonic_table(head: str, h: Harmonics, factor: float = 1.0, floor: float = 0.0) -> Table:
     """Amplitude and phase of each order, of vectors by component, in the plane also the parts that turn."""
     floor = max(floor, 1e-12 * float(np.max(h.amplitude, initial=0.0)))
     names = [""] if h.amplitude.ndim == 1 else list("xyz"[: h.amplitude.shape[1]])
@@ -126,21 +121,12 @@ def harmonic_table(head: str, h: Harmonics, factor: float = 1.0, floor: float = 
         for part in (h.forward, h.backward) if turning else ():
             row.append(number(factor * float(abs(part[k])) if abs(part[k]) > floor else 0.0))
         rows.append(row)
-    text = table(heads, rows)
-    if not math.isfinite(h.aliasing):
-        return f"{text}\nToo few positions to tell their aliasing."
-    return f"{text}\nEvery other position left out changes them by {remainder(factor * h.aliasing)} at most."
+    note = f"Every other position left out changes them by {remainder(factor * h.aliasing)} at most."
+    return Table(
+        heads, rows, note=note if math.isfinite(h.aliasing) else "Too few positions to tell their aliasing."
+    )
 
 
 def _phase(phase: float, order: float) -> str:
     """Of the mean, which has a sign, 0 or 180."""
     return number(round_components([math.degrees(phase)], 1.0)[0], 5) if order or phase else "0"
-
-
-def _check(s: Shaking) -> str:
-    known: Array = s.residual[np.isfinite(s.residual)]
-    if not len(known):
-        return "The reactions have no value here: the momentum alone says it."
-    return wrap(
-        f"By momentum, without any reaction; by the reactions the same within {remainder(float(known.max()))}."
-    )

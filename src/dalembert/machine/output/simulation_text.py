@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.output.columns import UnitChoice
-from dalembert.analysis.output.summary.printed_units import Printed, print_scale
-from dalembert.machine.output.shaking_text import heading
+from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.model.drives.drives import SLIDE, TURN
-from dalembert.printing import number, remainder, table, wrap
+from dalembert.printing import Part, Table, number, remainder
 
 if TYPE_CHECKING:
     from dalembert.machine.motion.simulation import Simulation
@@ -19,18 +18,29 @@ ROWS = 21
 """Instants that are printed."""
 
 
-def simulation_text(s: Simulation, units: UnitChoice = "file") -> str:
+def simulation_parts(s: Simulation, to: Printed) -> Iterator[Part]:
     """The drives over time, events, works, greatest joint forces and the checks."""
-    r, to = s.result, print_scale(s.result, units)
-    blocks = [
-        heading(r),
-        wrap(f"Motion under forces from 0 to {to.quantity('time', s.time[-1])}: {s.ended}."),
-    ]
-    blocks += [_drives(s, to), _events(s, to), _works(s, to), _joints(s, to), _checks(s), _problems(s)]
-    return "\n\n".join(block for block in blocks if block)
+    yield f"Motion under forces from 0 to {to.quantity('time', s.time[-1])}: {s.ended}."
+    yield _drives(s, to)
+    events = [f"at {to.quantity('time', e.time)}: {e.sentence}" for e in s.events[:ROWS]]
+    more = [f"... and {len(s.events) - ROWS} more"] if len(s.events) > ROWS else []
+    if events:
+        yield "\n".join(["Events", *events, *more])
+    yield _works(s, to)
+    joints = _joints(s, to)
+    if joints.rows:
+        yield joints
+    yield (
+        f"Checks: the energy balance holds within {remainder(s.energy_residual)} of the largest energy; the motion "
+        f"found, prescribed, asks for the efforts that made it within {remainder(s.law_residual)}; the loops close "
+        f"within {remainder(s.closure)} m."
+    )
+    problems = [row for row in s.result.problems() if row[1] != "at_rest"]
+    if problems:
+        yield "\n".join(f"instants {which}: {sentence}" for which, _, sentence in problems)
 
 
-def _drives(s: Simulation, to: Printed) -> str:
+def _drives(s: Simulation, to: Printed) -> Table:
     """Position, speed, acceleration and effort of each drive at even instants."""
     heads, columns = [f"time\n{to.text('time')}"], [to("time", s.time)]
     for k, drive in enumerate(s.drives):
@@ -46,24 +56,18 @@ def _drives(s: Simulation, to: Printed) -> str:
             columns.append(to(kind, values))
     which = np.unique(np.linspace(0, len(s.time) - 1, ROWS).astype(int))
     rows = [[number(float(np.asarray(c)[n])) for c in columns] for n in which]
-    return table(heads, rows, 0)
+    return Table(heads, rows, 0)
 
 
-def _events(s: Simulation, to: Printed) -> str:
-    some = [wrap(f"at {to.quantity('time', e.time)}: {e.sentence}") for e in s.events[:ROWS]]
-    more = [f"... and {len(s.events) - ROWS} more"] if len(s.events) > ROWS else []
-    return "\n".join(["Events", *some, *more]) if some else ""
-
-
-def _works(s: Simulation, to: Printed) -> str:
+def _works(s: Simulation, to: Printed) -> Table:
     """Energies at both ends, and what was given and taken between."""
     rows = [[f"work of {name}", "", to.number("energy", w[-1])] for name, w in s.works.items()]
     for name, e in (("kinetic energy", s.kinetic), ("potential energy", s.potential)):
         rows.append([name, *(to.number("energy", x) for x in (e[0], e[-1]))])
-    return table([f"{to.text('energy')}", "start", "end"], rows)
+    return Table([f"{to.text('energy')}", "start", "end"], rows)
 
 
-def _joints(s: Simulation, to: Printed) -> str:
+def _joints(s: Simulation, to: Printed) -> Table:
     """Greatest force in each joint and when."""
     rows = []
     for joint in s.result.joints:
@@ -72,21 +76,4 @@ def _joints(s: Simulation, to: Printed) -> str:
             k = int(np.nanargmax(size))
             rows.append([joint, to.number("force", size[k]), to.number("time", s.time[k])])
     heads = ["joint", f"greatest force\n{to.text('force')}", f"at\n{to.text('time')}"]
-    return table(heads, rows) if rows else ""
-
-
-def _checks(s: Simulation) -> str:
-    return wrap(
-        f"Checks: the energy balance holds within {remainder(s.energy_residual)} of the largest energy; the motion "
-        f"found, prescribed, asks for the efforts that made it within {remainder(s.law_residual)}; the loops close "
-        f"within {remainder(s.closure)} m."
-    )
-
-
-def _problems(s: Simulation) -> str:
-    lines = [
-        f"instants {which}: {sentence}"
-        for which, status, sentence in s.result.problems()
-        if status != "at_rest"
-    ]
-    return "\n".join(wrap(line) for line in lines)
+    return Table(heads, rows)

@@ -5,32 +5,15 @@ from __future__ import annotations
 import csv
 import json
 import math
-from collections.abc import Iterator
-from typing import IO, TYPE_CHECKING, Protocol
+from typing import IO
 
 import numpy as np
 
-from dalembert.analysis.output.columns import Column, Scale, UnitChoice, scale
+from dalembert.analysis.output.columns import UnitChoice, scale
 from dalembert.analysis.output.json_record import nan_to_none
 from dalembert.arrays import Array, Tree
+from dalembert.machine.output.answer import Answer
 from dalembert.units import KINDS
-
-if TYPE_CHECKING:
-    from dalembert.analysis.result.result import Result
-
-
-class Answer(Protocol):
-    """What an answer of this room offers to the writers."""
-
-    @property
-    def result(self) -> Result:
-        """The analysis it comes from."""
-
-    def columns(self) -> Iterator[Column]:
-        """Its numbers over the positions."""
-
-    def record(self, to: Scale) -> Tree:
-        """Its other numbers by name."""
 
 
 def to_dict(answer: Answer, units: UnitChoice = "SI") -> Tree:

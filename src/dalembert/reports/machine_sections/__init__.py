@@ -1,38 +1,31 @@
-"""Sections of the worked solution for answers of machine design, in letters and numbers.
+"""Sections of the worked solution for answers of machine design, each in a file with the name of its answer.
 
 In: an answer of ``machine``, a notation. Out: a ``Sheet``. Imports ``machine``, ``views``.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from importlib import import_module
 
+from dalembert.machine.output.answer import Answer
 from dalembert.reports.sheet import Sheet
-from dalembert.views.notation import Notation
+from dalembert.views.machine import scenes_of
+from dalembert.views.notation import Notation, Shown, pretty
 
 
-def machine_sheet(answer: Any, notation: Notation | None = None) -> Sheet:
-    """The worked solution of an answer, by what it is."""
-    from dalembert.machine.balance.balancing import Balance
-    from dalembert.machine.flywheel.flywheels import Flywheel
-    from dalembert.machine.members.member_table import MemberTable
-    from dalembert.machine.motion.simulation import Simulation
-    from dalembert.reports.machine_sections.balance_section import balance_section
-    from dalembert.reports.machine_sections.flywheel_section import flywheel_section
-    from dalembert.reports.machine_sections.member_section import member_section
-    from dalembert.reports.machine_sections.shaking_section import shaking_section
-    from dalembert.reports.machine_sections.simulation_section import simulation_section
-
-    m = answer.result.mechanism
-    sheet = Sheet(m.title or "Machine", m.source_text)
-    if isinstance(answer, Balance):
-        balance_section(sheet, answer, notation or Notation())
-    elif isinstance(answer, Flywheel):
-        flywheel_section(sheet, answer, notation or Notation())
-    elif isinstance(answer, Simulation):
-        simulation_section(sheet, answer, notation or Notation())
-    elif isinstance(answer, MemberTable):
-        member_section(sheet, answer, notation or Notation())
-    else:
-        shaking_section(sheet, answer, notation or Notation())
+def machine_sheet(answer: Answer, notation: Notation | None = None) -> Sheet:
+    """The worked solution of an answer: its equations in letters and numbers, what is found, its drawings."""
+    shown = Shown(answer.result, notation or Notation())
+    sheet = Sheet(answer.result.mechanism.title or "Machine", answer.result.mechanism.source_text)
+    section = import_module(f"dalembert.reports.machine_sections.{answer.NAME}_section")
+    getattr(section, f"{answer.NAME}_section")(sheet, answer, shown)
+    for part in answer.contents(shown.notation.units):
+        if isinstance(part, str):
+            sheet.text(part.replace("\n", "; "))
+        else:
+            heads = [pretty(head.replace("\n", " ")) for head in part.heads]
+            sheet.table(
+                heads, [[pretty(cell) for cell in row] for row in part.rows], part.note.replace("\n", " ")
+            )
+    sheet.figure(*scenes_of(answer, shown.notation))
     return sheet

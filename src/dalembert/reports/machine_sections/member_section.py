@@ -1,17 +1,14 @@
-"""Forces inside links worked out: how they are found, the largest of each, stresses, the diagrams."""
+"""Forces inside links worked out: how they are found."""
 
 from __future__ import annotations
 
 from dalembert.machine.members.member_table import MemberTable
-from dalembert.machine.output.member_text import largest_rows
 from dalembert.reports.sheet import Sheet, Working
-from dalembert.views.machine.member_views import member_scenes
-from dalembert.views.notation import Notation, Shown
+from dalembert.views.notation import Shown
 
 
-def member_section(sheet: Sheet, t: MemberTable, notation: Notation) -> None:
-    """The equations, the largest over the cycle, the stress in letters and numbers, and diagrams."""
-    shown = Shown(t.result, notation)
+def member_section(sheet: Sheet, t: MemberTable, shown: Shown) -> None:
+    """The equations, and of each section the stress in letters and numbers."""
     sheet.heading("Forces inside the links")
     sheet.text(
         "F and M are what the part of a link beyond a cut exerts on the part before it; t points along the member, n "
@@ -24,15 +21,10 @@ def member_section(sheet: Sheet, t: MemberTable, notation: Notation) -> None:
             Working("frac(d N; d s) = -q_{t} quad frac(d V; d s) = q_{n} quad frac(d M; d s) = V"),
         ]
     )
-    heads = ["link", "largest", "value", "unit", "member", f"at {shown.unit('length')}", "where"]
-    sheet.table(heads, largest_rows(t, shown.scale), "The largest over the positions")
     for link, s in t.stress.items():
-        direct, bent = (shown.text("pressure", x) for x in s.parts())
-        most = shown.text("pressure", s.largest)
-        safety = f", {notation.number(s.safety)} below the yield stress" if s.safety is not None else ""
-        said = f"{link}: at {shown.text('length', float(s.place[s.position]))} of {s.member[s.position]} the stress "
-        sheet.text(f"{said}is {most}{safety}: {direct} by N, {bent} by M.")
-    for link, b in t.buckling.items():
-        sizes = [shown.text("force", x) for x in (b.compression, b.critical)]
-        sheet.text(f"{link}: compression of {sizes[0]} at most; it buckles at {sizes[1]} by {b.formula}.")
-    sheet.figure(*member_scenes(t, notation))
+        direct, bent = (shown.number("pressure", x) for x in s.parts())
+        most = f'{shown.number("pressure", s.largest)} "{shown.unit("pressure")}"'
+        where = f"{link}, {shown.text('length', float(s.place[s.position]))} along {s.member[s.position]}:"
+        sheet.text(f"{where} by N and by M at the fibre that is stressed most, and with torsion or shear")
+        letters = "sigma = frac(N; A) + frac(M; W) quad sigma_{v}^{2} = sigma^{2} + 3 tau^{2}"
+        sheet.equations([Working(letters, f"{direct} + ({bent})", f"sigma_{{v}} = {most}")])

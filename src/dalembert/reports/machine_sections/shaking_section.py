@@ -2,27 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 
-from dalembert.errors import ModelError
-from dalembert.machine.harmonics import Harmonics
+from dalembert.arrays import Array
 from dalembert.machine.output.written import greatest
 from dalembert.machine.shaking import Shaking
-from dalembert.printing import remainder
 from dalembert.reports.sheet import Sheet, Working
-from dalembert.views.machine.shaking_views import shaking_scenes
-from dalembert.views.notation import Notation, Shown
+from dalembert.views.notation import Shown
 
 SIGNS = {"inertia": "-sum m_{i} a_{i}", "weight": "sum W_{i}", "external": "sum F_{i}"}
 """Part of the shaking force -> how it is made of the links' own."""
 
 
-def shaking_section(sheet: Sheet, s: Shaking, notation: Notation) -> None:
-    """The sums link by link, both ways, the harmonics, the drawings."""
+def shaking_section(sheet: Sheet, s: Shaking, shown: Shown) -> None:
+    """The sums link by link at the position where the force is greatest."""
     k = greatest(s.force)[1]
-    shown = Shown(s.result, notation, k)
+    shown = Shown(s.result, shown.notation, k)
     sheet.heading("Shaking force and moment")
     whose = "The machine exerts on the ground" if s.whole else f"{', '.join(s.links)} exert on all else"
     sheet.text(
@@ -30,18 +25,10 @@ def shaking_section(sheet: Sheet, s: Shaking, notation: Notation) -> None:
         f"{s.about}. Worked out at position {k + 1} of {len(s.force)}, where the force is greatest."
     )
     _inertia_table(sheet, s, shown, k)
-    found = {
-        name: w for name, w in s.parts.items() if np.any(np.nan_to_num(w[0])) or np.any(np.nan_to_num(w[1]))
-    }
-    sheet.equations([*_sums(s, shown, k, found), *_moments(s, shown, k, found)])
-    known = s.residual[np.isfinite(s.residual)]
-    if len(known):
-        sheet.text(
-            "The reactions of the joints, drives, springs and dampers add up to the same within "
-            f"{remainder(float(known.max()))} of the largest force, over all positions."
-        )
-    if len(s.force) > 2 and s.result.drives:
-        _over_the_cycle(sheet, s, shown, notation)
+    found = [name for name, w in s.parts.items() if any(np.nan_to_num(x).any() for x in w)]
+    sheet.equations(_sums(s.force[k], {n: s.parts[n][0][k] for n in found}, "F", SIGNS, shown))
+    moments = {name: f"M_{{{name}}}" for name in found}
+    sheet.equations(_sums(s.moment[k], {n: s.parts[n][1][k] for n in found}, "M", moments, shown))
 
 
 def _inertia_table(sheet: Sheet, s: Shaking, shown: Shown, k: int) -> None:
@@ -63,61 +50,16 @@ def _inertia_table(sheet: Sheet, s: Shaking, shown: Shown, k: int) -> None:
     )
 
 
-def _sums(s: Shaking, shown: Shown, k: int, found: Mapping[str, object]) -> list[Working]:
-    unit = f'"{shown.unit("force")}"'
-    letters = " + ".join(SIGNS[name] for name in found) or "0"
-    out = []
-    for c, axis in enumerate("xyz"[: s.force.shape[1]]):
-        numbers = " + ".join(_bracket(shown.number("force", float(s.parts[name][0][k, c]))) for name in found)
-        result = f"{shown.number('force', float(s.force[k, c]))} {unit}"
-        out.append(Working(f"F_{{s{axis}}} = {letters}", numbers, result))
+def _sums(
+    whole: Array, parts: dict[str, Array], sign: str, letters: dict[str, str], shown: Shown
+) -> list[Working]:
+    """Each component of a sum over its parts."""
+    kind = "force" if sign == "F" else "moment"
+    out, said = [], " + ".join(letters[name] for name in parts) or "0"
+    for c, value in enumerate(np.atleast_1d(whole)):
+        some = [shown.number(kind, float(np.atleast_1d(part)[c])) for part in parts.values()]
+        numbers = " + ".join(f"({n})" if n.startswith("−") else n for n in some)
+        axis = "xyz"[c] if np.ndim(whole) else ""
+        result = f'{shown.number(kind, float(value))} "{shown.unit(kind)}"'
+        out.append(Working(f"{sign}_{{s{axis}}} = {said}", numbers, result))
     return out
-
-
-def _moments(s: Shaking, shown: Shown, k: int, found: Mapping[str, object]) -> list[Working]:
-    unit, many = f'"{shown.unit("moment")}"', s.moment.ndim > 1
-    out = []
-    for c, axis in enumerate("xyz" if many else [""]):
-        at = (k, c) if many else k
-        numbers = " + ".join(_bracket(shown.number("moment", float(s.parts[name][1][at]))) for name in found)
-        letters = " + ".join(f"M_{{{name}}}" for name in found)
-        out.append(
-            Working(
-                f"M_{{s{axis}}} = {letters}", numbers, f"{shown.number('moment', float(s.moment[at]))} {unit}"
-            )
-        )
-    return out
-
-
-def _bracket(number: str) -> str:
-    return f"({number})" if number.startswith("−") else number
-
-
-def _over_the_cycle(sheet: Sheet, s: Shaking, shown: Shown, notation: Notation) -> None:
-    try:
-        harmonic_rows(sheet, s.harmonics(4), shown, "force")
-    except ModelError as error:
-        sheet.text(f"No harmonics: {error}.")
-    sheet.figure(*shaking_scenes(s, notation))
-
-
-def harmonic_rows(sheet: Sheet, h: Harmonics, shown: Shown, kind: str) -> None:
-    """Amplitudes and phases of a vector's components, order by order."""
-    floor, rows = 1e-12 * float(h.amplitude.max(initial=0.0)), []
-    for k, order in enumerate(h.order):
-        cells = []
-        for size, phase in zip(h.amplitude[k], h.phase[k], strict=True):
-            cells += [
-                shown.number(kind, float(size), floor),
-                shown.notation.degrees(phase if size > floor else 0.0),
-            ]
-        rows.append([f"{order:g}", *cells])
-    heads = [
-        x for axis in "xyz"[: h.amplitude.shape[1]] for x in (f"{axis} in {shown.unit(kind)}", "phase °")
-    ]
-    period = "one turn" if h.turns == 1 else f"{h.turns} turns"
-    sheet.table(
-        ["Order", *heads],
-        rows,
-        f"Harmonics over {period}: amplitude and phase of each order, a cos(k q − phase)",
-    )

@@ -12,9 +12,9 @@ from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.scene import Scene
 
 
-def balance_scenes(b: Balance, notation: Notation | None = None) -> list[Scene]:
+def balance_scenes(b: Balance, notation: Notation) -> list[Scene]:
     """Polar diagram of the force, moment and torque over the cycle, the trade-off with the torque."""
-    shown = Shown(b.result, notation or Notation())
+    shown = Shown(b.result, notation)
     sides = {"before": b.before, "after": b.after}
     force = {name: without_weight(s, "force") / shown.size("force") for name, s in sides.items()}
     out = [polar_scene(force, shown.unit("force"), "Shaking force")]

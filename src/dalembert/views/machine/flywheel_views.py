@@ -10,9 +10,9 @@ from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.scene import Scene
 
 
-def flywheel_scenes(f: Flywheel, notation: Notation | None = None) -> list[Scene]:
+def flywheel_scenes(f: Flywheel, notation: Notation) -> list[Scene]:
     """Effort and mean, energy, speeds: each over the period."""
-    shown = Shown(f.result, notation or Notation())
+    shown = Shown(f.result, notation)
     q = f.result.drive_position(f.drive)
     x, unit = q / shown.size("angle"), shown.unit("angle")
     label = f"{f.drive} in {unit}"

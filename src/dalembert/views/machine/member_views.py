@@ -16,9 +16,9 @@ PLACES = 61
 """Along a member, beside both sides of every force."""
 
 
-def member_scenes(t: MemberTable, notation: Notation | None = None) -> list[Scene]:
+def member_scenes(t: MemberTable, notation: Notation) -> list[Scene]:
     """A chart for each inner force of each member that carries it."""
-    shown = Shown(t.result, notation or Notation())
+    shown = Shown(t.result, notation)
     out = []
     for forces in t.links.values():
         least = floors(forces)

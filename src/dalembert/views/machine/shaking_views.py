@@ -16,11 +16,11 @@ from dalembert.views.paper.frame import round_up
 from dalembert.views.paper.scene import Line, Polygon, Scene, Text
 
 
-def shaking_scenes(s: Shaking, notation: Notation | None = None) -> list[Scene]:
+def shaking_scenes(s: Shaking, notation: Notation) -> list[Scene]:
     """Polar diagram (in the plane), components and moment over the cycle, harmonics where it is a period."""
     refuse_still(s.result, "a chart")
     r = s.result.before
-    shown = Shown(r, notation or Notation())
+    shown = Shown(r, notation)
     force = s.force / shown.size("force")
     whose = "on the ground" if s.whole else f"of {', '.join(s.links)}"
     out = []

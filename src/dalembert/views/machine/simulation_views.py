@@ -11,9 +11,9 @@ from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.scene import Scene
 
 
-def simulation_scenes(s: Simulation, notation: Notation | None = None) -> list[Scene]:
+def simulation_scenes(s: Simulation, notation: Notation) -> list[Scene]:
     """Speed and effort of each drive, and the energies, over time."""
-    shown = Shown(s.result, notation or Notation())
+    shown = Shown(s.result, notation)
     x, label = s.time / shown.size("time"), f"Time in {shown.unit('time')}"
     out = []
     for k, drive in enumerate(s.drives):
