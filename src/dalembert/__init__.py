@@ -52,6 +52,8 @@ if TYPE_CHECKING:
     from dalembert.machine.balance.counterweights import Counterweight
     from dalembert.machine.balance.engine_series import EngineSeries, engine_series
     from dalembert.machine.balance.rotors import RotorBalance, balance_rotor
+    from dalembert.machine.bearings.bearing_load import BearingLoad, bearing
+    from dalembert.machine.bearings.bearing_table import BearingTable, bearings
     from dalembert.machine.flywheel.flywheel_size import FlywheelSize, flywheel_size
     from dalembert.machine.flywheel.flywheels import flywheel
     from dalembert.machine.gyroscopes import Gyroscopic, gyroscopic
@@ -61,6 +63,7 @@ if TYPE_CHECKING:
     from dalembert.machine.shaking import shaking
     from dalembert.model import (
         Answer,
+        Bearing,
         Box,
         CircularSlot,
         ConstantForceSpring,
@@ -165,7 +168,7 @@ _NAMES = {
     "grading.marking.grade": "grade",
     "grading.mistakes": "check_answers",
     "model": (
-        "Answer Box CircularSlot ConstantForceSpring Couple Cylinder Damper Drive Expression ForceLoad "
+        "Answer Bearing Box CircularSlot ConstantForceSpring Couple Cylinder Damper Drive Expression ForceLoad "
         "FrictionDefaults Gear GearFriction GuideFriction Link Mechanism Offset Pin PinFriction Range "
         "Rise Rolling Section SlenderBar Slider Slot SlotFriction SpaceJoint Sphere Spring StlMesh Table "
         "TimeTable TorsionDamper TorsionSpring Tube Weld convert json_schema load loads mechanism"
@@ -174,6 +177,8 @@ _NAMES = {
     "machine.balance.counterweights": "Counterweight",
     "machine.balance.engine_series": "EngineSeries engine_series",
     "machine.balance.rotors": "RotorBalance balance_rotor",
+    "machine.bearings.bearing_load": "BearingLoad bearing",
+    "machine.bearings.bearing_table": "BearingTable bearings",
     "machine.flywheel.flywheel_size": "FlywheelSize flywheel_size",
     "machine.flywheel.flywheels": "flywheel",
     "machine.gyroscopes": "Gyroscopic gyroscopic",
@@ -210,6 +215,9 @@ __all__ = [
     "AnalysisError",
     "Answer",
     "BatchResult",
+    "Bearing",
+    "BearingLoad",
+    "BearingTable",
     "Box",
     "CircularSlot",
     "ConstantForceSpring",
@@ -268,6 +276,8 @@ __all__ = [
     "__version__",
     "balance",
     "balance_rotor",
+    "bearing",
+    "bearings",
     "bennett",
     "bevel_differential",
     "bucket",

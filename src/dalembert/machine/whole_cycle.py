@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
+from dalembert.machine.harmonics import whole_turns
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -21,6 +24,32 @@ def over_a_turn(m: Mechanism, positions: int | None = None) -> int | None:
     if positions is not None or len(turning) != 1 or any(d.unknown or d.counts() for d in m.drives.values()):
         return positions
     return ENOUGH
+
+
+def durations(r: Result) -> Array:
+    """Time (P,), s, that each position stands for: trapezoids over time, or over the first drive's motion.
+
+    Even positions over whole turns stand for the same part each. Raises ModelError where the drive stands still.
+    """
+    if len(r.status) == 1:
+        return np.ones(1)
+    if r.schedule.time is not None:
+        return _trapezoids(r.schedule.time)
+    if not r.drives or not np.all(r.drive_speed(r.drives[0])):
+        raise ModelError(
+            "the time of each position is not known", "give the first drive a speed that is not 0"
+        )
+    q, speed = r.drive_position(r.drives[0]), np.abs(r.drive_speed(r.drives[0]))
+    try:
+        whole_turns(q)
+    except ModelError:
+        return np.asarray(_trapezoids(q) / speed)
+    return np.asarray(abs(q[1] - q[0]) / speed)
+
+
+def _trapezoids(x: Array) -> Array:
+    steps = np.abs(np.diff(x)) / 2
+    return np.asarray(np.append(steps, 0.0) + np.append(0.0, steps))
 
 
 def turning_angle(r: Result) -> Array:

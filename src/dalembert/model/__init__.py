@@ -15,6 +15,7 @@ from dalembert.model.files.conversion import convert
 from dalembert.model.files.json_schema import json_schema
 from dalembert.model.files.messages import ModelErrors
 from dalembert.model.files.model_files import load, loads, read_file, read_text, save_tree, tree_text
+from dalembert.model.joints.bearing_keys import Bearing
 from dalembert.model.joints.friction_keys import (
     FrictionDefaults,
     GearFriction,
@@ -45,6 +46,7 @@ from dalembert.model.stated_answers import Answer
 __all__ = [
     "GROUND",
     "Answer",
+    "Bearing",
     "Box",
     "CircularSlot",
     "ConstantForceSpring",

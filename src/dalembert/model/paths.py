@@ -167,12 +167,12 @@ WORDS = ("title", "source", "why")
 
 
 def as_in_file(value: object, key: str = "") -> object:
-    """A value with each text that is a list as a file would have it: its numbers are texts too."""
+    """A value with each text that is a list or a mapping as a file would have it: its numbers are texts too."""
     if isinstance(value, Mapping):
         return {key: as_in_file(item, key) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
         return [as_in_file(item) for item in value]
-    if not isinstance(value, str) or key in WORDS or not value.lstrip().startswith("["):
+    if not isinstance(value, str) or key in WORDS or not value.lstrip().startswith(("[", "{")):
         return value
     from dalembert.model.files.yaml_text import read
 
@@ -185,6 +185,8 @@ def as_in_file(value: object, key: str = "") -> object:
 def _texts(value: object) -> object:
     if isinstance(value, list):
         return [_texts(item) for item in value]
+    if isinstance(value, Mapping):
+        return {str(key): _texts(item) for key, item in value.items()}
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
     return repr(value) if number else value
 

@@ -1,14 +1,15 @@
-"""`dalembert members`: forces inside links, stresses, buckling."""
+"""`dalembert members`, `bearings`: what links and joints have to bear, and what is chosen by it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
 from dalembert.cli.machine.machine_commands import NO_OUTPUTS, Outputs, solve_over_a_turn
-from dalembert.cli.options import AS_IN_FILE, Changes, ModelFile, Positions, Static
+from dalembert.cli.options import AS_IN_FILE, Changes, ModelFile, Positions, Static, with_help
 from dalembert.errors import ModelError
 
 
@@ -45,5 +46,43 @@ MEMBERS = """Examples:
   dalembert members press.yaml --links rod --drawing rod.svg --report rod.pdf
   dalembert members press.yaml --set "links.rod.section={circle: 30 mm, yield_stress: 250 MPa}" """
 
-COMMANDS: dict[Callable[..., int], str] = {members: MEMBERS}
+
+def bearings(
+    file: ModelFile,
+    /,
+    *,
+    joints: Annotated[
+        list[str] | None,
+        Parameter(negative=(), consume_multiple=True, help="Joints, one or more (default: all that turn)."),
+    ] = None,
+    hours: Annotated[float | None, Parameter(help="Life to be had, in hours.")] = None,
+    table: Annotated[
+        Path | None, with_help("Bearings to choose from: a text file with columns name, C, C0, d.")
+    ] = None,
+    factor: Annotated[float, Parameter(help="The load is taken so many times (default: 1).")] = 1.0,
+    safety: Annotated[float, Parameter(help="C0 over the largest load, at least (default: 1).")] = 1.0,
+    static: Static = False,
+    positions: Positions = None,
+    changes: Changes = AS_IN_FILE,
+    out: Outputs = NO_OUTPUTS,
+) -> int:
+    """Pressure, PV, equivalent load and life of the bearings of FILE; the smallest of a table that lives so long."""
+    from dalembert.machine.bearings.bearing_table import bearings as bearing_table
+
+    out.check(file)
+    result = solve_over_a_turn(file, static, positions, changes)
+    try:
+        found = bearing_table(result, joints, hours, table, factor, safety)
+    except ModelError as error:
+        raise error.at_source(result.mechanism.source) from None
+    out.deliver(found)
+    return 0
+
+
+BEARINGS = """Examples:
+  dalembert bearings press.yaml
+  dalembert bearings press.yaml --hours 20000 --table bearings.csv --factor 1.2
+  dalembert bearings press.yaml --joints A B --set "joints.A.bearing={rating: 12 kN}" --report bearings.pdf"""
+
+COMMANDS: dict[Callable[..., int], str] = {members: MEMBERS, bearings: BEARINGS}
 """Each with its examples."""

@@ -8,6 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import Field, StrictBool, ValidationInfo, model_validator
 
 from dalembert.errors import ModelError
+from dalembert.model.joints.bearing_keys import Bearing
 from dalembert.model.joints.friction_keys import GearFriction, GuideFriction, PinFriction, SlotFriction
 from dalembert.model.joints.joint_part import JointPart
 from dalembert.model.joints.pairs import freedoms_of
@@ -95,6 +96,7 @@ class Pin(JointPart):
     FREEDOMS: ClassVar = ("turn",)
     type: Literal["pin"] = "pin"
     friction: PinFriction | None = Field(None, description="dry friction of the pin")
+    bearing: Bearing | None = Field(None, description="its bearing: pressure and life over the cycle")
     damping: TurnDamping = Field(0.0, description="viscous couple per angular speed")
 
 

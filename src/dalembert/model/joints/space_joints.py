@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, Literal, Self
 from pydantic import Field, ValidationInfo, model_validator
 
 from dalembert.errors import ModelError
+from dalembert.model.joints.bearing_keys import Bearing
 from dalembert.model.joints.friction_keys import SpaceFriction
 from dalembert.model.joints.joint_part import JointPart
 from dalembert.model.joints.pairs import AXES, PAIRS, Pair
@@ -130,6 +131,7 @@ class SpaceJoint(JointPart):
     friction: SpaceFriction | None = Field(
         None, description="dry friction, of a revolute, prismatic, cylindrical, spherical or screw joint"
     )
+    bearing: Bearing | None = Field(None, description="of a revolute joint: pressure and life over the cycle")
     damping: Annotated[dict[str, float], Dampings()] = Field(
         default_factory=dict, description="viscous: of the only freedom, or {freedom: coefficient}"
     )
@@ -173,6 +175,8 @@ class SpaceJoint(JointPart):
             raise ModelError(
                 f"a {self.type} joint has no blocked turn to choose", "leave it out", ("blocked",)
             )
+        if self.bearing is not None and not self.hinge:
+            raise ModelError(f"a {self.type} joint has no bearing", "give it to a revolute", ("bearing",))
         if self.axis is not None:
             at_item("axis", direction_vector, self.axis)
             if self.axes is not None:

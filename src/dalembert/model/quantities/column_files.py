@@ -55,6 +55,16 @@ def read_columns(file: str, asked: Sequence[str | int], rules: Reading) -> list[
     return [Column(*heads[k], cells.head, x, lines) for k, x in zip(places, numbers, strict=True)]
 
 
+def read_names(file: str, asked: str, rules: Reading) -> list[str]:
+    """The cells of a column of names, row by row."""
+    path = find_file(file, rules)
+    file = os.path.join(rules.folder, file)
+    lines = enumerate(file_text(path, file).split("\n"), 1)
+    cells = _Cells(file, [(n, line) for n, line in lines if line.strip() and line.strip()[0] != "#"])
+    place = _place(asked, 0, cells.heads(), cells)
+    return [row[place] for _, row in cells.rows]
+
+
 def find_file(file: str, rules: Reading) -> Path:
     """Where the file is: in the model's folder, or in the other one that is allowed, links resolved."""
     if not isinstance(file, str) or not file.lower().endswith(ENDINGS):

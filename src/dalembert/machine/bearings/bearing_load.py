@@ -1,0 +1,183 @@
+"""What the bearing of a joint carries over the cycle, and the life that follows.
+
+p = F / (d l), PV = p (d / 2) |w|, P = (int F^e |dphi| / int |dphi|)^(1/e) with phi the turn of j against
+i, e = 3 for balls and 10/3 for rollers, L10 = (C / P)^e million turns (ISO 281).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.friction.bearing_ends import bearing_axis
+from dalembert.analysis.methods.applied_forces import magnitude
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.machine.whole_cycle import durations
+from dalembert.model import GROUND
+from dalembert.model.joints.bearing_keys import Bearing
+from dalembert.wording import closest
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+MILLION = 1e6
+
+
+@dataclass(frozen=True)
+class BearingLoad:
+    """Forces (P,) of a joint across its axis and along it, N, and its turning (P,), rad/s, of j against i.
+
+    ``time`` (P,), s: what each position stands for. ``bearing``: as the file has it, or by its kind alone.
+    """
+
+    result: Result = field(repr=False)
+    joint: str
+    bearing: Bearing | None
+    radial: Array = field(repr=False)
+    axial: Array = field(repr=False)
+    rate: Array = field(repr=False)
+    time: Array = field(repr=False)
+
+    @property
+    def sized(self) -> bool:
+        """Whether it has a pressure."""
+        return self.bearing is not None and bool(self.bearing.diameter and self.bearing.length)
+
+    @property
+    def pressure(self) -> Array:
+        """Force across the axis over the projected area (P,), Pa; raises ModelError without diameter and length."""
+        b = self.bearing
+        if b is None or b.diameter is None or b.length is None:
+            raise self._lacks("no size", "give diameter: 20 mm and length: 15 mm")
+        return self.radial / (b.diameter * b.length)
+
+    @property
+    def pv(self) -> Array:
+        """Pressure times the speed at the pin's surface (P,), W/m2."""
+        p = self.pressure
+        return np.asarray(p * np.abs(self.rate) * (self.bearing.diameter if self.bearing else 0) / 2)
+
+    @property
+    def mean_pv(self) -> float:
+        """Its mean over time."""
+        return float((self.pv * self.time).sum() / self.time.sum())
+
+    @property
+    def load(self) -> Array:
+        """The radial load (P,), N, that does as much as both forces: X F_r + Y F_a, and never less than F_r."""
+        b = self.bearing
+        if b is None or b.axial_factor is None:
+            thrust = np.nanmax(self.axial, initial=0.0) > 1e-9 * np.nanmax(self.radial, initial=0.0)
+            return np.full_like(self.radial, np.nan) if thrust else self.radial
+        return np.maximum(self.radial, b.radial_factor * self.radial + b.axial_factor * self.axial)
+
+    @property
+    def exponent(self) -> float:
+        """Of load in life: that of balls where no bearing is described."""
+        return self.bearing.exponent if self.bearing else 3.0
+
+    @property
+    def equivalent(self) -> float:
+        """P, N: the steady load of the same life, weighted by the turn, not by time; NaN where it does not turn, or has
+        an axial force and no factor for it."""
+        turned, largest = np.abs(self.rate) * self.time, float(np.max(self.load, initial=0.0))
+        if not turned.sum() > 0 or not largest > 0:
+            return 0.0 if largest == 0 else math.nan
+        mean = ((self.load / largest) ** self.exponent * turned).sum() / turned.sum()
+        return float(largest * mean ** (1 / self.exponent))
+
+    @property
+    def speed(self) -> float:
+        """Mean of the turning's size over time, rad/s."""
+        return float((np.abs(self.rate) * self.time).sum() / self.time.sum())
+
+    @property
+    def swings(self) -> bool:
+        """Whether it turns to and fro: its turns are then the angle swept over 2 pi."""
+        return bool((self.rate > 0).any() and (self.rate < 0).any())
+
+    @property
+    def turns(self) -> float:
+        """L10, turns that nine of ten bearings reach; raises ModelError without a rating."""
+        if self.bearing is None or self.bearing.rating is None:
+            raise self._lacks("no rating", "give rating: 12 kN")
+        p = self.equivalent
+        return MILLION * (self.bearing.rating / p) ** self.exponent if p else math.inf
+
+    @property
+    def hours(self) -> float:
+        """The same by the mean speed."""
+        return self.turns * 2 * math.pi / self.speed / 3600 if self.speed else math.inf
+
+    @property
+    def static_safety(self) -> float | None:
+        """C0 over the largest load; None without C0."""
+        most = float(np.max(self.load, initial=0.0))
+        given = self.bearing.static_rating if self.bearing else None
+        return None if given is None else given / most if most else math.inf
+
+    def rating_for(
+        self,
+        hours: float,
+        factor: float = 1.0,
+        reliability: float = 0.9,
+        weibull: tuple[float, float, float] | None = None,
+    ) -> float:
+        """The rating C, N, for a life in hours, with the load times a factor.
+
+        ``weibull``: (x0, theta - x0, b) of a catalogue, for the reliability of that life: C = a P (x / (x0 + (theta -
+        x0) ln(1/R)^(1/b)))^(1/e), x in million turns; without it the life is L10. Budynas and Nisbett, section 11-4.
+        """
+        if weibull is None and reliability != 0.9:
+            raise ModelError(
+                f"life of a reliability of {reliability:g}", "give the catalogue's weibull numbers"
+            )
+        lives = hours * 3600 * self.speed / (2 * math.pi) / MILLION
+        if weibull is not None:
+            x0, scale, shape = weibull
+            lives /= x0 + scale * math.log(1 / reliability) ** (1 / shape)
+        return float(factor * self.equivalent * lives ** (1 / self.exponent))
+
+    def _lacks(self, what: str, remedy: str) -> ModelError:
+        return ModelError(f"the bearing of {self.joint!r} has {what}", remedy, ("joints", self.joint))
+
+
+def bearing(r: Result, joint: str) -> BearingLoad:
+    """The load of a joint's bearing over the cycle: pressure, PV, equivalent load, L10.
+
+    Of a pin or a revolute joint. Raises ModelError for others, and where the drive stands still.
+
+    >>> import dalembert as da
+    >>> m = da.slider_crank(crank=0.05, rod=0.2).with_values({"joints.A.bearing": {"rating": "12 kN"}})
+    >>> b = da.bearing(da.dynamics(m), "A")
+    >>> bool(b.radial.min() < b.equivalent < b.radial.max()), b.exponent
+    (True, 3.0)
+    """
+    if joint not in r.joints:
+        raise ModelError(f"there is no joint {joint!r}", closest(joint, list(r.joints)))
+    if joint not in turning_joints(r):
+        raise ModelError(f"joint {joint!r} does not turn about one axis", "ask for a pin or a revolute")
+    force = r.reaction(joint)
+    i, j = (np.zeros(1) if n == GROUND else r.speed(n) for n in r.mechanism.joints[joint].links)
+    if r.mechanism.dimension == 2:
+        radial, axial, rate = magnitude(force), np.zeros(len(force)), j - i
+    else:
+        axis = bearing_axis(r, joint)
+        along = (force * axis).sum(axis=1)
+        radial, axial, rate = (
+            magnitude(force - along[:, None] * axis),
+            np.abs(along),
+            ((j - i) * axis).sum(axis=1),
+        )
+    given = getattr(r.mechanism.joints[joint], "bearing", None)
+    return BearingLoad(r, joint, given, radial, axial, rate + 0.0 * radial, durations(r))
+
+
+def turning_joints(r: Result) -> list[str]:
+    """Joints that can have a bearing."""
+    joints = r.mechanism.joints
+    return [n for n in r.joints if joints[n].hinge]

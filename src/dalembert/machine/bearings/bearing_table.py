@@ -1,0 +1,86 @@
+"""The bearings of all joints of a machine, and the choice of one for each from a table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from dalembert.analysis.output.columns import Column, Scale
+from dalembert.arrays import Tree
+from dalembert.errors import ModelError
+from dalembert.machine.bearings.bearing_load import BearingLoad, bearing, turning_joints
+from dalembert.machine.bearings.catalogue import Row, catalogue, choose
+from dalembert.machine.output.answer import Answer
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+
+@dataclass(frozen=True)
+class BearingTable(Answer):
+    """Loads by joint; ``hours`` of life asked for, the load times ``factor``; ``chosen`` from a table of ``rows``."""
+
+    NAME = "bearing"
+
+    result: Result = field(repr=False)
+    loads: dict[str, BearingLoad]
+    hours: float | None = None
+    factor: float = 1.0
+    rows: int = 0
+    chosen: dict[str, Row | None] = field(default_factory=dict)
+
+    def columns(self) -> Iterator[Column]:
+        """The drives' positions; forces and turning of each joint, pressure and PV of those with a size."""
+        yield from self.drive_columns()
+        for joint, b in self.loads.items():
+            yield Column(f"radial force {joint}", "force", b.radial)
+            if b.axial.any():
+                yield Column(f"axial force {joint}", "force", b.axial)
+            yield Column(f"turning {joint}", "angular_speed", b.rate)
+            if b.sized:
+                yield Column(f"pressure {joint}", "pressure", b.pressure)
+                yield Column(f"PV {joint} in W/m^2", "number", b.pv)
+
+    def record(self, to: Scale) -> Tree:
+        """Equivalent load, life and what was chosen, in the units of a scale."""
+        out: Tree = {}
+        for joint, b in self.loads.items():
+            own = out[joint] = {"equivalent_load": to("force", b.equivalent), "swings": b.swings}
+            own["mean_turning"] = to("angular_speed", b.speed)
+            if b.sized:
+                own |= {"pressure": to("pressure", b.pressure.max()), "mean_PV": b.mean_pv, "PV": b.pv.max()}
+            if b.bearing and b.bearing.rating:
+                own |= {"turns": b.turns, "hours": b.hours, "static_safety": b.static_safety}
+            if self.hours:
+                own["rating_needed"] = to("force", b.rating_for(self.hours, self.factor))
+                row = self.chosen.get(joint)
+                own["chosen"] = row.name if row else None
+        return {"bearings": out, "hours": self.hours, "factor": self.factor}
+
+
+def bearings(
+    r: Result,
+    joints: Iterable[str] | None = None,
+    hours: float | None = None,
+    table: str | Path | None = None,
+    factor: float = 1.0,
+    static: float = 1.0,
+) -> BearingTable:
+    """Bearings of the joints asked for, or of all that turn: pressure, PV, equivalent load, life, and a choice.
+
+    ``hours``: the life to be had with the load times ``factor``; ``table``: a text file with columns name, C, C0, d, of
+    which the smallest row is chosen that lives so long and whose C0 is ``static`` times the largest load.
+    """
+    asked = [joints] if isinstance(joints, str) else list(joints or turning_joints(r))
+    found = {joint: bearing(r, joint) for joint in asked}
+    if not found:
+        raise ModelError("no joint turns about one axis", "give the machine a pin")
+    if table is None:
+        return BearingTable(r, found, hours, factor)
+    if hours is None:
+        raise ModelError("a bearing is chosen by its life", "say how many hours: 20000")
+    rows = catalogue(table, r.mechanism.units)
+    chosen = {joint: choose(b, rows, hours, factor, static) for joint, b in found.items()}
+    return BearingTable(r, found, hours, factor, len(rows), chosen)

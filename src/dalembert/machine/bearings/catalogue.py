@@ -1,0 +1,59 @@
+"""A table of bearings as a maker prints it, a text file with columns name, C, C0, d; and the row that is enough."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+from dalembert.errors import ModelError
+from dalembert.machine.bearings.bearing_load import BearingLoad
+from dalembert.model.part import Reading
+from dalembert.model.quantities.column_files import read_columns, read_names
+from dalembert.units import Units, quantity
+
+KINDS = {"C": "force", "C0": "force", "d": "length"}
+
+
+class Row(NamedTuple):
+    """A bearing: dynamic and static rating, N, and bore, m."""
+
+    name: str
+    C: float
+    C0: float
+    d: float
+
+
+def catalogue(file: str | Path, units: Units | None = None) -> list[Row]:
+    """The rows of a table; numbers whose head names no unit are in these (default SI).
+
+    Raises ModelError with file and line for what is missing, no number or not positive.
+    """
+    path = Path(file)
+    rules = Reading(units, folder=str(path.parent))
+    names = read_names(path.name, "name", rules)
+    numbers = []
+    for column, (name, kind) in zip(read_columns(path.name, list(KINDS), rules), KINDS.items(), strict=True):
+        for value, line in zip(column.values, column.lines, strict=True):
+            if value <= 0:
+                what, remedy = f"{name} is {value:g}", "give a positive number"
+                raise ModelError(what, remedy, (), str(path), line)
+        try:
+            numbers.append([quantity(f"{v!r} {column.unit}".strip(), kind, units) for v in column.values])
+        except ModelError as error:
+            raise ModelError(error.what, error.remedy, (), str(path), column.head) from None
+    return [Row(*row) for row in zip(names, *numbers, strict=True)]
+
+
+def choose(
+    load: BearingLoad, rows: list[Row], hours: float, factor: float = 1.0, static: float = 1.0
+) -> Row | None:
+    """The smallest bearing, by bore, then by rating, that lives so long; None where none does.
+
+    Its C is at least ``rating_for`` the hours, C0 ``static`` times the largest load, d the pin's diameter.
+    """
+    needed = load.rating_for(hours, factor), static * factor * float(load.load.max())
+    bore = (load.bearing.diameter if load.bearing else None) or 0.0
+    enough = [
+        row for row in rows if needed[0] <= row.C and needed[1] <= row.C0 and row.d >= bore * (1 - 1e-9)
+    ]
+    return min(enough, key=lambda row: (row.d, row.C), default=None)

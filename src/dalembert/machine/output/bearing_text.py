@@ -1,0 +1,78 @@
+"""Bearings as a person reads them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.output.summary.printed_series import where
+from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.machine.output.written import greatest
+from dalembert.printing import Part, Table, number
+
+if TYPE_CHECKING:
+    from dalembert.machine.bearings.bearing_table import BearingTable
+
+
+def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
+    """Loads, pressure and PV, life, and what is chosen."""
+    force, rate = to.text("force"), to.text("angular_speed")
+    loads, plain, rolling = [], [], []
+    for joint, b in t.loads.items():
+        size, k = greatest(b.radial)
+        most = [to.number("force", size), where(t.result, to, k), to.number("force", b.axial.max())]
+        loads.append([joint, *most, to.number("force", b.equivalent), to.number("angular_speed", b.speed)])
+        loads[-1].append("to and fro" if b.swings else "on")
+        if b.sized:
+            values = [to("pressure", to("speed", x)) for x in (float(b.pv.max()), b.mean_pv)]
+            plain.append([joint, to.number("pressure", b.pressure.max()), *(number(v) for v in values)])
+        if b.bearing and b.bearing.rating:
+            safety = "-" if b.static_safety is None else number(b.static_safety, 4)
+            life = [number(b.turns / 1e6), number(b.hours), safety]
+            rolling.append([joint, b.bearing.kind, to.number("force", b.bearing.rating), *life])
+    heads = ["joint", f"radial force\n{force}", "at\n", f"axial\n{force}", f"equivalent\n{force}"]
+    heads += [f"mean turning\n{rate}", "turns\n"]
+    if not any(b.axial.any() for b in t.loads.values()):
+        heads, *loads = [[*row[:3], *row[4:]] for row in (heads, *loads)]
+    yield Table(heads, loads)
+    pv = f"{to.text('pressure')}*{to.text('speed')}"
+    if plain:
+        yield Table(["joint", f"pressure\n{to.text('pressure')}", f"greatest PV\n{pv}", "mean PV\n"], plain)
+    if rolling:
+        life = ["L10\n10^6 turns", "L10\nhours", "C0 / load\n"]
+        yield Table(["joint", "bearing", f"rating C\n{force}", *life], rolling, 2)
+    if t.hours is not None:
+        yield _choice(t, to)
+    yield (
+        "The equivalent load is weighted by the turning of the joint's links to each other; exponent 3, of rollers "
+        "10/3. A joint that turns to and fro: turns are the angle swept over 360 deg."
+    )
+    thrust = [
+        joint for joint, b in t.loads.items() if not np.isfinite(b.load).all() and np.isfinite(b.radial).all()
+    ]
+    if thrust:
+        yield f"{', '.join(thrust)}: an axial force, and no axial_factor in the bearing to count it by."
+
+
+def _choice(t: BearingTable, to: Printed) -> Table:
+    rows = []
+    for joint, b in t.loads.items():
+        row = t.chosen.get(joint)
+        said = (
+            [row.name, *(to.number("force", x) for x in (row.C, row.C0)), to.number("length", row.d)]
+            if row
+            else []
+        )
+        said = said or ["none is enough" if t.rows else "no table given", "", "", ""]
+        rows.append([joint, to.number("force", b.rating_for(t.hours or 0.0, t.factor)), *said])
+    heads = [
+        f"C needed\n{to.text('force')}",
+        "chosen\n",
+        f"C\n{to.text('force')}",
+        "C0\n",
+        f"bore\n{to.text('length')}",
+    ]
+    factor = f", with {number(t.factor)} times the load" if t.factor != 1 else ""
+    return Table(["joint", *heads], rows, note=f"For {number(t.hours or 0.0)} hours{factor}.")

@@ -1,0 +1,163 @@
+"""Bearings: equivalent load and life in closed form, catalogue ratings of the books, pressure, choice, bad input."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.cli import main
+from dalembert.errors import ModelError
+from tests.machine.cranks import crank_machine
+from tests.tiers import over
+
+SHAFT = """
+units: {{length: mm, angle: rad}}
+links:
+  ground: {{points: {{O: [0, 0]}}}}
+  shaft: {{points: {{O: [0, 0]}}, mass: 0}}
+joints:
+  O: {{type: pin, links: [ground, shaft], bearing: {bearing}}}
+drives:
+  O: {{position: {{from: 0, to: {turn}, count: 72}}, speed: 300 rpm}}
+loads:
+  F: {{type: force, on: shaft, at: O, value: [{load}, 0]}}
+"""
+
+
+def shaft(load: str, bearing: str = "{rating: 12 kN}") -> Any:
+    return da.dynamics(da.loads(SHAFT.format(load=load, bearing=bearing, turn=2 * math.pi)))
+
+
+def test_a_load_that_pulses_with_the_turn() -> None:
+    """BRG-4: cube mean of 1 + cos/2 is (1 + 3/8)^(1/3)."""
+    ball, roller = (
+        da.bearing(shaft("1000 + 500*cos(O)", f"{{rating: 12 kN, kind: {kind}}}"), "O")
+        for kind in ("ball", "roller")
+    )
+    assert ball.equivalent == pytest.approx(1111.9900452846575, rel=1e-9)
+    assert ball.turns == pytest.approx(1256.7272727272734e6, rel=1e-9)
+    assert ball.hours == pytest.approx(ball.turns / 300 / 60, rel=1e-9)
+    assert roller.equivalent == pytest.approx(1126.9726504325563, rel=1e-9)
+    rule = (ball.radial.min() + 2 * ball.radial.max()) / 3
+    assert rule == pytest.approx(1166.6666666666667, rel=1e-9)
+
+
+def test_ratings_of_the_books() -> None:
+    """BRG-1 and BRG-3."""
+    ball = da.bearing(shaft("1898"), "O")
+    assert ball.rating_for(30_000, 1.2, 0.9, (0.02, 4.439, 1.483)) == pytest.approx(
+        18588.38007093364, rel=1e-7
+    )
+    assert ball.rating_for(30_000, 1.2) == pytest.approx(18547.072690669673, rel=1e-9)
+    assert 30_000 * 3600 * ball.speed / (2 * math.pi) / 1e6 == pytest.approx(540, rel=1e-12)
+    roller = da.bearing(shaft(f"{1650 * 4.4482216152605}", "{rating: 12 kN, kind: roller}"), "O")
+    assert roller.rating_for(1440e6 / 300 / 60, 1.4) == pytest.approx(91055.70131184496, rel=1e-7)
+
+
+@over(4, 200)
+def test_pressure_and_life_against_sums_of_ones_own(seed: int) -> None:
+    """By the angles of the links, not by their rates: a finer cycle, and differences of the relative angle."""
+    m = crank_machine(seed, 360)
+    rating = {"rating": 3000.0, "diameter": 0.02, "length": 0.03}
+    r = da.dynamics(m.with_values({"joints.A.bearing": rating}))
+    b = da.bearing(r, "A")
+    force = np.hypot(*r.reaction("A").T)
+    assert np.allclose(b.pressure, force / 6e-4)
+    phi = np.unwrap(r.angle("rod") - r.angle("crank"))
+    turned = np.abs(np.diff(np.append(phi, phi[0] + 2 * np.pi * round((phi[-1] - phi[0]) / (2 * np.pi)))))
+    mean = (force + np.roll(force, -1)) / 2
+    own = ((mean**3 * turned).sum() / turned.sum()) ** (1 / 3)
+    assert b.equivalent == pytest.approx(own, rel=2e-3)
+    period = 2 * np.pi / abs(r.drive_speed("O")[0])
+    assert b.hours == pytest.approx(b.turns / (turned.sum() / 2 / np.pi) * period / 3600, rel=2e-3)
+    assert b.mean_pv == pytest.approx(float((b.pressure * 0.01 * np.abs(b.rate)).mean()), rel=1e-9)
+
+
+def test_a_bearing_in_space_has_axial_factors() -> None:
+    m, joint = da.rssr(), "O"
+    values = {"gravity": [0.0, -9.8, -3.0], f"joints.{joint}.bearing": {"rating": 5000.0}}
+    r = da.dynamics(m.with_values(values))
+    b = da.bearing(r, joint)
+    assert b.axial.max() > 1
+    assert math.isnan(b.equivalent)
+    assert f"{joint}, C: an axial force, and no axial_factor" in str(da.bearings(r))
+    factors = {"rating": 5000.0, "radial_factor": 0.56, "axial_factor": 1.5}
+    b = da.bearing(da.dynamics(r.mechanism.with_values({f"joints.{joint}.bearing": factors})), joint)
+    assert np.allclose(b.load, np.maximum(b.radial, 0.56 * b.radial + 1.5 * b.axial))
+    assert math.isfinite(b.hours)
+
+
+TABLE = "name, C [kN], C0 [kN], d [mm]\n6202, 7.8, 3.55, 15\n6205, 14, 7.8, 25\n6204, 12.7, 6.55, 20\n"
+
+
+def test_the_smallest_that_is_enough_is_chosen(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "m.yaml").write_text(SHAFT.format(load="1898", bearing="{rating: 12 kN}", turn=2 * math.pi))
+    (tmp_path / "b.csv").write_text(TABLE)
+    arguments = ["bearings", str(tmp_path / "m.yaml"), "--hours", "5000", "--table", str(tmp_path / "b.csv")]
+    outputs = [x for kind in ("json", "csv", "report") for x in (f"--{kind}", str(tmp_path / f"o.{kind}"))]
+    outputs[-1] = str(tmp_path / "o.txt")
+    assert main([*arguments, *outputs]) == 0
+    said = capsys.readouterr().out
+    assert "6204" in said
+    assert "6202" not in said
+    read = json.loads((tmp_path / "o.json").read_text())["bearings"]["O"]
+    assert read["chosen"] == "6204"
+    assert read["rating_needed"] == pytest.approx(1898 * 90 ** (1 / 3))
+    assert "radial force O [N]" in (tmp_path / "o.csv").read_text()
+    assert "L_10 = ((C)/(P))^e 10^6" in (tmp_path / "o.txt").read_text()
+    assert main([*arguments, "--factor", "2"]) == 0
+    assert "none is enough" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("bearing", "said"),
+    [
+        (
+            "{kind: ball}",
+            "the bearing has no rating; give rating: 12 kN, or diameter: 20 mm and length: 15 mm",
+        ),
+        ("{diameter: 20 mm}", "the bearing has no length; give"),
+        ("{rating: -3 kN}", "positive"),
+    ],
+)
+def test_a_bearing_without_rating_or_size_has_its_line(bearing: str, said: str, tmp_path: Path) -> None:
+    file = tmp_path / "m.yaml"
+    file.write_text(SHAFT.format(load="1", bearing=bearing, turn=1))
+    with pytest.raises(ModelError, match=r"m\.yaml:7: ") as error:
+        da.load(file)
+    assert said in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("7.8, 3.55", "-7.8, 3.55", r"b\.csv:2: C is -7\.8; give a positive number"),
+        ("3.55, 15", "3.55", r"b\.csv:2: 3 columns where the first row has 4"),
+        ("14,", "much,", r"b\.csv:3: 'much' in column 'C' is no finite number"),
+        ("d [mm]", "D [mm]", r"b\.csv:1: the column 'd' is not in its head"),
+        ("C [kN]", "C [mm]", r"b\.csv:1: "),
+    ],
+)
+def test_a_bad_row_of_a_table_has_its_line(old: str, new: str, said: str, tmp_path: Path) -> None:
+    (tmp_path / "b.csv").write_text(TABLE.replace(old, new))
+    with pytest.raises(ModelError, match=said):
+        da.bearings(shaft("1898"), hours=5000, table=tmp_path / "b.csv")
+
+
+def test_what_has_no_life_is_refused() -> None:
+    r = shaft("1898", "{diameter: 20 mm, length: 10 mm}")
+    with pytest.raises(ModelError, match="the bearing of 'O' has no rating; give rating: 12 kN"):
+        _ = da.bearing(r, "O").turns
+    with pytest.raises(ModelError, match="a bearing is chosen by its life"):
+        da.bearings(r, table="none.csv")
+    with pytest.raises(ModelError, match="the time of each position is not known"):
+        da.bearing(da.dynamics(r.mechanism.with_values({"drives.O.speed": 0.0})), "O")
+    engine = da.dynamics(da.in_line_engine(cylinders=1))
+    with pytest.raises(ModelError, match="joint 'cylinder_1' does not turn about one axis"):
+        da.bearing(engine, "cylinder_1")
