@@ -107,7 +107,7 @@ class Opened:
                 """of => { const k = page.kernel;
                 const c = page.data.views.charts.flatMap(x => x.curves).find(x => x.of === of);
                 const all = [...Array(k.count).keys()];
-                return [all.map(p => k.value(c.row, p)), all.map(p => k.good(p))]; }""",
+                return [all.map(p => k.value(c.row, p)), all.map(p => !!k.good[p])]; }""",
                 of,
             )
         )

@@ -44,6 +44,10 @@ NAMELESS = """[...document.querySelectorAll('button, input, select, [tabindex="0
 .map(e => e.outerHTML.slice(0, 80))"""
 
 
+def open_all(page: Any) -> None:
+    page.run("document.querySelectorAll('details').forEach(d => d.open = true)")
+
+
 def agrees(page: Any, drive: str = "O2") -> None:
     """The whole curve is that of da.dynamics for the file that the page saves."""
     m = da.loads(page.run("page.text()"))
@@ -136,6 +140,7 @@ def test_far_drags_stop_closing_and_come_back(opened: Any) -> None:
     assert not all(good)
     page.run(f"page.show({good.index(False)})")
     assert "does not close" in page.page.locator(".mark").inner_text()
+    open_all(page)
     assert page.run("document.querySelector('.answers td').textContent") == "–"
     page.page.get_by_label("undo").click()
     page.frame()
@@ -164,7 +169,7 @@ def test_undo_and_redo(opened: Any) -> None:
 
 def test_a_typed_number(opened: Any) -> None:
     page = opened(FOUR_BAR)
-    page.run("document.querySelectorAll('details').forEach(d => d.open = true)")
+    open_all(page)
     box = page.page.locator(
         'input[data-path="loads.resistance.value"], input[data-path="links.rocker.inertia"]'
     ).first
@@ -179,7 +184,7 @@ def test_a_typed_number(opened: Any) -> None:
 
 def test_an_emptied_number_comes_back(opened: Any) -> None:
     page = opened(FOUR_BAR)
-    page.run("document.querySelectorAll('details').forEach(d => d.open = true)")
+    open_all(page)
     box = page.page.locator('input[data-path="links.rocker.inertia"]')
     before = page.value("links.rocker.inertia")
     box.fill("")
@@ -234,7 +239,7 @@ def test_a_link_is_chosen_by_a_click(opened: Any) -> None:
 
 def test_the_numbers_of_the_position_are_those_of_the_analysis(opened: Any) -> None:
     page = opened(FOUR_BAR)
-    page.run("document.querySelectorAll('details').forEach(d => d.open = true)")
+    open_all(page)
     text = page.page.locator(".answers").inner_text()
     assert "243.2 lbf·in" in text
     assert re.search(r"F23 in A\s+154.8 lbf at −139.7°", text)
@@ -242,8 +247,12 @@ def test_the_numbers_of_the_position_are_those_of_the_analysis(opened: Any) -> N
 
 def test_polygons_and_polar_diagrams_open(opened: Any) -> None:
     page = opened(FOUR_BAR)
-    page.run("document.querySelectorAll('details').forEach(d => d.open = true)")
-    assert page.page.locator(".polygon:visible").count() == 1
+    open_all(page)
+    assert page.page.locator(".polygon:visible").count() == 2
+    assert (
+        "In the order of solution: 3 coupler → 4 rocker → 2 crank"
+        in page.page.locator(".polygon:visible").last.inner_text()
+    )
     assert page.page.locator(".polar:visible").count() == 4
     assert page.page.locator(".polygon:visible svg path").count() > 4
 
@@ -294,7 +303,7 @@ def test_the_address_keeps_the_state(opened: Any) -> None:
 )
 def test_what_is_saved(opened: Any, button: str, ending: str, begins: str, tmp_path: Any) -> None:
     page = opened(FOUR_BAR)
-    page.run("document.querySelectorAll('details').forEach(d => d.open = true)")
+    open_all(page)
     with page.page.expect_download() as found:
         page.page.get_by_role("button", name=button).click()
     assert found.value.suggested_filename.endswith(ending)
@@ -309,12 +318,20 @@ def test_space_is_seen_from_elsewhere_and_computed_anew(opened: Any) -> None:
     before = page.run("document.querySelector('.stage path[data-link]').getAttribute('d')")
     page.drag(".stage svg", 80, 30)
     assert page.run("document.querySelector('.stage path[data-link]').getAttribute('d')") != before
-    page.run("document.querySelectorAll('details').forEach(d => d.open = true)")
+    open_all(page)
     assert page.page.locator(".body:visible .equation").count() == 6
     box = page.page.locator('input[data-path="loads.resistance.value"]')
     box.fill("3")
     box.press("Enter")
     page.frame()
+    agrees(page, "O")
+
+
+def test_a_joint_in_space_goes_where_the_picture_shows_it(opened: Any) -> None:
+    page = opened("rssr")
+    before = page.value("links.rocker.points.B.0")
+    page.drag('.handle[data-name="B"]', 6, -9)
+    assert page.value("links.rocker.points.B.0") != before
     agrees(page, "O")
 
 
@@ -390,7 +407,7 @@ def test_a_hostile_address_changes_nothing(opened: Any) -> None:
 
 def test_every_control_has_a_name(opened: Any) -> None:
     page = opened(ENGINE)
-    page.run("document.querySelectorAll('details').forEach(d => d.open = true)")
+    open_all(page)
     nameless = page.run(NAMELESS)
     assert nameless == []
 
@@ -401,7 +418,7 @@ def test_nothing_is_in_the_way_of_those_who_see_or_reach_less(opened: Any, name:
     if not AXE.exists():
         pytest.skip("web/node_modules has no axe-core: make web")
     page = opened(name, color_scheme=scheme)
-    page.run("document.querySelectorAll('details').forEach(d => d.open = true)")
+    open_all(page)
     page.page.evaluate(AXE.read_text(encoding="utf-8"))
     faults = page.page.evaluate("async () => (await axe.run()).violations")
     serious = [

@@ -41,10 +41,12 @@ def test_every_file_that_compiles(name: str) -> None:
 
 @over(1, whole=1000)
 def test_random_mechanisms_with_other_numbers(seed: int) -> None:
-    for m in (da.mechanism(tree(random_case(seed).drawing)), da.mechanism(rough_tree(seed))):
+    for drawing, rough in ((tree(random_case(seed).drawing), False), (rough_tree(seed), True)):
+        m = da.mechanism(drawing)
         k = da.compile(m, vary=every_number(m), lanes=1)
         off, marks, count = distance(k, changed(k, seed, shape=1e-5))
-        assert (off < TOLERANCE, marks, count >= 0) == (True, 0, True)
+        assert (off < TOLERANCE, marks) == (True, 0)
+        assert rough or count > 0  # a rough one may be jammed or at rest
 
 
 @pytest.mark.parametrize("name", tiers(["four_bar"], sorted(set(ROUGH) - {"four_bar"})))

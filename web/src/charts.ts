@@ -1,99 +1,101 @@
 /** Curves over the cycle with a cursor, polar diagrams, and polygons of forces. */
 
-import { canvas, roundUp } from "./board";
+import { bounds, canvas, roundUp } from "./board";
 import type { Chart, Curve, Data, Polygon } from "./data";
+import { curve } from "./items";
 import type { Kernel } from "./kernel";
 import { label, Placer } from "./labels";
-import { Arrow, html, letters, make, path, type Point, short, width } from "./svg";
+import { Arrow, html, letters, make, path, type Point, pointer, short, width } from "./svg";
 
-const W = 120, H = 52, LEFT = 16, TOP = 5, LOW = 8;
+const W = 120, LEFT = 16, TOP = 5, LOW = 8, LINE = 4;
 
-/** Round steps between two numbers, about `count` of them. */
-export function ticks(low: number, high: number, count: number): number[] {
-  const raw = (high - low) / count, power = 10 ** Math.floor(Math.log10(raw || 1));
-  const step = power * ([1, 2, 5, 10].find((s) => s * power >= raw) ?? 10), out: number[] = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high * (1 + 1e-12) + 1e-9 * step; k++) out.push(k * step);
-  return out;
+/** A round step between numbers, so that about `count` of them lie in a span. */
+function step(span: number, count: number): number {
+  const raw = span / count || 1, power = 10 ** Math.floor(Math.log10(raw));
+  return power * ([1, 2, 5, 10].find((s) => s * power >= raw) ?? 10);
+}
+
+/** The multiples of a step between two numbers. */
+function ticks(low: number, high: number, by: number): number[] {
+  const first = Math.ceil(low / by - 1e-9), count = Math.floor(high / by + 1e-9) - first + 1;
+  return Array.from({ length: Math.max(count, 0) }, (_, k) => (first + k) * by);
 }
 
 export const figures = (x: number, digits = 4): string => (Number.isFinite(x) ? String(+x.toPrecision(digits)).replace("-", "−") : "–");
 
-export interface View { update(cycle: boolean): void; band?(of: string, low: Float64Array | null, high?: Float64Array): void }
+export interface View { update(cycle: boolean): void }
 
-export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, time: () => number,
-                      seek: (t: number) => void, pick: (curve: Curve) => void, picked: () => Curve | undefined): View {
-  const figure = html("figure", parent, { class: "chart" }), unit = data.units[c.kind] ?? { unit: "", size: 1 };
+export interface Cursor { time(): number; seek(t: number): void; pick(curve: Curve): void; picked(): Curve | undefined }
+
+export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cursor: Cursor): View {
+  const figure = html("figure", parent, { class: "chart" }), unit = data.units[c.kind];
   html("figcaption", figure, {}, `${c.title}, ${unit.unit}`);
-  const right = Math.min(Math.max(...c.curves.map((x) => width(x.name, 3))) + 4, 36);
+  const right = Math.min(Math.max(...c.curves.map((x) => width(x.name, 3))) + 4, 36), H = Math.max(52, TOP + LOW + LINE * c.curves.length);
   const svg = canvas(figure, W, H, c.title), w = W - LEFT - right, h = H - TOP - LOW, x0 = -W / 2 + LEFT, y0 = -H / 2 + TOP;
   const grid = make("path", svg, { class: "l-grid", style: "fill:none" }), axis = make("path", svg, { class: "l-axis", style: "fill:none" });
   const scale = make("g", svg), lines = c.curves.map((x) => make("path", svg, { class: `l-${x.role}`, style: "fill:none" }));
-  const cursor = make("path", svg, { class: "cursor" }), dots = c.curves.map((x) => make("circle", svg, { class: `l-${x.role}-h`, r: 0.9 }));
-  const drive = data.drives[0], last = Math.max(kernel.count - 1, 1);
+  const now = make("path", svg, { class: "cursor" }), dots = c.curves.map((x) => make("circle", svg, { class: `l-${x.role}-h`, r: 0.9 }));
+  const last = Math.max(kernel.count - 1, 1), least = data.noise[c.kind as "force"] ?? 0;
   const keys = c.curves.map((x, k) => {
-    const t = make("text", svg, { class: `l-${x.role}-t key`, "font-size": 3, x: x0 + w + 2, y: y0 + 3 + 4 * k, tabindex: 0, role: "button" });
+    const t = make("text", svg, { class: `l-${x.role}-t key`, "font-size": 3, x: x0 + w + 2, y: y0 + 3 + LINE * k, tabindex: 0, role: "button" });
     letters(t, x.name, 3);
     make("title", t).textContent = "show what lowers its peak";
-    t.addEventListener("click", () => pick(x));
-    t.addEventListener("keydown", (e) => e.key === "Enter" && pick(x));
+    t.addEventListener("click", () => cursor.pick(x));
+    t.addEventListener("keydown", (e) => e.key === "Enter" && cursor.pick(x));
     return t;
   });
-  const least = data.noise[c.kind as "force"] ?? 0, value = (x: Curve, k: number): number => {
-    const v = kernel.value(x.row, k);
-    return Math.abs(v) < least ? 0 : v;
+  const value = (x: Curve, k: number): number => {
+    const v = kernel.value(x.row, k) / unit.size;
+    return Math.abs(v) * unit.size < least ? 0 : v;
   };
-  let y = (v: number): number => v;
-  const at = (k: number): number => x0 + (k / last) * w;
+  let low = NaN, high = NaN;
+  const at = (k: number): number => x0 + (k / last) * w, up = (v: number): number => y0 + h - ((v - low) / (high - low)) * h;
 
-  function scaled(): void {
-    let low = Infinity, high = -Infinity;
+  /** From tick to tick, so that the scale stands still while curves move a little; whether it is another. */
+  function rescale(): boolean {
+    let [l, u] = [Infinity, -Infinity];
     for (const x of c.curves)
       for (let k = 0; k < kernel.count; k++)
-        if (kernel.good(k)) {
-          const v = value(x, k) / unit.size;
-          low = Math.min(low, v);
-          high = Math.max(high, v);
+        if (kernel.good[k]) {
+          const v = value(x, k);
+          l = Math.min(l, v);
+          u = Math.max(u, v);
         }
-    if (!(low <= high)) [low, high] = [0, 1];
-    if (low > 0 && low < 0.4 * high) low = 0;
-    if (high < 0 && high > 0.4 * low) high = 0;
-    if (high - low < 1e-9 * Math.max(Math.abs(high), 1e-9)) [low, high] = [Math.min(low, 0), Math.max(high, 0) || 1];
-    const marks = ticks(low, high, 4), pad = 0.04 * (high - low);
-    [low, high] = [low - pad, high + pad];
-    y = (v) => y0 + h - ((v / unit.size - low) / (high - low)) * h;
+    if (!(l <= u)) [l, u] = [0, 1];
+    if (l > 0 && l < 0.4 * u) l = 0;
+    if (u < 0 && u > 0.4 * l) u = 0;
+    if (u - l < 1e-9 * Math.max(Math.abs(u), Math.abs(l), 1e-9)) [l, u] = [Math.min(l, 0), Math.max(u, 0) || 1];
+    const by = step(u - l, 4);
+    [l, u] = [Math.floor(l / by + 1e-9) * by, Math.ceil(u / by - 1e-9) * by];
+    if (l === low && u === high) return false;
+    [low, high] = [l, u];
+    return true;
+  }
+
+  function drawScale(): void {
+    const drive = data.drives[0], by = step(high - low, 4);
+    const say = (text: string, x: number, y: number, anchor: string) =>
+      (make("text", scale, { class: "l-note-t", "font-size": 2.6, "text-anchor": anchor, x, y }).textContent = text);
     scale.replaceChildren();
     let lattice = "";
-    for (const m of marks) {
-      lattice += `M${x0} ${short(y(m * unit.size))}h${w}`;
-      make("text", scale, { class: "l-note-t", "font-size": 2.6, "text-anchor": "end", x: x0 - 1.2, y: y(m * unit.size) + 0.9 }).textContent = figures(m, 5);
+    for (const m of ticks(low, high, by)) {
+      lattice += `M${x0} ${short(up(m))}h${w}`;
+      say(figures(m, 5), x0 - 1.2, up(m) + 0.9, "end");
     }
     if (drive) {
-      const q = [0, last].map((k) => kernel.position(drive.name, k) / drive.size);
-      for (const m of ticks(Math.min(...q), Math.max(...q), 5)) {
-        const x = x0 + ((m - q[0]) / (q[1] - q[0] || 1)) * w;
+      const [from, to] = [0, last].map((k) => kernel.position(drive.name, k) / drive.size);
+      for (const m of ticks(Math.min(from, to), Math.max(from, to), step(Math.abs(to - from), 5))) {
+        const x = x0 + ((m - from) / (to - from || 1)) * w;
         lattice += `M${short(x)} ${y0}v${h}`;
-        make("text", scale, { class: "l-note-t", "font-size": 2.6, "text-anchor": "middle", x, y: y0 + h + 3.4 }).textContent = figures(m, 5) + (drive.unit === "°" ? "°" : "");
+        say(figures(m, 5) + (drive.unit === "°" ? "°" : ""), x, y0 + h + 3.4, "middle");
       }
-      make("text", scale, { class: "l-note-t", "font-size": 2.6, "text-anchor": "end", x: x0 + w, y: y0 + h + 6.6 }).textContent = `${drive.name}, ${drive.unit}`;
+      say(`${drive.name}, ${drive.unit}`, x0 + w, y0 + h + 6.6, "end");
     }
     grid.setAttribute("d", lattice);
-    axis.setAttribute("d", `M${x0} ${y0}v${h}` + (low < 0 && high > 0 ? `M${x0} ${short(y(0))}h${w}` : ""));
-    lines.forEach((line, n) => line.setAttribute("d", run((k) => at(k), (k) => y(value(c.curves[n], k)))));
+    axis.setAttribute("d", `M${x0} ${y0}v${h}` + (low < 0 && high > 0 ? `M${x0} ${short(up(0))}h${w}` : ""));
   }
 
-  function run(fx: (k: number) => number, fy: (k: number) => number): string {
-    let d = "", pen = false;
-    for (let k = 0; k < kernel.count; k++) {
-      if (kernel.good(k)) d += `${pen ? "L" : "M"}${short(fx(k))} ${short(fy(k))}`;
-      pen = kernel.good(k);
-    }
-    return d;
-  }
-
-  const move = (e: PointerEvent) => {
-    const p = new DOMPoint(e.clientX, e.clientY).matrixTransform(svg.getScreenCTM()!.inverse());
-    seek(((p.x - x0) / w) * last);
-  };
+  const move = (e: PointerEvent) => cursor.seek(((pointer(svg, e)[0] - x0) / w) * last);
   svg.addEventListener("pointerdown", (e) => {
     if ((e.target as Element).closest(".key")) return;
     svg.setPointerCapture(e.pointerId);
@@ -102,16 +104,19 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, tim
   svg.addEventListener("pointermove", (e) => e.buttons && svg.hasPointerCapture(e.pointerId) && move(e));
   return {
     update(cycle) {
-      if (cycle) scaled();
-      const t = Math.min(time(), last);
-      cursor.setAttribute("d", `M${short(at(t))} ${y0}v${h}`);
-      c.curves.forEach((x, n) => {
+      if (cycle) {
+        if (rescale()) drawScale();
+        lines.forEach((line, n) => line.setAttribute("d", curve(kernel, (k) => [at(k), up(value(c.curves[n], k))])));
+      }
+      const x = short(at(Math.min(cursor.time(), last)));
+      now.setAttribute("d", `M${x} ${y0}v${h}`);
+      c.curves.forEach((one, n) => {
         dots[n].setAttribute("visibility", kernel.solved ? "visible" : "hidden");
         if (kernel.solved) {
-          dots[n].setAttribute("cx", short(at(t)));
-          dots[n].setAttribute("cy", short(y(kernel.here[x.row])));
+          dots[n].setAttribute("cx", x);
+          dots[n].setAttribute("cy", short(up(kernel.here[one.row] / unit.size)));
         }
-        keys[n].classList.toggle("picked", picked() === x);
+        keys[n].classList.toggle("picked", cursor.picked() === one);
       });
     },
   };
@@ -119,64 +124,68 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, tim
 
 /** The force in each joint as a curve about a pole: its tip over the cycle, and where it is now. */
 export function polar(parent: Element, kernel: Kernel, c: Curve, unit: { unit: string; size: number }): View {
-  const figure = html("figure", parent, { class: "polar" }), size = 66;
-  const caption = html("figcaption", figure, {}, `Joint ${c.name}`), svg = canvas(figure, size, size, `polar diagram of joint ${c.name}`);
-  const grid = make("path", svg, { class: "l-grid", style: "fill:none" }), line = make("path", svg, { class: `l-${c.role}`, style: "fill:none" });
-  const arrow = new Arrow(svg, "joint-force", c.name);
+  const figure = html("figure", parent, { class: "polar" }), size = 66, [fx, fy] = c.f!;
+  const caption = html("figcaption", figure), svg = canvas(figure, size, size, `polar diagram of joint ${c.name}`);
+  make("path", svg, { class: "l-grid", style: "fill:none", d: "M-30 0H30M0 -30V30M15 0A15 15 0 1 0 -15 0A15 15 0 1 0 15 0M30 0A30 30 0 1 0 -30 0A30 30 0 1 0 30 0" });
+  const line = make("path", svg, { class: `l-${c.role}`, style: "fill:none" }), arrow = new Arrow(svg, "joint-force", c.name);
   let perMm = 1;
   return {
     update(cycle) {
-      const [fx, fy] = c.f!;
       if (cycle) {
-        let most = 0;
-        for (let k = 0; k < kernel.count; k++) if (kernel.good(k)) most = Math.max(most, Math.hypot(kernel.value(fx, k), kernel.value(fy, k)));
-        perMm = roundUp(most / 28 / unit.size) * unit.size || unit.size;
-        let d = "", pen = false;
-        for (let k = 0; k < kernel.count; k++) {
-          if (kernel.good(k)) d += `${pen ? "L" : "M"}${short(kernel.value(fx, k) / perMm)} ${short(-kernel.value(fy, k) / perMm)}`;
-          pen = kernel.good(k);
-        }
-        line.setAttribute("d", d + (kernel.cyclic && d && !d.slice(1).includes("M") ? "Z" : ""));
-        grid.setAttribute("d", "M-30 0H30M0 -30V30M15 0A15 15 0 1 0 -15 0A15 15 0 1 0 15 0M30 0A30 30 0 1 0 -30 0A30 30 0 1 0 30 0");
+        perMm = roundUp(kernel.largest((k) => Math.hypot(kernel.value(fx, k), kernel.value(fy, k))) / 28 / unit.size) * unit.size;
+        line.setAttribute("d", curve(kernel, (k) => [kernel.value(fx, k) / perMm, -kernel.value(fy, k) / perMm], true));
         caption.textContent = `Joint ${c.name}: 1 mm = ${figures(perMm / unit.size)} ${unit.unit}`;
       }
-      const v = kernel.here;
-      arrow.set([0, 0], kernel.solved ? [v[fx] / perMm, -v[fy] / perMm] : [0, 0]);
+      arrow.set([0, 0], kernel.solved ? [kernel.here[fx] / perMm, -kernel.here[fy] / perMm] : [0, 0]);
     },
   };
 }
 
-/** Forces of one link head to tail; the gap left over is drawn. */
-export function polygon(parent: Element, data: Data, kernel: Kernel, p: Polygon): View & { figure: HTMLElement } {
+/** Forces of links head to tail, a force that two of them share drawn once; the gap left over is drawn. */
+export function polygon(parent: Element, data: Data, kernel: Kernel, title: string, links: Polygon[]): View & { figure: HTMLElement } {
   const figure = html("figure", parent, { class: "polygon" }), w = 110, h = 80, unit = data.units.force;
-  html("figcaption", figure, {}, `Force polygon of link ${p.title}`);
-  const svg = canvas(figure, w, h, `force polygon of link ${p.title}`), lettered = make("g", svg);
-  const arrows = p.sides.map((s) => new Arrow(svg, s.role, s.name)), names = p.sides.map((s) => label(lettered, s.role, s.name, 3));
+  html("figcaption", figure, {}, title);
+  const svg = canvas(figure, w, h, title), lettered = make("g", svg), met = new Set<string>();
+  const chains = links.map(({ sides }) => {
+    const shared = sides.find((s) => s.kind === "joint" && met.has(s.of));
+    for (const s of sides) if (s.kind === "joint") met.add(s.of);
+    const drawn = sides.filter((s) => s !== shared).map((s) => ({ s, arrow: new Arrow(svg, s.role, s.name), name: label(lettered, s.role, s.name, 3) }));
+    return { shared, drawn };
+  });
   const gap = make("path", svg, { class: "l-gap", style: "fill:none" }), note = make("text", svg, { class: "l-note-t", "font-size": 2.8, x: -w / 2 + 2, y: h / 2 - 2 });
   return {
     figure,
     update() {
       svg.setAttribute("visibility", kernel.solved ? "visible" : "hidden");
       if (!kernel.solved) return;
-      const v = kernel.here, ends: Point[] = [[0, 0]];
-      for (const s of p.sides) {
-        const [x, y] = ends[ends.length - 1], f = s.t === "force" ? s.f : [0, 0];
-        ends.push([x + v[f[0]], y - v[f[1]]]);
-      }
-      const xs = ends.map((e) => e[0]), ys = ends.map((e) => e[1]);
-      const [l, r, t, b] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-      const perMm = roundUp(Math.max((r - l) / (w * 0.6), (b - t) / (h * 0.6)) / unit.size) * unit.size;
-      const places = ends.map(([x, y]) => [(x - (l + r) / 2) / perMm, (y - (t + b) / 2) / perMm] as Point);
-      const placer = new Placer([-w / 2, -h / 2, w / 2, h / 2 - 4]);
-      for (let k = 0; k + 1 < places.length; k++) placer.line(places[k], places[k + 1]);
-      arrows.forEach((a, k) => {
-        const shown = a.set(places[k], places[k + 1]);
-        names[k].el.setAttribute("visibility", shown ? "visible" : "hidden");
-        if (!shown) return;
-        const mid: Point = [(places[k][0] + places[k + 1][0]) / 2, (places[k][1] + places[k + 1][1]) / 2];
-        placer.put({ label: names[k], anchors: [mid], away: mid, leave: 0.9 });
+      const v = kernel.here, heads = new Map<string, Point>(), all: Point[] = [], gaps: [Point, Point][] = [];
+      const placed = chains.flatMap(({ shared, drawn }) => {
+        const low = bounds(all)?.y[1] ?? 0, tail = heads.get(shared?.of ?? "");
+        let at: Point = tail ?? [0, low];
+        const ends = (f: number[]): Point => [at[0] + v[f[0]], at[1] - v[f[1]]];
+        const first = at;
+        if (shared) at = ends(shared.f);
+        const out = drawn.map((d) => {
+          const from = at;
+          at = ends(d.s.f);
+          if (d.s.kind === "joint" && !heads.has(d.s.of)) heads.set(d.s.of, at);
+          all.push(from, at);
+          return { ...d, from, to: at };
+        });
+        gaps.push([first, at]);
+        return out;
       });
-      gap.setAttribute("d", path([places[0], places[places.length - 1]]));
+      const b = bounds(all) ?? { x: [0, 0], y: [0, 0] };
+      const perMm = roundUp(Math.max((b.x[1] - b.x[0]) / (w * 0.6), (b.y[1] - b.y[0]) / (h * 0.6)) / unit.size) * unit.size;
+      const on = ([x, y]: Point): Point => [(x - (b.x[0] + b.x[1]) / 2) / perMm, (y - (b.y[0] + b.y[1]) / 2) / perMm];
+      const placer = new Placer([-w / 2, -h / 2, w / 2, h / 2 - 4]);
+      for (const { from, to } of placed) placer.line(on(from), on(to));
+      for (const { arrow, name, from, to } of placed) {
+        const [p, q] = [on(from), on(to)], shown = arrow.set(p, q), mid: Point = [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
+        name.el.setAttribute("visibility", shown ? "visible" : "hidden");
+        if (shown) placer.put({ label: name, anchors: [mid], away: mid, leave: 0.9 });
+      }
+      gap.setAttribute("d", gaps.map(([p, q]) => path([on(p), on(q)])).join(""));
       note.textContent = `1 mm = ${figures(perMm / unit.size)} ${unit.unit}`;
     },
   };

@@ -13,7 +13,7 @@ export interface NumberField {
   path: string; label: string; value: number; unit: string; size: number;
   parameter?: boolean; about?: string; range?: Rows;
 }
-export interface Drive { name: string; unit: string; size: number; position: Series; turns: boolean; p: Rows; link: string }
+export interface Drive { name: string; unit: string; size: number; position: Series; turns: boolean; along?: Rows; p: Rows; link: string }
 
 /** Something drawn: a symbol at a point, a stretched symbol between two, a hull, a path, a trace, a circle. */
 export type Item =
@@ -24,28 +24,28 @@ export type Item =
   | { t: "path"; role: string; p: Rows[] }
   | { t: "trace"; role: string; p: [Rows]; joint: string }
   | { t: "circle"; role: string; p: Rows; r: number };
-export interface Force { t: "force"; role: string; of: string; kind: string; link: string; name: string; p: Rows; f: Rows }
-/** In space: an arrow with two heads along the axis of a couple. */
-export interface Moment { t: "moment"; role: string; of: string; kind: string; link: string; name: string; p: Rows; f: Rows }
-export interface Couple { t: "couple"; role: string; of: string; kind: string; link: string; name: string; p: Rows; m: number }
-export type Action = Force | Couple | Moment;
+interface Acting { role: string; of: string; kind: string; link: string; name: string; p: Rows }
+export interface Force extends Acting { t: "force"; f: Rows }
+/** In the plane a curved arrow, in space one with two heads along its axis. */
+export interface Couple extends Acting { t: "couple" | "moment"; m: Rows }
+export type Action = Force | Couple;
 export interface Label { text: string; p: Rows; q?: Rows; role: string; kind: string; link?: string }
-export interface Term { name: string; f: Rows; m: number | Rows }
+export interface Term { name: string; f: Rows; m: Rows }
 export interface Drawing { per_mm: number; items: Item[]; labels: Label[]; arrows: Action[]; force: number }
 export interface FreeBody extends Drawing {
   link: string; title: string; member: string; about: Rows[]; equations: { about: string; terms: Term[] };
 }
 export interface Curve { row: number; name: string; role: string; of: string; f?: Pair }
 export interface Chart { title: string; kind: string; curves: Curve[] }
-export interface Polygon { link: string; title: string; sides: Action[] }
+export interface Polygon { link: string; title: string; sides: Force[] }
 export interface TableRow { name: string; kind: string; rows: number[] }
 
-/** Numbers of a point in axes whose origin and x direction are rows. */
-export interface End { n: Pair; at: Pair; e: Pair }
+/** Numbers of a point in axes whose origin and unit vectors are rows. */
+export interface End { n: number[]; at: Rows; axes: Rows[] }
 export type Handle =
   | { kind: "joint" | "point" | "center"; name: string; p: Rows; ends: End[]; by?: number[] }
-  | { kind: "load"; name: string; p: Rows; f: Rows; e: Pair; components?: Pair; size?: number; direction?: number }
-  | { kind: "direction"; name: string; p: Rows; along: Pair; direction: number; e: Pair };
+  | { kind: "load"; name: string; p: Rows; f: Rows; axes: Rows[]; components?: number[]; size?: number; direction?: number }
+  | { kind: "direction"; name: string; p: Rows; along: Rows; direction: number; axes: Rows[] };
 
 export interface Data {
   format: string; version: string; title: string; source: string;
@@ -56,9 +56,9 @@ export interface Data {
   numbers: NumberField[]; template: string[]; drives: Drive[]; handles: Handle[];
   views: {
     mechanism: Drawing & { middle?: Pair }; bodies: FreeBody[];
-    polygons: { force: number; links: Polygon[] }; charts: Chart[]; table: TableRow[];
+    polygons: { links: Polygon[]; chain: number[] }; charts: Chart[]; table: TableRow[];
   };
-  statuses: Record<string, { status: string; sentence: string }>;
+  statuses: { status: string; sentence: string; numbered: boolean }[];
   assumptions: Record<string, string>;
   style: { light: string; dark: string };
 }

@@ -1,34 +1,31 @@
 /** What can be taken hold of: joints, points, mass centres, tips of loads, directions, and the driven link. */
 
 import type { Board } from "./board";
-import type { Data, End, Handle, Pair, Rows } from "./data";
+import type { Data, End, Handle, Rows } from "./data";
+import type { Paper } from "./items";
 import type { Kernel } from "./kernel";
-import { make, type Point } from "./svg";
+import { make, type Point, pointer, short } from "./svg";
 
-export interface Hold { changed(): void; finished(numbers: number[]): void; seek(t: number): void; time(): number }
+export interface Hold { changed(): void; finished(): void; seek(t: number): void; time(): number }
 
-export function handles(b: Board, data: Data, kernel: Kernel, hold: Hold, perMm: () => number): () => void {
+export function handles(b: Board, data: Data, kernel: Kernel, hold: Hold): () => void {
   const layer = make("g", b.svg, { class: "handles" });
-  const updates = data.handles.map((h) => handle(layer, b, h, kernel, hold, perMm));
+  const updates = data.handles.map((h) => handle(layer, b, h, kernel, hold));
   drive(b, data, kernel, hold);
   return () => kernel.finite && updates.forEach((f) => f());
 }
 
-/** Where a number of a point in axes comes to stand, if its place is (x, y) on the ground. */
-function set(kernel: Kernel, end: End, held: number[], x: number, y: number): void {
-  const [ox, oy, c, s] = held;
-  kernel.values[end.n[0]] = c * (x - ox) + s * (y - oy);
-  kernel.values[end.n[1]] = c * (y - oy) - s * (x - ox);
-}
+const dot = (a: readonly number[], b: readonly number[]): number => a.reduce((t, x, k) => t + x * b[k], 0);
 
-const held = (kernel: Kernel, e: End): number[] => [...e.at, ...e.e].map((r) => kernel.here[r]);
+/** Unit vectors of a link at a pose, and its origin. */
+interface Held { axes: number[][]; at: number[] }
 
-/** Parameters that bring a joint as near to a place as they can: Gauss and Newton's steps, damped, by differences. */
-function follow(kernel: Kernel, p: Rows, by: number[], x: number, y: number): void {
+/** Parameters that bring a joint as near to a place on paper as they can: Gauss and Newton's steps, damped, by differences. */
+function follow(kernel: Kernel, paper: Paper, p: Rows, by: number[], [x, y]: Point): void {
   const u = kernel.values, out = new Float64Array(kernel.here.length), trial = u.slice();
-  const miss = (): Pair | null => {
+  const miss = (): Point | null => {
     kernel.other(trial, out);
-    const d: Pair = [x - out[p[0]], y - out[p[1]]];
+    const at = paper.seen(p, (r) => out[r]), d: Point = [x - at[0], y - at[1]];
     return Number.isFinite(d[0] + d[1]) ? d : null;
   };
   for (let pass = 0; pass < 4; pass++) {
@@ -58,119 +55,114 @@ function follow(kernel: Kernel, p: Rows, by: number[], x: number, y: number): vo
   }
 }
 
-function numbers(h: Handle): number[] {
-  if ("by" in h && h.by) return h.by;
-  if (h.kind === "load") return [...(h.components ?? []), ...[h.size, h.direction].filter((n) => n !== undefined)];
-  return h.kind === "direction" ? [h.direction] : h.ends.flatMap((e) => e.n);
-}
-
-function handle(layer: Element, b: Board, h: Handle, kernel: Kernel, hold: Hold, perMm: () => number): () => void {
+function handle(layer: Element, b: Board, h: Handle, kernel: Kernel, hold: Hold): () => void {
   const names = { joint: "joint", point: "point", center: "", load: "force", direction: "direction of" };
   const said = `${names[h.kind]} ${h.name}`.trim();
-  const dot = make("circle", layer, {
+  const knob = make("circle", layer, {
     class: `handle ${h.kind}`, r: h.kind === "joint" ? 2.6 : 2, tabindex: 0, role: "slider", "aria-label": `move ${said}`,
     "aria-valuetext": said, "aria-valuenow": 0, "data-kind": h.kind, "data-name": h.name,
   });
-  make("title", dot).textContent = `drag ${said}`;
-  const paper = b.paper, v = kernel.here;
-  let start: number[][] = [], moving = false;
+  make("title", knob).textContent = `drag ${said}`;
+  const paper = b.paper, u = kernel.values, here = (rows: Rows): number[] => rows.map((r) => kernel.here[r]);
+  let held: Held[] = [], place: number[] = [], from: Point = [0, 0], acting: number[] = [], grip: Point = [0, 0], moving = false;
 
   const where = (): Point => {
-    const p = paper.point(h.p);
-    if (h.kind === "load") return [p[0] + v[h.f[0]] / perMm(), p[1] - v[h.f[1]] / perMm()];
-    if (h.kind === "direction") return [p[0] + 16 * v[h.along[0]], p[1] - 16 * v[h.along[1]]];
-    return p;
+    const p = paper.point(h.p), way = "f" in h ? paper.here(h.f) : "along" in h ? paper.here(h.along) : [0, 0];
+    const long = h.kind === "direction" ? 16 : 1 / b.force();
+    return [p[0] + long * way[0], p[1] - long * way[1]];
   };
   const begin = () => {
-    start = "ends" in h ? h.ends.map((e) => held(kernel, e)) : [h.e.map((r) => v[r])];
-    moving = true;
+    const one = (axes: Rows[], at: Rows): Held => ({ axes: axes.map(here), at: here(at) });
+    held = "ends" in h ? h.ends.map((e) => one(e.axes, e.at)) : [one(h.axes, h.p)];
+    [place, from, acting, moving] = [here(h.p), where(), "f" in h ? here(h.f) : [], true];
   };
+  /** The vector by which it went, in the plane of the paper, metres. */
+  const went = (at: Point): number[] => paper.vector([at[0] - from[0], at[1] - from[1]]);
   const to = (at: Point) => {
-    const [x, y] = paper.metres(at);
-    if ("by" in h && h.by) follow(kernel, h.p, h.by, x, y);
-    else if ("ends" in h) h.ends.forEach((e, k) => set(kernel, e, start[k], x, y));
-    else {
-      const [c, s] = start[0], p = paper.point(h.p), gx = at[0] - p[0], gy = p[1] - at[1];
-      const local: Point = [c * gx + s * gy, c * gy - s * gx];
-      if (h.kind === "direction") kernel.values[h.direction] = near(Math.atan2(local[1], local[0]), kernel.values[h.direction]);
-      else if (h.components) h.components.forEach((n, k) => (kernel.values[n] = local[k] * perMm()));
-      else turnLoad(h, local);
-    }
+    if ("by" in h && h.by) follow(kernel, paper, h.p, h.by, paper.metres(at));
+    else if ("ends" in h) move(h.ends, went(at));
+    else if (h.kind === "direction") {
+      const p = paper.point(h.p), way = [at[0] - p[0], p[1] - at[1]], [x, y] = held[0].axes.map((axis) => dot(axis, way));
+      u[h.direction] = near(Math.atan2(y, x), u[h.direction]);
+    } else turnLoad(h, went(at).map((x, k) => acting[k] + (x / paper.perMm) * b.force()));
     hold.changed();
   };
-  const turnLoad = (h: Handle & { kind: "load" }, local: Point) => {
-    const u = kernel.values, size = Math.hypot(...local) * perMm(), sign = Math.sign(u[h.size!]) || 1;
+  /** The point stands elsewhere in each of its links, which stay where they were. */
+  const move = (ends: End[], by: number[]) =>
+    ends.forEach((e, k) => {
+      const arm = place.map((x, c) => x + by[c] - held[k].at[c]);
+      e.n.forEach((n, c) => (u[n] = dot(held[k].axes[c], arm)));
+    });
+  const turnLoad = (h: Handle & { kind: "load" }, force: number[]) => {
+    const local = held[0].axes.map((axis) => dot(axis, force));
+    if (h.components) return h.components.forEach((n, k) => (u[n] = local[k]));
+    const sign = Math.sign(u[h.size!]) || 1;
     if (h.direction !== undefined) {
       u[h.direction] = near(Math.atan2(sign * local[1], sign * local[0]), u[h.direction]);
-      u[h.size!] = sign * size;
-    } else {
-      const p = [v[h.f[0]], v[h.f[1]]], [c, s] = start[0], way = [c * p[0] + s * p[1], c * p[1] - s * p[0]];
-      const long = Math.hypot(...way) || 1;
-      u[h.size!] = (sign * (local[0] * way[0] + local[1] * way[1]) * perMm()) / long;
-    }
+      u[h.size!] = sign * Math.hypot(...local);
+    } else u[h.size!] = (sign * dot(force, acting)) / (Math.hypot(...acting) || 1);
   };
   const finish = () => {
-    if (moving) hold.finished(numbers(h));
+    if (moving) hold.finished();
     moving = false;
   };
-  dot.addEventListener("pointerdown", (e) => {
+  knob.addEventListener("pointerdown", (e) => {
     e.stopPropagation();
-    dot.setPointerCapture(e.pointerId);
+    knob.setPointerCapture(e.pointerId);
     begin();
+    const p = pointer(b.svg, e);
+    grip = [from[0] - p[0], from[1] - p[1]];
   });
-  dot.addEventListener("pointermove", (e) => moving && to(point(b, e)));
-  dot.addEventListener("pointerup", finish);
-  dot.addEventListener("pointercancel", finish);
-  dot.addEventListener("keydown", (e) => {
+  knob.addEventListener("pointermove", (e) => {
+    const p = pointer(b.svg, e);
+    if (moving) to([p[0] + grip[0], p[1] + grip[1]]);
+  });
+  knob.addEventListener("pointerup", finish);
+  knob.addEventListener("pointercancel", finish);
+  knob.addEventListener("keydown", (e) => {
     const step: Record<string, Point> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
     if (!step[e.key]) return;
     e.preventDefault();
     e.stopPropagation();
     begin();
-    const at = where(), by = e.shiftKey ? 5 : 1;
-    to([at[0] + by * step[e.key][0], at[1] + by * step[e.key][1]]);
+    const by = e.shiftKey ? 5 : 1;
+    to([from[0] + by * step[e.key][0], from[1] + by * step[e.key][1]]);
     finish();
   });
   return () => {
     if (h.kind === "direction" && moving) return;
     const [x, y] = where();
-    dot.setAttribute("visibility", Number.isFinite(x + y) ? "visible" : "hidden");
-    dot.setAttribute("cx", x.toFixed(2));
-    dot.setAttribute("cy", y.toFixed(2));
+    knob.setAttribute("visibility", Number.isFinite(x + y) ? "visible" : "hidden");
+    knob.setAttribute("cx", short(x));
+    knob.setAttribute("cy", short(y));
   };
 }
 
 /** The same angle, within half a turn of another. */
 const near = (angle: number, other: number): number => angle - 2 * Math.PI * Math.round((angle - other) / (2 * Math.PI));
 
-function point(b: Board, e: PointerEvent): Point {
-  const p = new DOMPoint(e.clientX, e.clientY).matrixTransform(b.svg.getScreenCTM()!.inverse());
-  return [p.x, p.y];
-}
-
 /** Dragging the driven link takes the drive along. */
 function drive(b: Board, data: Data, kernel: Kernel, hold: Hold): void {
   const d = data.drives[0];
-  if (!d || kernel.count < 2) return;
-  let from = 0, base = 0, turning = false;
+  if (!d || kernel.count < 2 || !(d.turns || d.along) || d.p.length > 2) return;
+  let from = 0, base = 0, moving = false;
   const measure = (e: PointerEvent): number => {
-    const p = point(b, e), o = b.paper.point(d.p);
-    return d.turns ? Math.atan2(o[1] - p[1], p[0] - o[0]) : 0;
+    const p = pointer(b.svg, e), o = b.paper.point(d.p);
+    return d.along ? dot(b.paper.metres(p), b.paper.here(d.along)) : Math.atan2(o[1] - p[1], p[0] - o[0]);
   };
   b.svg.addEventListener("pointerdown", (e) => {
-    const link = (e.target as Element).closest<SVGElement>("[data-link]");
-    if (!link || link.dataset.link !== d.link || !d.turns) return;
+    if ((e.target as Element).closest<SVGElement>("[data-link]")?.dataset.link !== d.link) return;
     b.svg.setPointerCapture(e.pointerId);
-    [from, base, turning] = [measure(e), hold.time(), true];
+    [from, base, moving] = [measure(e), hold.time(), true];
   });
   b.svg.addEventListener("pointermove", (e) => {
-    if (!turning) return;
+    if (!moving) return;
     const step = (kernel.position(d.name, kernel.count - 1) - kernel.position(d.name, 0)) / (kernel.count - 1);
     const now = measure(e);
-    let t = base + near(now - from, 0) / step;
+    let t = base + (d.turns ? near(now - from, 0) : now - from) / step;
     if (kernel.cyclic) t = ((t % kernel.count) + kernel.count) % kernel.count;
     [from, base] = [now, t];
     hold.seek(t);
   });
-  b.svg.addEventListener("pointerup", () => (turning = false));
+  b.svg.addEventListener("pointerup", () => (moving = false));
 }

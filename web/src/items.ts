@@ -1,27 +1,36 @@
 /** Parts of a mechanism as SVG elements that follow the kernel's rows: symbols placed, hulls, traces, arrows. */
 
-import type { Action, Item, Rows } from "./data";
+import type { Action, Couple, Item, Rows } from "./data";
 import type { Kernel } from "./kernel";
 import { label, type Placed, type Placer } from "./labels";
 import { Arrow, hull, make, path, plain, type Point, short } from "./svg";
 
+const along = (axis: number[], rows: Rows, value: (row: number) => number): number => rows.reduce((t, r, k) => t + axis[k] * value(r), 0);
+
 /** From metres to paper, about a middle that may move; in space through a camera that looks from azimuth and elevation. */
 export class Paper {
   middle: Point = [0, 0];
-  azimuth = -Math.PI / 3;
-  elevation = 0.45;
-  constructor(readonly kernel: Kernel, public perMm: number) {}
+  /** Unit vectors to the right, up and to the eye. */
+  axes = [[1, 0], [0, 1]];
+  private azimuth = -Math.PI / 3;
+  private elevation = 0.45;
+  constructor(readonly kernel: Kernel, public perMm: number, inSpace: boolean) {
+    if (inSpace) this.turn(0, 0);
+  }
+  /** Look from elsewhere. */
+  turn(across: number, up: number): void {
+    this.azimuth += across;
+    this.elevation = Math.min(Math.max(this.elevation + up, -1.55), 1.55);
+    const ca = Math.cos(this.azimuth), sa = Math.sin(this.azimuth), ce = Math.cos(this.elevation), se = Math.sin(this.elevation);
+    this.axes = [[-sa, ca, 0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]];
+  }
   /** Components of a vector to the right and up, metres or newtons, whatever it is of. */
   seen(rows: Rows, value: (row: number) => number): Point {
-    const x = value(rows[0]), y = value(rows[1]);
-    if (rows.length < 3) return [x, y];
-    const ca = Math.cos(this.azimuth), sa = Math.sin(this.azimuth), ce = Math.cos(this.elevation), se = Math.sin(this.elevation);
-    return [ca * y - sa * x, ce * value(rows[2]) - se * (ca * x + sa * y)];
+    return rows.length < 3 ? [value(rows[0]), value(rows[1])] : [along(this.axes[0], rows, value), along(this.axes[1], rows, value)];
   }
   /** How near to the eye a vector's tip is. */
   depth(rows: Rows): number {
-    const [x, y, z] = rows.map((r) => this.kernel.here[r]), ce = Math.cos(this.elevation);
-    return ce * (Math.cos(this.azimuth) * x + Math.sin(this.azimuth) * y) + Math.sin(this.elevation) * z;
+    return along(this.axes[2], rows, (r) => this.kernel.here[r]);
   }
   here(rows: Rows): Point {
     return this.seen(rows, (r) => this.kernel.here[r]);
@@ -29,8 +38,20 @@ export class Paper {
   point(at: Rows): Point {
     return this.of(...this.here(at));
   }
+  /** Where a point is at position k. */
+  pointAt(at: Rows, k: number): Point {
+    return this.of(...this.seen(at, (r) => this.kernel.value(r, k)));
+  }
   of(x: number, y: number): Point {
     return [(x - this.middle[0]) / this.perMm, (this.middle[1] - y) / this.perMm];
+  }
+  /** A vector of the machine, seen. */
+  project(v: number[]): Point {
+    return this.seen(v.map((_, k) => k), (k) => v[k]);
+  }
+  /** A vector of the paper's plane, mm to the right and down, as one of the machine, metres. */
+  vector(d: Point): number[] {
+    return this.axes[0].map((x, k) => (d[0] * x - d[1] * this.axes[1][k]) * this.perMm);
   }
   metres(p: Point): Point {
     return [this.middle[0] + p[0] * this.perMm, this.middle[1] - p[1] * this.perMm];
@@ -41,7 +62,7 @@ export class Paper {
 export interface Part { update(): void; mark?(placer: Placer): void }
 
 export function item(parent: Element, i: Item, paper: Paper): Part {
-  const k = paper.kernel, v = k.here;
+  const v = paper.kernel.here;
   if (i.t === "symbol") {
     const g = make("g", parent, i.per_mm ? { class: "span" } : {});
     g.innerHTML = i.svg;
@@ -80,23 +101,21 @@ export function item(parent: Element, i: Item, paper: Paper): Part {
   }
   if (i.t === "pair") return pair(parent, i, paper);
   const line = make("path", parent, { class: `l-${i.role}`, style: "fill:none" });
-  if (i.t === "trace") return { update: () => line.setAttribute("d", trace(k, paper, i.p[0])) };
-  const corners = (): Point[] => i.p.map((p) => paper.point(p));
-  const mark = (placer: Placer) => {
-    const c = i.t === "hull" ? hull(corners()) : corners();
-    for (let n = 0; n + 1 < c.length; n++) placer.line(c[n], c[n + 1]);
-    if (c.length > 2) placer.line(c[c.length - 1], c[0]);
-  };
-  if (i.t === "path") return { update: () => line.setAttribute("d", path(corners())), mark };
-  line.dataset.link = i.link;
+  if (i.t === "trace") return { update: () => line.setAttribute("d", curve(paper.kernel, (k) => paper.pointAt(i.p[0], k), true)) };
+  if (i.t === "hull") line.dataset.link = i.link;
+  let corners: Point[] = [], area = false;
   return {
     update() {
-      const c = hull(corners()), area = c.length > 2;
-      line.setAttribute("class", area ? "l-link-area" : "l-link");
-      line.setAttribute("style", area ? "" : "fill:none");
-      line.setAttribute("d", path(area ? c : corners(), area));
+      const points = i.p.map((p) => paper.point(p)), round = i.t === "hull" ? hull(points) : points;
+      area = i.t === "hull" && round.length > 2;
+      corners = area ? round : points;
+      if (i.t === "hull") line.setAttribute("class", area ? "l-link-area" : "l-link");
+      line.style.fill = area ? "" : "none";
+      line.setAttribute("d", path(corners, area));
     },
-    mark,
+    mark(placer) {
+      corners.forEach((c, n) => (n || area) && placer.line(corners.at(n - 1)!, c));
+    },
   };
 }
 
@@ -123,18 +142,17 @@ function pair(parent: Element, i: Item & { t: "pair" }, paper: Paper): Part {
   };
 }
 
-/** The way of a point over the cycle, broken where there is no answer. */
-function trace(k: Kernel, paper: Paper, p: Rows): string {
+/** A curve over the cycle, broken where there is no answer; ``closed`` where the cycle goes on from its end. */
+export function curve(k: Kernel, at: (n: number) => Point, closed = false): string {
+  const last = closed && k.cyclic ? k.count : k.count - 1;
   let d = "", pen = false;
-  for (let c = 0; c <= k.count; c++) {
-    const n = c < k.count ? c : 0;
-    if (!k.good(n) || (c === k.count && !k.cyclic)) {
-      pen = false;
-      continue;
+  for (let c = 0; c <= last; c++) {
+    const n = c % k.count, good = !!k.good[n];
+    if (good) {
+      const [x, y] = at(n);
+      d += (pen ? "L" : "M") + short(x) + " " + short(y);
     }
-    const [x, y] = paper.of(...paper.seen(p, (r) => k.value(r, n)));
-    d += `${pen ? "L" : "M"}${short(x)} ${short(y)}`;
-    pen = true;
+    pen = good;
   }
   return d;
 }
@@ -144,21 +162,22 @@ export interface Shown extends Part { label: Placed; anchor(): Point[] | null }
 
 /** A force as an arrow from its point, or to it where it pushes inwards; a couple as a curved arrow. */
 export function action(parent: Element, a: Action, paper: Paper, perMm: () => number, about?: Rows[]): Shown {
-  return a.t === "couple" ? couple(parent, a, paper) : force(parent, a, paper, perMm, about);
+  return a.t === "couple" ? couple(parent, a, paper) : arrow(parent, a, paper, perMm, about);
 }
 
 /** Length in mm of the arrow of a moment in space: its size is written, its axis drawn. */
 const MOMENT = 13;
 
-function force(parent: Element, a: Action & { t: "force" | "moment" }, paper: Paper, perMm: () => number, about?: Rows[]): Shown {
-  const arrow = new Arrow(parent, a.role, a.name), second = a.t === "moment" ? new Arrow(parent, a.role) : null;
+function arrow(parent: Element, a: Action, paper: Paper, perMm: () => number, about?: Rows[]): Shown {
+  const first = new Arrow(parent, a.role, a.name), second = a.t === "force" ? null : new Arrow(parent, a.role);
+  const rows = a.t === "force" ? a.f : a.m;
   const l = label(parent, a.role, a.name, 3.4);
   let tail: Point = [0, 0], tip: Point = [0, 0], free: Point = [0, 0], shown = false;
   return {
     label: l,
     update() {
-      const p = paper.point(a.p), [fx, fy] = paper.here(a.f);
-      const whole = second ? Math.hypot(...a.f.map((r) => paper.kernel.here[r])) / MOMENT || 1 : perMm();
+      const p = paper.point(a.p), [fx, fy] = paper.here(rows);
+      const whole = second ? Math.hypot(...rows.map((r) => paper.kernel.here[r])) / MOMENT || 1 : perMm();
       const d: Point = [fx / whole, -fy / whole];
       let inward = false;
       if (about && about.length > 1 && !second) {
@@ -168,7 +187,7 @@ function force(parent: Element, a: Action & { t: "force" | "moment" }, paper: Pa
       }
       [tail, tip] = inward ? [[p[0] - d[0], p[1] - d[1]], p] : [p, [p[0] + d[0], p[1] + d[1]]];
       free = inward ? tail : tip;
-      shown = arrow.set(tail, tip);
+      shown = first.set(tail, tip);
       second?.set(tail, [tail[0] + 0.78 * (tip[0] - tail[0]), tail[1] + 0.78 * (tip[1] - tail[1])]);
       l.el.setAttribute("visibility", shown ? "visible" : "hidden");
     },
@@ -183,7 +202,7 @@ function force(parent: Element, a: Action & { t: "force" | "moment" }, paper: Pa
 
 const RADIUS = 4.6;
 
-function couple(parent: Element, a: Action & { t: "couple" }, paper: Paper): Shown {
+function couple(parent: Element, a: Couple, paper: Paper): Shown {
   const v = paper.kernel.here, g = make("g", parent), l = label(parent, a.role, a.name, 3.4);
   make("title", g).textContent = plain(a.name);
   make("path", g, { class: `l-${a.role}`, style: "fill:none", d: "M4.17 1.94A4.6 4.6 0 1 0 -4.17 1.94" });
@@ -192,7 +211,7 @@ function couple(parent: Element, a: Action & { t: "couple" }, paper: Paper): Sho
   return {
     label: l,
     update() {
-      const [x, y] = paper.point(a.p), m = v[a.m];
+      const [x, y] = paper.point(a.p), m = v[a.m[0]];
       shown = Number.isFinite(m) && Math.abs(m) > 1e-9;
       g.setAttribute("display", shown ? "inline" : "none");
       l.el.setAttribute("visibility", shown ? "visible" : "hidden");

@@ -1,8 +1,6 @@
 /** The compiled analysis of the page: rows of numbers over the cycle and at one place of it. */
 
-import type { Channel, Data, Module, Series, Table } from "./data";
-
-const NUMBERED = new Set([0, 9, 12, 13]);
+import type { Channel, Data, Module, Pair, Series, Table } from "./data";
 
 export function bytes(text: string): Uint8Array<ArrayBuffer> {
   return Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
@@ -28,8 +26,8 @@ class Program {
   readonly out: Float64Array;
   readonly row: number;
   private readonly places: number[] = [];
-  private constructor(private readonly run: Run, memory: WebAssembly.Memory, m: Module, numbers: number, row: number) {
-    this.row = row;
+  private constructor(private readonly run: Run, memory: WebAssembly.Memory, m: Module, numbers: number) {
+    this.row = m.row;
     const sizes = [numbers, m.channels.length * m.row, (m.outputs + 1) * m.row];
     let end = m.heap;
     for (const size of sizes) {
@@ -42,7 +40,7 @@ class Program {
   static async create(m: Module, numbers: number): Promise<Program> {
     const { instance } = await WebAssembly.instantiate(await inflate(m.wasm));
     const { memory, run } = instance.exports as unknown as { memory: WebAssembly.Memory; run: Run };
-    return new Program(run, memory, m, numbers, m.row);
+    return new Program(run, memory, m, numbers);
   }
   call(positions: number): void {
     this.run(this.places[0], this.places[1], this.places[2], Math.ceil(positions / 2));
@@ -80,6 +78,10 @@ export class Kernel {
   readonly count: number;
   /** Outputs at one place, by row; the mark last. */
   readonly here: Float64Array;
+  /** Whether every output is a number there, right or not. */
+  finite = true;
+  /** 1 at each position that has numbers. */
+  readonly good: Uint8Array;
   /** Whether the cycle goes on from its last position to its first. */
   readonly cyclic: boolean;
   readonly values: Float64Array;
@@ -92,6 +94,7 @@ export class Kernel {
     this.values = whole.values;
     this.values.set(data.numbers.map((n) => n.value));
     this.rows = whole.out;
+    this.good = new Uint8Array(this.count);
     this.here = new Float64Array(data.kernel.outputs + 1);
     this.positions = new Map(data.drives.map((d) => [d.name, series(d.position)]));
     this.channels = new Map(data.channels.map((c: Channel) => [c.name, {
@@ -105,9 +108,9 @@ export class Kernel {
   }
 
   static async create(data: Data): Promise<Kernel> {
-    const n = data.numbers.length, one = { ...data.kernel, row: data.kernel.row };
+    const n = data.numbers.length;
     const [whole, here, slope] = await Promise.all([
-      Program.create(data.kernel, n), Program.create(one, n), data.gradient ? Program.create(data.gradient, n) : undefined,
+      Program.create(data.kernel, n), Program.create(data.kernel, n), data.gradient ? Program.create(data.gradient, n) : undefined,
     ]);
     return new Kernel(data, whole, here, slope);
   }
@@ -148,6 +151,7 @@ export class Kernel {
   /** All positions with the numbers as they are. */
   cycle(): void {
     this.whole.call(this.count);
+    for (let k = 0; k < this.count; k++) this.good[k] = +this.numbered(this.markAt(k));
   }
 
   /** One place t of the cycle, 0 to `end`. */
@@ -155,7 +159,11 @@ export class Kernel {
     this.load(this.one, this.data.kernel.channels, t);
     this.one.values.set(this.values);
     this.one.call(1);
-    for (let r = 0; r < this.here.length; r++) this.here[r] = this.one.out[r * this.one.row];
+    this.finite = true;
+    for (let r = 0; r < this.here.length; r++) {
+      this.here[r] = this.one.out[r * this.one.row];
+      if (!Number.isFinite(this.here[r])) this.finite = false;
+    }
   }
 
   /** The same for other numbers, into `out`; what `at` loaded before stands. */
@@ -181,26 +189,32 @@ export class Kernel {
     });
   }
 
-  good(k: number): boolean {
-    return NUMBERED.has(this.rows[this.rows.length - this.row + k]);
+  /** Whether a mark is one of positions that have numbers. */
+  numbered(mark: number): boolean {
+    return this.data.statuses[mark].numbered;
   }
 
   get mark(): number {
     return this.here[this.here.length - 1];
   }
 
-  /** Whether every output is a number here, right or not. */
-  get finite(): boolean {
-    return this.here.every(Number.isFinite);
+  get solved(): boolean {
+    return this.numbered(this.mark);
   }
 
-  get solved(): boolean {
-    return NUMBERED.has(this.mark);
+  /** The mark of a position. */
+  markAt(k: number): number {
+    return this.rows[this.rows.length - this.row + k];
   }
 
   value(row: number, k: number): number {
     return this.rows[row * this.row + k];
   }
-}
 
-type Pair = [number, number];
+  /** The largest of something over the positions that have numbers. */
+  largest(of: (k: number) => number): number {
+    let most = 0;
+    for (let k = 0; k < this.count; k++) if (this.good[k]) most = Math.max(most, of(k));
+    return most;
+  }
+}

@@ -9,16 +9,25 @@ interface Model { get(name: string): any; set(name: string, value: unknown): voi
 /** What anywidget calls in a notebook. */
 export default {
   async render({ model, el }: { model: Model; el: HTMLElement }): Promise<() => void> {
+    let told = "";
     const edited = (changes: Record<string, number>) => {
-      model.set("changes", { ...model.get("changes"), ...changes });
+      told = JSON.stringify(changes);
+      model.set("changes", changes);
       model.save_changes();
     };
-    let page = await mount(el, model.get("data"), { edited });
+    const start = () => mount(el, model.get("data"), { edited, changes: model.get("changes") });
+    let page = await start();
     const again = async () => {
       page.remove();
-      page = await mount(el, model.get("data"), { edited });
+      page = await start();
     };
+    const set = () => JSON.stringify(model.get("changes")) !== told && page.set(model.get("changes"));
     model.on("change:data", again);
-    return () => (model.off("change:data", again), page.remove());
+    model.on("change:changes", set);
+    return () => {
+      model.off("change:data", again);
+      model.off("change:changes", set);
+      page.remove();
+    };
   },
 };

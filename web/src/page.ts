@@ -1,98 +1,75 @@
 /** `mount(element, data)`: the page of one mechanism; the same for a file, a notebook and, later, a studio. */
 
-import { board, heightFor } from "./board";
-import { chart, figures, polar, polygon } from "./charts";
+import { type Board, board, heightFor } from "./board";
+import { figures } from "./charts";
 import type { Curve, Data } from "./data";
 import { handles } from "./handles";
 import { Kernel } from "./kernel";
-import { answersPanel, equations, methodPanel, numbersPanel, panel } from "./panels";
 import style from "./page.css?inline";
+import { methodPanel, numbersPanel, panel } from "./panels";
+import { results } from "./results";
 import { html, plain } from "./svg";
-import { Cloud, csvText, fileName, fragment, Gradients, History, modelText, restore, save, svgText } from "./tools";
+import { toolbar } from "./toolbar";
+import { change, changes, Cloud, csvText, fileName, fragment, Gradients, History, modelText, restore, save, svgText } from "./tools";
 
-export interface Options { edited?: (changes: Record<string, number>) => void; address?: boolean }
+type Changes = Record<string, number>;
+/** ``changes``: to begin with, by path; ``edited`` is told all there are after each. ``address``: they stand there. */
+export interface Options { changes?: Changes; edited?: (changes: Changes) => void; address?: boolean }
 export interface Page {
-  kernel: Kernel; data: Data; set(path: string, value: number): void; show(t: number): void; text(): string; times: number[]; remove(): void;
+  kernel: Kernel; data: Data; times: number[]; set(changes: Changes): void; show(t: number): void; text(): string; remove(): void;
 }
+
+/** Seconds of a cycle that is played. */
+const CYCLE = 6;
 
 export async function mount(el: HTMLElement, data: Data, options: Options = {}): Promise<Page> {
   if (data.format !== "dalembert-page/1") throw new Error(`this page cannot show data of the form ${data.format}`);
-  const kernel = await Kernel.create(data), root = document.createElement("div");
+  const kernel = await Kernel.create(data), root = document.createElement("div"), times: number[] = [];
   root.className = "dalembert";
+  root.tabIndex = -1;
+  const dark = `@media (prefers-color-scheme:dark){${data.style.dark}}@media print{${data.style.light}}`;
+  html("style", root).textContent = style + data.style.light + dark;
+  if (options.changes) change(data, kernel, options.changes);
+  let t = options.address ? restore(data, kernel, location.hash) : 0, asked = 0, whole = true, runs = 0;
   kernel.cycle();
-  const css = html("style", root);
-  css.textContent = style + data.style.light + `@media (prefers-color-scheme:dark){${data.style.dark}}` + "@media print{" + data.style.light + "}";
-  const history = new History(kernel), times: number[] = [];
-  let t = options.address ? restore(data, kernel, location.hash) : 0;
-  history.note();
-  const header = html("header", root), main = html("main", root);
-  html("h1", header, {}, data.title);
-  const bar = html("div", header, { class: "bar", role: "toolbar", "aria-label": "cycle and page" });
-  const button = (name: string, said: string, act: () => void): HTMLButtonElement => {
-    const b = html("button", bar, { type: "button", title: said, ...(/^\w/.test(name) ? {} : { "aria-label": said }) }, name);
-    b.addEventListener("click", act);
-    return b;
-  };
-  const playing = button("▶", "play along the cycle (space)", () => play());
-  const slider = html("input", bar, { type: "range", min: 0, max: kernel.end, step: data.only_at_positions ? 1 : "any", "aria-label": "place of the cycle" });
-  const readout = html("output", bar, { class: "readout" });
-  const undo = button("↶", "undo (Ctrl+Z)", () => go(true)), redo = button("↷", "redo (Ctrl+Y)", () => go(false));
-  button("Reset", "all numbers as in the file", () => {
-    kernel.values.set(data.numbers.map((n) => n.value));
-    finished([]);
-    changed();
-  });
-  const mark = html("p", header, { class: "mark", role: "status" });
-  for (const x of [playing, slider, readout]) x.hidden = kernel.count < 2;
+  const history = new History(kernel);
+  const curves = data.views.charts.flatMap((c) => c.curves.map((curve) => ({ curve, unit: data.units[c.kind] })));
+  let picked = curves.find((c) => data.gradient?.curves.includes(c.curve.row));
 
-  const stage = html("section", main, { class: "stage", "aria-label": "mechanism" });
-  const m = board(stage, kernel, data.views.mechanism, null, 170, heightFor(kernel, data.views.mechanism, 170), data.units, "the mechanism");
-  let picked: Curve | undefined = data.views.charts.flatMap((c) => c.curves).find((c) => data.gradient?.curves.includes(c.row));
+  const bar = toolbar(root, data, kernel, { play, show, go, reset });
+  const main = html("main", root), stage = html("section", main, { class: "stage", "aria-label": "mechanism" });
+  const drawing = data.views.mechanism, m = board(stage, kernel, drawing, null, 170, heightFor(kernel, drawing, 170), data.units, "the mechanism");
   const gradients = new Gradients(m, data, kernel);
   const cloud = new Cloud(stage, m, data, kernel, data.handles.flatMap((h) => (h.kind === "joint" || h.kind === "point" ? [h.p] : [])));
-  const updateHandles = handles(m, data, kernel, { changed: () => changed(), finished, seek: (x) => show(x), time: () => t }, () => m.force());
-  const switches = html("div", stage, { class: "switches" });
-  const toggle = (said: string, title: string, on: boolean, act: (on: boolean) => void): HTMLInputElement => {
-    const line = html("label", switches, { title }), box = html("input", line, { type: "checkbox" });
-    box.checked = on;
-    line.append(said);
-    box.addEventListener("change", () => (act(box.checked), request(true)));
-    return box;
-  };
-  toggle("names", "names of joints", m.names, (on) => (m.names = on));
-  if (data.gradient) toggle("what lowers the peak", "arrows: moving a joint this way lowers the peak of the chosen curve", false, (on) => (gradients.on = on));
-  if (data.handles.some((h) => h.kind === "joint")) toggle("tolerances", "a thousand machines with points up to 0.5 % of the drawing's width off", false, (on) => (cloud.on = on));
-  const spread = html("span", switches, { class: "spread" });
-
+  const updateHandles = handles(m, data, kernel, { changed: () => request(true), finished, seek: show, time: () => t });
   const side = html("section", main, { class: "side", "aria-label": "results" });
-  const seek = (x: number) => show(x), pick = (c: Curve) => ((picked = c), request(true));
-  const views = [...(kernel.count > 1 ? data.views.charts.map((c) => chart(side, data, kernel, c, () => t, seek, pick, () => picked)) : [])];
-  const select = html("select", panelOf("Free body", true), { "aria-label": "link" });
-  data.views.bodies.forEach((b, k) => (html("option", select, { value: k }, `${b.title}${b.member && `, ${b.member} member`}`)));
-  const bodyBox = html("div", select.parentElement!);
-  const bodies = data.views.bodies.map((b) => {
-    const box = html("div", bodyBox, { class: "body" });
-    const drawn = board(box, kernel, b, b.about, 110, 100, data.units, `free body of ${b.title}`);
-    return { box, drawn, sums: equations(box, data, kernel, b) };
-  });
-  const polygonBox = data.views.polygons.links.length ? panelOf("Force polygon") : html("div", null);
-  const polygons = data.views.polygons.links.map((p) => polygon(polygonBox, data, kernel, p));
-  const polars = kernel.count > 2 ? data.views.charts.flatMap((c) => c.curves).filter((c) => c.f) : [];
-  const polarBox = polars.length ? panelOf("Polar diagrams") : null;
-  const polarViews = polarBox ? polars.map((c) => polar(polarBox, kernel, c, data.units.force)) : [];
-  const answers = answersPanel(panelOf("Numbers of this position"), data, kernel);
-  const inputs = numbersPanel(panelOf("Change numbers", data.numbers.some((n) => n.parameter)), data, kernel, (n, done) => {
-    changed();
-    if (done) finished([n]);
-  });
-  methodPanel(panelOf("Method and assumptions"), data);
+  const pick = (c: Curve) => ((picked = curves.find((x) => x.curve === c)), request(true));
+  const shown = results(side, data, kernel, { time: () => t, seek: show, pick, picked: () => picked?.curve }, () => request(true));
+  const spread = switches();
+  const inputs = numbersPanel(panel(side, "Change numbers", data.numbers.some((n) => n.parameter)), data, kernel, (done) => (done ? finished() : request(true)));
+  methodPanel(panel(side, "Method and assumptions"), data);
   files();
+  m.svg.addEventListener("click", (e) => shown.choose((e.target as Element).closest<SVGElement>("[data-link]")?.dataset.link));
 
-  function panelOf(title: string, open = false): HTMLElement {
-    return panel(side, title, open);
+  function switches(): HTMLElement {
+    const box = html("div", stage, { class: "switches" });
+    const toggle = (said: string, title: string, on: boolean, act: (on: boolean) => void): void => {
+      const line = html("label", box, { title }), check = html("input", line, { type: "checkbox" });
+      check.checked = on;
+      line.append(said);
+      check.addEventListener("change", () => (act(check.checked), request(true)));
+    };
+    toggle("names", "names of joints", m.names, (on) => (m.names = on));
+    if (data.gradient) toggle("what lowers the peak", "arrows: moving a joint this way lowers the peak of the chosen curve", false, (on) => (gradients.on = on));
+    if (data.handles.some((h) => h.kind === "joint")) toggle("tolerances", "a thousand machines with points up to 0.5 % of the drawing's width off", false, (on) => (cloud.on = on));
+    if (m.paper.axes.length > 2) {
+      html("span", box, {}, "drag to look from elsewhere");
+      orbit([m, ...shown.bodies], () => request(true));
+    }
+    return html("span", box, { class: "spread" });
   }
   function files(): void {
-    const box = panelOf("Save and share"), name = fileName(data.title);
+    const box = panel(side, "Save and share"), name = fileName(data.title);
     const one = (said: string, act: () => void) => html("button", box, { type: "button" }, said).addEventListener("click", act);
     one("Model file", () => save(`${name}.yaml`, modelText(data, kernel), "text/yaml"));
     one("Curves as CSV", () => save(`${name}.csv`, csvText(data, kernel), "text/csv"));
@@ -104,51 +81,24 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
         void navigator.clipboard?.writeText(location.href);
       });
   }
-  select.addEventListener("change", () => request(false));
-  m.svg.addEventListener("click", (e) => {
-    const link = (e.target as Element).closest<SVGElement>("[data-link]")?.dataset.link;
-    const k = data.views.bodies.findIndex((b) => b.link === link);
-    if (k >= 0) (select.value = String(k)), request(false);
-  });
-  slider.addEventListener("input", () => show(+slider.value));
-  if (data.views.mechanism.arrows.concat(...data.views.bodies.map((b) => b.arrows)).some((a) => a.p.length > 2)) orbit();
-
-  /** In space the background is dragged to look from elsewhere. */
-  function orbit(): void {
-    const papers = [m, ...bodies.map((b) => b.drawn)];
-    html("span", switches, {}, "drag to look from elsewhere");
-    for (const one of papers) {
-      one.svg.style.cursor = "move";
-      one.svg.addEventListener("pointerdown", (e) => one.svg.setPointerCapture(e.pointerId));
-      one.svg.addEventListener("pointermove", (e) => {
-        if (!one.svg.hasPointerCapture(e.pointerId)) return;
-        for (const p of papers) {
-          p.paper.azimuth -= 0.01 * e.movementX;
-          p.paper.elevation = Math.min(Math.max(p.paper.elevation + 0.01 * e.movementY, -1.55), 1.55);
-          p.fit();
-        }
-        request(true);
-      });
-    }
-  }
-
-  let asked = 0, whole = true, runs = 0;
-  function changed(): void {
-    request(true);
-  }
-  function finished(numbers: number[]): void {
-    history.note();
-    m.fit();
+  function tell(): void {
     request(true);
     inputs.update();
-    if (options.edited && numbers.length) options.edited(Object.fromEntries(numbers.map((n) => [data.numbers[n].path, kernel.values[n]])));
+    options.edited?.(changes(data, kernel));
     if (options.address) window.history.replaceState(null, "", "#" + fragment(data, kernel, t));
   }
+  /** After a change that can be undone. */
+  function finished(): void {
+    history.note();
+    m.fit();
+    tell();
+  }
+  function reset(): void {
+    change(data, kernel, {});
+    finished();
+  }
   function go(back: boolean): void {
-    if (!history.go(back)) return;
-    request(true);
-    inputs.update();
-    options.edited?.(Object.fromEntries(data.numbers.map((n, k) => [n.path, kernel.values[k]])));
+    if (history.go(back)) tell();
   }
   function show(place: number): void {
     t = Math.min(Math.max(place, 0), kernel.end);
@@ -156,22 +106,21 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
     request(false);
   }
   function play(): void {
+    bar.playing(!runs);
     if (runs) return stop();
-    playing.textContent = "❚❚";
-    let before = performance.now();
-    const seconds = 6;
+    let before = performance.now(), place = t;
     const step = (now: number) => {
-      const next = t + ((now - before) / 1000 / seconds) * kernel.end;
+      place += ((now - before) / 1000 / CYCLE) * kernel.end;
       before = now;
-      show(next >= kernel.end ? 0 : next);
-      if (!data.only_at_positions || next >= 1) runs = requestAnimationFrame(step);
+      if (place >= kernel.end) place = 0;
+      show(place);
+      runs = requestAnimationFrame(step);
     };
     runs = requestAnimationFrame(step);
   }
   function stop(): void {
     cancelAnimationFrame(runs);
     runs = 0;
-    playing.textContent = "▶";
   }
   function request(all: boolean): void {
     whole ||= all;
@@ -188,34 +137,14 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
     whole = false;
     if (all) kernel.cycle();
     kernel.at(t);
-    const solved = kernel.solved, said = data.statuses[String(kernel.mark)];
-    root.classList.toggle("unsolved", !solved);
-    mark.textContent = said && kernel.mark ? said.sentence : "";
+    root.classList.toggle("unsolved", !kernel.solved);
     m.update(all);
     updateHandles();
-    gradients.update(picked);
-    const s = cloud.update(picked?.row);
-    spread.textContent = s && picked ? spreadText(s, picked) : "";
-    views.forEach((v) => v.update(all));
-    const k = +select.value;
-    bodies.forEach((b, n) => {
-      b.box.hidden = n !== k;
-      if (n === k && open(b.box)) b.drawn.update(all), b.sums.update();
-    });
-    polygons.forEach((p, n) => {
-      p.figure.hidden = n !== k;
-      if (n === k && open(p.figure)) p.update(all);
-    });
-    polarViews.forEach((p) => p.update(all));
-    if (open(polygonBox) || true) answers.update();
-    slider.value = String(t);
-    readout.textContent = data.drives.map((d) => `${d.name} = ${figures(kernel.position(d.name, t) / d.size, 5)}${d.unit === "°" ? "" : " "}${d.unit}`).join(", ");
-    [undo.disabled, redo.disabled] = history.can.map((x) => !x);
-  }
-  const open = (e: Element): boolean => e.closest("details")?.open ?? true;
-  function spreadText(s: { mean: number; sigma: number }, c: Curve): string {
-    const kind = data.views.charts.find((x) => x.curves.includes(c))!.kind, unit = data.units[kind] ?? { unit: "", size: 1 };
-    return `${plain(c.name)}: ${figures(s.mean / unit.size)} ± ${figures(s.sigma / unit.size, 2)} ${unit.unit} (1 σ)`;
+    gradients.update(picked?.curve);
+    const s = cloud.update(picked?.curve.row);
+    spread.textContent = s && picked ? `${plain(picked.curve.name)}: ${figures(s.mean / picked.unit.size)} ± ${figures(s.sigma / picked.unit.size, 2)} ${picked.unit.unit} (1 σ)` : "";
+    shown.update(all);
+    bar.update(t, history.can);
   }
   root.querySelectorAll("details").forEach((d) => d.addEventListener("toggle", () => request(true)));
   root.addEventListener("keydown", (e) => {
@@ -228,8 +157,6 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
       play();
     }
   });
-  root.tabIndex = -1;
-  kernel.cycle();
   kernel.at(t);
   el.replaceChildren(root);
   m.fit();
@@ -237,13 +164,30 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
   inputs.update();
   return {
     kernel, data, times, show,
-    set(path, value) {
-      const n = data.numbers.findIndex((x) => x.path === path);
-      if (n < 0) throw new Error(`there is no number ${path}`);
-      kernel.values[n] = value;
-      finished([]);
+    set(to) {
+      change(data, kernel, to);
+      history.note();
+      m.fit();
+      request(true);
+      inputs.update();
     },
     text: () => modelText(data, kernel),
     remove: () => (stop(), root.remove()),
   };
+}
+
+/** In space the background is dragged to look from elsewhere. */
+function orbit(boards: Board[], again: () => void): void {
+  for (const one of boards) {
+    one.svg.style.cursor = "move";
+    one.svg.addEventListener("pointerdown", (e) => one.svg.setPointerCapture(e.pointerId));
+    one.svg.addEventListener("pointermove", (e) => {
+      if (!one.svg.hasPointerCapture(e.pointerId)) return;
+      for (const b of boards) {
+        b.paper.turn(-0.01 * e.movementX, 0.01 * e.movementY);
+        b.fit();
+      }
+      again();
+    });
+  }
 }

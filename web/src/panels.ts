@@ -15,7 +15,7 @@ export function panel(parent: Element, title: string, open = false): HTMLElement
 export interface Numbers { update(): void }
 
 /** Parameters with sliders first, then every other number, by what it belongs to. */
-export function numbersPanel(parent: Element, data: Data, kernel: Kernel, changed: (n: number, done: boolean) => void): Numbers {
+export function numbersPanel(parent: Element, data: Data, kernel: Kernel, changed: (done: boolean) => void): Numbers {
   const boxes: { box: HTMLInputElement; slide?: HTMLInputElement; n: number; field: NumberField }[] = [];
   const groups = new Map<string, Element>();
   const group = (name: string): Element => {
@@ -38,7 +38,7 @@ export function numbersPanel(parent: Element, data: Data, kernel: Kernel, change
     const apply = (value: number, done: boolean) => {
       if (!Number.isFinite(value)) return;
       kernel.values[n] = value * field.size;
-      changed(n, done);
+      changed(done);
     };
     box.addEventListener("change", () => (box.value.trim() === "" ? write(entry) : apply(+box.value, true)));
     if (field.parameter) {
@@ -73,7 +73,7 @@ function around(value: number): [number, number] {
 export function answersPanel(parent: Element, data: Data, kernel: Kernel): Numbers {
   const table = html("table", parent, { class: "answers" }), body = html("tbody", table);
   const rows = data.views.table.map((r) => {
-    const line = html("tr", body), unit = data.units[r.kind] ?? { unit: "", size: 1 };
+    const line = html("tr", body), unit = data.units[r.kind];
     html("th", line, { scope: "row" }, plain(r.name));
     return { r, unit, cell: html("td", line) };
   });
@@ -91,10 +91,10 @@ export function answersPanel(parent: Element, data: Data, kernel: Kernel): Numbe
 
 /** Sums of forces and moments on a link, in signs and in numbers. */
 export function equations(parent: Element, data: Data, kernel: Kernel, b: FreeBody): Numbers {
-  const { terms, about } = b.equations, n = terms[0]?.f.length ?? 2, letters = ["x", "y", "z"].slice(0, n);
-  const sums = letters.map((x, k) => ({ head: `ΣF${x}`, unit: data.units.force, sign: (t: Term) => plain(t.name) + x, row: (t: Term) => t.f[k] }));
-  if (n === 2) sums.push({ head: `ΣM about ${about}`, unit: data.units.moment, sign: (t) => `M(${plain(t.name)})`, row: (t) => t.m as number });
-  else letters.forEach((x, k) => sums.push({ head: `ΣM${x} about ${about}`, unit: data.units.moment, sign: (t) => `M${x}(${plain(t.name)})`, row: (t) => (t.m as number[])[k] }));
+  const { terms, about } = b.equations, { force, moment } = data.units, d = terms[0]?.f.length ?? 2;
+  const sums = ["x", "y", "z"].slice(0, d).map((x, k) => ({ head: `ΣF${x}`, unit: force, sign: (t: Term) => plain(t.name) + x, row: (t: Term) => t.f[k] }));
+  (d === 2 ? [""] : ["x", "y", "z"]).forEach((x, k) =>
+    sums.push({ head: `ΣM${x} about ${about}`, unit: moment, sign: (t) => `M${x}(${plain(t.name)})`, row: (t) => t.m[k] }));
   const lines = sums.map((sum) => ({ sum, el: html("p", parent, { class: "equation" }) }));
   return {
     update() {

@@ -20,7 +20,11 @@ export function html<K extends keyof HTMLElementTagNameMap>(name: K, parent: Ele
   return out;
 }
 
-export const short = (x: number): string => (Math.abs(x) < 0.005 ? "0" : x.toFixed(2));
+/** To a hundredth; by whole numbers, for toFixed takes twice as long. */
+export function short(x: number): string {
+  const n = Math.round(100 * Math.abs(x)), whole = Math.floor(n / 100), rest = n % 100, sign = x < 0 && n ? "-" : "";
+  return sign + whole + (rest ? (rest < 10 ? ".0" : ".") + rest : "");
+}
 
 export function path(points: Point[], closed = false): string {
   return points.length ? "M" + points.map(([x, y]) => short(x) + " " + short(y)).join("L") + (closed ? "Z" : "") : "";
@@ -28,6 +32,12 @@ export function path(points: Point[], closed = false): string {
 
 export function place(el: Element, x: number, y: number): void {
   el.setAttribute("transform", `translate(${short(x)} ${short(y)})`);
+}
+
+/** Where a pointer is, in the units of a drawing. */
+export function pointer(svg: SVGSVGElement, e: PointerEvent): Point {
+  const p = new DOMPoint(e.clientX, e.clientY).matrixTransform(svg.getScreenCTM()!.inverse());
+  return [p.x, p.y];
 }
 
 /** Put a text into an element, what stands in `_{...}` as small letters below. */

@@ -1,40 +1,36 @@
 /** Beyond the drawing: derivatives as arrows, a cloud of tolerances, undo, the state in the address, files. */
 
 import type { Board } from "./board";
-import type { Curve, Data, Handle, Rows } from "./data";
+import type { Curve, Data, End, Rows } from "./data";
 import type { Kernel } from "./kernel";
 import { Arrow, make, plain } from "./svg";
 
-/** At each joint and point the direction in which moving it lowers the peak of a curve. */
+/** At each joint, point and mass centre the direction in which moving it lowers the peak of a curve. */
 export class Gradients {
   on = false;
-  private readonly arrows: { h: Handle & { ends: unknown[] }; arrow: Arrow }[];
+  private readonly arrows: { p: Rows; ends: End[]; arrow: Arrow }[];
   constructor(private readonly b: Board, private readonly data: Data, private readonly kernel: Kernel) {
     const layer = make("g", b.svg, { class: "gradient" });
-    const movable = data.handles.filter((h) => h.kind === "joint" || h.kind === "point") as (Handle & { ends: unknown[] })[];
-    this.arrows = data.gradient ? movable.map((h) => ({ h, arrow: new Arrow(layer, "acceleration", `lower the peak by ${h.name}`) })) : [];
+    const movable = data.gradient ? data.handles.flatMap((h) => ("ends" in h && h.ends.length ? [h] : [])) : [];
+    this.arrows = movable.map((h) => ({ p: h.p, ends: h.ends, arrow: new Arrow(layer, "acceleration", `lower the peak by ${h.name}`) }));
   }
   update(curve: Curve | undefined): void {
     const g = this.data.gradient, k = this.kernel, place = curve && g ? g.curves.indexOf(curve.row) : -1;
     if (!this.on || place < 0 || !g || !curve || !k.solved) return this.arrows.forEach((a) => a.arrow.set([0, 0], [0, 0]));
-    let peak = 0, most = -1;
-    for (let c = 0; c < k.count; c++) if (k.good(c) && Math.abs(k.value(curve.row, c)) > most) (most = Math.abs(k.value(curve.row, c))), (peak = c);
-    const slope = k.gradient(place, peak), sign = Math.sign(k.value(curve.row, peak)) || 1;
+    const size = (n: number): number => Math.abs(k.value(curve.row, n)), most = k.largest(size);
+    const peak = Math.max(0, k.good.findIndex((good, n) => good > 0 && size(n) === most));
+    const slope = k.gradient(place, peak), down = -Math.sign(k.value(curve.row, peak)) || 1;
     const by = new Map(g.numbers.map((n, i) => [n, slope[i]]));
-    const vectors = this.arrows.map(({ h }) => {
-      let x = 0, y = 0;
-      if (h.kind === "joint" || h.kind === "point")
-        for (const e of h.ends) {
-          const [a, b] = e.n.map((n) => by.get(n) ?? 0), [c, s] = e.e.map((r) => k.here[r]);
-          x -= sign * (c * a - s * b);
-          y -= sign * (s * a + c * b);
-        }
-      return [x, y];
+    const vectors = this.arrows.map(({ ends }) => {
+      const v = this.b.paper.axes[0].map(() => 0);
+      for (const e of ends)
+        e.axes.forEach((axis, c) => axis.forEach((r, i) => (v[i] += down * k.here[r] * (by.get(e.n[c]) ?? 0))));
+      return this.b.paper.project(v);
     });
     const longest = Math.max(...vectors.map((v) => Math.hypot(...v)), 1e-300);
-    this.arrows.forEach(({ h, arrow }, n) => {
-      const p = this.b.paper.point(h.p), [x, y] = vectors[n];
-      arrow.set(p, [p[0] + (14 * x) / longest, p[1] - (14 * y) / longest], 0.5);
+    this.arrows.forEach(({ p, arrow }, n) => {
+      const [x, y] = this.b.paper.point(p), [dx, dy] = vectors[n];
+      arrow.set([x, y], [x + (14 * dx) / longest, y - (14 * dy) / longest], 0.5);
     });
   }
 }
@@ -61,9 +57,10 @@ export class Cloud {
   }
   /** Spread of a curve at this place over the machines: mean, standard deviation; null where it is off. */
   update(row: number | undefined): { mean: number; sigma: number } | null {
-    const c = this.canvas, box = this.b.svg.getBoundingClientRect();
+    const c = this.canvas;
     c.hidden = !this.on;
-    if (!this.on || !box.width) return null;
+    if (!this.on) return null;
+    const box = this.b.svg.getBoundingClientRect();
     const dots = window.devicePixelRatio || 1, [w, h] = [Math.round(box.width * dots), Math.round(box.height * dots)];
     if (c.width !== w || c.height !== h) (c.width = w), (c.height = h);
     const g = c.getContext("2d")!, view = this.b.svg.viewBox.baseVal, scale = Math.min(w / view.width, h / view.height);
@@ -74,8 +71,7 @@ export class Cloud {
     for (const draw of this.draws) {
       this.numbers.forEach((n, i) => (trial[n] = nominal[n] + sigma * draw[i]));
       k.other(trial, this.out);
-      const mark = this.out[this.out.length - 1];
-      if (mark !== 0 && mark !== 9) continue;
+      if (!k.numbered(this.out[this.out.length - 1])) continue;
       for (const p of this.places) {
         const [px, py] = this.b.paper.of(...this.b.paper.seen(p, (r) => this.out[r]));
         g.fillRect((px - view.x) * scale + (w - view.width * scale) / 2, (py - view.y) * scale + (h - view.height * scale) / 2, dots, dots);
@@ -119,31 +115,30 @@ export class History {
   }
 }
 
-/** The changed numbers and the place of the cycle as text for an address. */
-export function fragment(data: Data, kernel: Kernel, t: number): string {
-  const changed = data.numbers.flatMap((n, k) => (kernel.values[k] === n.value ? [] : [`${encodeURIComponent(n.path)}=${kernel.values[k]}`]));
-  return ["t=" + +t.toFixed(4), ...changed].join("&");
+/** The numbers that are not those of the file, by path. */
+export function changes(data: Data, kernel: Kernel): Record<string, number> {
+  return Object.fromEntries(data.numbers.flatMap((n, k) => (kernel.values[k] === n.value ? [] : [[n.path, kernel.values[k]]])));
 }
 
-/** Read such a text; what fits no number is left out. */
+/** The file's numbers but for some; what fits none is left out. */
+export function change(data: Data, kernel: Kernel, to: Record<string, number>): void {
+  data.numbers.forEach((n, k) => (kernel.values[k] = Number.isFinite(to[n.path]) ? to[n.path] : n.value));
+}
+
+/** The changed numbers and the place of the cycle as text for an address. */
+export function fragment(data: Data, kernel: Kernel, t: number): string {
+  const said = new URLSearchParams({ t: String(+t.toFixed(4)) });
+  for (const [path, x] of Object.entries(changes(data, kernel))) said.set(path, String(x));
+  return said.toString();
+}
+
+/** Read such a text; the place of the cycle. */
 export function restore(data: Data, kernel: Kernel, said: string): number {
-  let t = 0;
-  for (const part of said.replace(/^#/, "").split("&")) {
-    const [key, value] = part.split("="), x = Number(value);
-    if (!value || !Number.isFinite(x)) continue;
-    if (key === "t") t = x;
-    else {
-      let path = "";
-      try {
-        path = decodeURIComponent(key);
-      } catch {
-        continue;
-      }
-      const n = data.numbers.findIndex((f) => f.path === path);
-      if (n >= 0) kernel.values[n] = x;
-    }
-  }
-  return t;
+  const found = new Map([...new URLSearchParams(said.replace(/^#/, ""))].map(([path, x]) => [path, x.trim() ? Number(x) : NaN]));
+  const t = found.get("t") ?? 0;
+  found.delete("t");
+  change(data, kernel, Object.fromEntries(found));
+  return Number.isFinite(t) ? Math.min(Math.max(t, 0), kernel.end) : 0;
 }
 
 /** A model file with the numbers as they are. */
@@ -154,13 +149,12 @@ export function modelText(data: Data, kernel: Kernel): string {
 /** The curves over the cycle as a table, in the page's units. */
 export function csvText(data: Data, kernel: Kernel): string {
   const cell = (s: string) => (/[",\n]/.test(s) || /^[=+\-@]/.test(s) ? `"${s.replace(/^([=+\-@])/, "'$1").replace(/"/g, '""')}"` : s);
-  const curves = data.views.charts.flatMap((c) => c.curves.map((x) => ({ x, unit: data.units[c.kind] ?? { unit: "", size: 1 } })));
+  const curves = data.views.charts.flatMap((c) => c.curves.map((x) => ({ x, unit: data.units[c.kind] })));
   const head = [...data.drives.map((d) => `${d.name} [${d.unit}]`), "status", ...curves.map(({ x, unit }) => `${x.of} [${unit.unit}]`)];
   const lines = [head.map(cell).join(",")];
   for (let k = 0; k < kernel.count; k++) {
-    const good = kernel.good(k), mark = String(kernel.rows[kernel.rows.length - kernel.row + k]);
     const drives = data.drives.map((d) => kernel.positions.get(d.name)![k] / d.size);
-    lines.push([...drives, cell(data.statuses[mark]?.status ?? "ok"), ...curves.map(({ x, unit }) => (good ? kernel.value(x.row, k) / unit.size : ""))].join(","));
+    lines.push([...drives, data.statuses[kernel.markAt(k)].status, ...curves.map(({ x, unit }) => (kernel.good[k] ? kernel.value(x.row, k) / unit.size : ""))].join(","));
   }
   return lines.join("\n") + "\n";
 }

@@ -12,7 +12,8 @@ from functools import cached_property
 
 import numpy as np
 
-from dalembert.analysis.methods.applied_forces import Action, joint_place, whole_actions
+from dalembert.algebra import plane, space
+from dalembert.analysis.methods.applied_forces import Action, joint_place, magnitude, whole_actions
 from dalembert.analysis.methods.members import members
 from dalembert.analysis.output.columns import drive_kinds, load_kind
 from dalembert.analysis.result.result import Result
@@ -22,7 +23,9 @@ from dalembert.pages.mechanism_items import Items
 from dalembert.pages.rows import Rows
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.frame import FINE, force_scale, round_up
+from dalembert.views.plane.force_polygons import chain_order
 from dalembert.views.plane.mechanism_view import is_drawn, role_of, unit_size, whole_frame
+from dalembert.views.plane.outline import link_points
 
 CURVES = 6
 """Roles of curves."""
@@ -34,7 +37,7 @@ class Boards:
     def __init__(
         self, known: Result, rows: Rows, actions: Sequence[Action], items: Items | None = None
     ) -> None:
-        self.known, self.rows, self.actions = known, rows, actions
+        self.known, self.rows, self.actions, self.d = known, rows, actions, known._d
         self.items = items or Items(rows.r, known, rows, whole_frame(known, 0, 120.0, 90.0))
         self.frame = self.items.frame
         self.shown = Shown(known, Notation())
@@ -45,7 +48,11 @@ class Boards:
         d, m = self.items, self.known.mechanism
         parts = [*d.traces(), *(x for n in self.known.links for x in d.link(n)), *d.spans()]
         parts += [x for n in sorted(self.known.joints, key=lambda n: m.joints[n].hinge) for x in d.joint(n)]
-        parts += [x for n in self.known.links for x in d.center(n)] + d.circles(self.known.joints)
+        parts += [
+            *d.turns(),
+            *(x for n in self.known.links for x in d.center(n)),
+            *d.circles(self.known.joints),
+        ]
         mine = [k for k, a in enumerate(self.numbered) if self._drawn_once(a)]
         return {
             "per_mm": self.frame.per_mm,
@@ -90,7 +97,7 @@ class Boards:
         return {
             "link": link,
             "title": f"Link {self.shown.heading(link)}",
-            "member": members(self.known)[link].kind,
+            "member": self._member(link),
             "per_mm": self._size(link),
             "about": d.corners(link),
             "items": parts,
@@ -100,11 +107,13 @@ class Boards:
             "equations": self._equations(link, mine, own),
         }
 
+    def _member(self, link: str) -> str:
+        """Two-force, three-force ... member."""
+        return str(members(self.known)[link].kind)
+
     def _size(self, link: str) -> float:
         """Metres a millimetre of a free body, round in the reader's unit."""
         k = int(np.argmax(self.known.ok))
-        from dalembert.views.plane.outline import link_points
-
         places = [*link_points(self.known, link, k).values(), tuple(self.known.center(link)[k])]
         span = float(np.ptp(np.array(places), axis=0).max())
         size = unit_size(self.known, "length")
@@ -112,22 +121,22 @@ class Boards:
 
     def _equations(self, link: str, mine: Sequence[int], own: Sequence[str]) -> Tree:
         """Sums of forces and of moments about the link's first joint, or its mass centre: a term for each action."""
-        r = self.rows.r
+        r, terms = self.rows.r, list[Tree]()
+        cross = (plane if self.d == 2 else space).cross
         at = joint_place(r, own[0])[0] if own else r.center(link)[0]
-        terms = list[Tree]()
         for k in mine:
-            a = self.actions[k]
-            if self._has(a.force[0]) or self._has(np.ravel(a.couple)[:1]):
-                x, y = a.force[0]
-                arm_x, arm_y = a.at[0] - at
-                moment = np.ravel(a.couple)[0] + arm_x * y - arm_y * x
-                turning = not self._has(a.force[0])
-                sign = (
-                    self.shown.turning_symbol(self.numbered[k])
-                    if turning
-                    else self.shown.symbol(self.numbered[k])
+            a, force = self.actions[k], self.actions[k].force[0]
+            couple = np.ravel(a.couple)
+            if self._has(force) or self._has(couple):
+                sign = self.shown.symbol if self._has(force) else self.shown.turning_symbol
+                moment = couple + cross(a.at[0] - at, force)
+                terms.append(
+                    {
+                        "name": sign(self.numbered[k]),
+                        "f": self.rows.vector(force),
+                        "m": self.rows.vector(moment),
+                    }
                 )
-                terms.append({"name": sign, "f": self.rows.vector((x, y)), "m": self.rows.of(moment)})
         return {"about": own[0] if own else "G", "terms": terms}
 
     def _has(self, values: Iterable[Numeric]) -> bool:
@@ -139,102 +148,90 @@ class Boards:
         a, real, out = self.actions[k], self.numbered[k], list[Tree]()
         role = role_of(a.kind)
         self.items.roles.add(role)
-        at, force, couple = a.at[0], a.force[0], np.ravel(a.couple)[0]
+        at, force, couple = a.at[0], a.force[0], np.ravel(a.couple)
         if tangent and a.kind == "joint" and self.items.circle_radius(a.of) is not None:
             x, y = force
-            arm = couple / (x * x + y * y)
-            at, couple = (at[0] + arm * y, at[1] - arm * x), 0.0
+            arm = couple[0] / (x * x + y * y)
+            at, couple = (at[0] + arm * y, at[1] - arm * x), np.zeros(1)
         base: Tree = {"role": role, "of": a.of, "kind": a.kind, "link": a.link, "p": self.rows.vector(at)}
-        largest = max(1.0, _largest(real.force))
-        if self._has(force) and (_largest(real.force) > 0 or a.kind == "joint"):
+        largest = _largest(real.force)
+        if self._has(force) and (largest > 0 or a.kind == "joint"):
             out.append({"t": "force", "f": self.rows.vector(force), "name": self.shown.symbol(real)} | base)
-        if self._has([couple]) and _largest(real.couple) > 1e-12 * largest:
-            sign = self.shown.turning_symbol(real)
-            out.append({"t": "couple", "m": self.rows.of(couple), "name": sign} | base)
+        if self._has(couple) and _largest(real.couple) > 1e-12 * max(1.0, largest):
+            sense = "couple" if self.d == 2 else "moment"
+            out.append(
+                {"t": sense, "m": self.rows.vector(couple), "name": self.shown.turning_symbol(real)} | base
+            )
         return out
 
     @cached_property
     def _sizes(self) -> list[float]:
         """Largest force of each action over the cycle."""
-        return [_largest(np.hypot(*a.force.T)) for a in self.numbered]
+        with np.errstate(all="ignore"):
+            return [_largest(magnitude(a.force)) for a in self.numbered]
 
     def scale(self, longest: float, some: Sequence[int] | None = None) -> float:
         """Newtons a millimetre over the whole cycle, round in the reader's unit."""
         sizes = self._sizes if some is None else [self._sizes[k] for k in some]
         return force_scale(sizes, longest, unit_size(self.known, "force"))
 
-    def polygons(self) -> list[Tree]:
-        """The forces on each link head to tail, loads first, joints last, at one scale for all."""
+    def polygons(self) -> Tree:
+        """The forces on each link head to tail, loads first, joints last; and the links in the order of solution."""
         out = []
         for link in self.known.links:
             mine = [k for k, a in enumerate(self.actions) if a.link == link]
             mine.sort(key=lambda k: self.numbered[k].kind == "joint")
             sides = [x for k in mine for x in self.arrows(k) if x["t"] == "force"]
             out.append({"link": link, "title": self.shown.heading(link), "sides": sides})
-        return out
+        return {"links": out, "chain": [self.known.links.index(link) for link in chain_order(self.known)]}
 
     def charts(self) -> list[Tree]:
-        """Efforts and loads asked for, joint forces; each curve a row."""
-        r, out, curves = self.known, list[Tree](), list[Tree]()
-        asked = [d for d, a in zip(r.drives, r.compiled.known.asked, strict=True) if a]
-        for drive in asked:
-            row = self.rows.of(self.rows.r.effort(drive)[0])
-            kind = drive_kinds(r, drive)["effort"]
-            curve = {"row": row, "name": drive, "role": "effort", "of": f"effort.{drive}"}
-            out.append({"title": f"Effort of {drive}", "kind": kind, "curves": [curve]})
-        for name in r.unknown_loads:
-            row = self.rows.of(self.rows.r.unknown_load(name)[0])
-            curve = {"row": row, "name": name, "role": "load", "of": f"load.{name}"}
-            out.append({"title": name, "kind": load_kind(r, name), "curves": [curve]})
-        for k, joint in enumerate(r.joints):
-            x, y, *_ = self.rows.r.force_array[0, k]
-            role = f"curve-{k % CURVES + 1}"
-            size = self.rows.of(self._force(k))
-            curves.append(
-                {
-                    "row": size,
-                    "name": joint,
-                    "role": role,
-                    "of": f"magnitude.{joint}",
-                    "f": self.rows.vector((x, y)),
-                }
-            )
-        self.items.roles |= {c["role"] for chart in out for c in chart["curves"]} | {
-            c["role"] for c in curves
-        }
-        return [*out, {"title": "Joint forces", "kind": "force", "curves": curves}]
+        """Efforts and loads asked for, joint forces; each curve a row, of a joint force in the plane its vector too."""
+        r, s, out = self.known, self.rows.r, list[Tree]()
 
-    def _force(self, k: int) -> Numeric:
-        """Magnitude of the force of joint number k, a node."""
-        x, y = self.rows.r.force_array[0, k]
-        return (x * x + y * y).sqrt()
+        def one(of: str, name: str, kind: str, role: str, title: str, value: Numeric) -> None:
+            curve = {"row": self.rows.of(value), "name": name, "role": role, "of": f"{of}.{name}"}
+            out.append({"title": title, "kind": kind, "curves": [curve]})
+
+        for drive, asked in zip(r.drives, r.compiled.known.asked, strict=True):
+            if asked:
+                kind = drive_kinds(r, drive)["effort"]
+                one("effort", drive, kind, "effort", f"Effort of {drive}", s.effort(drive)[0])
+        for name in r.unknown_loads:
+            one("load", name, load_kind(r, name), "load", name, s.unknown_load(name)[0])
+        curves = list[Tree]()
+        for k, joint in enumerate(r.joints):
+            force = s.force_array[0, k]
+            row = self.rows.of((force * force).sum().sqrt())
+            curve = {"row": row, "name": joint, "role": f"curve-{k % CURVES + 1}", "of": f"magnitude.{joint}"}
+            curves.append(curve | ({"f": self.rows.vector(force)} if self.d == 2 else {}))
+        out.append({"title": "Joint forces", "kind": "force", "curves": curves})
+        self.items.roles |= {c["role"] for chart in out for c in chart["curves"]}
+        return out
 
     def table(self) -> list[Tree]:
         """Numbers of a position: what is driven, efforts, loads asked for, joint forces, links' motion."""
-        s, r, out = self.rows.r, self.known, []
+        s, r, out = self.rows.r, self.known, list[Tree]()
 
-        def add(name: str, kind: str, *rows: Numeric) -> None:
-            out.append({"name": name, "kind": kind, "rows": self.rows.vector(rows)})
+        def add(name: str, kind: str, value: Numeric) -> None:
+            out.append({"name": name, "kind": kind, "rows": self.rows.vector(np.ravel(value))})
 
         for drive in r.drives:
             add(f"effort of {drive}", drive_kinds(r, drive)["effort"], s.effort(drive)[0])
         for name in r.unknown_loads:
             add(name, load_kind(r, name), s.unknown_load(name)[0])
         for k, joint in enumerate(r.joints):
-            j = r.mechanism.joints[joint].links[1]
-            add(f"{self.shown.reaction(joint, j)} in {joint}", "force", *s.force_array[0, k])
-            moment = np.ravel(s.moment_array[0, k])[0]
-            if self._has([moment]):
+            j, moment = r.mechanism.joints[joint].links[1], np.ravel(s.moment_array[0, k])
+            add(f"{self.shown.reaction(joint, j)} in {joint}", "force", s.force_array[0, k])
+            if self._has(moment):
                 add(f"{self.shown.joint_moment(joint, j)} in {joint}", "moment", moment)
         for k, link in enumerate(r.links):
-            add(f"angle of {self.shown.heading(link)}", "angle", s.turn_array[0, k])
+            name = self.shown.heading(link)
+            if self.d == 2:
+                add(f"angle of {name}", "angle", s.turn_array[0, k])
             if s.inertia:
-                add(f"speed of {self.shown.heading(link)}", "angular_speed", s.twist_array[0, k, 2])
-                add(
-                    f"acceleration of {self.shown.heading(link)}",
-                    "angular_acceleration",
-                    s.acceleration_array[0, k, 2],
-                )
+                add(f"speed of {name}", "angular_speed", s.twist_array[0, k, self.d :])
+                add(f"acceleration of {name}", "angular_acceleration", s.acceleration_array[0, k, self.d :])
         return out
 
 
@@ -243,8 +240,8 @@ def _numbered(known: Result, actions: Sequence[Action]) -> list[Action]:
     there = {_key(a): a for a in whole_actions(known)}
     count = len(known.status)
     d = known._d
-    couple = np.zeros(count if d == 2 else (count, 3))
-    nothing: Tree = {"at": np.zeros((count, d)), "force": np.zeros((count, d)), "couple": couple}
+    vector, couple = np.zeros((count, d)), np.zeros(count if d == 2 else (count, 3))
+    nothing: Tree = {"at": vector, "force": vector, "couple": couple}
     return [there.get(_key(a)) or replace(a, **nothing) for a in actions]
 
 

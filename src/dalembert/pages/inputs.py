@@ -151,6 +151,7 @@ def drive_fields(b: Boards) -> list[Tree]:
                 "p": b.items.at(joint),
                 "link": link,
             }
+            | ({"along": b.rows.direction(joint)} if kind == "length" and b.d == 2 else {})
         )
     return out
 
@@ -158,10 +159,8 @@ def drive_fields(b: Boards) -> list[Tree]:
 def handles(b: Boards, k: Kernel) -> list[Tree]:
     """What can be dragged: joints, mass centres, other points of links, tips of loads, directions of slides.
 
-    ``n``: the places of the numbers that change. ``at`` and ``e``: rows of the origin and x axis of their axes.
+    ``n``: the places of the numbers that change. ``at``, ``axes``: rows of the origin and unit vectors of their axes.
     """
-    if b.known.mechanism.dimension == 3:
-        return []
     found = _Handles(b, {n.path: i for i, n in enumerate(k.trace.numbers)})
     return [*found.joints(), *found.points(), *found.loads(), *found.directions()]
 
@@ -173,17 +172,17 @@ class _Handles:
 
     def _numbers(self, path: str) -> list[int] | None:
         if f"{path}.0" in self.places:
-            return [self.places[f"{path}.{i}"] for i in range(2)]
+            return [self.places[f"{path}.{i}"] for i in range(self.b.d)]
         return None
 
     def _end(self, link: str, path: str) -> Tree | None:
         n = self._numbers(path)
         if n is None:
             return None
-        return {"n": n, "at": self.b.rows.place(link, (0.0, 0.0)), "e": self.b.rows.axis(link)}
+        return {"n": n, "at": self.b.rows.place(link, np.zeros(self.b.d)), "axes": self.b.rows.axes(link)}
 
     def joints(self) -> Iterator[Tree]:
-        """A hinge is drawn elsewhere at the same pose: its points in both links change.
+        """What only turns is drawn elsewhere at the same pose: its points in both links change.
 
         A link that otherwise only slides, as a piston, keeps its point, so that its pin stays where it was in it.
         """
@@ -191,7 +190,7 @@ class _Handles:
             names = joint.point_names(name)
             paths = [f"links.{link}.points.{p}" for link, p in zip(joint.links, names, strict=True)]
             self.taken.update(paths)
-            if not joint.hinge:
+            if joint.apart or joint.wheels or not joint.freedoms:
                 continue
             held = zip(joint.links, names, strict=True)
             points = [x for link, point in held for x in self.b.known.mechanism.point(link, point)]
@@ -231,7 +230,7 @@ class _Handles:
             if a.kind != "load" or a.of not in self.m.loads or self.m.loads[a.of].ON != "point":
                 continue
             load: Any = self.b.known.mechanism.loads[a.of]
-            e = self.b.rows.axis(load.on if load.axes == "link" else GROUND)
+            axes = self.b.rows.axes(load.on if load.axes == "link" else GROUND)
             more: Tree = {
                 "kind": "load",
                 "name": a.of,
@@ -241,9 +240,9 @@ class _Handles:
             pair, size = self._numbers(f"loads.{a.of}.value"), self.places.get(f"loads.{a.of}.value")
             turn = self.places.get(f"loads.{a.of}.direction")
             if pair:
-                yield more | {"e": e, "components": pair}
+                yield more | {"axes": axes, "components": pair}
             elif size is not None:
-                yield more | {"e": e, "size": size} | ({} if turn is None else {"direction": turn})
+                yield more | {"axes": axes, "size": size} | ({} if turn is None else {"direction": turn})
 
     def directions(self) -> Iterator[Tree]:
         for name, joint in self.m.joints.items():
@@ -255,7 +254,7 @@ class _Handles:
                     "p": self.b.rows.place(joint.links[0], self.m.joint_points(name)[0]),
                     "along": self.b.rows.direction(name),
                     "direction": place,
-                    "e": self.b.rows.axis(joint.links[0]),
+                    "axes": self.b.rows.axes(joint.links[0]),
                 }
 
 

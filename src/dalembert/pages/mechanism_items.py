@@ -94,6 +94,13 @@ class Items:
                 out.append(self.symbol((plane_symbols.fixed_pin if fixed else plane_symbols.pin)((0, 0)), at))
         return out
 
+    def turns(self) -> list[Tree]:
+        """Springs and dampers in the turn of a joint."""
+        loads = self.mechanism.loads_on("turn").values()
+        return [
+            self.symbol(plane_symbols.TURNS[load.type]((0.0, 0.0)), self.at(load.joint)) for load in loads
+        ]
+
     def joint(self, name: str, link: str | None = None) -> list[Tree]:
         """A joint's symbol; with ``link`` on that link's free body, where there is no ground."""
         joint = self.mechanism.joints[name]

@@ -9,6 +9,7 @@ from importlib.metadata import version
 
 import numpy as np
 
+from dalembert.analysis.batch.batch_result import CODES, NUMBERED
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.kernel_export import plain
 from dalembert.analysis.batch.symbolic_model import geometric
@@ -41,7 +42,6 @@ from dalembert.views.formats.themes import THEMES
 FORMAT = "dalembert-page/1"
 GRADIENT = 12_000
 """Bytes of the module of derivatives above which the page goes without."""
-UNITS = ("length", "force", "moment", "angle", "angular_speed", "angular_acceleration")
 UNDECIDED = "The numbers may be poor here: near a dead centre, or friction may jam. Ask dalembert solve."
 ALWAYS = (
     "text",
@@ -74,7 +74,7 @@ def page_data(m: Mechanism, static: bool = False) -> Tree:
     views: Tree = {
         "mechanism": b.mechanism(),
         "bodies": b.free_bodies(),
-        "polygons": {"force": b.scale(42.0), "links": b.polygons()},
+        "polygons": b.polygons(),
         "charts": b.charts(),
         "table": b.table(),
     }
@@ -87,7 +87,7 @@ def page_data(m: Mechanism, static: bool = False) -> Tree:
         "version": version("dalembert"),
         "title": m.title or "A mechanism",
         "source": m.source_text,
-        "units": {kind: {"unit": b.shown.unit(kind), "size": b.shown.size(kind)} for kind in UNITS},
+        "units": _units(b, views),
         "noise": _noise(b),
         "kernel": _module(program, len(k.trace.course.schedule.position)),
         "numbers": number_fields(b, k),
@@ -95,7 +95,7 @@ def page_data(m: Mechanism, static: bool = False) -> Tree:
         "drives": drives,
         "handles": dragged,
         "views": views,
-        "statuses": _sentences(),
+        "statuses": _statuses(),
         "assumptions": known.assumptions,
         "style": {theme: _style(b, theme) for theme in ("light", "dark")},
     }
@@ -163,16 +163,20 @@ def _noise(b: Boards) -> Tree:
     return {"force": force, "moment": force * b.known.compiled.layout.length}
 
 
-def _sentences() -> Tree:
-    """Sentence and remedy by the mark of a position."""
-    from dalembert.analysis.batch.batch_result import CODES
+def _units(b: Boards, views: Tree) -> Tree:
+    """Unit, and its size, of each kind that is shown."""
+    kinds = {"length", "force", "moment", *(x["kind"] for x in (*views["charts"], *views["table"]))}
+    return {kind: {"unit": b.shown.unit(kind), "size": b.shown.size(kind)} for kind in sorted(kinds)}
 
-    out: Tree = {}
-    for code, status in enumerate(CODES):
+
+def _statuses() -> list[Tree]:
+    """Of each mark of a position its status, sentence and remedy, and whether there are numbers."""
+    out = list[Tree]()
+    for mark, status in enumerate(CODES):
         known = STATUSES.get(status)
-        if known is not None and code:
-            out[str(code)] = {"status": status, "sentence": f"{known.sentence} {known.remedy}".strip()}
-    return out | {str(CODES.index("undecided")): {"status": "undecided", "sentence": UNDECIDED}}
+        said = UNDECIDED if known is None else "" if not mark else f"{known.sentence} {known.remedy}".strip()
+        out.append({"status": status, "sentence": said, "numbered": mark in NUMBERED})
+    return out
 
 
 def _style(b: Boards, theme: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -30,15 +30,15 @@ class Rows:
             self.nodes.append(node)
         return self.places[node.index]
 
-    def vector(self, v: Sequence[Numeric]) -> list[int]:
+    def vector(self, v: Iterable[Numeric]) -> list[int]:
         """The rows of a vector's components."""
         return [self.of(x) for x in v]
 
-    def place(self, link: str, u: Sequence[Numeric]) -> list[int]:
+    def place(self, link: str, u: Iterable[Numeric]) -> list[int]:
         """The rows of a point of a link, given in its axes."""
         if link == GROUND:
             return self.vector(u)
-        return self.vector(self.r._place(link, np.asarray(u))[0])
+        return self.vector(self.r._place(link, np.array([*u]))[0])
 
     def axis(self, link: str) -> list[int]:
         """The rows of the unit vector along a link's x axis."""
@@ -46,8 +46,19 @@ class Rows:
 
     def axis_nodes(self, link: str) -> Sequence[Numeric]:
         """The unit vector along a link's x axis."""
-        x: Sequence[Numeric] = (1.0, 0.0)
-        return x if link == GROUND else self.r.rotation_array[0, self.r.links.index(link)]
+        return self.unit_vectors(link)[0]
+
+    def axes(self, link: str) -> list[list[int]]:
+        """The rows of the unit vectors along a link's axes."""
+        return [self.vector(v) for v in self.unit_vectors(link)]
+
+    def unit_vectors(self, link: str) -> list[Sequence[Numeric]]:
+        """The unit vectors along a link's axes, ground axes."""
+        d = self.r._d
+        if link == GROUND:
+            return list(np.eye(d).tolist())
+        r = self.r.rotation_array[0, self.r.links.index(link)]
+        return [(r[0], r[1]), (-r[1], r[0])] if d == 2 else [r[j::3] for j in range(3)]
 
     def direction(self, joint: str) -> list[int]:
         """The rows of the unit vector along a joint's slide."""

@@ -175,7 +175,7 @@ def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case:
     placed: dict[str, tuple[Point, Point]] = {}
     worst, bottom = 0.0, 0.0
     everything: list[Action] = []
-    order = _order(r)
+    order = chain_order(r)
     for link in order:
         mine = forces_of(some, link, k) if has_reactions(r, link, k) else []
         shared = next((a for a in mine if a.kind == "joint" and a.of in placed), None)
@@ -201,7 +201,7 @@ def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case:
     )
 
 
-def _order(r: Result) -> list[str]:
+def chain_order(r: Result) -> list[str]:
     """Links in the order of solution, two-force members where their joints come up, connected ones next."""
     found = members(r)
     out = [link for step in order_of_solution(r, found) for link in step.links]

@@ -1,0 +1,38 @@
+/** The head of a page: title, play, place of the cycle, undo, and the sentence of a position without an answer. */
+
+import { figures } from "./charts";
+import type { Data } from "./data";
+import type { Kernel } from "./kernel";
+import { html } from "./svg";
+
+export interface Acts { play(): void; show(t: number): void; go(back: boolean): void; reset(): void }
+export interface Toolbar { update(t: number, can: [boolean, boolean]): void; playing(on: boolean): void }
+
+export function toolbar(parent: Element, data: Data, kernel: Kernel, acts: Acts): Toolbar {
+  const header = html("header", parent);
+  html("h1", header, {}, data.title);
+  const bar = html("div", header, { class: "bar", role: "toolbar", "aria-label": "cycle and page" });
+  const button = (name: string, said: string, act: () => void): HTMLButtonElement => {
+    const b = html("button", bar, { type: "button", title: said, ...(/^\w/.test(name) ? {} : { "aria-label": said }) }, name);
+    b.addEventListener("click", act);
+    return b;
+  };
+  const play = button("▶", "play along the cycle (space)", acts.play);
+  const slider = html("input", bar, { type: "range", min: 0, max: kernel.end, step: data.only_at_positions ? 1 : "any", "aria-label": "place of the cycle" });
+  const readout = html("output", bar, { class: "readout" });
+  const undo = button("↶", "undo (Ctrl+Z)", () => acts.go(true)), redo = button("↷", "redo (Ctrl+Y)", () => acts.go(false));
+  button("Reset", "all numbers as in the file", acts.reset);
+  const mark = html("p", header, { class: "mark", role: "status" });
+  slider.addEventListener("input", () => acts.show(+slider.value));
+  for (const x of [play, slider, readout]) x.hidden = kernel.count < 2;
+  return {
+    playing: (on) => (play.textContent = on ? "❚❚" : "▶"),
+    update(t, can) {
+      const { sentence } = data.statuses[kernel.mark];
+      if (mark.textContent !== sentence) mark.textContent = sentence;
+      slider.value = String(t);
+      readout.textContent = data.drives.map((d) => `${d.name} = ${figures(kernel.position(d.name, t) / d.size, 5)}${d.unit === "°" ? "" : " "}${d.unit}`).join(", ");
+      [undo.disabled, redo.disabled] = can.map((x) => !x);
+    },
+  };
+}
