@@ -60,6 +60,7 @@ if TYPE_CHECKING:
     from dalembert.machine.harmonics import harmonics
     from dalembert.machine.members.member_forces import MemberForces, member_forces
     from dalembert.machine.motion.simulation import Simulation, simulate
+    from dalembert.machine.motors.motor_choice import MotorChoice, motor
     from dalembert.machine.shaking import shaking
     from dalembert.model import (
         Answer,
@@ -183,6 +184,7 @@ _NAMES = {
     "machine.flywheel.flywheels": "flywheel",
     "machine.gyroscopes": "Gyroscopic gyroscopic",
     "machine.harmonics": "harmonics",
+    "machine.motors.motor_choice": "MotorChoice motor",
     "machine.motion.simulation": "Simulation simulate",
     "machine.members.member_forces": "MemberForces member_forces",
     "machine.shaking": "shaking",
@@ -242,6 +244,7 @@ __all__ = [
     "MemberForces",
     "Mobility",
     "ModelError",
+    "MotorChoice",
     "Notation",
     "Offset",
     "Optimum",
@@ -316,6 +319,7 @@ __all__ = [
     "member_forces",
     "members",
     "mobility",
+    "motor",
     "optimize",
     "order_of_solution",
     "other_solutions",

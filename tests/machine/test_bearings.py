@@ -137,7 +137,7 @@ def test_a_bearing_without_rating_or_size_has_its_line(bearing: str, said: str, 
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("7.8, 3.55", "-7.8, 3.55", r"b\.csv:2: C is -7\.8; give a positive number"),
+        ("7.8, 3.55", "-7.8, 3.55", r"b\.csv:2: C is not positive; give a positive number"),
         ("3.55, 15", "3.55", r"b\.csv:2: 3 columns where the first row has 4"),
         ("14,", "much,", r"b\.csv:3: 'much' in column 'C' is no finite number"),
         ("d [mm]", "D [mm]", r"b\.csv:1: the column 'd' is not in its head"),

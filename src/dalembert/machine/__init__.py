@@ -8,6 +8,8 @@ gyroscopes the couple of a rotor whose carrier turns, as the books show it
 balance/   counterweights under bounds, proved best; rotors; engines beside the books' series
 flywheel/  the energy curve, size of a flywheel, and the exact speed over the cycle with it
 motion/    motion under forces: the equation of motion, simulation, events
-members/   forces inside links, stresses, fatigue, buckling; pins and bearings
-output/    what all answers of this room have in common: columns, record, table
+members/   forces inside links, stresses, fatigue, buckling
+bearings/  pressure, PV and life of the joints that turn, and a choice from a table
+motors/    what a drive asks its motor for, and the gear ratio of least torque
+output/    what all answers of this room have in common: columns, record, parts to read
 """

@@ -1,4 +1,4 @@
-"""`dalembert members`, `bearings`: what links and joints have to bear, and what is chosen by it."""
+"""`dalembert members`, `bearings`, `motor`: what links and joints have to bear, and what is chosen by it."""
 
 from __future__ import annotations
 
@@ -84,5 +84,46 @@ BEARINGS = """Examples:
   dalembert bearings press.yaml --hours 20000 --table bearings.csv --factor 1.2
   dalembert bearings press.yaml --joints A B --set "joints.A.bearing={rating: 12 kN}" --report bearings.pdf"""
 
-COMMANDS: dict[Callable[..., int], str] = {members: MEMBERS, bearings: BEARINGS}
+
+def motor(
+    file: ModelFile,
+    /,
+    *,
+    drive: Annotated[str | None, Parameter(help="The drive (default: the first).")] = None,
+    inertia: Annotated[str, with_help("The motor's own inertia, such as 0.002kg*m^2.")] = "0",
+    ratio: Annotated[
+        float | None, Parameter(help="Gear ratio, speed of the motor over that of the drive.")
+    ] = None,
+    efficiency: Annotated[float, Parameter(help="Of the gear (default: 1).")] = 1.0,
+    curve: Annotated[
+        Path | None, with_help("Greatest torque of the motor: a text file with columns speed, torque.")
+    ] = None,
+    rated: Annotated[str | None, with_help("Torque that may last, such as 3N*m, against the rms.")] = None,
+    static: Static = False,
+    positions: Positions = None,
+    changes: Changes = AS_IN_FILE,
+    out: Outputs = NO_OUTPUTS,
+) -> int:
+    """Torque, speed and power that a drive of FILE asks for, and the gear ratio with which its motor needs least."""
+    from dalembert.machine.motors import motor_choice
+    from dalembert.units import file_units, quantity
+
+    out.check(file)
+    result = solve_over_a_turn(file, static, positions, changes)
+    units = file_units(result.mechanism.units)
+    own, lasting = quantity(inertia, "inertia", units), rated and quantity(rated, "moment", units)
+    try:
+        found = motor_choice.motor(result, drive, own, ratio, efficiency, curve, lasting or None)
+    except ModelError as error:
+        raise error.at_source(result.mechanism.source) from None
+    out.deliver(found)
+    return 0
+
+
+MOTOR = """Examples:
+  dalembert motor press.yaml
+  dalembert motor press.yaml --inertia 0.002kg*m^2 --ratio 8 --efficiency 0.95
+  dalembert motor press.yaml --inertia 0.002kg*m^2 --curve motor.csv --rated 3N*m --report motor.pdf"""
+
+COMMANDS: dict[Callable[..., int], str] = {members: MEMBERS, bearings: BEARINGS, motor: MOTOR}
 """Each with its examples."""

@@ -8,8 +8,8 @@ from typing import NamedTuple
 from dalembert.errors import ModelError
 from dalembert.machine.bearings.bearing_load import BearingLoad
 from dalembert.model.part import Reading
-from dalembert.model.quantities.column_files import read_columns, read_names
-from dalembert.units import Units, quantity
+from dalembert.model.quantities.column_files import read_quantities
+from dalembert.units import Units
 
 KINDS = {"C": "force", "C0": "force", "d": "length"}
 
@@ -28,20 +28,12 @@ def catalogue(file: str | Path, units: Units | None = None) -> list[Row]:
 
     Raises ModelError with file and line for what is missing, no number or not positive.
     """
-    path = Path(file)
-    rules = Reading(units, folder=str(path.parent))
-    names = read_names(path.name, "name", rules)
-    numbers = []
-    for column, (name, kind) in zip(read_columns(path.name, list(KINDS), rules), KINDS.items(), strict=True):
-        for value, line in zip(column.values, column.lines, strict=True):
+    columns, lines = read_quantities(file, KINDS, Reading(units), "name")
+    for name in KINDS:
+        for value, line in zip(columns[name], lines, strict=True):
             if value <= 0:
-                what, remedy = f"{name} is {value:g}", "give a positive number"
-                raise ModelError(what, remedy, (), str(path), line)
-        try:
-            numbers.append([quantity(f"{v!r} {column.unit}".strip(), kind, units) for v in column.values])
-        except ModelError as error:
-            raise ModelError(error.what, error.remedy, (), str(path), column.head) from None
-    return [Row(*row) for row in zip(names, *numbers, strict=True)]
+                raise ModelError(f"{name} is not positive", "give a positive number", (), str(file), line)
+    return [Row(*row) for row in zip(*(columns[name] for name in Row._fields), strict=True)]
 
 
 def choose(

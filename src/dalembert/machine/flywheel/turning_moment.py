@@ -65,15 +65,10 @@ class TurningMoment:
         return np.asarray(self.effort(q, speed, acceleration) - (kinetic[0] - kinetic[1]))
 
     def inertia(self, q: Array) -> Array:
-        """Reduced inertia J (n,), kg m2: twice the kinetic energy at unit speed, sum m v_G^2 + w I w."""
-        r = self._asked(self.smooth or self.result.mechanism, q, 1.0, 0.0, True)
-        at, layout, masses = state(r), r.compiled.layout, r.compiled.forcing.inertia
-        g, unit = layout.algebra, at.moving.virtual[..., r.drives.index(self.drive), :, :]
-        v = center_motion(layout, masses, at.pose, unit, np.zeros_like(unit[..., :-1, :]))[1]
-        w = unit[..., :-1, g.d :]
-        turning = g.angular_momentum_rate(at.pose.rotation[..., :-1, :], w, masses.inertia) * w
-        whole = (masses.mass * (v * v).sum(axis=-1)).sum(axis=-1) + turning.sum(axis=(-2, -1))
-        return np.asarray(whole[1:])
+        """Reduced inertia J (n,), kg m2."""
+        return reduced_inertia(
+            self._asked(self.smooth or self.result.mechanism, q, 1.0, 0.0, True), self.drive
+        )[1:]
 
     def _asked(
         self, m: Mechanism, q: Array, speed: Array | float, acceleration: Array | float, inertia: bool
@@ -87,6 +82,16 @@ class TurningMoment:
             sentence = found.problems()[0][-1]
             raise AnalysisError(f"between the positions of the cycle: {sentence}")
         return found
+
+
+def reduced_inertia(r: Result, drive: str) -> Array:
+    """What all links are as seen from a drive (P,), kg m2 or kg: twice the kinetic energy at its unit speed alone."""
+    at, layout, masses = state(r), r.compiled.layout, r.compiled.forcing.inertia
+    g, unit = layout.algebra, at.moving.virtual[..., r.drives.index(drive), :, :]
+    v = center_motion(layout, masses, at.pose, unit, np.zeros_like(unit[..., :-1, :]))[1]
+    w = unit[..., :-1, g.d :]
+    turning = g.angular_momentum_rate(at.pose.rotation[..., :-1, :], w, masses.inertia) * w
+    return np.asarray((masses.mass * (v * v).sum(axis=-1)).sum(axis=-1) + turning.sum(axis=(-2, -1)))
 
 
 def _only_drive(r: Result, drive: str | None) -> str:

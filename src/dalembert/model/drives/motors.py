@@ -35,6 +35,11 @@ class MotorCurve:
         """Speeds at which its line has a corner."""
         return () if self.straight else self.speed
 
+    @property
+    def fastest(self) -> float:
+        """The greatest speed that it has an effort for, in size."""
+        return max(abs(self.speed[0]), abs(self.speed[-1]))
+
     def at(self, speed: Array | float) -> Array | float:
         """Effort at a speed, switched on.
 

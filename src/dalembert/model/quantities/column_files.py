@@ -9,9 +9,10 @@ import csv
 import math
 import os
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from dalembert.errors import ModelError
 from dalembert.model.part import Reading
@@ -42,9 +43,7 @@ def read_columns(file: str, asked: Sequence[str | int], rules: Reading) -> list[
     path = find_file(file, rules)
     file = os.path.join(rules.folder, file)
     text = file_text(path, file)
-    rows = [
-        (n, line) for n, line in enumerate(text.split("\n"), 1) if line.strip() and line.strip()[0] != "#"
-    ]
+    rows = _rows(text)
     if len(rows) > MOST:
         raise _error(f"more than {MOST} rows", "leave every second row out, or more", file, rows[MOST][0])
     cells = _Cells(file, rows)
@@ -55,14 +54,36 @@ def read_columns(file: str, asked: Sequence[str | int], rules: Reading) -> list[
     return [Column(*heads[k], cells.head, x, lines) for k, x in zip(places, numbers, strict=True)]
 
 
-def read_names(file: str, asked: str, rules: Reading) -> list[str]:
-    """The cells of a column of names, row by row."""
-    path = find_file(file, rules)
-    file = os.path.join(rules.folder, file)
-    lines = enumerate(file_text(path, file).split("\n"), 1)
-    cells = _Cells(file, [(n, line) for n, line in lines if line.strip() and line.strip()[0] != "#"])
-    place = _place(asked, 0, cells.heads(), cells)
-    return [row[place] for _, row in cells.rows]
+def read_quantities(
+    file: str | os.PathLike[str], kinds: Mapping[str, str], rules: Reading, names: str = ""
+) -> tuple[dict[str, Any], tuple[int, ...]]:
+    """Columns by name in SI, each of a kind, and the lines of their rows; ``names``: a column of texts besides.
+
+    The file is one that the user names, anywhere. A head without a unit means that of the rules.
+    """
+    path = Path(file)
+    rules = replace(rules, folder=str(path.parent))
+    out: dict[str, Any] = {}
+    columns = read_columns(path.name, list(kinds), rules)
+    for column, kind in zip(columns, kinds.values(), strict=True):
+        try:
+            out[column.name] = [
+                rules.quantity(f"{v!r} {column.unit}".strip() if column.unit else v, kind)
+                for v in column.values
+            ]
+        except ModelError as error:
+            raise _error(error.what, error.remedy, str(path), column.head) from None
+    if names:
+        cells = _Cells(str(path), _rows(file_text(path)))
+        place = _place(names, 0, cells.heads(), cells)
+        out[names] = [row[place] for _, row in cells.rows]
+    return out, columns[0].lines
+
+
+def _rows(text: str) -> list[tuple[int, str]]:
+    """Lines that say something, with their numbers."""
+    lines = enumerate(text.split("\n"), 1)
+    return [(n, line) for n, line in lines if line.strip() and line.strip()[0] != "#"]
 
 
 def find_file(file: str, rules: Reading) -> Path:

@@ -21,7 +21,7 @@ def machine_sheet(answer: Answer, notation: Notation | None = None) -> Sheet:
     getattr(section, f"{answer.NAME}_section")(sheet, answer, shown)
     for part in answer.contents(shown.notation.units):
         if isinstance(part, str):
-            sheet.text(part.replace("\n", "; "))
+            sheet.text((pretty(part) if "*" in part else part).replace("\n", "; "))
         else:
             heads = [pretty(head.replace("\n", " ")) for head in part.heads]
             sheet.table(

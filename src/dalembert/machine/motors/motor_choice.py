@@ -1,0 +1,191 @@
+"""A motor for a drive: its torque over the cycle behind a gear, T_m = J_m n alpha + T / (n eta).
+
+T is the drive's effort, n the gear ratio (speed of the motor over that of the drive), J_m the motor's own inertia. The
+efficiency eta divides where the drive takes power and multiplies where it gives it back. Over log n every |T_m| has one
+minimum, and so has the greatest of them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.output.columns import Column, Scale, drive_kinds
+from dalembert.arrays import Array, Tree
+from dalembert.errors import ModelError
+from dalembert.machine.flywheel.turning_moment import reduced_inertia
+from dalembert.machine.motors.motor_curves import read_curve
+from dalembert.machine.output.answer import Answer
+from dalembert.machine.whole_cycle import durations
+from dalembert.model.drives.motors import MotorCurve
+from dalembert.wording import closest
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+
+RANGE = 1e4
+"""Ratios are sought so far below and above the one of least rms torque."""
+
+
+@dataclass(frozen=True)
+class Need:
+    """What the motor must give behind a gear: rms and greatest torque (N m), speed (rad/s); whether it can."""
+
+    ratio: float
+    rms: float
+    torque: float
+    speed: float
+    enough: bool | None
+
+
+@dataclass(frozen=True)
+class MotorChoice(Answer):
+    """Effort (P,) of a drive, its speed and acceleration, and the inertia (P,) of all links as seen from it.
+
+    ``time`` (P,), s: what each position stands for. ``motor_inertia`` J_m, kg m2; ``curve``: the greatest torque over
+    the speed; ``rated``: the torque that may last, against the rms, N m. ``needs``: by name, of ratios.
+    """
+
+    NAME = "motor"
+
+    result: Result = field(repr=False)
+    drive: str
+    effort: Array = field(repr=False)
+    speed: Array = field(repr=False)
+    acceleration: Array = field(repr=False)
+    inertia: Array = field(repr=False)
+    time: Array = field(repr=False)
+    motor_inertia: float = 0.0
+    efficiency: float = 1.0
+    curve: MotorCurve | None = None
+    rated: float | None = None
+    needs: dict[str, Need] = field(default_factory=dict)
+
+    @property
+    def power(self) -> Array:
+        """Effort times speed (P,), W."""
+        return self.effort * self.speed
+
+    def mean(self, values: Array) -> float:
+        """Mean over time."""
+        return float((values * self.time).sum() / self.time.sum())
+
+    def rms(self, values: Array) -> float:
+        """Root of the mean square over time."""
+        return math.sqrt(self.mean(values**2))
+
+    def torque(self, ratio: float) -> Array:
+        """Torque of the motor (P,), N m, behind a gear."""
+        lost = np.where(self.power >= 0, 1 / self.efficiency, self.efficiency)
+        return np.asarray(self.motor_inertia * ratio * self.acceleration + self.effort * lost / ratio)
+
+    def need(self, ratio: float) -> Need:
+        """What the motor must give with a gear ratio."""
+        torque, speed = self.torque(ratio), ratio * np.abs(self.speed)
+        rms, enough = self.rms(torque), None
+        if self.curve is not None:
+            inside = speed <= self.curve.fastest
+            enough = bool((inside & (np.abs(torque) <= np.abs(self.curve.at(speed)) * (1 + 1e-12))).all())
+        if self.rated is not None:
+            enough = enough is not False and rms <= self.rated * (1 + 1e-12)
+        return Need(ratio, rms, float(np.abs(torque).max()), float(speed.max()), enough)
+
+    def least_rms(self) -> float | None:
+        """The ratio of least rms torque: n^2 = rms(T) / rms(J_m alpha); None where there is none."""
+        going, load = (
+            self.motor_inertia * self.rms(self.acceleration),
+            self.rms(self.torque(1.0) - self._own()),
+        )
+        return math.sqrt(load / going) if going * load > 0 else None
+
+    def least_peak(self) -> float | None:
+        """The ratio of least greatest torque."""
+        from scipy.optimize import minimize_scalar
+
+        near = self.least_rms()
+        if near is None:
+            return None
+        reach = math.log(RANGE)
+        found = minimize_scalar(
+            lambda x: self.need(near * math.exp(x)).torque, bounds=(-reach, reach), method="bounded",
+            options={"xatol": 1e-10},
+        )  # fmt: skip
+        return float(near * math.exp(found.x))
+
+    def _own(self) -> Array:
+        return self.motor_inertia * self.acceleration
+
+    def columns(self) -> Iterator[Column]:
+        """The drives' positions; what the drive needs, and the motor behind each ratio."""
+        yield from self.drive_columns()
+        kinds = drive_kinds(self.result, self.drive)
+        for name in ("effort", "speed", "acceleration"):
+            yield Column(name, kinds[name], getattr(self, name))
+        yield Column("power", "power", self.power)
+        yield Column("reflected inertia", "inertia" if kinds["effort"] == "moment" else "mass", self.inertia)
+        for name, need in self.needs.items():
+            yield Column(f"motor torque {name}", "moment", self.torque(need.ratio))
+
+    def record(self, to: Scale) -> Tree:
+        """Rms and greatest values, and the ratios, in the units of a scale."""
+        kind = drive_kinds(self.result, self.drive)["effort"]
+        values = {
+            "rms": self.rms(self.effort),
+            "greatest": np.abs(self.effort).max(),
+            "mean": self.mean(self.effort),
+        }
+        power = {
+            "greatest": to("power", np.abs(self.power).max()),
+            "mean": to("power", self.mean(self.power)),
+        }
+        units = {"rms": "moment", "torque": "moment", "speed": "angular_speed"}
+        ratios = {
+            name: {k: to(units[k], v) if k in units else v for k, v in vars(need).items()}
+            for name, need in self.needs.items()
+        }
+        effort = {name: to(kind, v) for name, v in values.items()}
+        return {"motor": {"drive": self.drive, "effort": effort, "power": power, "ratios": ratios}}
+
+
+def motor(
+    r: Result,
+    drive: str | None = None,
+    inertia: float = 0.0,
+    ratio: float | None = None,
+    efficiency: float = 1.0,
+    curve: MotorCurve | str | Path | None = None,
+    rated: float | None = None,
+) -> MotorChoice:
+    """What a drive asks its motor for over the cycle, and the gear ratio that needs least torque.
+
+    ``inertia``: the motor's own, kg m2; ``ratio``: speed of the motor over that of the drive (of one that slides,
+    rad/m); ``curve``: greatest torque over speed, a motor of a file or a text file with columns speed and torque,
+    default the drive's own ``motor``; ``rated``: the torque that may last, N m. Raises ModelError where the drive
+    stands still, and AnalysisError where a position has no answer.
+
+    >>> import dalembert as da
+    >>> found = da.motor(da.dynamics(da.slider_crank(crank=0.05, rod=0.2)), inertia=1e-4)
+    >>> found.effort.shape, bool(found.rms(found.effort) < np.abs(found.effort).max())
+    ((72,), True)
+    """
+    name = drive or next(iter(r.drives), "")
+    if name not in r.drives:
+        raise ModelError(
+            f"there is no drive {name!r}", closest(name, list(r.drives)) if name else "drive a joint"
+        )
+    for what, value in (("efficiency", efficiency), ("ratio", 1.0 if ratio is None else ratio)):
+        if not value > 0 or not math.isfinite(value):
+            raise ModelError(f"{what} is {value:g}", "give a positive number")
+    if isinstance(curve, (str, Path)):
+        curve = read_curve(curve, r.mechanism.units)
+    motion = r.effort(name), r.drive_speed(name), r.drive_acceleration(name), reduced_inertia(r, name)
+    given = curve or r.mechanism.drives[name].motor
+    found = MotorChoice(r, name, *motion, durations(r), inertia, efficiency, given, rated)
+    asked = {"given": ratio, "direct": 1.0, "least rms": found.least_rms(), "least peak": found.least_peak()}
+    found.needs.update({n: found.need(x) for n, x in asked.items() if x is not None})
+    return found

@@ -1,0 +1,57 @@
+"""The choice of a motor as a person reads it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.output.columns import drive_kinds
+from dalembert.analysis.output.summary.printed_series import where
+from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.machine.output.written import greatest
+from dalembert.printing import Part, Table, number, round_components
+
+if TYPE_CHECKING:
+    from dalembert.machine.motors.motor_choice import MotorChoice
+
+ENOUGH = {None: "-", True: "yes", False: "no"}
+
+
+def motor_parts(c: MotorChoice, to: Printed) -> Iterator[Part]:
+    """What the drive asks for, and the motor behind each ratio."""
+    kinds = drive_kinds(c.result, c.drive)
+    rows = []
+    for name in ("effort", "speed", "acceleration", "power"):
+        values, kind = getattr(c, name), kinds.get(name, name)
+        most, k = greatest(values)
+        mean = round_components([c.mean(values)], most)[0]
+        numbers = [to.number(kind, x) for x in (most, c.rms(values), mean)]
+        rows.append([name, to.text(kind), numbers[0], where(c.result, to, k), *numbers[1:]])
+    yield Table([f"drive {c.drive}", "unit", "greatest", "at", "rms", "mean"], rows, 2)
+    kind = "inertia" if kinds["effort"] == "moment" else "mass"
+    low, high = (to.quantity(kind, float(x)) for x in (c.inertia.min(), c.inertia.max()))
+    yield f"All links as seen from {c.drive}: {low} to {high}, {to.quantity(kind, c.mean(c.inertia))} on the mean."
+    rows = []
+    for name, n in c.needs.items():
+        cells = [number(n.ratio), *(to.number("moment", x) for x in (n.rms, n.torque))]
+        own = c.motor_inertia * n.ratio**2
+        share = number(float(np.mean(c.inertia)) / own, 4) if own else "-"
+        rows.append([name, *cells, to.number("angular_speed", n.speed), share, ENOUGH[n.enough]])
+    moment, rate = to.text("moment"), to.text("angular_speed")
+    heads = ["gear\n", "ratio\n", f"rms torque\n{moment}", f"greatest\n{moment}", f"speed\n{rate}"]
+    yield Table([*heads, "inertia, links\n/ motor", "enough\n"], rows)
+    if c.least_rms() is None:
+        yield (
+            "Torque falls with every higher ratio, as nothing of it goes into the motor's own acceleration: the ratio "
+            "is limited by the motor's speed alone."
+        )
+    given = ["its curve"] * (c.curve is not None) + ["its rated torque against the rms"] * (
+        c.rated is not None
+    )
+    yield (
+        f"Enough by {' and '.join(given)}."
+        if given
+        else "No curve and no rated torque given: nothing is judged."
+    )
