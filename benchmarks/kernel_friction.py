@@ -23,7 +23,7 @@ from benchmarks.kernel import runs, timed
 from tests.kernel.comparing import every_number
 
 import dalembert as da
-from dalembert.analysis.batch.symbolic_model import geometric
+from dalembert.analysis.batch.tracing.symbolic_model import geometric
 from dalembert.kernel import friction_trace
 
 

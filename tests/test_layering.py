@@ -45,7 +45,7 @@ MAY_IMPORT = {
     "notebook": SHOWN | {"views", "notebook"},
     "pages": SHOWN | {"", "core", "kernel", "views", "pages"},
     "exams": SHOWN | {"grading", "views", "reports", "exams"},
-    "studies": SHOWN | {"", "studies"},
+    "studies": SHOWN | {"", "views", "reports", "studies"},
     "cli": SHOWN | {"", "grading", "views", "reports", "pages", "exams", "studies", "cli"},
     "__init__": SHOWN | {"grading", "views", "reports", "pages", "exams", "studies"},
     "__main__": {"cli"},
@@ -62,9 +62,10 @@ FACADES = {
     "wrench.system",
     "analysis.batch.design_sweep",
     "studies.design_study",
+    "studies.study_result",
 }
-"""Result, Mechanism, Scene, Kernel, Sweep, Study, System, and the answers of `machine`, which print themselves: their
-methods call what is built on them, by imports inside the methods."""
+"""Result, Mechanism, Scene, Kernel, Sweep, Study, StudyResult, System, and the answers of `machine`, which print
+themselves: their methods call what is built on them, by imports inside the methods."""
 SHOWING = {"notebook", "views"}
 """What they call to show themselves."""
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 import dalembert as da
-from dalembert.analysis.batch.symbolic_model import geometric, with_numbers
+from dalembert.analysis.batch.tracing.symbolic_model import geometric, with_numbers
 
 NAMES = {
     "links": ("mass", "inertia", "center"),

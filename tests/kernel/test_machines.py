@@ -11,7 +11,7 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis.batch.careful_path import _schedule
-from dalembert.analysis.batch.kernel_inputs import _carry_sign_forward
+from dalembert.analysis.batch.tracing.kernel_inputs import _carry_sign_forward
 from tests.kernel.comparing import changed, difference, every_number, general
 from tests.kernel.machines import KINDS, four_bar, four_bar_tree
 

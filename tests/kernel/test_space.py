@@ -11,8 +11,8 @@ import pytest
 
 import dalembert as da
 from dalembert.analysis.batch.careful_path import quantity
-from dalembert.analysis.batch.outputs import KINDS
-from dalembert.analysis.batch.symbolic_model import geometric
+from dalembert.analysis.batch.tracing.outputs import KINDS
+from dalembert.analysis.batch.tracing.symbolic_model import geometric
 from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
 from dalembert.core.layout import Gearing, Idle
 from dalembert.model import library

@@ -26,13 +26,13 @@ KEYS = {
 
 FORMS = "write '± 0.05 mm', 'normal 2 %', 'uniform ± 5 %', '70..90 N', '70..90 N in 5' or a list"
 WRONG: list[tuple[dict[str, str | None], int, str]] = [
-    ({"model": None}, 1, "the study names no model file; write model: pump.yaml"),
+    ({"model": None}, 1, "the file names no model file; write model: pump.yaml"),
     ({"model": "missing.yaml"}, 2, "missing.yaml; name one, from the folder of this file"),
     ({"model": "/tmp"}, 2, "there is no model file /tmp; name one"),
-    ({"model": "3"}, 2, "the study names no model file"),
+    ({"model": "3"}, 2, "the file names no model file"),
     ({"study": "2"}, 1, "2 is no version of the format; write study: 1"),
     ({"desings": "3"}, 7, "there is no key 'desings'; did you mean 'designs'?"),
-    ({"links": "{a: {}}"}, 7, "this is a model file; a study names it: model: FILE"),
+    ({"links": "{a: {}}"}, 7, "this is a model file; name it from a file of its own: model: FILE"),
     ({"vary": None}, 1, "the key 'vary' is missing; write vary: {stroke: ± 0.1 mm}"),
     ({"vary": "{}"}, 3, "vary is empty; write vary: {stroke: ± 0.1 mm}"),
     ({"vary": "[stroke]"}, 3, "vary is a list, not a mapping; write vary: {stroke: ± 0.1 mm}"),

@@ -118,6 +118,40 @@ def run_pairs(
     in_parts(part, len(values), part_size(len(values), PAIR, threads), threads, progress)
 
 
+def run_designs(
+    machine: Machine,
+    values: Array,
+    columns: Array,
+    common: Array,
+    outputs: int,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> tuple[Array, Array]:
+    """Results (design, output, position) and codes (design, position) of every design (design, number) at a few
+    positions (position, channel): the lanes are designs, and so are neighbours in memory."""
+    lanes, count = machine.lanes, len(values)
+    wide = -(-count // lanes) * lanes
+    out, code = aligned_array((outputs, len(columns), wide)), np.empty((len(columns), wide), np.uint8)
+    step = part_size(count, PAIR * len(columns), threads)
+    step = min(-(-step // lanes) * lanes, max(lanes, CACHE // (8 * outputs) // lanes * lanes))
+
+    def part(which: slice) -> None:
+        mine = to_blocks(np.asarray(values[which], float), lanes)
+        place = slice(which.start, which.start + len(mine) * lanes)
+        found, marks = aligned_array((len(mine), outputs, lanes)), np.empty((len(mine), lanes), np.uint8)
+        counts = (values.shape[1], columns.shape[1], 0, len(mine))
+        for k, row in enumerate(columns):
+            same = np.broadcast_to(row[None, :, None], (len(mine), len(row), lanes))
+            path = aligned_array((same.size + len(common),))
+            path[: same.size], path[same.size :] = same.ravel(), common
+            machine(mine, path, found, marks, counts)
+            out[:, k, place].reshape(outputs, len(mine), lanes)[:] = found.swapaxes(0, 1)
+            code[k, place] = marks.ravel()
+
+    in_parts(part, count, step, threads, progress)
+    return out[..., :count].transpose(2, 0, 1), code[:, :count].T
+
+
 def in_parts(
     part: Callable[[slice], None], count: int, step: int, threads: int | None, progress: Progress | None
 ) -> None:

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 from dalembert.errors import ModelError
-from dalembert.model import Mechanism, load
-from dalembert.model.files.model_files import read_file
-from dalembert.model.part import check_keys
+from dalembert.model.files.task_files import load_task, plain_options
 from dalembert.optimization.optimizing import optimize
 from dalembert.optimization.optimum import Optimum
 from dalembert.wording import quote_value
@@ -31,40 +28,11 @@ KEYS = {
 
 def optimize_file(path: str | os.PathLike[str]) -> Optimum:
     """The optimum of a file; raises ModelError with file and line."""
-    tree, source = read_file(path)
-    try:
-        if not isinstance(tree, Mapping):
-            raise ModelError(
-                f"{quote_value(tree)} stands where a mapping is needed",
-                "write model: ..., vary: ... and least: ...",
-            )
-        if "links" in tree:
-            raise ModelError("this is a model file", "name it in another one: model: FILE", ("links",))
-        check_keys(tree, list(KEYS))
-        options = _options(tree)
-        return optimize(_model(tree, Path(path).parent), **options)
-    except ModelError as error:
-        raise error.at_source(source) from None
-
-
-def _model(tree: Mapping[str, Any], folder: Path) -> Mechanism:
-    name = tree.get("model")
-    if not isinstance(name, str) or not (folder / name).is_file():
-        what = (
-            f"there is no model file {folder / name}" if isinstance(name, str) else "no model file is named"
-        )
-        raise ModelError(
-            what, "write model: press.yaml, from the folder of this file", ("model",) * ("model" in tree)
-        )
-    return load(folder / name)
+    return load_task(path, "optimize", KEYS, lambda tree, m, _: optimize(m, **_options(tree)))
 
 
 def _options(tree: Mapping[str, Any]) -> dict[str, Any]:
     """The arguments of `optimize` that stand in a file."""
-    if tree.get("optimize", 1) != 1 or isinstance(tree.get("optimize"), bool):
-        raise ModelError(
-            f"{quote_value(tree['optimize'])} is no version of the format", "write optimize: 1", ("optimize",)
-        )
     vary, least = tree.get("vary"), tree.get("least")
     if not isinstance(vary, Mapping) or not vary:
         raise ModelError(
@@ -80,17 +48,9 @@ def _options(tree: Mapping[str, Any]) -> dict[str, Any]:
         raise ModelError(
             f"where is {quote_value(where)}", "write a list: [transmission.B >= 33 deg]", ("where",)
         )
-    out: dict[str, Any] = {"least": least, "where": where}
-    out["vary"] = {str(name): _bounds(str(name), given) for name, given in vary.items()}
-    for key in ("starts", "seed", "positions"):
-        if key in tree:
-            value = tree[key]
-            if isinstance(value, bool) or not isinstance(value, int) or value < (key != "seed"):
-                raise ModelError(f"{key} is {quote_value(value)}", "write a whole number", (key,))
-            out[key] = value
-    if not isinstance(tree.get("static", False), bool):
-        raise ModelError(f"static is {quote_value(tree['static'])}", "write true or false", ("static",))
-    return {**out, "static": tree.get("static", False)}
+    bounds = {str(name): _bounds(str(name), given) for name, given in vary.items()}
+    options = plain_options(tree, {"starts": 1, "seed": 0, "positions": 1}, ("static",))
+    return {"vary": bounds, "least": least, "where": where, **options}
 
 
 def _bounds(name: str, given: object) -> list[str]:

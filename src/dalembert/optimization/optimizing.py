@@ -7,7 +7,7 @@ from itertools import product
 
 import numpy as np
 
-from dalembert.analysis.batch.symbolic_model import Number, number_kinds, numbers
+from dalembert.analysis.batch.tracing.symbolic_model import Number, number_kinds, numbers
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError

@@ -6,6 +6,7 @@ A peak is no smooth function, but its least value is that of t under -t <= T_k <
 from __future__ import annotations
 
 import warnings
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -19,65 +20,79 @@ OPEN = 1e3
 """What is lacked where there is no answer, over the usual size."""
 
 
+@dataclass
+class _Design:
+    """One design as SLSQP moves it: x are its free numbers u in the unit box, and of a peak t over its usual size."""
+
+    p: Problem
+    u: Array
+    free: Flags
+    last: tuple[bytes, Rows] | None = None
+
+    @property
+    def peak(self) -> bool:
+        return self.p.aim.word == "peak"
+
+    def place(self, x: Array) -> Array:
+        """All numbers."""
+        place = self.u.copy()
+        place[self.free] = np.clip(x[: self.free.sum()], 0.0, 1.0)
+        return place
+
+    def rows(self, x: Array) -> Rows:
+        """Every position; those of the last x are kept, as values and slopes are asked for one after the other."""
+        place = self.place(x)
+        if self.last is None or self.last[0] != place.tobytes():
+            self.last = place.tobytes(), self.p.at(place)
+        return self.last[1]
+
+    def room(self, x: Array) -> Array:
+        """What has to be at least zero: margins, and t with either sign of the aim's quantity."""
+        r = self.rows(x)
+        parts = [(r.margin / self.p.sizes[:, None]).ravel()]
+        if self.peak:
+            parts += [x[-1] - r.aim / self.p.scale, x[-1] + r.aim / self.p.scale]
+        return np.nan_to_num(np.concatenate(parts), nan=-OPEN)
+
+    def room_slope(self, x: Array) -> Array:
+        r = self.rows(x)
+        part = (r.margin_slope / self.p.sizes[:, None, None]).reshape(-1, len(self.u))[:, self.free]
+        if self.peak:
+            sides = r.aim_slope[:, self.free] / self.p.scale
+            one = np.ones((len(sides), 1))
+            part = np.hstack([part, np.zeros((len(part), 1))])
+            part = np.vstack([part, np.hstack([-sides, one]), np.hstack([sides, one])])
+        return np.nan_to_num(part)
+
+    def aim(self, x: Array) -> tuple[float, Array]:
+        """The aim and its slope: of a peak t itself."""
+        if self.peak:
+            return float(x[-1]), np.eye(len(x))[-1]
+        value, slope = self.p.sharp(self.place(x))
+        if not np.isfinite(value):
+            return OPEN, np.zeros(len(x))
+        return value / self.p.scale, slope[self.free] / self.p.scale
+
+
 def polish(p: Problem, u: Array, free: Flags | None = None) -> Array:
     """A better place from a place u (number,) in the unit box; numbers that are not free stay. u itself where none is
     found."""
     from scipy.optimize import minimize
 
     solver: Any = minimize
-    free = np.ones(len(u), bool) if free is None else free
-    if not free.any():
+    d = _Design(p, u, np.ones(len(u), bool) if free is None else free)
+    if not d.free.any():
         return u
-    peak, kept = p.aim.word == "peak", dict[bytes, Rows]()
-
-    def whole(x: Array) -> Array:
-        place = u.copy()
-        place[free] = np.clip(x[: free.sum()], 0.0, 1.0)
-        return place
-
-    def rows(x: Array) -> Rows:
-        place = whole(x)
-        key = place.tobytes()
-        if key not in kept:
-            kept.clear()
-            kept[key] = p.at(place)
-        return kept[key]
-
-    def room(x: Array) -> Array:
-        r = rows(x)
-        parts = [(r.margin / p.sizes[:, None]).ravel()]
-        if peak:
-            parts += [x[-1] - r.aim / p.scale, x[-1] + r.aim / p.scale]
-        return np.nan_to_num(np.concatenate(parts), nan=-OPEN)
-
-    def room_slope(x: Array) -> Array:
-        r = rows(x)
-        part = (r.margin_slope / p.sizes[:, None, None]).reshape(-1, len(u))[:, free]
-        if peak:
-            sides = r.aim_slope[:, free] / p.scale
-            one = np.ones((len(sides), 1))
-            part = np.hstack([part, np.zeros((len(part), 1))])
-            part = np.vstack([part, np.hstack([-sides, one]), np.hstack([sides, one])])
-        return np.nan_to_num(part)
-
-    def aim(x: Array) -> tuple[float, Array]:
-        if peak:
-            return float(x[-1]), np.eye(len(x))[-1]
-        value, slope = p.sharp(whole(x))
-        return (value / p.scale, slope[free] / p.scale) if np.isfinite(value) else (OPEN, np.zeros(len(x)))
-
-    start = u[free]
-    bounds: list[tuple[float, float | None]] = [(0.0, 1.0)] * int(free.sum())
-    if peak:
-        start = np.append(start, np.nanmax(np.abs(rows(start).aim), initial=0.0) / p.scale)
+    start = u[d.free]
+    bounds: list[tuple[float, float | None]] = [(0.0, 1.0)] * len(start)
+    if d.peak:
+        start = np.append(start, np.nanmax(np.abs(d.rows(start).aim), initial=0.0) / p.scale)
         bounds.append((0.0, None))
-    rules: list[dict[str, Any]] = []
-    if peak or p.conditions:
-        rules = [{"type": "ineq", "fun": room, "jac": room_slope}]
+    rules = [{"type": "ineq", "fun": d.room, "jac": d.room_slope}] if d.peak or p.conditions else []
+    options = {"maxiter": STEPS, "ftol": 1e-10}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # scipy says where a step leaves the bounds by rounding
-        options = {"maxiter": STEPS, "ftol": 1e-10}
         found = solver(
-            aim, start, jac=True, method="SLSQP", bounds=bounds, constraints=rules, options=options
+            d.aim, start, jac=True, method="SLSQP", bounds=bounds, constraints=rules, options=options
         )
-    return whole(found.x) if np.isfinite(found.x).all() else u
+    return d.place(found.x) if np.isfinite(found.x).all() else u

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dalembert.analysis.batch.compiled_kernel import Kernel
-from dalembert.analysis.batch.symbolic_model import number_kinds
+from dalembert.analysis.batch.tracing.symbolic_model import number_kinds
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.arrays import Array, Tree
 from dalembert.model import GROUND, Mechanism

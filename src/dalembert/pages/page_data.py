@@ -12,8 +12,8 @@ import numpy as np
 from dalembert.analysis.batch.batch_result import CODES, NUMBERED
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.kernel_export import plain
-from dalembert.analysis.batch.symbolic_model import geometric
-from dalembert.analysis.batch.traced_analysis import trace_analysis
+from dalembert.analysis.batch.tracing.symbolic_model import geometric
+from dalembert.analysis.batch.tracing.traced_analysis import trace_analysis
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.arrays import Tree
 from dalembert.errors import STATUSES, ModelError

@@ -8,7 +8,7 @@ import numpy as np
 
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.kernel_export import plain
-from dalembert.analysis.batch.traced_analysis import trace_analysis
+from dalembert.analysis.batch.tracing.traced_analysis import trace_analysis
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import product
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -13,6 +14,7 @@ from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.studies.block_engines import make_engine
 from dalembert.studies.sampling import Plan
+from dalembert.wording import closest
 
 if TYPE_CHECKING:
     from dalembert.studies.design_study import Study
@@ -44,6 +46,15 @@ class WorstCase(NamedTuple):
     assumed: str
 
 
+class Response(NamedTuple):
+    """An output along one number, or over two: paths, their values, and the output's (first[, second]), SI."""
+
+    output: str
+    paths: tuple[str, ...]
+    axes: tuple[Array, ...]
+    values: Array
+
+
 def contributions(study: Study, output: str, by: str, designs: int) -> Contributions:
     """What `Study.contributions` does."""
     if by not in ("linear", "sobol"):
@@ -53,10 +64,14 @@ def contributions(study: Study, output: str, by: str, designs: int) -> Contribut
 
 
 def _check(study: Study, output: str) -> None:
-    if study.plan.table is not None:
-        raise ModelError("a table says no spread", "give vary= spreads")
     if study.plan.mixing is not None:
         raise ModelError("shares of correlated numbers are not defined", "leave the correlation out")
+    _check_output(study, output)
+
+
+def _check_output(study: Study, output: str) -> None:
+    if study.plan.table is not None:
+        raise ModelError("a table says no spread", "give vary= spreads")
     if output not in study.outputs:
         raise ModelError(f"{output!r} is no output of the study", f"there are: {', '.join(study.outputs)}")
     if study.reduce in (None, "envelope", *PLACES):
@@ -67,7 +82,9 @@ def _check(study: Study, output: str) -> None:
 
 def _answers(study: Study, output: str, values: Array) -> Array:
     """One number a design (design,)."""
-    found = study.engine.block(np.ascontiguousarray(values))[output]
+    size = max(1, study.block_size())
+    parts = (np.ascontiguousarray(values[k : k + size]) for k in range(0, len(values), size))
+    found = np.concatenate([study.engine.block(part)[output] for part in parts])
     if found.ndim > 1:
         raise ModelError(f"{output} has {found[0].size} numbers a design", "ask for a scalar, as magnitude.A")
     return found
@@ -153,10 +170,7 @@ def _sobol(study: Study, output: str, designs: int) -> Contributions:
         ab = a.copy()
         ab[:, j] = b[:, j]
         mixed.append(ab)
-    size = max(1, study.block_size())
-    rows = np.concatenate([a, b, *mixed])
-    answers = np.concatenate([_answers(study, output, rows[k : k + size]) for k in range(0, len(rows), size)])
-    y = answers.reshape(d + 2, n)
+    y = _answers(study, output, np.concatenate([a, b, *mixed])).reshape(d + 2, n)
     good = np.isfinite(y).all(axis=0)
     if good.sum() < 2:
         raise ModelError(f"hardly a design has a value of {output}", "make the spreads smaller")
@@ -193,6 +207,23 @@ def worst_case(study: Study, output: str) -> WorstCase:
         raise ModelError(f"no corner has a value of {output}", "make the spreads smaller")
     k = int(np.nanargmax(found))
     return WorstCase(float(found[k]), dict(zip(study.paths, corners[k].tolist(), strict=True)), assumed)
+
+
+def response(study: Study, output: str, paths: Sequence[str], count: int) -> Response:
+    """What `Study.response` does."""
+    _check_output(study, output)
+    for path in paths:
+        if path not in study.paths:
+            raise ModelError(f"{path!r} does not vary", closest(path, list(study.paths)))
+    if len(paths) not in (1, 2) or len(set(paths)) < len(paths) or not 2 <= count <= 1000:
+        raise ModelError(f"{len(paths)} numbers, {count} values of each", "ask for one or two, of 2 to 1,000")
+    places = [study.paths.index(path) for path in paths]
+    axes = tuple(np.linspace(*study.plan.spreads[k].ends, count) for k in places)
+    rows = np.repeat(_middle(study)[None], count ** len(paths), axis=0)
+    for k, values in zip(places, np.meshgrid(*axes, indexing="ij"), strict=True):
+        rows[:, k] = values.ravel()
+    found = _answers(study, output, rows).reshape((count,) * len(paths))
+    return Response(output, tuple(paths), axes, found)
 
 
 def idle(study: Study) -> tuple[str, ...]:

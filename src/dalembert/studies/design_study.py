@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.batch import over_positions
+from dalembert.analysis.batch.tracing.symbolic_model import number_kinds
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
@@ -27,7 +28,8 @@ from dalembert.wording import quote_value
 if TYPE_CHECKING:
     import os
 
-    from dalembert.analysis.batch.symbolic_model import Number
+    from dalembert.analysis.batch.tracing.symbolic_model import Number
+    from dalembert.analysis.result.result import Result
     from dalembert.studies.study_result import StudyResult
 
 BLOCK_BYTES = 64 << 20
@@ -223,10 +225,19 @@ class Study:
     def kinds(self) -> dict[str, str]:
         """What each output is, of `units.KINDS`."""
         if "kinds" not in self.cache:
-            nominal = solve(self.mechanism, self.static, self.positions)
-            self.cache["kinds"] = output_kinds(nominal, self.outputs, self.reduce)
+            self.cache["kinds"] = output_kinds(self.answer(self.mechanism), self.outputs, self.reduce)
         found: dict[str, str] = self.cache["kinds"]
         return found
+
+    @property
+    def number_kinds(self) -> dict[str, str]:
+        """What each number is, of `units.KINDS`, by path."""
+        numbers = [n for path in self.paths for n in varied_numbers(self.mechanism, path)]
+        return dict(zip(self.paths, number_kinds(self.mechanism, numbers), strict=True))
+
+    def answer(self, m: Mechanism) -> Result:
+        """The analysis of one design, as of all of them: `mechanism_of` makes it."""
+        return solve(m, self.static, self.positions)
 
     def with_limits(self, limits: Mapping[str, str]) -> Study:
         """The same study with other limits: output -> what it has to keep, as ``"< 45 N*m"``."""
@@ -357,6 +368,13 @@ class Study:
         from dalembert.studies.contributions import worst_case
 
         return worst_case(self, output)
+
+    def response(self, output: str, *paths: str, count: int = 33) -> Any:
+        """An output along one number, or over two, between the ends of their spreads, the others at the middle of
+        theirs: a `Response`."""
+        from dalembert.studies.contributions import response
+
+        return response(self, output, paths, count)
 
     def idle(self) -> tuple[str, ...]:
         """Numbers that change no output, moved one at a time to both ends of what they spread over."""

@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from dalembert.analysis.batch.batch_result import CODES
-from dalembert.analysis.batch.symbolic_model import number_kinds
 from dalembert.arrays import Ints, Tree
 from dalembert.errors import ModelError
 from dalembert.model.files.rewriting import text_of
@@ -21,7 +20,6 @@ from dalembert.studies.block_engines import Block
 from dalembert.studies.design_study import Study
 from dalembert.studies.store import FIELDS, Layout, Store, ledger_row, locked, unwritable
 from dalembert.studies.study_result import StudyResult
-from dalembert.studies.varied_numbers import varied_numbers
 from dalembert.units import KINDS
 
 IN_MEMORY = 2 << 30
@@ -101,9 +99,7 @@ def attributes(study: Study) -> Tree:
     from dalembert import __version__
 
     m = study.mechanism
-    numbers = [n for path in study.paths for n in varied_numbers(m, path)]
-    kinds = number_kinds(m, numbers)
-    units = {n.path: KINDS[kind].si for n, kind in zip(numbers, kinds, strict=True)}
+    units = {path: KINDS[kind].si for path, kind in study.number_kinds.items()}
     return {
         "dalembert": __version__,
         "title": m.title,

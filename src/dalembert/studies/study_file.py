@@ -11,9 +11,8 @@ from typing import Any
 
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
-from dalembert.model import Mechanism, load
-from dalembert.model.files.model_files import read_file
-from dalembert.model.part import check_keys
+from dalembert.model import Mechanism
+from dalembert.model.files.task_files import load_task, plain_options
 from dalembert.studies.design_study import Study, study
 from dalembert.studies.sampling import DRAWS
 from dalembert.units import NUMBER
@@ -42,26 +41,10 @@ LARGEST = 50_000_000
 
 def load_study(path: str | os.PathLike[str]) -> Study:
     """The study of a file; raises ModelError with file and line."""
-    tree, source = read_file(path)
-    try:
-        if not isinstance(tree, Mapping):
-            raise ModelError(
-                f"{quote_value(tree)} stands where a mapping is needed", "write model: ... and vary: ..."
-            )
-        return _study(tree, Path(path).parent)
-    except ModelError as error:
-        raise error.at_source(source) from None
+    return load_task(path, "study", KEYS, _study)
 
 
-def _study(tree: Mapping[str, Any], folder: Path) -> Study:
-    if "links" in tree:
-        raise ModelError("this is a model file", "a study names it: model: FILE", ("links",))
-    check_keys(tree, list(KEYS))
-    if tree.get("study", 1) != 1 or isinstance(tree.get("study"), bool):
-        raise ModelError(
-            f"{quote_value(tree['study'])} is no version of the format", "write study: 1", ("study",)
-        )
-    mechanism = _model(tree, folder)
+def _study(tree: Mapping[str, Any], mechanism: Mechanism, folder: Path) -> Study:
     options = _options(tree)
     vary: Any = _texts(_mapping(tree, "vary", "stroke: ± 0.1 mm")) if "vary" in tree else {}
     table = tree.get("table")
@@ -109,23 +92,9 @@ def _placed(error: ModelError, tree: Mapping[str, Any]) -> ModelError:
     return ModelError(error.what, error.remedy, place or ("vary",) * ("vary" in tree))
 
 
-def _model(tree: Mapping[str, Any], folder: Path) -> Mechanism:
-    name = tree.get("model")
-    if not isinstance(name, str) or not name:
-        raise ModelError(
-            "the study names no model file", "write model: pump.yaml", ("model",) * ("model" in tree)
-        )
-    path = folder / name
-    if not path.is_file():
-        raise ModelError(
-            f"there is no model file {path}", "name one, from the folder of this file", ("model",)
-        )
-    return load(path)
-
-
 def _options(tree: Mapping[str, Any]) -> Tree:
     """The arguments of `study` that stand in a file."""
-    out: Tree = {}
+    out: Tree = plain_options(tree, {"designs": 1, "seed": 0, "positions": 1}, ("static", "keep"))
     outputs = tree.get("outputs")
     if outputs is not None:
         names = [outputs] if isinstance(outputs, str) else outputs
@@ -140,9 +109,6 @@ def _options(tree: Mapping[str, Any]) -> Tree:
                 f"{quote_value(reduce)} is no reduction", "write reduce: peak, or none", ("reduce",)
             )
         out["reduce"] = None if reduce in (None, "none") else reduce
-    for key in ("designs", "seed", "positions"):
-        if key in tree:
-            out[key] = _whole(tree[key], key)
     if "draw" in tree:
         draw = tree["draw"]
         names = [d for d in DRAWS if d != "table"]
@@ -151,11 +117,6 @@ def _options(tree: Mapping[str, Any]) -> Tree:
                 f"there is no way to draw {quote_value(draw)}", closest(str(draw), names), ("draw",)
             )
         out["draw"] = draw
-    for key in ("static", "keep"):
-        if key in tree:
-            if not isinstance(tree[key], bool):
-                raise ModelError(f"{key} is {quote_value(tree[key])}", f"write {key}: true, or false", (key,))
-            out[key] = tree[key]
     if "limits" in tree:
         out["limits"] = _mapping(tree, "limits", "effort.O2: < 45 N*m")
     if "correlation" in tree:
@@ -172,15 +133,6 @@ def _pair(item: tuple[Any, Any]) -> tuple[tuple[str, str], Any]:
             ("correlation", item[0]),
         )
     return (paths[0], paths[1]), item[1]
-
-
-def _whole(value: Any, key: str) -> int:
-    least = 0 if key == "seed" else 1
-    number = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < 1e18
-    if number and value == int(value) >= least:
-        return int(value)
-    what = f"{key} is {quote_value(value)}, which is no whole number of {least} or more"
-    raise ModelError(what, f"write {key}: 1000", (key,))
 
 
 def _mapping(tree: Mapping[str, Any], key: str, example: str) -> dict[str, Any]:

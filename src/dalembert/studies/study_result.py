@@ -19,6 +19,8 @@ from dalembert.wording import closest
 if TYPE_CHECKING:
     import xarray
 
+    from dalembert.reports import Report
+
 PERCENTILES = (0.1, 5.0, 50.0, 95.0, 99.9)
 
 
@@ -141,6 +143,20 @@ class StudyResult:
 
     def _share(self, limit: Limit) -> float:
         return float(limit.kept(self[limit.output])[self.done].mean())
+
+    def capability(self, output: str, limit: str) -> float:
+        """Process capability Cpk: the least distance of the mean from a limit over three standard deviations."""
+        found = read_limit(output, limit, self.kinds, self.study.mechanism.units)
+        values = self.values(output)
+        mean, sigma = float(values.mean()), float(values.std())
+        return min(found.high - mean, mean - found.low) / (3 * sigma) if sigma > 0 else np.inf
+
+    def report(self) -> Report:
+        """All that the designs say as a page: ``r.report().save("pump.html")``, or .pdf, .tex, .txt."""
+        from dalembert.reports import Report
+        from dalembert.studies.output.study_report import study_sheet
+
+        return Report(study_sheet(self))
 
     def shares(self) -> dict[str, float]:
         """The same for the limits of the study, and under "all" of the designs that keep them all together."""

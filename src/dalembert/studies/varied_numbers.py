@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-from dalembert.analysis.batch.symbolic_model import DRIVEN, Number, number_kinds, numbers, refuse_twofold
+from dalembert.analysis.batch.tracing.symbolic_model import (
+    DRIVEN,
+    Number,
+    number_kinds,
+    numbers,
+    refuse_twofold,
+)
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
 from dalembert.model.paths import parameter_name, value_at

@@ -20,10 +20,10 @@ from dalembert.analysis.batch.batch_result import (
     not_finite,
 )
 from dalembert.analysis.batch.checked_input import numbers, targets
-from dalembert.analysis.batch.kernel_inputs import Course
 from dalembert.analysis.batch.sides import Sides
-from dalembert.analysis.batch.symbolic_model import chooses_motion
-from dalembert.analysis.batch.traced_analysis import Trace, trace_analysis
+from dalembert.analysis.batch.tracing.kernel_inputs import Course
+from dalembert.analysis.batch.tracing.symbolic_model import chooses_motion
+from dalembert.analysis.batch.tracing.traced_analysis import Trace, trace_analysis
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.arrays import Array, Flags, Ints, Numeric
 from dalembert.errors import ModelError

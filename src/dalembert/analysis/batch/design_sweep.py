@@ -13,7 +13,7 @@ import numpy as np
 from dalembert.analysis.batch.batch_result import CODES
 from dalembert.analysis.batch.compiled_kernel import compile as compile_kernel
 from dalembert.analysis.batch.over_positions import check, reduce_positions
-from dalembert.analysis.batch.symbolic_model import Number, number_kinds
+from dalembert.analysis.batch.tracing.symbolic_model import Number, number_kinds
 from dalembert.analysis.output.columns import Scale, UnitChoice, drive_kinds, in_plane
 from dalembert.analysis.result.named_quantities import Quantity, quantity, quantity_names
 from dalembert.analysis.result.result import Result

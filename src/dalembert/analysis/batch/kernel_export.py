@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.analysis.batch.symbolic_model import functions
+from dalembert.analysis.batch.tracing.symbolic_model import functions
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.kernel.emit import c_text

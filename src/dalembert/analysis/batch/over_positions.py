@@ -25,6 +25,8 @@ PARTS: dict[str, tuple[str, ...]] = {
 stand-in of the peak, the eighth root of the mean of the eighth powers; and the peak between the positions, by a
 parabola through the largest magnitude and its neighbours, and its place."""
 
+POWER = {"rms": 2, "norm8": 8}
+"""Reductions that are means of powers, with their root taken."""
 REFINED = ("refined_peak", "refined_place")
 PLACES = ("argpeak", "refined_place")
 """Reductions that are places among the positions."""
@@ -46,10 +48,8 @@ def finish_reduction(reduce: str, parts: list[Array], count: int) -> Array:
         return np.stack(parts, axis=-1)
     if reduce == "mean":
         return parts[0] / count
-    if reduce == "rms":
-        return np.asarray(np.sqrt(parts[0] / count))
-    if reduce == "norm8":
-        return np.asarray((parts[0] / count) ** 0.125)
+    if reduce in POWER:
+        return np.asarray((parts[0] / count) ** (1 / POWER[reduce]))
     return np.asarray(parts[0])
 
 
@@ -123,7 +123,8 @@ def _refined(reduce: str, values: Array, cycle: bool) -> tuple[Ints, Array, Flag
 
 def reduce_positions(reduce: str, values: Array, cycle: bool = False) -> Array:
     """The reduction of values (position, ...) over their first axis; ``cycle``: behind the last position is the
-    first."""
+    first. Raises ModelError for an unknown one."""
+    check(reduce)
     if reduce in REFINED:
         table = values.reshape(len(values), -1)
         three, near, inner = _refined(reduce, table, cycle)
@@ -138,7 +139,7 @@ def reduce_positions(reduce: str, values: Array, cycle: bool = False) -> Array:
         return np.stack([values.min(axis=0), values.max(axis=0)], axis=-1)
     if reduce == "mean":
         return np.asarray((values / len(values)).sum(axis=0))
-    power = 2 if reduce == "rms" else 8
+    power = POWER[reduce]
     largest = np.where((peak := size.max(axis=0)) > 0, peak, 1.0)  # so that no power overflows
     mean: Array = ((values / largest) ** power).mean(axis=0)
     return np.asarray(largest * mean ** (1 / power))
@@ -169,12 +170,11 @@ def slope(reduce: str, values: Array, rates: Array, cycle: bool = False) -> Arra
         return refined_slope(reduce, near, rates[three, np.arange(values.shape[1])], inner)
     if reduce == "mean":
         return np.asarray(rates.mean(axis=0))
-    if reduce in ("rms", "norm8"):
-        power = 2 if reduce == "rms" else 8
+    if reduce in POWER:
         size = reduce_positions(reduce, values)
         size[~rates.any(axis=(0, 2))] = 1.0  # always zero
         with np.errstate(all="ignore"):
-            return np.asarray(((values / size)[..., None] ** (power - 1) * rates).mean(axis=0))
+            return np.asarray(((values / size)[..., None] ** (POWER[reduce] - 1) * rates).mean(axis=0))
     each = np.arange(values.shape[1])
     if reduce == "envelope":
         return np.stack(

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.batch import over_positions
-from dalembert.analysis.batch.kernel_inputs import Course
+from dalembert.analysis.batch.tracing.kernel_inputs import Course
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.kernel.emit import llvm_text
@@ -18,7 +18,15 @@ from dalembert.kernel.emit.machine_code import Machine, compile_module
 from dalembert.kernel.emit.reductions import PLACED, SUMS, Slots, width
 from dalembert.kernel.graph import CONSTANT, Node
 from dalembert.kernel.memory import available, result_array
-from dalembert.kernel.parallel_runs import Progress, Store, path_array, row_length, run_grid, run_pairs
+from dalembert.kernel.parallel_runs import (
+    Progress,
+    Store,
+    path_array,
+    row_length,
+    run_designs,
+    run_grid,
+    run_pairs,
+)
 from dalembert.kernel.program import Program
 
 Arrays = tuple[dict[str, Array], dict[str, Array]]
@@ -78,8 +86,8 @@ class Runner:
         parts = over_positions.with_places(k.reduce) if k.derivatives else over_positions.PARTS[k.reduce]
         nodes = [n for found in k.nodes.values() for n in found]
         slots = [(m, p) for m in range(len(nodes)) for p in parts]
-        if k.derivatives and k.reduce in ("mean", "rms", "norm8"):
-            power = {"mean": 0, "rms": 1, "norm8": 7}[k.reduce]
+        if k.derivatives and k.reduce in ("mean", *over_positions.POWER):
+            power = over_positions.POWER.get(k.reduce, 1) - 1
             rates = [row for found in k.rates.values() for row in found]
             for value, row in zip(list(nodes), rates, strict=True):
                 weight = value**power if power else 1.0
@@ -170,23 +178,19 @@ class Runner:
     def _run_all_pairs(
         self, job: Job, program: Program, machine: Machine, columns: Array, common: Array
     ) -> tuple[Array | None, NDArray[np.uint8]]:
-        """Every design at every position, a part of the designs at a time."""
+        """Every design at every position; where the results go elsewhere, a part of the designs at a time."""
         designs, count, width = len(job.values), len(columns), len(program.outputs)
-        out = np.empty((_room(job, (width, count)), width, count)) if job.into is None else None
+        if job.into is None:
+            _room(job, (width, count))
+            return run_designs(machine, job.values, columns, common, width, job.threads, job.progress)
         code, step = np.empty((designs, count), np.uint8), max(1, 100_000 // count)
         for k in range(0, designs, step):
             which = slice(k, min(k + step, designs))
-            mine = np.repeat(job.values[which], count, axis=0)
-            many = np.tile(columns, (which.stop - k, 1))
-            found, marks = self.at_pairs(program, machine, mine, many, common, job.threads)
-            found, code[which] = found.reshape(-1, count, width).swapaxes(1, 2), marks.reshape(-1, count)
-            if out is None:
-                self._store(job, which, self.by_output(found))
-            else:
-                out[which] = found
+            found, code[which] = run_designs(machine, job.values[which], columns, common, width, job.threads)
+            self._store(job, which, self.by_output(found))
             if job.progress is not None:
                 job.progress(which.stop, designs)
-        return out, code
+        return None, code
 
     def at_pairs(
         self,
@@ -329,7 +333,7 @@ def _mean(reduce: str, parts: dict[tuple[int, str], Array], m: int, total: Array
     part = over_positions.PARTS[reduce][0]
     size = over_positions.finish_reduction(reduce, [parts[m, part]], count)[:, None]
     with np.errstate(all="ignore"):
-        return np.asarray(total / size if reduce == "rms" else total / size**7)
+        return np.asarray(total / size ** (over_positions.POWER[reduce] - 1))
 
 
 def _active(runner: Runner, job: Job, m: int, places: dict[tuple[int, str], Array]) -> Array:

@@ -1,4 +1,4 @@
-"""`dalembert study`: run, resume, extend, show, design and export."""
+"""`dalembert study`: run, resume, extend, show, report, design and export."""
 
 from __future__ import annotations
 
@@ -25,6 +25,7 @@ study = App(
   dalembert study resume pump.zarr
   dalembert study extend pump.zarr --designs 1e6
   dalembert study show pump.zarr --contributions linear
+  dalembert study report pump.zarr -o pump.html
   dalembert study design pump.zarr 4711 -o worst.yaml
   dalembert study export pump.zarr -o pump.csv""",
 )
@@ -107,7 +108,7 @@ def show(
     unused: Annotated[bool, flag("Name numbers that change no output.")] = False,
 ) -> int:
     """Print statuses, percentiles, histograms, worst and best designs, and the share that keeps the limits."""
-    from dalembert.studies.summary import contributions_text, summary
+    from dalembert.studies.output.study_text import contributions_text, summary
 
     found = _stored(store)
     print(summary(found))
@@ -131,7 +132,7 @@ def design(
     force: Force = False,
 ) -> int:
     """Print the numbers of one design, made again exactly; or write its model file."""
-    from dalembert.studies.summary import design_text
+    from dalembert.studies.output.study_text import design_text
 
     found = _read(study)
     print(design_text(found, number))
@@ -149,9 +150,25 @@ def export(
     force: Force = False,
 ) -> int:
     """Write all designs to one file."""
-    from dalembert.studies.study_export import export_study
+    from dalembert.studies.output.study_export import export_study
 
     export_study(_stored(store), output, force)
+    return 0
+
+
+@study.command(help_epilogue="Examples:\n  dalembert study report pump.zarr -o pump.html")
+def report(
+    store: StorePath,
+    /,
+    *,
+    output: Annotated[Path, output("File to write: .html, .pdf, .tex or .txt.")],
+    force: Force = False,
+) -> int:
+    """Write a page: percentiles, histograms, limits, contributions, worst case, responses, extreme designs drawn."""
+    from dalembert.saving import check_new
+
+    check_new(output, force)
+    _stored(store).report().save(output, force)
     return 0
 
 
@@ -170,7 +187,7 @@ def _read(path: Path) -> Study:
 
 def _run(study: Study, store: Path, threads: int | None, scheduler: str | None) -> int:
     """Run with a bar on the terminal, and show."""
-    from dalembert.studies.summary import summary
+    from dalembert.studies.output.study_text import summary
 
     if study.why_slow:
         print(f"Not compiled, design by design: {study.why_slow}.", file=sys.stderr)

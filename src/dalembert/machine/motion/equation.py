@@ -15,7 +15,7 @@ import numpy as np
 
 from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.kernel_export import plain
-from dalembert.analysis.batch.traced_analysis import Trace, trace_analysis
+from dalembert.analysis.batch.tracing.traced_analysis import Trace, trace_analysis
 from dalembert.analysis.compile.pose_loads import TIME
 from dalembert.arrays import Array
 from dalembert.core import forcing as fc

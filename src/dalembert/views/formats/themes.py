@@ -71,6 +71,7 @@ _LIGHT: dict[str, Look] = {
     "curve-4": Look("#7a2fa0", 0.45, (2.4, 0.7, 0.6, 0.7)),
     "curve-5": Look("#b85c00", 0.45, (4.0, 1.0)),
     "curve-6": Look("#0f7d8c", 0.45, (1.2, 0.5)),
+    "bar": Look("#1c56a8", 0.15, (), "#dde5ee"),
     "mark": Look(INK, 0.2, (), INK),
     "text": Look(INK),
     "title": Look(INK, weight="bold"),

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -67,24 +68,23 @@ def curves_scene(
     known = places[np.isfinite(places)]
     left, right = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
     left, right = (left, right) if right > left else (left - 1.0, right + 1.0)
-    y_ticks = ticks(low, high)
-    to = _scale((left, right), (y_ticks[0], y_ticks[-1]))
+    to = Field((left, right), ticks(low, high))
     missing = _missing(places, np.any([np.isfinite(v) for v in curves.values()], axis=0))
     for a, b in missing:
-        corners = ((a, y_ticks[0]), (b, y_ticks[0]), (b, y_ticks[-1]), (a, y_ticks[-1]))
+        corners = ((a, to.y[0]), (b, to.y[0]), (b, to.y[-1]), (a, to.y[-1]))
         canvas.add(Polygon(tuple(to(*p) for p in corners), "missing-fill"))
-    _axes(canvas, to, inner_ticks(left, right, 6, angle), y_ticks, x_label, y_label)
+    to.draw_axes(canvas, inner_ticks(left, right, 6, angle), x_label, y_label)
     for n, (name, curve) in enumerate(curves.items()):
         role = f"curve-{n % 6 + 1}"
         for run in _runs(places, curve):
             line = tuple(to(a, b) for a, b in run)
             canvas.add(Line(line, role) if len(line) > 1 else Circle(line[0], 0.4, role))
-        _legend(canvas, n, name, role)
-    for n, (name, value) in enumerate(levels.items(), len(curves)):
+        to.draw_legend(canvas, name, role)
+    for name, value in levels.items():
         canvas.add(Line((to(left, value), to(right, value)), "level"))
-        _legend(canvas, n, name, "level")
+        to.draw_legend(canvas, name, "level")
     if missing:
-        _legend(canvas, len(curves) + len(levels), "no answer", "missing-fill")
+        to.draw_legend(canvas, "no answer", "missing-fill")
     return canvas.scene(title, numbers={name: [float(v) for v in curve] for name, curve in series.items()})
 
 
@@ -121,49 +121,57 @@ def _missing(x: Array, known: Flags) -> list[tuple[float, float]]:
     return [(float(x[a]), float(x[b])) for a, b in steps if x[a] != x[b]]
 
 
-def _scale(x: tuple[float, float], y: tuple[float, float]) -> Callable[[float, float], Point]:
-    """From values to the field of a chart."""
+@dataclass
+class Field:
+    """The field of a chart: from values to its millimetres; ``y``: the values with a line across."""
 
-    def to(a: float, b: float) -> Point:
-        return SIZE[0] * (float(a) - x[0]) / (x[1] - x[0]), SIZE[1] * (float(b) - y[0]) / (y[1] - y[0])
+    x: tuple[float, float]
+    y: list[float]
+    listed: int = 0
+    """Lines of the legend so far."""
 
-    return to
+    @classmethod
+    def around(cls, x: Array, y: Array) -> Field:
+        """A field that holds some values."""
+        low, high = float(x.min()), float(x.max())
+        return cls((low, high) if high > low else (low - 1.0, high + 1.0), ticks(*_reach(y)))
 
+    def __call__(self, a: float, b: float) -> Point:
+        (left, right), low, high = self.x, self.y[0], self.y[-1]
+        return SIZE[0] * (float(a) - left) / (right - left), SIZE[1] * (float(b) - low) / (high - low)
 
-def _axes(
-    canvas: Canvas,
-    to: Callable[[float, float], Point],
-    xs: list[float],
-    ys: list[float],
-    x_label: str,
-    y_label: str,
-) -> None:
-    width, height = SIZE
-    for x in xs:
-        px = to(x, ys[0])[0]
-        canvas.add(Line(((px, 0.0), (px, height)), "grid"))
-        canvas.add(Text((px, -3.2), _tick(x), 2.6, "note"))
-    for y in ys:
-        py = to(0.0, y)[1]
-        canvas.add(Line(((0.0, py), (width, py)), "axis" if y == 0 else "grid"))
-        canvas.add(Text((-1.5, py), _tick(y), 2.6, "note", "end"))
-    canvas.add(Line(((0.0, height), (0.0, 0.0), (width, 0.0)), "axis"))
-    canvas.add(Text((width / 2, -7.6), x_label, 2.8, "note"))
-    canvas.add(Text((-1.5, height + 4.2), y_label, 2.8, "note", "start"))
+    def holds(self, p: Point, edge: float = 0.0) -> bool:
+        """Whether a place of the paper lies in it, so far from its edges (mm)."""
+        return edge <= p[0] <= SIZE[0] - edge and edge <= p[1] <= SIZE[1] - edge
+
+    def draw_axes(self, canvas: Canvas, xs: list[float], x_label: str, y_label: str) -> None:
+        width, height = SIZE
+        for x in xs:
+            px = self(x, self.y[0])[0]
+            canvas.add(Line(((px, 0.0), (px, height)), "grid"))
+            canvas.add(Text((px, -3.2), _tick(x), 2.6, "note"))
+        for y in self.y:
+            py = self(0.0, y)[1]
+            canvas.add(Line(((0.0, py), (width, py)), "axis" if y == 0 else "grid"))
+            canvas.add(Text((-1.5, py), _tick(y), 2.6, "note", "end"))
+        canvas.add(Line(((0.0, height), (0.0, 0.0), (width, 0.0)), "axis"))
+        canvas.add(Text((width / 2, -7.6), x_label, 2.8, "note"))
+        canvas.add(Text((-1.5, height + 4.2), y_label, 2.8, "note", "start"))
+
+    def draw_legend(self, canvas: Canvas, name: str, role: str) -> None:
+        """One more line of the legend."""
+        y, left, right = SIZE[1] - 2.0 - 4.6 * self.listed, SIZE[0] + 3.0, SIZE[0] + 10.0
+        self.listed += 1
+        if role.endswith("-fill"):
+            corners = ((left, y - 1.4), (right, y - 1.4), (right, y + 1.4), (left, y + 1.4))
+            canvas.add(Polygon(corners, role))
+        else:
+            canvas.add(Line(((left, y), (right, y)), role))
+        canvas.add(Text((right + 1.5, y), name, 2.8, "text", "start"))
 
 
 def _tick(value: float) -> str:
     return f"{value:g}".replace("-", "−")
-
-
-def _legend(canvas: Canvas, n: int, name: str, role: str) -> None:
-    y, left, right = SIZE[1] - 2.0 - 4.6 * n, SIZE[0] + 3.0, SIZE[0] + 10.0
-    if role.endswith("-fill"):
-        corners = ((left, y - 1.4), (right, y - 1.4), (right, y + 1.4), (left, y + 1.4))
-        canvas.add(Polygon(corners, role))
-    else:
-        canvas.add(Line(((left, y), (right, y)), role))
-    canvas.add(Text((right + 1.5, y), name, 2.8, "text", "start"))
 
 
 def _runs(x: Array, y: Array) -> list[list[tuple[float, float]]]:

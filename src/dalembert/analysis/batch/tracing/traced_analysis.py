@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from dalembert.analysis.batch.kernel_inputs import Course, Inputs
-from dalembert.analysis.batch.outputs import Catalogue
-from dalembert.analysis.batch.symbolic_model import Number, functions, geometric, numbers, symbolic
+from dalembert.analysis.batch.tracing.kernel_inputs import Course, Inputs
+from dalembert.analysis.batch.tracing.outputs import Catalogue
+from dalembert.analysis.batch.tracing.symbolic_model import Number, functions, geometric, numbers, symbolic
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.compile.pose_loads import TIME, coordinates
 from dalembert.analysis.degree_of_freedom import check_knowns

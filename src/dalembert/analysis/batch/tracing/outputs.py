@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from dalembert.algebra import plane
 from dalembert.algebra.protocol import Algebra
-from dalembert.analysis.batch.traced_parameters import symbol_functions
+from dalembert.analysis.batch.tracing.traced_parameters import symbol_functions
 from dalembert.analysis.compile.compiled_mechanism import Compiled
-from dalembert.analysis.compile.load_arrays import point_of
-from dalembert.analysis.result.link_motion import place_of
+from dalembert.analysis.result.link_motion import LinkMotion, place_of
 from dalembert.analysis.result.named_quantities import names_of
 from dalembert.analysis.result.quantity_expressions import parse_quantity
 from dalembert.analysis.result.transmission_lines import angle_between, ground_points, transmission_lines
@@ -22,15 +20,14 @@ from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, trace_array
 from dalembert.kernel.trace import Traced
-from dalembert.model import GROUND, Mechanism
+from dalembert.model import GROUND
 from dalembert.model.quantities.expressions import evaluate, names_in
-from dalembert.model.quantities.values import Vector
 from dalembert.wording import closest
 
 
 @dataclass(frozen=True)
-class Catalogue:
-    """Names to nodes; ``compiled`` is the compiled description on symbols."""
+class Catalogue(LinkMotion):
+    """Names to nodes; ``compiled`` is the compiled description on symbols, the links' motion is that of the trace."""
 
     graph: Graph
     compiled: Compiled
@@ -82,13 +79,24 @@ class Catalogue:
         return names_of(self, [word for word in KINDS if self.algebra.d == 2 or word != "angle"])
 
     @property
-    def mechanism(self) -> Mechanism:
-        """The description, on symbols."""
-        return self.compiled.mechanism
+    def point_array(self) -> Array:  # type: ignore[override]
+        return self.traced.pose.point
 
     @property
-    def links(self) -> tuple[str, ...]:
-        return self.compiled.links
+    def turn_array(self) -> Array:  # type: ignore[override]
+        return self.traced.pose.turn
+
+    @property
+    def rotation_array(self) -> Array:  # type: ignore[override]
+        return self.traced.pose.rotation
+
+    @property
+    def twist_array(self) -> Array:  # type: ignore[override]
+        return self.traced.twist
+
+    @property
+    def acceleration_array(self) -> Array:  # type: ignore[override]
+        return self.traced.acceleration
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -120,60 +128,8 @@ class Catalogue:
     def joint(self, name: str) -> int:
         return place_of(self.compiled.joints, name, "joint")
 
-    def link(self, name: str) -> int:
-        return place_of(self.compiled.links, name, "link")
-
     def load(self, name: str) -> Numeric:
         return self.traced.load[place_of(self.compiled.unknown_loads, name, "unknown load")]
-
-    def arm(self, link: int, u: ArrayLike) -> Array:
-        reference = np.asarray(self.compiled.layout.reference, object)
-        rotation = self.traced.pose.rotation[link]
-        return self.algebra.rotate(rotation, np.asarray(u, object) - reference[link])
-
-    def center(self, name: str) -> Vector:
-        return self.compiled.mechanism.center(name)
-
-    def place(self, name: str, u: ArrayLike) -> Array:
-        k = self.link(name)
-        origin = np.asarray(self.compiled.layout.reference, object)[-1]
-        return np.asarray(self.traced.pose.point[k] + self.arm(k, u) + origin)
-
-    def velocity(self, name: str, u: ArrayLike) -> Array:
-        k, g = self.link(name), self.algebra
-        twist = self.traced.twist[k]
-        return np.asarray(twist[: g.d] + g.spin(twist[g.d :], self.arm(k, u)))
-
-    def acceleration(self, name: str, u: ArrayLike) -> Array:
-        (k, g), w = (self.link(name), self.algebra), self.turning("twist", name)
-        rate, r = self.traced.acceleration[k], self.arm(k, u)
-        return np.asarray(rate[: g.d] + g.spin(rate[g.d :], r) + g.centripetal(w, r))
-
-    def turning(self, rates: str, name: str) -> Array:
-        """Angular part of a link's twist or acceleration."""
-        turning: Array = getattr(self.traced, rates)[self.link(name), self.algebra.d :]
-        return turning
-
-    def angle(self, name: str) -> Numeric:
-        if self.algebra.d == 3:
-            raise ModelError(f"link {name!r} has no single angle in space", "ask its rotation")
-        return self.traced.pose.turn[self.link(name)]
-
-    def rotation(self, name: str) -> Array:
-        """A link's matrix, row by row."""
-        r = self.traced.pose.rotation[self.link(name)]
-        return r if self.algebra.d == 3 else np.array([r[0], -r[1], r[1], r[0]])
-
-    @property
-    def origin(self) -> Array:
-        """The origin of a link's axes."""
-        return np.zeros(self.algebra.d)
-
-
-def _point(c: Catalogue, of: str) -> tuple[str, Array]:
-    link, _, point = of.partition(".")
-    c.link(link)
-    return link, point_of(c.compiled.mechanism, link, point)
 
 
 def _magnitude(c: Catalogue, joint: str) -> Node:
@@ -187,7 +143,9 @@ def _transmission(c: Catalogue, of: str) -> Numeric:
     for line in transmission_lines(c.mechanism, of):
         along = np.asarray(line.along, object)
         turned = (
-            along if line.link == GROUND else plane.rotate(c.traced.pose.rotation[c.link(line.link)], along)
+            along
+            if line.link == GROUND
+            else plane.rotate(c.traced.pose.rotation[place_of(c.links, line.link, "link")], along)
         )
         lines.append(trace_array(c.graph, turned))
     return angle_between(*lines)
@@ -221,6 +179,18 @@ def _shaking(c: Catalogue, about: str) -> Array:
     return np.asarray(total)
 
 
+MOTION = (
+    *("angle", "rotation", "speed", "acceleration", "position", "velocity"),
+    *("center", "center_velocity", "center_acceleration", "point", "point_velocity", "point_acceleration"),
+)
+"""Of a link or of its point: the methods of `LinkMotion`."""
+
+
+def _motion(c: Catalogue, of: str, kind: str) -> Numeric:
+    found: Numeric = getattr(c, kind)(*of.split(".", 1))
+    return found
+
+
 KINDS: dict[str, Callable[[Catalogue, str], Numeric]] = {
     "effort": lambda c, of: c.traced.effort[c.drive(of)],
     "load": lambda c, of: c.load(of),
@@ -231,18 +201,7 @@ KINDS: dict[str, Callable[[Catalogue, str], Numeric]] = {
     "shaking": lambda c, of: _shaking(c, of)[: c.algebra.d],
     "shaking_moment": lambda c, of: _shaking(c, of)[c.algebra.d :],
     "moment": lambda c, of: c.traced.moment[c.joint(of)],
-    "angle": lambda c, of: c.angle(of),
-    "rotation": lambda c, of: c.rotation(of),
-    "speed": lambda c, of: c.turning("twist", of),
-    "acceleration": lambda c, of: c.turning("acceleration", of),
-    "position": lambda c, of: c.place(of, c.origin),
-    "velocity": lambda c, of: c.velocity(of, c.origin),
-    "center": lambda c, of: c.place(of, c.center(of)),
-    "center_velocity": lambda c, of: c.velocity(of, c.center(of)),
-    "center_acceleration": lambda c, of: c.acceleration(of, c.center(of)),
-    "point": lambda c, of: c.place(*_point(c, of)),
-    "point_velocity": lambda c, of: c.velocity(*_point(c, of)),
-    "point_acceleration": lambda c, of: c.acceleration(*_point(c, of)),
+    **{kind: partial(_motion, kind=kind) for kind in MOTION},
     "residual": lambda c, of: c.traced.residual,
 }
 """Output kind -> its nodes; the part of the name behind the first dot says of what."""

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from dalembert.analysis.batch.traced_parameters import Channel, symbol_functions
+from dalembert.analysis.batch.tracing.traced_parameters import Channel, symbol_functions
 from dalembert.arrays import Numeric, Tree
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, Scalar

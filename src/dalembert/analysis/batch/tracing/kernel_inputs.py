@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from dalembert.analysis.batch.over_positions import is_cycle
-from dalembert.analysis.batch.traced_parameters import traced, varies
+from dalembert.analysis.batch.tracing.traced_parameters import traced, varies
 from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
 from dalembert.analysis.compile.pose_loads import TIME, coordinates
 from dalembert.analysis.engine.quick_pass import quick_answer

@@ -1,0 +1,79 @@
+"""Files beside a model file that say what to do with it: the model they name, and their plain options."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+from dalembert.errors import ModelError
+from dalembert.model.description import Mechanism
+from dalembert.model.files.model_files import load, read_file
+from dalembert.model.part import check_keys
+from dalembert.wording import quote_value
+
+Task = TypeVar("Task")
+LARGEST = 1e18
+
+
+def load_task(
+    path: str | os.PathLike[str],
+    what: str,
+    keys: Mapping[str, str],
+    make: Callable[[Mapping[str, Any], Mechanism, Path], Task],
+) -> Task:
+    """What ``make(tree, mechanism, folder)`` makes of a file with these keys, whose version is under the key ``what``;
+    raises ModelError with file and line."""
+    tree, source = read_file(path)
+    folder = Path(path).parent
+    try:
+        if not isinstance(tree, Mapping):
+            found = f"{quote_value(tree)} stands where a mapping is needed"
+            raise ModelError(found, "write model: ... and vary: ...")
+        if "links" in tree:
+            raise ModelError(
+                "this is a model file", "name it from a file of its own: model: FILE", ("links",)
+            )
+        check_keys(tree, list(keys))
+        if tree.get(what, 1) != 1 or isinstance(tree.get(what), bool):
+            raise ModelError(
+                f"{quote_value(tree[what])} is no version of the format", f"write {what}: 1", (what,)
+            )
+        return make(tree, _model(tree, folder), folder)
+    except ModelError as error:
+        raise error.at_source(source) from None
+
+
+def _model(tree: Mapping[str, Any], folder: Path) -> Mechanism:
+    name = tree.get("model")
+    if not isinstance(name, str) or not name:
+        where = ("model",) * ("model" in tree)
+        raise ModelError("the file names no model file", "write model: pump.yaml", where)
+    path = folder / name
+    if not path.is_file():
+        raise ModelError(
+            f"there is no model file {path}", "name one, from the folder of this file", ("model",)
+        )
+    return load(path)
+
+
+def plain_options(
+    tree: Mapping[str, Any], whole: Mapping[str, int], truths: tuple[str, ...]
+) -> dict[str, Any]:
+    """Whole numbers, each with the least it may be, and true or false, of the keys that are given."""
+    out: dict[str, Any] = {key: _whole(tree[key], key, least) for key, least in whole.items() if key in tree}
+    for key in truths:
+        if key in tree:
+            if not isinstance(tree[key], bool):
+                raise ModelError(f"{key} is {quote_value(tree[key])}", f"write {key}: true, or false", (key,))
+            out[key] = tree[key]
+    return out
+
+
+def _whole(value: Any, key: str, least: int) -> int:
+    number = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < LARGEST
+    if number and value == int(value) >= least:
+        return int(value)
+    what = f"{key} is {quote_value(value)}, which is no whole number of {least} or more"
+    raise ModelError(what, f"write {key}: 1000", (key,))

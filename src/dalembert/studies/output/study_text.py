@@ -1,0 +1,139 @@
+"""A study's results as text, in the units of its model file."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dalembert.analysis.output.columns import Scale
+from dalembert.printing import number, table
+from dalembert.studies.design_study import Study
+from dalembert.studies.study_result import PERCENTILES, StudyResult
+from dalembert.studies.varied_numbers import varied_numbers
+
+BLOCKS = " ▁▂▃▄▅▆▇█"
+"""Heights of a histogram's columns."""
+
+
+def summary(r: StudyResult) -> str:
+    """Statuses, percentiles, histograms, worst and best designs, limits, of the designs that are there."""
+    return "\n\n".join(
+        [f"{r.study.mechanism.title}\n{heading(r)}".strip(), _statuses(r), *_outputs(r), *_limits(r)]
+    )
+
+
+def heading(r: StudyResult) -> str:
+    """How many designs, how they were drawn, and what they took."""
+    done, plan = int(r.done.sum()), r.study.plan
+    seconds = r.ledger[:, 1].sum() / 1e3
+    seed = "" if plan.draw in ("table", "factorial") else f", seed {plan.seed}"
+    return f"{done:,} of {r.study.count:,} designs ({plan.draw}{seed}), {seconds:.3g} s of one core"
+
+
+def status_rows(r: StudyResult) -> list[list[str]]:
+    """Status, designs, share."""
+    counts = r.counts()
+    return [[name, f"{n:,}", f"{n / sum(counts.values()):.4%}"] for name, n in counts.items()]
+
+
+def _statuses(r: StudyResult) -> str:
+    text = table(["status", "designs", "share"], status_rows(r), 1)
+    said = [f"{f.status}: {f.sentence} First: design {', '.join(map(str, f.first))}" for f in r.failed()]
+    return "\n".join([text, *said])
+
+
+def output_rows(r: StudyResult) -> tuple[list[str], list[list[str]]]:
+    """Heads, and of each output of one number a design a row: mean, sigma, percentiles, least and greatest."""
+    to, rows = Scale(r.study.mechanism.units), []
+    for name in r.study.outputs:
+        if r.arrays[name].ndim > 1 or not len(values := r.values(name)):
+            continue
+        kind = r.kinds[name]
+        shown = to(kind, np.array([values.mean(), values.std(), *r.percentiles(name).values()]))
+        ends = (f"{number(float(to(kind, r[name][k])), 5)} ({k})" for k in (r.best(name), r.worst(name)))
+        rows.append([name, to.text(kind), *(number(float(x), 5) for x in shown), *ends])
+    percents = [f"{p:g} %" for p in PERCENTILES]
+    return ["output", "unit", "mean", "sigma", *percents, "least (design)", "greatest (design)"], rows
+
+
+def _outputs(r: StudyResult) -> list[str]:
+    """The same as text, and their histograms."""
+    more = [name for name in r.study.outputs if r.arrays[name].ndim > 1]
+    said = [f"Several numbers a design, to be read in Python or by export: {', '.join(more)}"] if more else []
+    heads, rows = output_rows(r)
+    if not rows:
+        return said
+    reduce = f"Over the positions: {r.study.reduce}." if r.study.reduce else ""
+    pictures = [_histogram(r, row[0]) for row in rows]
+    return [
+        f"{reduce}\n{table(heads, rows, 2)}".strip(),
+        table(["", "from", "", "to", ""], pictures, 1),
+        *said,
+    ]
+
+
+def _histogram(r: StudyResult, name: str) -> list[str]:
+    to, kind = Scale(r.study.mechanism.units), r.kinds[name]
+    counts, edges = r.histogram(name)
+    line = "".join(BLOCKS[round(8 * n / counts.max())] for n in counts.tolist())
+    low, high = (to(kind, edges[k]) for k in (0, -1))
+    return [name, f"{low:.5g}", line, f"{high:.5g}", to.text(kind)]
+
+
+def limit_rows(r: StudyResult) -> list[list[str]]:
+    """Limit, share of the designs that keep it, process capability Cpk where it is one number's."""
+    shares = r.shares()
+    capable = [f"{r.capability(limit.output, limit.text):.3f}" for limit in r.study.limits]
+    capable += [""] * (len(shares) - len(capable))
+    return [[name, f"{share:.4%}", cpk] for (name, share), cpk in zip(shares.items(), capable, strict=True)]
+
+
+def _limits(r: StudyResult) -> list[str]:
+    rows = limit_rows(r)
+    return [table(["limit", "designs that keep it", "Cpk"], rows, 1)] if rows else []
+
+
+def extreme_rows(r: StudyResult, name: str) -> list[list[str]]:
+    """Number, unit, value in the model file, in the designs with the least and greatest of an output."""
+    study, to = r.study, Scale(r.study.mechanism.units)
+    designs = [study.design(n) for n in (r.best(name), r.worst(name))]
+    own = {n.path: n.value for path in study.paths for n in varied_numbers(study.mechanism, path)}
+    kinds = study.number_kinds | {name: r.kinds[name]}
+    values = {path: [own[path], *(d[path] for d in designs)] for path in study.paths}
+    nominal = study.engine.block(np.array([list(own.values())]))[name][0]
+    values |= {name: [float(nominal), *(float(r[name][n]) for n in (r.best(name), r.worst(name)))]}
+    return [
+        [path, to.text(kinds[path]), *(f"{to(kinds[path], x):.6g}" for x in of)]
+        for path, of in values.items()
+    ]
+
+
+def design_text(study: Study, n: int) -> str:
+    """The numbers of a design, in the units of the model file."""
+    to, kinds = Scale(study.mechanism.units), study.number_kinds
+    rows = [
+        [path, f"{to(kinds[path], value):.12g}", to.text(kinds[path])]
+        for path, value in study.design(n).items()
+    ]
+    return table(["number", f"design {n}", "unit"], rows, 1)
+
+
+def contributions_text(study: Study, by: str) -> str:
+    """Shares of the variance of each output of one number, the largest first."""
+    to, parts = Scale(study.mechanism.units), []
+    kinds = study.kinds
+    for name in study.outputs:
+        found = study.contributions(name, by)
+        order = sorted(found.shares, key=lambda path: -found.shares[path])
+        rows = [
+            [path, f"{found.shares[path]:.2%}", *([f"{found.total[path]:.2%}"] if found.total else [])]
+            for path in order
+        ]
+        heads = ["number", "share of the variance", *(["with its interactions"] if found.total else [])]
+        sigma = f"{to(kinds[name], found.sigma):.5g} {to.text(kinds[name])}".strip()
+        worst = study.worst_case(name)
+        case = f"{to(kinds[name], worst.value):.5g} {to.text(kinds[name])}".strip()
+        said = f"{name} ({by}): sigma {sigma}; worst case {case} ({worst.assumed})"
+        parts.append(
+            "\n".join([said, table(heads, rows, 1), *([f"Mind: {found.note}."] if found.note else [])])
+        )
+    return "\n\n".join(parts)

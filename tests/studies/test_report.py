@@ -1,0 +1,131 @@
+"""The page of a study, and its drawings: as data, against the numbers they show."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.bundled import examples
+from dalembert.cli import main
+from dalembert.studies import StudyResult
+from dalembert.studies.output.study_views import contour, histogram_scene, response_scene, scatter_scene
+from dalembert.views.paper.scene import Circle, Line, Polygon
+from tests.studies.test_answers import arm
+
+
+def four_bar(**options: Any) -> StudyResult:
+    vary = {"links.coupler.mass": "± 5 %", "links.crank.points.A.0": "uniform ± 2 %"}
+    given = {"designs": 200, "seed": 3, "positions": 12, **options}
+    return da.study(da.four_bar(), vary, ["effort.O2"], **given).run()
+
+
+def test_contours_run_where_the_function_has_their_value() -> None:
+    """Of a linear function exactly; each piece lies in its cell."""
+    x, y = np.linspace(0, 3, 7), np.linspace(-1, 1, 5)
+    z = 2 * x[:, None] - 3 * y[None]
+    for level in (-1.3, 0.4, 2.0):
+        points = np.array(contour(x, y, z, level)).reshape(-1, 2)
+        assert len(points) > 4
+        assert np.abs(2 * points[:, 0] - 3 * points[:, 1] - level).max() < 1e-12
+    assert contour(x, y, z, 99.0) == []
+
+
+def test_bars_hold_every_design_and_lines_stand_at_their_values() -> None:
+    r = four_bar(limits={"effort.O2": "< 6 N*m"})
+    counts, _ = r.histogram("effort.O2")
+    scene = histogram_scene(r, "effort.O2")
+    heights = [max(y for _, y in p.points) for p in scene.flat() if isinstance(p, Polygon)]
+    assert counts.sum() == 200
+    assert np.array(heights) / max(heights) == pytest.approx(counts[counts > 0] / counts.max())
+    lines = [
+        p for p in scene.flat() if isinstance(p, Line) and p.role.startswith("curve") and p.points[0][1] == 0
+    ]
+    assert len(lines) == 4  # median, 5 and 95 %, and the limit
+    dots = [p for p in scatter_scene(r, "effort.O2", r.study.paths[0]).flat() if isinstance(p, Circle)]
+    assert len(dots) == 200
+
+
+def test_a_response_is_the_analysis_of_each_design() -> None:
+    r = four_bar()
+    found = r.study.response("effort.O2", "links.crank.points.A.0", count=5)
+    assert found.axes[0][[0, -1]] == pytest.approx(r.study.plan.spreads[1].ends)
+    for value, peak in zip(found.axes[0], found.values, strict=True):
+        design = da.four_bar().with_values({"links.crank.points.A.0": float(value)})
+        assert np.abs(da.solve(design, positions=12).effort("O2")).max() == pytest.approx(peak, rel=1e-10)
+    two = r.study.response("effort.O2", *r.study.paths, count=4)
+    assert two.values.shape == (4, 4)
+    assert (
+        response_scene(r, two).title
+        == "Response of effort.O2 to links.coupler.mass and links.crank.points.A.0"
+    )
+    with pytest.raises(da.ModelError, match="does not vary"):
+        r.study.response("effort.O2", "links.rocker.mass")
+
+
+def test_capability_is_the_distance_of_the_nearer_limit() -> None:
+    """Of T = m g c + F with limits at equal distances both count; three sigma to the nearer one is Cpk 1."""
+    r = arm().run()
+    mean, sigma = (float(of(r.values("effort.O"))) for of in (np.mean, np.std))
+    assert r.capability("effort.O", f"< {mean + 3 * sigma} N*m") == pytest.approx(1.0, rel=1e-9)
+    both = f"{mean - 2 * sigma}..{mean + 9 * sigma} N*m"
+    assert r.capability("effort.O", both) == pytest.approx(2 / 3, rel=1e-9)
+
+
+def test_the_page_says_what_the_designs_say(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    s = da.study(
+        da.load(examples()["pump"]),
+        {"stroke": "± 0.5 mm", "pressure": "5.5..6.5 MPa"},
+        ["effort.O", "reaction.A"],
+        designs=300,
+        limits={"effort.O": "< 380 N*m"},
+    )
+    r = s.run(tmp_path / "p.zarr")
+    assert main(["study", "report", str(tmp_path / "p.zarr"), "-o", str(tmp_path / "p.txt")]) == 0
+    text = (tmp_path / "p.txt").read_text()
+    for said in (
+        f"{r.share('effort.O', '< 380 N*m'):.4%}",
+        f"{r.capability('effort.O', '< 380 N*m'):.3f}",
+        f"least: design {r.best('effort.O')}",
+        f"greatest: design {r.worst('effort.O')}",
+        "Worst case",
+        "[drawing: Response of effort.O to pressure and stroke]",
+        "several numbers a design or none: reaction.A",
+    ):
+        assert said in " ".join(text.split()) or said in text, said
+    assert main(["study", "report", str(tmp_path / "p.zarr"), "-o", str(tmp_path / "p.txt")]) == 2
+    assert "p.txt" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (
+            {"correlation": {("links.coupler.mass", "links.crank.points.A.0"): 0.5}},
+            "No contributions: shares of",
+        ),
+        ({"reduce": "argpeak"}, "No contributions: reduced by argpeak"),
+        ({"reduce": None}, "several numbers a design or none: effort.O2"),
+        ({"draw": {"links.coupler.mass": [1.0, 2.0, 3.0]}}, "The designs of a table of links.coupler.mass"),
+    ],
+)
+def test_pages_of_other_studies(options: dict[str, Any], said: str) -> None:
+    vary = {} if "draw" in options else {"links.coupler.mass": "± 5 %", "links.crank.points.A.0": "± 2 %"}
+    r = da.study(da.four_bar(), vary, ["effort.O2"], designs=20, positions=12, **options).run()
+    assert said in " ".join(str(r.report()).split())
+
+
+def test_a_page_of_designs_that_fail() -> None:
+    """A crank that grows until the loop is open: those are counted with their sentence, and keep no limit."""
+    vary = {"links.crank.points.A.0": "0.08..0.3 m"}
+    r = da.study(da.four_bar(), vary, ["effort.O2"], designs=60, limits={"effort.O2": "< 1 kN*m"}).run()
+    failed = 60 - int(r.ok.sum())
+    assert 0 < failed < 60
+    text = str(r.report())
+    assert re.search(rf"not_assembled\s+{r.counts()['not_assembled']}\s", text)
+    assert "First: design" in " ".join(text.split())
+    assert r.shares()["effort.O2 < 1 kN*m"] <= 1 - failed / 60
