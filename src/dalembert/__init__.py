@@ -138,6 +138,7 @@ if TYPE_CHECKING:
     )
     from dalembert.optimization.optimizing import optimize
     from dalembert.optimization.optimum import Optimum
+    from dalembert.optimization.pareto_front import Front, pareto
     from dalembert.optimization.synthesis import Synthesis, synthesize
     from dalembert.pages.html_page import page
     from dalembert.pages.widget import widget
@@ -195,6 +196,7 @@ _NAMES = {
     ),
     "optimization.optimizing": "optimize",
     "optimization.optimum": "Optimum",
+    "optimization.pareto_front": "Front pareto",
     "optimization.synthesis": "Synthesis synthesize",
     "pages.html_page": "page",
     "pages.widget": "widget",
@@ -234,6 +236,7 @@ __all__ = [
     "FlywheelSize",
     "ForceLoad",
     "FrictionDefaults",
+    "Front",
     "Gear",
     "GearFriction",
     "GuideFriction",
@@ -324,6 +327,7 @@ __all__ = [
     "order_of_solution",
     "other_solutions",
     "page",
+    "pareto",
     "radial_engine",
     "rccc",
     "report",

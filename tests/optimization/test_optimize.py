@@ -169,3 +169,33 @@ def test_wrong_files(tmp_path: Path, old: str, new: str, message: str) -> None:
 
     with pytest.raises(da.ModelError, match=re.escape(message)):
         optimize_file(written(tmp_path, FILE.replace(old, new, 1)))
+
+
+@pytest.mark.long
+def test_a_front_goes_from_one_aim_to_the_other() -> None:
+    """Its ends are the best designs by each aim alone; between them what one aim gains the other loses."""
+    box = {"links.coupler.center.1": (-0.1, 0.1), "links.rocker.center.0": (0.05, 0.2)}
+    aims = ["effort.O2", "magnitude.B"]
+    front = da.pareto(da.four_bar(), box, aims, points=4, starts=4, positions=12)
+    first, second = (da.optimize(da.four_bar(), box, aim, starts=4, positions=12).value for aim in aims)
+    assert len(front.designs) == 4
+    assert front.values[0, 0] == pytest.approx(first, rel=1e-6)
+    assert front.values[-1, 1] == pytest.approx(second, rel=1e-6)
+    assert (np.diff(front.values[:, 0]) > 0).all()
+    assert (np.diff(front.values[:, 1]) < 0).all()
+    for design, values in zip(front.designs, front.values, strict=True):
+        r = da.solve(design.mechanism, positions=12)
+        assert [np.abs(r[aim]).max() for aim in aims] == pytest.approx(values, rel=1e-9)
+    assert "magnitude.B" in str(front)
+    with pytest.raises(da.ModelError, match="name the peak second"):
+        da.pareto(da.four_bar(), box, ["effort.O2", "rms magnitude.B"])
+
+
+def test_the_page_of_an_optimum_has_both_designs(tmp_path: Path) -> None:
+    best = da.optimize(da.four_bar(), BOX, "peak effort.O2", WHERE, starts=3, positions=12)
+    da.report(best).save(tmp_path / "best.txt")
+    text = (tmp_path / "best.txt").read_text()
+    for row in [*best.number_rows(), *best.aim_rows()]:
+        assert all(cell in text for cell in row)
+    assert text.count("[drawing: Four-bar linkage") == 2
+    assert "[drawing: effort.O2 over the cycle]" in text

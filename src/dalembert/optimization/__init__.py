@@ -9,5 +9,6 @@ polishing         the best of them, each by itself: the least largest value t wi
 optimizing        ``da.optimize``: starts, search, discrete steps, the best that keeps every condition
 optimize_file     the same from a file beside the model file
 synthesis         ``da.synthesize``: outputs that take given values, by least squares
+pareto_front      ``da.pareto``: designs between two aims
 optimum           what was found, before and after
 """

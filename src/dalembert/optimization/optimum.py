@@ -12,7 +12,7 @@ from dalembert.analysis.result.named_quantities import quantity
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array
 from dalembert.model import Mechanism
-from dalembert.optimization.aims import Aim, Condition
+from dalembert.optimization.aims import Aim, Condition, parse_aim
 from dalembert.printing import number, table, wrap
 
 
@@ -53,29 +53,48 @@ class Optimum:
         """Write the mechanism found as a model file, in the author's text where it came from one."""
         self.mechanism.save(path, overwrite)
 
-    def _sizes(self, r: Result) -> list[float]:
+    def size_of(self, aim: Aim, r: Result | None = None) -> float:
+        """Any aim of the design found, or of another result, SI."""
         from dalembert.analysis.batch.over_positions import reduce_positions
 
-        aim = [float(reduce_positions(self.aim.word, r[self.aim.of])) if len(r.status) else np.nan]
-        return aim + [float(r[c.margin].min()) for c in self.conditions]
+        values = (self.after if r is None else r)[aim.of]
+        return float(reduce_positions(aim.word, values)) if len(values) else np.nan
 
-    def __str__(self) -> str:
-        """Before and after, in the units of the file."""
-        to = Printed(self.mechanism.units)
+    def aim_text(self, text: str) -> str:
+        """An aim of the design found, in words, in the unit of the file."""
+        aim, to = parse_aim(text), Printed(self.mechanism.units)
+        return to.quantity(quantity(self.after, aim.of).kind, self.size_of(aim))
 
-        def row(name: str, kind: str, *values: float) -> list[str]:
-            unit = to.text(kind)
-            shown = [number(float(to(kind, v))) for v in values]
-            return [f"{name} [{unit}]" if unit not in ("", "1") else name, *shown]
+    def _sizes(self, r: Result) -> list[float]:
+        return [self.size_of(self.aim, r), *(float(r[c.margin].min()) for c in self.conditions)]
 
+    def number_rows(self) -> list[list[str]]:
+        """Name with unit of each number, before, after, and its bounds, in the units of the file."""
         columns = zip(self.numbers, self.kinds, self.nominal, self.values, *self.bounds.T, strict=True)
-        rows = [row(name, kind, *values) for name, kind, *values in columns]
+        return [self._row(name, kind, *values) for name, kind, *values in columns]
+
+    def aim_rows(self) -> list[list[str]]:
+        """The aim, and the room that each condition has left, before and after."""
         names = [f"{self.aim.word} {self.aim.of}", *(f"room of {c.text}" for c in self.conditions)]
         kinds = [quantity(self.after, e).kind for e in (self.aim.of, *(c.margin for c in self.conditions))]
         both = zip(names, kinds, self._sizes(self.before), self._sizes(self.after), strict=True)
-        judged = [row(*each) for each in both]
-        words = f"{self.found} of the {self.polished} best of {self.started} starts came to this design."
+        return [self._row(*each) for each in both]
+
+    def _row(self, name: str, kind: str, *values: float) -> list[str]:
+        to = Printed(self.mechanism.units)
+        unit = to.text(kind)
+        shown = [number(float(to(kind, v))) for v in values]
+        return [f"{name} [{unit}]" if unit not in ("", "1") else name, *shown]
+
+    @property
+    def words(self) -> str:
+        """How sure it is."""
         if not self.feasible:
-            words = "No design was found that keeps every condition; this one lacks least."
-        tables = [table(["", "before", "after", "from", "to"], rows), table(["", "before", "after"], judged)]
-        return "\n\n".join([*tables, wrap(words)])
+            return "No design was found that keeps every condition; this one lacks least."
+        return f"{self.found} of the {self.polished} best of {self.started} starts came to this design."
+
+    def __str__(self) -> str:
+        """Before and after, in the units of the file."""
+        heads = ["", "before", "after"]
+        tables = [table([*heads, "from", "to"], self.number_rows()), table(heads, self.aim_rows())]
+        return "\n\n".join([*tables, wrap(self.words)])

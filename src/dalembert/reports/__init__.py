@@ -69,7 +69,7 @@ def report(
     about: str = "",
 ) -> Report:
     """The worked solution of one position of a result, of a force system of `da.wrench`, or of an answer of machine
-    design (`da.shaking`, `da.balance`, `da.flywheel`), of which ``notation`` alone is asked.
+    design (`da.shaking`, `da.balance`, `da.flywheel`) or of `da.optimize`, of which ``notation`` alone is asked.
 
     ``methods``: some of `matrix`, `graphical` (in the plane), `superposition`, `virtual-work`; all by default.
     ``about``: a joint to take moments about where a link has it; one that is not there is a ModelError. Of a force
@@ -82,9 +82,7 @@ def report(
 
         return Report(force_system_sheet(r, at, notation))
     if not hasattr(r, "joints"):
-        from dalembert.reports.machine_sections import machine_sheet
-
-        return Report(machine_sheet(r, notation))
+        return Report(_answer_sheet(r, notation))
     from dalembert.errors import ModelError
     from dalembert.reports.report_context import METHODS
     from dalembert.reports.working import working
@@ -93,3 +91,12 @@ def report(
     if about and about not in r.joints:
         raise ModelError(f"there is no joint {about!r} to take moments about", closest(about, list(r.joints)))
     return Report(working(r, at, tuple(methods or METHODS), notation, about))
+
+
+def _answer_sheet(answer: Any, notation: Notation | None) -> Sheet:
+    from dalembert.optimization.optimum import Optimum
+    from dalembert.reports.machine_sections import machine_sheet
+    from dalembert.reports.machine_sections.optimum_section import optimum_sheet
+
+    make = optimum_sheet if isinstance(answer, Optimum) else machine_sheet
+    return make(answer, notation)

@@ -10,7 +10,7 @@ from dalembert.cli.options import output as output_to
 
 OPTIMIZE = """Examples:
   dalembert optimize optimize.yaml
-  dalembert optimize optimize.yaml -o best.yaml
+  dalembert optimize optimize.yaml -o best.yaml --report best.html
 
 optimize.yaml:
   model: press.yaml
@@ -30,16 +30,22 @@ def optimize(
     output: Annotated[
         Path | None, output_to("Write the model file of the design found here: .yaml, .json, .toml.")
     ] = None,
+    report: Annotated[
+        Path | None, with_help("Write a page of before and after here: .html, .pdf, .tex or .txt.")
+    ] = None,
     force: Force = False,
 ) -> int:
     """Find the numbers of a model file for which something is least, within bounds and conditions."""
     from dalembert.optimization.optimize_file import optimize_file
+    from dalembert.reports import report as write_report
     from dalembert.saving import check_new
 
-    if output is not None:
-        check_new(output, force)
+    for file_to_write in filter(None, (output, report)):
+        check_new(file_to_write, force)
     found = optimize_file(file)
     print(found)
     if output is not None:
         found.save(output, force)
+    if report is not None:
+        write_report(found).save(report, force)
     return 0 if found.feasible else 1

@@ -1,0 +1,90 @@
+"""``da.pareto``: designs of which none is better by one aim without being worse by the other.
+
+The epsilon-constraint method (Haimes, Lasdon and Wismer, 1971): the first aim is made least while the second stays
+below a bound, for some bounds between what the best designs by each aim alone have.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.model import Mechanism
+from dalembert.optimization.aims import parse_aim
+from dalembert.optimization.optimizing import Bounds, optimize
+from dalembert.optimization.optimum import Optimum
+from dalembert.printing import table
+
+AS_GOOD = 1e-6
+"""Part of an aim within which a design counts as no better."""
+
+
+@dataclass(frozen=True)
+class Front:
+    """Designs from the best by the first aim to the best by the second; ``values`` (design, aim), SI."""
+
+    aims: tuple[str, str]
+    designs: tuple[Optimum, ...]
+    values: Array
+
+    def __str__(self) -> str:
+        """Both aims and the numbers of each design, in the units of the file."""
+        rows = [
+            [o.aim_text(aim) for aim in self.aims] + [row[2] for row in o.number_rows()] for o in self.designs
+        ]
+        return table([*self.aims, *(row[0] for row in self.designs[0].number_rows())], rows)
+
+
+def pareto(
+    mechanism: Mechanism,
+    vary: Bounds,
+    least: Sequence[str],
+    where: str | Sequence[str] = (),
+    points: int = 7,
+    **options: Any,
+) -> Front:
+    """A front of some points between two aims, of which the second is a peak; all else as in `da.optimize`.
+
+    Raises ModelError where the second aim is no peak, or where no design keeps the conditions.
+
+    >>> import dalembert as da
+    >>> front = da.pareto(
+    ...     da.four_bar(), {"links.rocker.points.B.0": (0.2, 0.28)}, ["effort.O2", "magnitude.O4"], points=3, starts=4
+    ... )
+    >>> bool((np.diff(front.values[:, 0]) > 0).all() and (np.diff(front.values[:, 1]) < 0).all())
+    True
+    """
+    if isinstance(least, str) or len(least) != 2 or points < 2:
+        raise ModelError(
+            "a front is between two aims, of 2 points or more", 'give ["effort.O2", "magnitude.A"]'
+        )
+    first, second = (parse_aim(text) for text in least)
+    if second.word != "peak":
+        raise ModelError(f"{least[1]!r} is no peak, which alone can be bounded", "name the peak second")
+    rules = [where] if isinstance(where, str) else list(where)
+    ends = [optimize(mechanism, vary, aim, rules, **options) for aim in least]
+    high, low = (end.size_of(second) for end in ends)
+    between = [
+        optimize(mechanism, vary, least[0], [*rules, f"peak {second.of} <= {float(bound)!r}"], **options)
+        for bound in np.linspace(high, low, points)[1:-1]
+    ]
+    found = [o for o in (ends[0], *between, ends[1]) if o.feasible]
+    if not found:
+        raise ModelError("no design keeps every condition", "widen the bounds, or leave a condition out")
+    values = np.array([[o.size_of(first), o.size_of(second)] for o in found])
+    kept = _undominated(values)
+    return Front((least[0], least[1]), tuple(found[k] for k in kept), values[kept])
+
+
+def _undominated(values: Array) -> list[int]:
+    """Rows, by the first column, that no other one betters in one column and equals in the other."""
+    out = list[int]()
+    for k in np.lexsort((values[:, 1], values[:, 0])).tolist():
+        if not out or values[k, 1] < values[out[-1], 1] * (1 - AS_GOOD):
+            out.append(k)
+    return out
