@@ -15,6 +15,7 @@ from dalembert.analysis.batch.batch_result import SOLVED
 from dalembert.analysis.batch.kernel_export import WasmModule
 from dalembert.analysis.methods.applied_forces import whole_actions
 from dalembert.bundled import cases, examples
+from dalembert.model.library import TEMPLATES, template_text
 from dalembert.pages.page_data import page_data
 from dalembert.pages.sweep import with_cycle
 from tests.kernel.wasm_runs import run_wasm
@@ -84,6 +85,16 @@ def test_every_number_is_that_of_the_analyses(name: str) -> None:
             )
     assert seen or not largest
     assert set(out[-1][[s == "ok" for s in r.status]]) <= {0.0, 2.0}
+
+
+@pytest.mark.parametrize("name", tiers(["slider_crank"], sorted(set(TEMPLATES) - {"slider_crank"})))
+def test_a_file_from_a_template_is_a_page_with_handles(name: str) -> None:
+    """Parameters that say where a drive stands are no sliders, and keep no other from being one."""
+    m = da.loads(template_text(name))
+    data = page_data(m)
+    assert data["handles"] or name == "bevel_differential"  # whose wheels all turn about one point
+    assert "mass_per_length" in {n["path"] for n in data["numbers"]} or "mass_per_length" not in m.parameters
+    assert not {n["path"] for n in data["numbers"]} & {"sweep_start", "sweep_end"}
 
 
 def test_equations_of_a_free_body_add_up() -> None:

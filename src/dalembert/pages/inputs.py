@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dalembert.analysis.batch.compiled_kernel import Kernel
-from dalembert.analysis.batch.tracing.symbolic_model import number_kinds
+from dalembert.analysis.batch.tracing.symbolic_model import may_vary, number_kinds
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.arrays import Array, Tree
 from dalembert.model import GROUND, Mechanism
@@ -25,7 +25,8 @@ from dalembert.views.notation import pretty
 
 def numbers_of(m: Mechanism) -> list[str]:
     """Paths of the numbers that a reader may change: parameters, geometry, masses, loads, friction, speeds."""
-    free = [name for name, p in m.parameters.items() if not isinstance(p.value, Dependent)]
+    own = (name for name, p in m.parameters.items() if not isinstance(p.value, Dependent))
+    free = [name for name in own if may_vary(m, name)]
     return free + [path for path, value in _candidates(m) if _plain(value) and not _follows(m, path)]
 
 
@@ -194,9 +195,11 @@ class _Handles:
                 continue
             held = zip(joint.links, names, strict=True)
             points = [x for link, point in held for x in self.b.known.mechanism.point(link, point)]
-            by = [self.places[name] for name in _sources(self.b.known.mechanism, points)]
-            if by:
-                yield {"kind": "joint", "name": name, "p": self.b.items.at(name), "ends": [], "by": by}
+            sources = _sources(self.b.known.mechanism, points)
+            if sources:
+                by = [self.places[source] for source in sources if source in self.places]
+                at = self.b.items.at(name)
+                yield from [{"kind": "joint", "name": name, "p": at, "ends": [], "by": by}] if by else []
                 continue
             own = [
                 (link, path)

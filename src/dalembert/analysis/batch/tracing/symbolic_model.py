@@ -74,6 +74,15 @@ def _parameter(m: Mechanism, name: str) -> Number:
     return Number(name, float(m.parameters[name].value), parameter=True)
 
 
+def may_vary(m: Mechanism, name: str) -> bool:
+    """Whether a parameter may vary: none that says where a drive stands."""
+    try:
+        _parameter(m, name)
+    except ModelError:
+        return False
+    return True
+
+
 def refuse_twofold(m: Mechanism, given: list[Number]) -> None:
     """Raise ModelError for a number that follows from a parameter given beside it."""
     for parameter in (n for n in given if n.parameter):
