@@ -59,11 +59,15 @@ class Outputs:
         targets = {name: getattr(self, name) for name in ("json", "csv", "drawing", "report")}
         check_targets(file, targets, self.force)
 
-    def deliver(self, answer: Answer, **choice: Any) -> None:
-        """Print and write an answer of ``machine``; with a choice of what is printed."""
+    def deliver(self, m: Mechanism, find: Callable[[], Any], **choice: Any) -> Any:
+        """Find, print and write an answer of ``machine``, with a choice of what is printed."""
         from dalembert.machine.output import written
         from dalembert.saving import new_file
 
+        try:
+            answer = find()
+        except ModelError as error:
+            raise error.at_source(m.source) from None
         units: Literal["SI", "file"] = "file" if self.units == "file" else "SI"
         silent = False
         for path, write in ((self.json, written.write_json), (self.csv, written.write_csv)):
@@ -83,6 +87,7 @@ class Outputs:
         for path in (self.json, self.csv, self.drawing, self.report):
             if path is not None and str(path) != "-":
                 print(f"Written: {path}", file=sys.stderr)
+        return answer
 
     def _draw(self, answer: Answer) -> None:
         from dalembert.reports import report
@@ -134,8 +139,8 @@ def shake(
 
     out.check(file)
     result = solve_over_a_turn(file, static, positions, changes)
-    found = shaking(result, _point(result.mechanism, about), links)
-    out.deliver(found, orders=orders)
+    m = result.mechanism
+    found = out.deliver(m, lambda: shaking(result, _point(m, about), links), orders=orders)
     if np.isfinite(found.force).all():
         return 0
     from dalembert.analysis.output.summary.printed_answer import problems_text
@@ -173,11 +178,7 @@ def flywheel(
     out.check(file)
     result = solve_over_a_turn(file, static, positions, changes)
     given = None if inertia is None else quantity(inertia, "inertia", file_units(result.mechanism.units))
-    try:
-        found = flywheels.flywheel(result, None, cs, given)
-    except ModelError as error:
-        raise error.at_source(result.mechanism.source) from None
-    out.deliver(found)
+    out.deliver(result.mechanism, lambda: flywheels.flywheel(result, None, cs, given))
     return 0
 
 
@@ -226,15 +227,11 @@ def balance(
     if output is not None:
         check_new(output, out.force)
     m = load_model(file, changes)
-    try:
-        weights = dict(bounds_of(m, text) for text in on)
-        found = balanced(m, weights, least, sum_of(of), _point(m, about), positions)
-    except ModelError as error:
-        raise error.at_source(m.source) from None
+    weights = dict(bounds_of(m, text) for text in on)
+    found = out.deliver(m, lambda: balanced(m, weights, least, sum_of(of), _point(m, about), positions))
     if output is not None:
         found.mechanism.save(output, out.force)
         print(f"Written: {output}", file=sys.stderr)
-    out.deliver(found)
     return 0
 
 
@@ -273,10 +270,8 @@ def simulate(
 
     out.check(file)
     m = load_model(file, changes)
-    found = simulation.simulate(
-        m, until, events=event or (), count=count, tolerance=tolerance or simulation.TOLERANCE
-    )
-    out.deliver(found)
+    small = tolerance or simulation.TOLERANCE
+    found = out.deliver(m, lambda: simulation.simulate(m, until, None, event or (), count, tolerance=small))
     return 1 if found.ended.startswith("stopped") else 0
 
 

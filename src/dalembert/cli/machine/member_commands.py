@@ -10,7 +10,6 @@ from cyclopts import Parameter
 
 from dalembert.cli.machine.machine_commands import NO_OUTPUTS, Outputs, solve_over_a_turn
 from dalembert.cli.options import AS_IN_FILE, Changes, ModelFile, Positions, Static, with_help
-from dalembert.errors import ModelError
 
 
 def members(
@@ -33,11 +32,7 @@ def members(
 
     out.check(file)
     result = solve_over_a_turn(file, static, positions, changes)
-    try:
-        found = member_table(result, links)
-    except ModelError as error:
-        raise error.at_source(result.mechanism.source) from None
-    out.deliver(found)
+    out.deliver(result.mechanism, lambda: member_table(result, links))
     return 0
 
 
@@ -71,11 +66,7 @@ def bearings(
 
     out.check(file)
     result = solve_over_a_turn(file, static, positions, changes)
-    try:
-        found = bearing_table(result, joints, hours, table, factor, safety)
-    except ModelError as error:
-        raise error.at_source(result.mechanism.source) from None
-    out.deliver(found)
+    out.deliver(result.mechanism, lambda: bearing_table(result, joints, hours, table, factor, safety))
     return 0
 
 
@@ -112,11 +103,10 @@ def motor(
     result = solve_over_a_turn(file, static, positions, changes)
     units = file_units(result.mechanism.units)
     own, lasting = quantity(inertia, "inertia", units), rated and quantity(rated, "moment", units)
-    try:
-        found = motor_choice.motor(result, drive, own, ratio, efficiency, curve, lasting or None)
-    except ModelError as error:
-        raise error.at_source(result.mechanism.source) from None
-    out.deliver(found)
+    out.deliver(
+        result.mechanism,
+        lambda: motor_choice.motor(result, drive, own, ratio, efficiency, curve, lasting or None),
+    )
     return 0
 
 

@@ -15,7 +15,13 @@ from dalembert.analysis.solution import dynamics
 from dalembert.arrays import Array, Tree
 from dalembert.errors import AnalysisError, ModelError
 from dalembert.machine.balance.balance_problem import Problem, Solved
-from dalembert.machine.balance.counterweights import Counterweight, Wanted, base_point, counterweights
+from dalembert.machine.balance.counterweights import (
+    Counterweight,
+    Wanted,
+    base_point,
+    counterweights,
+    with_masses,
+)
 from dalembert.machine.balance.mass_columns import mass_columns
 from dalembert.machine.output.answer import Answer
 from dalembert.machine.output.written import greatest, rms
@@ -201,7 +207,14 @@ def balance(
     found = problem.solve(least, wanted)
     numbers = found.numbers.reshape(-1, 4)
     placed = {link: _placed(r, link, w, p) for (link, w), p in zip(asked.items(), numbers, strict=True)}
-    after = shaking(at_schedule(_with_weights(r.mechanism, placed), r.schedule, r.inertia), about)
+    after = shaking(
+        at_schedule(
+            with_masses(r.mechanism, {link: [(p.mass, p.center, p.inertia)] for link, p in placed.items()}),
+            r.schedule,
+            r.inertia,
+        ),
+        about,
+    )
     off = _difference(after, found, problem, drive)
     return Balance(
         r, asked, least, wanted, placed, numbers, found.value, found.bound, before, after, off, problem
@@ -250,23 +263,6 @@ def _placed(r: Result, link: str, w: Counterweight, p: Array) -> Placed:
     inertia = max(float(p[3]) - (moment**2 / mass if mass > 0 else 0.0), 0.0)
     radius = w.disc_of(moment) if w.disc is not None else None
     return Placed(mass, center, inertia, moment, math.atan2(p[2], p[1]) if moment else 0.0, radius)
-
-
-def _with_weights(m: Mechanism, placed: dict[str, Placed]) -> Mechanism:
-    values: Tree = {}
-    for link, p in placed.items():
-        old, at = m.mass(link), np.array(m.center(link))
-        mass = old + p.mass
-        if p.mass <= 0:
-            continue
-        center = (old * at + p.mass * p.center) / mass
-        own = [old * ((at - center) ** 2).sum(), p.mass * ((p.center - center) ** 2).sum()]
-        if m.links[link].shapes:
-            values[f"links.{link}.shape"] = None
-        values[f"links.{link}.mass"] = mass
-        values[f"links.{link}.center"] = [float(x) for x in center]
-        values[f"links.{link}.inertia"] = float(m.inertia(link)) + p.inertia + float(sum(own))
-    return m.with_values(values)
 
 
 def _force_left(r: Result, links: list[str]) -> float:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.compile.load_arrays import point_of
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.model import GROUND
 from dalembert.wording import closest
@@ -118,3 +118,27 @@ def _pivot(m: Mechanism, link: str) -> str | None:
         if set(joint.links) == {GROUND, link}:
             return str(joint.point_names(name)[joint.links.index(link)])
     return None
+
+
+def with_masses(m: Mechanism, added: Mapping[str, Sequence[tuple[float, Array, float | Array]]]) -> Mechanism:
+    """The description with further masses, kg, on its links, each with centre and inertia about it, link axes."""
+    values: Tree = {}
+    for link, masses in added.items():
+        own = np.asarray(m.inertia(link), float)
+        own = own if m.dimension == 2 or own.ndim == 2 else np.diag(np.broadcast_to(own, 3))
+        parts = [(m.mass(link), np.array(m.center(link)), own), *(p for p in masses if p[0] > 0)]
+        if len(parts) == 1:
+            continue
+        mass = sum(w for w, *_ in parts)
+        center = sum((w * c for w, c, _ in parts), np.zeros(m.dimension)) / mass
+        inertia = sum((i + w * _spread(c - center) for w, c, i in parts), np.zeros_like(own))
+        values |= {f"links.{link}.shape": None} if m.links[link].shapes else {}
+        values |= {f"links.{link}.mass": float(mass), f"links.{link}.center": center.tolist()}
+        values[f"links.{link}.inertia"] = ((inertia + inertia.T) / 2).tolist()
+    return m.with_values(values)
+
+
+def _spread(arm: Array) -> Array:
+    """Inertia of a unit mass at an arm: a number in the plane, a matrix in space."""
+    square = np.asarray(arm @ arm)
+    return square if len(arm) == 2 else square * np.eye(3) - np.outer(arm, arm)

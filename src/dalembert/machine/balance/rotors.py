@@ -15,8 +15,9 @@ import numpy as np
 from dalembert.analysis.methods.applied_forces import joint_place, state
 from dalembert.analysis.methods.inertia_couples import inertia_matrix
 from dalembert.analysis.solution import kinematics
-from dalembert.arrays import Array, Tree
+from dalembert.arrays import Array
 from dalembert.errors import ModelError
+from dalembert.machine.balance.counterweights import with_masses
 from dalembert.model import GROUND
 
 if TYPE_CHECKING:
@@ -44,20 +45,8 @@ class RotorBalance:
     @property
     def mechanism(self) -> Mechanism:
         """The description with both corrections as point masses on the shaft."""
-        m, link = self.mechanism_before, self.shaft
-        given = m.inertia(link)
-        own = np.array(given if np.ndim(given) == 2 else np.diag(np.broadcast_to(given, 3)), float)
-        parts = [(m.mass(link), np.array(m.center(link)), own)]
-        parts += [(float(w), c, np.zeros((3, 3))) for w, c in zip(self.masses, self.centers, strict=True)]
-        mass = sum(w for w, *_ in parts)
-        center = sum((w * c for w, c, _ in parts), np.zeros(3)) / mass
-        inertia = np.zeros((3, 3))
-        for w, c, i in parts:
-            arm = c - center
-            inertia += i + w * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-        values: Tree = {f"links.{link}.shape": None} if m.links[link].shapes else {}
-        values |= {f"links.{link}.mass": float(mass), f"links.{link}.center": center.tolist()}
-        return m.with_values({**values, f"links.{link}.inertia": ((inertia + inertia.T) / 2).tolist()})
+        masses = [(float(w), c, np.zeros((3, 3))) for w, c in zip(self.masses, self.centers, strict=True)]
+        return with_masses(self.mechanism_before, {self.shaft: masses})
 
 
 def balance_rotor(m: Mechanism, planes: tuple[float, float], radii: Sequence[float]) -> RotorBalance:

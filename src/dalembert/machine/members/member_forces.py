@@ -26,8 +26,12 @@ if TYPE_CHECKING:
 
 ORDER = ("axial", "shear", "shear z", "torsion", "bending y", "bending")
 """Rows of the inner forces: N, V_y, V_z, T, M_y, M_z."""
-KINDS = ("force", "force", "force", "moment", "moment", "moment")
 IN_PLANE = ("axial", "shear", "bending")
+
+
+def kind_of(of: str) -> str:
+    """Kind of one of ``ORDER``."""
+    return "force" if ORDER.index(of) < 3 else "moment"
 
 
 @dataclass(frozen=True)
@@ -152,12 +156,9 @@ class MemberForces:
         for curve in self.curves:
             name = self.link if len(self.curves) == 1 else f"{self.link} {curve.name}"
             for of in self.names:
-                kind = KINDS[ORDER.index(of)]
-                for word, values, places in zip(
-                    ("least", "greatest"), curve.extremes(of)[::2], curve.extremes(of)[1::2], strict=True
-                ):
-                    yield Column(f"{of} {name} {word}", kind, values)
-                    yield Column(f"{of} {name} {word} at", "length", places)
+                for k, found in enumerate(curve.extremes(of)):
+                    word, kind = ("least", "greatest")[k // 2], "length" if k % 2 else kind_of(of)
+                    yield Column(f"{of} {name} {word}{' at' * (k % 2)}", kind, found)
         yield Column(f"residual {self.link}", "number", self.residual)
 
     def record(self, to: Scale) -> Tree:
@@ -165,13 +166,8 @@ class MemberForces:
         out: Tree = {}
         for of in self.names:
             value, member, place, k = self.largest(of)
-            kind = KINDS[ORDER.index(of)]
-            out[of] = {
-                "largest": to(kind, value),
-                "member": member,
-                "at": to("length", place),
-                "position": k + 1,
-            }
+            found = {"largest": to(kind_of(of), value), "member": member, "at": to("length", place)}
+            out[of] = found | {"position": k + 1}
         return out
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -128,9 +128,7 @@ def _with_mass(m: Mechanism, link: str, found: list[Straight]) -> list[Straight]
     part = m.links[link]
     if part.mass_along == "uniform":
         density = m.mass(link) / sum(e.length for e in found)
-        return [
-            Straight(e.ends, e.start, e.length, e.axes, (MassPiece(0.0, e.length, density),)) for e in found
-        ]
+        return [replace(e, mass=(MassPiece(0.0, e.length, density),)) for e in found]
     if part.mass_along == "lumped":
         return found
     pieces: list[list[MassPiece]] = [[] for _ in found]
@@ -146,7 +144,7 @@ def _with_mass(m: Mechanism, link: str, found: list[Straight]) -> list[Straight]
                     low, high = (float(np.clip(s + x * length / 2, 0.0, e.length)) for x in (-1, 1))
                     if high > low:
                         own.append(MassPiece(low, high, mass / length))
-    return [Straight(e.ends, e.start, e.length, e.axes, tuple(p)) for e, p in zip(found, pieces, strict=True)]
+    return [replace(e, mass=tuple(p)) for e, p in zip(found, pieces, strict=True)]
 
 
 def _prisms(shape: Any, points: Any) -> list[tuple[Array, Array, float]]:

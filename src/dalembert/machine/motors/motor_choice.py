@@ -99,7 +99,7 @@ class MotorChoice(Answer):
         """The ratio of least rms torque: n^2 = rms(T) / rms(J_m alpha); None where there is none."""
         going, load = (
             self.motor_inertia * self.rms(self.acceleration),
-            self.rms(self.torque(1.0) - self._own()),
+            self.rms(self.torque(1.0) - self.motor_inertia * self.acceleration),
         )
         return math.sqrt(load / going) if going * load > 0 else None
 
@@ -117,9 +117,6 @@ class MotorChoice(Answer):
         )  # fmt: skip
         return float(near * math.exp(found.x))
 
-    def _own(self) -> Array:
-        return self.motor_inertia * self.acceleration
-
     def columns(self) -> Iterator[Column]:
         """The drives' positions; what the drive needs, and the motor behind each ratio."""
         yield from self.drive_columns()
@@ -134,22 +131,16 @@ class MotorChoice(Answer):
     def record(self, to: Scale) -> Tree:
         """Rms and greatest values, and the ratios, in the units of a scale."""
         kind = drive_kinds(self.result, self.drive)["effort"]
-        values = {
-            "rms": self.rms(self.effort),
-            "greatest": np.abs(self.effort).max(),
-            "mean": self.mean(self.effort),
-        }
-        power = {
-            "greatest": to("power", np.abs(self.power).max()),
-            "mean": to("power", self.mean(self.power)),
-        }
+        out: Tree = {"drive": self.drive}
+        for name, unit, values in (("effort", kind, self.effort), ("power", "power", self.power)):
+            sizes = {"greatest": np.abs(values).max(), "rms": self.rms(values), "mean": self.mean(values)}
+            out[name] = {what: to(unit, value) for what, value in sizes.items()}
         units = {"rms": "moment", "torque": "moment", "speed": "angular_speed"}
-        ratios = {
+        out["ratios"] = {
             name: {k: to(units[k], v) if k in units else v for k, v in vars(need).items()}
             for name, need in self.needs.items()
         }
-        effort = {name: to(kind, v) for name, v in values.items()}
-        return {"motor": {"drive": self.drive, "effort": effort, "power": power, "ratios": ratios}}
+        return {"motor": out}
 
 
 def motor(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from dalembert.analysis.output.summary.printed_series import where
 from dalembert.analysis.output.summary.printed_units import Printed
-from dalembert.machine.members.member_forces import KINDS, ORDER
+from dalembert.machine.members.member_forces import ORDER, kind_of
 from dalembert.printing import Part, Table, number, remainder
 
 if TYPE_CHECKING:
@@ -22,9 +22,9 @@ NONE = 1e-11
 
 def floors(f: MemberForces) -> dict[str, float]:
     """What of each inner force is nothing but rounding, by its kind."""
-    force = max(abs(f.largest(of)[0]) for of in f.names if KINDS[ORDER.index(of)] == "force")
+    force = max(abs(f.largest(of)[0]) for of in f.names if kind_of(of) == "force")
     length = sum(c.member.length for c in f.curves)
-    moment = max(abs(f.largest(of)[0]) for of in f.names if KINDS[ORDER.index(of)] == "moment")
+    moment = max(abs(f.largest(of)[0]) for of in f.names if kind_of(of) == "moment")
     return {"force": NONE * max(force, moment / length), "moment": NONE * max(force * length, moment)}
 
 
@@ -46,7 +46,7 @@ def _largest_rows(t: MemberTable, to: Printed) -> list[list[str]]:
     for link, f in t.links.items():
         least = floors(f)
         for of in f.names:
-            kind = KINDS[ORDER.index(of)]
+            kind = kind_of(of)
             value, member, place, k = f.largest(of)
             if abs(value) > least[kind] or math.isnan(value):
                 shown = [to.number(kind, value), to.text(kind), member, to.number("length", place)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from dalembert.arrays import Array
-from dalembert.machine.members.member_forces import KINDS, ORDER, MemberCurve, MemberForces
+from dalembert.machine.members.member_forces import ORDER, MemberCurve, MemberForces, kind_of
 from dalembert.machine.members.member_table import MemberTable
 from dalembert.machine.output.member_text import SIGNS, floors
 from dalembert.views.charts import curves_scene
@@ -25,14 +25,14 @@ def member_scenes(t: MemberTable, notation: Notation) -> list[Scene]:
         for curve in forces.curves:
             for of in forces.names:
                 size = np.nanmax(np.abs(curve.greatest(of)[0]), initial=0.0)
-                if size > least[KINDS[ORDER.index(of)]]:
+                if size > least[kind_of(of)]:
                     out.append(_diagram(forces, curve, of, shown))
     return out
 
 
 def _diagram(forces: MemberForces, curve: MemberCurve, of: str, shown: Shown) -> Scene:
     """One inner force over the distance along the member."""
-    kind, row = KINDS[ORDER.index(of)], ORDER.index(of)
+    kind, row = kind_of(of), ORDER.index(of)
     places, values = sampled(curve)
     values = values[:, :, row] / shown.size(kind)
     k = int(np.nanargmax(np.abs(curve.greatest(of)[0])))
