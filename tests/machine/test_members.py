@@ -15,6 +15,7 @@ from dalembert.analysis.methods.applied_forces import on_link, whole_actions
 from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.machine.members.link_balance import LinkBalance
+from dalembert.machine.members.member_table import member_table
 from tests.random_mechanisms import random_case
 from tests.random_space import random_case as random_in_space
 from tests.random_space import tree as tree_in_space
@@ -296,3 +297,11 @@ def test_a_link_cut_in_two_and_welded_says_what_it_carries(seed: int) -> None:
 @over(2, 100)
 def test_so_it_does_in_space(seed: int) -> None:
     check_cuts(da.mechanism(tree_in_space(random_in_space(seed))), seed)
+
+
+def test_diagrams_stand_on_the_links_to_scale() -> None:
+    """The arm's root: 6000 N and 120 N m drawn across it, and as numbers beside."""
+    scene = da.draw.machine(member_table(da.dynamics(da.loads(ARM))))
+    words = {text.text for text in scene.texts()}
+    assert {"6000 N", "120.0 N·m"} <= {w.replace("−", "") for w in words}
+    assert any("N: 1 mm = 500 N, + to the left of its member" in w for w in words)
