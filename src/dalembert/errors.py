@@ -42,7 +42,11 @@ class ModelError(DalembertError, ValueError):
         """The same error with file and line, if the description came from a file."""
         if source is None or self.file:
             return self
-        return ModelError(self.what, self.remedy, self.path, source.name, source.line(self.path))
+        return self.at_line(source.name, source.line(self.path))
+
+    def at_line(self, file: str, line: int) -> ModelError:
+        """The same error at a line of a file."""
+        return ModelError(self.what, self.remedy, self.path, file, line)
 
 
 @contextmanager

@@ -97,7 +97,10 @@ def test_an_exact_value_that_is_missed(run: Run, folder: Path) -> None:
             "{quantity: point, of: crank, value: [1, 2]}",
             "claims.yaml:33: 'crank' names no point of a moving link",
         ),
-        ("{quantity: effort, of: O2, value: 1, tolerance: x %}", "claims.yaml:33: 'x %' is no percentage"),
+        (
+            "{quantity: effort, of: O2, value: 1, tolerance: x %}",
+            "claims.yaml:33: 'x %' is no tolerance in percent",
+        ),
         (
             "{quantity: reaction, of: A, by: rocker, value: [1, 2]}",
             "claims.yaml:33: joint 'A' does not join 'rocker'; it joins crank and coupler",

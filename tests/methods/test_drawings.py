@@ -37,6 +37,35 @@ SHOWN = [
 VIEWS = ["mechanism", "free-bodies", "force-polygons", "motion", "superposition", "all"]
 
 
+@pytest.mark.parametrize("at", [1, 5, 20])
+def test_the_force_of_teeth_is_along_the_line_of_action(at: int) -> None:
+    """Its components are to scale, head to tail, the radial one tan(20 deg) of the other, inwards; the line of action touches both base circles."""
+    r = result("gear_train")
+    for panel in da.draw.teeth(r, at=at).items:
+        whole, around, radial = (a for a in Scene(panel.items).arrows() if a.kind == "force")
+        joint, per_mm = whole.of, math.hypot(*r.reaction(whole.of)[at - 1]) / whole.length
+        assert whole.value == pytest.approx(whole.length * per_mm)
+        assert radial.length == pytest.approx(around.length * math.tan(math.radians(20)))
+        assert radial.tail == pytest.approx(around.head)
+        assert radial.head == pytest.approx(whole.head)
+        circles = [c for c in panel.items if isinstance(c, Circle)]
+        pitch = [c for c in circles if c.role == "pitch"]
+        base = [c for c in circles if c.role == "grid"]
+        for one, other in zip(pitch, base, strict=True):
+            assert other.radius == pytest.approx(one.radius * math.cos(math.radians(20)))
+            dx, dy = (np.array(whole.head) - whole.tail) / whole.length
+            x, y = np.array(one.center) - whole.tail
+            assert abs(x * dy - y * dx) == pytest.approx(other.radius, rel=1e-6)
+        planet = next(c for c in pitch if c.radius == min(p.radius for p in pitch))
+        inwards = np.array(planet.center) - whole.tail
+        assert float(inwards @ (np.array(radial.head) - radial.tail)) > 0, joint
+
+
+def test_teeth_without_gears_are_refused() -> None:
+    with pytest.raises(da.ModelError, match="has no gears to draw; look at its free bodies"):
+        da.draw.teeth(result("four_bar"))
+
+
 def result(name: str, **options: Any) -> Any:
     return da.solve(da.load((cases() | examples())[name]), **options)
 

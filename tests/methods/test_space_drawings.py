@@ -15,6 +15,7 @@ import pytest
 import dalembert as da
 from dalembert.algebra import space
 from dalembert.arrays import Array
+from dalembert.bundled import examples
 from dalembert.machine.shaking import shaking_force
 from dalembert.model.joints.pairs import PAIRS
 from dalembert.views.paper.scene import Line, Polygon
@@ -204,6 +205,19 @@ def test_what_is_not_unique_stands_in_brackets() -> None:
     texts = [t.text for t in da.draw.free_body(solved("press"), "ram", at=4).texts()]
     assert any("not unique, least-norm values" in t for t in texts)
     assert any(t.startswith("(") and t.endswith(")") for t in texts)
+
+
+def test_loads_in_the_turn_of_a_joint_have_their_symbols_about_its_axis() -> None:
+    """A spiral in the plane across the axis, seen aslant."""
+    m = da.load(examples()["rssr"])
+    loads = {"coil": {"type": "torsion_spring", "joint": "C", "stiffness": "3 N*m/rad"}}
+    sprung = da.mechanism({**m.to_tree(), "loads": loads})
+    drawn = da.draw.mechanism(da.statics(sprung)).flat()
+    (spiral,) = (item for item in drawn if isinstance(item, Line) and item.role == "spring")
+    points = np.array(spiral.points)
+    assert len(points) > 40
+    flat = np.linalg.svd(points - points.mean(axis=0))[1]
+    assert 0.3 < flat[1] / flat[0] < 1.0
 
 
 def test_near_things_cover_far_ones() -> None:

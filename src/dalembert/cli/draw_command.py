@@ -96,7 +96,9 @@ def _first_page(r: Result, at: str | None, notation: Notation, camera: Any) -> t
         else:
             left.append(name)
     left += ["friction"] if r.friction is not None else []
-    return whole, left + (["motion"] if r.mechanism.dimension == 2 and r.drives else [])
+    plane = r.mechanism.dimension == 2
+    left += ["teeth"] if plane and any(joint.TOOTHED for joint in r.mechanism.joints.values()) else []
+    return whole, left + (["motion"] if plane and r.drives else [])
 
 
 def _paper(output: Path, paper: str | None) -> str | None:

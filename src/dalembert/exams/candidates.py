@@ -70,6 +70,17 @@ class Candidate:
         return all(difference(a, b.value) <= near for a, b in pairs)
 
 
+@dataclass(frozen=True)
+class Variant:
+    """One variant: its name (01, 02, ...), the values drawn, its problem with the right answers, its result."""
+
+    name: str
+    values: Mapping[str, object]
+    mechanism: Mechanism
+    result: Result
+    key: tuple[dict[str, object], ...]
+
+
 class Unfit(Exception):  # noqa: N818
     """A set of values makes no sound problem: the sentence says why."""
 

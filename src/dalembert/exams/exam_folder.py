@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from dalembert.arrays import Tree
-    from dalembert.exams.variant import Variant
+    from dalembert.exams.candidates import Variant
     from dalembert.model import Answer, Mechanism
 
 RECORD = "variants.json"

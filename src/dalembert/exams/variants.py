@@ -15,9 +15,8 @@ import numpy as np
 
 from dalembert.errors import ModelError
 from dalembert.exams.asked import asked_quantities, key_row, stated_value
-from dalembert.exams.candidates import Candidate, Unfit, candidate, figure_size
+from dalembert.exams.candidates import Candidate, Unfit, Variant, candidate, figure_size
 from dalembert.exams.choices import Choices, read_choices
-from dalembert.exams.variant import Variant
 from dalembert.grading.file_answers import describe_answer
 from dalembert.grading.tolerance import NEAR, percent
 from dalembert.progress import progress
@@ -110,10 +109,8 @@ def variants(
             mechanism.with_values({path: value})
     there_are = prod(len(c.values) for c in choices)
     if there_are < count:
-        raise ModelError(
-            f"the values allow {there_are} different problems, and {count} are asked for",
-            "give more values, or smaller steps",
-        )
+        what = f"the values allow {there_are} different problems, and {count} are asked for"
+        raise ModelError(what, "give more values, or smaller steps")
     asked = asked_quantities(solve(mechanism, static=static), ask, at)
     seed = secrets.randbelow(10**6) if seed is None else seed
     pool = _Pool(mechanism, asked, near, static)

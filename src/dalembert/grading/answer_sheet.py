@@ -89,10 +89,8 @@ def sheet_items(tree: object) -> Iterator[tuple[Path, Tree]]:
         yield from _short({key: value for key, value in tree.items() if key not in ABOUT})
         return
     if not isinstance(tree, list) or not all(isinstance(item, Mapping) for item in tree):
-        raise ModelError(
-            "the answers are neither a mapping nor a list of mappings",
-            "write efforts: {O2: 243 lbf*in} and reactions: {A: 155 @ 220 deg}",
-        )
+        what = "the answers are neither a mapping nor a list of mappings"
+        raise ModelError(what, "write efforts: {O2: 243 lbf*in} and reactions: {A: 155 @ 220 deg}")
     yield from (((*base, k), dict(item)) for k, item in enumerate(tree))
 
 

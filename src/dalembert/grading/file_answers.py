@@ -14,10 +14,10 @@ from dalembert.analysis.output.columns import drive_kinds
 from dalembert.arrays import Array
 from dalembert.errors import STATUSES, ModelError, errors_at
 from dalembert.grading.quantities import QUANTITIES, WHOLE, WORDS, Series, component, size
-from dalembert.grading.tolerance import Target, radians
+from dalembert.grading.tolerance import Target, percent, radians
 from dalembert.unit_names import unit
 from dalembert.units import KINDS, NUMBER, Units, file_units, quantity
-from dalembert.wording import closest, quote_value
+from dalembert.wording import closest
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -94,9 +94,8 @@ def _compare(result: Result, answer: Answer, case: str) -> Row:
         return _word(answer, case, WORDS[answer.quantity](result, position), reason_at(result, position))
     if answer.quantity not in QUANTITIES:
         known = [*QUANTITIES, *WORDS, *WHOLE]
-        raise ModelError(
-            f"there is no quantity {answer.quantity!r}", closest(answer.quantity, known, 40), ("quantity",)
-        )
+        what = f"there is no quantity {answer.quantity!r}"
+        raise ModelError(what, closest(answer.quantity, known, 40), ("quantity",))
     rows = [_difference(side, answer, read(side, answer), case) for side in sides_of(result, answer)]
     return next((row for row in rows if row.ok), rows[0])
 
@@ -166,9 +165,8 @@ def position_of(result: Result, answer: Answer, series: Series | None = None) ->
     if answer.at is None:
         if count == 1:
             return 0
-        raise ModelError(
-            f"the answer has {count} positions", "say which: at: 1, or at: 60 deg", ("quantity",)
-        )
+        what = f"the answer has {count} positions"
+        raise ModelError(what, "say which: at: 1, or at: 60 deg", ("quantity",))
     if isinstance(answer.at, int):
         if not 1 <= answer.at <= count:
             raise ModelError(f"there is no position {answer.at}", f"they are 1 to {count}", ("at",))
@@ -187,18 +185,16 @@ def _extreme(which: str, values: Array) -> int:
 def _position_name(result: Result, at: object) -> int:
     """The position where the first drive has a value: `60 deg`."""
     if not result.drives:
-        raise ModelError(
-            "there is no drive whose position could be named", "number the position: at: 1", ("at",)
-        )
+        what = "there is no drive whose position could be named"
+        raise ModelError(what, "number the position: at: 1", ("at",))
     drive = result.drives[0]
     kind = drive_kinds(result, drive)["position"]
     with errors_at("at"):
         wanted = quantity(at, kind, file_units(result.mechanism.units))
     away = np.abs(_apart(result.drive_position(drive), wanted, kind))
     if not away.min() < SAME_POSITION:
-        raise ModelError(
-            f"no position has {drive} = {at}", "number the position, or give the drive that value", ("at",)
-        )
+        said = f"no position has {drive} = {at}"
+        raise ModelError(said, "number the position, or give the drive that value", ("at",))
     return int(away.argmin())
 
 
@@ -289,18 +285,9 @@ def _tolerance(
     if given is None:
         return default * scale, f"{default:g}"
     if isinstance(given, str) and given.strip().endswith("%"):
-        return _percent(given, key) / 100 * scale, given.strip()
+        return percent(given, key, None) * scale, given.strip()
     with errors_at(key):
         return quantity(given, kind, units), value_text(given)
-
-
-def _percent(text: str, key: str) -> float:
-    try:
-        return float(text.strip().removesuffix("%"))
-    except ValueError:
-        raise ModelError(
-            f"{quote_value(text)} is no percentage", "write one, for example 0.3 %", (key,)
-        ) from None
 
 
 # as text

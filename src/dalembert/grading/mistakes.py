@@ -79,8 +79,7 @@ class Problem:
         except ModelError as error:
             number = error.path[0] if error.path else None
             if sheet.file and not error.file and isinstance(number, int):
-                line = sheet.line(number)
-                raise ModelError(error.what, error.remedy, error.path, sheet.file, line) from None
+                raise error.at_line(sheet.file, sheet.line(number)) from None
             raise
         return [v._replace(line=sheet.line(k)) for k, v in enumerate(found)]
 
@@ -112,9 +111,8 @@ class Problem:
 def verdict_of(f: Figure, said: Explanation | None) -> Verdict:
     """The verdict on a figure, with what explains it."""
     if not f.judged:
-        return Verdict(
-            f.words, f.written, f.computed, f.off, False, f"it cannot be judged: {f.reason}", "open"
-        )
+        said_open = f"it cannot be judged: {f.reason}"
+        return Verdict(f.words, f.written, f.computed, f.off, False, said_open, "open")
     mistake, kind = ("", "right") if f.met else said or ("", "unknown")
     return Verdict(f.words, f.written, f.computed, f.off, f.met, mistake, kind)
 
@@ -124,6 +122,5 @@ def verdict_on_word(answer: Answer, right: object) -> Verdict:
     given, known = (value_text(value).strip().removesuffix(".0") for value in (answer.value, right))
     met = given == known
     said = "" if met else "another count" if known.isdigit() else "another word"
-    return Verdict(
-        describe_answer(answer), given, known, 0.0 if met else 1.0, met, said, "right" if met else "unknown"
-    )
+    off, kind = (0.0, "right") if met else (1.0, "unknown")
+    return Verdict(describe_answer(answer), given, known, off, met, said, kind)

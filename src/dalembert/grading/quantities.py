@@ -137,9 +137,8 @@ def _shaking(kind: str, name: str) -> Read:
 
         found = getattr(shaking(r, a.of if name == "moment" else None), name)
         if found is None:
-            raise ModelError(
-                "there is no shaking couple: no link has a place", "write place: 90 mm", ("quantity",)
-            )
+            what = "there is no shaking couple: no link has a place"
+            raise ModelError(what, "write place: 90 mm", ("quantity",))
         return Series(kind, found)
 
     return read
@@ -217,9 +216,8 @@ def component(series: Series, name: str | None) -> Series:
             return Series(series.kind, np.abs(series.values))
         raise ModelError(f"a number has no component {name!r}", "leave it out", ("component",))
     if series.values.ndim == 3:
-        raise ModelError(
-            f"a rotation has no component {name!r}", "give all of it, a row each", ("component",)
-        )
+        what = f"a rotation has no component {name!r}"
+        raise ModelError(what, "give all of it, a row each", ("component",))
     if name == "direction" and series.values.shape[1] == 2:
         return Series("angle", np.arctan2(series.values[:, 1], series.values[:, 0]))
     parts = dict(zip("xyz", series.values.T, strict=False)) | {"magnitude": size(series)}

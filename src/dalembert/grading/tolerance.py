@@ -137,17 +137,17 @@ def relative(tolerance: object, size: float, kind: str, units: Units) -> float:
     return allowed if kind == "angle" else allowed / (size or 1.0)
 
 
-def percent(tolerance: object) -> float:
+def percent(tolerance: object, key: str = "tolerance", most: float | None = MOST_PERCENT) -> float:
     """A tolerance in percent as a fraction: 0 to 50 %.
 
     >>> percent("3 %")
     0.03
     """
-    text = str(tolerance).strip()
-    number = re.fullmatch(rf"({NUMBER})\s*%", text)
-    if number is None or not 0 <= float(number[1]) <= MOST_PERCENT:
+    number = re.fullmatch(rf"({NUMBER})\s*%", str(tolerance).strip())
+    if number is None or not 0 <= float(number[1]) <= (most or math.inf):
         what = f"{quote_value(tolerance)} is no tolerance in percent"
-        raise ModelError(what, f"write one from 0 to {MOST_PERCENT} %, for example 3 %", ("tolerance",))
+        remedy = f"write one from 0 to {most} %, for example 3 %" if most else "write one, for example 0.3 %"
+        raise ModelError(what, remedy, (key,))
     return float(number[1]) / 100
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
@@ -161,9 +161,14 @@ def check_keys(keys: Mapping[str, object], allowed: list[str]) -> None:
             raise UnknownKey(f"there is no key {quote_value(key)}", remedy, (str(key),))
 
 
-def mapping(value: object, allowed: list[str], example: str) -> Mapping[str, Any]:
-    """The value, if it is a mapping with allowed keys only."""
+def mapping(
+    value: object, allowed: list[str], example: str, required: Iterable[str] = ()
+) -> Mapping[str, Any]:
+    """The value, if it is a mapping with allowed keys only, and with those that are required."""
     if not isinstance(value, Mapping):
         raise ModelError(f"{quote_value(value)} stands where a mapping is needed", f"write {example}")
     check_keys(value, allowed)
+    for key in required:
+        if key not in value:
+            raise ModelError(f"the key {key!r} is missing", f"write {example}")
     return value

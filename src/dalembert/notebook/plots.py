@@ -13,10 +13,10 @@ from dalembert.analysis.result.named_quantities import quantity
 from dalembert.analysis.result.reaction_axes import Axes
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
-from dalembert.model import GROUND
-from dalembert.views.charts import along, curves_scene, polar_chart, stepped_series
+from dalembert.views.charts import along, polar_chart, polar_path, stepped_series
+from dalembert.views.not_shown import refuse_still
 from dalembert.views.notation import Notation, Shown
-from dalembert.views.only_in_motion import refuse_still
+from dalembert.views.paper.diagrams import curves_scene
 from dalembert.views.paper.scene import stack_scenes
 from dalembert.wording import closest
 
@@ -112,10 +112,7 @@ def polar(r: Result, joints: Sequence[str], axes: Axes, ax: Any, notation: Notat
         return polar_chart(r, chosen, axes, notation)
     shown = Shown(r, notation or Notation())
     for joint in chosen:
-        i, j = r.mechanism.joints[joint].links
-        on = i if axes == "link" and j == GROUND else j
-        path = stepped_series(r, methodcaller("reaction", joint, on=on, axes=axes))
-        x, y = (path * shown.value("force", 1.0)).T
+        x, y = polar_path(r, joint, axes, shown)[1].T
         whole = ax.name == "polar"
         ax.plot(*((np.arctan2(y, x), np.hypot(x, y)) if whole else (x, y)), label=joint)
     unit = shown.unit("force")

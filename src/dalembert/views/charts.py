@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from operator import methodcaller
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -16,8 +16,9 @@ from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
 from dalembert.machine.harmonics import whole_turns
 from dalembert.machine.shaking import shaking_force
-from dalembert.views.notation import Notation, Shown, pretty
-from dalembert.views.paper.diagrams import Marks, curves_scene, inner_ticks, polar_scene, ticks
+from dalembert.model import GROUND
+from dalembert.views.notation import Notation, Shown
+from dalembert.views.paper.diagrams import Marks, curves_scene, inner_ticks, polar_scene
 from dalembert.views.paper.scene import Scene
 from dalembert.views.space.space_view import NOTHING
 
@@ -26,6 +27,10 @@ if TYPE_CHECKING:
 
 MOST = 6
 """Curves of one chart that can be told apart."""
+
+
+READS = {"force": "reaction", "moment": "reaction_moment"}
+"""How a result is asked what a joint exerts."""
 
 
 def stepped_series(r: Result, read: Callable[[Result], Array]) -> Array:
@@ -53,11 +58,7 @@ def _backwards(r: Result) -> Flags:
 def along(r: Result, shown: Shown) -> tuple[Array, str, bool]:
     """What charts are drawn against: the first drive, or the number of the position."""
     if not r.drives:
-        return (
-            stepped_series(r, lambda side: np.arange(1, len(side.status) + 1, dtype=float)),
-            "position",
-            False,
-        )
+        return stepped_series(r, lambda side: np.arange(1.0, len(side.status) + 1)), "position", False
     kind = drive_kinds(r, r.drives[0])["position"]
     places = stepped_series(r, lambda side: side.drive_position(side.drives[0]))
     values = np.array([shown.value(kind, v) for v in places])
@@ -75,11 +76,8 @@ def effort_chart(r: Result, notation: Notation | None = None) -> list[Scene]:
         efforts = {d: stepped_series(r, methodcaller("effort", d)) for d in names}
         series = {d: np.array([shown.value(kind, v) for v in values]) for d, values in efforts.items()}
         means = {d: mean_effort(r, d) for d in names}
-        levels = {
-            f"mean of {d}: {shown.number(kind, v)}": shown.value(kind, v)
-            for d, v in means.items()
-            if v is not None
-        }
+        known = {d: v for d, v in means.items() if v is not None}
+        levels = {f"mean of {d}: {shown.number(kind, v)}": shown.value(kind, v) for d, v in known.items()}
         if series:
             y_label = f"{'Torque' if kind == 'moment' else 'Force'} in {shown.unit(kind)}"
             out.append(curves_scene(x, series, label, y_label, "Drive effort", angle, levels))
@@ -112,35 +110,30 @@ def reaction_charts(r: Result, notation: Notation | None = None, joints: Sequenc
 def _size_charts(r: Result, kind: str, joints: Sequence[str], notation: Notation | None) -> list[Scene]:
     shown = Shown(r, notation or Notation())
     x, label, angle = along(r, shown)
-    read = "reaction" if kind == "force" else "reaction_moment"
     out = []
     many = -(-len(joints) // MOST)
     each = -(-len(joints) // max(many, 1))  # as many in one as in another
     for first in range(0, len(joints), max(each, 1)):
         some = joints[first : first + each]
-        sizes = {n: magnitude(stepped_series(r, methodcaller(read, n))) / shown.size(kind) for n in some}
+        sizes = {
+            n: magnitude(stepped_series(r, methodcaller(READS[kind], n))) / shown.size(kind) for n in some
+        }
         y_label = f"Joint {kind} in {shown.unit(kind)}"
         out.append(curves_scene(x, sizes, label, y_label, f"Joint {kind}s", angle))
     return out
 
 
-def components_chart(r: Result, joint: str, notation: Notation | None = None) -> Scene:
-    """Components and magnitude of one joint's force over the cycle; in space in the joint's own axes."""
+def components_chart(
+    r: Result, joint: str, notation: Notation | None = None, kind: Literal["force", "moment"] = "force"
+) -> Scene:
+    """Components and magnitude of one joint's force or moment over the cycle; in space in the joint's own axes."""
     shown = Shown(r, notation or Notation())
     space = r.mechanism.dimension == 3
     axes: Axes = "joint" if space else "ground"
-    force = stepped_series(r, lambda side: side.reaction(joint, axes=axes)) * shown.value("force", 1.0)
+    found = stepped_series(r, methodcaller(READS[kind], joint, axes=axes)) / shown.size(kind)
     on = shown.heading(r.mechanism.joints[joint].links[1])
-    title = f"Joint {joint}: force on link {on}" + (", joint's axes" if space else "")
-    return vector_chart(r, force, "force", title, shown)
-
-
-def moment_components_chart(r: Result, joint: str, notation: Notation | None = None) -> Scene:
-    """In space: components and magnitude of one joint's moment over the cycle, in the joint's own axes."""
-    shown = Shown(r, notation or Notation())
-    moment = stepped_series(r, lambda side: side.reaction_moment(joint, axes="joint")) / shown.size("moment")
-    on = shown.heading(r.mechanism.joints[joint].links[1])
-    return vector_chart(r, moment, "moment", f"Joint {joint}: moment on link {on}, joint's axes", shown)
+    title = f"Joint {joint}: {kind} on link {on}" + (", joint's axes" if space else "")
+    return vector_chart(r, found, kind, title, shown)
 
 
 def vector_chart(r: Result, vectors: Array, kind: str, title: str, shown: Shown) -> Scene:
@@ -164,25 +157,28 @@ def crank_marks(r: Result, shown: Shown) -> Marks:
     return [(k, f"{t:g}{unit}".replace("-", "−")) for k, t in marks if abs(float(x[k]) - t) <= 0.51 * step]
 
 
+def polar_path(r: Result, joint: str, axes: str, shown: Shown) -> tuple[str, Array]:
+    """The link that a joint's force is drawn on, j unless that is the ground and link axes are asked for, and the
+    forces in the reader's unit (P, 2)."""
+    i, j = r.mechanism.joints[joint].links
+    on, seen = j if axes == "ground" or j != GROUND else i, "link" if axes == "link" else "ground"
+    path = stepped_series(r, methodcaller("reaction", joint, on=on, axes=seen))
+    return on, path * shown.value("force", 1.0)
+
+
 def polar_chart(
     r: Result, joints: Sequence[str], axes: str = "ground", notation: Notation | None = None
 ) -> Scene:
     """Polar diagrams of joint forces in ground axes, or in the axes of the link (where a bearing wears), with the first
     drive's positions marked."""
     shown = Shown(r, notation or Notation())
-    unit = shown.value("force", 1.0)
     paths, title = {}, "Joint forces"
-    seen: Axes = "link" if axes == "link" else "ground"
     for joint in joints:
-        i, j = r.mechanism.joints[joint].links
-        on = j if axes == "ground" or j != "ground" else i
-        paths[joint] = stepped_series(r, methodcaller("reaction", joint, on=on, axes=seen)) * unit
+        on, paths[joint] = polar_path(r, joint, axes, shown)
         title = f"Joint {joint} on link {shown.heading(on)}" if len(joints) == 1 else title
-    where = (
-        "ground axes" if axes == "ground" else "the link's axes" if len(joints) == 1 else "axes of the link"
-    )
-    marks = crank_marks(r, shown)
-    return polar_scene(paths, shown.unit("force"), f"{title}, {where}", marks=marks)
+    whose = "the link's axes" if len(joints) == 1 else "axes of the link"
+    title = f"{title}, {'ground axes' if axes == 'ground' else whose}"
+    return polar_scene(paths, shown.unit("force"), title, marks=crank_marks(r, shown))
 
 
 def shaking_chart(r: Result, notation: Notation | None = None) -> Scene:
@@ -209,31 +205,20 @@ def chart_scenes(r: Result, notation: Notation | None = None) -> list[Scene]:
 
 def _space_charts(r: Result, notation: Notation) -> list[Scene]:
     """Sizes of all forces and moments, then components joint by joint; what is rounding is left out."""
-    sizes = {j: [_largest(r.reaction(j)), _largest(r.reaction_moment(j))] for j in r.joints}
+    forces, moments = ({j: _largest(getattr(r, read)(j)) for j in r.joints} for read in READS.values())
     length = r.compiled.layout.length
-    force = max([f for f, _ in sizes.values()], default=0.0)
-    moment = max([m for _, m in sizes.values()], default=0.0)
-    loaded = [j for j, (f, _) in sizes.items() if f > NOTHING * max(force, moment / length)]
-    turned = [j for j, (_, m) in sizes.items() if m > NOTHING * max(moment, force * length)]
-    out = effort_chart(r, notation)
-    out += reaction_charts(r, notation) if loaded else []
+    force, moment = (max(sizes.values(), default=0.0) for sizes in (forces, moments))
+    least = NOTHING * max(force, moment / length)
+    loaded = [j for j, f in forces.items() if f > least]
+    turned = [j for j, m in moments.items() if m > least * length]
+    out = [*effort_chart(r, notation), *(reaction_charts(r, notation) if loaded else [])]
     out += _size_charts(r, "moment", turned, notation)
     for j in r.joints:
-        out += [components_chart(r, j, notation)] if j in loaded else []
-        out += [moment_components_chart(r, j, notation)] if j in turned else []
-    return [
-        *out,
-        *(
-            [shaking_chart(r, notation)]
-            if _largest(shaking_force(r)) > NOTHING * max(force, moment / length)
-            else []
-        ),
-    ]
+        out += [components_chart(r, j, notation)] * (j in loaded)
+        out += [components_chart(r, j, notation, "moment")] * (j in turned)
+    return out + ([shaking_chart(r, notation)] if _largest(shaking_force(r)) > least else [])
 
 
 def _largest(vectors: Array) -> float:
     sizes = magnitude(vectors)
     return float(sizes[np.isfinite(sizes)].max(initial=0.0))
-
-
-__all__ = ["chart_scenes", "curves_scene", "polar_scene", "pretty", "ticks"]

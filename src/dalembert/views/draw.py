@@ -23,25 +23,31 @@ from dalembert.errors import ModelError
 from dalembert.views import charts as _charts
 from dalembert.views.both_ends import at_both_ends
 from dalembert.views.formats import glb
-from dalembert.views.formats.animation import Animation, animation_scene
-from dalembert.views.formats.glb import SolidModel
-from dalembert.views.notation import Notation, Shown
-from dalembert.views.only_in_motion import refuse_still, refuse_structure
-from dalembert.views.paper.scene import Scene, stack_scenes
+from dalembert.views.formats.animation import Animation as Animation
+from dalembert.views.formats.animation import animation_scene
+from dalembert.views.formats.glb import SolidModel as SolidModel
+from dalembert.views.not_shown import refuse_still, refuse_structure
+from dalembert.views.notation import Notation as Notation
+from dalembert.views.notation import Shown
+from dalembert.views.paper.scene import Scene as Scene
+from dalembert.views.paper.scene import stack_scenes
 from dalembert.views.plane.displaced_inertia import displaced_inertia_scene
 from dalembert.views.plane.force_polygons import force_chain_scene, force_polygon_scene, lines_of_action_scene
 from dalembert.views.plane.free_body import components_scene, free_body_scene, free_body_scenes
 from dalembert.views.plane.friction_view import friction_scene
 from dalembert.views.plane.instant_centers import instant_centers_scene
 from dalembert.views.plane.mechanism_view import mechanism_scene, place_title
+from dalembert.views.plane.teeth_view import teeth_scene
 from dalembert.views.plane.velocity_polygons import motion_polygon_scene, stands_still
 from dalembert.views.question import question_scene
-from dalembert.views.space.camera import CAMERAS, Camera
+from dalembert.views.space.camera import CAMERAS as CAMERAS
+from dalembert.views.space.camera import Camera as Camera
 from dalembert.views.space.space_free_body import space_free_body_scene
 from dalembert.views.space.space_mechanism import space_mechanism_scene
 from dalembert.views.space.space_view import View as Sighted
 from dalembert.views.space.space_view import camera_of
 from dalembert.views.symbols.pair_pictures import pair_scene, pairs_scene
+from dalembert.wording import closest
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -52,7 +58,7 @@ FREE_BODIES = "draw its free bodies"
 """What there is in space in place of drawings of the plane."""
 
 View = Literal[
-    "mechanism", "free-bodies", "friction", "force-polygons", "charts", "motion", "question", "all"
+    "mechanism", "free-bodies", "friction", "teeth", "force-polygons", "charts", "motion", "question", "all"
 ]
 
 
@@ -67,14 +73,14 @@ def mechanism(
 
     ``camera``, in space: isometric (default), front, side, top, (azimuth, elevation) in degrees, or a `Camera`.
     """
-    k, seen = position_at(r, at), _camera(r, camera)
+    seen = _camera(r, camera)
 
-    def render(end: Result) -> Scene:
+    def render(end: Result, k: int) -> Scene:
         if seen is None:
             return mechanism_scene(end, k, notation, forces)
         return space_mechanism_scene(end, k, seen, notation, forces)
 
-    return _whole(r, k, notation, render)
+    return _whole(r, at, notation, render)
 
 
 def question(
@@ -90,21 +96,20 @@ def free_body(
     r: Result, link: str, at: PositionChoice = None, notation: Notation | None = None, camera: Sighted = None
 ) -> Scene:
     """One link with everything that acts on it, to scale; in space reactions are in their joints' own axes."""
-    k, seen = position_at(r, at), _camera(r, camera)
+    seen = _camera(r, camera)
 
-    def render(end: Result) -> Scene:
+    def render(end: Result, k: int) -> Scene:
         if seen is None:
             return free_body_scene(end, _link(r, link), k, notation)
         return space_free_body_scene(end, _link(r, link), k, seen, notation)
 
-    return _whole(r, k, notation, render)
+    return _whole(r, at, notation, render)
 
 
 def components(r: Result, link: str, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
     """Joint forces of a link along and across it."""
     refuse_space(r.mechanism, "a drawing along and across a link", FREE_BODIES)
-    k = position_at(r, at)
-    return _whole(r, k, notation, lambda end: components_scene(end, _link(r, link), k, notation))
+    return _whole(r, at, notation, lambda end, k: components_scene(end, _link(r, link), k, notation))
 
 
 def force_polygon(
@@ -112,8 +117,7 @@ def force_polygon(
 ) -> Scene:
     """The forces on a link head to tail; ``case`` names one source of the superposition to draw alone."""
     refuse_space(r.mechanism, "a force polygon", FREE_BODIES)
-    k = position_at(r, at)
-    return _whole(r, k, notation, lambda end: force_polygon_scene(end, _link(r, link), k, notation, case))
+    return _whole(r, at, notation, lambda end, k: force_polygon_scene(end, _link(r, link), k, notation, case))
 
 
 def force_chain(
@@ -121,8 +125,7 @@ def force_chain(
 ) -> Scene:
     """The polygons of all links on the sides they share, in the order of solution."""
     refuse_space(r.mechanism, "a force polygon", FREE_BODIES)
-    k = position_at(r, at)
-    return _whole(r, k, notation, lambda end: force_chain_scene(end, k, notation, case))
+    return _whole(r, at, notation, lambda end, k: force_chain_scene(end, k, notation, case))
 
 
 def lines_of_action(
@@ -130,8 +133,9 @@ def lines_of_action(
 ) -> Scene:
     """Where the lines of a link's forces meet."""
     refuse_space(r.mechanism, "a drawing of lines of action", FREE_BODIES)
-    k = position_at(r, at)
-    return _whole(r, k, notation, lambda end: lines_of_action_scene(end, _link(r, link), k, notation, case))
+    return _whole(
+        r, at, notation, lambda end, k: lines_of_action_scene(end, _link(r, link), k, notation, case)
+    )
 
 
 def velocity_polygon(
@@ -140,7 +144,7 @@ def velocity_polygon(
     """Velocities from one pole, with the links' images; of a ``drive`` at unit speed if named or none moves."""
     refuse_space(r.mechanism, "a velocity polygon", FREE_BODIES)
     refuse_structure(r, "a velocity polygon")
-    which = None if drive is None else _drive(r, drive)
+    which = None if drive is None else r.drives.index(_known(drive, r.drives, "drive"))
     return motion_polygon_scene(r, position_at(r, at), "velocity", notation, which)
 
 
@@ -167,29 +171,27 @@ def free_bodies(
     r: Result, at: PositionChoice = None, notation: Notation | None = None, camera: Sighted = None
 ) -> Scene:
     """All links as free bodies, one force scale."""
-    k = position_at(r, at)
-    title, seen = _title(r, k, "Free bodies", notation), _camera(r, camera)
+    seen = _camera(r, camera)
 
-    def render(end: Result) -> Scene:
+    def render(end: Result, k: int) -> Scene:
+        title = _title(r, k, "Free bodies", notation)
         if seen is None:
             return stack_scenes(free_body_scenes(end, k, notation), title=title)
         return stack_scenes([space_free_body_scene(end, n, k, seen, notation) for n in r.links], title=title)
 
-    return _whole(r, k, notation, render, title)
+    return _whole(r, at, notation, render, "Free bodies")
 
 
 def force_polygons(r: Result, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
     """Polygons of each link, then of the chain."""
     refuse_space(r.mechanism, "a force polygon", FREE_BODIES)
-    k = position_at(r, at)
-    title = _title(r, k, "Force polygons", notation)
 
-    def render(end: Result) -> Scene:
-        some = whole_actions(end)
+    def render(end: Result, k: int) -> Scene:
+        some, title = whole_actions(end), _title(r, k, "Force polygons", notation)
         scenes = [force_polygon_scene(end, link, k, notation, some=some) for link in r.links]
         return stack_scenes([*scenes, force_chain_scene(end, k, notation)], title=title)
 
-    return _whole(r, k, notation, render, title)
+    return _whole(r, at, notation, render, "Force polygons")
 
 
 def beside(scenes: Sequence[Scene], title: str = "", width: float = 240.0) -> Scene:
@@ -228,14 +230,14 @@ def force_system(
     ``at`` adds the force and couple at that point (m). ``camera``, in space: isometric, front, side, top,
     (azimuth, elevation) in degrees, or a `Camera`.
     """
-    from dalembert.views import force_system as drawn
+    from dalembert.views import force_system as views
 
     seen = camera_of(camera)
-    scenes = [drawn.force_system_scene(s, notation, seen)]
+    scenes = [views.force_system_scene(s, notation, seen)]
     if s.dimension == 2 and len(s.forces) > 1:
-        scenes.append(drawn.force_system_polygon_scene(s, notation))
+        scenes.append(views.force_system_polygon_scene(s, notation))
     if at is not None:
-        scenes.append(drawn.reduced_scene(s, at, notation, seen))
+        scenes.append(views.reduced_scene(s, at, notation, seen))
     return (
         scenes[0] if len(scenes) == 1 else stack_scenes(scenes, title=s.title or "Force system", width=240.0)
     )
@@ -293,7 +295,12 @@ def view(
 ) -> Scene:
     """What `dalembert draw --view` writes."""
     seen = {"question": question, "free-bodies": free_bodies, "friction": friction}
-    plane = {"force-polygons": force_polygons, "motion": motion, "superposition": superposition}
+    plane = {
+        "force-polygons": force_polygons,
+        "motion": motion,
+        "superposition": superposition,
+        "teeth": teeth,
+    }
     if which == "mechanism":
         return mechanism(r, at, notation, camera=camera)
     if which in seen:
@@ -318,12 +325,18 @@ def friction(
     """Friction circles with the lines of the reactions, then every pin and guide with friction at a larger scale."""
     if r.friction is None:
         raise ModelError("this mechanism has no friction to draw", "give a joint a coefficient")
-    k, seen = position_at(r, at), _camera(r, camera)
+    seen = _camera(r, camera)
 
-    def render(end: Result) -> Scene:
+    def render(end: Result, k: int) -> Scene:
         return friction_scene(end, k, Shown(end, notation or Notation(), k), seen)
 
-    return _whole(r, k, notation, render)
+    return _whole(r, at, notation, render)
+
+
+def teeth(r: Result, at: PositionChoice = None, notation: Notation | None = None) -> Scene:
+    """Gears in mesh: pitch and base circles, the line of action, the force of the teeth and its components."""
+    refuse_space(r.mechanism, "a drawing of teeth", FREE_BODIES)
+    return _whole(r, at, notation, lambda end, k: teeth_scene(end, k, Shown(end, notation or Notation(), k)))
 
 
 def _camera(r: Result, camera: Sighted) -> Camera | None:
@@ -331,69 +344,34 @@ def _camera(r: Result, camera: Sighted) -> Camera | None:
     if r.mechanism.dimension == 3:
         return camera_of(camera)
     if camera is not None:
-        raise ModelError(
-            "a camera looks at a mechanism in space, and this one is in the plane", "leave it out"
-        )
+        what = "a camera looks at a mechanism in space, and this one is in the plane"
+        raise ModelError(what, "leave it out")
     return None
 
 
-def _drive(r: Result, drive: str) -> int:
-    from dalembert.wording import closest
-
-    if drive not in r.drives:
-        raise ModelError(f"there is no drive {drive!r}", closest(drive, list(r.drives)))
-    return r.drives.index(drive)
+def _known(name: str, names: Sequence[str], what: str) -> str:
+    """A name that is there."""
+    if name not in names:
+        raise ModelError(f"there is no {what} {name!r}", closest(name, list(names)))
+    return name
 
 
 def _link(r: Result, link: str) -> str:
-    from dalembert.wording import closest
-
-    if link not in r.links:
-        raise ModelError(f"there is no link {link!r}", closest(link, list(r.links)))
-    return link
+    return _known(link, r.links, "link")
 
 
 def _whole(
-    r: Result, k: int, notation: Notation | None, drawn: Callable[[Result], Scene], title: str = ""
+    r: Result,
+    at: PositionChoice,
+    notation: Notation | None,
+    render: Callable[[Result, int], Scene],
+    heading: str = "",
 ) -> Scene:
-    """A drawing of the result, or of both ends where friction leaves it open."""
-    return at_both_ends(r, k, Shown(r, notation or Notation(), k), drawn, title or r.mechanism.title)
+    """A drawing of the result, or of both ends where friction leaves it open; a heading says the position too."""
+    k = position_at(r, at)
+    title = _title(r, k, heading, notation) if heading else r.mechanism.title
+    return at_both_ends(r, k, Shown(r, notation or Notation(), k), lambda end: render(end, k), title)
 
 
 def _title(r: Result, k: int, what: str, notation: Notation | None) -> str:
     return place_title(r, k, what, Shown(r, notation or Notation(), k))
-
-
-__all__ = [
-    "CAMERAS",
-    "Animation",
-    "Camera",
-    "Notation",
-    "Scene",
-    "SolidModel",
-    "acceleration_polygon",
-    "animation",
-    "beside",
-    "charts",
-    "components",
-    "displaced_inertia",
-    "force_chain",
-    "force_polygon",
-    "force_polygons",
-    "force_system",
-    "free_bodies",
-    "free_body",
-    "friction",
-    "instant_centers",
-    "joint",
-    "joints",
-    "lines_of_action",
-    "machine",
-    "mechanism",
-    "motion",
-    "question",
-    "solid_model",
-    "superposition",
-    "velocity_polygon",
-    "view",
-]

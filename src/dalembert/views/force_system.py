@@ -13,7 +13,7 @@ from dalembert.views.notation import Figures, Notation, own_name, pretty
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import fit_frame, force_scale
 from dalembert.views.paper.lettering import text_width
-from dalembert.views.paper.scene import Arrow, Circle, Line, Point, Scene
+from dalembert.views.paper.scene import Arrow, Circle, Line, Point, Scene, along, around
 from dalembert.views.plane.force_polygons import LONGEST, dimension, draw_polygon
 from dalembert.views.plane.mechanism_view import role_of, scale_notes
 from dalembert.views.space.camera import ISOMETRIC, Camera
@@ -204,9 +204,7 @@ class Drawing:
         seen = math.dist(tail, head) * self.per_mm
         kind = "force" if self.camera is None else "force-seen"
         self.canvas.add(Arrow(tail, head, role, name, kind, seen))
-        spots = [
-            (tail[0] + t * (head[0] - tail[0]), tail[1] + t * (head[1] - tail[1])) for t in (1, 0.8, 0.6)
-        ]
+        spots = along(tail, head, 1.0, 0.8, 0.6)
         away = math.atan2(head[1] - tail[1], head[0] - tail[0])
         text = f"{own_name(name)} = {self.shown.text('force', f.size)}"
         self.canvas.label(text, *spots, prefer=away, size=2.8, role=role)
@@ -237,13 +235,11 @@ class Drawing:
             return
         if self.camera is None:
             self.canvas.add(*plane_symbols.couple(at, c.moment, 4.2, role, name, c.moment))
-            spots = [
-                (at[0] + 4.2 * math.cos(t), at[1] + 4.2 * math.sin(t)) for t in np.arange(8) * math.pi / 4
-            ]
+            spots = around(at, 4.2, 8)
         else:
             head = self.ahead(at, c.vector, self.moment_per_mm)
             self._two_heads(at, head, role, name)
-            spots = [head, ((at[0] + head[0]) / 2, (at[1] + head[1]) / 2)]
+            spots = along(at, head, 1.0, 0.5)
         self.canvas.label(
             f"{own_name(name)} = {self.shown.text('moment', c.size)}", *spots, size=2.8, role=role
         )
@@ -373,6 +369,3 @@ def clip_line(at: Point, along: Point, room: tuple[float, float, float, float]) 
         return None
     first, last = ((float(at[0] + t * along[0]), float(at[1] + t * along[1])) for t in (low, high))
     return first, last
-
-
-__all__ = ["force_system_polygon_scene", "force_system_scene", "reduced_scene"]

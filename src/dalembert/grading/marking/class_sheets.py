@@ -92,7 +92,7 @@ def _of_table(path: Path) -> Iterator[StudentSheet]:
         try:
             sheet.given += [_long(row)] if long else list(_wide(row))
         except ModelError as error:
-            sheet.problems.append(str(ModelError(error.what, error.remedy, (), str(path), row.line)))
+            sheet.problems.append(str(error.at_line(str(path), row.line)))
     yield from found.values()
 
 

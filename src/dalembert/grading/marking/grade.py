@@ -110,7 +110,7 @@ class _Marker:
         try:
             variant = self.key.variant(sheet.variant, sheet.student)
         except ModelError as error:
-            here = ModelError(error.what, error.remedy, (), sheet.file, sheet.line)
+            here = error.at_line(sheet.file, sheet.line)
             out.problems += [] if sheet.problems and not sheet.given else [str(here)]
             return out
         out.variant = variant.name
@@ -131,7 +131,7 @@ class _Marker:
             try:
                 given.append((answer_of(one.keys), ""))
             except ModelError as error:
-                given.append((None, str(ModelError(error.what, error.remedy, (), sheet.file, one.line))))
+                given.append((None, str(error.at_line(sheet.file, one.line))))
         used: set[int] = set()
         out = []
         for asked in variant.asked:
@@ -166,8 +166,7 @@ class _Marker:
         try:
             return _Taken(asked, answer, variant.compared(asked, answer, self.tolerance), "", part, where[1])
         except ModelError as error:
-            said = str(ModelError(error.what, error.remedy, (), *where))
-            return _Taken(asked, answer, None, said, part, where[1])
+            return _Taken(asked, answer, None, str(error.at_line(*where)), part, where[1])
 
     def _marks(self, variant: ExamVariant, taken: list[_Taken]) -> list[Mark]:
         figures = [t.found for t in taken if isinstance(t.found, Figure)]

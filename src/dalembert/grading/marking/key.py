@@ -124,9 +124,8 @@ def read_key(source: str | Path | Mechanism | Sequence[Mapping[str, Any]], stati
 
 def _cells(row: object) -> dict[str, str]:
     if not isinstance(row, Mapping):
-        raise ModelError(
-            f"{quote_value(row)} stands where a figure of the key is needed", "write its quantity"
-        )
+        what = f"{quote_value(row)} stands where a figure of the key is needed"
+        raise ModelError(what, "write its quantity")
     return {str(k): str(v) for k, v in row.items() if v not in (None, "")}
 
 

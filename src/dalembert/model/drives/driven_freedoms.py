@@ -19,9 +19,8 @@ def refuse_empty(tree: object, path: tuple[str | int, ...] = ()) -> None:
     inner = tree.items() if isinstance(tree, Mapping) else enumerate(tree) if isinstance(tree, list) else ()
     for key, value in inner:
         if value is None and (path or key not in SECTIONS):
-            raise ModelError(
-                f"{place((*path, key))} has no value", "write one, or leave it out", (*path, key)
-            )
+            what = f"{place((*path, key))} has no value"
+            raise ModelError(what, "write one, or leave it out", (*path, key))
         if isinstance(value, (Mapping, list)):
             refuse_empty(value, (*path, key))
 

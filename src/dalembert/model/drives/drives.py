@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal, Self, cast
 
 from pydantic import Field, FieldSerializationInfo, ValidationInfo, field_serializer, model_validator
 
 from dalembert.errors import ModelError
-from dalembert.model.drives.laws import Law, Rise, TimeTable, count, law, law_schema
+from dalembert.model.drives.laws import Law, Rise, TimeTable, count, law_schema
+from dalembert.model.drives.laws import law as read_law
 from dalembert.model.drives.motors import MotorCurve, motor_curve, motor_schema
 from dalembert.model.part import Part, Reading, mapping, reading
 from dalembert.model.quantities.dependent_numbers import Dependent
@@ -25,7 +26,9 @@ from dalembert.model.quantities.values import (
     at_item,
     check_sign,
     direction_vector,
+    list_schema,
     numbers,
+    object_schema,
     value_text,
 )
 from dalembert.model.quantities.varying import Varying, varying, varying_schema, varying_tree
@@ -51,129 +54,80 @@ Rates = float | tuple[float, ...]
 
 
 class DriveValue(Value):
-    """A value of a drive, of the kind that its freedom says."""
+    """A value of a drive: ``what`` it is (speed, acceleration, effort or, empty, a position), how a value of its kind
+    is read, and its schema."""
 
-    what = ""
-
-    def read(self, value: object, info: ValidationInfo) -> object:
-        freedom = info.data.get("freedom")
-        return self.parse(value, kind_of(freedom, self.what), reading(info))
-
-    def parse(self, value: object, kind: str, rules: Reading) -> object:
-        raise NotImplementedError
-
-
-class PositionValue(DriveValue):
-    """One value, a list, a range, or unknown."""
-
-    def parse(self, value: object, kind: str, rules: Reading) -> Positions:
-        if value == UNKNOWN:
-            return UNKNOWN
-        if isinstance(value, Range):
-            return value
-        if isinstance(value, Mapping):
-            return _range(value, kind, rules)
-        if isinstance(value, (list, tuple)):
-            return numbers(value, kind, rules)
-        return rules.quantity(value, kind)
+    def __init__(
+        self,
+        parse: Callable[[Any, str, Reading], object],
+        schema: Callable[[], JsonSchema],
+        what: str = "",
+    ) -> None:
+        self.parse, self.schema, self.what = parse, schema, what
 
     def json_schema(self) -> JsonSchema:
-        steps = {
-            "type": "object",
-            "properties": {
-                "from": NUMBER_OR_TEXT | {"description": "first position"},
-                "to": NUMBER_OR_TEXT | {"description": "last position; of a full turn not repeated"},
-                "count": {"type": "integer", "minimum": 1, "description": "number of positions"},
-            },
-            "required": ["from", "to", "count"],
-            "additionalProperties": False,
-        }
-        return {"anyOf": [NUMBER_OR_TEXT, {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 1}, steps]}
+        return self.schema()
+
+    def read(self, value: object, info: ValidationInfo) -> object:
+        return self.parse(value, kind_of(info.data.get("freedom"), self.what), reading(info))
+
+
+def _positions(value: object, kind: str, rules: Reading) -> Positions:
+    """One value, a list, a range, or unknown."""
+    if value == UNKNOWN or isinstance(value, Range):
+        return cast(Positions, value)
+    if isinstance(value, Mapping):
+        return _range(value, kind, rules)
+    if isinstance(value, (list, tuple)):
+        return numbers(value, kind, rules)
+    return rules.quantity(value, kind)
+
+
+def _positions_schema() -> JsonSchema:
+    steps = {
+        "from": NUMBER_OR_TEXT | {"description": "first position"},
+        "to": NUMBER_OR_TEXT | {"description": "last position; of a full turn not repeated"},
+        "count": {"type": "integer", "minimum": 1, "description": "number of positions"},
+    }
+    return {"anyOf": [NUMBER_OR_TEXT, list_schema(), object_schema(steps, *steps)]}
 
 
 def _range(value: Mapping[str, object], kind: str, rules: Reading) -> Range:
-    mapping(value, ["from", "to", "count"], EXAMPLE)
-    for key in ("from", "to", "count"):
-        if key not in value:
-            raise ModelError(f"the key {key!r} is missing", f"write {EXAMPLE}")
+    known = ["from", "to", "count"]
+    mapping(value, known, EXAMPLE, known)
     start, stop = (at_item(key, rules.quantity, value[key], kind) for key in ("from", "to"))
     return Range(start, stop, at_item("count", count, value["count"]))
 
 
-class RateValue(DriveValue):
+def _rates(value: object, kind: str, rules: Reading) -> Rates:
     """Speeds or accelerations: one value or a list."""
-
-    def __init__(self, what: str) -> None:
-        self.what = what
-
-    def parse(self, value: object, kind: str, rules: Reading) -> Rates:
-        if value == 0 and not isinstance(value, (str, bool, Dependent)):
-            return 0.0
-        if isinstance(value, (list, tuple)):
-            return numbers(value, kind, rules)
-        return rules.quantity(value, kind)
-
-    def json_schema(self) -> JsonSchema:
-        return {"anyOf": [NUMBER_OR_TEXT, {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 1}]}
+    if value == 0 and not isinstance(value, (str, bool, Dependent)):
+        return 0.0
+    return numbers(value, kind, rules) if isinstance(value, (list, tuple)) else rules.quantity(value, kind)
 
 
-class LawValue(DriveValue):
-    """A law of motion."""
-
-    def parse(self, value: object, kind: str, rules: Reading) -> Law:
-        return law(value, kind, rules)
-
-    def json_schema(self) -> JsonSchema:
-        return law_schema()
+def _rates_schema() -> JsonSchema:
+    return {"anyOf": [NUMBER_OR_TEXT, list_schema()]}
 
 
-class MotorValue(DriveValue):
-    """A motor: effort as a function of speed."""
-
-    def parse(self, value: object, kind: str, rules: Reading) -> MotorCurve:
-        return motor_curve(value, kind, rules)
-
-    def json_schema(self) -> JsonSchema:
-        return motor_schema()
-
-
-class BrakeValue(DriveValue):
+def _brake(value: object, kind: str, rules: Reading) -> float:
     """The size of a dry couple or force."""
-
-    what = "effort"
-
-    def parse(self, value: object, kind: str, rules: Reading) -> float:
-        return check_sign(rules.quantity(value, kind), value, "not negative")
-
-    def json_schema(self) -> JsonSchema:
-        return NUMBER_OR_TEXT
+    return check_sign(rules.quantity(value, kind), value, "not negative")
 
 
-class EffortValue(DriveValue):
+def _effort(value: object, kind: str, rules: Reading) -> Varying:
     """A known effort, which may change along the motion."""
-
-    what = "effort"
-
-    def parse(self, value: object, kind: str, rules: Reading) -> Varying:
-        if value == UNKNOWN:
-            raise ModelError("an effort is unknown unless it is given", "leave it out")
-        return varying(value, kind, rules)
-
-    def json_schema(self) -> JsonSchema:
-        return varying_schema()
+    if value == UNKNOWN:
+        raise ModelError("an effort is unknown unless it is given", "leave it out")
+    return varying(value, kind, rules)
 
 
-class Interval(DriveValue):
+def _interval(value: object, kind: str, rules: Reading) -> tuple[float, float]:
     """`[a, b]`."""
-
-    def parse(self, value: object, kind: str, rules: Reading) -> tuple[float, float]:
-        found = numbers(value, kind, rules)
-        if len(found) != 2 or not found[0] < found[1]:
-            raise ModelError("a range is two increasing positions", "write range: [0 deg, 180 deg]")
-        return found[0], found[1]
-
-    def json_schema(self) -> JsonSchema:
-        return {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 2, "maxItems": 2}
+    found = numbers(value, kind, rules)
+    if len(found) != 2 or not found[0] < found[1]:
+        raise ModelError("a range is two increasing positions", "write range: [0 deg, 180 deg]")
+    return found[0], found[1]
 
 
 def kind_of(freedom: str | None, what: str) -> str:
@@ -221,32 +175,33 @@ class Drive(Part):
     freedom: Literal["turn", "slide", "turn1", "turn2", "slide1", "slide2"] | None = Field(
         None, description="which freedom of the joint; needed where it has several"
     )
-    position: Annotated[Positions, PositionValue()] | None = Field(
+    position: Annotated[Positions, DriveValue(_positions, _positions_schema)] | None = Field(
         None,
         description="one value, a list, {from, to, count}, or unknown; angles of a turn, lengths of a slide",
     )
-    speed: Annotated[Rates, RateValue("speed")] = Field(
+    speed: Annotated[Rates, DriveValue(_rates, _rates_schema, "speed")] = Field(
         0.0,
         description="one value or a list; rad/s, deg/s or rpm of a turn, length/time of a slide; default 0",
     )
-    acceleration: Annotated[Rates, RateValue("acceleration")] = Field(
+    acceleration: Annotated[Rates, DriveValue(_rates, _rates_schema, "acceleration")] = Field(
         0.0, description="one value or a list; rad/s^2 of a turn, length/time^2 of a slide; default 0"
     )
-    law: Annotated[Law, LawValue()] | None = Field(
+    law: Annotated[Law, DriveValue(read_law, law_schema)] | None = Field(
         None, description="a law of motion in place of position, speed and acceleration"
     )
-    effort: Annotated[Varying, EffortValue()] | None = Field(
+    effort: Annotated[Varying, DriveValue(_effort, varying_schema, "effort")] | None = Field(
         None, description="known effort: a moment on a turn, a force on a slide; then a load must be unknown"
     )
-    motor: Annotated[MotorCurve, MotorValue()] | None = Field(
+    motor: Annotated[MotorCurve, DriveValue(motor_curve, motor_schema)] | None = Field(
         None, description="effort as a function of speed, of a drive that `start` lets go: used by simulate"
     )
-    brake: Annotated[float, BrakeValue()] = Field(
+    brake: Annotated[float, DriveValue(_brake, lambda: NUMBER_OR_TEXT, "effort")] = Field(
         0.0, description="dry effort against the motion of its freedom, which holds at rest: used by simulate"
     )
-    range: Annotated[tuple[float, float], Interval()] | None = Field(
-        None, description="[a, b]: where an unknown position is sought; default one turn"
-    )
+    range: (
+        Annotated[tuple[float, float], DriveValue(_interval, lambda: list_schema(NUMBER_OR_TEXT, 2, 2))]
+        | None
+    ) = Field(None, description="[a, b]: where an unknown position is sought; default one turn")
     axis: Annotated[Vector, Components("number")] | None = Field(
         None, description="in space: the axis of a spherical joint's turn"
     )
@@ -284,19 +239,16 @@ class Drive(Part):
         if self.law is not None:
             self._refuse("a law of motion", "position", "speed", "acceleration", "range")
         elif self.position is None and self.motor is None and self.effort is None:
-            raise ModelError(
-                "its position is not said",
-                "write position: 60 deg, or {from: ..., to: ..., count: ...}, or a law",
-            )
+            what = "its position is not said"
+            raise ModelError(what, "write position: 60 deg, or {from: ..., to: ..., count: ...}, or a law")
         if self.motor is not None:
             self._refuse("a motor", "effort", "law", "range")
         if self.unknown:
             self._refuse("an unknown position", "speed", "acceleration")
             self._check_unknown()
         elif self.range is not None:
-            raise ModelError(
-                "a range is given and the position is known", f"write position: {EXAMPLE}", ("range",)
-            )
+            said = "a range is given and the position is known"
+            raise ModelError(said, f"write position: {EXAMPLE}", ("range",))
         self._check_counts()
         if self.axis is not None:
             at_item("axis", direction_vector, self.axis)
@@ -309,22 +261,18 @@ class Drive(Part):
 
     def _check_unknown(self) -> None:
         if self.effort is None:
-            raise ModelError(
-                "its position is unknown and its effort is not given",
-                "write effort: 0, or the effort that holds it",
-            )
+            what = "its position is unknown and its effort is not given"
+            raise ModelError(what, "write effort: 0, or the effort that holds it")
         if slides(self.freedom) and self.range is None:
-            raise ModelError(
-                "its position along a slide is unknown without a range", "write range: [0 mm, 100 mm]"
-            )
+            said = "its position along a slide is unknown without a range"
+            raise ModelError(said, "write range: [0 mm, 100 mm]")
 
     def _check_counts(self) -> None:
         counts = self.counts()
         if len(set(counts.values())) > 1:
             said = " and ".join(f"{number} in {key}" for key, number in counts.items())
-            raise ModelError(
-                f"its lists differ in length: {said}", "give lists of equal length", (next(iter(counts)),)
-            )
+            what = f"its lists differ in length: {said}"
+            raise ModelError(what, "give lists of equal length", (next(iter(counts)),))
 
     def counts(self) -> dict[str, int]:
         """Key -> number of positions, for those that say one."""

@@ -16,6 +16,7 @@ from dalembert.model.quantities.values import (
     at_item,
     check_sign,
     numbers,
+    object_schema,
     value_text,
 )
 from dalembert.wording import closest, quote_value
@@ -133,7 +134,8 @@ def law(value: object, kind: str, rules: Reading) -> Law:
 
 
 def _rise(value: Mapping[str, object], kind: str, rules: Reading) -> Rise:
-    _require(value, ["type", "from", "to", "duration", "count"], EXAMPLES["rise"])
+    known = ["type", "from", "to", "duration", "count"]
+    mapping(value, known, EXAMPLES["rise"], known)
     start, stop = (at_item(key, rules.quantity, value[key], kind) for key in ("from", "to"))
     duration = at_item("duration", rules.quantity, value["duration"], "time")
     at_item("duration", check_sign, duration, value["duration"], "positive")
@@ -149,7 +151,8 @@ def _table(value: Mapping[str, object], kind: str, rules: Reading) -> TimeTable:
             ("interpolate",),
         )
     keys = {key: item for key, item in value.items() if key not in ("interpolate", "periodic")}
-    _require(keys, ["type", "time", "position", "count"], EXAMPLES["table"])
+    known = ["type", "time", "position", "count"]
+    mapping(keys, known, EXAMPLES["table"], known)
     time = at_item("time", numbers, value["time"], "time", rules)
     position = at_item("position", numbers, value["position"], kind, rules)
     periodic = value.get("periodic", False)
@@ -159,36 +162,25 @@ def _table(value: Mapping[str, object], kind: str, rules: Reading) -> TimeTable:
 
 def _check_table(time: tuple[float, ...], position: tuple[float, ...], periodic: object) -> None:
     if len(time) != len(position):
-        raise ModelError(
-            f"it has {len(time)} times and {len(position)} positions", "give one position for each time"
-        )
+        what = f"it has {len(time)} times and {len(position)} positions"
+        raise ModelError(what, "give one position for each time")
     if len(time) < 4:
         raise ModelError(f"it has too few points: {len(time)}", "give at least 4, or a harmonic law")
     if any(not a < b for a, b in pairwise(time)):
         raise ModelError("its times do not increase", "sort the points", ("time",))
     if not isinstance(periodic, bool):
-        raise ModelError(
-            f"{quote_value(periodic)} is neither true nor false", "write periodic: true", ("periodic",)
-        )
+        said = f"{quote_value(periodic)} is neither true nor false"
+        raise ModelError(said, "write periodic: true", ("periodic",))
     if periodic and abs(position[-1] - position[0]) > 1e-9 * max(map(abs, position)):
-        raise ModelError(
-            "it does not end where it begins", "repeat the first position at the end", ("periodic",)
-        )
-
-
-def _require(value: Mapping[str, object], keys: list[str], example: str) -> None:
-    mapping(value, keys, example)
-    for key in keys:
-        if key not in value:
-            raise ModelError(f"the key {key!r} is missing", f"write {example}")
+        words = "it does not end where it begins"
+        raise ModelError(words, "repeat the first position at the end", ("periodic",))
 
 
 def count(value: object, least: int = 1) -> int:
     """A number of positions."""
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= MOST:
-        raise ModelError(
-            f"{quote_value(value)} is no number of positions", f"write a whole number from {least} to {MOST}"
-        )
+        what = f"{quote_value(value)} is no number of positions"
+        raise ModelError(what, f"write a whole number from {least} to {MOST}")
     return value
 
 
@@ -209,13 +201,4 @@ def law_schema() -> JsonSchema:
         "interpolate": {"const": "cubic", "description": "a cubic spline, the default"},
         "periodic": {"type": "boolean", "description": "the last position repeats the first; default false"},
     }
-    objects = [
-        {
-            "type": "object",
-            "properties": keys,
-            "required": [key for key in keys if key not in ("interpolate", "periodic")],
-            "additionalProperties": False,
-        }
-        for keys in (rise, table)
-    ]
-    return {"anyOf": objects}
+    return {"anyOf": [object_schema(rise, *rise), object_schema(table, *list(table)[:4])]}

@@ -9,7 +9,15 @@ from itertools import pairwise
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model.part import Reading, mapping
-from dalembert.model.quantities.values import NUMBER_OR_TEXT, JsonSchema, at_item, numbers, value_text
+from dalembert.model.quantities.values import (
+    NUMBER_OR_TEXT,
+    JsonSchema,
+    at_item,
+    list_schema,
+    numbers,
+    object_schema,
+    value_text,
+)
 
 EXAMPLE = "{stall: 40 N*m, no_load: 30 rad/s}, or {curve: {speed: [0 rpm, 900 rpm], torque: [40, 0]}}"
 KEYS = ["stall", "no_load", "curve", "on", "off"]
@@ -55,19 +63,11 @@ class MotorCurve:
     def tree(self, kind: str) -> dict[str, object]:
         """As a file says it."""
         kinds = of_kind(kind)
-        tree: dict[str, object] = (
-            {
-                "stall": value_text(self.effort[0], kinds["effort"]),
-                "no_load": value_text(self.speed[1], kinds["speed"]),
-            }
-            if self.straight
-            else {
-                "curve": {
-                    "speed": [value_text(x, kinds["speed"]) for x in self.speed],
-                    kinds["name"]: [value_text(x, kinds["effort"]) for x in self.effort],
-                }
-            }
-        )
+        speeds = [value_text(x, kinds["speed"]) for x in self.speed]
+        efforts = [value_text(x, kinds["effort"]) for x in self.effort]
+        curve: dict[str, object] = {"speed": speeds, kinds["name"]: efforts}
+        line: dict[str, object] = {"stall": efforts[0], "no_load": speeds[1]}
+        tree: dict[str, object] = line if self.straight else {"curve": curve}
         for key, switch in (("on", self.on), ("off", self.off)):
             if switch is not None:
                 tree[key] = value_text(switch[1], kinds[switch[0]])
@@ -76,15 +76,9 @@ class MotorCurve:
 
 def of_kind(kind: str) -> dict[str, str]:
     """Kinds of a motor's numbers, from that of its position."""
-    if kind == "angle":
-        return {
-            "effort": "moment",
-            "speed": "angular_speed",
-            "position": kind,
-            "time": "time",
-            "name": "torque",
-        }
-    return {"effort": "force", "speed": "speed", "position": kind, "time": "time", "name": "force"}
+    turn = {"effort": "moment", "speed": "angular_speed", "name": "torque"}
+    slide = {"effort": "force", "speed": "speed", "name": "force"}
+    return (turn if kind == "angle" else slide) | {"position": kind, "time": "time"}
 
 
 def motor_curve(value: object, kind: str, rules: Reading) -> MotorCurve:
@@ -114,17 +108,13 @@ def _curve(value: object, kinds: Mapping[str, str], rules: Reading) -> tuple[tup
     keys = mapping(value, ["speed", kinds["name"]], f"curve: {{speed: [...], {kinds['name']}: [...]}}")
     for key in ("speed", kinds["name"]):
         if key not in keys:
-            raise ModelError(
-                f"the curve has no {key}", f"write curve: {{speed: [...], {kinds['name']}: [...]}}"
-            )
+            said = f"the curve has no {key}"
+            raise ModelError(said, f"write curve: {{speed: [...], {kinds['name']}: [...]}}")
     speed = at_item("speed", _numbers, keys["speed"], kinds["speed"], rules)
     effort = at_item(kinds["name"], _numbers, keys[kinds["name"]], kinds["effort"], rules)
     if len(speed) != len(effort) or len(speed) < 2:
-        raise ModelError(
-            f"the curve has {len(speed)} speeds and {len(effort)} values of {kinds['name']}",
-            "give equally many, at least two",
-            (kinds["name"],),
-        )
+        what = f"the curve has {len(speed)} speeds and {len(effort)} values of {kinds['name']}"
+        raise ModelError(what, "give equally many, at least two", (kinds["name"],))
     for k, (a, b) in enumerate(pairwise(speed)):
         if not a < b:
             raise ModelError(
@@ -152,33 +142,25 @@ def _switch(value: object, kinds: Mapping[str, str], rules: Reading) -> Switch:
         except ModelError:
             if not isinstance(value, str):
                 break
-    raise ModelError(
-        f"{value!r} says neither when, nor where, nor at which speed", "write 0.5 s, 90 deg or 300 rpm"
-    )
+    what = f"{value!r} says neither when, nor where, nor at which speed"
+    raise ModelError(what, "write 0.5 s, 90 deg or 300 rpm")
 
 
 def motor_schema() -> JsonSchema:
     """Of a motor in a file."""
-    many = {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 2}
-    switch = "a time, a position or a speed at which it is switched "
-    return {
-        "type": "object",
-        "properties": {
-            "stall": NUMBER_OR_TEXT | {"description": "effort at rest"},
-            "no_load": NUMBER_OR_TEXT | {"description": "speed without effort; a straight line between"},
-            "curve": {
-                "type": "object",
-                "description": "straight lines between points, constant beyond",
-                "properties": {
-                    "speed": many | {"description": "rising speeds"},
-                    "torque": many | {"description": "of a turn, at each speed"},
-                    "force": many | {"description": "of a slide, at each speed"},
-                },
-                "required": ["speed"],
-                "additionalProperties": False,
-            },
-            "on": NUMBER_OR_TEXT | {"description": switch + "on"},
-            "off": NUMBER_OR_TEXT | {"description": switch + "off"},
-        },
-        "additionalProperties": False,
+    many = list_schema(NUMBER_OR_TEXT, 2)
+    curve = {
+        "speed": many | {"description": "rising speeds"},
+        "torque": many | {"description": "of a turn, at each speed"},
+        "force": many | {"description": "of a slide, at each speed"},
     }
+    straight = {"description": "straight lines between points, constant beyond"}
+    switch = "a time, a position or a speed at which it is switched "
+    keys = {
+        "stall": NUMBER_OR_TEXT | {"description": "effort at rest"},
+        "no_load": NUMBER_OR_TEXT | {"description": "speed without effort; a straight line between"},
+        "curve": object_schema(curve, "speed") | straight,
+        "on": NUMBER_OR_TEXT | {"description": switch + "on"},
+        "off": NUMBER_OR_TEXT | {"description": switch + "off"},
+    }
+    return object_schema(keys)

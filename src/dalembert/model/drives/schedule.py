@@ -85,9 +85,8 @@ def _step_full_turn(drives: Mapping[str, Drive], positions: int) -> Mapping[str,
             if sought
             else "a structure has no drive"
         )
-        raise ModelError(
-            f"{positions} positions are asked for, and {why}", "leave the number out", ("drives",)
-        )
+        what = f"{positions} positions are asked for, and {why}"
+        raise ModelError(what, "leave the number out", ("drives",))
     turning = [name for name, drive in drives.items() if drive.turns]
     if len(turning) != 1:
         raise ModelError(
@@ -151,20 +150,14 @@ def _time(columns: Mapping[str, Motion]) -> Array | None:
     first = next(iter(times), None)
     for name, time in times.items():
         if not np.allclose(time, times[first], rtol=1e-9, atol=0.0):  # type: ignore[index]
-            raise ModelError(
-                f"the laws of drives {first!r} and {name!r} have different times",
-                "give them the same duration",
-                ("drives", name, "law"),
-            )
+            what = f"the laws of drives {first!r} and {name!r} have different times"
+            raise ModelError(what, "give them the same duration", ("drives", name, "law"))
     return times[first] if first is not None else None
 
 
 def _unknown(drives: Mapping[str, Drive]) -> str | None:
     names = [name for name, drive in drives.items() if drive.unknown]
     if len(names) > 1:
-        raise ModelError(
-            f"the positions of {len(names)} drives are unknown: {', '.join(names)}",
-            "leave one unknown, give the others",
-            ("drives", names[1], "position"),
-        )
+        what = f"the positions of {len(names)} drives are unknown: {', '.join(names)}"
+        raise ModelError(what, "leave one unknown, give the others", ("drives", names[1], "position"))
     return names[0] if names else None

@@ -10,7 +10,14 @@ from pydantic import ValidationInfo
 from dalembert.errors import ModelError
 from dalembert.model.drives.drives import SLIDE, TURN, Drive
 from dalembert.model.part import Reading, mapping, reading
-from dalembert.model.quantities.values import NUMBER_OR_TEXT, JsonSchema, Value, at_item, value_text
+from dalembert.model.quantities.values import (
+    NUMBER_OR_TEXT,
+    JsonSchema,
+    Value,
+    at_item,
+    object_schema,
+    value_text,
+)
 
 EXAMPLE = "start: {O2: {position: 60 deg, speed: 0}}"
 
@@ -75,13 +82,6 @@ class StartValue(Value):
         }
 
     def json_schema(self) -> JsonSchema:
-        one = {
-            "type": "object",
-            "properties": {
-                "position": NUMBER_OR_TEXT | {"description": "angle of a turn, length of a slide"},
-                "speed": NUMBER_OR_TEXT | {"description": "default 0"},
-            },
-            "required": ["position"],
-            "additionalProperties": False,
-        }
-        return {"type": "object", "additionalProperties": one}
+        position = NUMBER_OR_TEXT | {"description": "angle of a turn, length of a slide"}
+        one = {"position": position, "speed": NUMBER_OR_TEXT | {"description": "default 0"}}
+        return {"type": "object", "additionalProperties": object_schema(one, "position")}

@@ -1,30 +1,28 @@
-"""JSON to a tree, with the line of each path where a message needs it."""
+"""JSON to a tree."""
 
 from __future__ import annotations
 
 import json
 import re
-from typing import Any
 
-from dalembert.model.files.source import Path
 from dalembert.model.files.yaml_text import DEEPEST, at_line
 from dalembert.wording import quote_value
 
 
 def read(text: str) -> object:
-    """The tree; raises ModelError with its `line`."""
+    """The tree, None of an empty text; raises ModelError with its `line`."""
+    if not text.strip():
+        return None
     _check_tokens(text)
     try:
         return json.loads(text, object_pairs_hook=_object, parse_int=_number)
     except json.JSONDecodeError as error:
-        raise at_line(
-            f"it is not JSON here: {error.msg.lower()}", "check commas, quotes and brackets", error.lineno
-        ) from None
+        what = f"it is not JSON here: {error.msg.lower()}"
+        raise at_line(what, "check commas, quotes and brackets", error.lineno) from None
     except _TwiceError as twice:
         line = _second(text, str(twice))
-        raise at_line(
-            f"the key {quote_value(str(twice))} stands twice", "leave one of them out", line
-        ) from None
+        said = f"the key {quote_value(str(twice))} stands twice"
+        raise at_line(said, "leave one of them out", line) from None
 
 
 class _TwiceError(ValueError):
@@ -56,49 +54,8 @@ def _check_tokens(text: str) -> None:
         if token in ("NaN", "Infinity", "-Infinity"):
             raise at_line(f"{token} is no number of JSON", "write a finite number", line)
         if depth > DEEPEST:
-            raise at_line(
-                f"the file is nested deeper than {DEEPEST} levels", "a model file needs 6 or so", line
-            )
-
-
-def lines(text: str) -> dict[Path, int]:
-    """The line of each path of a text that is JSON."""
-    found: dict[Path, int] = {}
-    stack: list[list[Any]] = []
-    line = 1
-    for match in _TOKEN.finditer(text):
-        token = match[0]
-        if token == "\n":
-            line += 1
-        elif token in "]}":
-            stack.pop()
-        elif token not in ",:":
-            _place(token, stack, found, line)
-        elif token == "," and stack:
-            _next(stack[-1])
-    return found
-
-
-def _place(token: str, stack: list[list[Any]], found: dict[Path, int], line: int) -> None:
-    """Note a value or key; stack items are [path, key or index, whether a key comes next]."""
-    path: Path = ()
-    if stack:
-        top = stack[-1]
-        if top[2]:
-            top[1], top[2] = json.loads(token), False
-            found[(*top[0], top[1])] = line
-            return
-        path = (*top[0], top[1])
-        found.setdefault(path, line)
-    if token in "[{":
-        stack.append([path, 0, token == "{"])
-
-
-def _next(top: list[Any]) -> None:
-    if isinstance(top[1], int):
-        top[1] += 1
-    else:
-        top[2] = True
+            what = f"the file is nested deeper than {DEEPEST} levels"
+            raise at_line(what, "a model file needs 6 or so", line)
 
 
 def _second(text: str, key: str) -> int:

@@ -8,6 +8,7 @@ import re
 import sys
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -55,69 +56,33 @@ def read_text(text: str, form: str = "yaml", name: str = "text") -> tuple[Any, S
     if form not in FORMATS.values():
         raise ModelError(f"there is no format {form!r}", "yaml, json or toml")
     if len(text) > LARGEST:
-        raise ModelError(
-            f"the file has more than {LARGEST} characters", "give large tables fewer points", (), name, 1
-        )
+        what = f"the file has more than {LARGEST} characters"
+        raise ModelError(what, "give large tables fewer points", (), name, 1)
     try:
-        tree, lines = _READERS[form](text.removeprefix("\ufeff"))
+        tree, lines = _tree(text.removeprefix("\ufeff"), form)
     except ModelError as error:
-        raise ModelError(error.what, error.remedy, (), name, error.line or 1) from None
+        raise error.at_line(name, error.line or 1) from None
     if tree is None or tree == {}:
-        raise ModelError(
-            "the file is empty", "begin with links: and joints:, or with `dalembert new`", (), name, 1
-        )
+        said = "the file is empty"
+        raise ModelError(said, "begin with links: and joints:, or with `dalembert new`", (), name, 1)
     return tree, Source(name, lines, text, form, DATA_FOLDER.get())
 
 
-def _yaml(text: str) -> tuple[object, Callable[[], Lines]]:
-    from dalembert.model.files import yaml_text
+def _tree(text: str, form: str) -> tuple[object, Callable[[], Lines]]:
+    """A text's tree, and its lines: those of YAML are found with it, others when a message needs them."""
+    if form == "yaml":
+        from dalembert.model.files import yaml_text
 
-    tree, lines = yaml_text.read(text)
-    return tree, _Known(lines)
+        tree, known = yaml_text.read(text)
+        return tree, partial(_known, known)
+    from dalembert.model.files import json_text, toml_text
+    from dalembert.model.files.places import lines
 
-
-def _json(text: str) -> tuple[object, Callable[[], Lines]]:
-    from dalembert.model.files import json_text
-
-    if not text.strip():
-        return None, _Known({})
-    return json_text.read(text), _Later(json_text.lines, text)
+    return (json_text if form == "json" else toml_text).read(text), partial(lines, text, form)
 
 
-def _toml(text: str) -> tuple[object, Callable[[], Lines]]:
-    from dalembert.model.files import toml_text
-
-    return toml_text.read(text), _Later(toml_text.lines, text)
-
-
-_READERS: dict[str, Callable[[str], tuple[object, Callable[[], Lines]]]] = {
-    "yaml": _yaml,
-    "json": _json,
-    "toml": _toml,
-}
-
-
-class _Known:
-    """Lines that are known."""
-
-    def __init__(self, lines: Lines) -> None:
-        self.lines = lines
-
-    def __call__(self) -> Lines:
-        return self.lines
-
-
-class _Later:
-    """Lines that are found when a message needs them."""
-
-    def __init__(self, find: Callable[[str], Lines], text: str) -> None:
-        self.find, self.text = find, text
-        self.lines: Lines | None = None
-
-    def __call__(self) -> Lines:
-        if self.lines is None:
-            self.lines = self.find(self.text)
-        return self.lines
+def _known(lines: Lines) -> Lines:
+    return lines
 
 
 def _content(path: Path, name: str) -> bytes:
@@ -128,19 +93,13 @@ def _content(path: Path, name: str) -> bytes:
         raise ModelError(f"there is no file {name}", _neighbour(path), (), name, 1) from None
     except (OSError, ValueError) as error:
         said = getattr(error, "strerror", None) or error
-        raise ModelError(
-            f"the file {name!r} cannot be read: {said}",
-            "check its name and permissions",
-            (),
-            repr(name)[1:-1],
-            1,
-        ) from None
+        words = f"the file {name!r} cannot be read: {said}"
+        raise ModelError(words, "check its name and permissions", (), repr(name)[1:-1], 1) from None
     if directory:
         raise ModelError(f"{name} is a directory", "name a .yaml, .json or .toml file", (), name, 1)
     if len(content) > LARGEST:
-        raise ModelError(
-            f"the file has more than {LARGEST} bytes", "give large tables fewer points", (), name, 1
-        )
+        what = f"the file has more than {LARGEST} bytes"
+        raise ModelError(what, "give large tables fewer points", (), name, 1)
     return content
 
 
@@ -179,22 +138,16 @@ def _decode(content: bytes, name: str) -> str:
         return content.decode("utf-8")
     except UnicodeDecodeError as error:
         line = content[: error.start].count(b"\n") + 1
-        raise ModelError(
-            f"the file is not UTF-8 text: byte {content[error.start]:#04x} has no meaning there",
-            "save it as UTF-8",
-            (),
-            name,
-            line,
-        ) from None
+        what = f"the file is not UTF-8 text: byte {content[error.start]:#04x} has no meaning there"
+        raise ModelError(what, "save it as UTF-8", (), name, line) from None
 
 
 def format_of(path: FilePath) -> str:
     """The format that the ending of a name says."""
     suffix = Path(path).suffix.lower()
     if suffix not in FORMATS:
-        raise ModelError(
-            f"{os.fspath(path)} is named like no model file", "end its name with .yaml, .json or .toml"
-        )
+        what = f"{os.fspath(path)} is named like no model file"
+        raise ModelError(what, "end its name with .yaml, .json or .toml")
     return FORMATS[suffix]
 
 
@@ -209,10 +162,8 @@ def save_text(text: str, path: FilePath, overwrite: bool = False) -> None:
         content = text.encode("utf-8")
     except UnicodeEncodeError as error:
         half = text[error.start]
-        raise ModelError(
-            f"cannot write {os.fspath(path)}: a text in it has {half!r}, half a character",
-            "write that text anew",
-        ) from None
+        what = f"cannot write {os.fspath(path)}: a text in it has {half!r}, half a character"
+        raise ModelError(what, "write that text anew") from None
     with new_file(path, overwrite) as temporary:
         temporary.write_bytes(content)
 
@@ -238,7 +189,6 @@ def _toml_text(tree: Mapping[str, object]) -> str:
     try:
         import tomli_w
     except ImportError:
-        raise ModelError(
-            "TOML is written by the package tomli-w", "install it: pip install tomli-w"
-        ) from None
+        what = "TOML is written by the package tomli-w"
+        raise ModelError(what, "install it: pip install tomli-w") from None
     return tomli_w.dumps(tree)

@@ -1,13 +1,15 @@
-"""Where each value of a model file stands in its text, so that one can be changed and every other character kept."""
+"""Where each value of a model file stands in its text: its line, and the characters that change with it."""
 
 from __future__ import annotations
 
 import json
 import re
+from bisect import bisect_left
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
-from dalembert.model.files.source import Path
+from dalembert.model.files.source import Lines, Path
 
 
 @dataclass
@@ -27,6 +29,18 @@ Places = dict[Path, Place]
 def places(text: str, form: str) -> Places:
     """Path -> place of every value of a text that has been read without an error; keys in the order of the file."""
     return {"yaml": _of_yaml, "json": _of_json, "toml": _of_toml}[form](text)
+
+
+@lru_cache(maxsize=4)
+def lines(text: str, form: str) -> Lines:
+    """The line of every path of a text that has been read without an error."""
+    ends = [match.start() for match in re.finditer("\n", text)]
+    found: dict[Path, int] = {}
+    for path, place in places(text, form).items():
+        line = bisect_left(ends, place.key[0] if place.key else place.start) + 1
+        for length in range(1, len(path) + 1):
+            found.setdefault(path[:length], line)
+    return found
 
 
 def inside(found: Places, path: Path) -> list[Path]:
@@ -123,7 +137,7 @@ def _of_json(text: str) -> Places:
 _SPACE = re.compile(r"(?:[ \t\r\n]+|#[^\n]*)*")
 _BARE = r"[A-Za-z0-9_-]+"
 _TEXT = r'"""[\s\S]*?"""+|\'\'\'[\s\S]*?\'\'\'+|"(?:[^"\\\n]|\\.)*"|\'[^\'\n]*\''
-_SCALAR = re.compile(rf"{_TEXT}|[^\s,\]}}#]+")
+_SCALAR = re.compile(rf"{_TEXT}|\d{{4}}-\d\d-\d\d \d\d:[^\s,\]}}#]+|[^\s,\]}}#]+")
 _KEY = re.compile(rf"({_BARE}|{_TEXT})(?:[ \t]*\.[ \t]*({_BARE}|{_TEXT}))*")
 
 

@@ -46,10 +46,8 @@ def read(text: str) -> tuple[object, dict[Path, int]]:
             builder.take(event)
     except MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
-        problem = _problem(error)
-        raise at_line(
-            f"it is not YAML here: {problem}", _advice(text, mark), mark.line + 1 if mark else 1
-        ) from None
+        what, line = f"it is not YAML here: {_problem(error)}", mark.line + 1 if mark else 1
+        raise at_line(what, _advice(text, mark), line) from None
     except (YAMLError, ValueError, IndexError, AssertionError, RecursionError, OverflowError) as error:
         if isinstance(error, ModelError):
             raise
@@ -66,9 +64,8 @@ def _check_properties(text: str) -> None:
     match = _LONG.search(text)
     if match:
         line = text.count("\n", 0, match.start()) + 1
-        raise at_line(
-            f"{quote_value(match[0])} is longer than any word of a model file", "put text in quotes", line
-        )
+        what = f"{quote_value(match[0])} is longer than any word of a model file"
+        raise at_line(what, "put text in quotes", line)
 
 
 def _problem(error: MarkedYAMLError) -> str:
@@ -93,82 +90,73 @@ def _advice(text: str, mark: StreamMark | None) -> str:
 
 
 class _Builder:
-    """Stacks the open mappings and lists; `key` is the mapping key whose value comes next."""
+    """Stacks the open mappings and lists; `line` is that of the event at hand."""
 
     def __init__(self) -> None:
         self.root: object = None
         self.lines: dict[Path, int] = {}
         self.anchors: dict[str, tuple[object, int]] = {}
         self.stack: list[_Open] = []
-        self.size = self.documents = 0
+        self.size = self.documents = self.line = 0
+
+    def error(self, what: str, remedy: str) -> ModelError:
+        return at_line(what, remedy, self.line)
 
     def take(self, event: Any) -> None:
         kind = type(event).__name__
-        line = event.start_mark.line + 1 if event.start_mark else 1
+        self.line = event.start_mark.line + 1 if event.start_mark else 1
         self.size += 1
         if self.size > MOST:
-            raise at_line(
-                f"the file has more than {MOST} values",
-                "give large tables fewer points, or write the file as JSON",
-                line,
-            )
+            what = f"the file has more than {MOST} values"
+            raise self.error(what, "give large tables fewer points, or write the file as JSON")
+        if (tag := getattr(event, "tag", None)) is not None:
+            raise self.error(f"a tag {quote_value(str(tag))} has no place in a model file", "leave it out")
         if kind == "DocumentStartEvent":
-            self.document(line)
+            self.document()
         elif kind == "ScalarEvent":
-            self.scalar(event, line)
+            self.scalar(event)
         elif kind == "AliasEvent":
-            self.alias(event.anchor, line)
+            self.alias(event.anchor)
         elif kind in ("MappingStartEvent", "SequenceStartEvent"):
-            self.open_node(event, {} if kind == "MappingStartEvent" else [], line)
+            self.open_node(event, {} if kind == "MappingStartEvent" else [])
         elif kind in ("MappingEndEvent", "SequenceEndEvent"):
             self.close_node()
 
-    def document(self, line: int) -> None:
+    @property
+    def wants_key(self) -> bool:
+        return bool(self.stack) and self.stack[-1].wants_key
+
+    def document(self) -> None:
         self.documents += 1
         if self.documents > 1:
-            raise at_line(
-                "a second document begins", "keep one mechanism in a file: leave out the line ---", line
-            )
+            remedy = "keep one mechanism in a file: leave out the line ---"
+            raise self.error("a second document begins", remedy)
 
-    def scalar(self, event: ScalarEvent, line: int) -> None:
-        if event.tag is not None:
-            raise at_line(
-                f"a tag {quote_value(str(event.tag))} has no place in a model file", "leave it out", line
-            )
-        if self.stack and self.stack[-1].wants_key:
+    def scalar(self, event: ScalarEvent) -> None:
+        if self.wants_key:
             self.stack[-1].merges |= event.value == MERGE and event.implicit[0]
-            self.key(event.value, line)
+            self.key(event.value)
             return
         value = scalar(event.value) if event.implicit[0] else event.value
-        self.add(value, line)
+        self.add(value)
         self.add_anchor(event.anchor, value, 1)
 
-    def key(self, key: str, line: int) -> None:
+    def key(self, key: str) -> None:
         top = self.stack[-1]
         if key in top.value:
-            first = self.lines.get((*top.path, key), line)
-            raise at_line(
-                f"the key {quote_value(key)} stands twice, first in line {first}",
-                "leave one of them out",
-                line,
-            )
+            first = self.lines.get((*top.path, key), self.line)
+            what = f"the key {quote_value(key)} stands twice, first in line {first}"
+            raise self.error(what, "leave one of them out")
         top.key, top.wants_key = key, False
-        self.lines[(*top.path, key)] = line
+        self.lines[(*top.path, key)] = self.line
 
-    def open_node(
-        self, event: CollectionStartEvent, value: dict[str, object] | list[object], line: int
-    ) -> None:
-        if event.tag is not None:
-            raise at_line(
-                f"a tag {quote_value(str(event.tag))} has no place in a model file", "leave it out", line
-            )
-        if self.stack and self.stack[-1].wants_key:
-            raise at_line("a list or mapping stands where a key is needed", "write key: value", line)
+    def open_node(self, event: CollectionStartEvent, value: dict[str, object] | list[object]) -> None:
+        if self.wants_key:
+            raise self.error("a list or mapping stands where a key is needed", "write key: value")
         if len(self.stack) >= DEEPEST:
-            raise at_line(
-                f"the file is nested deeper than {DEEPEST} levels", "a model file needs 6 or so", line
-            )
-        path = self.add(value, line)
+            what = f"the file is nested deeper than {DEEPEST} levels"
+            raise self.error(what, "a model file needs 6 or so")
+        path = self.add(value)
         self.stack.append(_Open(value, path, event.anchor, self.size))
 
     def close_node(self) -> None:
@@ -180,15 +168,12 @@ class _Builder:
     def merge(self, top: _Open) -> None:
         """Take in what `<<: *name` names; keys that stand in the mapping itself, and earlier ones, go first."""
         given = top.value.pop(MERGE)
-        line = self.lines.pop((*top.path, MERGE))
+        line = self.line = self.lines.pop((*top.path, MERGE))
         merged: dict[str, object] = {}
         for other in reversed(given if isinstance(given, list) else [given]):
             if not isinstance(other, dict):
-                raise at_line(
-                    f"{quote_value(other)} stands where {MERGE} takes in a mapping",
-                    f"write {MERGE}: *name, after &name {{...}}",
-                    line,
-                )
+                what = f"{quote_value(other)} stands where {MERGE} takes in a mapping"
+                raise self.error(what, f"write {MERGE}: *name, after &name {{...}}")
             merged |= other
         own = dict(top.value)
         top.value.clear()
@@ -199,25 +184,24 @@ class _Builder:
         if anchor:
             self.anchors[anchor] = value, size
 
-    def alias(self, anchor: str, line: int) -> None:
+    def alias(self, anchor: str) -> None:
         if anchor not in self.anchors:
-            raise at_line(
-                f"there is no anchor {quote_value(anchor)}", f"write &{anchor} before a complete value", line
-            )
-        if self.stack and self.stack[-1].wants_key:
-            raise at_line("an alias stands where a key is needed", "write the key", line)
+            remedy = f"write &{anchor} before a complete value"
+            raise self.error(f"there is no anchor {quote_value(anchor)}", remedy)
+        if self.wants_key:
+            raise self.error("an alias stands where a key is needed", "write the key")
         value, size = self.anchors[anchor]
         self.size += size
-        self.add(value, line)
+        self.add(value)
 
-    def add(self, value: object, line: int) -> Path:
+    def add(self, value: object) -> Path:
         if not self.stack:
             self.root = value
             return ()
         top = self.stack[-1]
         if isinstance(top.value, list):
             path = (*top.path, len(top.value))
-            self.lines[path] = line
+            self.lines[path] = self.line
             top.value.append(value)
         else:
             path = (*top.path, top.key)

@@ -33,6 +33,7 @@ from dalembert.model.quantities.values import (
     check_sign,
     name,
     numbers,
+    object_schema,
     value_text,
     vector,
     vector_schema,
@@ -83,10 +84,9 @@ class Place(Value):
             return value
         if not isinstance(value, Mapping):
             return vector(value, "length", rules)
-        keys = mapping(value, ["from", "at", "turn", "mirror", "about"], "{from: center, at: [x, y]}")
-        for key in ("from",) if {"turn", "mirror"} & keys.keys() else ("from", "at"):
-            if key not in keys:
-                raise ModelError(f"the key {key!r} is missing", "write {from: center, at: [x, y]}")
+        needed = ("from",) if {"turn", "mirror"} & value.keys() else ("from", "at")
+        known = ["from", "at", "turn", "mirror", "about"]
+        keys = mapping(value, known, "{from: center, at: [x, y]}", needed)
         if {"turn", "mirror"} <= keys.keys() or (rules.dimension == 3 and {"turn", "mirror"} & keys.keys()):
             what = "in space" if rules.dimension == 3 else "by both turn and mirror"
             raise ModelError(f"a point is placed {what}", "turn it, or mirror it, in the plane", ("from",))
@@ -113,21 +113,13 @@ class Place(Value):
 
     def json_schema(self) -> JsonSchema:
         relative = {
-            "type": "object",
-            "properties": {
-                "from": {"type": "string", "description": "another point of the link, or center"},
-                "at": vector_schema() | {"description": "from there, in link axes, lengths"},
-                "turn": NUMBER_OR_TEXT | {"description": "in the plane: that point turned by this angle"},
-                "mirror": NUMBER_OR_TEXT | {"description": "or reflected in a line at this angle"},
-                "about": {
-                    "type": "string",
-                    "description": "the point it is turned about; default the origin",
-                },
-            },
-            "required": ["from"],
-            "additionalProperties": False,
+            "from": {"type": "string", "description": "another point of the link, or center"},
+            "at": vector_schema() | {"description": "from there, in link axes, lengths"},
+            "turn": NUMBER_OR_TEXT | {"description": "in the plane: that point turned by this angle"},
+            "mirror": NUMBER_OR_TEXT | {"description": "or reflected in a line at this angle"},
+            "about": {"type": "string", "description": "the point it is turned about; default the origin"},
         }
-        return {"anyOf": [*vector_schema()["anyOf"], relative]}
+        return {"anyOf": [*vector_schema()["anyOf"], object_schema(relative, "from")]}
 
 
 class InertiaValue(Value):
@@ -141,9 +133,8 @@ class InertiaValue(Value):
             remedy = "in the plane, write inertia: 0.02; in space, space: space at the top"
             raise ModelError(f"{quote_value(value)} stands where one number is needed", remedy)
         if len(value) != 3:
-            raise ModelError(
-                f"a list of {len(value)} is no inertia", "write 3 principal values, or the 3 rows of a matrix"
-            )
+            what = f"a list of {len(value)} is no inertia"
+            raise ModelError(what, "write 3 principal values, or the 3 rows of a matrix")
         if isinstance(value[0], (list, tuple)):
             return _symmetric(
                 tuple(at_item(i, numbers, row, "inertia", rules) for i, row in enumerate(value))
@@ -157,10 +148,8 @@ class InertiaValue(Value):
         return value_text(value, "inertia")
 
     def json_schema(self) -> JsonSchema:
-        rows = {
-            "type": "array",
-            "items": {"anyOf": [NUMBER_OR_TEXT, {"type": "array", "items": NUMBER_OR_TEXT}]},
-        }
+        row = {"anyOf": [NUMBER_OR_TEXT, {"type": "array", "items": NUMBER_OR_TEXT}]}
+        rows = {"type": "array", "items": row}
         return {"anyOf": [NUMBER_OR_TEXT, rows]}
 
 
@@ -168,9 +157,8 @@ def _symmetric(rows: tuple[tuple[float, ...], ...]) -> tuple[tuple[float, ...], 
     if any(len(row) != 3 for row in rows) or any(
         rows[i][j] != rows[j][i] for i in range(3) for j in range(i)
     ):
-        raise ModelError(
-            "the matrix of inertia is not symmetric, 3 by 3", "give [i][j] and [j][i] the same value"
-        )
+        what = "the matrix of inertia is not symmetric, 3 by 3"
+        raise ModelError(what, "give [i][j] and [j][i] the same value")
     import numpy as np
 
     principal = np.linalg.eigvalsh(np.array(rows))
@@ -245,11 +233,8 @@ class Link(Part):
         if self.shape is not None:
             self._check_shape()
         if CENTER in self.points:
-            raise ModelError(
-                f"a point is named {CENTER!r}, the name of the mass centre",
-                "give it another name",
-                ("points", CENTER),
-            )
+            what = f"a point is named {CENTER!r}, the name of the mass centre"
+            raise ModelError(what, "give it another name", ("points", CENTER))
         for point in self.points:
             self.point(point)
         self._check_members()
@@ -259,11 +244,8 @@ class Link(Part):
         for k, pair in enumerate(self.members or ()):
             a, b = (at_item("members", at_item, k, self.point, end) for end in pair)
             if a == b:
-                raise ModelError(
-                    f"points {pair[0]!r} and {pair[1]!r} are in one place",
-                    "name two that are apart",
-                    ("members", k),
-                )
+                what = f"points {pair[0]!r} and {pair[1]!r} are in one place"
+                raise ModelError(what, "name two that are apart", ("members", k))
         if self.mass_along == "shape" and not self.shapes:
             raise ModelError("mass_along is by a shape, and there is none", "write uniform", ("mass_along",))
 
@@ -275,14 +257,12 @@ class Link(Part):
     def _check_shape(self) -> None:
         for key in ("center", "inertia"):
             if getattr(self, key):
-                raise ModelError(
-                    f"both shape and {key} are given", "leave one of them out: a shape gives both", (key,)
-                )
+                said = f"both shape and {key} are given"
+                raise ModelError(said, "leave one of them out: a shape gives both", (key,))
         check_densities(self.shapes, self.mass is not None or self.weight is not None)
         if not finite(self.mass_properties, 1.0 if self.weight is not None else self.mass):
-            raise ModelError(
-                "its mass or inertia is no finite number", "check its size and units", ("shape",)
-            )
+            what = "its mass or inertia is no finite number"
+            raise ModelError(what, "check its size and units", ("shape",))
 
     def mass_properties(self, mass: Numeric = None) -> MassProperties:
         """Mass, centre and inertia of its shapes; of one density where the whole mass is given."""
@@ -298,10 +278,8 @@ class Link(Part):
             if isinstance(place, Offset):
                 start = place.start
         if start == CENTER:
-            raise ModelError(
-                f"point {point!r} is placed from the mass centre, which the shape gives",
-                "place it from the origin",
-            )
+            what = f"point {point!r} is placed from the mass centre, which the shape gives"
+            raise ModelError(what, "place it from the origin")
         return self.point(point)
 
     def point(self, point: str) -> Vector:
@@ -321,21 +299,15 @@ class Link(Part):
             return (0.0,) * self._dimension()
         place = self._place(offset.about, seen)
         if isinstance(place, Offset):
-            raise ModelError(
-                f"a point is turned about {offset.about!r}, which is placed from another",
-                "give that point a vector",
-                ("points", seen[0], "about"),
-            )
+            what = f"a point is turned about {offset.about!r}, which is placed from another"
+            raise ModelError(what, "give that point a vector", ("points", seen[0], "about"))
         return place
 
     def _place(self, point: str, seen: list[str]) -> Vector | Offset:
         if point in seen:
             circle = " from ".join([*seen, point])
-            raise ModelError(
-                f"points are placed in a circle: {circle}",
-                "give one of them a vector",
-                ("points", seen[0], "from"),
-            )
+            what = f"points are placed in a circle: {circle}"
+            raise ModelError(what, "give one of them a vector", ("points", seen[0], "from"))
         if point == CENTER:
             return self._center()
         if point not in self.points:

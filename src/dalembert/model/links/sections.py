@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, NamedTuple, Self
 
 from pydantic import Field, ValidationInfo, model_validator
 
 from dalembert.errors import ModelError
 from dalembert.model.links.shapes import Lengths
 from dalembert.model.part import Part
-from dalembert.model.quantities.values import JsonSchema, Scalar, Value, Vector, name, pair_of_names
+from dalembert.model.quantities.values import (
+    NAME_OR_NUMBER,
+    JsonSchema,
+    Scalar,
+    Value,
+    Vector,
+    list_schema,
+    name,
+    pair_of_names,
+)
 
 MASS_ALONG = ("uniform", "shape", "lumped")
 
@@ -20,9 +29,8 @@ class MassAlong(Value):
 
     def read(self, value: object, info: ValidationInfo) -> str:
         if value not in MASS_ALONG:
-            raise ModelError(
-                f"{value!r} is no way to lay out mass along a member", f"write {', '.join(MASS_ALONG)}"
-            )
+            what = f"{value!r} is no way to lay out mass along a member"
+            raise ModelError(what, f"write {', '.join(MASS_ALONG)}")
         return str(value)
 
     def json_schema(self) -> JsonSchema:
@@ -55,8 +63,18 @@ class Members(Value):
         return [list(pair) for pair in value]
 
     def json_schema(self) -> JsonSchema:
-        pair = {"type": "array", "items": {"type": ["string", "integer"]}, "minItems": 2, "maxItems": 2}
-        return {"anyOf": [pair, {"type": "array", "items": pair, "minItems": 1}]}
+        pair = list_schema(NAME_OR_NUMBER, 2, 2)
+        return {"anyOf": [pair, list_schema(pair)]}
+
+
+class Measures(NamedTuple):
+    """Numbers of a section, SI, as the properties of ``Section`` say them."""
+
+    area: float
+    second_moments: tuple[float, float]
+    reach: tuple[float, float]
+    shear: float
+    torsion: float | None = None
 
 
 Stress = Annotated[float, Scalar("pressure", "positive")]
@@ -101,14 +119,12 @@ class Section(Part):
         given = [k for k in ("area", "modulus", "inertia") if getattr(self, k) is not None]
         if len(shapes) + bool(given) != 1:
             what = f"{' and '.join([*shapes, *given])} give it twice" if shapes else "the section has no size"
-            raise ModelError(
-                what, "write one of rectangle, circle, tube, I, or area, modulus and inertia", given[:1]
-            )
+            remedy = "write one of rectangle, circle, tube, I, or area, modulus and inertia"
+            raise ModelError(what, remedy, given[:1])
         if given and len(given) < 3:
             missing = next(k for k in ("area", "modulus", "inertia") if k not in given)
-            raise ModelError(
-                f"the section has no {missing}", "give area, modulus and inertia, or a shape", ()
-            )
+            said = f"the section has no {missing}"
+            raise ModelError(said, "give area, modulus and inertia, or a shape", ())
         if self.tube and self.tube[0] >= self.tube[1]:
             raise ModelError("the inner diameter is not smaller", "write tube: [inner, outer]", ("tube",))
         if self.I and (self.I[2] >= self.I[1] or 2 * self.I[3] >= self.I[0]):
@@ -121,70 +137,53 @@ class Section(Part):
         return self.circle is not None or self.tube is not None
 
     @property
-    def _diameters(self) -> tuple[float, float]:
-        inner, outer = self.tube or (0.0, self.circle or 0.0)
-        return inner, outer
+    def _measures(self) -> Measures:
+        if self.rectangle:
+            b, h = self.rectangle
+            short, long = sorted(self.rectangle)
+            torsion = long * short**2 / (3 + 1.8 * short / long)
+            return Measures(b * h, (h * b**3 / 12, b * h**3 / 12), (h / 2, b / 2), 1.5 / (b * h), torsion)
+        if self.I:
+            h, b, web, flange = self.I
+            clear = h - 2 * flange
+            second = (2 * flange * b**3 + clear * web**3) / 12, (b * h**3 - (b - web) * clear**3) / 12
+            torsion = (2 * b * flange**3 + clear * web**3) / 3 / max(web, flange)
+            return Measures(2 * b * flange + clear * web, second, (h / 2, b / 2), 1 / (web * clear), torsion)
+        if self.round:
+            r, R = (d / 2 for d in self.tube or (0.0, self.circle or 0.0))
+            area, second_moment = math.pi * (R**2 - r**2), math.pi / 4 * (R**4 - r**4)
+            shear = 4 / 3 / area * (R**2 + R * r + r**2) / (R**2 + r**2)
+            return Measures(area, (second_moment,) * 2, (R, R), shear, 2 * second_moment / R)
+        assert self.area is not None
+        assert self.inertia is not None
+        assert self.modulus is not None
+        return Measures(self.area, (self.inertia,) * 2, (self.inertia / self.modulus,) * 2, 1.5 / self.area)
 
     @property
     def area_of(self) -> float:
         """A, m2."""
-        if self.area is not None:
-            return self.area
-        if self.rectangle:
-            return self.rectangle[0] * self.rectangle[1]
-        if self.I:
-            h, b, web, flange = self.I
-            return 2 * b * flange + (h - 2 * flange) * web
-        inner, outer = self._diameters
-        return math.pi / 4 * (outer**2 - inner**2)
+        return self._measures.area
 
     @property
     def second_moments(self) -> tuple[float, float]:
         """(about y, about z), m4: in the plane it bends about z."""
-        if self.inertia is not None:
-            return self.inertia, self.inertia
-        if self.rectangle:
-            b, h = self.rectangle
-            return h * b**3 / 12, b * h**3 / 12
-        if self.I:
-            h, b, web, flange = self.I
-            clear = h - 2 * flange
-            return (2 * flange * b**3 + clear * web**3) / 12, (b * h**3 - (b - web) * clear**3) / 12
-        inner, outer = self._diameters
-        return (math.pi / 64 * (outer**4 - inner**4),) * 2
+        return self._measures.second_moments
 
     @property
     def reach(self) -> tuple[float, float]:
         """How far its outermost fibres are from the axis along y and z, m."""
-        if self.inertia is not None and self.modulus is not None:
-            return (self.inertia / self.modulus,) * 2
-        if self.rectangle:
-            return self.rectangle[1] / 2, self.rectangle[0] / 2
-        if self.I:
-            return self.I[0] / 2, self.I[1] / 2
-        return (self._diameters[1] / 2,) * 2
+        return self._measures.reach
 
     @property
     def shear(self) -> float:
         """Greatest shear stress over the shear force, 1/m2: 3/2 A, 4/3 A, 2/A of a thin tube, that of a web."""
-        if self.I:
-            return 1 / (self.I[2] * (self.I[0] - 2 * self.I[3]))
-        if self.round:
-            inner, outer = (d / 2 for d in self._diameters)
-            return 4 / 3 / self.area_of * (outer**2 + outer * inner + inner**2) / (outer**2 + inner**2)
-        return 1.5 / self.area_of
+        return self._measures.shear
 
     @property
     def torsion(self) -> float:
         """Torque over its greatest shear stress, m3; rectangles by a b^2 / (3 + 1.8 b/a), a the longer side."""
-        if self.round:
-            inner, outer = self._diameters
-            return math.pi / 16 * (outer**4 - inner**4) / outer
-        if self.rectangle:
-            short, long = sorted(self.rectangle)
-            return long * short**2 / (3 + 1.8 * short / long)
-        if self.I:
-            h, b, web, flange = self.I
-            return (2 * b * flange**3 + (h - 2 * flange) * web**3) / 3 / max(web, flange)
-        remedy = "give a rectangle, a circle, a tube or an I"
-        raise ModelError("a section by its numbers says nothing of torsion, nor of bending two ways", remedy)
+        if self._measures.torsion is None:
+            remedy = "give a rectangle, a circle, a tube or an I"
+            what = "a section by its numbers says nothing of torsion, nor of bending two ways"
+            raise ModelError(what, remedy)
+        return self._measures.torsion

@@ -24,6 +24,7 @@ from dalembert.model.quantities.values import (
     Vector,
     at_item,
     check_sign,
+    list_schema,
     numbers,
     value_text,
 )
@@ -63,7 +64,7 @@ class Lengths(Value):
         return [value_text(x, "length") for x in value]
 
     def json_schema(self) -> JsonSchema:
-        return {"type": "array", "items": NUMBER_OR_TEXT, "minItems": self.count, "maxItems": self.count}
+        return list_schema(NUMBER_OR_TEXT, self.count, self.count)
 
 
 _LINK_AXES: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -166,9 +167,8 @@ class Long(Placed):
         length = ((b - a) @ (b - a)) ** 0.5
         if not length:
             first, second = self.between
-            raise ModelError(
-                f"points {first!r} and {second!r} are in one place", "name two that are apart", ("between",)
-            )
+            what = f"points {first!r} and {second!r} are in one place"
+            raise ModelError(what, "name two that are apart", ("between",))
         return length, (a + b) / 2, (b - a) / length
 
     def round(self, points: Points, area: Numeric, squares: Numeric) -> Solid:
@@ -270,13 +270,11 @@ def check_densities(shapes: tuple[ShapePart, ...], weighed: bool) -> None:
     for k, shape in enumerate(shapes):
         path: tuple[str | int, ...] = ("shape", k) if len(shapes) > 1 else ("shape",)
         if weighed and shape.density is not None:
-            raise ModelError(
-                "both the link's mass and a density are given", "leave one of them out", (*path, "density")
-            )
+            what = "both the link's mass and a density are given"
+            raise ModelError(what, "leave one of them out", (*path, "density"))
         if not weighed and shape.density is None:
-            raise ModelError(
-                "a shape has no density and the link no mass", "give one of them: density: 7850 kg/m^3", path
-            )
+            said = "a shape has no density and the link no mass"
+            raise ModelError(said, "give one of them: density: 7850 kg/m^3", path)
         thin = isinstance(shape, SlenderBar) and shape.area is None
         if thin and (not weighed or len(shapes) > 1):
             raise ModelError("a bar needs the area of its section here", "give it: area: 2 cm^2", path)

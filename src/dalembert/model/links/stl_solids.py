@@ -13,7 +13,7 @@ from pydantic import ValidationInfo
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model.part import reading
-from dalembert.model.quantities.values import NUMBER_OR_TEXT, JsonSchema, Value, check_sign, value_text
+from dalembert.model.quantities.values import JsonSchema, Value, check_sign, value_text
 from dalembert.saving import check_installed
 from dalembert.unit_names import unit
 from dalembert.units import KINDS, quantity
@@ -60,19 +60,13 @@ class MeshUnit(Value):
         units = reading(info).units
         if value is None:
             return quantity(1, "length", units)
-        if (
-            isinstance(value, str)
-            and value[:1].isalpha()
-            and unit(value).dimension == KINDS["length"].dimension
-        ):
+        named = isinstance(value, str) and value[:1].isalpha()
+        if named and unit(str(value)).dimension == KINDS["length"].dimension:
             value = f"1 {value}"
         return check_sign(quantity(value, "length", units), value, "positive")
 
     def write(self, value: float) -> object:
         return value_text(value, "length")
-
-    def json_schema(self) -> JsonSchema:
-        return NUMBER_OR_TEXT
 
 
 def mesh_solid(file: MeshFile) -> tuple[float, Array, Array]:
@@ -81,9 +75,8 @@ def mesh_solid(file: MeshFile) -> tuple[float, Array, Array]:
     try:
         state = os.stat(file.path)
     except (OSError, ValueError):
-        raise ModelError(
-            f"there is no file {file.written!r}", "check the name; it is relative to the model file"
-        ) from None
+        said = f"there is no file {file.written!r}"
+        raise ModelError(said, "check the name; it is relative to the model file") from None
     if not file.path.is_file() or state.st_size > LARGEST:
         what = "is no ordinary file" if not file.path.is_file() else f"has more than {LARGEST} bytes"
         raise ModelError(f"the mesh {file.written!r} {what}", "name an STL file of a coarser mesh")
@@ -98,16 +91,13 @@ def _read(file: MeshFile, changed: int) -> tuple[float, Array, Array]:
     try:
         mesh = trimesh.load_mesh(file.path, file_type="stl")
     except Exception as error:  # the package raises errors of many kinds for a file that is no mesh
-        raise ModelError(
-            f"the mesh {file.written!r} cannot be read: {error}", "write it anew as STL"
-        ) from None
+        said = f"the mesh {file.written!r} cannot be read: {error}"
+        raise ModelError(said, "write it anew as STL") from None
     if not len(mesh.faces) or not np.isfinite(mesh.vertices).all():
         raise ModelError(f"the mesh {file.written!r} has no triangles", "write it anew as STL")
     if not mesh.is_watertight or not mesh.is_winding_consistent:
-        raise ModelError(
-            f"the surface of the mesh {file.written!r} is not closed, so it has no volume",
-            "close its holes, or give mass, center and inertia",
-        )
+        what = f"the surface of the mesh {file.written!r} is not closed, so it has no volume"
+        raise ModelError(what, "close its holes, or give mass, center and inertia")
     if mesh.volume < 0:
         mesh.invert()
     middle = np.array(mesh.center_mass, float)

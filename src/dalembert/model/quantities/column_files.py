@@ -89,9 +89,8 @@ def _rows(text: str) -> list[tuple[int, str]]:
 def find_file(file: str, rules: Reading) -> Path:
     """Where the file is: in the model's folder, or in the other one that is allowed, links resolved."""
     if not isinstance(file, str) or not file.lower().endswith(ENDINGS):
-        raise ModelError(
-            f"{quote_value(file)} is no file of columns", f"name one that ends in {', '.join(ENDINGS)}"
-        )
+        what = f"{quote_value(file)} is no file of columns"
+        raise ModelError(what, f"name one that ends in {', '.join(ENDINGS)}")
     try:
         folders = [
             Path(folder or ".").resolve()
@@ -106,10 +105,8 @@ def find_file(file: str, rules: Reading) -> Path:
     except (OSError, ValueError, RuntimeError):
         raise ModelError(f"{quote_value(file)} is no path of a file", "check the name") from None
     if not inside:
-        raise ModelError(
-            f"the file {file!r} is outside the model file's folder",
-            "put it there, or allow its folder: --data FOLDER, in Python da.load(..., data=FOLDER)",
-        )
+        remedy = "put it there, or allow its folder: --data FOLDER, in Python da.load(..., data=FOLDER)"
+        raise ModelError(f"the file {file!r} is outside the model file's folder", remedy)
     if found is None:
         raise ModelError(f"there is no file {file!r}", "check the name; it is relative to the model file")
     return found
@@ -195,21 +192,13 @@ class _Cells:
         out = []
         for n, row in self.rows:
             if len(row) < self.width or any(row[self.width :]):
-                raise _error(
-                    f"{len(row)} columns where the first row has {self.width}",
-                    "give every row the same; where commas are decimal, put semicolons between columns",
-                    self.file,
-                    n,
-                )
+                remedy = "give every row the same; where commas are decimal, put semicolons between columns"
+                raise _error(f"{len(row)} columns where the first row has {self.width}", remedy, self.file, n)
             value = self._number(row[place])
             if value is None or not math.isfinite(value):
                 what = f" in column {name!r}" if name else ""
-                raise _error(
-                    f"{quote_value(row[place])}{what} is no finite number",
-                    "correct it, or take the row out",
-                    self.file,
-                    n,
-                )
+                said = f"{quote_value(row[place])}{what} is no finite number"
+                raise _error(said, "correct it, or take the row out", self.file, n)
             out.append(value)
         return tuple(out)
 
@@ -223,10 +212,5 @@ def _place(column: str | int, k: int, heads: list[tuple[str, str]], cells: _Cell
         return names.index(column)
     twice = "twice" if isinstance(column, str) and column in names else "not"
     known = f"write its number, from 1 to {len(heads)}" if not any(names) or twice == "twice" else ""
-    raise ModelError(
-        f"the column {quote_value(column)} is {twice} in its head",
-        known or closest(str(column), names),
-        ("columns", k),
-        cells.file,
-        cells.head,
-    )
+    what = f"the column {quote_value(column)} is {twice} in its head"
+    raise ModelError(what, known or closest(str(column), names), ("columns", k), cells.file, cells.head)

@@ -91,10 +91,8 @@ def _common(tree: Apply, a: Powers | None, b: Powers | None) -> Powers | None:
     )
     verb = {"+": "added", "-": "subtracted"}.get(tree.function, "compared")
     angle = "; a number of radians is written with its unit, 0.5 rad" if a[:3] == b[:3] else ""
-    raise ModelError(
-        f"{quote_value(expression_text(tree))} cannot be: {first}, and {second}",
-        f"only quantities of one kind are {verb}{angle}",
-    )
+    what = f"{quote_value(expression_text(tree))} cannot be: {first}, and {second}"
+    raise ModelError(what, f"only quantities of one kind are {verb}{angle}")
 
 
 def _check_argument(tree: Apply, given: Powers | None) -> None:

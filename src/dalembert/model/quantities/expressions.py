@@ -30,11 +30,8 @@ GRAMMAR = (
 )
 ARGUMENTS = dict.fromkeys(
     ["sin", "cos", "tan", "asin", "acos", "atan", "sqrt", "exp", "log", "abs", "sign"], 1
-) | {
-    "atan2": 2,
-    "min": 2,
-    "max": 2,
-}
+)
+ARGUMENTS |= dict.fromkeys(("atan2", "min", "max"), 2)
 """Function -> how many arguments it takes."""
 
 CONSTANTS = {"pi": math.pi}
@@ -95,9 +92,8 @@ class Expression:
         known = None if self.parameters is None else [name for name, _ in self.parameters]
         tree, rest = parse_expression(self.text, known)
         if rest:
-            raise ModelError(
-                f"{quote_value(self.text)} ends with {quote_value(rest)}, which has no place there", GRAMMAR
-            )
+            what = f"{quote_value(self.text)} ends with {quote_value(rest)}, which has no place there"
+            raise ModelError(what, GRAMMAR)
         object.__setattr__(self, "tree", tree)
 
     @property
@@ -123,12 +119,9 @@ class Expression:
         with np.errstate(all="ignore"):
             value = np.asarray(evaluate(self.tree, drives, numpy_functions()), float)
         if not np.isfinite(value).all():
-            raise ModelError(
-                f"the expression {quote_value(self.text)} has no finite value {self._where(drives, value)}",
-                "change it, or the range of the drive"
-                if self.names
-                else "change it, or what it follows from",
-            )
+            what = f"the expression {quote_value(self.text)} has no finite value {self._where(drives, value)}"
+            other = "the range of the drive" if self.names else "what it follows from"
+            raise ModelError(what, f"change it, or {other}")
         return value[()]
 
     def _where(self, drives: Mapping[str, Numeric], value: Array) -> str:
@@ -136,10 +129,8 @@ class Expression:
 
         first = np.argmin(np.isfinite(value).ravel())
         shape = np.shape(value)
-        said = [
-            f"{name} = {np.broadcast_to(drives[name], shape).ravel()[first]:.6g}"
-            for name in sorted(self.names)
-        ]
+        values = {name: np.broadcast_to(drives[name], shape).ravel()[first] for name in sorted(self.names)}
+        said = [f"{name} = {x:.6g}" for name, x in values.items()]
         return "at " + ", ".join(said) if said else "anywhere"
 
 
@@ -158,9 +149,8 @@ def evaluate(tree: Tree, drives: Mapping[str, Numeric], functions: Functions) ->
         return tree.value
     if isinstance(tree, Name):
         if tree.name not in drives:
-            raise ModelError(
-                f"an expression uses {tree.name!r}, which is no drive", closest(tree.name, list(drives))
-            )
+            what = f"an expression uses {tree.name!r}, which is no drive"
+            raise ModelError(what, closest(tree.name, list(drives)))
         return drives[tree.name]
     values = [evaluate(argument, drives, functions) for argument in tree.arguments]
     return apply_function(tree.function, values, functions)
@@ -201,11 +191,8 @@ def expression_text(tree: Tree, rank: int = 0) -> str:
     '2*(O2 + 1)^2'
     """
     if isinstance(tree, Number):
-        return tree.text or (
-            format(tree.value, ".17g")
-            if tree.value != round(tree.value, 12)
-            else repr(tree.value).removesuffix(".0")
-        )
+        exact = tree.value == round(tree.value, 12)
+        return tree.text or (repr(tree.value).removesuffix(".0") if exact else f"{tree.value:.17g}")
     if isinstance(tree, Name):
         return tree.name
     if tree.function not in OPERATORS:
@@ -242,9 +229,8 @@ def parse_expression(text: str, parameters: Iterable[str] | None = None) -> tupl
 @lru_cache(maxsize=1024)
 def _parsed(text: str, parameters: frozenset[str] | None) -> tuple[Tree, str]:
     if len(text) > LONGEST:
-        raise ModelError(
-            f"an expression of {len(text)} characters is too long", f"at most {LONGEST}; use a table instead"
-        )
+        what = f"an expression of {len(text)} characters is too long"
+        raise ModelError(what, f"at most {LONGEST}; use a table instead")
     parser = _Parser(text.replace("\u2212", "-"), parameters)
     tree = parser.sum(0)
     return tree, text[parser.place :].strip()
@@ -256,6 +242,9 @@ class _Parser:
     def __init__(self, text: str, parameters: frozenset[str] | None) -> None:
         self.text, self.place, self.operations = text, 0, 0
         self.parameters = parameters
+
+    def error(self, what: str, remedy: str) -> ModelError:
+        return ModelError(f"the expression {quote_value(self.text)} {what}", remedy)
 
     def peek(self) -> re.Match[str] | None:
         return _TOKEN.match(self.text, self.place)
@@ -269,10 +258,7 @@ class _Parser:
 
     def sum(self, depth: int) -> Tree:
         if depth > DEEPEST:
-            raise ModelError(
-                f"the expression {quote_value(self.text)} is nested deeper than {DEEPEST}",
-                "use fewer brackets",
-            )
+            raise self.error(f"is nested deeper than {DEEPEST}", "use fewer brackets")
         return self.chain(("+", "-"), self.product, depth)
 
     def product(self, depth: int) -> Tree:
@@ -284,17 +270,12 @@ class _Parser:
             tree = Apply(sign, (tree, part(depth)))
             self.operations += 1
             if self.operations > MOST:
-                raise ModelError(
-                    f"the expression {quote_value(self.text)} has more than {MOST} operations",
-                    "use a table instead",
-                )
+                raise self.error(f"has more than {MOST} operations", "use a table instead")
         return tree
 
     def sign(self, depth: int) -> Tree:
         if depth > DEEPEST:
-            raise ModelError(
-                f"the expression {quote_value(self.text)} is nested deeper than {DEEPEST}", "use fewer signs"
-            )
+            raise self.error(f"is nested deeper than {DEEPEST}", "use fewer signs")
         found = self.sign_among(("+", "-"))
         if found is None:
             return self.power(depth)
@@ -308,11 +289,8 @@ class _Parser:
         exponent = self.sign(depth + 1)
         value = _constant(exponent)
         if value is None or abs(value) > EXPONENT:
-            raise ModelError(
-                f"the expression {quote_value(self.text)} has an exponent that is no number "
-                f"from -{EXPONENT} to {EXPONENT}",
-                GRAMMAR,
-            )
+            words = f"has an exponent that is no number from -{EXPONENT} to {EXPONENT}"
+            raise self.error(words, GRAMMAR)
         return Apply("^", (base, exponent))
 
     def atom(self, depth: int) -> Tree:
@@ -333,10 +311,8 @@ class _Parser:
         if match is None or self.parameters is None:
             return Number(value)
         if match[1] in self.parameters:
-            raise ModelError(
-                f"{quote_value(self.text)} has a number beside the parameter {match[1]!r}",
-                f"write {digits}*{match[1]}",
-            )
+            what = f"{quote_value(self.text)} has a number beside the parameter {match[1]!r}"
+            raise ModelError(what, f"write {digits}*{match[1]}")
         while match and (match.start() == start or match[1] in SYMBOLS):
             self.place = match.end()
             match = _MORE.match(self.text, self.place)
@@ -364,10 +340,8 @@ class _Parser:
             arguments.append(self.sum(depth + 1))
         tree = self.close_bracket(Apply(name, tuple(arguments)))
         if len(arguments) != ARGUMENTS[name]:
-            raise ModelError(
-                f"{name} is given {len(arguments)} arguments in {quote_value(self.text)}",
-                f"it takes {ARGUMENTS[name]}",
-            )
+            what = f"{name} is given {len(arguments)} arguments in {quote_value(self.text)}"
+            raise ModelError(what, f"it takes {ARGUMENTS[name]}")
         return tree
 
     def close_bracket(self, tree: Tree) -> Tree:

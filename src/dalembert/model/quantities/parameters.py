@@ -104,10 +104,8 @@ def of_parameters(
         check_unit(found.unit, kind)
     elif is_bare(of, kind, text):
         if units is not None and units.refuses_bare(kind):
-            raise ModelError(
-                f"{quote_value(text)} is {KINDS[kind].phrase} without a unit",
-                f"write ({text}) with its unit behind it: {REFUSED_BARE[kind]}",
-            )
+            what = f"{quote_value(text)} is {KINDS[kind].phrase} without a unit"
+            raise ModelError(what, f"write ({text}) with its unit behind it: {REFUSED_BARE[kind]}")
         found = replace(found, unit=units.text(kind) if units else KINDS[kind].si)
     return found if found.names else Dependent(found)
 
@@ -124,10 +122,8 @@ def _read(text: str, given: Parameters, drives: Mapping[str, str]) -> tuple[Expr
         named = unit(rest)
         text = text.strip()[: -len(rest)].strip()
         if of is not None and (any(of[:3]) or of[3]):
-            raise ModelError(
-                f"{quote_value(text)} is {phrase(of)} by itself, and has the unit {rest!r} behind it",
-                "leave the unit out",
-            )
+            what = f"{quote_value(text)} is {phrase(of)} by itself, and has the unit {rest!r} behind it"
+            raise ModelError(what, "leave the unit out")
         return _expression(text, given, rest), named.dimension
     return _expression(text, given), of
 
@@ -153,9 +149,8 @@ def refuse_unknown(
 ) -> None:
     """Raise ModelError for a name in an expression that is neither a parameter nor a drive."""
     for name in sorted(names - {*given, *drives}):
-        raise ModelError(
-            f"{quote_value(text)} uses {name!r}, which is no parameter", closest(name, [*given, *drives])
-        )
+        what = f"{quote_value(text)} uses {name!r}, which is no parameter"
+        raise ModelError(what, closest(name, [*given, *drives]))
 
 
 def refuse_other_names(text: str, given: Parameters) -> None:
@@ -180,9 +175,8 @@ def read_parameters(
     (0.005026548245743669, 'm^2', 80.0)
     """
     if not isinstance(tree, Mapping):
-        raise ModelError(
-            f"{quote_value(tree)} stands where a mapping is needed", "write {r: 45 mm}", ("parameters",)
-        )
+        what = f"{quote_value(tree)} stands where a mapping is needed"
+        raise ModelError(what, "write {r: 45 mm}", ("parameters",))
     found: dict[str, Parameter] = {}
     for name in tree:
         with _parameter_path(name):
@@ -212,9 +206,8 @@ def _check_name(name: object, drives: Mapping[str, str], keys: Sequence[str]) ->
         **dict.fromkeys(drives, "a drive"),
     }
     if not isinstance(name, str) or not re.fullmatch(r"[^\W\d]\w*", name) or "__" in name:
-        raise ModelError(
-            "it has no name for an expression", "write a word of letters, digits and _, as in rod_length"
-        )
+        what = "it has no name for an expression"
+        raise ModelError(what, "write a word of letters, digits and _, as in rod_length")
     if name in means:
         raise ModelError(f"its name is that of {means[name]}", f"call it otherwise, for example {name}_1")
 
@@ -306,10 +299,8 @@ def _like(new: Parameter, said: object, of: Parameter, units: Units | None) -> P
         return new
     if not any(a) and of.kind and not isinstance(new.value, Dependent):
         return replace(of, value=quantity(said, of.kind, units))
-    raise ModelError(
-        f"{quote_value(said)} is {phrase(a)}, and {phrase(b)} is needed",
-        f"write for example {of._text(of.value)}",
-    )
+    what = f"{quote_value(said)} is {phrase(a)}, and {phrase(b)} is needed"
+    raise ModelError(what, f"write for example {of._text(of.value)}")
 
 
 def change_parameters(

@@ -125,22 +125,17 @@ class Table:
 
 def _check(table: Table) -> None:
     if len(table.x) != len(table.y):
-        raise ModelError(
-            f"a table has {len(table.x)} values in x and {len(table.y)} in y", "give one y for each x"
-        )
+        what = f"a table has {len(table.x)} values in x and {len(table.y)} in y"
+        raise ModelError(what, "give one y for each x")
     if len(table.x) < 2:
         raise ModelError(f"a table has too few points: {len(table.x)}", "give at least 2")
     for i, (a, b) in enumerate(zip(table.x, table.x[1:], strict=False)):
         if not a < b:
-            raise ModelError(
-                f"x of a table does not increase from its item {i + 1} to {i + 2}",
-                "sort the points; for a jump give two that are close",
-                ("x", i + 1),
-            )
+            words = f"x of a table does not increase from its item {i + 1} to {i + 2}"
+            raise ModelError(words, "sort the points; for a jump give two that are close", ("x", i + 1))
     if table.interpolate not in ("linear", "cubic"):
-        raise ModelError(
-            f"{table.interpolate!r} has no meaning here", "write linear or cubic", ("interpolate",)
-        )
+        said = f"{table.interpolate!r} has no meaning here"
+        raise ModelError(said, "write linear or cubic", ("interpolate",))
     _check_period(table)
 
 

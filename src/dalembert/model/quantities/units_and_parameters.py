@@ -6,7 +6,7 @@ from pydantic import ValidationInfo
 
 from dalembert.model.part import reading
 from dalembert.model.quantities.parameters import Parameters
-from dalembert.model.quantities.values import NUMBER_OR_TEXT, JsonSchema, Value
+from dalembert.model.quantities.values import NUMBER_OR_TEXT, JsonSchema, Value, list_schema, object_schema
 from dalembert.units import ALSO_CALLED, BASES, KINDS, Units, file_units
 
 
@@ -21,22 +21,11 @@ class UnitsValue(Value):
 
     def json_schema(self) -> JsonSchema:
         said = {"length": "m", "force": "N", "mass": "kg", "time": "s", "angle": "deg"}
-        return {
-            "type": "object",
-            "properties": {
-                key: {"type": "string", "description": f"unit of bare numbers; default {unit}"}
-                for key, unit in said.items()
-            }
-            | {
-                key: {
-                    "type": "string",
-                    "description": f"unit of bare numbers; default a product of these ({KINDS[kind].si})",
-                }
-                for key, kind in ({kind: kind for kind in KINDS} | ALSO_CALLED).items()
-                if kind not in (*BASES, "number")
-            },
-            "additionalProperties": False,
-        }
+        for key, kind in ({kind: kind for kind in KINDS} | ALSO_CALLED).items():
+            if kind not in (*BASES, "number"):
+                said[key] = f"a product of these ({KINDS[kind].si})"
+        words = "unit of bare numbers; default"
+        return object_schema({k: {"type": "string", "description": f"{words} {u}"} for k, u in said.items()})
 
 
 class ParametersValue(Value):
@@ -49,20 +38,11 @@ class ParametersValue(Value):
         return {name: parameter.tree() for name, parameter in value.items()}
 
     def json_schema(self) -> JsonSchema:
+        ends = list_schema(NUMBER_OR_TEXT, 2, 2) | {"description": "between which values it makes sense"}
         said = {
-            "type": "object",
-            "properties": {
-                "value": NUMBER_OR_TEXT | {"description": "a quantity, or an expression of other parameters"},
-                "about": {"type": "string", "description": "what it is"},
-                "range": {
-                    "type": "array",
-                    "items": NUMBER_OR_TEXT,
-                    "minItems": 2,
-                    "maxItems": 2,
-                    "description": "between which values it makes sense",
-                },
-            },
-            "required": ["value"],
-            "additionalProperties": False,
+            "value": NUMBER_OR_TEXT | {"description": "a quantity, or an expression of other parameters"},
+            "about": {"type": "string", "description": "what it is"},
+            "range": ends,
         }
-        return {"type": "object", "additionalProperties": {"anyOf": [NUMBER_OR_TEXT, said]}}
+        either = [NUMBER_OR_TEXT, object_schema(said, "value")]
+        return {"type": "object", "additionalProperties": {"anyOf": either}}

@@ -25,6 +25,18 @@ Vector = tuple[float, ...]
 JsonSchema = Tree
 T = TypeVar("T")
 NUMBER_OR_TEXT: JsonSchema = {"type": ["number", "string"]}
+NAME_OR_NUMBER: JsonSchema = {"type": ["string", "integer"]}
+
+
+def list_schema(items: JsonSchema = NUMBER_OR_TEXT, least: int = 1, most: int | None = None) -> JsonSchema:
+    """Of a list of so many items."""
+    return {"type": "array", "items": items, "minItems": least} | ({"maxItems": most} if most else {})
+
+
+def object_schema(keys: JsonSchema, *required: str) -> JsonSchema:
+    """Of a mapping with these keys and no others."""
+    needed = {"required": list(required)} if required else {}
+    return {"type": "object", "properties": keys, **needed, "additionalProperties": False}
 
 
 class Value:
@@ -37,7 +49,7 @@ class Value:
         return value
 
     def json_schema(self) -> JsonSchema:
-        raise NotImplementedError
+        return NUMBER_OR_TEXT
 
     def _serialize(self, value: object, info: SerializationInfo) -> object:
         with in_units(info.context):
@@ -75,10 +87,8 @@ def check_sign(number: float, value: object, sign: str) -> float:
     """The number, if it has the sign wanted: `positive`, `not negative` or any."""
     if (sign == "positive" and not number > 0) or (sign == "not negative" and number < 0):
         positive = sign == "positive"
-        raise ModelError(
-            f"{quote_value(value)} is {'not positive' if positive else 'negative'}",
-            "write a positive one" if positive else "write a positive one, or 0",
-        )
+        what = f"{quote_value(value)} is {'not positive' if positive else 'negative'}"
+        raise ModelError(what, "write a positive one" if positive else "write a positive one, or 0")
     return number
 
 
@@ -124,15 +134,15 @@ def direction_vector(direction: Vector) -> Vector:
     if len(direction) != 3:
         raise ModelError(f"a direction in space has {len(direction)} components", "write [x, y, z]")
     if not any(direction):
-        raise ModelError(
-            "all its components are 0", "write the direction it points in, for example [0, 0, 1]"
-        )
+        what = "all its components are 0"
+        raise ModelError(what, "write the direction it points in, for example [0, 0, 1]")
     return direction
 
 
 def vector_schema() -> JsonSchema:
-    items = {"type": "array", "items": NUMBER_OR_TEXT, "minItems": 2, "maxItems": 3}
-    return {"anyOf": [items, {"type": "string", "description": "polar: r @ angle"}]}
+    return {
+        "anyOf": [list_schema(NUMBER_OR_TEXT, 2, 3), {"type": "string", "description": "polar: r @ angle"}]
+    }
 
 
 def vector(value: object, kind: str, rules: Reading) -> Vector:
@@ -184,18 +194,15 @@ def polar(value: str, kind: str, rules: Reading) -> tuple[str, float]:
         raise ModelError(f"{quote_value(value)} is polar, which is for the plane", "write [x, y, z]")
     radius, angle = (side.strip() for side in value.split("@", 1))
     if "@" in angle or not radius or not angle:
-        raise ModelError(
-            f"{quote_value(value)} is no polar vector", "write r @ angle, for example 3 @ 30 deg"
-        )
+        what = f"{quote_value(value)} is no polar vector"
+        raise ModelError(what, "write r @ angle, for example 3 @ 30 deg")
     match = re.fullmatch(rf"({NUMBER})\s*(.*)", angle.replace("\u2212", "-"))
     if uses(angle, rules.parameters):
         return radius, rules.quantity(angle, "angle")
     if match and match[2] and unit(match[2]).dimension == KINDS[kind].dimension:
         if not re.fullmatch(NUMBER, radius) and parse_expression(radius)[1]:
-            raise ModelError(
-                f"{quote_value(value)} has two units of {KINDS[kind].phrase[2:].strip()}",
-                "leave one of them out",
-            )
+            said = f"{quote_value(value)} has two units of {KINDS[kind].phrase[2:].strip()}"
+            raise ModelError(said, "leave one of them out")
         return f"{radius} {match[2]}", rules.quantity(match[1], "angle")
     try:
         return radius, rules.quantity(angle, "angle")
@@ -224,9 +231,8 @@ def name(value: object) -> str:
     if not isinstance(value, str):
         raise ModelError(f"{quote_value(value)} is no name", "write a name as text")
     if not value.strip() or value != value.strip() or not value.isprintable() or re.search(r"[.@]", value):
-        raise ModelError(
-            f"{quote_value(value)} cannot be a name", "a name is text without '.', '@' and spaces at its ends"
-        )
+        what = f"{quote_value(value)} cannot be a name"
+        raise ModelError(what, "a name is text without '.', '@' and spaces at its ends")
     return value
 
 
@@ -237,7 +243,7 @@ class NameValue(Value):
         return name(value)
 
     def json_schema(self) -> JsonSchema:
-        return {"type": ["string", "integer"]}
+        return NAME_OR_NUMBER
 
 
 class PairOfNames(Value):
@@ -250,7 +256,7 @@ class PairOfNames(Value):
         return list(value)
 
     def json_schema(self) -> JsonSchema:
-        return {"type": "array", "items": {"type": ["string", "integer"]}, "minItems": 2, "maxItems": 2}
+        return list_schema(NAME_OR_NUMBER, 2, 2)
 
 
 def pair_of_names(value: object) -> tuple[str, str]:

@@ -18,6 +18,7 @@ from dalembert.model.quantities.values import (
     NUMBER_OR_TEXT,
     JsonSchema,
     at_item,
+    object_schema,
     value_text,
 )
 from dalembert.model.quantities.written_tables import table, table_schema, table_tree
@@ -29,19 +30,12 @@ Varying = float | Expression | Table
 
 
 def varying_schema() -> JsonSchema:
-    expression = {
-        "type": "object",
-        "properties": {
-            "expression": {
-                "type": "string",
-                "description": "in the drives' names, time, links.NAME.angle, joints.NAME.slide: SI and radians",
-            },
-            "unit": {"type": "string", "description": "of its result; default the file's"},
-        },
-        "required": ["expression"],
-        "additionalProperties": False,
+    words = "in the drives' names, time, links.NAME.angle, joints.NAME.slide: SI and radians"
+    keys = {
+        "expression": {"type": "string", "description": words},
+        "unit": {"type": "string", "description": "of its result; default the file's"},
     }
-    return {"anyOf": [NUMBER_OR_TEXT, table_schema(), expression]}
+    return {"anyOf": [NUMBER_OR_TEXT, table_schema(), object_schema(keys, "expression")]}
 
 
 def varying(value: object, kind: str, rules: Reading) -> Varying:
@@ -76,9 +70,8 @@ def _is_expression(value: str) -> bool:
 def expression(value: object, kind: str, rules: Reading, unit_text: str = "") -> Expression:
     """An expression, with a unit behind it or the file's."""
     if not isinstance(value, str):
-        raise ModelError(
-            f"{quote_value(value)} is no expression", "write it as text, for example 500*sin(O2)"
-        )
+        what = f"{quote_value(value)} is no expression"
+        raise ModelError(what, "write it as text, for example 500*sin(O2)")
     rest = parse_expression(value)[1]
     if rest and not re.match(r"[^\W\d]", rest):
         Expression(value)
@@ -95,9 +88,8 @@ def _map_values(value: Mapping[str, object], kind: str, rules: Reading) -> Varyi
         keys = mapping(value, ["expression", "unit"], "")
         unit_text = keys.get("unit", "")
         if not isinstance(unit_text, str):
-            raise ModelError(
-                f"{quote_value(unit_text)} is no unit", f"write {KINDS[kind].si}, for example", ("unit",)
-            )
+            what = f"{quote_value(unit_text)} is no unit"
+            raise ModelError(what, f"write {KINDS[kind].si}, for example", ("unit",))
         return at_item("expression", expression, keys["expression"], kind, rules, unit_text)
     return table(value, kind, rules)
 

@@ -15,10 +15,13 @@ from dalembert.model.quantities.figures import FILE_UNITS
 from dalembert.model.quantities.parameters import stated_dimension
 from dalembert.model.quantities.tables import SLACK, ColumnFile, Table
 from dalembert.model.quantities.values import (
+    NAME_OR_NUMBER,
     NUMBER_OR_TEXT,
     JsonSchema,
     at_item,
+    list_schema,
     numbers,
+    object_schema,
     value_text,
 )
 from dalembert.unit_names import Dimension, unit
@@ -34,39 +37,23 @@ KEYS = ("against", "x", "y", "file", "columns", "units", "times", "shift", "inte
 
 def table_schema() -> JsonSchema:
     items = {"type": "array", "items": NUMBER_OR_TEXT}
-    names = {"type": "array", "minItems": 2, "maxItems": 2}
-    return {
-        "type": "object",
-        "properties": {
-            "against": {
-                "type": ["string", "integer"],
-                "description": "what x is: a drive, time, links.NAME.angle, joints.NAME.slide or .turn; "
-                "default the only drive",
-            },
-            "x": items | {"description": "positions of the drive, increasing"},
-            "y": items | {"description": "values there, one for each x"},
-            "file": {
-                "type": "string",
-                "description": "in place of x and y: a .csv file in the model's folder",
-            },
-            "columns": names
-            | {
-                "items": {"type": ["string", "integer"]},
-                "description": "of the file, x and y: names in its head, or numbers; default [1, 2]",
-            },
-            "units": names
-            | {"items": {"type": "string"}, "description": "of the two columns, where the head has none"},
-            "times": NUMBER_OR_TEXT | {"description": "what y is multiplied by, such as an area; default 1"},
-            "shift": NUMBER_OR_TEXT | {"description": "how much later along x it comes; default 0"},
-            "interpolate": {"enum": ["linear", "cubic"], "description": "between the points; default linear"},
-            "periodic": {
-                "type": ["boolean", "number", "string"],
-                "description": "true: after a turn, or the whole turns x goes over (a slide: all of x); or the period",
-            },
-        },
-        "anyOf": [{"required": ["x", "y"]}, {"required": ["file"]}],
-        "additionalProperties": False,
+    against = "what x is: a drive, time, links.NAME.angle, joints.NAME.slide or .turn; default the only drive"
+    columns = "of the file, x and y: names in its head, or numbers; default [1, 2]"
+    period = "true: after a turn, or the whole turns x goes over (a slide: all of x); or the period"
+    keys = {
+        "against": NAME_OR_NUMBER | {"description": against},
+        "x": items | {"description": "positions of the drive, increasing"},
+        "y": items | {"description": "values there, one for each x"},
+        "file": {"type": "string", "description": "in place of x and y: a .csv file in the model's folder"},
+        "columns": list_schema(NAME_OR_NUMBER, 2, 2) | {"description": columns},
+        "units": list_schema({"type": "string"}, 2, 2)
+        | {"description": "of the two columns, where the head has none"},
+        "times": NUMBER_OR_TEXT | {"description": "what y is multiplied by, such as an area; default 1"},
+        "shift": NUMBER_OR_TEXT | {"description": "how much later along x it comes; default 0"},
+        "interpolate": {"enum": ["linear", "cubic"], "description": "between the points; default linear"},
+        "periodic": {"type": ["boolean", "number", "string"], "description": period},
     }
+    return object_schema(keys) | {"anyOf": [{"required": ["x", "y"]}, {"required": ["file"]}]}
 
 
 class _Points(NamedTuple):
@@ -97,18 +84,8 @@ def table(value: Mapping[str, object], kind: str, rules: Reading) -> Table:
     shift = at_item("shift", rules.quantity, keys.get("shift", 0), along)
     interpolate = keys.get("interpolate", "linear")
     try:
-        return Table(
-            against,
-            points.x,
-            points.y,
-            interpolate,
-            period,
-            along,
-            points.times,
-            shift,
-            points.of,
-            points.file,
-        )
+        known = (interpolate, period, along, points.times, shift)
+        return Table(against, points.x, points.y, *known, points.of, points.file)
     except ModelError as error:
         if points.file is None or error.path[:1] == ("periodic",):
             raise
@@ -151,9 +128,8 @@ def _from_file(keys: Mapping[str, object], kind: str, along: str, rules: Reading
     for key, pair in (("columns", asked), ("units", units)):
         if not isinstance(pair, (list, tuple)) or len(pair) != 2:
             example = "columns: [angle, pressure]" if key == "columns" else "units: [deg, bar]"
-            raise ModelError(
-                f"{quote_value(pair)} stands where two {key} are needed", f"write {example}", (key,)
-            )
+            what = f"{quote_value(pair)} stands where two {key} are needed"
+            raise ModelError(what, f"write {example}", (key,))
     first, second = at_item("file", read_columns, file, asked, rules)
     names = [_unit_of(first, units[0], 0), _unit_of(second, units[1], 1)]
     try:
@@ -175,11 +151,8 @@ def _from_file(keys: Mapping[str, object], kind: str, along: str, rules: Reading
 def _unit_of(column: object, stated: object, k: int) -> str:
     own = getattr(column, "unit", "")
     if not isinstance(stated, str) or (own and stated and own != stated):
-        raise ModelError(
-            f"the head of column {k + 1} says {own!r}, and units {quote_value(stated)}",
-            "leave one of them out",
-            ("units", k),
-        )
+        what = f"the head of column {k + 1} says {own!r}, and units {quote_value(stated)}"
+        raise ModelError(what, "leave one of them out", ("units", k))
     return own or stated
 
 
@@ -216,10 +189,8 @@ def _kind_with(dimension: Dimension, kind: str) -> str:
         return kind
     found = next((name for name, known in KINDS.items() if known.dimension == dimension), None)
     if found is None:
-        raise ModelError(
-            f"the values times this are not {KINDS[kind].phrase}",
-            "a pressure times an area is a force, for example",
-        )
+        what = f"the values times this are not {KINDS[kind].phrase}"
+        raise ModelError(what, "a pressure times an area is a force, for example")
     return found
 
 

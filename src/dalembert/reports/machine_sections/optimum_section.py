@@ -9,8 +9,9 @@ from dalembert.errors import ModelError
 from dalembert.optimization.optimum import Optimum
 from dalembert.reports.sheet import Sheet
 from dalembert.views import draw
-from dalembert.views.charts import along, curves_scene
+from dalembert.views.charts import along
 from dalembert.views.notation import Notation, Shown
+from dalembert.views.paper.diagrams import curves_scene
 
 
 def optimum_sheet(o: Optimum, notation: Notation | None = None) -> Sheet:

@@ -15,8 +15,8 @@ from dalembert.analysis.output.columns import drive_kinds
 from dalembert.arrays import Array
 from dalembert.errors import SOLVED, ModelError
 from dalembert.saving import check_installed, new_file
+from dalembert.views.not_shown import refuse_still
 from dalembert.views.notation import Notation, Shown
-from dalembert.views.only_in_motion import refuse_still
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import force_scale
 from dalembert.views.paper.lettering import Box

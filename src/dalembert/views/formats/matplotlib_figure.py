@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
@@ -15,7 +14,7 @@ from dalembert.views.formats.svg import MARGIN, arc_head, arrow_parts
 from dalembert.views.formats.themes import BACKGROUND, THEMES, Look
 from dalembert.views.paper.lettering import BOLD, SMALL, Box, letters_width, pieces
 from dalembert.views.paper.pages import break_pages
-from dalembert.views.paper.scene import Arc, Arrow, Circle, Group, Item, Line, Polygon, Scene, Text
+from dalembert.views.paper.scene import Arc, Arrow, Circle, Group, Item, Line, Polygon, Scene, Text, around
 
 POINT = 72 / 25.4
 """Points in a millimetre."""
@@ -118,8 +117,8 @@ class _Painter:
         if isinstance(item, Text):
             self.text(item, look)
         elif isinstance(item, Circle):
-            points = Arc(item.center, item.radius, 0.0, 2 * math.pi).points
-            self.area(_smooth(item), look) if look.fill != "none" else self.line(points, look)
+            points = around(item.center, item.radius, 72)
+            self.area(points, look) if look.fill != "none" else self.line([*points, points[0]], look)
         elif isinstance(item, Polygon):
             self.area(item.points, look)
         elif isinstance(item, Line):
@@ -176,10 +175,3 @@ class _Painter:
                 )
             )
             left += size * letters_width(piece.text) * bold
-
-
-def _smooth(c: Circle) -> list[tuple[float, float]]:
-    return [
-        (c.center[0] + c.radius * math.cos(t), c.center[1] + c.radius * math.sin(t))
-        for t in (n * math.pi / 36 for n in range(72))
-    ]

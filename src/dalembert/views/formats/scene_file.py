@@ -24,9 +24,8 @@ def save(
         raise ModelError(f"there is no theme {theme!r}", f"there is {', '.join(THEMES)}")
     kind = target.suffix.lower()
     if kind not in (".svg", ".pdf", ".png", ".dxf"):
-        raise ModelError(
-            f"{target.name}: drawings are not written as {kind or 'that'}", "use .svg, .pdf, .png or .dxf"
-        )
+        what = f"{target.name}: drawings are not written as {kind or 'that'}"
+        raise ModelError(what, "use .svg, .pdf, .png or .dxf")
     if paper is not None and (paper not in PAPERS or kind != ".pdf"):
         raise ModelError(f"{target.name} has no pages of {paper}", f"a .pdf has: {' or '.join(PAPERS)}")
     with new_file(target, overwrite) as temporary:

@@ -7,8 +7,9 @@ import numpy as np
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.machine.balance.balancing import Balance, without_weight
-from dalembert.views.charts import along, curves_scene, polar_scene
+from dalembert.views.charts import along
 from dalembert.views.notation import Notation, Shown
+from dalembert.views.paper.diagrams import curves_scene, polar_scene
 from dalembert.views.paper.scene import Scene
 
 

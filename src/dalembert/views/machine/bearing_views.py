@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dalembert.machine.bearings.bearing_table import BearingTable
-from dalembert.views.charts import MOST, along, curves_scene, polar_chart
+from dalembert.views.charts import MOST, along, polar_chart
 from dalembert.views.notation import Notation, Shown
+from dalembert.views.paper.diagrams import curves_scene
 from dalembert.views.paper.scene import Scene
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from dalembert.machine.flywheel.flywheels import Flywheel
-from dalembert.views.charts import curves_scene
 from dalembert.views.notation import Notation, Shown
+from dalembert.views.paper.diagrams import curves_scene
 from dalembert.views.paper.scene import Scene
 
 

@@ -8,9 +8,9 @@ from dalembert.arrays import Array
 from dalembert.machine.members.member_forces import IN_PLANE, ORDER, MemberCurve, MemberForces, kind_of
 from dalembert.machine.members.member_table import MemberTable
 from dalembert.machine.output.member_text import SIGNS, floors
-from dalembert.views.charts import curves_scene
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.canvas import Canvas
+from dalembert.views.paper.diagrams import curves_scene
 from dalembert.views.paper.frame import round_up
 from dalembert.views.paper.scene import Line, Scene
 from dalembert.views.plane.mechanism_view import draw_links, place_title, scale_notes, whole_frame

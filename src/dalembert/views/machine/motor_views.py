@@ -6,9 +6,10 @@ import numpy as np
 
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.machine.motors.motor_choice import MotorChoice
-from dalembert.views.charts import along, curves_scene
+from dalembert.views.charts import along
+from dalembert.views.not_shown import refuse_still
 from dalembert.views.notation import Notation, Shown
-from dalembert.views.only_in_motion import refuse_still
+from dalembert.views.paper.diagrams import curves_scene
 from dalembert.views.paper.scene import Scene
 
 

@@ -8,10 +8,11 @@ from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.machine.harmonics import Harmonics
 from dalembert.machine.shaking import Shaking
-from dalembert.views.charts import along, crank_marks, curves_scene, polar_scene, vector_chart
+from dalembert.views.charts import along, crank_marks, vector_chart
+from dalembert.views.not_shown import refuse_still
 from dalembert.views.notation import Notation, Shown
-from dalembert.views.only_in_motion import refuse_still
 from dalembert.views.paper.canvas import Canvas
+from dalembert.views.paper.diagrams import curves_scene, polar_scene
 from dalembert.views.paper.frame import round_up
 from dalembert.views.paper.scene import Line, Polygon, Scene, Text
 

@@ -6,8 +6,8 @@ import numpy as np
 
 from dalembert.machine.motion.simulation import Simulation
 from dalembert.model.drives.drives import SLIDE, TURN
-from dalembert.views.charts import curves_scene
 from dalembert.views.notation import Notation, Shown
+from dalembert.views.paper.diagrams import curves_scene
 from dalembert.views.paper.scene import Scene
 
 

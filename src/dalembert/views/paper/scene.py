@@ -183,6 +183,17 @@ class Scene:
         return self.to_svg()
 
 
+def along(tail: Point, head: Point, *parts: float) -> list[Point]:
+    """Places at parts of the way from one point to another."""
+    return [(tail[0] + t * (head[0] - tail[0]), tail[1] + t * (head[1] - tail[1])) for t in parts]
+
+
+def around(at: Point, radius: float, count: int, first: float = 0.0) -> list[Point]:
+    """Places on a circle, the first at an angle."""
+    turns = (first + 2 * math.pi * n / count for n in range(count))
+    return [(at[0] + radius * math.cos(t), at[1] + radius * math.sin(t)) for t in turns]
+
+
 def _flatten(items: Sequence[Item]) -> Iterator[Item]:
     for item in items:
         if isinstance(item, Group):

@@ -21,10 +21,11 @@ from dalembert.analysis.methods.applied_forces import (
 )
 from dalembert.analysis.methods.members import concurrency, members, order_of_solution
 from dalembert.printing import remainder
+from dalembert.views.not_shown import doubts, has_reactions, on_one
 from dalembert.views.notation import Figures, Notation, Shown, own_name
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import Frame, force_scale
-from dalembert.views.paper.scene import Arrow, Circle, Line, Point, Polygon, Scene
+from dalembert.views.paper.scene import Arrow, Circle, Line, Point, Scene, along
 from dalembert.views.plane.circle_details import draw_circle, with_friction_circle
 from dalembert.views.plane.mechanism_view import (
     draw_actions,
@@ -34,7 +35,6 @@ from dalembert.views.plane.mechanism_view import (
     unit_size,
     whole_frame,
 )
-from dalembert.views.unknown_forces import doubts, has_reactions, on_one
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -148,21 +148,13 @@ def _edge_label(
     canvas: Canvas, a: Action, k: int, shown: Figures, tail: Point, head: Point, middle: Point
 ) -> None:
     size = float(np.hypot(*a.force[k]))
-    spots = [
-        (tail[0] + t * (head[0] - tail[0]), tail[1] + t * (head[1] - tail[1])) for t in (0.5, 0.35, 0.65)
-    ]
+    spots = along(tail, head, 0.5, 0.35, 0.65)
     away = math.atan2(spots[0][1] - middle[1], spots[0][0] - middle[0])
     text = f"{shown.symbol(a)} = {shown.text('force', size)}"
     if math.dist(tail, head) < SHORT:
         canvas.label_below(text)
         return
-    canvas.label(
-        text,
-        *spots,
-        prefer=away,
-        size=2.8,
-        role=role_of(a.kind),
-    )
+    canvas.label(text, *spots, prefer=away, size=2.8, role=role_of(a.kind))
 
 
 def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case: str | None = None) -> Scene:
@@ -302,10 +294,8 @@ def _arm(canvas: Canvas, mine: Sequence[Action], k: int, frame: Frame, shown: Sh
 
 def dimension(canvas: Canvas, a: Point, b: Point, text: str) -> None:
     """A dimension line between two places."""
-    middle = ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
-    canvas.add(
-        Arrow(middle, a, "dimension", kind="dimension"), Arrow(middle, b, "dimension", kind="dimension")
-    )
+    (middle,) = along(a, b, 0.5)
+    canvas.add(*(Arrow(middle, end, "dimension", kind="dimension") for end in (a, b)))
     canvas.label(text, middle, size=2.8, role="note")
 
 
@@ -330,6 +320,3 @@ def _through(at: Point, force: np.ndarray, span: tuple[float, ...]) -> tuple[Poi
             reach[n] -= 2.0
     a, b = (at[0] + reach[0] * ux, at[1] + reach[0] * uy), (at[0] - reach[1] * ux, at[1] - reach[1] * uy)
     return a, b
-
-
-__all__ = ["Polygon", "force_chain_scene", "force_polygon_scene", "lines_of_action_scene"]

@@ -11,6 +11,7 @@ from dalembert.analysis.friction.friction_circles import friction_circles
 from dalembert.analysis.friction.lines_of_action import acting_lines
 from dalembert.analysis.methods.applied_forces import Action, joint_place, link_place, on_link, whole_actions
 from dalembert.analysis.methods.members import Member, components_along, members
+from dalembert.views.not_shown import doubts, on_one
 from dalembert.views.notation import Notation, Shown, own_name
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.details import detail_scenes, with_details
@@ -22,7 +23,6 @@ from dalembert.views.plane.joint_drawings import own_symbol
 from dalembert.views.plane.mechanism_view import draw_actions, role_of, scale_notes, unit_size
 from dalembert.views.plane.outline import link_points, link_shape, load_places, wheels
 from dalembert.views.symbols import plane_symbols
-from dalembert.views.unknown_forces import doubts, on_one
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result

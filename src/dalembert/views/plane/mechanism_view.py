@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +16,7 @@ from dalembert.views.notation import Figures, Notation, Shown
 from dalembert.views.paper.canvas import Canvas, segments
 from dalembert.views.paper.details import detail_scenes, with_details
 from dalembert.views.paper.frame import Frame, fit_frame, force_scale
-from dalembert.views.paper.scene import Arrow, Line, Point, Scene
+from dalembert.views.paper.scene import Arrow, Line, Point, Scene, along, around
 from dalembert.views.plane.circle_details import draw_circles, with_friction_circle
 from dalembert.views.plane.guide_details import with_rough_guide
 from dalembert.views.plane.joint_drawings import draw_joint
@@ -190,7 +191,7 @@ def canvas_names(canvas: Canvas, r: Result, k: int, frame: Frame, shown: Shown) 
     for name, joint in m.joints.items():
         at = frame(link_place(r, joint.links[1], m.joint_points(name)[1])[k])
         away = math.atan2(at[1] - middle[1], at[0] - middle[0])
-        canvas.label(name, around(at), *ring(at, 1.0), prefer=away, size=3.4, role="title")
+        canvas.label(name, at, *ring(at, 1.0), prefer=away, size=3.4, role="title")
     for link in r.links:
         for name, u in load_places(m, link).items():
             if name not in (*m.loads, *m.joints):
@@ -202,22 +203,12 @@ def canvas_names(canvas: Canvas, r: Result, k: int, frame: Frame, shown: Shown) 
         if len(places) == 1:
             canvas.label(shown.link(link), places[0], size=3.0, role="note")
             continue
-        a, b = places[0], places[1]
-        spots = [(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])) for t in (0.5, 0.35, 0.65)]
-        canvas.label(shown.link(link), *spots, size=3.0, role="note")
-
-
-def around(at: Point) -> Point:
-    """The place itself, for labels."""
-    return at
+        canvas.label(shown.link(link), *along(places[0], places[1], 0.5, 0.35, 0.65), size=3.0, role="note")
 
 
 def ring(at: Point, radius: float) -> list[Point]:
-    """Places around a point."""
-    return [
-        (at[0] + radius * math.cos(a), at[1] + radius * math.sin(a))
-        for a in (math.pi / 4 + n * math.pi / 2 for n in range(4))
-    ]
+    """Four places around a point."""
+    return around(at, radius, 4, math.pi / 4)
 
 
 def draw_actions(
@@ -279,17 +270,20 @@ def draw_force(
         return
     name = shown.symbol(a)
     text = f"{name} = {shown.text('force', size)}" if values else name
-    along = [(at[0] + t * side[0], at[1] + t * side[1]) for t in (1.0, 0.8, 0.6)]
-    canvas.label(text, *along, prefer=math.atan2(side[1], side[0]), size=2.8, role=role_of(a.kind))
+    canvas.label(
+        text,
+        *along(at, free, 1.0, 0.8, 0.6),
+        prefer=math.atan2(side[1], side[0]),
+        size=2.8,
+        role=role_of(a.kind),
+    )
 
 
 def _covered(strokes: Array, start: Point, end: Point) -> int:
     """How many of twelve places of an arrow, those at its start left out, are on strokes (S, 2, 2)."""
-    along = np.array(
-        [[start[n] + t * (end[n] - start[n]) for n in (0, 1)] for t in np.linspace(0.25, 1.0, 12)]
-    )
+    places = np.array(along(start, end, *np.linspace(0.25, 1.0, 12)))
     first, span = strokes[:, 0], strokes[:, 1] - strokes[:, 0]
-    away = along[:, None] - first
+    away = places[:, None] - first
     t = np.clip((away * span).sum(axis=-1) / np.maximum((span**2).sum(axis=-1), 1e-12), 0.0, 1.0)
     off = np.hypot(*np.moveaxis(away - t[..., None] * span, -1, 0)).min(axis=1, initial=math.inf)
     return int((off < 0.9).sum())
@@ -299,11 +293,14 @@ def _pushes(r: Result, a: Action, k: int) -> bool:
     """Whether a force points from its place towards the middle of its link; what bears on a guide always pushes."""
     if a.kind == "joint" and with_rough_guide(r, [a.of]):
         return True
-    places = list(link_points(r, a.link, k).values())
+    return points_inwards(a, k, list(link_points(r, a.link, k).values()))
+
+
+def points_inwards(a: Action, k: int, places: Sequence[Point] | Sequence[Array]) -> bool:
+    """Whether a force points from its place towards the middle of others."""
     if len(places) < 2:
         return False
-    middle = np.mean(places, axis=0)
-    return bool(float(np.dot(a.force[k], middle - a.at[k])) > 1e-12)
+    return bool(float(np.dot(a.force[k], np.mean(np.array(places), axis=0) - a.at[k])) > 1e-12)
 
 
 def draw_couple(
@@ -318,5 +315,4 @@ def draw_couple(
         return
     name = shown.turning_symbol(a)
     text = f"{name} = {shown.text('moment', abs(value) * shown.notation.torque)}" if values else name
-    spots = [(at[0] + radius * math.cos(t), at[1] + radius * math.sin(t)) for t in np.arange(8) * math.pi / 4]
-    canvas.label(text, *spots, size=2.8, role=role)
+    canvas.label(text, *around(at, radius, 8), size=2.8, role=role)

@@ -17,7 +17,7 @@ from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import force_scale
 from dalembert.views.paper.lettering import unbroken
-from dalembert.views.paper.scene import Arrow, Circle, Line, Point, Polygon, Scene
+from dalembert.views.paper.scene import Arrow, Circle, Line, Point, Polygon, Scene, along
 from dalembert.views.plane.mechanism_view import unit_size
 from dalembert.views.plane.motion_points import Rates, Spot, rates, spots
 from dalembert.views.plane.outline import convex
@@ -50,10 +50,8 @@ def motion_polygon_scene(
     shown = Shown(r, notation or Notation(), k)
     if drive is None and stands_still(r, k):
         if order == "acceleration":
-            raise ModelError(
-                f"accelerations need a motion, and no drive moves at position {k + 1}",
-                "give a drive a speed, or draw the velocity polygon: it is for unit speed then",
-            )
+            remedy = "give a drive a speed, or draw the velocity polygon: it is for unit speed then"
+            raise ModelError(f"accelerations need a motion, and no drive moves at position {k + 1}", remedy)
         drive = 0
     motion = rates(r, k, drive)
     points = spots(r, k, shown)
@@ -150,10 +148,7 @@ class _Polygon:
         if text and sum(s.joint for some in self.points.values() for s in some) > MOST:
             self.listed += [text] if " = " in text else []
             return
-        along = [
-            (tail[0] + t * (head[0] - tail[0]), tail[1] + t * (head[1] - tail[1])) for t in (0.55, 0.4, 0.7)
-        ]
-        self.canvas.label(text, *along, size=2.6, role=self.order)
+        self.canvas.label(text, *along(tail, head, 0.55, 0.4, 0.7), size=2.6, role=self.order)
 
     def _sides(self, link: str, some: list[Spot]) -> None:
         """From the link's point that is still, or its first joint, to its others; then over what slides on it."""
@@ -271,6 +266,3 @@ def relative(of: str, to: str) -> str:
     """
     one, other = flat(of), flat(to)
     return f"{one}{'' if len(one) < 3 and len(other) < 3 else '/'}{other}"
-
-
-__all__ = ["motion_polygon_scene", "stands_still"]

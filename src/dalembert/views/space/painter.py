@@ -243,6 +243,3 @@ def _tube(s: Tube, camera: Camera) -> Iterator[Piece]:
         side = s.radius * seen / size
         for sign in (-1, 1):
             yield from _wire(np.array([s.start + sign * side, s.end + sign * side]), s.role, camera)
-
-
-__all__ = ["Piece", "paint"]

@@ -13,8 +13,8 @@ from dalembert.model import GROUND
 from dalembert.views.notation import Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.frame import force_scale
-from dalembert.views.paper.scene import Point
-from dalembert.views.plane.mechanism_view import ring, role_of, unit_size
+from dalembert.views.paper.scene import Point, along
+from dalembert.views.plane.mechanism_view import points_inwards, ring, role_of, unit_size
 from dalembert.views.space.link_solids import nodes
 from dalembert.views.space.space_view import NOTHING, Sight, end_on, scale_notes
 from dalembert.views.symbols import plane_symbols
@@ -103,9 +103,8 @@ class Arrows:
         parts = plane_symbols.two_heads if turning else plane_symbols.one_head
         self.canvas.add(*parts(tail, head, role, of, kind, length * per_mm))
         far = tail if inward else head
-        side = (far[0] - at[0], far[1] - at[1])
-        spots = [(at[0] + t * side[0], at[1] + t * side[1]) for t in (1.0, 0.8, 0.6)]
-        self.canvas.label(text, *spots, prefer=math.atan2(side[1], side[0]), size=2.6, role=role)
+        away = math.atan2(far[1] - at[1], far[0] - at[0])
+        self.canvas.label(text, *along(at, far, 1.0, 0.8, 0.6), prefer=away, size=2.6, role=role)
 
     def scale_notes(self, everything: bool = False) -> tuple[list[str], dict[str, float]]:
         """The scales of what was drawn, or of all that there is, as notes and as numbers."""
@@ -129,7 +128,4 @@ def pushes(r: Result, a: Action, k: int) -> bool:
     """Whether a force points from its place towards the middle of its link."""
     if a.link == GROUND or a.kind in ("weight", "inertia"):
         return False
-    places = [link_place(r, a.link, u)[k] for u in nodes(r, a.link).values()]
-    if len(places) < 2:
-        return False
-    return bool(float(a.force[k] @ (np.mean(places, axis=0) - a.at[k])) > 1e-12)
+    return points_inwards(a, k, [link_place(r, a.link, u)[k] for u in nodes(r, a.link).values()])

@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import actions, joint_place, link_place
+from dalembert.analysis.result.reaction_axes import axes_of
 from dalembert.arrays import Array
 from dalembert.model import GROUND
+from dalembert.model.joints.pairs import AXES
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.details import with_details
-from dalembert.views.paper.scene import Line, Point, Scene
+from dalembert.views.paper.scene import Line, Point, Scene, along
 from dalembert.views.plane.mechanism_view import is_drawn, place_title, ring, unit_size
 from dalembert.views.plane.outline import unbroken
 from dalembert.views.space.camera import Camera
@@ -113,11 +115,23 @@ def draw_machine(canvas: Canvas, r: Result, k: int, s: Sight) -> None:
     for name, load in m.loads_on("span").items():
         a, b = (s(link_place(r, end, u)[k]) for end, u in m.load_points(name))
         canvas.add(*plane_symbols.SPANS[load.type](a, b))
+    for load in m.loads_on("turn").values():
+        turn = axes_of(r, load.joint, "joint")[k][AXES.index(m.joints[load.joint].pair.turns[0])]
+        canvas.add(
+            *_turn_symbol(load.type, s(joint_place(r, load.joint)[k]), *s.camera(np.array(across(turn))))
+        )
     joints = [s(joint_place(r, name)[k]) for name in r.joints]
     for link in r.links:
         at = s(r.center(link)[k])
         if m.mass(link) and all(math.dist(at, p) > 1.5 for p in joints):
             mark_center(canvas, at, [s(link_place(r, link, u)[k]) for u in nodes(r, link).values()])
+
+
+def _turn_symbol(kind: str, at: Point, x: Array, y: Array) -> list[Line]:
+    """The symbol of a load in a joint's turn, seen aslant: ``x`` and ``y`` are the axes of its plane on paper."""
+    parts = [item.points for item in plane_symbols.TURNS[kind]((0.0, 0.0))]  # type: ignore[union-attr]
+    seen = [[np.asarray(at) + a * x + b * y for a, b in points] for points in parts]
+    return [Line(tuple((float(px), float(py)) for px, py in points), "spring") for points in seen]
 
 
 def mark_center(canvas: Canvas, at: Point, places: list[Point]) -> None:
@@ -146,9 +160,5 @@ def draw_names(canvas: Canvas, r: Result, k: int, s: Sight, shown: Shown) -> Non
         canvas.label(name, at, *ring(at, 2.4), prefer=away, size=3.4, role="title")
     for link in r.links:
         places = [s(link_place(r, link, u)[k]) for u in nodes(r, link).values()]
-        a, b = places[0], places[min(1, len(places) - 1)]
-        spots = [(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])) for t in (0.5, 0.35, 0.65)]
+        spots = along(places[0], places[min(1, len(places) - 1)], 0.5, 0.35, 0.65)
         canvas.label(shown.link(link), *spots, size=3.0, role="note")
-
-
-__all__ = ["draw_machine", "every_place", "space_mechanism_scene", "whole_sight"]

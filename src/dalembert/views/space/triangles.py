@@ -18,7 +18,6 @@ from dalembert.views.space.solids import (
     Ring,
     Solid,
     Tube,
-    Wire,
     across,
     circle,
     helix,
@@ -160,6 +159,3 @@ def _wire(points: Array, radius: float) -> Mesh:
     return join_meshes(
         _cylinder(Cylinder(a, b, radius), 5) for a, b in pairwise(points) if np.linalg.norm(b - a) > 0
     )
-
-
-__all__ = ["Mesh", "Wire", "join_meshes", "mesh"]

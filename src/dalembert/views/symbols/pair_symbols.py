@@ -172,14 +172,16 @@ def _slotted_sphere(s: Setting) -> Symbol:
     first, peg = _turning(s)
     t = np.linspace(-1.1, 1.1, 17)[:, None]
     side = np.cross(first, peg)
-    arcs: list[Solid] = [
-        Wire((BALL + 0.6) * (np.cos(t) * peg + np.sin(t) * side) + lift * first) for lift in (-0.7, 0.7)
-    ]
-    ball: list[Solid] = [
-        Ball(np.zeros(3), BALL, "inner"),
-        Cylinder(BALL * peg, (BALL + 2.2) * peg, 0.5, "inner"),
-    ]
-    return Symbol([*_socket(s.to_i), *arcs], ball, BALL)
+    arc = (BALL + 0.6) * (np.cos(t) * peg + np.sin(t) * side)
+    return Symbol([*_socket(s.to_i), *_slot_edges(arc, first)], _pegged_ball(peg), BALL)
+
+
+def _slot_edges(middle: Array, first: Array) -> list[Solid]:
+    return [Wire(middle + lift * first) for lift in (-0.7, 0.7)]
+
+
+def _pegged_ball(peg: Array) -> list[Solid]:
+    return [Ball(np.zeros(3), BALL, "inner"), Cylinder(BALL * peg, (BALL + 2.2) * peg, 0.5, "inner")]
 
 
 def _torus(s: Setting) -> Symbol:
@@ -200,14 +202,8 @@ def _slotted_cylinder(s: Setting) -> Symbol:
 def _slotted_sphere_in_cylinder(s: Setting) -> Symbol:
     low, high = _rails(s, 5.0)
     first, peg = _turning(s)
-    slot: list[Solid] = [
-        Wire(np.array([low * X, high * X]) + (BALL + 0.3) * peg + lift * first) for lift in (-0.7, 0.7)
-    ]
-    ball: list[Solid] = [
-        Ball(np.zeros(3), BALL, "inner"),
-        Cylinder(BALL * peg, (BALL + 2.2) * peg, 0.5, "inner"),
-    ]
-    return Symbol([_tube(s), *slot], ball, BALL)
+    slot = np.array([low * X, high * X]) + (BALL + 0.3) * peg
+    return Symbol([_tube(s), *_slot_edges(slot, first)], _pegged_ball(peg), BALL)
 
 
 SYMBOLS: dict[str, Callable[[Setting], Symbol]] = {

@@ -49,16 +49,14 @@ class Copying:
             if str(name) in self.of and f"{name}{self.image.ending}" not in assembly:
                 self.pose(assembly, str(name), pose)
         if self.image.shift and not self.shifted:
-            raise ModelError(
-                "none of its loads goes by a drive that stays, to be shifted", "leave shift out", ("shift",)
-            )
+            what = "none of its loads goes by a drive that stays, to be shifted"
+            raise ModelError(what, "leave shift out", ("shift",))
 
     def add(self, section: str, name: str, value: object) -> None:
         new = f"{name}{self.image.ending}"
         if new in {str(other) for other in self.tree[section]}:
-            raise ModelError(
-                f"its {section[:-1]} {new!r} is there already", "give the copies other names: names: [...]"
-            )
+            what = f"its {section[:-1]} {new!r} is there already"
+            raise ModelError(what, "give the copies other names: names: [...]")
         self.tree[section][new] = value
         self.copied[section, new] = self.path
 
@@ -74,9 +72,8 @@ class Copying:
         shapes = link.get("shape", [])
         for shape in shapes if isinstance(shapes, list) else [shapes]:
             if "file" in shape:
-                raise ModelError(
-                    "a mesh is not mirrored", "give mass, center and inertia in place of its shape"
-                )
+                what = "a mesh is not mirrored"
+                raise ModelError(what, "give mass, center and inertia in place of its shape")
         flipped = [{**s, **({"center": at(s["center"])} if "center" in s else {})} for s in _list(shapes)]
         return new | ({"shape": flipped} if shapes else {})
 
@@ -97,9 +94,8 @@ class Copying:
             return point  # what is wrong with it is said where it is read
         path: Path = ("links", link, "points", new)
         if new in points and path not in self.copied:
-            raise ModelError(
-                f"link {link!r} has a point {new!r} already", "give the copies other names: names: [...]"
-            )
+            what = f"link {link!r} has a point {new!r} already"
+            raise ModelError(what, "give the copies other names: names: [...]")
         about = self.image.about if self.image.about in points else ""
         how = {"mirror" if self.image.mirrored else "turn": f"{self.image.phase[link]!r} rad"}
         placed = {"from": point, **how, **({"about": about} if about else {})}
@@ -271,10 +267,8 @@ class Copying:
         if new is not None:
             said = new(against)
             if "(" in said:
-                raise ModelError(
-                    f"a table against {against!r} is turned or mirrored with it",
-                    "write that load as an expression",
-                )
+                what = f"a table against {against!r} is turned or mirrored with it"
+                raise ModelError(what, "write that load as an expression")
             return {**value, "against": said}
         if against not in self.staying() or not self.image.shift:
             return value

@@ -11,7 +11,13 @@ from dalembert.model.files.copies.copying import Copying
 from dalembert.model.files.copies.images import Image
 from dalembert.model.links.link import GROUND
 from dalembert.model.part import Reading, mapping
-from dalembert.model.quantities.values import JsonSchema, at_item
+from dalembert.model.quantities.values import (
+    NAME_OR_NUMBER,
+    NUMBER_OR_TEXT,
+    JsonSchema,
+    at_item,
+    object_schema,
+)
 from dalembert.units import quantity
 from dalembert.wording import closest, quote_value
 
@@ -22,41 +28,38 @@ EXAMPLE = "{of: [rod, piston], phase: {crank: [0, 180, 180, 0]}, shift: [0, 540,
 MOST = 100
 """Copies of one entry."""
 
-NUMBER_OR_TEXT = {"type": ["number", "string"]}
-
 
 def copies_schema() -> JsonSchema:
     """The JSON Schema of `copies`."""
     several = {"anyOf": [NUMBER_OR_TEXT, {"type": "array", "items": NUMBER_OR_TEXT}]}
-    names = {"type": "array", "items": {"type": ["string", "integer"]}}
-    said: JsonSchema = {
-        "of": names | {"description": "links; their joints, drives, loads and assembly come along"},
-        "count": {"type": "integer", "description": "how many there are then, with the original"},
-        "phase": {"type": "object", "additionalProperties": several}
-        | {
-            "description": "links that stay -> by which angles the copies' places on them are turned, or a step"
-        },
-        "mirror": {"anyOf": [NUMBER_OR_TEXT, {"type": "object", "additionalProperties": NUMBER_OR_TEXT}]}
-        | {"description": "the angle of the line that the copy is reflected in: of ground, or link -> angle"},
-        "about": {
-            "type": "string",
-            "description": "the point of these links that it goes through; default the origin",
-        },
-        "shift": several
-        | {"description": "how much later the copies' loads come, along the drive, or a step"},
-        "names": names | {"description": "what the copies' names end with; default 2, 3, ..."},
+    by_link = {"type": "object", "additionalProperties": NUMBER_OR_TEXT}
+    names = {"type": "array", "items": NAME_OR_NUMBER}
+    words = {
+        "of": "links; their joints, drives, loads and assembly come along",
+        "count": "how many there are then, with the original",
+        "phase": "links that stay -> by which angles the copies' places on them are turned, or a step",
+        "mirror": "the angle of the line that the copy is reflected in: of ground, or link -> angle",
+        "about": "the point of these links that it goes through; default the origin",
+        "shift": "how much later the copies' loads come, along the drive, or a step",
+        "names": "what the copies' names end with; default 2, 3, ...",
     }
-    entry = {"type": "object", "properties": said, "required": ["of"], "additionalProperties": False}
-    return {"type": "array", "items": entry, "description": "parts written once and copied"}
+    kinds: JsonSchema = {"of": names, "count": {"type": "integer"}, "about": {"type": "string"}}
+    kinds |= {"phase": by_link | {"additionalProperties": several}, "shift": several, "names": names}
+    kinds["mirror"] = {"anyOf": [NUMBER_OR_TEXT, by_link]}
+    keys = {key: kinds[key] | {"description": said} for key, said in words.items()}
+    return {
+        "type": "array",
+        "items": object_schema(keys, "of"),
+        "description": "parts written once and copied",
+    }
 
 
 def expand(tree: Mapping[str, object], rules: Reading) -> tuple[Mapping[str, object], dict[Path, Path]]:
     """The tree with what its copies stand for; paths of the new parts -> path of the copy."""
     entries = tree.get("copies")
     if not isinstance(entries, (list, tuple)):
-        raise ModelError(
-            f"{quote_value(entries)} stands where a list is needed", f"write copies: [{EXAMPLE}]", ("copies",)
-        )
+        said = f"{quote_value(entries)} stands where a list is needed"
+        raise ModelError(said, f"write copies: [{EXAMPLE}]", ("copies",))
     out: Tree = {key: value for key, value in tree.items() if key != "copies"}
     for key in ("links", "joints", "drives", "loads", "assembly"):
         if isinstance(out.get(key), Mapping):
@@ -82,11 +85,8 @@ def _images(entry: Any, tree: Tree, rules: Reading) -> Iterator[Image]:
         raise ModelError("it says no links", f"write {EXAMPLE}", ("of",) if of is not None else ())
     for k, name in enumerate(of):
         if str(name) not in links or name == GROUND:
-            raise ModelError(
-                f"there is no moving link {str(name)!r}",
-                closest(str(name), sorted(links - {GROUND})),
-                ("of", k),
-            )
+            said = f"there is no moving link {str(name)!r}"
+            raise ModelError(said, closest(str(name), sorted(links - {GROUND})), ("of", k))
     turned = _turned(keys, links - {str(name) for name in of})
     count = _count(keys, turned)
     phases = {link: at_item("phase", _steps, value, count, "angle", rules) for link, value in turned.items()}
@@ -97,9 +97,8 @@ def _images(entry: Any, tree: Tree, rules: Reading) -> Iterator[Image]:
         or len(names) != count - 1
         or len(set(map(str, names))) < len(names)
     ):
-        raise ModelError(
-            f"{count - 1} names are needed, of the copies only", "write names: [left, right]", ("names",)
-        )
+        what = f"{count - 1} names are needed, of the copies only"
+        raise ModelError(what, "write names: [left, right]", ("names",))
     slides = set(rules.freedoms.values()) == {"slide"}
     shifts = (
         [0.0] * count
@@ -120,14 +119,12 @@ def _turned(keys: Mapping[str, Any], links: set[str]) -> dict[str, Any]:
     if which == "mirror" and not isinstance(given, Mapping):
         given = {GROUND: given}
     if not isinstance(given, Mapping):
-        raise ModelError(
-            f"{quote_value(given)} does not say on which link", "write phase: {crank: [0, 180]}", (which,)
-        )
+        what = f"{quote_value(given)} does not say on which link"
+        raise ModelError(what, "write phase: {crank: [0, 180]}", (which,))
     for link in given:
         if str(link) not in links:
-            raise ModelError(
-                f"there is no link {str(link)!r} that stays", closest(str(link), sorted(links)), (which,)
-            )
+            said = f"there is no link {str(link)!r} that stays"
+            raise ModelError(said, closest(str(link), sorted(links)), (which,))
     return {str(link): [0, value] if which == "mirror" else value for link, value in given.items()}
 
 
@@ -141,10 +138,8 @@ def _count(keys: Mapping[str, Any], turned: Mapping[str, Any]) -> int:
             ("count",) if "count" in keys else (),
         )
     if listed - {count}:
-        raise ModelError(
-            f"{count} are asked for, and a list has {max(listed - {count})}",
-            "give one for each, the original's 0 first",
-        )
+        what = f"{count} are asked for, and a list has {max(listed - {count})}"
+        raise ModelError(what, "give one for each, the original's 0 first")
     return count
 
 
@@ -155,7 +150,6 @@ def _steps(value: object, count: int, kind: str, rules: Reading) -> list[float]:
         return [k * step for k in range(count)]
     found = [at_item(k, quantity, x, kind, rules.units) for k, x in enumerate(value)]
     if found[0]:
-        raise ModelError(
-            f"a list begins with {quote_value(value[0])}, and the original stays", "begin with 0", (0,)
-        )
+        what = f"a list begins with {quote_value(value[0])}, and the original stays"
+        raise ModelError(what, "begin with 0", (0,))
     return found

@@ -1,4 +1,4 @@
-"""What a drawing's forces cannot be taken for: those that are not unique, and those that are not known."""
+"""What a drawing cannot show: a motion where nothing moves; forces that are not unique, or not known."""
 
 from __future__ import annotations
 
@@ -7,8 +7,31 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dalembert.errors import ModelError
+
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
+
+STILL = "draw the mechanism, its free bodies or force polygons"
+
+
+def refuse_structure(r: Result, what: str) -> None:
+    """Raise ModelError for a structure."""
+    if not r.drives:
+        raise ModelError(f"{what} shows a motion, and a structure has none", STILL)
+
+
+def refuse_still(r: Result, what: str) -> None:
+    """Raise ModelError for a structure, equilibria or a single position, with what was asked for in the message."""
+    refuse_structure(r, what)
+    if r.stability is not None:
+        raise ModelError(f"{what} shows a motion, and here are equilibrium positions", STILL)
+    closed = int(np.isfinite(r.point_array).all(axis=(1, 2)).sum())
+    if closed < 2 <= len(r.status):
+        many = f"{closed} of {len(r.status)} positions closes" if closed else "no position closes"
+        raise ModelError(f"{what} needs two positions, and {many}", "see why: dalembert solve")
+    if closed < 2:
+        raise ModelError(f"{what} needs two positions", "ask for more: positions=36, or --positions 36")
 
 
 def doubts(r: Result, k: int, joints: Iterable[str]) -> list[str]:
