@@ -39,7 +39,8 @@ VIEWS = ["mechanism", "free-bodies", "force-polygons", "motion", "superposition"
 
 @pytest.mark.parametrize("at", [1, 5, 20])
 def test_the_force_of_teeth_is_along_the_line_of_action(at: int) -> None:
-    """Its components are to scale, head to tail, the radial one tan(20 deg) of the other, inwards; the line of action touches both base circles."""
+    """Its components are to scale, head to tail, the radial one inwards;
+    the line of action touches both base circles."""
     r = result("gear_train")
     for panel in da.draw.teeth(r, at=at).items:
         whole, around, radial = (a for a in Scene(panel.items).arrows() if a.kind == "force")

@@ -164,8 +164,8 @@ def draw(
         | None,
         with_help(
             "What to draw; motion: velocity and acceleration polygons and instant centres; friction: circles, pins and "
-            "guides; teeth: gears in mesh; charts: over a cycle; superposition: one load at a time; all: mechanism, free "
-            "bodies, force polygons, charts (default: as many of these as one page holds)."
+            "guides; teeth: gears in mesh; charts: over a cycle; superposition: one load at a time; all: mechanism, "
+            "free bodies, force polygons, charts (default: as many of these as one page holds)."
         ),
     ] = None,
     at: At = None,
