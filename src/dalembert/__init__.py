@@ -118,6 +118,7 @@ if TYPE_CHECKING:
         hooke_joint,
         in_line_engine,
         inverted_slider_crank,
+        press_with_flywheel,
         radial_engine,
         rccc,
         rotating_shaft,
@@ -191,8 +192,9 @@ _NAMES = {
     "machine.shaking": "shaking",
     "model.library": (
         "bennett bevel_differential bucket crank_shaper double_cardan five_bar four_bar hooke_joint in_line_engine "
-        "inverted_slider_crank radial_engine rccc rotating_shaft rssp rssr scissor scotch_yoke slider_crank "
-        "spherical_four_bar stephenson_1 stephenson_2 stephenson_3 toggle_press v_engine watt_1 watt_2 whitworth"
+        "inverted_slider_crank press_with_flywheel radial_engine rccc rotating_shaft rssp rssr scissor scotch_yoke "
+        "slider_crank spherical_four_bar stephenson_1 stephenson_2 stephenson_3 toggle_press v_engine watt_1 watt_2 "
+        "whitworth"
     ),
     "optimization.optimizing": "optimize",
     "optimization.optimum": "Optimum",
@@ -328,6 +330,7 @@ __all__ = [
     "other_solutions",
     "page",
     "pareto",
+    "press_with_flywheel",
     "radial_engine",
     "rccc",
     "report",

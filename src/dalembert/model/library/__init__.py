@@ -35,6 +35,7 @@ stephenson_2 = template_function("stephenson_2")
 stephenson_3 = template_function("stephenson_3")
 scotch_yoke = template_function("scotch_yoke")
 toggle_press = template_function("toggle_press")
+press_with_flywheel = template_function("press_with_flywheel")
 five_bar = template_function("five_bar")
 bucket = template_function("bucket")
 hooke_joint = template_function("hooke_joint")
@@ -46,8 +47,8 @@ rssp = template_function("rssp")
 
 __all__ = [
     "TEMPLATES", "Template", "bennett", "bevel_differential", "bucket", "crank_shaper", "double_cardan",
-    "five_bar", "four_bar", "hooke_joint", "in_line_engine", "inverted_slider_crank", "radial_engine",
-    "rccc", "rotating_shaft", "rssp", "rssr", "scissor", "scotch_yoke", "slider_crank",
+    "five_bar", "four_bar", "hooke_joint", "in_line_engine", "inverted_slider_crank", "press_with_flywheel",
+    "radial_engine", "rccc", "rotating_shaft", "rssp", "rssr", "scissor", "scotch_yoke", "slider_crank",
     "spherical_four_bar", "stephenson_1", "stephenson_2", "stephenson_3", "template", "template_text",
     "toggle_press", "v_engine", "watt_1", "watt_2", "whitworth",
 ]  # fmt: skip
@@ -73,6 +74,7 @@ DESCRIPTIONS = {
     "stephenson_3": "six-bar: a coupler point drives an output rocker",
     "scotch_yoke": "the crank pin in a slot moves a yoke as a pure cosine",
     "toggle_press": "a crank straightens two toggle links over a ram",
+    "press_with_flywheel": "a motor and a flywheel drive a crank press, with bearings and a rod's section",
     "five_bar": "two driven cranks and two couplers, the simplest parallel robot",
     "scissor": "scissor lift of any number of stages",
     "bucket": "excavator bucket moved by a hydraulic cylinder",
