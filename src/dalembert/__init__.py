@@ -12,142 +12,154 @@ from __future__ import annotations
 from importlib import import_module
 
 TYPE_CHECKING = False
-"""Here and in `cli` not typing's own: importing `typing` would be a third of the time of `dalembert --version`."""
+"""Here and in `cli` not typing's own: importing `typing` would be a third of the time of `dalembert --version`.
+Names imported as themselves are public to type checkers (PEP 484)."""
 if TYPE_CHECKING:
     from typing import Any
 
-    from dalembert import wrench
-    from dalembert.analysis import (
-        Mobility,
-        Result,
-        dynamics,
-        kinematics,
-        mobility,
-        solve,
-        statics,
-    )
-    from dalembert.analysis.batch import BatchResult, Kernel, compile  # noqa: A004
-    from dalembert.analysis.batch.design_sweep import Sweep, sweep
-    from dalembert.analysis.friction.efficiency import efficiency
-    from dalembert.analysis.friction.fixed_point import fixed_point
-    from dalembert.analysis.friction.friction_circles import friction_circles
-    from dalembert.analysis.friction.joint_friction import guide_contact
-    from dalembert.analysis.friction.other_solutions import other_solutions
-    from dalembert.analysis.lift import lifted
-    from dalembert.analysis.methods.applied_forces import forces_on
-    from dalembert.analysis.methods.members import (
-        displaced_inertia,
-        inertia_shares,
-        members,
-        order_of_solution,
-    )
-    from dalembert.analysis.methods.superposition import superposition
-    from dalembert.analysis.methods.virtual_work import virtual_work
-    from dalembert.errors import STATUSES, AnalysisError, DalembertError, ModelError
-    from dalembert.exams.variants import variants
-    from dalembert.grading.file_answers import check_file
-    from dalembert.grading.marking.grade import grade
-    from dalembert.grading.mistakes import check_answers
-    from dalembert.machine.balance.balancing import balance
-    from dalembert.machine.balance.counterweights import Counterweight
-    from dalembert.machine.balance.engine_series import EngineSeries, engine_series
-    from dalembert.machine.balance.rotors import RotorBalance, balance_rotor
-    from dalembert.machine.bearings.bearing_load import BearingLoad, bearing
-    from dalembert.machine.bearings.bearing_table import BearingTable, bearings
-    from dalembert.machine.flywheel.flywheel_size import FlywheelSize, flywheel_size
-    from dalembert.machine.flywheel.flywheels import flywheel
-    from dalembert.machine.gyroscopes import Gyroscopic, gyroscopic
-    from dalembert.machine.harmonics import harmonics
-    from dalembert.machine.members.member_forces import MemberForces, member_forces
-    from dalembert.machine.motion.simulation import Simulation, simulate
-    from dalembert.machine.motors.motor_choice import MotorChoice, motor
-    from dalembert.machine.shaking import shaking
-    from dalembert.model import (
-        Answer,
-        Bearing,
-        Box,
-        CircularSlot,
-        ConstantForceSpring,
-        Couple,
-        Cylinder,
-        Damper,
-        Drive,
-        Expression,
-        ForceLoad,
-        FrictionDefaults,
-        Gear,
-        GearFriction,
-        GuideFriction,
-        Link,
-        Mechanism,
-        Offset,
-        Pin,
-        PinFriction,
-        Range,
-        Rise,
-        Rolling,
-        Section,
-        SlenderBar,
-        Slider,
-        Slot,
-        SlotFriction,
-        SpaceJoint,
-        Sphere,
-        Spring,
-        StlMesh,
-        Table,
-        TimeTable,
-        TorsionDamper,
-        TorsionSpring,
-        Tube,
-        Weld,
-        convert,
-        json_schema,
-        load,
-        loads,
-        mechanism,
-    )
-    from dalembert.model.library import (
-        bennett,
-        bevel_differential,
-        bucket,
-        crank_shaper,
-        double_cardan,
-        five_bar,
-        four_bar,
-        hooke_joint,
-        in_line_engine,
-        inverted_slider_crank,
-        press_with_flywheel,
-        radial_engine,
-        rccc,
-        rotating_shaft,
-        rssp,
-        rssr,
-        scissor,
-        scotch_yoke,
-        slider_crank,
-        spherical_four_bar,
-        stephenson_1,
-        stephenson_2,
-        stephenson_3,
-        toggle_press,
-        v_engine,
-        watt_1,
-        watt_2,
-        whitworth,
-    )
-    from dalembert.optimization.optimizing import optimize
-    from dalembert.optimization.optimum import Optimum
-    from dalembert.optimization.pareto_front import Front, pareto
-    from dalembert.optimization.synthesis import Synthesis, synthesize
-    from dalembert.pages.html_page import page
-    from dalembert.pages.widget import widget
-    from dalembert.reports import report
-    from dalembert.studies import Study, StudyResult, study
-    from dalembert.views import draw
-    from dalembert.views.notation import Notation
-    from dalembert.views.paper.scene import Scene
+    from dalembert import wrench as wrench
+    from dalembert.analysis import Mobility as Mobility
+    from dalembert.analysis import Result as Result
+    from dalembert.analysis import dynamics as dynamics
+    from dalembert.analysis import kinematics as kinematics
+    from dalembert.analysis import mobility as mobility
+    from dalembert.analysis import solve as solve
+    from dalembert.analysis import statics as statics
+    from dalembert.analysis.batch import BatchResult as BatchResult
+    from dalembert.analysis.batch import Kernel as Kernel
+    from dalembert.analysis.batch import compile as compile  # noqa: A004
+    from dalembert.analysis.batch.design_sweep import Sweep as Sweep
+    from dalembert.analysis.batch.design_sweep import sweep as sweep
+    from dalembert.analysis.friction.efficiency import efficiency as efficiency
+    from dalembert.analysis.friction.fixed_point import fixed_point as fixed_point
+    from dalembert.analysis.friction.friction_circles import friction_circles as friction_circles
+    from dalembert.analysis.friction.joint_friction import guide_contact as guide_contact
+    from dalembert.analysis.friction.other_solutions import other_solutions as other_solutions
+    from dalembert.analysis.lift import lifted as lifted
+    from dalembert.analysis.methods.applied_forces import forces_on as forces_on
+    from dalembert.analysis.methods.members import displaced_inertia as displaced_inertia
+    from dalembert.analysis.methods.members import inertia_shares as inertia_shares
+    from dalembert.analysis.methods.members import members as members
+    from dalembert.analysis.methods.members import order_of_solution as order_of_solution
+    from dalembert.analysis.methods.superposition import superposition as superposition
+    from dalembert.analysis.methods.virtual_work import virtual_work as virtual_work
+    from dalembert.errors import STATUSES as STATUSES
+    from dalembert.errors import AnalysisError as AnalysisError
+    from dalembert.errors import DalembertError as DalembertError
+    from dalembert.errors import ModelError as ModelError
+    from dalembert.exams.variants import variants as variants
+    from dalembert.grading.file_answers import check_file as check_file
+    from dalembert.grading.marking.grade import grade as grade
+    from dalembert.grading.mistakes import check_answers as check_answers
+    from dalembert.machine.balance.balancing import balance as balance
+    from dalembert.machine.balance.counterweights import Counterweight as Counterweight
+    from dalembert.machine.balance.engine_series import EngineSeries as EngineSeries
+    from dalembert.machine.balance.engine_series import engine_series as engine_series
+    from dalembert.machine.balance.rotors import RotorBalance as RotorBalance
+    from dalembert.machine.balance.rotors import balance_rotor as balance_rotor
+    from dalembert.machine.bearings.bearing_load import BearingLoad as BearingLoad
+    from dalembert.machine.bearings.bearing_load import bearing as bearing
+    from dalembert.machine.bearings.bearing_table import BearingTable as BearingTable
+    from dalembert.machine.bearings.bearing_table import bearings as bearings
+    from dalembert.machine.flywheel.flywheel_size import FlywheelSize as FlywheelSize
+    from dalembert.machine.flywheel.flywheel_size import flywheel_size as flywheel_size
+    from dalembert.machine.flywheel.flywheels import flywheel as flywheel
+    from dalembert.machine.gyroscopes import Gyroscopic as Gyroscopic
+    from dalembert.machine.gyroscopes import gyroscopic as gyroscopic
+    from dalembert.machine.harmonics import harmonics as harmonics
+    from dalembert.machine.members.member_forces import MemberForces as MemberForces
+    from dalembert.machine.members.member_forces import member_forces as member_forces
+    from dalembert.machine.motion.simulation import Simulation as Simulation
+    from dalembert.machine.motion.simulation import simulate as simulate
+    from dalembert.machine.motors.motor_choice import MotorChoice as MotorChoice
+    from dalembert.machine.motors.motor_choice import motor as motor
+    from dalembert.machine.shaking import shaking as shaking
+    from dalembert.model import Answer as Answer
+    from dalembert.model import Bearing as Bearing
+    from dalembert.model import Box as Box
+    from dalembert.model import CircularSlot as CircularSlot
+    from dalembert.model import ConstantForceSpring as ConstantForceSpring
+    from dalembert.model import Couple as Couple
+    from dalembert.model import Cylinder as Cylinder
+    from dalembert.model import Damper as Damper
+    from dalembert.model import Drive as Drive
+    from dalembert.model import Expression as Expression
+    from dalembert.model import ForceLoad as ForceLoad
+    from dalembert.model import FrictionDefaults as FrictionDefaults
+    from dalembert.model import Gear as Gear
+    from dalembert.model import GearFriction as GearFriction
+    from dalembert.model import GuideFriction as GuideFriction
+    from dalembert.model import Link as Link
+    from dalembert.model import Mechanism as Mechanism
+    from dalembert.model import Offset as Offset
+    from dalembert.model import Pin as Pin
+    from dalembert.model import PinFriction as PinFriction
+    from dalembert.model import Range as Range
+    from dalembert.model import Rise as Rise
+    from dalembert.model import Rolling as Rolling
+    from dalembert.model import Section as Section
+    from dalembert.model import SlenderBar as SlenderBar
+    from dalembert.model import Slider as Slider
+    from dalembert.model import Slot as Slot
+    from dalembert.model import SlotFriction as SlotFriction
+    from dalembert.model import SpaceJoint as SpaceJoint
+    from dalembert.model import Sphere as Sphere
+    from dalembert.model import Spring as Spring
+    from dalembert.model import StlMesh as StlMesh
+    from dalembert.model import Table as Table
+    from dalembert.model import TimeTable as TimeTable
+    from dalembert.model import TorsionDamper as TorsionDamper
+    from dalembert.model import TorsionSpring as TorsionSpring
+    from dalembert.model import Tube as Tube
+    from dalembert.model import Weld as Weld
+    from dalembert.model import convert as convert
+    from dalembert.model import json_schema as json_schema
+    from dalembert.model import load as load
+    from dalembert.model import loads as loads
+    from dalembert.model import mechanism as mechanism
+    from dalembert.model.library import bennett as bennett
+    from dalembert.model.library import bevel_differential as bevel_differential
+    from dalembert.model.library import bucket as bucket
+    from dalembert.model.library import crank_shaper as crank_shaper
+    from dalembert.model.library import double_cardan as double_cardan
+    from dalembert.model.library import five_bar as five_bar
+    from dalembert.model.library import four_bar as four_bar
+    from dalembert.model.library import hooke_joint as hooke_joint
+    from dalembert.model.library import in_line_engine as in_line_engine
+    from dalembert.model.library import inverted_slider_crank as inverted_slider_crank
+    from dalembert.model.library import press_with_flywheel as press_with_flywheel
+    from dalembert.model.library import radial_engine as radial_engine
+    from dalembert.model.library import rccc as rccc
+    from dalembert.model.library import rotating_shaft as rotating_shaft
+    from dalembert.model.library import rssp as rssp
+    from dalembert.model.library import rssr as rssr
+    from dalembert.model.library import scissor as scissor
+    from dalembert.model.library import scotch_yoke as scotch_yoke
+    from dalembert.model.library import slider_crank as slider_crank
+    from dalembert.model.library import spherical_four_bar as spherical_four_bar
+    from dalembert.model.library import stephenson_1 as stephenson_1
+    from dalembert.model.library import stephenson_2 as stephenson_2
+    from dalembert.model.library import stephenson_3 as stephenson_3
+    from dalembert.model.library import toggle_press as toggle_press
+    from dalembert.model.library import v_engine as v_engine
+    from dalembert.model.library import watt_1 as watt_1
+    from dalembert.model.library import watt_2 as watt_2
+    from dalembert.model.library import whitworth as whitworth
+    from dalembert.optimization.optimizing import optimize as optimize
+    from dalembert.optimization.optimum import Optimum as Optimum
+    from dalembert.optimization.pareto_front import Front as Front
+    from dalembert.optimization.pareto_front import pareto as pareto
+    from dalembert.optimization.synthesis import Synthesis as Synthesis
+    from dalembert.optimization.synthesis import synthesize as synthesize
+    from dalembert.pages.html_page import page as page
+    from dalembert.pages.widget import widget as widget
+    from dalembert.reports import report as report
+    from dalembert.studies import Study as Study
+    from dalembert.studies import StudyResult as StudyResult
+    from dalembert.studies import study as study
+    from dalembert.views import draw as draw
+    from dalembert.views.notation import Notation as Notation
+    from dalembert.views.paper.scene import Scene as Scene
 
 __version__ = "0.1.0"
 
@@ -216,152 +228,7 @@ _HOME = {name: package for package, names in _NAMES.items() for name in names.sp
 _PACKAGES = ("wrench",)
 """Public names that are packages themselves."""
 
-__all__ = [
-    "STATUSES",
-    "AnalysisError",
-    "Answer",
-    "BatchResult",
-    "Bearing",
-    "BearingLoad",
-    "BearingTable",
-    "Box",
-    "CircularSlot",
-    "ConstantForceSpring",
-    "Counterweight",
-    "Couple",
-    "Cylinder",
-    "DalembertError",
-    "Damper",
-    "Drive",
-    "EngineSeries",
-    "Expression",
-    "FlywheelSize",
-    "ForceLoad",
-    "FrictionDefaults",
-    "Front",
-    "Gear",
-    "GearFriction",
-    "GuideFriction",
-    "Gyroscopic",
-    "Kernel",
-    "Link",
-    "Mechanism",
-    "MemberForces",
-    "Mobility",
-    "ModelError",
-    "MotorChoice",
-    "Notation",
-    "Offset",
-    "Optimum",
-    "Pin",
-    "PinFriction",
-    "Range",
-    "Result",
-    "Rise",
-    "Rolling",
-    "RotorBalance",
-    "Scene",
-    "Section",
-    "Simulation",
-    "SlenderBar",
-    "Slider",
-    "Slot",
-    "SlotFriction",
-    "SpaceJoint",
-    "Sphere",
-    "Spring",
-    "StlMesh",
-    "Study",
-    "StudyResult",
-    "Sweep",
-    "Synthesis",
-    "Table",
-    "TimeTable",
-    "TorsionDamper",
-    "TorsionSpring",
-    "Tube",
-    "Weld",
-    "__version__",
-    "balance",
-    "balance_rotor",
-    "bearing",
-    "bearings",
-    "bennett",
-    "bevel_differential",
-    "bucket",
-    "check_answers",
-    "check_file",
-    "compile",
-    "convert",
-    "crank_shaper",
-    "displaced_inertia",
-    "double_cardan",
-    "draw",
-    "dynamics",
-    "efficiency",
-    "engine_series",
-    "five_bar",
-    "fixed_point",
-    "flywheel",
-    "flywheel_size",
-    "forces_on",
-    "four_bar",
-    "friction_circles",
-    "grade",
-    "guide_contact",
-    "gyroscopic",
-    "harmonics",
-    "hooke_joint",
-    "in_line_engine",
-    "inertia_shares",
-    "inverted_slider_crank",
-    "json_schema",
-    "kinematics",
-    "lifted",
-    "load",
-    "loads",
-    "mechanism",
-    "member_forces",
-    "members",
-    "mobility",
-    "motor",
-    "optimize",
-    "order_of_solution",
-    "other_solutions",
-    "page",
-    "pareto",
-    "press_with_flywheel",
-    "radial_engine",
-    "rccc",
-    "report",
-    "rotating_shaft",
-    "rssp",
-    "rssr",
-    "scissor",
-    "scotch_yoke",
-    "shaking",
-    "simulate",
-    "slider_crank",
-    "solve",
-    "spherical_four_bar",
-    "statics",
-    "stephenson_1",
-    "stephenson_2",
-    "stephenson_3",
-    "study",
-    "superposition",
-    "sweep",
-    "synthesize",
-    "toggle_press",
-    "v_engine",
-    "variants",
-    "virtual_work",
-    "watt_1",
-    "watt_2",
-    "whitworth",
-    "widget",
-    "wrench",
-]
+__all__ = sorted(["__version__", *_HOME])
 
 
 def __getattr__(name: str) -> Any:
