@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
@@ -110,25 +110,21 @@ def parts(values: Array) -> Iterator[tuple[str, Array]]:
         yield " " + "".join("xyz"[k] for k in place), values[(slice(None), *place)]
 
 
-Question = Callable[["Result", str], Array]
-"""What is asked of a result about something with a name."""
-
-LINK_VECTORS: dict[str, tuple[str, Question]] = {
-    "position": ("length", lambda r, link: r.position(link)),
-    "center": ("length", lambda r, link: r.center(link)),
-    "center_acceleration": ("acceleration", lambda r, link: r.center_acceleration(link)),
+OF_LINKS = {
+    "angle": "angle",
+    "rotation": "number",
+    "speed": "angular_speed",
+    "acceleration": "angular_acceleration",
+    "position": "length",
+    "velocity": "speed",
+    "center": "length",
+    "center_velocity": "speed",
+    "center_acceleration": "acceleration",
 }
-ANGLE: dict[str, tuple[str, Question]] = {"angle": ("angle", lambda r, link: r.angle(link))}
-ROTATION: dict[str, tuple[str, Question]] = {"rotation": ("number", lambda r, link: r.rotation(link))}
-RATES: dict[str, tuple[str, Question]] = {
-    "speed": ("angular_speed", lambda r, link: r.speed(link)),
-    "acceleration": ("angular_acceleration", lambda r, link: r.acceleration(link)),
-}
+"""What a result answers about a link, by the name of the method -> its kind."""
 
-
-def link_turning(result: Result) -> dict[str, tuple[str, Question]]:
-    """Kind and values of how links are turned and turn: angles in the plane, rotations in space."""
-    return (ANGLE if in_plane(result) else ROTATION) | RATES
+OF_POINTS = {"point": "length", "point_velocity": "speed", "point_acceleration": "acceleration"}
+"""The same about a point of a link."""
 
 
 def in_plane(result: Result) -> bool:
@@ -136,54 +132,93 @@ def in_plane(result: Result) -> bool:
     return result.mechanism.dimension == 2
 
 
-DRIVE_NUMBERS: dict[str, Question] = {
-    "position": lambda r, drive: r.drive_position(drive),
-    "speed": lambda r, drive: r.drive_speed(drive),
-    "acceleration": lambda r, drive: r.drive_acceleration(drive),
-}
-EFFORT: dict[str, Question] = {"effort": lambda r, drive: r.effort(drive)}
+class Entry(NamedTuple):
+    """A quantity of one thing: its keys in the JSON record, its name as a column, its kind, values in SI (P, ...)."""
+
+    keys: tuple[str, ...]
+    name: str
+    kind: str
+    values: Array
+
+
+def drive_entries(result: Result) -> Iterator[Entry]:
+    """What is prescribed."""
+    for drive in result.drives:
+        kinds = drive_kinds(result, drive)
+        for name in ("position", "speed", "acceleration"):
+            values = getattr(result, f"drive_{name}")(drive)
+            yield Entry(("drives", drive, name), f"drive {drive} {name}", kinds[name], values)
+
+
+def unknown_entries(result: Result) -> Iterator[Entry]:
+    """What balances the machine."""
+    for drive in result.drives:
+        kind = drive_kinds(result, drive)["effort"]
+        yield Entry(("efforts", drive), f"effort {drive}", kind, result.effort(drive))
+    for load in result.unknown_loads:
+        kind, values = load_kind(result, load), result.unknown_load(load)
+        yield Entry(("unknown_loads", load), f"unknown load {load}", kind, values)
+
+
+def joint_entries(result: Result, axes: Axes, every: bool = False) -> Iterator[Entry]:
+    """Reactions, and friction's part of them in the joints that have it, or in ``every`` joint."""
+    for r in reactions(result, axes):
+        keys, name = ("reactions", r.joint), f"reaction {r.joint} on {r.on}"
+        yield from _wrench(keys, name, r.force, r.moment)
+        if r.least_norm is not None:
+            yield from _wrench((*keys, "least_norm"), f"{name} least norm", *force_and_moment(r.least_norm))
+    for joint in result.joints if every and result.friction is not None else friction_joints(result):
+        on, of = result.mechanism.joints[joint].links[1], ("reactions", joint, "friction")
+        yield from _wrench(of, f"friction {joint} on {on}", *friction_in(result, joint, axes))
+        yield Entry((*of, "power_lost"), f"power lost {joint}", "power", result.power_lost(joint))
+
+
+def _wrench(keys: tuple[str, ...], name: str, force: Array, moment: Array) -> Iterator[Entry]:
+    yield Entry((*keys, "force"), name, "force", force)
+    yield Entry((*keys, "moment"), f"{name} moment", "moment", moment)
+
+
+def link_entries(result: Result) -> Iterator[Entry]:
+    """How links are turned and turn, where they are, and what their mass centres do."""
+    turned = "angle" if in_plane(result) else "rotation"
+    for link in result.links:
+        for word in (turned, "speed", "acceleration", "position", "center", "center_acceleration"):
+            name = f"link {link} {word.replace('_', ' ')}"
+            yield Entry(("links", link, word), name, OF_LINKS[word], getattr(result, word)(link))
+
+
+def check_entries(result: Result) -> Iterator[Entry]:
+    """What is left of equilibrium and of power."""
+    yield Entry(("residual",), "residual", "number", result.residual)
+    yield Entry(("power_balance",), "power balance", "number", result.power_balance)
 
 
 def columns(result: Result, axes: Axes = "ground") -> Iterator[Column]:
     """Every number of a result: drives, efforts, unknown loads, reactions, links, residual, power balance; where some
     contact reverses also the low and the high of each that depends on friction."""
-    for drive in result.drives:
-        kinds = drive_kinds(result, drive)
-        for name, values in DRIVE_NUMBERS.items():
-            yield Column(f"drive {drive} {name}", kinds[name], values(result, drive))
-    yield from _unknown_columns(result)
+    yield from _columns(drive_entries(result))
+    yield from _columns(unknown_entries(result))
     for name, kind in unknown_kinds(result).items() if result.ends else ():
         for k, end in enumerate(("low", "high")):
             yield Column(f"{name} {end} end", kind, result.interval(name)[:, k])
-    yield from _joint_columns(result, axes)
-    for link in result.links:
-        yield from _link_columns(result, link)
-    yield Column("residual", "number", result.residual)
-    yield Column("power balance", "number", result.power_balance)
+    yield from _columns(joint_entries(result, axes))
+    yield from _columns(link_entries(result))
+    yield from _columns(check_entries(result))
     if result.after is not None:
         yield from _span_columns(result, axes)
 
 
-def _unknown_columns(result: Result) -> Iterator[Column]:
-    """What balances the machine."""
-    for drive in result.drives:
-        yield Column(f"effort {drive}", drive_kinds(result, drive)["effort"], result.effort(drive))
-    for load in result.unknown_loads:
-        yield Column(f"unknown load {load}", load_kind(result, load), result.unknown_load(load))
-
-
-def _joint_columns(result: Result, axes: Axes) -> Iterator[Column]:
-    """Reactions, and friction's part of them."""
-    for reaction in reactions(result, axes):
-        yield from _reaction_columns(reaction)
-    for joint in friction_joints(result):
-        yield from _friction_columns(result, joint, axes)
+def _columns(some: Iterable[Entry]) -> Iterator[Column]:
+    """A column for each component."""
+    for q in some:
+        for part, values in parts(q.values):
+            yield Column(f"{q.name}{part}", q.kind, values)
 
 
 def _span_columns(result: Result, axes: Axes) -> Iterator[Column]:
     """Low and high of everything that depends on friction: of the numbers just before and just after reversals, at
     rest the ends of what friction leaves open, elsewhere twice the number itself."""
-    sides = [[*_unknown_columns(side), *_joint_columns(side, axes)] for side in result.sides]
+    sides = [_columns([*unknown_entries(side), *joint_entries(side, axes)]) for side in result.sides]
     open_ = {("effort " if n in result.drives else "unknown load ") + n: n for n in unknown_kinds(result)}
     for before, after in zip(*sides, strict=True):
         if before.name in open_:
@@ -196,9 +231,8 @@ def _span_columns(result: Result, axes: Axes) -> Iterator[Column]:
 
 def unknown_kinds(result: Result) -> dict[str, str]:
     """Kind of every effort and load that was asked for."""
-    asked = result.compiled.known.asked
-    drives = [d for d, a in zip(result.drives, asked, strict=True) if a]
-    kinds = {d: drive_kinds(result, d)["effort"] for d in drives}
+    asked = zip(result.drives, result.compiled.known.asked, strict=True)
+    kinds = {d: drive_kinds(result, d)["effort"] for d, a in asked if a}
     return kinds | {load: load_kind(result, load) for load in result.unknown_loads}
 
 
@@ -219,33 +253,6 @@ def friction_in(result: Result, joint: str, axes: Axes) -> tuple[Array, Array]:
     return force_and_moment(to_axes(result, joint, None, axes, whole))
 
 
-def _friction_columns(result: Result, joint: str, axes: Axes) -> Iterator[Column]:
-    force, moment = friction_in(result, joint, axes)
-    name = f"friction {joint} on {result.mechanism.joints[joint].links[1]}"
-    yield from _wrench_columns(name, force, moment)
-    yield Column(f"power lost {joint}", "power", result.power_lost(joint))
-
-
-def _reaction_columns(reaction: Reaction) -> Iterator[Column]:
-    name = f"reaction {reaction.joint} on {reaction.on}"
-    yield from _wrench_columns(name, reaction.force, reaction.moment)
-    if reaction.least_norm is not None:
-        yield from _wrench_columns(f"{name} least norm", *force_and_moment(reaction.least_norm))
-
-
 def force_and_moment(wrench: Array) -> tuple[Array, Array]:
     """Force (..., d) and moment (...) or (..., 3) of wrenches (..., n)."""
     return (wrench[..., :2], wrench[..., 2]) if wrench.shape[-1] == 3 else (wrench[..., :3], wrench[..., 3:])
-
-
-def _wrench_columns(name: str, force: Array, moment: Array) -> Iterator[Column]:
-    for part, values in parts(force):
-        yield Column(f"{name}{part}", "force", values)
-    for part, values in parts(moment):
-        yield Column(f"{name} moment{part}", "moment", values)
-
-
-def _link_columns(result: Result, link: str) -> Iterator[Column]:
-    for name, (kind, read) in {**link_turning(result), **LINK_VECTORS}.items():
-        for part, values in parts(read(result, link)):
-            yield Column(f"link {link} {name.replace('_', ' ')}{part}", kind, values)

@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Literal
 
 import numpy as np
 
 from dalembert.analysis.output.columns import (
-    DRIVE_NUMBERS,
-    EFFORT,
-    LINK_VECTORS,
+    Entry,
     Scale,
     UnitChoice,
     columns,
+    drive_entries,
     drive_kinds,
-    friction_in,
-    link_turning,
-    load_kind,
-    reactions,
+    joint_entries,
+    link_entries,
     scale,
+    unknown_entries,
     unknown_kinds,
 )
 from dalembert.analysis.output.json_record import BLOCK, nan_to_none, to_dict, to_json, write_json
@@ -155,8 +153,8 @@ def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -
 
     to = scale(result, units)
     data: Tree = {"status": ("position", np.array(result.status, dtype=str))}
-    data |= _drive_arrays(result, to) | _link_arrays(result, to) | _force_arrays(result, to, axes)
-    data |= _reaction_links(result, axes) | _ends(result, to)
+    data |= _arrays([*drive_entries(result), *link_entries(result)], to)
+    data |= _force_arrays(result, to, axes) | _reaction_links(result) | _ends(result, to)
     if result.after is not None:
         data |= _spans(result, to, axes)
     data["residual"] = ("position", result.residual, {"units": "1"})
@@ -177,36 +175,42 @@ def to_xarray(result: Result, units: UnitChoice = "SI", axes: Axes = "ground") -
     return xarray.Dataset(data, coords=present, attrs=_about(result) | {"reaction_axes": axes})
 
 
-def _drive_arrays(result: Result, to: Scale) -> Tree:
-    """Position, speed and acceleration."""
-    return {f"drive_{name}": array for name, array in _by_drive(result, to, DRIVE_NUMBERS).items()}
+ARRAYS = {
+    "drives": ("drive", "drive_{}"),
+    "links": ("link", "link_{}"),
+    "efforts": ("drive", "effort"),
+    "reactions": ("joint", "{}"),
+}
+"""First key of a quantity -> the dimension its things stand along, and the name of the array with the other keys in it.
+A load that was asked for has an array of its own."""
+JOINTS = {"force": "reaction", "moment": "reaction_moment", "friction_power_lost": "power_lost"}
+"""Arrays of joints that have another name than their keys."""
 
 
-def _by_drive(result: Result, to: Scale, numbers: Tree) -> Tree:
-    """Numbers of all drives; drives that turn and that slide differ in their units."""
-    if not result.drives:
-        return {}
+def _arrays(some: Iterable[Entry], to: Scale) -> Tree:
+    """Quantities of all things of a sort side by side; drives that turn and that slide differ in their units."""
+    groups: dict[tuple[str, str], list[Entry]] = {}
+    for q in some:
+        dimension, name = ARRAYS.get(q.keys[0], ("", f"unknown_load_{q.keys[1]}"))
+        keys = "_".join(q.keys[2:])
+        groups.setdefault((dimension, name.format(JOINTS.get(keys, keys))), []).append(q)
     out: Tree = {}
-    for name, read in numbers.items():
-        kinds = [drive_kinds(result, drive)[name] for drive in result.drives]
-        stacked = np.stack(
-            [to(k, read(result, d)) for k, d in zip(kinds, result.drives, strict=True)], axis=1
+    for (dimension, name), each in groups.items():
+        units = [to.text(q.kind) for q in each]
+        unit = units[0] if len(set(units)) == 1 else "of each drive: " + ", ".join(units)
+        values = np.stack([to(q.kind, q.values) for q in each], axis=1)
+        over = ("position", dimension, "component", "link_axis")[: values.ndim]
+        out[name] = (
+            (over, values, {"units": unit}) if dimension else ("position", values[:, 0], {"units": unit})
         )
-        texts = [to.text(kind) for kind in kinds]
-        unit = texts[0] if len(set(texts)) == 1 else "of each drive: " + ", ".join(texts)
-        out[name] = (("position", "drive"), stacked, {"units": unit})
     return out
 
 
 def _force_arrays(result: Result, to: Scale, axes: Axes) -> Tree:
-    """Efforts, unknown loads, reactions, and what friction does in the joints."""
-    out = _by_drive(result, to, EFFORT)
-    out |= _joint_arrays(result, to, axes) | _friction_arrays(result, to, axes)
-    for load in result.unknown_loads:
-        kind = load_kind(result, load)
-        values = to(kind, result.unknown_load(load))
-        out[f"unknown_load_{load}"] = ("position", values, {"units": to.text(kind)})
-    return out
+    """Efforts, reactions, what friction does in the joints and the power that it takes, unknown loads."""
+    some = [*unknown_entries(result), *joint_entries(result, axes, every=True)]
+    some = [q for q in some if "least_norm" not in q.keys]
+    return _arrays(sorted(some, key=lambda q: q.keys[0] == "unknown_loads"), to)
 
 
 def _spans(result: Result, to: Scale, axes: Axes) -> Tree:
@@ -219,43 +223,12 @@ def _spans(result: Result, to: Scale, axes: Axes) -> Tree:
     return out
 
 
-def _joint_arrays(result: Result, to: Scale, axes: Axes) -> Tree:
-    """Reactions on each joint's j."""
-    found = list(reactions(result, axes))
-    if not found:
-        return {}
-    force = to("force", np.stack([r.force for r in found], axis=1))
-    moment = to("moment", np.stack([r.moment for r in found], axis=1))
-    return {
-        "reaction": (("position", "joint", "component"), force, {"units": to.text("force")}),
-        "reaction_moment": (_over("joint", moment), moment, {"units": to.text("moment")}),
-    }
-
-
-def _reaction_links(result: Result, axes: Axes) -> Tree:
+def _reaction_links(result: Result) -> Tree:
     """The link that each joint's reaction is on, and the one it is by."""
-    found = list(reactions(result, axes))
-    if not found:
+    links = [result.mechanism.joints[joint].links for joint in result.joints]
+    if not links:
         return {}
-    return {
-        "reaction_on": ("joint", [r.on for r in found]),
-        "reaction_by": ("joint", [r.by for r in found]),
-    }
-
-
-def _friction_arrays(result: Result, to: Scale, axes: Axes) -> Tree:
-    """What dry friction does in each joint, on j, and the power that all friction takes."""
-    if result.friction is None:
-        return {}
-    parts = [friction_in(result, joint, axes) for joint in result.joints]
-    force = to("force", np.stack([part for part, _ in parts], axis=1))
-    moment = to("moment", np.stack([part for _, part in parts], axis=1))
-    lost = to("power", np.stack([result.power_lost(j) for j in result.joints], axis=1))
-    return {
-        "friction_force": (("position", "joint", "component"), force, {"units": to.text("force")}),
-        "friction_moment": (_over("joint", moment), moment, {"units": to.text("moment")}),
-        "power_lost": (("position", "joint"), lost, {"units": to.text("power")}),
-    }
+    return {"reaction_on": ("joint", [j for _, j in links]), "reaction_by": ("joint", [i for i, _ in links])}
 
 
 def _ends(result: Result, to: Scale) -> Tree:
@@ -266,21 +239,6 @@ def _ends(result: Result, to: Scale) -> Tree:
             values = to(kind, result.interval(name)[:, k])
             out[f"{name}_{end}_end"] = ("position", values, {"units": to.text(kind)})
     return out
-
-
-def _link_arrays(result: Result, to: Scale) -> Tree:
-    if not result.links:
-        return {}
-    out: Tree = {}
-    for name, (kind, read) in {**link_turning(result), **LINK_VECTORS}.items():
-        stacked = np.stack([read(result, link) for link in result.links], axis=1)
-        out[f"link_{name}"] = (_over("link", stacked), to(kind, stacked), {"units": to.text(kind)})
-    return out
-
-
-def _over(what: str, values: Array) -> tuple[str, ...]:
-    """Dimensions of numbers, vectors or rotations of each link or joint: rows are ground components."""
-    return ("position", what, "component", "link_axis")[: values.ndim]
 
 
 def to_netcdf(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
@@ -12,19 +12,18 @@ import numpy as np
 from dalembert.analysis.compile.torsion_turns import count_turns, two_ways
 from dalembert.analysis.friction.joint_friction import bears_on_faces, guide_contact, joints_at_limit
 from dalembert.analysis.output.columns import (
-    DRIVE_NUMBERS,
-    LINK_VECTORS,
+    OF_LINKS,
+    Entry,
     Scale,
     UnitChoice,
-    drive_kinds,
-    force_and_moment,
-    friction_in,
+    check_entries,
+    drive_entries,
     friction_joints,
     in_plane,
-    link_turning,
-    load_kind,
-    reactions,
+    joint_entries,
+    link_entries,
     scale,
+    unknown_entries,
     unknown_kinds,
 )
 from dalembert.analysis.result.joint_freedoms import whole_pose
@@ -104,99 +103,65 @@ def position_records(
 Lists = Callable[[slice], list[object]]
 
 
-def _fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], Lists]:
-    """Keys down the record -> its values of some positions, as lists with None for NaN."""
+Fields = dict[tuple[str, ...], Lists]
+"""Keys down the record -> its values of some positions, as lists with None for NaN."""
 
-    numbers = _numbers(to)
-    out: dict[tuple[str, ...], Lists] = {}
-    for drive in result.drives:
-        kinds = drive_kinds(result, drive)
-        for name, of in DRIVE_NUMBERS.items():
-            out["drives", drive, name] = numbers(kinds[name], of(result, drive))
-    out |= {path: numbers(kind, values) for path, (kind, values) in _unknowns(result).items()}
+
+def _fields(result: Result, to: Scale, axes: Axes) -> Fields:
+    """Everything that may stand in a record."""
+    numbers, kinds = _numbers(to), unknown_kinds(result)
+    out = _of(to, [*drive_entries(result), *unknown_entries(result)])
     if result.after is not None:
         out |= _side_fields(result, to, axes)
-    for name, kind in unknown_kinds(result).items() if result.ends else ():
+    for name, kind in kinds.items() if result.ends else ():
         group = "efforts" if name in result.drives else "unknown_loads"
         out[group, name] = _ranges(out[group, name], numbers(kind, result.interval(name)), result.status)
         out["holding", name] = _sought(numbers(kind, result.holding(name)), result.holding(name))
     out |= _reaction_fields(result, to, axes)
-    for name, ends in zip(unknown_kinds(result), result.ends, strict=False):
+    for name, ends in zip(kinds, result.ends, strict=False):
         for which, end in zip(("low", "high"), ends, strict=True):
-            for path, lists in _reaction_fields(end, to, axes).items():
-                out["ends", name, which, *path] = lists
+            out |= _under(_reaction_fields(end, to, axes), "ends", name, which)
             out["ends", name, which, "at_limit"] = _limits(end)
-    for link in result.links:
-        for name, (kind, read) in {**LINK_VECTORS, **link_turning(result)}.items():
-            out["links", link, name] = numbers(kind, read(result, link))
+    out |= _of(to, sorted(link_entries(result), key=lambda q: OF_LINKS[q.keys[-1]] in TURNING))
     for spring, turn in count_turns(result.compiled, whole_pose(result)).items():
         out["spring_turns", spring] = numbers("angle", turn)
-    out["residual",] = numbers("number", result.residual)
-    out["power_balance",] = numbers("number", result.power_balance)
-    return out
+    return out | _of(to, check_entries(result))
 
 
-Numbers = dict[tuple[str, ...], tuple[str, Array]]
+TURNING = ("angle", "number", "angular_speed", "angular_acceleration")
+"""Kinds of the numbers that say how a link turns; they stand behind those of its points."""
 
 
-def _unknowns(result: Result) -> Numbers:
-    """Kind and values of the efforts and unknown loads."""
-    out: Numbers = {}
-    for drive in result.drives:
-        out["efforts", drive] = drive_kinds(result, drive)["effort"], result.effort(drive)
-    for load in result.unknown_loads:
-        out["unknown_loads", load] = load_kind(result, load), result.unknown_load(load)
-    return out
+def _of(to: Scale, some: Iterable[Entry]) -> Fields:
+    numbers = _numbers(to)
+    return {q.keys: numbers(q.kind, q.values) for q in some}
 
 
-def _side_fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], Lists]:
+def _under(some: Fields, *keys: str) -> Fields:
+    return {(*keys, *path): lists for path, lists in some.items()}
+
+
+def _side_fields(result: Result, to: Scale, axes: Axes) -> Fields:
     """Everything just after reversals, and the low and the high of both sides."""
-    numbers = _numbers(to)
-    before, after = (_unknowns(side) | _joint_numbers(side, axes) for side in result.sides)
-    out: dict[tuple[str, ...], Lists] = {}
-    for path, (kind, values) in _unknowns(result.sides[1]).items():
-        out["after", *path] = numbers(kind, values)
-    for path, lists in _reaction_fields(result.sides[1], to, axes).items():
-        out["after", *path] = lists
-    for path, (kind, values) in before.items():
-        out["low", *path] = numbers(kind, np.minimum(values, after[path][1]))
-        out["high", *path] = numbers(kind, np.maximum(values, after[path][1]))
-    for name in ("residual", "power_balance"):
-        out["after", name] = numbers("number", getattr(result.sides[1], name))
+    before, after = ([*unknown_entries(side), *joint_entries(side, axes)] for side in result.sides)
+    behind = result.sides[1]
+    out = _of(to, unknown_entries(behind)) | _reaction_fields(behind, to, axes)
+    out = _under(out | _of(to, check_entries(behind)), "after")
+    both = [(b, a) for b, a in zip(before, after, strict=True) if "least_norm" not in b.keys]
+    for word, of in (("low", np.minimum), ("high", np.maximum)):
+        out |= _under(_of(to, (b._replace(values=of(b.values, a.values)) for b, a in both)), word)
     return out
 
 
-def _joint_numbers(result: Result, axes: Axes) -> Numbers:
-    """Kind and values of the reactions, and of friction's part of them."""
-    out: Numbers = {}
-    for r in reactions(result, axes):
-        out["reactions", r.joint, "force"] = "force", r.force
-        out["reactions", r.joint, "moment"] = "moment", r.moment
-    for joint in friction_joints(result):
-        at = "reactions", joint, "friction"
-        force, moment = friction_in(result, joint, axes)
-        out[*at, "force"], out[*at, "moment"] = ("force", force), ("moment", moment)
-        out[*at, "power_lost"] = "power", result.power_lost(joint)
-    return out
-
-
-def _reaction_fields(result: Result, to: Scale, axes: Axes) -> dict[tuple[str, ...], Lists]:
+def _reaction_fields(result: Result, to: Scale, axes: Axes) -> Fields:
     """Reactions, and what friction does in them."""
-
     numbers = _numbers(to)
-    out: dict[tuple[str, ...], Lists] = {
-        path: numbers(kind, values) for path, (kind, values) in _joint_numbers(result, axes).items()
-    }
-    for r in reactions(result, axes):
-        if r.least_norm is not None:
-            force, moment = force_and_moment(r.least_norm)
-            out["reactions", r.joint, "least_norm", "force"] = numbers("force", force)
-            out["reactions", r.joint, "least_norm", "moment"] = numbers("moment", moment)
-        if axes == "joint":
-            own, of_moment = (result.joint_axes(r.joint, moment) for moment in (False, True))
-            out["reactions", r.joint, "axes"] = numbers("number", own)
-            if not np.array_equal(own, of_moment, equal_nan=True):
-                out["reactions", r.joint, "moment_axes"] = numbers("number", of_moment)
+    out = _of(to, sorted(joint_entries(result, axes), key=lambda q: "least_norm" in q.keys))
+    for joint in result.joints if axes == "joint" else ():
+        own, of_moment = (result.joint_axes(joint, moment) for moment in (False, True))
+        out["reactions", joint, "axes"] = numbers("number", own)
+        if not np.array_equal(own, of_moment, equal_nan=True):
+            out["reactions", joint, "moment_axes"] = numbers("number", of_moment)
     for joint in friction_joints(result):
         if bears_on_faces(result, joint):
             contact = guide_contact(result, joint)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 import numpy as np
 
 from dalembert.algebra import plane
-from dalembert.analysis.output.columns import drive_kinds, load_kind
+from dalembert.analysis.output.columns import OF_LINKS, OF_POINTS, drive_kinds, load_kind
 from dalembert.analysis.result.quantity_expressions import kind_of, parse_quantity
 from dalembert.analysis.result.transmission_lines import (
     angle_between,
@@ -82,18 +82,8 @@ READ: dict[str, tuple[str, str, Read]] = {
     "transmission": ("hinges", "angle", _transmission),
     "shaking": ("", "force", _shaking("force")),
     "shaking_moment": ("fixed points", "moment", _shaking("moment")),
-    "angle": ("links", "angle", _of("angle")),
-    "rotation": ("links", "number", _of("rotation")),
-    "speed": ("links", "angular_speed", _of("speed")),
-    "acceleration": ("links", "angular_acceleration", _of("acceleration")),
-    "position": ("links", "length", _of("position")),
-    "velocity": ("links", "speed", _of("velocity")),
-    "center": ("links", "length", _of("center")),
-    "center_velocity": ("links", "speed", _of("center_velocity")),
-    "center_acceleration": ("links", "acceleration", _of("center_acceleration")),
-    "point": ("points", "length", _of_point("point")),
-    "point_velocity": ("points", "speed", _of_point("point_velocity")),
-    "point_acceleration": ("points", "acceleration", _of_point("point_acceleration")),
+    **{word: ("links", kind, _of(word)) for word, kind in OF_LINKS.items()},
+    **{word: ("points", kind, _of_point(word)) for word, kind in OF_POINTS.items()},
     "residual": ("", "number", lambda r, _: r.residual),
     "power_balance": ("", "number", lambda r, _: r.power_balance),
 }
