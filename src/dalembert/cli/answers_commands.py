@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from dalembert.cli.options import AS_IN_FILE, Changes, Force, Static, output, with_help
+from dalembert.cli.options import AS_IN_FILE, Changes, Force, ModelFile, Static, flag, output, with_help
 from dalembert.errors import ModelError
 from dalembert.printing import table
 
@@ -17,15 +18,22 @@ if TYPE_CHECKING:
     from dalembert.grading.mistakes import Verdict
 
 
-def check_sheet(
-    file: Path,
-    answers: Path | None,
-    interactive: bool,
-    static: bool,
+def check_answers(
+    file: ModelFile,
+    answers: Annotated[Path | None, with_help("File of your figures.")] = None,
+    /,
+    *,
+    interactive: Annotated[bool, flag("Ask for them one by one.")] = False,
+    tolerance: Annotated[
+        str | None,
+        with_help(
+            "Of figures that state none, as 3% for graphical work (default: 0.5 %, or the digits written)."
+        ),
+    ] = None,
+    static: Static = False,
     changes: Changes = AS_IN_FILE,
-    tolerance: str | None = None,
 ) -> int:
-    """Compare figures with what is computed; 1 where one is not right."""
+    """Compare your own figures with what is computed, and name the mistakes that explain the differences."""
     from dalembert.cli.model_argument import load_model
     from dalembert.grading.answer_sheet import read_sheet
     from dalembert.grading.mistakes import Problem
@@ -84,16 +92,6 @@ def _verdict(v: Verdict) -> str:
     return "not judged" if v.kind == "open" else f"off by {100 * v.off:.2g} %"
 
 
-GRADE = """Examples:
-  dalembert grade answers --key exam/key.csv -o marks.xlsx --feedback feedback
-  dalembert grade class.csv --key four_bar.yaml --tolerance 3%
-  dalembert grade answers --key exam/key.csv --rubric rubric.yaml -o marks.xlsx
-
-A rubric changes what it names; here the default shares, all others are 1 or 0:
-  marks: {effort: 4, reaction: 2}
-  share: {rounding: 0.75, sign: 0.5, unit: 0.5, named: 0.5, part: 0.5}
-  mistakes: {weight is taken for mass: 0.25}"""
-
 SHOWN = 10
 """Mistakes of a class that are printed."""
 
@@ -147,3 +145,25 @@ def _class_text(marks: Marks) -> str:
     named = [[sentence, str(count)] for sentence, count in marks.mistakes()[:SHOWN]]
     parts += [table(["mistake", "students"], named, left=1)] if named else []
     return "\n\n".join(parts)
+
+
+COMMANDS: dict[Callable[..., int], str] = {
+    check_answers: """Examples:
+  dalembert check-answers four_bar.yaml mine.yaml
+  dalembert check-answers four_bar.yaml --interactive
+
+The file of answers, or a list as in a model file:
+  efforts: {O2: 243 lbf*in}
+  reactions: {A: 155 @ 220 deg}
+  tolerance: 3 %""",
+    grade: """Examples:
+  dalembert grade answers --key exam/key.csv -o marks.xlsx --feedback feedback
+  dalembert grade class.csv --key four_bar.yaml --tolerance 3%
+  dalembert grade answers --key exam/key.csv --rubric rubric.yaml -o marks.xlsx
+
+A rubric changes what it names; here the default shares, all others are 1 or 0:
+  marks: {effort: 4, reaction: 2}
+  share: {rounding: 0.75, sign: 0.5, unit: 0.5, named: 0.5, part: 0.5}
+  mistakes: {weight is taken for mass: 0.25}""",
+}
+"""Function of each command -> the examples under its help."""

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
-from dalembert.cli.options import AS_IN_FILE, Changes
+from dalembert.cli.options import AS_IN_FILE, Changes, flag, with_help
 from dalembert.errors import DalembertError, ModelError
 from dalembert.printing import table, wrap
 from dalembert.progress import progress
@@ -19,8 +19,15 @@ if TYPE_CHECKING:
 ENDINGS = (".yaml", ".yml", ".json", ".toml")
 
 
-def check_files(files: Sequence[Path], every: bool, changes: Changes = AS_IN_FILE) -> int:
-    """Compare the answers of files and folders; 1 where one disagrees, 2 where a file is wrong."""
+def check(
+    *files: Annotated[Path, with_help("Model files, or folders of them.")],
+    every: Annotated[
+        bool,
+        flag("Print every answer of many files, not only one line a file and what disagrees.", "--all"),
+    ] = False,
+    changes: Changes = AS_IN_FILE,
+) -> int:
+    """Compare the answers that stand in model files with what is computed."""
     if not files:
         raise ModelError("check needs a file or a folder", "for example: dalembert check four_bar.yaml")
     found = list(_model_files(files))
@@ -30,8 +37,8 @@ def check_files(files: Sequence[Path], every: bool, changes: Changes = AS_IN_FIL
     return 2 if wrong else 0 if all(row.ok for row in rows) else 1
 
 
-def validate_cases() -> int:
-    """Compare the answers of every bundled case; 1 on any failure."""
+def validate() -> int:
+    """Qualify this installation: solve every bundled published problem and compare all answers."""
     from dalembert.bundled import cases
 
     started = time.perf_counter()
@@ -144,3 +151,12 @@ def _installation() -> str:
 
     python = f"Python {platform.python_version()}, numpy {numpy.__version__}"
     return f"dalembert {__version__}, {python}, {platform.system()} {platform.machine()}"
+
+
+COMMANDS: dict[Callable[..., int], str] = {
+    check: """Examples:
+  dalembert check four_bar.yaml
+  dalembert check problems/ --all""",
+    validate: "Examples:\n  dalembert validate\n  dalembert validate > qualification.txt",
+}
+"""Function of each command -> the examples under its help."""

@@ -1,12 +1,15 @@
-"""`dalembert schema`, `new`, `convert` and `examples`: descriptions rather than answers."""
+"""`dalembert schema`, `new`, `convert`, `examples` and `joints`: descriptions rather than answers."""
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Callable
 from pathlib import Path
+from typing import Annotated
 
+from dalembert.cli.options import Force, ModelFile, NewFile, Seen, Set, Theme, with_help
+from dalembert.cli.options import output as written
 from dalembert.errors import ModelError
 from dalembert.printing import table
 from dalembert.saving import check_new, new_file
@@ -15,15 +18,32 @@ from dalembert.wording import closest
 YAML = (".yaml", ".yml")
 
 
-def start_file(template: str, output: Path | None, force: bool) -> int:
-    """A template printed or written; without a name, the list of them."""
+def schema(*, output: NewFile = None, force: Force = False) -> int:
+    """Print the JSON schema of the model file, for editors that complete and check."""
+    return write_or_print(schema_text(), output, force)
+
+
+def new(
+    template: Annotated[str, with_help("Name of the template.")] = "",
+    /,
+    *,
+    output: NewFile = None,
+    force: Force = False,
+) -> int:
+    """Begin a model file from a template; without a name, list the templates."""
     if not template:
         return write_or_print(template_list(), output, force)
     return _model_file(template_file(template), output, force)
 
 
-def example_copied(name: str, output: Path | None, force: bool) -> int:
-    """An example printed or written; without a name, the list of them."""
+def examples(
+    name: Annotated[str, with_help("Name of the example; without one, they are listed.")] = "",
+    /,
+    *,
+    output: NewFile = None,
+    force: Force = False,
+) -> int:
+    """Bundled problems: list them, print one, or copy one to a file."""
     if not name:
         return write_or_print(example_list(), output, force)
     _model_file(example_text(name), output, force)
@@ -101,16 +121,24 @@ def _title(path: Path) -> str:
     return ""
 
 
-def convert_file(file: Path, output: Path, settings: Sequence[str], force: bool) -> int:
-    """Write a model file in the format that the ending of the output names, with other values."""
+def convert(
+    file: ModelFile,
+    /,
+    *,
+    output: Annotated[Path, written("File to write; its ending names the format.")],
+    set: Set = None,  # noqa: A002
+    force: Force = False,
+) -> int:
+    """Write a model file in another format: .yaml, .json or .toml."""
     from dalembert.cli.model_argument import with_settings
-    from dalembert.model import convert, load
+    from dalembert.model import convert as convert_file
+    from dalembert.model import load
 
     check_new(output, force)
-    if settings:
-        with_settings(load(file), settings).save(output, overwrite=force)
+    if set:
+        with_settings(load(file), set).save(output, overwrite=force)
     else:
-        convert(file, output, overwrite=force)
+        convert_file(file, output, overwrite=force)
     print(f"Written: {output}")
     return 0
 
@@ -153,8 +181,17 @@ def joint_table() -> str:
     return f"{shown}\n\nA screw slides with its turn. {drawn}\n{more}"
 
 
-def joints_shown(output: Path | None, camera: str | None, theme: str, force: bool) -> int:
-    """The table printed; or all joints in one picture, or a picture each in a folder."""
+def joints(
+    *,
+    output: Annotated[
+        Path | None,
+        written("Draw them: all in one .svg, .pdf, .png or .dxf; without an ending, each in a folder."),
+    ] = None,
+    camera: Seen = None,
+    theme: Theme = "light",
+    force: Force = False,
+) -> int:
+    """Print the joints in space: what each leaves free, its own axes, and the reactions it carries along them."""
     from dalembert.cli.draw_command import camera_at
     from dalembert.model.joints.pairs import PAIRS
     from dalembert.views import draw
@@ -170,3 +207,20 @@ def joints_shown(output: Path | None, camera: str | None, theme: str, force: boo
             draw.joint(kind, seen).save(output / f"{kind}.svg", force, theme)
     print(f"Written: {output}")
     return 0
+
+
+COMMANDS: dict[Callable[..., int], str] = {
+    schema: "Examples:\n  dalembert schema > dalembert.schema.json",
+    new: """Examples:
+  dalembert new
+  dalembert new slider_crank -o engine.yaml""",
+    convert: "Examples:\n  dalembert convert four_bar.yaml -o four_bar.json",
+    examples: """Examples:
+  dalembert examples
+  dalembert examples four_bar -o four_bar.yaml""",
+    joints: """Examples:
+  dalembert joints
+  dalembert joints -o joints.svg
+  dalembert joints -o pictures""",
+}
+"""Function of each command -> the examples under its help."""

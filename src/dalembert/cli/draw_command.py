@@ -4,17 +4,36 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from dalembert.arrays import Tree
-from dalembert.cli.options import AS_IN_FILE, Changes
+from cyclopts import Parameter
+
+from dalembert.cli.options import (
+    AS_IN_FILE,
+    AS_USUAL,
+    At,
+    Changes,
+    Force,
+    ModelFile,
+    Names,
+    Positions,
+    Seen,
+    Static,
+    Style,
+    Theme,
+    flag,
+    output,
+    with_help,
+)
 from dalembert.errors import ModelError
+from dalembert.progress import progress
 from dalembert.saving import check_new
 
 if TYPE_CHECKING:
     from dalembert.analysis import Result
+    from dalembert.arrays import Tree
     from dalembert.model import Mechanism
     from dalembert.views.notation import Notation
     from dalembert.views.paper.scene import Scene
@@ -25,48 +44,74 @@ MOVING = (None, "animation", "mechanism", "all")
 PICTURES = (".svg", ".pdf", ".png", ".dxf", ".gif", ".webp", ".glb")
 
 
-def draw_file(
-    file: Path,
-    output: Path,
-    view: Any,
-    at: str | None,
-    positions: int | None,
-    static: bool,
-    theme: Literal["light", "dark", "print"],
-    names: bool,
-    force: bool,
+ViewName = Literal[
+    "mechanism",
+    "free-bodies",
+    "force-polygons",
+    "motion",
+    "friction",
+    "teeth",
+    "charts",
+    "superposition",
+    "animation",
+    "all",
+]
+VIEWS = with_help(
+    "What to draw; motion: velocity and acceleration polygons and instant centres; friction: circles, pins and "
+    "guides; teeth: gears in mesh; charts: over a cycle; superposition: one load at a time; all: mechanism, "
+    "free bodies, force polygons, charts (default: as many of these as one page holds)."
+)
+
+
+def draw(
+    file: ModelFile,
+    /,
+    *,
+    output: Annotated[
+        Path,
+        output(
+            "File to write; its ending names the format: .svg, .pdf, .png, .dxf; .gif or .webp for an animation; "
+            ".glb for a model in motion for 3-D viewers."
+        ),
+    ],
+    view: Annotated[ViewName | None, VIEWS] = None,
+    at: At = None,
+    positions: Positions = None,
+    static: Static = False,
+    theme: Theme = "light",
+    paper: Annotated[
+        Literal["a4", "letter", "fit"] | None,
+        with_help("Pages of a .pdf: a4 (default), letter, or fit: one as large as the drawing."),
+    ] = None,
+    camera: Seen = None,
+    names: Names = False,
+    question: Annotated[
+        bool, flag("The mechanism with what is given alone: no efforts, no reactions, nothing computed.")
+    ] = False,
     changes: Changes = AS_IN_FILE,
-    camera: str | None = None,
-    paper: str | None = None,
+    force: Force = False,
 ) -> int:
-    """Draw a file; 1 where some position has a status other than ok."""
+    """Draw FILE to scale: the mechanism, free bodies, force polygons, charts."""
     from dalembert.cli.model_argument import load_model
     from dalembert.views import draw
 
-    if output.suffix.lower() not in PICTURES:
-        raise ModelError(
-            f"{output.name}: the ending names no kind of drawing", f"use one of {' '.join(PICTURES)}"
-        )
-    if _moves(view, output) and view not in MOVING:
-        raise ModelError(
-            f"{output.name}: {output.suffix} holds an animation of the mechanism, and not {view}",
-            "write .svg, .pdf or .png, or ask for --view animation",
-        )
+    shown = _view_for(output, view, question)
     check_new(output, force)
-    m = load_model(file, changes)
-    if positions is None and (view == "charts" or _moves(view, output)):
-        positions = _enough(m, 36 if _moves(view, output) else 72)
-    result, at = _solve_at(m, at, static, positions)
-    notation = draw.Notation(links="name" if names else "number")
-    left: Sequence[str] = ()
-    if output.suffix.lower() == ".glb":
-        draw.solid_model(result).save(output, force)
-    elif _moves(view, output):
-        draw.animation(result, notation, camera=camera_at(camera)).save(output, force, theme)
-    else:
-        scene, left = _view(result, view, at, notation, camera)
-        scene.save(output, force, theme, _paper(output, paper))
-    done = _announce(result, output)
+    with progress(f"Drawing {file}"):
+        m, moves = load_model(file, changes), _moves(shown, output)
+        if positions is None and (shown == "charts" or moves):
+            positions = _enough(m, 36 if moves else 72)
+        result, at = _solve_at(m, at, static, positions)
+        notation = draw.Notation(links="name" if names else "number")
+        left: Sequence[str] = ()
+        if output.suffix.lower() == ".glb":
+            draw.solid_model(result).save(output, force)
+        elif moves:
+            draw.animation(result, notation, camera=camera_at(camera)).save(output, force, theme)
+        else:
+            scene, left = _view(result, shown, at, notation, camera)
+            scene.save(output, force, theme, _paper(output, paper))
+        done = _announce(result, output)
     if left:
         print(f"There is also --view {', '.join(left)}; --view all draws more pages.", file=sys.stderr)
     return done
@@ -108,11 +153,21 @@ def _paper(output: Path, paper: str | None) -> str | None:
     return None if paper == "fit" else paper
 
 
-def question_view(view: str | None) -> str:
-    """The view of `--question`, which draws the mechanism."""
-    if view not in (None, "mechanism"):
+def _view_for(output: Path, view: str | None, question: bool) -> str | None:
+    """The view to draw, refused before the work where the file cannot hold it."""
+    if question and view not in (None, "mechanism"):
         raise ModelError(f"--question draws the mechanism, and not {view}", "leave out --view")
-    return "question"
+    view = "question" if question else view
+    if output.suffix.lower() not in PICTURES:
+        raise ModelError(
+            f"{output.name}: the ending names no kind of drawing", f"use one of {' '.join(PICTURES)}"
+        )
+    if _moves(view, output) and view not in MOVING:
+        raise ModelError(
+            f"{output.name}: {output.suffix} holds an animation of the mechanism, and not {view}",
+            "write .svg, .pdf or .png, or ask for --view animation",
+        )
+    return view
 
 
 def camera_at(text: str | None) -> str | tuple[float, float] | None:
@@ -126,26 +181,34 @@ def camera_at(text: str | None) -> str | tuple[float, float] | None:
     return azimuth, elevation
 
 
-def write_report(
-    file: Path,
-    output: Path,
-    at: str | None,
-    positions: int | None,
-    static: bool,
-    methods: Sequence[str] | None,
-    notation: Notation | None,
-    about: str,
-    force: bool,
+def report(
+    file: ModelFile,
+    /,
+    *,
+    output: Annotated[Path, output("File to write; its ending names the format: .pdf, .html, .tex or .txt.")],
+    at: At = None,
+    positions: Positions = None,
+    static: Static = False,
+    method: Annotated[
+        list[Literal["matrix", "graphical", "superposition", "virtual-work"]] | None,
+        Parameter(
+            negative=(), help="Methods to show, one or more (default: all); graphical is for the plane."
+        ),
+    ] = None,
+    style: Style = AS_USUAL,
+    about: Annotated[str, with_help("Joint to take moments about, where a link has it.")] = "",
     changes: Changes = AS_IN_FILE,
+    force: Force = False,
 ) -> int:
-    """Write the worked solution; 1 where some position has a status other than ok."""
+    """Write the worked solution of FILE, step by step, with its drawings."""
     from dalembert.cli.model_argument import load_model
-    from dalembert.reports import report
+    from dalembert.reports import report as worked_out
 
-    check_new(output, force)
-    result, at = _solve_at(load_model(file, changes), at, static, positions)
-    report(result, at, methods, notation, about).save(output, force)
-    return _announce(result, output)
+    with progress(f"Working out {file}"):
+        check_new(output, force)
+        result, at = _solve_at(load_model(file, changes), at, static, positions)
+        worked_out(result, at, method, style.notation(), about).save(output, force)
+        return _announce(result, output)
 
 
 def _announce(result: Result, output: Path) -> int:
@@ -228,3 +291,18 @@ def _enough(m: Mechanism, count: int) -> int | None:
     """Charts and animations of a file with one position show a whole turn."""
     schedule = m.schedule()
     return count if len(schedule.position) == 1 and m.drives and schedule.unknown is None else None
+
+
+COMMANDS: dict[Callable[..., int], str] = {
+    draw: """Examples:
+  dalembert draw four_bar.yaml -o four_bar.svg
+  dalembert draw four_bar.yaml --view force-polygons --at 60deg -o polygons.pdf
+  dalembert draw four_bar.yaml --view charts --positions 72 -o charts.png
+  dalembert draw four_bar.yaml --question -o question.svg""",
+    report: """Examples:
+  dalembert report four_bar.yaml -o four_bar.pdf
+  dalembert report four_bar.yaml -o four_bar.html --method virtual-work --names
+  dalembert report rssr.yaml -o rssr.pdf --at 30deg
+  dalembert report engine.yaml -o engine.tex --at 60deg --units si --decimals 2""",
+}
+"""Function of each command -> the examples under its help."""

@@ -5,10 +5,24 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Literal
 
-from dalembert.cli.options import Changes
+from cyclopts import Parameter
+
+from dalembert.cli.options import (
+    AS_IN_FILE,
+    Changes,
+    Force,
+    ModelFile,
+    Positions,
+    ReactionAxes,
+    Static,
+    flag,
+    target,
+    with_help,
+)
 from dalembert.errors import ModelError
 from dalembert.progress import progress
 from dalembert.saving import check_installed, check_new
@@ -16,6 +30,12 @@ from dalembert.saving import check_installed, check_new
 if TYPE_CHECKING:
     from dalembert.analysis import Result
 
+
+EXAMPLES = """Examples:
+  dalembert solve four_bar.yaml
+  dalembert solve four_bar.yaml --static --units si
+  dalembert solve four_bar.yaml --positions 360 --csv turn.csv --xlsx turn.xlsx
+  dalembert solve four_bar.yaml --json - --units file"""
 
 PACKAGES = {"xlsx": ("openpyxl", "a workbook"), "netcdf": ("h5netcdf", "a netCDF file")}
 """Kind of file -> the optional package that writes it, and what it is called."""
@@ -30,18 +50,44 @@ ENDINGS = {
 """Kind of file -> what its name ends with."""
 
 
-class Wanted(NamedTuple):
-    """What to print and write."""
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Wanted:
+    """What to print and write, and of what."""
 
-    json: Path | None
-    csv: Path | None
-    xlsx: Path | None
-    netcdf: Path | None
-    units: Literal["si", "file"] | None
-    axes: Literal["ground", "link", "joint"]
-    every: bool
-    force: bool
-    others: bool = False
+    json: Annotated[
+        Path | None, target("Write the JSON answer to this file; - prints it, and nothing else.")
+    ] = None
+    csv: Annotated[
+        Path | None, target("Write a table, one row a position; - prints it, and nothing else.")
+    ] = None
+    xlsx: Annotated[Path | None, target("Write a workbook.")] = None
+    netcdf: Annotated[
+        Path | None, target("Write labelled arrays for xarray and other readers of netCDF.")
+    ] = None
+    method: Annotated[
+        Literal["matrix", "superposition", "virtual-work", "fixed-point"],
+        with_help(
+            "How the forces are found; fixed-point shows the taught iteration of friction at the first position."
+        ),
+    ] = "matrix"
+    units: Annotated[
+        Literal["si", "file"] | None,
+        with_help("Units of what is printed (default: those of the file) and written (default: si)."),
+    ] = None
+    axes: Annotated[
+        ReactionAxes,
+        with_help("Axes of the reactions: ground, the link they act on, in space the joint's own."),
+    ] = "ground"
+    changes: Changes = AS_IN_FILE
+    other_solutions: Annotated[
+        bool,
+        flag(
+            "Seek the other solutions of friction's equations, where the physical one may not be the only one."
+        ),
+    ] = False
+    every: Annotated[bool, flag("Print every position, however many.", "--all")] = False
+    force: Force = False
 
     @property
     def written_units(self) -> Literal["SI", "file"]:
@@ -54,20 +100,27 @@ class Wanted(NamedTuple):
         return "SI" if self.units == "si" else "file"
 
     @property
+    def targets(self) -> dict[str, Path | None]:
+        """Kind of file -> where it goes, - for the screen."""
+        return {kind: getattr(self, kind) for kind in ENDINGS}
+
+    @property
     def files(self) -> dict[str, Path]:
-        """Kind of file -> where, those that do not go to the screen."""
-        named = {"json": self.json, "csv": self.csv, "xlsx": self.xlsx, "netcdf": self.netcdf}
-        return {kind: path for kind, path in named.items() if path is not None and str(path) != "-"}
+        """Those that do not go to the screen."""
+        return {kind: path for kind, path in self.targets.items() if path is not None and str(path) != "-"}
 
 
-def solve_file(
-    file: Path, wanted: Wanted, *, static: bool, positions: int | None, method: str, changes: Changes
+AS_ASKED = Wanted()
+
+
+def solve(
+    file: ModelFile, /, *, static: Static = False, positions: Positions = None, wanted: Wanted = AS_ASKED
 ) -> int:
-    """Analyse a file, print or write the answer; 1 where some position has a status other than ok."""
+    """Solve FILE and print drives, efforts, reactions and motion, in the units of the file."""
     _check_targets(file, wanted)
-    result = _result(file, static, positions, changes)
-    shown, more = by_method(method, result, wanted.printed_units)
-    if wanted.others:
+    result = _result(file, static, positions, wanted.changes)
+    shown, more = by_method(wanted.method, result, wanted.printed_units)
+    if wanted.other_solutions:
         from dalembert.cli.method_text import other_solutions_text
 
         more = "\n\n".join(filter(None, (more, other_solutions_text(result, wanted.printed_units))))
@@ -81,16 +134,14 @@ def solve_file(
 
 def _check_targets(file: Path, wanted: Wanted) -> None:
     """Refused before the work, not behind it."""
-    for kind in ENDINGS:
-        if str(getattr(wanted, kind) or "").startswith("--"):
+    for kind, path in wanted.targets.items():
+        if str(path or "").startswith("--"):
             printed = "" if kind in PACKAGES else f"or - to print it: --{kind} -"
             raise ModelError(f"--{kind} needs the name of a file", printed)
-    for kind in PACKAGES:
-        if str(getattr(wanted, kind)) == "-":
-            raise ModelError(
-                f"--{kind} - asks for {PACKAGES[kind][1]} on the screen, which is no text", "name a file"
-            )
-    check_targets(file, {kind: getattr(wanted, kind) for kind in ENDINGS}, wanted.force)
+    for kind, (_, what) in PACKAGES.items():
+        if str(wanted.targets[kind]) == "-":
+            raise ModelError(f"--{kind} - asks for {what} on the screen, which is no text", "name a file")
+    check_targets(file, wanted.targets, wanted.force)
 
 
 def check_targets(file: Path, targets: Mapping[str, Path | None], force: bool) -> None:
@@ -149,7 +200,7 @@ def _print_answer(result: Result, wanted: Wanted, more: str) -> None:
     if str(wanted.json) == "-":
         from dalembert.analysis.output.json_record import write_json
 
-        write_json(result, sys.stdout, wanted.written_units, wanted.axes, wanted.others)
+        write_json(result, sys.stdout, wanted.written_units, wanted.axes, wanted.other_solutions)
     elif str(wanted.csv) == "-":
         from dalembert.analysis.output.export import write_csv
 
@@ -166,7 +217,7 @@ def _write(result: Result, kind: str, path: Path, wanted: Wanted) -> None:
     from dalembert.analysis.output import export
 
     if kind == "json":
-        export.to_json(result, path, wanted.force, wanted.written_units, wanted.axes, wanted.others)
+        export.to_json(result, path, wanted.force, wanted.written_units, wanted.axes, wanted.other_solutions)
         return
     writers = {"csv": export.to_csv, "xlsx": export.to_xlsx, "netcdf": export.to_netcdf}
     writers[kind](result, path, wanted.force, wanted.written_units, wanted.axes)

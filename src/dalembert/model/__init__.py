@@ -7,95 +7,57 @@ In: a file, or Python's own values. Out: a ``Mechanism``. Imports ``units`` and 
 0.90718474
 """
 
-from dalembert.model.description import Mechanism, mechanism
-from dalembert.model.drives.drives import Drive, Range
-from dalembert.model.drives.laws import Rise, TimeTable
-from dalembert.model.drives.schedule import Schedule
-from dalembert.model.files.conversion import convert
-from dalembert.model.files.json_schema import json_schema
-from dalembert.model.files.messages import ModelErrors
-from dalembert.model.files.model_files import load, loads, read_file, read_text, save_tree, tree_text
-from dalembert.model.joints.bearing_keys import Bearing
-from dalembert.model.joints.friction_keys import (
-    FrictionDefaults,
-    GearFriction,
-    GuideFriction,
-    PinFriction,
-    SlotFriction,
-)
-from dalembert.model.joints.plane_joints import CircularSlot, Gear, Joint, Pin, Rolling, Slider, Slot, Weld
-from dalembert.model.joints.space_joints import SpaceJoint
-from dalembert.model.links.link import GROUND, Link, Offset
-from dalembert.model.links.sections import Section
-from dalembert.model.links.shapes import Box, Cylinder, SlenderBar, Sphere, StlMesh, Tube
-from dalembert.model.load_types import (
-    ConstantForceSpring,
-    Couple,
-    Damper,
-    ForceLoad,
-    Load,
-    Spring,
-    TorsionDamper,
-    TorsionSpring,
-)
-from dalembert.model.quantities.expressions import Expression
-from dalembert.model.quantities.tables import Table
-from dalembert.model.quantities.varying import Varying, value_at
-from dalembert.model.stated_answers import Answer
-
-__all__ = [
-    "GROUND",
-    "Answer",
-    "Bearing",
-    "Box",
-    "CircularSlot",
-    "ConstantForceSpring",
-    "Couple",
-    "Cylinder",
-    "Damper",
-    "Drive",
-    "Expression",
-    "ForceLoad",
-    "FrictionDefaults",
-    "Gear",
-    "GearFriction",
-    "GuideFriction",
-    "Joint",
-    "Link",
-    "Load",
-    "Mechanism",
-    "ModelErrors",
-    "Offset",
-    "Pin",
-    "PinFriction",
-    "Range",
-    "Rise",
-    "Rolling",
-    "Schedule",
-    "Section",
-    "SlenderBar",
-    "Slider",
-    "Slot",
-    "SlotFriction",
-    "SpaceJoint",
-    "Sphere",
-    "Spring",
-    "StlMesh",
-    "Table",
-    "TimeTable",
-    "TorsionDamper",
-    "TorsionSpring",
-    "Tube",
-    "Varying",
-    "Weld",
-    "convert",
-    "json_schema",
-    "load",
-    "loads",
-    "mechanism",
-    "read_file",
-    "read_text",
-    "save_tree",
-    "tree_text",
-    "value_at",
-]
+from dalembert.model.description import Mechanism as Mechanism
+from dalembert.model.description import mechanism as mechanism
+from dalembert.model.drives.drives import Drive as Drive
+from dalembert.model.drives.drives import Range as Range
+from dalembert.model.drives.laws import Rise as Rise
+from dalembert.model.drives.laws import TimeTable as TimeTable
+from dalembert.model.drives.schedule import Schedule as Schedule
+from dalembert.model.files.conversion import convert as convert
+from dalembert.model.files.json_schema import json_schema as json_schema
+from dalembert.model.files.messages import ModelErrors as ModelErrors
+from dalembert.model.files.model_files import load as load
+from dalembert.model.files.model_files import loads as loads
+from dalembert.model.files.model_files import read_file as read_file
+from dalembert.model.files.model_files import read_text as read_text
+from dalembert.model.files.model_files import save_tree as save_tree
+from dalembert.model.files.model_files import tree_text as tree_text
+from dalembert.model.joints.bearing_keys import Bearing as Bearing
+from dalembert.model.joints.friction_keys import FrictionDefaults as FrictionDefaults
+from dalembert.model.joints.friction_keys import GearFriction as GearFriction
+from dalembert.model.joints.friction_keys import GuideFriction as GuideFriction
+from dalembert.model.joints.friction_keys import PinFriction as PinFriction
+from dalembert.model.joints.friction_keys import SlotFriction as SlotFriction
+from dalembert.model.joints.plane_joints import CircularSlot as CircularSlot
+from dalembert.model.joints.plane_joints import Gear as Gear
+from dalembert.model.joints.plane_joints import Joint as Joint
+from dalembert.model.joints.plane_joints import Pin as Pin
+from dalembert.model.joints.plane_joints import Rolling as Rolling
+from dalembert.model.joints.plane_joints import Slider as Slider
+from dalembert.model.joints.plane_joints import Slot as Slot
+from dalembert.model.joints.plane_joints import Weld as Weld
+from dalembert.model.joints.space_joints import SpaceJoint as SpaceJoint
+from dalembert.model.links.link import GROUND as GROUND
+from dalembert.model.links.link import Link as Link
+from dalembert.model.links.link import Offset as Offset
+from dalembert.model.links.sections import Section as Section
+from dalembert.model.links.shapes import Box as Box
+from dalembert.model.links.shapes import Cylinder as Cylinder
+from dalembert.model.links.shapes import SlenderBar as SlenderBar
+from dalembert.model.links.shapes import Sphere as Sphere
+from dalembert.model.links.shapes import StlMesh as StlMesh
+from dalembert.model.links.shapes import Tube as Tube
+from dalembert.model.load_types import ConstantForceSpring as ConstantForceSpring
+from dalembert.model.load_types import Couple as Couple
+from dalembert.model.load_types import Damper as Damper
+from dalembert.model.load_types import ForceLoad as ForceLoad
+from dalembert.model.load_types import Load as Load
+from dalembert.model.load_types import Spring as Spring
+from dalembert.model.load_types import TorsionDamper as TorsionDamper
+from dalembert.model.load_types import TorsionSpring as TorsionSpring
+from dalembert.model.quantities.expressions import Expression as Expression
+from dalembert.model.quantities.tables import Table as Table
+from dalembert.model.quantities.varying import Varying as Varying
+from dalembert.model.quantities.varying import value_at as value_at
+from dalembert.model.stated_answers import Answer as Answer

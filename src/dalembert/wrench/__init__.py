@@ -15,26 +15,17 @@ In: forces and couples at points. Out: sums, axes, verdicts. Imports ``algebra``
 array([-0.9704,  0.    ])
 """
 
-from dalembert.wrench.arrangements import arrangement, concurrency, parallel_center
-from dalembert.wrench.balance_check import Balance
-from dalembert.wrench.forces import Axis, Couple, Force, components
-from dalembert.wrench.free_body_system import on
-from dalembert.wrench.system import CentralAxis, ForceCouple, System
-from dalembert.wrench.system_files import load, loads
-
-__all__ = [
-    "Axis",
-    "Balance",
-    "CentralAxis",
-    "Couple",
-    "Force",
-    "ForceCouple",
-    "System",
-    "arrangement",
-    "components",
-    "concurrency",
-    "load",
-    "loads",
-    "on",
-    "parallel_center",
-]
+from dalembert.wrench.arrangements import arrangement as arrangement
+from dalembert.wrench.arrangements import concurrency as concurrency
+from dalembert.wrench.arrangements import parallel_center as parallel_center
+from dalembert.wrench.balance_check import Balance as Balance
+from dalembert.wrench.forces import Axis as Axis
+from dalembert.wrench.forces import Couple as Couple
+from dalembert.wrench.forces import Force as Force
+from dalembert.wrench.forces import components as components
+from dalembert.wrench.free_body_system import on as on
+from dalembert.wrench.system import CentralAxis as CentralAxis
+from dalembert.wrench.system import ForceCouple as ForceCouple
+from dalembert.wrench.system import System as System
+from dalembert.wrench.system_files import load as load
+from dalembert.wrench.system_files import loads as loads
