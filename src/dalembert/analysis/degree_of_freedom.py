@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.core.layout import Pose
 from dalembert.core.rank import Rank, rank, well_driven
 from dalembert.errors import ModelError
-
-if TYPE_CHECKING:
-    pass
 
 
 @dataclass(frozen=True)

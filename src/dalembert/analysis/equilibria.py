@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from dalembert.analysis.one_pass import at_schedule, slice_forcing
+from dalembert.analysis.one_pass import at_schedule, some_positions
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Ints, Tree
 from dalembert.model import Mechanism, Schedule
@@ -95,12 +95,7 @@ class _Scan:
 
 def select_positions(result: Result, where: Ints) -> Result:
     """A result at some of its positions."""
-    c, s = result.compiled, result.schedule
-    schedule = replace(
-        s, position=s.position[where], speed=s.speed[where], acceleration=s.acceleration[where]
-    )
-    forcing, known = slice_forcing(c, where)
-    counts = tuple(replace(n, margin=n.margin[where]) for n in c.counts)
+    counts = tuple(replace(n, margin=n.margin[where]) for n in result.compiled.counts)
     arrays: Tree = {
         name: value[where]
         for name, value in vars(result).items()
@@ -108,7 +103,7 @@ def select_positions(result: Result, where: Ints) -> Result:
     }
     return replace(
         result,
-        compiled=replace(c, schedule=schedule, forcing=forcing, known=known, counts=counts),
+        compiled=replace(some_positions(result.compiled, where), counts=counts),
         status=tuple(result.status[k] for k in where),
         reasons=tuple(result.reasons[k] for k in where),
         **arrays,

@@ -126,14 +126,7 @@ class _Lift:
 
     def _joint(self, name: str) -> Tree:
         joint = self.m.joints[name]
-        kinds: dict[str, Callable[..., Tree]] = {
-            "pin": self._pin,
-            "slider": self._slider,
-            "slot": self._slot,
-            "gear": self._gear,
-            "weld": self._weld,
-        }
-        made = kinds.get(joint.type)
+        made: Callable[..., Tree] | None = getattr(self, f"_{joint.type}", None)
         if made is None:
             what = f"joint {name!r}: a {joint.type} joint has no counterpart that could be lifted"
             raise ModelError(

@@ -14,7 +14,7 @@ from dalembert.analysis.engine.quick_pass import quick_answer
 from dalembert.analysis.engine.structures import known_forces
 from dalembert.analysis.friction.friction_equilibrium import FrictionProblem, block_size, friction_equilibrium
 from dalembert.analysis.positions import Positions, positions
-from dalembert.analysis.result.force_arrays import Forces, at_places, concatenate_blocks
+from dalembert.analysis.result.force_arrays import Forces, at_places, concatenate_blocks, forces_of
 from dalembert.analysis.result.joint_freedoms import whole_pose
 from dalembert.analysis.result.reaction_axes import marks
 from dalembert.analysis.result.result import Result
@@ -125,12 +125,7 @@ def _block(
     """Motion J v = rates, J a = rates - drift; forces A x + w = 0 with or without friction."""
     layout, pose, schedule = c.layout, whole.at(part), c.schedule
     moving, rows, solver = motion(layout, pose, schedule.speed[part], schedule.acceleration[part])
-    moved = _Moved(
-        *_stands(c, pose),
-        moving.twist[:, :-1],
-        moving.acceleration[:, :-1],
-        moving.rcond,
-    )
+    moved = _Moved(*_stands(c, pose), moving.twist[:, :-1], moving.acceleration[:, :-1], moving.rcond)
     if not forces:
         return moved, _no_forces(c, len(pose.point))
     forcing, known = slice_forcing(c, part)
@@ -142,20 +137,8 @@ def _block(
     w = np.broadcast_to(w, (len(pose.point), *w.shape[1:]))
     found = balance(layout, forcing, known, pose, moving, rows, solver, w)
     force, couple = reactions(layout, pose, rows, found)
-    unique = marks(c, pose, rows, found.free)
     moment = couple.reshape((*couple.shape[:-1], *_couple_shape(c)))
-    return moved, Forces(
-        force=force,
-        moment=moment,
-        effort=found.effort,
-        load=found.load,
-        residual=found.residual,
-        power_balance=found.power_balance,
-        rcond=found.rcond,
-        unique=unique.reactions,
-        unique_unknowns=unique.others,
-        unique_in=unique.inside,
-    )
+    return moved, forces_of(found, force, moment, marks(c, pose, rows, found.free))
 
 
 def _stands(c: Compiled, pose: Pose) -> tuple[Array, Array, Array]:

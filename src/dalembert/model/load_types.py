@@ -39,47 +39,34 @@ UNKNOWN: Literal["unknown"] = "unknown"
 class ForceValue(Value):
     """A vector whose components may change, a scalar along `direction`, or unknown."""
 
+    kind, form, least = "force", "[x, y] or polar text r @ angle", 2
+
     def read(self, value: object, info: ValidationInfo) -> Varying | tuple[Varying, ...] | Literal["unknown"]:
         rules = reading(info)
         if value == UNKNOWN:
             return UNKNOWN
         if isinstance(value, (list, tuple)):
-            items = check_vector(value, rules, "[x, y] or polar text r @ angle")
-            return tuple(at_item(i, varying, item, "force", rules) for i, item in enumerate(items))
-        return varying(value, "force", rules)
+            items = check_vector(value, Reading(dimension=3) if self.least == 3 else rules, self.form)
+            return tuple(at_item(i, varying, item, self.kind, rules) for i, item in enumerate(items))
+        return varying(value, self.kind, rules)
 
     def write(self, value: Any) -> object:
         if value == UNKNOWN:
             return value
         if isinstance(value, tuple):
-            return [varying_tree(item, "force") for item in value]
-        return varying_tree(value, "force")
+            return [varying_tree(item, self.kind) for item in value]
+        return varying_tree(value, self.kind)
 
     def json_schema(self) -> JsonSchema:
         one = varying_schema()
-        return {"anyOf": [{"type": "array", "items": one, "minItems": 2, "maxItems": 3}, *one["anyOf"]]}
+        many = {"type": "array", "items": one, "minItems": self.least, "maxItems": 3}
+        return {"anyOf": [*one["anyOf"], many] if self.least == 3 else [many, *one["anyOf"]]}
 
 
-class CoupleValue(Value):
+class CoupleValue(ForceValue):
     """A couple that may change, or unknown; in space a vector."""
 
-    def read(self, value: object, info: ValidationInfo) -> object:
-        rules = reading(info)
-        if value == UNKNOWN:
-            return UNKNOWN
-        if isinstance(value, (list, tuple)):
-            items = check_vector(value, Reading(dimension=3), "[x, y, z]")
-            return tuple(at_item(i, varying, item, "moment", rules) for i, item in enumerate(items))
-        return varying(value, "moment", rules)
-
-    def write(self, value: Any) -> object:
-        if isinstance(value, tuple):
-            return [varying_tree(item, "moment") for item in value]
-        return value if value == UNKNOWN else varying_tree(value, "moment")
-
-    def json_schema(self) -> JsonSchema:
-        one = varying_schema()
-        return {"anyOf": [*one["anyOf"], {"type": "array", "items": one, "minItems": 3, "maxItems": 3}]}
+    kind, form, least = "moment", "[x, y, z]", 3
 
 
 class Direction(Value):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from pydantic import Field, ValidationInfo, field_validator
 
@@ -11,63 +11,24 @@ from dalembert.errors import ModelError
 from dalembert.model.part import Part
 from dalembert.wording import quote_value
 
-Quantity = Literal[
-    "effort",
-    "reaction",
-    "moment",
-    "unknown_load",
-    "position",
-    "velocity",
-    "angle",
-    "rotation",
-    "speed",
-    "acceleration",
-    "center",
-    "center_velocity",
-    "center_acceleration",
-    "point",
-    "point_velocity",
-    "point_acceleration",
-    "drive",
-    "slide",
-    "slide_speed",
-    "slide_acceleration",
-    "slide1",
-    "slide1_speed",
-    "slide1_acceleration",
-    "slide2",
-    "slide2_speed",
-    "slide2_acceleration",
-    "turn",
-    "turn_speed",
-    "turn_acceleration",
-    "turn1",
-    "turn1_speed",
-    "turn1_acceleration",
-    "turn2",
-    "turn2_speed",
-    "turn2_acceleration",
-    "effort_low",
-    "effort_high",
-    "unknown_load_low",
-    "unknown_load_high",
-    "friction_force",
-    "friction_moment",
-    "power_lost",
-    "shaking_force",
-    "shaking_moment",
-    "shaking_couple",
-    "energy_fluctuation",
-    "lower_face",
-    "upper_face",
-    "residual",
-    "power_balance",
-    "status",
-    "count",
-    "mobility",
-    "redundant",
-    "stability",
-]
+_NAMES = """
+effort reaction moment unknown_load position velocity angle rotation speed acceleration center center_velocity
+center_acceleration point point_velocity point_acceleration drive slide slide1 slide2 turn turn1 turn2 effort_low
+effort_high unknown_load_low unknown_load_high friction_force friction_moment power_lost shaking_force shaking_moment
+shaking_couple energy_fluctuation lower_face upper_face residual power_balance status count mobility redundant stability
+"""
+RATES = ("", "_speed", "_acceleration")
+"""What freedoms, slides and turns, have behind their names besides."""
+
+QUANTITIES = tuple(
+    name + rate for name in _NAMES.split() for rate in (RATES if name.startswith(("slide", "turn")) else [""])
+)
+"""Whatever may be claimed: numbers of a position or of the mechanism, and words."""
+
+if TYPE_CHECKING:
+    Quantity = str
+else:
+    Quantity = Literal[QUANTITIES]
 
 
 class Answer(Part):

@@ -25,20 +25,10 @@ class Word(NamedTuple):
     plain: str
 
 
-_GREEK = {
-    "alpha": "α",
-    "beta": "β",
-    "gamma": "γ",
-    "delta": "δ",
-    "theta": "θ",
-    "omega": "ω",
-    "phi": "φ",
-    "mu": "μ",
-    "pi": "π",
-}
+_GREEK = "alpha α, beta β, gamma γ, delta δ, theta θ, omega ω, phi φ, mu μ, pi π"
 
 WORDS: dict[str, Word] = {
-    **{name: Word(name, "\\" + name, sign) for name, sign in _GREEK.items()},
+    **{name: Word(name, "\\" + name, sign) for name, sign in map(str.split, _GREEK.split(","))},
     **{name: Word(name, "\\" + name, name) for name in ("cos", "sin", "tan", "arcsin", "arctan")},
     "sum": Word("sum", "\\sum", "Σ"),
     "cdot": Word("dot.c", "\\cdot", "·"),
@@ -130,62 +120,14 @@ def latex(text: str) -> str:
     return _write(text, atom, lambda a, b: rf"\frac{{{a}}}{{{b}}}")
 
 
-_LETTERS = (
-    *(
-        "alpha α",
-        "beta β",
-        "gamma γ",
-        "delta δ",
-        "epsilon ε",
-        "zeta ζ",
-        "eta η",
-        "theta θ",
-        "iota ι",
-        "kappa κ",
-    ),
-    *(
-        "lambda λ",
-        "mu μ",
-        "mu µ",
-        "nu ν",
-        "xi ξ",
-        "pi π",
-        "rho ρ",
-        "sigma σ",
-        "tau τ",
-        "phi φ",
-        "chi χ",
-        "psi ψ",
-    ),
-    *(
-        "omega ω",
-        "Gamma Γ",
-        "Delta Δ",
-        "Theta Θ",
-        "Lambda Λ",
-        "Xi Ξ",
-        "Pi Π",
-        "Sigma Σ",
-        "Phi Φ",
-        "Psi Ψ",
-        "Omega Ω",
-    ),
-    *(
-        "pm ±",
-        "times ×",
-        "le ≤",
-        "ge ≥",
-        "approx ≈",
-        "surd √",
-        "angle ∠",
-        "parallel ∥",
-        "perp ⊥",
-        "to →",
-        "cdot ·",
-    ),
-)
+_LETTERS = """
+alpha α, beta β, gamma γ, delta δ, epsilon ε, zeta ζ, eta η, theta θ, iota ι, kappa κ, lambda λ,
+mu μ, mu µ, nu ν, xi ξ, pi π, rho ρ, sigma σ, tau τ, phi φ, chi χ, psi ψ,
+omega ω, Gamma Γ, Delta Δ, Theta Θ, Lambda Λ, Xi Ξ, Pi Π, Sigma Σ, Phi Φ, Psi Ψ, Omega Ω,
+pm ±, times ×, le ≤, ge ≥, approx ≈, surd √, angle ∠, parallel ∥, perp ⊥, to →, cdot ·
+"""
 
-LATEX_SIGNS = {sign: "\\" + name for name, sign in (pair.split() for pair in _LETTERS)}
+LATEX_SIGNS = {sign: "\\" + name for name, sign in map(str.split, _LETTERS.split(","))}
 """Signs that LaTeX has in its mathematics only, and their commands."""
 
 _LATEX = {sign: f"{command} " for sign, command in LATEX_SIGNS.items()} | {

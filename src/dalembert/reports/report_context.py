@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
-from dalembert.views.notation import Notation, Shown
+from dalembert.views.notation import Figures, Notation, Shown
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -33,6 +33,11 @@ class ReportContext:
 def as_formula(sign: str) -> str:
     """A sign of a drawing as a formula: only its index is marked there."""
     return f"${sign}$" if "_{" in sign or len(sign) == 1 else sign
+
+
+def figure(shown: Figures, kind: str, value: float, words: str = "") -> str:
+    """A number of a formula with its unit, and words behind it."""
+    return f'{shown.number(kind, value)} "{shown.unit(kind)}{words}"'
 
 
 def in_ground(c: ReportContext) -> str:

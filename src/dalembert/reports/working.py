@@ -13,12 +13,12 @@ from dalembert.analysis.methods.members import components_along
 from dalembert.analysis.output.columns import drive_kinds, load_kind
 from dalembert.analysis.result.position_lookup import PositionChoice, position_at
 from dalembert.errors import NUMBERED, ModelError
-from dalembert.reports.report_context import METHODS, Method, ReportContext, as_formula, in_ground
+from dalembert.reports.report_context import METHODS, Method, ReportContext, as_formula, figure, in_ground
 from dalembert.reports.sections import equilibrium_equations, friction, matrix
 from dalembert.reports.sections.given import knowns
 from dalembert.reports.sections.methods import checks, cycle, graphical
 from dalembert.reports.sections.motion import inertia, motion
-from dalembert.reports.sections.sources import superposition, virtual_work
+from dalembert.reports.sections.sources import shown_name, superposition, virtual_work
 from dalembert.reports.sheet import Sheet, Working
 from dalembert.reports.space_sections.space_friction_laws import space_friction
 from dalembert.reports.space_sections.space_mobility import degrees_of_freedom
@@ -182,11 +182,6 @@ def _efforts(c: ReportContext) -> list[Working]:
     """Efforts and unknown loads with their values."""
     r, k = c.r, c.k
 
-    def line(name: str, kind: str, value: float) -> Working:
-        return Working(f'{name} = {c.shown.number(kind, value)} "{c.shown.unit(kind)}"')
-
-    lines = []
-    for d in r.drives:
-        a = next(a for a in actions(r) if a.kind == "effort" and a.of == d)
-        lines.append(line(c.shown.effort(a), drive_kinds(r, d)["effort"], float(r.effort(d)[k])))
-    return lines + [line(own_name(u), load_kind(r, u), float(r.unknown_load(u)[k])) for u in r.unknown_loads]
+    found = [(shown_name(c, "effort", d), drive_kinds(r, d)["effort"], r.effort(d)[k]) for d in r.drives]
+    found += [(own_name(u), load_kind(r, u), r.unknown_load(u)[k]) for u in r.unknown_loads]
+    return [Working(f"{name} = {figure(c.shown, kind, float(value))}") for name, kind, value in found]

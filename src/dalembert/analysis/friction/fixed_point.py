@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.friction.joint_friction import friction_of
+from dalembert.analysis.friction.joint_friction import friction_of, unknown_names
 from dalembert.arrays import Array
 from dalembert.core.equilibrium import known_sources, motion, statement
 from dalembert.core.forcing import total_wrench
@@ -112,9 +112,7 @@ def contacts_at(r: Result, position: int) -> tuple[Contacts, Response, SlipState
 
 
 def _unknowns(r: Result, x: Array) -> dict[str, Array]:
-    count, asked = r.compiled.layout.constraints.count, r.compiled.known.asked
-    names = [*(d for d, a in zip(r.drives, asked, strict=True) if a), *r.unknown_loads]
-    return {name: x[:, count + k] for k, name in enumerate(names)}
+    return dict(zip(unknown_names(r), x[:, r.compiled.layout.constraints.count :].T, strict=True))
 
 
 def _forces(r: Result, contacts: Contacts, cz: Array) -> dict[str, Array]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dalembert.analysis.result.force_arrays import Forces, Friction
+from dalembert.analysis.result.force_arrays import Forces, Friction, forces_of
 from dalembert.analysis.result.reaction_axes import marks
 from dalembert.arrays import Array, Flags, Index, Ints, Tree, at, put
 from dalembert.core.constraints import rates
@@ -188,19 +188,9 @@ class FrictionProblem:
         force, couple = reactions(layout, self.pose, self.rows, whole)
         known_by = marks(self.c, self.pose, self.rows, whole.free)
         friction = self._friction(found, cz, reversing)
-        return Forces(
-            force=force + friction.force + friction.viscous_force,
-            moment=couple.reshape(friction.moment.shape) + friction.moment + friction.viscous_moment,
-            effort=whole.effort,
-            load=whole.load,
-            residual=whole.residual,
-            power_balance=whole.power_balance,
-            rcond=whole.rcond,
-            unique=known_by.reactions,
-            unique_unknowns=known_by.others,
-            friction=friction,
-            unique_in=known_by.inside,
-        )
+        force = force + friction.force + friction.viscous_force
+        moment = couple.reshape(friction.moment.shape) + friction.moment + friction.viscous_moment
+        return forces_of(whole, force, moment, known_by, friction)
 
     def _friction(self, found: FrictionSolution, cz: Array, reversing: Flags | None) -> Friction:
         layout, contacts, state = self.c.layout, self.contacts, found.state

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.friction.fixed_point import contacts_in_motion
+from dalembert.analysis.friction.joint_friction import unknown_names
 from dalembert.arrays import Array
 from dalembert.core.friction.contact_equations import repeat
 from dalembert.core.friction.friction_solver import roots
@@ -47,8 +48,7 @@ def other_solutions(r: Result, position: int = 0) -> list[Solution]:
     starts = size * rng.uniform(-1, 1, (STARTS, contacts.count))
     z, x, determinant = roots(contacts, repeat(problem, STARTS), np.broadcast_to(sense, starts.shape), starts)
     z = np.where(contacts.fixed, 0.0, z)
-    count, asked = r.compiled.layout.constraints.count, r.compiled.known.asked
-    names = [*(d for d, a in zip(r.drives, asked, strict=True) if a), *r.unknown_loads]
+    count, names = r.compiled.layout.constraints.count, unknown_names(r)
     assert r.friction is not None
     physical = r.friction.cz[position]
     kept: list[Array] = [] if np.isnan(physical).any() else [physical]

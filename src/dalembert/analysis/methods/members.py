@@ -22,7 +22,6 @@ from dalembert.analysis.methods.applied_forces import (
     magnitude,
     on_link,
     other_actions,
-    slide_direction,
 )
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.rounding import PART, sizes
@@ -64,10 +63,10 @@ class Member:
     def sentence(self) -> str:
         """Why it has this class."""
         if self.kind == ZERO:
-            nowhere = _enumerate_names(self.forces) or "no joint"
+            nowhere = ", ".join(self.forces) or "no joint"
             return f"{self.link}: {self.kind} member (nothing in {nowhere}; no couple)"
-        what = _enumerate_names(self.forces) or "no force"
-        couples = f"; couples: {_enumerate_names(self.couples)}" if self.couples else "; no couple"
+        what = ", ".join(self.forces) or "no force"
+        couples = f"; couples: {', '.join(self.couples)}" if self.couples else "; no couple"
         words = f"{self.link}: {self.kind} member (forces: {what}{couples})"
         return f"{words}; {self.touching}" if self.circles else words
 
@@ -76,7 +75,7 @@ class Member:
         """Where friction puts the lines of the reactions; empty without friction circles."""
         if not self.circles:
             return ""
-        at = f"the friction circle{'s' if len(self.circles) > 1 else ''} at {_enumerate_names(self.circles)}"
+        at = f"the friction circle{'s' if len(self.circles) > 1 else ''} at {', '.join(self.circles)}"
         if self.kind == "two-force" and len(self.circles) > 1:
             return f"both forces lie on one common tangent of {at}"
         if self.kind == "two-force":
@@ -190,10 +189,6 @@ def _tension(two: Sequence[Action]) -> Array:
     return np.asarray(magnitude(two[1].force) * np.sign(along))
 
 
-def _enumerate_names(names: Sequence[str]) -> str:
-    return ", ".join(names)
-
-
 def order_of_solution(r: Result, found: dict[str, Member] | None = None) -> tuple[Step, ...]:
     """The links in the order in which they can be solved, the fewest at a time.
 
@@ -292,7 +287,7 @@ class _Unknowns:
         links = " and ".join(group) + (" together" if len(group) > 1 else "")
         noun = "unknown" if unknowns == 1 else "unknowns"
         zero = ", all zero" if self.idle >= set(group) else ""
-        why = f"{links}: {equations} equations, {unknowns} {noun} in {_enumerate_names(finds)}{zero}"
+        why = f"{links}: {equations} equations, {unknowns} {noun} in {', '.join(finds)}{zero}"
         return Step(tuple(group), tuple(finds), equations, why)
 
 
@@ -370,18 +365,3 @@ def _parts_of_inertia(r: Result) -> tuple[Array, Array]:
 
 def _share(of: str, quantity: str, whole: Array, part: Array) -> Share:
     return Share(of, quantity, float(np.nanmax(whole, initial=0.0)), float(np.nanmax(part, initial=0.0)))
-
-
-__all__ = [
-    "Displaced",
-    "Member",
-    "Share",
-    "Step",
-    "components_along",
-    "concurrency",
-    "displaced_inertia",
-    "inertia_shares",
-    "members",
-    "order_of_solution",
-    "slide_direction",
-]

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from dalembert.arrays import Array, Flags, Ints, Tree, at
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.reaction_axes import Marks
+    from dalembert.core.equilibrium import Balance
 
 
 class Friction(NamedTuple):
@@ -66,6 +70,25 @@ class Forces(NamedTuple):
     ends: tuple[Forces, ...] = ()
     unique_in: Array | None = None
     after: Forces | None = None
+
+
+def forces_of(
+    found: Balance, force: Array, moment: Array, unique: Marks, friction: Friction | None = None
+) -> Forces:
+    """Forces of an equilibrium that was found, with its reactions and what of it statics alone determines."""
+    return Forces(
+        force=force,
+        moment=moment,
+        effort=found.effort,
+        load=found.load,
+        residual=found.residual,
+        power_balance=found.power_balance,
+        rcond=found.rcond,
+        unique=unique.reactions,
+        unique_unknowns=unique.others,
+        friction=friction,
+        unique_in=unique.inside,
+    )
 
 
 ARRAYS = tuple(name for name in Forces._fields if name not in ("friction", "ends", "after"))

@@ -47,24 +47,14 @@ def rccc(
     b = plus(a, times(offsets[1], _unit("rccc", "axes", cross(u[1], u[2]))))
     c = plus(b, times(offsets[2], _unit("rccc", "axes", cross(u[2], u[3]))))
     c = plus(c, times(offsets[3] / 2, u[3]))
-    return build_mechanism(
-        "Spatial four-bar RCCC",
-        gravity="standard",
-        space="space",
-        links={
-            "ground": {"points": {"O": list(o), "C": list(c)}},
-            "crank": slim(mass_per_length, O=o, A=a),
-            "coupler": slim(mass_per_length, A=a, B=b),
-            "rocker": slim(mass_per_length, B=b, C=c),
-        },
-        joints={
-            "O": _on("revolute", "ground", "crank", u[0]),
-            "A": _on("cylindrical", "crank", "coupler", u[1]),
-            "B": _on("cylindrical", "coupler", "rocker", u[2]),
-            "C": _on("cylindrical", "ground", "rocker", u[3]),
-        },
-        drives={"O": turning(sweep, positions, speed)},
-    )
+    joints = {
+        "O": _on("revolute", "ground", "crank", u[0]),
+        "A": _on("cylindrical", "crank", "coupler", u[1]),
+        "B": _on("cylindrical", "coupler", "rocker", u[2]),
+        "C": _on("cylindrical", "ground", "rocker", u[3]),
+    }
+    loop = _four_links("Spatial four-bar RCCC", (o, a, b, c), mass_per_length, joints)
+    return build_mechanism(**loop, drives={"O": turning(sweep, positions, speed)})
 
 
 def spherical_four_bar(

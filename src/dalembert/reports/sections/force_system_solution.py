@@ -10,6 +10,7 @@ import numpy as np
 from dalembert.arrays import Array
 from dalembert.reports.formula import bracket_negative
 from dalembert.reports.report_context import as_formula
+from dalembert.reports.sections.terms import join_numbers
 from dalembert.reports.sheet import Sheet, Working
 from dalembert.views import draw
 from dalembert.views.notation import Figures, Notation, own_name, pretty
@@ -126,7 +127,7 @@ class _Work:
         self.sheet.heading("Resultant")
         lines = []
         for k, axis in enumerate(self.axes):
-            terms = _join_signed([self.force(f.vector[k]) for f in self.s.forces])
+            terms = join_numbers([self.force(f.vector[k]) for f in self.s.forces])
             total = f"{self.force(self.s.resultant[k])} {self.unit('force')}"
             lines.append(Working(f"R_{{{axis}}} = sum F_{{{axis}}}", terms, total))
         r = Force(self.s.resultant)
@@ -247,7 +248,7 @@ class _Work:
         r, m = self.s.resultant, self.reduced.vector
         size, found = math.hypot(*r), self.s.central_axis()
         moment, force, length = self.unit("moment"), self.unit("force"), self.length_unit
-        product = _join_signed(
+        product = join_numbers(
             [f"{self.force(a)} cdot {bracket_negative(self.moment(b))}" for a, b in zip(r, m, strict=True)]
         )
         value = self.shown.value("force", 1.0) * self.shown.value("moment", float(r @ m))
@@ -297,12 +298,3 @@ def _lower_case(head: str) -> str:
     for axis in "xyz":
         head = head.replace(f"_{axis}", f"_{{{axis}}}")
     return head
-
-
-def _join_signed(numbers: list[str]) -> str:
-    """Numbers with their signs between them."""
-    out = ""
-    for text in numbers:
-        minus, size = text.startswith("−"), text.removeprefix("−")
-        out += f" {'−' if minus else '+'} {size}" if out else text
-    return out or "0"

@@ -29,7 +29,7 @@ from dalembert.analysis.friction.joint_friction import (
 from dalembert.analysis.output.columns import friction_joints, unknown_kinds
 from dalembert.model import GROUND
 from dalembert.reports.pictures import friction_pictures
-from dalembert.reports.report_context import ReportContext
+from dalembert.reports.report_context import ReportContext, figure
 from dalembert.reports.sheet import Sheet, Working
 from dalembert.views import both_ends
 
@@ -59,14 +59,8 @@ def pin_lines(c: ReportContext, joint: str) -> list[Working]:
     """Radius of the friction circle and the couple of friction about the pin's centre."""
     r, shown, k = c.r, c.shown, c.k
     described: Any = r.mechanism.joints[joint]
-    mu, unit = friction_coefficient(r, joint, k), shown.unit("length")
-    large = shown.number("length", float(described.friction.radius))
-    radius = shown.number("length", float(friction_circles(r, joint).radii[k]))
-    if circle_kind(r.mechanism, described) == "sin":
-        angle = f"{c.notation.degrees(math.atan(mu))} deg"
-        letters, numbers = f"R_{{{joint}}} sin (arctan mu_{{{joint}}})", f"{large} sin {angle}"
-    else:
-        letters, numbers = f"mu_{{{joint}}} R_{{{joint}}}", f"{c.notation.given(mu)} cdot {large}"
+    size = float(friction_circles(r, joint).radii[k])
+    radius = shown.number("length", size)
     i, j = described.links
     on = i if j == GROUND else j
     force = float(np.hypot(*r.reaction(joint)[k]))
@@ -74,16 +68,26 @@ def pin_lines(c: ReportContext, joint: str) -> list[Working]:
     sign = "−" if couple * c.notation.torque < 0 else ""
     sense = "clockwise" if couple < 0 else "counter-clockwise"
     other = i if on == j else j
+    product = f"{sign}{radius} cdot {shown.number('force', force)}"
     return [
-        Working(f"r_{{{joint}}} = {letters}", numbers, f'{radius} "{unit}"'),
+        circle_radius(c, joint, friction_coefficient(r, joint, k), size),
         Working(
             f"M_{{f{shown.pair(other, on)}}} = {sign}r_{{{joint}}} {shown.reaction(joint, on)}",
-            shown.converted(
-                f"{sign}{radius} cdot {shown.number('force', force)}", "moment", "length", "force"
-            ),
-            f'{shown.number("moment", couple)} "{shown.unit("moment")}, {sense} about {joint}"',
+            shown.converted(product, "moment", "length", "force"),
+            figure(shown, "moment", couple, f", {sense} about {joint}"),
         ),
     ]
+
+
+def circle_radius(c: ReportContext, joint: str, mu: float, radius: float) -> Working:
+    """Radius of a friction circle (m) of a coefficient: R sin(arctan mu), or mu R."""
+    described: Any = c.r.mechanism.joints[joint]
+    large = c.shown.number("length", float(described.friction.radius))
+    letters, numbers = f"mu_{{{joint}}} R_{{{joint}}}", f"{c.notation.given(mu)} cdot {large}"
+    if circle_kind(c.r.mechanism, described) == "sin":
+        letters = f"R_{{{joint}}} sin (arctan mu_{{{joint}}})"
+        numbers = f"{large} sin {c.notation.degrees(math.atan(mu))} deg"
+    return Working(f"r_{{{joint}}} = {letters}", numbers, figure(c.shown, "length", radius))
 
 
 def _two_force_links(c: ReportContext) -> list[TwoPins]:
@@ -139,14 +143,13 @@ def guide_lines(c: ReportContext, joint: str) -> list[Working]:
     contact = guide_contact(r, joint)
     described: Any = r.mechanism.joints[joint]
     i, j = described.links
-    unit = shown.unit("force")
     normal, couple = float(contact.normal[k]), float(contact.couple[k])
     total = float(contact.lower[k] + contact.upper[k])
     number = shown.number
     name = f"N_{{{shown.pair(i, j)}}}"
     out = []
     if described.friction.guide is None:
-        out.append(Working(f"S_{{{joint}}} = |{name}|", "", f'{number("force", total)} "{unit}"'))
+        out.append(Working(f"S_{{{joint}}} = |{name}|", "", figure(shown, "force", total)))
     else:
         behind, ahead = described.friction.guide
         tilting = f"frac(|2 M_{{{joint}}} − (l_{{2}} − l_{{1}}) {name}|; l_{{1}} + l_{{2}})"
@@ -155,16 +158,12 @@ def guide_lines(c: ReportContext, joint: str) -> list[Working]:
             Working(
                 f'S_{{{joint}}} = "greater of" |{name}| "and" {tilting}',
                 f'"greater of" {number("force", abs(normal))} "and" {number("force", size)}',
-                f'{number("force", total)} "{unit}: {contact.mode[k]}"',
+                figure(shown, "force", total, f": {contact.mode[k]}"),
             )
         )
         loads = (("lower", "+", float(contact.lower[k])), ("upper", "−", float(contact.upper[k])))
         out += [
-            Working(
-                f"N_{{{face}}} = frac(S_{{{joint}}} {sign} {name}; 2)",
-                "",
-                f'{number("force", load)} "{unit}"',
-            )
+            Working(f"N_{{{face}}} = frac(S_{{{joint}}} {sign} {name}; 2)", "", figure(shown, "force", load))
             for face, sign, load in loads
         ]
     mu = friction_coefficient(r, joint, k)
@@ -173,7 +172,7 @@ def guide_lines(c: ReportContext, joint: str) -> list[Working]:
         Working(
             f"F_{{f{shown.pair(i, j)}}} = mu_{{{joint}}} S_{{{joint}}}",
             f"{c.notation.given(mu)} cdot {number('force', total)}",
-            f'{number("force", force)} "{unit}"',
+            figure(shown, "force", force),
         )
     )
     return out
@@ -190,27 +189,18 @@ def cost(sheet: Sheet, c: ReportContext) -> None:
     drives = sum(float((r.effort(d) * r.drive_speed(d))[k]) for d in r.drives)
     put_in = max(drives, total - drives)
     rows = [
-        [n, shown.number("power", p), c.notation.percent(p / put_in) if not r.unknown_loads else "–"]
-        for n, p in lost.items()
+        [n, shown.number("power", p), "–" if r.unknown_loads else c.notation.percent(p / put_in)]
+        for n, p in [*lost.items(), ("sum", total)]
     ]
-    rows.append(
-        [
-            "sum",
-            shown.number("power", total),
-            c.notation.percent(total / put_in) if not r.unknown_loads else "–",
-        ]
-    )
     heads = ["Joint", f"Power lost ({shown.unit('power')})", "of the power put in"]
     sheet.table(heads, rows, "What friction takes at this position", total=True)
     found = efficiency(r)
-    forward, reverse = float(found.forward[k]), float(found.reverse[k])
-    parts = []
-    if math.isfinite(forward):
-        parts.append(f"{c.notation.percent(forward)} where the drive moves the load")
-    if math.isfinite(reverse):
-        parts.append(f"{c.notation.percent(reverse)} where the load moves the drive{found.held(k)}")
-    if len(r.status) > 1 and math.isfinite(found.cycle):
-        parts.append(f"{c.notation.percent(found.cycle)} over all positions, inertia and all")
+    senses = (
+        (float(found.forward[k]), "where the drive moves the load"),
+        (float(found.reverse[k]), f"where the load moves the drive{found.held(k)}"),
+        (found.cycle if len(r.status) > 1 else math.nan, "over all positions, inertia and all"),
+    )
+    parts = [f"{c.notation.percent(part)} {words}" for part, words in senses if math.isfinite(part)]
     if parts:
         sheet.text(f"Efficiency, without inertia: {'; '.join(parts)}.")
 

@@ -10,7 +10,7 @@ import numpy as np
 from dalembert.analysis.methods.applied_forces import link_angle, link_place, link_speed, slide_direction
 from dalembert.arrays import Array, Numeric, Tree
 from dalembert.model import GROUND
-from dalembert.reports.sections.terms import Signed, join_signed
+from dalembert.reports.sections.terms import Signed, join_numbers, join_signed
 from dalembert.reports.sheet import Working
 from dalembert.views.notation import Shown
 
@@ -212,8 +212,7 @@ def _sum_rows(axes: list[list[tuple[Signed, float]]], shown: Shown, kind: str) -
     largest = max((abs(v) for terms in axes for _, v in terms), default=0.0)
     out = []
     for terms in filter(None, axes):
-        texts = [shown.number(kind, value) for _, value in terms]
-        numbers = join_signed([(text.startswith("−"), text.removeprefix("−")) for text in texts])
+        numbers = join_numbers([shown.number(kind, value) for _, value in terms])
         total = math.fsum(v for _, v in terms)
         out.append(
             zero_sum(join_signed([letters for letters, _ in terms]), numbers, total, largest, shown, kind)

@@ -9,7 +9,7 @@ import numpy as np
 from dalembert.analysis.methods.members import displaced_inertia, inertia_shares
 from dalembert.analysis.output.rounding import PART
 from dalembert.reports.formula import bracket_negative
-from dalembert.reports.report_context import ReportContext
+from dalembert.reports.report_context import ReportContext, figure
 from dalembert.reports.sections import kinematics
 from dalembert.reports.sections.gear_motion import mesh
 from dalembert.reports.sheet import Sheet, Working
@@ -126,37 +126,34 @@ def _inertia_lines(c: ReportContext, link: str) -> list[Working]:
     fx, fy = (float(f) for f in found.force[k])
     size, alpha = math.hypot(fx, fy), float(r.acceleration(link)[k])
     number = shown.number
-    product = (
-        f"−{number('mass', m)} ({number('acceleration', float(a[0]))}, {number('acceleration', float(a[1]))})"
-    )
+    ax, ay = (number("acceleration", float(x)) for x in a)
+    product = f"−{number('mass', m)} ({ax}, {ay})"
     direction = f" angle {c.notation.direction(fx, fy)} deg" if size > shown.least["force"] else ""
     out = [
         Working(
             f"F_{{I{n}}} = −m_{{{n}}} a_{{G{n}}}",
             shown.converted(product, "force", "mass", "acceleration"),
-            f'({number("force", fx)}, {number("force", fy)}) = {number("force", size)} "{shown.unit("force")}"'
-            + direction,
+            f"({number('force', fx)}, {number('force', fy)}) = {figure(shown, 'force', size)}{direction}",
         )
     ]
     if not inertia or abs(alpha) <= shown.least["angular_acceleration"]:
         return out
     minus = "−" if c.notation.torque > 0 else ""
-    product = (
-        f"{minus}{number('inertia', inertia)} cdot {bracket_negative(number('angular_acceleration', alpha))}"
-    )
-    couple = number("moment", float(found.couple[k]))
+    turned = bracket_negative(number("angular_acceleration", alpha))
+    product = f"{minus}{number('inertia', inertia)} cdot {turned}"
+    couple = float(found.couple[k])
     out.append(
         Working(
             f"T_{{I{n}}} = {minus}I_{{{n}}} alpha_{{{n}}}",
             shown.converted(product, "moment", "inertia", "angular_acceleration"),
-            f'{couple} "{shown.unit("moment")}"',
+            figure(shown, "moment", couple),
         )
     )
     if size > shown.least["force"]:
         out.append(
             Working(
                 f"h_{{{n}}} = frac(|T_{{I{n}}}|; F_{{I{n}}})",
-                f"frac({couple.lstrip('−')}; {number('force', size)})",
+                f"frac({number('moment', couple).lstrip('−')}; {number('force', size)})",
                 f'{c.notation.number(float(found.offset[k]) / shown.arm)} "{shown.arm_unit}"',
             )
         )

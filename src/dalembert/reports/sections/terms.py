@@ -83,6 +83,11 @@ def join_signed(parts: list[Signed]) -> str:
     return out or "0"
 
 
+def join_numbers(texts: list[str]) -> str:
+    """Numbers as text with their signs between them."""
+    return join_signed([(text.startswith("−"), text.removeprefix("−")) for text in texts])
+
+
 def setting(r: Result, link: str, k: int, shown: Shown, about: About) -> Setting:
     """In ground axes or in those of the link, as the reader has them."""
     axes = np.eye(r.mechanism.dimension) if shown.notation.axes == "ground" else r.rotation(link)[k].T

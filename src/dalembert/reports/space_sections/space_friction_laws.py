@@ -11,8 +11,8 @@ from dalembert.analysis.compile.contacts import circle as circle_kind
 from dalembert.analysis.friction.joint_friction import ContactForce, contact_forces
 from dalembert.analysis.output.rounding import PART
 from dalembert.arrays import Array
-from dalembert.reports.report_context import ReportContext
-from dalembert.reports.sections.friction import cost
+from dalembert.reports.report_context import ReportContext, figure
+from dalembert.reports.sections.friction import circle_radius, cost
 from dalembert.reports.sheet import Sheet, Working
 from dalembert.views.notation import along
 
@@ -77,7 +77,7 @@ class _Joint:
         return self.c.shown.number(kind, value)
 
     def _text(self, kind: str, value: float) -> str:
-        return f'{self._number(kind, value)} "{self.c.shown.unit(kind)}"'
+        return figure(self.c.shown, kind, value)
 
     def _bearing(self, contact: ContactForce, n: int, of: int, axes: str) -> Working:
         """N of one contact: of both ends of a bearing that has them, else of the components that make it."""
@@ -88,15 +88,8 @@ class _Joint:
         inside = " + ".join(f"{along(self.sign, a + chr(39))}^{{2}}" for a in axes)
         return Working(name, f"({inside})^{{1/2}}", self._text("force", contact.bearing))
 
-    def _radius(self, contact: ContactForce, radius: float) -> Working:
-        """Radius of a friction circle: R sin(arctan mu), or mu R."""
-        large, mu, given = self._number("length", radius), contact.coefficient, self.c.notation.given
-        if circle_kind(self.c.r.mechanism, self.described) == "sin":
-            letters = f"R_{{{self.joint}}} sin (arctan mu_{{{self.joint}}})"
-            numbers = f"{large} sin {self.c.notation.degrees(math.atan(mu))} deg"
-        else:
-            letters, numbers = f"mu_{{{self.joint}}} R_{{{self.joint}}}", f"{given(mu)} cdot {large}"
-        return Working(f"r_{{{self.joint}}} = {letters}", numbers, self._text("length", contact.strength))
+    def _radius(self, contact: ContactForce) -> Working:
+        return circle_radius(self.c, self.joint, contact.coefficient, contact.strength)
 
     def _sum(self, sign: str, kind: str, parts: list[tuple[str, str]], amounts: list[float]) -> Working:
         """Letters and numbers of products, all with the sign of the friction."""
@@ -122,9 +115,7 @@ class _Joint:
     def _revolute(self) -> list[Working]:
         pins = self._of_kind("pin")
         collars = self._of_kind("collar")
-        out = (
-            [self._radius(pins[0], self.described.friction.radius)] if pins else []
-        )  # none of a collar alone
+        out = [self._radius(pins[0])] if pins else []  # none of a collar alone
         out += [self._bearing(contact, n, len(pins), "xy") for n, contact in enumerate(pins)]
         parts = [
             self._product(f"r_{{{self.joint}}}", self._number("length", pin.strength), pin, n, len(pins))
@@ -142,10 +133,7 @@ class _Joint:
         of, mu = len(self.contacts), f"mu_{{{self.joint}}}"
         out = [self._bearing(contact, n, of, "yz") for n, contact in enumerate(self.contacts)]
         parts = [self._product(mu, self._given(end), end, n, of) for n, end in enumerate(self.contacts)]
-        return [
-            *out,
-            self._sum(along(self.force_sign, "x'"), "force", parts, self._amounts()),
-        ]
+        return [*out, self._sum(along(self.force_sign, "x'"), "force", parts, self._amounts())]
 
     def _cylindrical(self) -> list[Working]:
         guides = self._of_kind("guide")
@@ -154,27 +142,18 @@ class _Joint:
         out = [self._bearing(contact, n, of, "yz") for n, contact in enumerate(guides)]
         parts = [("p_{x'}", contact.part), *([("p_{t}", pins[0].part)] if pins else [])]
         out.append(Working(", quad ".join(f"{sign} = {self._figure(part)}" for sign, part in parts)))
-        factor, figure = f"mu_{{{name}}}", self._given(contact)
+        factor, figured = f"mu_{{{name}}}", self._given(contact)
         if pins and circle_kind(self.c.r.mechanism, self.described) == "sin":
-            below = f"(1 + ({figure} cdot {self._figure(abs(pins[0].part))})^{{2}})^{{1/2}}"
+            below = f"(1 + ({figured} cdot {self._figure(abs(pins[0].part))})^{{2}})^{{1/2}}"
             letters = f"k_{{{name}}} = frac(mu_{{{name}}}; (1 + (mu_{{{name}}} p_{{t}})^{{2}})^{{1/2}})"
-            factor, figure = f"k_{{{name}}}", self._figure(contact.strength)
-            out.append(Working(letters, f"frac({self._given(contact)}; {below})", figure))
-        out.append(
-            self._share(
-                "force", f"{factor} |p_{{x'}}|", f"{figure} cdot {self._figure(abs(contact.part))}", guides
-            )
-        )
+            factor, figured = f"k_{{{name}}}", self._figure(contact.strength)
+            out.append(Working(letters, f"frac({self._given(contact)}; {below})", figured))
+        sizes = [self._figure(abs(p[0].part)) for p in (guides, pins) if p]
+        out.append(self._share("force", f"{factor} |p_{{x'}}|", f"{figured} cdot {sizes[0]}", guides))
         if pins:
-            arm, part = (
-                self._number("length", self.described.friction.radius),
-                self._figure(abs(pins[0].part)),
-            )
-            out.append(
-                self._share(
-                    "moment", f"{factor} R_{{{name}}} |p_{{t}}|", f"{figure} cdot {arm} cdot {part}", pins
-                )
-            )
+            arm = self._number("length", self.described.friction.radius)
+            letters, numbers = f"{factor} R_{{{name}}} |p_{{t}}|", f"{figured} cdot {arm} cdot {sizes[1]}"
+            out.append(self._share("moment", letters, numbers, pins))
         return out
 
     def _share(self, kind: str, factor: str, figure: str, contacts: list[ContactForce]) -> Working:
@@ -198,7 +177,7 @@ class _Joint:
         size = self._text("moment", float(np.linalg.norm(couple)))
         numbers = ", ".join(self.c.shown.number("moment", float(x), least) for x in couple)
         return [
-            self._radius(contact, self.described.friction.radius),
+            self._radius(contact),
             self._bearing(contact, 0, 1, "xyz"),
             Working(
                 f"|{self.couple_sign}| = r_{{{self.joint}}} S_{{{self.joint}}}",

@@ -2,19 +2,8 @@
 
 from __future__ import annotations
 
+from dalembert.reports import sheet as blocks
 from dalembert.reports.formula import LATEX_SIGNS, latex, write_mixed
-from dalembert.reports.sheet import (
-    Blanks,
-    Block,
-    Equations,
-    Figure,
-    Heading,
-    Matrix,
-    Paragraph,
-    Sheet,
-    Table,
-    Working,
-)
 from dalembert.views.formats.svg import MARGIN
 from dalembert.views.formats.tikz import tikz_picture
 from dalembert.views.paper.lettering import plain as plain_sign
@@ -47,7 +36,7 @@ _ESCAPED = {sign: f"${command}$" for sign, command in LATEX_SIGNS.items()} | {
 }  # fmt: skip
 
 
-def latex_text(sheet: Sheet) -> str:
+def latex_text(sheet: blocks.Sheet) -> str:
     """The report as a LaTeX document."""
     body = "\n\n".join(_block(b) for b in sheet.blocks)
     below = r" \\ ".join(_words(line) for line in (sheet.source, sheet.subtitle) if line)
@@ -63,32 +52,32 @@ def _rich(text: str) -> str:
     return "".join(write_mixed(text, lambda f: f"${latex(f)}$", _words))
 
 
-def _block(b: Block) -> str:
-    if isinstance(b, Heading):
+def _block(b: blocks.Block) -> str:
+    if isinstance(b, blocks.Heading):
         room = r"\nopagebreak\vspace*{0.34\textheight}" if b.room else ""
         return rf"\{'sub' * (b.level - 1)}section{{{_words(b.text)}}}{room}"
-    if isinstance(b, Paragraph):
+    if isinstance(b, blocks.Paragraph):
         return _rich(b.text)
-    if isinstance(b, Equations):
+    if isinstance(b, blocks.Equations):
         return "\n".join(_equation(w) for w in b.lines)
-    if isinstance(b, Table):
+    if isinstance(b, blocks.Table):
         return _table(b)
-    if isinstance(b, Matrix):
+    if isinstance(b, blocks.Matrix):
         return _matrix(b)
-    if isinstance(b, Blanks):
+    if isinstance(b, blocks.Blanks):
         return "\n\n".join(_blank(*row) for row in b.rows)
-    assert isinstance(b, Figure)
+    assert isinstance(b, blocks.Figure)
     return _figure(b)
 
 
-def _equation(w: Working) -> str:
+def _equation(w: blocks.Working) -> str:
     if w.result:
         return rf"\letters{{{' = '.join(latex(t) for t in (w.letters, w.numbers, w.result) if t)}}}"
     lines = [rf"\letters{{{latex(w.letters)}}}", *([rf"\numbers{{{latex(w.numbers)}}}"] if w.numbers else [])]
     return "\n".join(lines)
 
 
-def _table(b: Table) -> str:
+def _table(b: blocks.Table) -> str:
     """Columns, made smaller where they are wider than the page; a long table in parts that fit one."""
     columns = "l" + ("r" if len(b.heads) > 5 else "l") * (len(b.heads) - 1)
     heads = " & ".join(_rich(h) for h in b.heads) + r" \\"
@@ -104,7 +93,7 @@ def _table(b: Table) -> str:
     return "\n\n\\medskip\n".join(parts) + caption + r"\par\medskip"
 
 
-def _matrix(b: Matrix) -> str:
+def _matrix(b: blocks.Matrix) -> str:
     def column(some: tuple[str, ...]) -> str:
         return r"\begin{bmatrix}" + r"\\".join(latex(s) for s in some) + r"\end{bmatrix}"
 
@@ -119,7 +108,7 @@ def _blank(words: str, spaces: tuple[tuple[str, str], ...]) -> str:
     return r" \quad ".join([rf"{_rich(words)} \hfill", *rooms])
 
 
-def _figure(b: Figure) -> str:
+def _figure(b: blocks.Figure) -> str:
     """Drawings in rows as they fit; what is larger than the page is made smaller, and says so."""
     pictures = "\n\\hspace{3mm}\n".join(_picture(scene) for scene in b.scenes)
     parts = [b.caption, *map(_smaller, b.scenes)]

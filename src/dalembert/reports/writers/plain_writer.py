@@ -4,32 +4,21 @@ from __future__ import annotations
 
 import textwrap
 
+from dalembert.reports import sheet as blocks
 from dalembert.reports.formula import plain, write_mixed
-from dalembert.reports.sheet import (
-    Blanks,
-    Block,
-    Equations,
-    Figure,
-    Heading,
-    Matrix,
-    Paragraph,
-    Sheet,
-    Table,
-    Working,
-)
 from dalembert.views.paper.lettering import plain as plain_sign
 
 WIDTH = 100
 
 
-def plain_text(sheet: Sheet) -> str:
+def plain_text(sheet: blocks.Sheet) -> str:
     """The report as text for a terminal."""
     head = [sheet.title, "=" * len(sheet.title), *(t for t in (sheet.source, sheet.subtitle) if t)]
     numbered, count = [], 0
     for b in sheet.blocks:
-        if isinstance(b, Heading) and b.level == 1:
+        if isinstance(b, blocks.Heading) and b.level == 1:
             count += 1
-            b = Heading(f"{count} {b.text}")
+            b = blocks.Heading(f"{count} {b.text}")
         numbered.append(_block(b))
     return "\n".join(head) + "\n\n" + "\n\n".join(t for t in numbered if t) + "\n"
 
@@ -38,25 +27,25 @@ def _rich(text: str) -> str:
     return "".join(write_mixed(text, plain, str))
 
 
-def _block(b: Block) -> str:
-    if isinstance(b, Heading):
+def _block(b: blocks.Block) -> str:
+    if isinstance(b, blocks.Heading):
         return f"{b.text}\n{('-' if b.level == 1 else '.') * len(b.text)}"
-    if isinstance(b, Paragraph):
+    if isinstance(b, blocks.Paragraph):
         return textwrap.fill(_rich(b.text), WIDTH)
-    if isinstance(b, Equations):
+    if isinstance(b, blocks.Equations):
         return "\n".join(line for w in b.lines for line in _equation(w))
-    if isinstance(b, Table):
+    if isinstance(b, blocks.Table):
         return _table([[_rich(c) for c in row] for row in (b.heads, *b.rows)], b.caption, b.total)
-    if isinstance(b, Matrix):
+    if isinstance(b, blocks.Matrix):
         return _matrix(b)
-    if isinstance(b, Blanks):
+    if isinstance(b, blocks.Blanks):
         rooms = [(w, "  ".join(f"{n} {'_' * 14} {u}".strip() for n, u in spaces)) for w, spaces in b.rows]
         return "\n".join(f"{_rich(words)}  {room}" for words, room in rooms)
-    assert isinstance(b, Figure)
+    assert isinstance(b, blocks.Figure)
     return "\n".join(f"[drawing: {plain_sign(s.title)}]" for s in b.scenes)
 
 
-def _equation(w: Working) -> list[str]:
+def _equation(w: blocks.Working) -> list[str]:
     if w.result:
         return ["  " + " = ".join(plain(t) for t in (w.letters, w.numbers, w.result) if t)]
     return ["  " + plain(w.letters), *(["      " + plain(w.numbers)] if w.numbers else [])]
@@ -72,7 +61,7 @@ def _table(rows: list[list[str]], caption: str, total: bool) -> str:
     return "\n".join([*body, *([caption] if caption else [])])
 
 
-def _matrix(b: Matrix) -> str:
+def _matrix(b: blocks.Matrix) -> str:
     heads = [*(plain(u) for u in b.unknowns), "=", "unknown", "value"]
     rows = [
         [*(plain(c) for c in row), plain(right), plain(unknown), plain(value)]
