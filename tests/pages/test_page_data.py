@@ -16,6 +16,7 @@ from dalembert.analysis.batch.kernel_export import WasmModule
 from dalembert.analysis.methods.applied_forces import whole_actions
 from dalembert.bundled import cases, examples
 from dalembert.model.library import TEMPLATES, template_text
+from dalembert.pages.html_page import html_text
 from dalembert.pages.page_data import page_data
 from dalembert.pages.sweep import with_cycle
 from tests.kernel.wasm_runs import run_wasm
@@ -49,6 +50,7 @@ def run_page(data: Any) -> Any:
 def test_every_number_is_that_of_the_analyses(name: str) -> None:
     m = da.load(FILES[name])
     data = json.loads(json.dumps(page_data(m)))
+    assert len(html_text(data)) < 120_000
     out = run_page(data)
     swept = with_cycle(m)
     r = da.dynamics(swept) if m.has_speeds else da.statics(swept)

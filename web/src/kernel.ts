@@ -12,7 +12,7 @@ export function series(given: Series): Float64Array {
   return Float64Array.from({ length: given.count }, (_, k) => (k === given.count - 1 ? given.to : given.from + k * step));
 }
 
-async function inflate(text: string): Promise<ArrayBuffer> {
+export async function inflate(text: string): Promise<ArrayBuffer> {
   const stream = new Blob([bytes(text)]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Response(stream).arrayBuffer();
 }

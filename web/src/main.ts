@@ -1,8 +1,18 @@
 /** What a page and a notebook import. */
 
-import { mount } from "./page";
+import { inflate } from "./kernel";
+import { mount, type Page } from "./page";
 
-export { mount };
+/** The page of compressed data in an element; what goes wrong is said there. */
+export async function open(el: HTMLElement, packed: string): Promise<Page> {
+  try {
+    const data = JSON.parse(new TextDecoder().decode(await inflate(packed)));
+    return await mount(el, data, { address: location.protocol !== "about:" });
+  } catch (error) {
+    el.textContent = String(error);
+    throw error;
+  }
+}
 
 interface Model { get(name: string): any; set(name: string, value: unknown): void; save_changes(): void; on(event: string, f: () => void): void; off(event: string, f: () => void): void }
 

@@ -42,6 +42,7 @@ class Boards:
         self.frame = self.items.frame
         self.shown = Shown(known, Notation())
         self.numbered = _numbered(known, actions)
+        self.kinds = {link: member.kind for link, member in members(known).items()} if self.d == 2 else {}
 
     def mechanism(self) -> Tree:
         """The whole mechanism: loads, efforts, and the force of each joint on its j."""
@@ -97,7 +98,7 @@ class Boards:
         return {
             "link": link,
             "title": f"Link {self.shown.heading(link)}",
-            "member": self._member(link),
+            "member": self.kinds.get(link, ""),
             "per_mm": self._size(link),
             "about": d.corners(link),
             "items": parts,
@@ -106,10 +107,6 @@ class Boards:
             "force": self.scale(26.0),
             "equations": self._equations(link, mine, own),
         }
-
-    def _member(self, link: str) -> str:
-        """Two-force, three-force ... member."""
-        return str(members(self.known)[link].kind)
 
     def _size(self, link: str) -> float:
         """Metres a millimetre of a free body, round in the reader's unit."""

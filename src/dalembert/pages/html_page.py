@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import base64
 import json
+import zlib
 from html import escape
 from pathlib import Path
 
@@ -40,18 +42,15 @@ def page(m: Mechanism, path: str | Path | None = None, static: bool = False, ove
 
 
 def html_text(data: Tree) -> str:
-    """A page with its data; no text of a model file can end the script or be taken for markup."""
+    """A page with its data, compressed; no text of a model file can end the script or be taken for markup."""
     script = (BUNDLE / "page.js").read_text(encoding="utf-8").replace("</script", "<\\/script")
-    told = json.dumps(data, separators=(",", ":"), ensure_ascii=False)
-    told = told.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+    packed = base64.b64encode(zlib.compress(json.dumps(data, separators=(",", ":")).encode(), 9)).decode()
     return (
         '<!doctype html><html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width,initial-scale=1">'
         f'<meta http-equiv="Content-Security-Policy" content="{POLICY}"><title>{escape(data["title"])}</title>'
         "<style>body{margin:0}@media(prefers-color-scheme:dark){html{background:#151b22;color-scheme:dark}}</style></head>"
-        f'<body><div id="mechanism"></div><script type="application/json" id="data">{told}</script>'
-        f"<script>{script}</script>"
-        '<script>dalembert.mount(document.getElementById("mechanism"),'
-        'JSON.parse(document.getElementById("data").textContent),{address:true})'
-        '.then(p=>{window.page=p},e=>{document.getElementById("mechanism").textContent=String(e)})</script></body></html>\n'
+        f'<body><div id="mechanism"></div><script type="text/plain" id="data">{packed}</script><script>{script}</script>'
+        '<script>dalembert.open(document.getElementById("mechanism"),document.getElementById("data").textContent)'
+        ".then(p=>{window.page=p})</script></body></html>\n"
     )

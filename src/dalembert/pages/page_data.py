@@ -40,8 +40,8 @@ from dalembert.views.formats.svg import rule
 from dalembert.views.formats.themes import THEMES
 
 FORMAT = "dalembert-page/1"
-GRADIENT = 12_000
-"""Bytes of the module of derivatives above which the page goes without."""
+OPERATIONS = 3000
+"""Most operations of all derivatives; some 10 kB of page."""
 UNDECIDED = "The numbers may be poor here: near a dead centre, or friction may jam. Ask dalembert solve."
 ALWAYS = (
     "text",
@@ -143,16 +143,17 @@ def _gradient(k: Kernel, b: Boards, charts: Sequence[Tree]) -> Tree | None:
     wanted = sorted({n for h in handles(b, k) for end in h.get("ends", ()) for n in end["n"]})
     curves = [curve["row"] for chart in charts for curve in chart["curves"]]
     inputs = [k.number_nodes[n] for n in wanted]
-    while wanted and curves:
-        found = gradients(b.rows.graph, [b.rows.nodes[row] for row in curves], inputs)
-        nodes: list[Node] = [n for one in found for n in one]
-        program = plain(k, nodes, marked=False)
-        module = _module(program, LANES)
-        if len(module["wasm"]) * 3 // 4 <= GRADIENT:
-            fields = module | {"curves": curves, "numbers": wanted}
-            return {"fields": fields, "channels": program.inputs_in_use("channel")}
-        curves = curves[: len(curves) // 2]
-    return None
+    rows, nodes = list[int](), list[Node]()
+    for row in curves if wanted else ():
+        more = [*nodes, *gradients(b.rows.graph, [b.rows.nodes[row]], inputs)[0]]
+        if len(b.rows.graph.order(more)) > OPERATIONS:
+            break
+        rows, nodes = [*rows, row], more
+    if not nodes:
+        return None
+    program = plain(k, nodes, marked=False)
+    fields = _module(program, LANES) | {"curves": rows, "numbers": wanted}
+    return {"fields": fields, "channels": program.inputs_in_use("channel")}
 
 
 def _noise(b: Boards) -> Tree:

@@ -64,9 +64,6 @@ class SpaceBoards(Boards):
     def __init__(self, known: Result, rows: Rows, actions: Sequence[Action]) -> None:
         super().__init__(known, rows, actions, SpaceItems(rows.r, known, rows, Frame(1e-3)))
 
-    def _member(self, link: str) -> str:
-        return ""
-
     def _size(self, link: str) -> float:
         return self.frame.per_mm
 

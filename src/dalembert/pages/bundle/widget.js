@@ -1,793 +1,17 @@
-function e(e, t, n = {}) {
-	let r = document.createElementNS("http://www.w3.org/2000/svg", e);
-	for (let [e, t] of Object.entries(n)) r.setAttribute(e, String(t));
-	return t?.append(r), r;
-}
-function t(e, t, n = {}, r = "") {
-	let i = document.createElement(e);
-	for (let [e, t] of Object.entries(n)) i.setAttribute(e, String(t));
-	return r && (i.textContent = r), t?.append(i), i;
-}
-function n(e) {
-	let t = Math.round(100 * Math.abs(e)), n = Math.floor(t / 100), r = t % 100;
-	return (e < 0 && t ? "-" : "") + n + (r ? (r < 10 ? ".0" : ".") + r : "");
-}
-function r(e, t = !1) {
-	return e.length ? "M" + e.map(([e, t]) => n(e) + " " + n(t)).join("L") + (t ? "Z" : "") : "";
-}
-function i(e, t, r) {
-	e.setAttribute("transform", `translate(${n(t)} ${n(r)})`);
-}
-function a(e, t) {
-	let n = new DOMPoint(t.clientX, t.clientY).matrixTransform(e.getScreenCTM().inverse());
-	return [n.x, n.y];
-}
-function o(t, n, r) {
-	t.replaceChildren();
-	let i = !1;
-	for (let a of n.split(/(_\{[^}]*\})/)) {
-		if (!a) continue;
-		let n = a.startsWith("_{"), o = e("tspan", t, n ? { "font-size": .7 * r } : {});
-		o.textContent = n ? a.slice(2, -1) : a, n !== i && o.setAttribute("dy", String((n ? .25 : -.25) * r)), i = n;
-	}
-}
-var s = (e) => e.replace(/_\{([^}]*)\}/g, "$1"), c = null, l = /* @__PURE__ */ new Map();
-function u(e, t, n = !1) {
-	let r = `${n}${e}`, i = l.get(r);
-	if (i === void 0) {
-		c ??= document.createElement("canvas").getContext("2d"), c.font = `${n ? "bold " : ""}100px "DejaVu Sans", "Helvetica Neue", Arial, sans-serif`, i = 0;
-		for (let t of e.split(/(_\{[^}]*\})/)) {
-			let e = t.startsWith("_{");
-			i += c.measureText(e ? t.slice(2, -1) : t).width / 100 * (e ? .7 : 1);
-		}
-		l.set(r, i);
-	}
-	return i * t;
-}
-function d(t, n, r, i, a = "middle") {
-	let s = e("text", t, {
-		class: `l-${n}-t`,
-		"font-size": i,
-		"text-anchor": a
-	});
-	return o(s, r, i), s;
-}
-var f = class {
-	g;
-	shaft;
-	head;
-	constructor(t, n, r = "") {
-		this.g = e("g", t), r && (e("title", this.g).textContent = s(r)), this.shaft = e("path", this.g, {
-			class: `l-${n}`,
-			style: "fill:none"
-		}), this.head = e("path", this.g, { class: `l-${n}-h` });
-	}
-	set(e, t, n = .3) {
-		let i = t[0] - e[0], a = t[1] - e[1], o = Math.hypot(i, a), s = o > n && Number.isFinite(o);
-		if (this.g.setAttribute("display", s ? "inline" : "none"), !s) return !1;
-		let c = i / o, l = a / o, u = Math.min(3, .75 * o), d = .3 * u, f = [t[0] - u * c, t[1] - u * l];
-		return this.shaft.setAttribute("d", r([e, [t[0] - .8 * u * c, t[1] - .8 * u * l]])), this.head.setAttribute("d", r([
-			t,
-			[f[0] - d * l, f[1] + d * c],
-			[f[0] + d * l, f[1] - d * c]
-		], !0)), !0;
-	}
-};
-function p(e) {
-	let t = [...e].sort((e, t) => e[0] - t[0] || e[1] - t[1]), n = (e, t, n) => (t[0] - e[0]) * (n[1] - e[1]) - (t[1] - e[1]) * (n[0] - e[0]), r = (e) => {
-		let t = [];
-		for (let r of e) {
-			for (; t.length > 1 && n(t[t.length - 2], t[t.length - 1], r) <= .01;) t.pop();
-			t.push(r);
-		}
-		return t;
-	};
-	return [...r(t).slice(0, -1), ...r(t.reverse()).slice(0, -1)];
-}
-// src/labels.ts
-var m = [
-	[1, -1],
-	[-1, -1],
-	[1, 1],
-	[-1, 1],
-	[0, -1],
-	[1, 0],
-	[-1, 0],
-	[0, 1]
-], h = [
-	1,
-	1.9,
-	3,
-	4.5
-];
-function g(e, t, n, r) {
-	return {
-		el: d(e, t, n, r),
-		text: n,
-		size: r,
-		bold: t === "title",
-		choice: -1
-	};
-}
-var _ = class {
-	bounds;
-	texts = [];
-	discs = [];
-	lines = [];
-	constructor(e) {
-		this.bounds = e;
-	}
-	line(e, t) {
-		this.lines.push([e, t]);
-	}
-	disc(e, t) {
-		this.discs.push([
-			e[0] - t,
-			e[1] - t,
-			e[0] + t,
-			e[1] + t
-		]);
-	}
-	put(e) {
-		let t = e.label, n = u(t.text, t.size, t.bold) + .5, r = 1.1 * t.size + (t.text.includes("_") ? .3 * t.size : 0), a = e.leave ?? 1.2, o = e.away && Math.hypot(...e.away) || 1, s = Infinity, c = 0, l = [
-			0,
-			0,
-			0,
-			0
-		], d = 0;
-		for (let [i, u] of e.anchors) for (let f of h) for (let [p, h] of m) {
-			let m = a * f, g = i + p * (m + n / 2), _ = u + h * (m + r / 2), v = [
-				g - n / 2,
-				_ - r / 2,
-				g + n / 2,
-				_ + r / 2
-			], y = d % 32 * .12 + .2 * Math.floor(d / 32) - (d === t.choice ? .4 : 0);
-			e.away && (y += 1.2 * (1 - (p * e.away[0] + h * e.away[1]) / (Math.hypot(p, h) * o))), y < s && (y += this.cost(v)) < s && (s = y, c = d, l = v), d++;
-		}
-		t.choice = c, this.texts.push(l), i(t.el, (l[0] + l[2]) / 2, l[1] + .91 * t.size);
-	}
-	cost(e) {
-		let t = 0;
-		for (let n of this.texts) v(e, n) > 0 && (t += 60 + 5 * v(e, n));
-		for (let n of this.discs) v(e, n) > 0 && (t += 8 + v(e, n));
-		for (let [n, r] of this.lines) y(e, n, r) && (t += 6);
-		let [n, r, i, a] = this.bounds;
-		return (e[0] < n || e[1] < r || e[2] > i || e[3] > a) && (t += 20), t;
-	}
-};
-function v(e, t) {
-	let n = Math.min(e[2], t[2]) - Math.max(e[0], t[0]), r = Math.min(e[3], t[3]) - Math.max(e[1], t[1]);
-	return n > 0 && r > 0 ? n * r : 0;
-}
-function y(e, t, n) {
-	let r = 0, i = 1, a = [n[0] - t[0], n[1] - t[1]];
-	for (let n = 0; n < 2; n++) {
-		if (Math.abs(a[n]) < 1e-9) {
-			if (t[n] < e[n] || t[n] > e[n + 2]) return !1;
-			continue;
-		}
-		let o = (e[n] - t[n]) / a[n], s = (e[n + 2] - t[n]) / a[n];
-		r = Math.max(r, Math.min(o, s)), i = Math.min(i, Math.max(o, s));
-	}
-	return r < i;
-}
-// src/items.ts
-var b = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), x = class {
-	kernel;
-	perMm;
-	middle = [0, 0];
-	axes = [[1, 0], [0, 1]];
-	azimuth = -Math.PI / 3;
-	elevation = .45;
-	constructor(e, t, n) {
-		this.kernel = e, this.perMm = t, n && this.turn(0, 0);
-	}
-	turn(e, t) {
-		this.azimuth += e, this.elevation = Math.min(Math.max(this.elevation + t, -1.55), 1.55);
-		let n = Math.cos(this.azimuth), r = Math.sin(this.azimuth), i = Math.cos(this.elevation), a = Math.sin(this.elevation);
-		this.axes = [
-			[
-				-r,
-				n,
-				0
-			],
-			[
-				-a * n,
-				-a * r,
-				i
-			],
-			[
-				i * n,
-				i * r,
-				a
-			]
-		];
-	}
-	seen(e, t) {
-		return e.length < 3 ? [t(e[0]), t(e[1])] : [b(this.axes[0], e, t), b(this.axes[1], e, t)];
-	}
-	depth(e) {
-		return b(this.axes[2], e, (e) => this.kernel.here[e]);
-	}
-	here(e) {
-		return this.seen(e, (e) => this.kernel.here[e]);
-	}
-	point(e) {
-		return this.of(...this.here(e));
-	}
-	pointAt(e, t) {
-		return this.of(...this.seen(e, (e) => this.kernel.value(e, t)));
-	}
-	of(e, t) {
-		return [(e - this.middle[0]) / this.perMm, (this.middle[1] - t) / this.perMm];
-	}
-	project(e) {
-		return this.seen(e.map((e, t) => t), (t) => e[t]);
-	}
-	vector(e) {
-		return this.axes[0].map((t, n) => (e[0] * t - e[1] * this.axes[1][n]) * this.perMm);
-	}
-	metres(e) {
-		return [this.middle[0] + e[0] * this.perMm, this.middle[1] - e[1] * this.perMm];
-	}
-};
-function S(t, i, a) {
-	let o = a.kernel.here;
-	if (i.t === "symbol") {
-		let r = e("g", t, i.per_mm ? { class: "span" } : {});
-		return r.innerHTML = i.svg, {
-			update() {
-				let [e, t] = a.point(i.p), s = i.per_mm ? ` scale(${(i.per_mm / a.perMm).toFixed(4)})` : "", c = i.e ? ` rotate(${n(-Math.atan2(o[i.e[1]], o[i.e[0]]) * 180 / Math.PI)})` : "";
-				r.setAttribute("transform", `translate(${n(e)} ${n(t)})${c}${s}`);
-			},
-			mark: (e) => e.disc(a.point(i.p), 1.6)
-		};
-	}
-	if (i.t === "span") {
-		let r = e("g", t, { class: "span" });
-		return r.innerHTML = i.svg, {
-			update() {
-				let [[e, t], [o, s]] = i.p.map((e) => a.point(e)), c = Math.hypot(o - e, s - t), l = Math.atan2(s - t, o - e) * 180 / Math.PI;
-				r.setAttribute("transform", `translate(${n(e)} ${n(t)}) rotate(${n(l)}) scale(${(c / i.length).toFixed(4)} 1)`);
-			},
-			mark: (e) => e.line(a.point(i.p[0]), a.point(i.p[1]))
-		};
-	}
-	if (i.t === "circle") {
-		let r = e("circle", t, { class: `l-${i.role}` });
-		return { update() {
-			let [e, t] = a.point(i.p);
-			r.setAttribute("cx", n(e)), r.setAttribute("cy", n(t)), r.setAttribute("r", n(Math.abs(o[i.r]) / a.perMm));
-		} };
-	}
-	if (i.t === "pair") return C(t, i, a);
-	let s = e("path", t, {
-		class: `l-${i.role}`,
-		style: "fill:none"
-	});
-	if (i.t === "trace") return { update: () => s.setAttribute("d", w(a.kernel, (e) => a.pointAt(i.p[0], e), !0)) };
-	i.t === "hull" && (s.dataset.link = i.link);
-	let c = [], l = !1;
-	return {
-		update() {
-			let e = i.p.map((e) => a.point(e)), t = i.t === "hull" ? p(e) : e;
-			l = i.t === "hull" && t.length > 2, c = l ? t : e, i.t === "hull" && s.setAttribute("class", l ? "l-link-area" : "l-link"), s.style.fill = l ? "" : "none", s.setAttribute("d", r(c, l));
-		},
-		mark(e) {
-			c.forEach((t, n) => (n || l) && e.line(c.at(n - 1), t));
-		}
-	};
-}
-function C(t, r, i) {
-	let a = e("g", t), o = r.fixed ? "support" : "block", s = e("path", a, { class: `l-${o}` }), c = e("path", a, { class: `l-${r.shape === "ball" ? o : "pin"}` }), l = r.shape === "block" ? 4.2 : 3.4, u = r.shape === "block" ? 2.2 : 1.7;
-	return {
-		update() {
-			let [e, t] = i.point(r.p), [o, d] = i.here(r.e), f = i.depth(r.e);
-			if (a.setAttribute("transform", `translate(${n(e)} ${n(t)}) rotate(${n(-Math.atan2(d, o) * 180 / Math.PI)})`), r.shape === "ball") return s.setAttribute("d", `M${u} 0A${u} ${u} 0 1 0 ${-u} 0A${u} ${u} 0 1 0 ${u} 0Z`);
-			let p = l * Math.hypot(o, d), m = u * Math.abs(f), h = f >= 0 ? p : -p;
-			r.shape === "round" ? (s.setAttribute("d", `M${n(-p)} ${-u}L${n(p)} ${-u}A${n(m)} ${u} 0 0 1 ${n(p)} ${u}L${n(-p)} ${u}A${n(m)} ${u} 0 0 1 ${n(-p)} ${-u}Z`), c.setAttribute("d", `M${n(h + m)} 0A${n(m)} ${u} 0 1 0 ${n(h - m)} 0A${n(m)} ${u} 0 1 0 ${n(h + m)} 0Z`)) : (s.setAttribute("d", `M${n(-p - m)} ${-u}H${n(p + m)}V${u}H${n(-p - m)}Z`), c.setAttribute("d", `M${n(h - m)} ${-u}H${n(h + m)}V${u}H${n(h - m)}Z`));
-		},
-		mark: (e) => e.disc(i.point(r.p), 2.4)
-	};
-}
-function w(e, t, r = !1) {
-	let i = r && e.cyclic ? e.count : e.count - 1, a = "", o = !1;
-	for (let r = 0; r <= i; r++) {
-		let i = r % e.count, s = !!e.good[i];
-		if (s) {
-			let [e, r] = t(i);
-			a += (o ? "L" : "M") + n(e) + " " + n(r);
-		}
-		o = s;
-	}
-	return a;
-}
-function T(e, t, n, r, i) {
-	return t.t === "couple" ? k(e, t, n) : D(e, t, n, r, i);
-}
-var E = 13;
-function D(e, t, n, r, i) {
-	let a = new f(e, t.role, t.name), o = t.t === "force" ? null : new f(e, t.role), s = t.t === "force" ? t.f : t.m, c = g(e, t.role, t.name, 3.4), l = [0, 0], u = [0, 0], d = [0, 0], p = !1;
-	return {
-		label: c,
-		update() {
-			let e = n.point(t.p), [f, m] = n.here(s), h = o ? Math.hypot(...s.map((e) => n.kernel.here[e])) / E || 1 : r(), g = [f / h, -m / h], _ = !1;
-			if (i && i.length > 1 && !o) {
-				let t = i.map((e) => n.point(e)), r = [0, 1].map((e) => t.reduce((t, n) => t + n[e], 0) / t.length);
-				_ = g[0] * (r[0] - e[0]) + g[1] * (r[1] - e[1]) > 1e-9;
-			}
-			[l, u] = _ ? [[e[0] - g[0], e[1] - g[1]], e] : [e, [e[0] + g[0], e[1] + g[1]]], d = _ ? l : u, p = a.set(l, u), o?.set(l, [l[0] + .78 * (u[0] - l[0]), l[1] + .78 * (u[1] - l[1])]), c.el.setAttribute("visibility", p ? "visible" : "hidden");
-		},
-		mark: (e) => p && e.line(l, u),
-		anchor() {
-			if (!p) return null;
-			let e = d === l ? u : l, t = [d[0] - e[0], d[1] - e[1]];
-			return [
-				d,
-				[d[0] - .35 * t[0], d[1] - .35 * t[1]],
-				t
-			];
-		}
-	};
-}
-var O = 4.6;
-function k(t, r, i) {
-	let a = i.kernel.here, o = e("g", t), c = g(t, r.role, r.name, 3.4);
-	e("title", o).textContent = s(r.name), e("path", o, {
-		class: `l-${r.role}`,
-		style: "fill:none",
-		d: "M4.17 1.94A4.6 4.6 0 1 0 -4.17 1.94"
-	}), e("path", o, {
-		class: `l-${r.role}-h`,
-		d: "M-4.17 2.9L-5.6 -0.1L-3 0.3Z"
-	});
-	let l = !1;
-	return {
-		label: c,
-		update() {
-			let [e, t] = i.point(r.p), s = a[r.m[0]];
-			l = Number.isFinite(s) && Math.abs(s) > 1e-9, o.setAttribute("display", l ? "inline" : "none"), c.el.setAttribute("visibility", l ? "visible" : "hidden"), o.setAttribute("transform", `translate(${n(e)} ${n(t)}) scale(${s < 0 ? -1 : 1} 1)`);
-		},
-		mark(e) {
-			l && e.disc(i.point(r.p), O * .7);
-		},
-		anchor() {
-			let [e, t] = i.point(r.p);
-			return l ? [[e, t - O], [0, -1]] : null;
-		}
-	};
-}
-// src/board.ts
-var A = [
-	1,
-	1.25,
-	1.5,
-	2,
-	2.5,
-	3,
-	4,
-	5,
-	6,
-	8,
-	10
-];
-function j(e) {
-	if (!(e > 0) || !Number.isFinite(e)) return 1;
-	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
-	return t * (A.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
-}
-function M(e) {
-	let t = (e) => [Math.min(...e), Math.max(...e)], n = t(e.map((e) => e[0])), r = t(e.map((e) => e[1]));
-	return Number.isFinite(n[0] + n[1] + r[0] + r[1]) ? {
-		x: n,
-		y: r
-	} : null;
-}
-var N = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
-function P(e, t) {
-	let n = e.kernel, r = Math.max(1, Math.floor(n.count / 72)), i = [];
-	for (let a of t.items.flatMap(N)) for (let t = 0; t < n.count; t += r) n.good[t] && i.push(e.seen(a, (e) => n.value(e, t)));
-	return M(i);
-}
-var F = (e) => e.items.some((e) => e.t === "pair");
-function I(e, t, n) {
-	let r = P(new x(e, 1, F(t)), t), i = r ? (r.y[1] - r.y[0]) / (r.x[1] - r.x[0]) : NaN;
-	return Number.isFinite(i) ? Math.min(Math.max(n * i * 1.05, 96), 150) : 120;
-}
-function L(t, n, r, i) {
-	return e("svg", t, {
-		viewBox: `${-n / 2} ${-r / 2} ${n} ${r}`,
-		role: "group",
-		"aria-label": i
-	});
-}
-function ee(t, n, r, i, a, o, s, c) {
-	let l = {
-		length: s.length.size,
-		force: s.force.size
-	}, u = L(t, a, o, c), d = new x(n, r.per_mm, F(r)), f = [], p = [], m = r.force;
-	r.middle && (d.middle = r.middle);
-	let h = e("g", u), v = e("g", u), y = e("g", u);
-	for (let e of r.items) (e.t === "trace" ? f : p).push(S(h, e, d));
-	let b = r.arrows.map((e) => T(v, e, d, () => m, i ?? void 0)), C = r.labels.map((e) => ({
-		l: g(y, e.role, e.text, e.kind === "joint" ? 3.8 : 3.3),
-		p: e.p,
-		q: e.q
-	})), w = e("text", y, {
-		class: "l-note-t",
-		"font-size": 2.8,
-		x: -a / 2 + 2,
-		y: o / 2 - 2
-	});
-	function E(e) {
-		e && (d.middle = [(e.x[0] + e.x[1]) / 2, (e.y[0] + e.y[1]) / 2]);
-	}
-	function D() {
-		let e = i ? M(i.map((e) => d.here(e))) : P(d, r);
-		if (e) {
-			let t = i ? [46, 40] : [a * .76, o * .74], n = Math.max((e.x[1] - e.x[0]) / t[0], (e.y[1] - e.y[0]) / t[1]) || r.per_mm;
-			E(e), d.perMm = j(n / l.length) * l.length;
-		}
-		let t = Math.max(0, ...r.arrows.map((e) => e.t === "force" ? n.largest((t) => Math.hypot(...e.f.map((e) => n.value(e, t)))) : 0));
-		t > 0 && (m = j(t / (i ? 26 : 22) / l.force) * l.force);
-	}
-	function O() {
-		let e = new _([
-			-a / 2,
-			-o / 2,
-			a / 2,
-			o / 2 - 4
-		]);
-		for (let t of [...p, ...b]) t.mark?.(e);
-		for (let { l: t, p: n, q: r } of C) {
-			let i = k.names || !!r;
-			if (t.el.setAttribute("visibility", i ? "visible" : "hidden"), !i) continue;
-			let a = d.point(n), o = r ? d.point(r) : a, s = (r ? [
-				.5,
-				.35,
-				.65
-			] : [0]).map((e) => [a[0] + e * (o[0] - a[0]), a[1] + e * (o[1] - a[1])]);
-			e.put({
-				label: t,
-				anchors: s,
-				away: r ? void 0 : a,
-				leave: r ? .8 : 1.3
-			});
-		}
-		for (let t of b) {
-			let r = n.solved ? t.anchor() : null;
-			r ? e.put({
-				label: t.label,
-				anchors: r.slice(0, -1),
-				away: r[r.length - 1],
-				leave: .9
-			}) : t.label.el.setAttribute("visibility", "hidden");
-		}
-	}
-	let k = {
-		svg: u,
-		paper: d,
-		fit: D,
-		force: () => m,
-		names: r.labels.filter((e) => e.kind === "joint").length <= 8,
-		update(e) {
-			if (e && f.forEach((e) => e.update()), v.setAttribute("visibility", n.solved ? "visible" : "hidden"), n.finite) {
-				i && E(M(i.map((e) => d.here(e))));
-				for (let e of [...p, ...b]) e.update();
-				O(), w.textContent = `1 mm = ${+(d.perMm / l.length).toPrecision(4)} ${s.length.unit}, ${+(m / l.force).toPrecision(4)} ${s.force.unit}`;
-			}
-		}
-	};
-	return k;
-}
-// src/charts.ts
-var R = 120, z = 5, te = 8, B = 4;
-function V(e, t) {
-	let n = e / t || 1, r = 10 ** Math.floor(Math.log10(n));
-	return r * ([
-		1,
-		2,
-		5,
-		10
-	].find((e) => e * r >= n) ?? 10);
-}
-function H(e, t, n) {
-	let r = Math.ceil(e / n - 1e-9), i = Math.floor(t / n + 1e-9) - r + 1;
-	return Array.from({ length: Math.max(i, 0) }, (e, t) => (r + t) * n);
-}
-var U = (e, t = 4) => Number.isFinite(e) ? String(+e.toPrecision(t)).replace("-", "−") : "–";
-function ne(r, i, s, c, l) {
-	let d = t("figure", r, { class: "chart" }), f = i.units[c.kind];
-	t("figcaption", d, {}, `${c.title}, ${f.unit}`);
-	let p = Math.min(Math.max(...c.curves.map((e) => u(e.name, 3))) + 4, 36), m = Math.max(52, 13 + B * c.curves.length), h = L(d, R, m, c.title), g = 104 - p, _ = m - z - te, v = -m / 2 + z, y = e("path", h, {
-		class: "l-grid",
-		style: "fill:none"
-	}), b = e("path", h, {
-		class: "l-axis",
-		style: "fill:none"
-	}), x = e("g", h), S = c.curves.map((t) => e("path", h, {
-		class: `l-${t.role}`,
-		style: "fill:none"
-	})), C = e("path", h, { class: "cursor" }), T = c.curves.map((t) => e("circle", h, {
-		class: `l-${t.role}-h`,
-		r: .9
-	})), E = Math.max(s.count - 1, 1), D = i.noise[c.kind] ?? 0, O = c.curves.map((t, n) => {
-		let r = e("text", h, {
-			class: `l-${t.role}-t key`,
-			"font-size": 3,
-			x: -44 + g + 2,
-			y: v + 3 + B * n,
-			tabindex: 0,
-			role: "button"
-		});
-		return o(r, t.name, 3), e("title", r).textContent = "show what lowers its peak", r.addEventListener("click", () => l.pick(t)), r.addEventListener("keydown", (e) => e.key === "Enter" && l.pick(t)), r;
-	}), k = (e, t) => {
-		let n = s.value(e.row, t) / f.size;
-		return Math.abs(n) * f.size < D ? 0 : n;
-	}, A = NaN, j = NaN, M = (e) => -44 + e / E * g, N = (e) => v + _ - (e - A) / (j - A) * _;
-	function P() {
-		let [e, t] = [Infinity, -Infinity];
-		for (let n of c.curves) for (let r = 0; r < s.count; r++) if (s.good[r]) {
-			let i = k(n, r);
-			e = Math.min(e, i), t = Math.max(t, i);
-		}
-		e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]);
-		let n = V(t - e, 4);
-		return [e, t] = [Math.floor(e / n + 1e-9) * n, Math.ceil(t / n - 1e-9) * n], e === A && t === j ? !1 : ([A, j] = [e, t], !0);
-	}
-	function F() {
-		let t = i.drives[0], r = V(j - A, 4), a = (t, n, r, i) => e("text", x, {
-			class: "l-note-t",
-			"font-size": 2.6,
-			"text-anchor": i,
-			x: n,
-			y: r
-		}).textContent = t;
-		x.replaceChildren();
-		let o = "";
-		for (let e of H(A, j, r)) o += `M-44 ${n(N(e))}h${g}`, a(U(e, 5), -45.2, N(e) + .9, "end");
-		if (t) {
-			let [e, r] = [0, E].map((e) => s.position(t.name, e) / t.size);
-			for (let i of H(Math.min(e, r), Math.max(e, r), V(Math.abs(r - e), 5))) {
-				let s = -44 + (i - e) / (r - e || 1) * g;
-				o += `M${n(s)} ${v}v${_}`, a(U(i, 5) + (t.unit === "°" ? "°" : ""), s, v + _ + 3.4, "middle");
-			}
-			a(`${t.name}, ${t.unit}`, -44 + g, v + _ + 6.6, "end");
-		}
-		y.setAttribute("d", o), b.setAttribute("d", `M-44 ${v}v${_}` + (A < 0 && j > 0 ? `M-44 ${n(N(0))}h${g}` : ""));
-	}
-	let I = (e) => l.seek((a(h, e)[0] - -44) / g * E);
-	return h.addEventListener("pointerdown", (e) => {
-		e.target.closest(".key") || (h.setPointerCapture(e.pointerId), I(e));
-	}), h.addEventListener("pointermove", (e) => e.buttons && h.hasPointerCapture(e.pointerId) && I(e)), { update(e) {
-		e && (P() && F(), S.forEach((e, t) => e.setAttribute("d", w(s, (e) => [M(e), N(k(c.curves[t], e))]))));
-		let t = n(M(Math.min(l.time(), E)));
-		C.setAttribute("d", `M${t} ${v}v${_}`), c.curves.forEach((e, r) => {
-			T[r].setAttribute("visibility", s.solved ? "visible" : "hidden"), s.solved && (T[r].setAttribute("cx", t), T[r].setAttribute("cy", n(N(s.here[e.row] / f.size)))), O[r].classList.toggle("picked", l.picked() === e);
-		});
-	} };
-}
-function re(n, r, i, a) {
-	let o = t("figure", n, { class: "polar" }), [s, c] = i.f, l = t("figcaption", o), u = L(o, 66, 66, `polar diagram of joint ${i.name}`);
-	e("path", u, {
-		class: "l-grid",
-		style: "fill:none",
-		d: "M-30 0H30M0 -30V30M15 0A15 15 0 1 0 -15 0A15 15 0 1 0 15 0M30 0A30 30 0 1 0 -30 0A30 30 0 1 0 30 0"
-	});
-	let d = e("path", u, {
-		class: `l-${i.role}`,
-		style: "fill:none"
-	}), p = new f(u, "joint-force", i.name), m = 1;
-	return { update(e) {
-		e && (m = j(r.largest((e) => Math.hypot(r.value(s, e), r.value(c, e))) / 28 / a.size) * a.size, d.setAttribute("d", w(r, (e) => [r.value(s, e) / m, -r.value(c, e) / m], !0)), l.textContent = `Joint ${i.name}: 1 mm = ${U(m / a.size)} ${a.unit}`), p.set([0, 0], r.solved ? [r.here[s] / m, -r.here[c] / m] : [0, 0]);
-	} };
-}
-function ie(n, i, a, o, s) {
-	let c = t("figure", n, { class: "polygon" }), l = i.units.force;
-	t("figcaption", c, {}, o);
-	let u = L(c, 110, 80, o), d = e("g", u), p = /* @__PURE__ */ new Set(), m = s.map(({ sides: e }) => {
-		let t = e.find((e) => e.kind === "joint" && p.has(e.of));
-		for (let t of e) t.kind === "joint" && p.add(t.of);
-		return {
-			shared: t,
-			drawn: e.filter((e) => e !== t).map((e) => ({
-				s: e,
-				arrow: new f(u, e.role, e.name),
-				name: g(d, e.role, e.name, 3)
-			}))
-		};
-	}), h = e("path", u, {
-		class: "l-gap",
-		style: "fill:none"
-	}), v = e("text", u, {
-		class: "l-note-t",
-		"font-size": 2.8,
-		x: -53,
-		y: 38
-	});
-	return {
-		figure: c,
-		update() {
-			if (u.setAttribute("visibility", a.solved ? "visible" : "hidden"), !a.solved) return;
-			let e = a.here, t = /* @__PURE__ */ new Map(), n = [], i = [], o = m.flatMap(({ shared: r, drawn: a }) => {
-				let o = M(n)?.y[1] ?? 0, s = t.get(r?.of ?? "") ?? [0, o], c = (t) => [s[0] + e[t[0]], s[1] - e[t[1]]], l = s;
-				r && (s = c(r.f));
-				let u = a.map((e) => {
-					let r = s;
-					return s = c(e.s.f), e.s.kind === "joint" && !t.has(e.s.of) && t.set(e.s.of, s), n.push(r, s), {
-						...e,
-						from: r,
-						to: s
-					};
-				});
-				return i.push([l, s]), u;
-			}), s = M(n) ?? {
-				x: [0, 0],
-				y: [0, 0]
-			}, c = j(Math.max((s.x[1] - s.x[0]) / 66, (s.y[1] - s.y[0]) / 48) / l.size) * l.size, d = ([e, t]) => [(e - (s.x[0] + s.x[1]) / 2) / c, (t - (s.y[0] + s.y[1]) / 2) / c], f = new _([
-				-55,
-				-40,
-				55,
-				36
-			]);
-			for (let { from: e, to: t } of o) f.line(d(e), d(t));
-			for (let { arrow: e, name: t, from: n, to: r } of o) {
-				let [i, a] = [d(n), d(r)], o = e.set(i, a), s = [(i[0] + a[0]) / 2, (i[1] + a[1]) / 2];
-				t.el.setAttribute("visibility", o ? "visible" : "hidden"), o && f.put({
-					label: t,
-					anchors: [s],
-					away: s,
-					leave: .9
-				});
-			}
-			h.setAttribute("d", i.map(([e, t]) => r([d(e), d(t)])).join("")), v.textContent = `1 mm = ${U(c / l.size)} ${l.unit}`;
-		}
-	};
-}
-// src/handles.ts
-function ae(t, n, r, i) {
-	let a = e("g", t.svg, { class: "handles" }), o = n.handles.map((e) => se(a, t, e, r, i));
-	return ce(t, n, r, i), () => r.finite && o.forEach((e) => e());
-}
-var W = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
-function oe(e, t, n, r, [i, a]) {
-	let o = e.values, s = new Float64Array(e.here.length), c = o.slice(), l = () => {
-		e.other(c, s);
-		let r = t.seen(n, (e) => s[e]), o = [i - r[0], a - r[1]];
-		return Number.isFinite(o[0] + o[1]) ? o : null;
-	};
-	for (let e = 0; e < 4; e++) {
-		c.set(o);
-		let e = l();
-		if (!e) return;
-		let t = r.map((t) => {
-			let n = 1e-6 * (Math.abs(o[t]) || 1);
-			c[t] = o[t] + n;
-			let r = l();
-			return c[t] = o[t], r ? [(e[0] - r[0]) / n, (e[1] - r[1]) / n] : [0, 0];
-		}), n = r.map((e) => Math.abs(o[e]) || 1), i = 0, a = 0, s = 0;
-		t.forEach(([e, t], r) => (i += (e * n[r]) ** 2, a += e * t * n[r] ** 2, s += (t * n[r]) ** 2));
-		let u = 1e-9 * (i + s) + 1e-300, d = (i + u) * (s + u) - a * a, f = [((s + u) * e[0] - a * e[1]) / d, ((i + u) * e[1] - a * e[0]) / d];
-		for (let i = 1; i > .05; i /= 2) {
-			r.forEach((e, r) => c[e] = o[e] + i * n[r] ** 2 * (t[r][0] * f[0] + t[r][1] * f[1]));
-			let a = l();
-			if (a && Math.hypot(...a) < Math.hypot(...e)) {
-				r.forEach((e) => o[e] = c[e]);
-				break;
-			}
-		}
-	}
-}
-function se(t, r, i, o, s) {
-	let c = `${{
-		joint: "joint",
-		point: "point",
-		center: "",
-		load: "force",
-		direction: "direction of"
-	}[i.kind]} ${i.name}`.trim(), l = e("circle", t, {
-		class: `handle ${i.kind}`,
-		r: i.kind === "joint" ? 2.6 : 2,
-		tabindex: 0,
-		role: "slider",
-		"aria-label": `move ${c}`,
-		"aria-valuetext": c,
-		"aria-valuenow": 0,
-		"data-kind": i.kind,
-		"data-name": i.name
-	});
-	e("title", l).textContent = `drag ${c}`;
-	let u = r.paper, d = o.values, f = (e) => e.map((e) => o.here[e]), p = [], m = [], h = [0, 0], g = [], _ = [0, 0], v = !1, y = () => {
-		let e = u.point(i.p), t = "f" in i ? u.here(i.f) : "along" in i ? u.here(i.along) : [0, 0], n = i.kind === "direction" ? 16 : 1 / r.force();
-		return [e[0] + n * t[0], e[1] - n * t[1]];
-	}, b = () => {
-		let e = (e, t) => ({
-			axes: e.map(f),
-			at: f(t)
-		});
-		p = "ends" in i ? i.ends.map((t) => e(t.axes, t.at)) : [e(i.axes, i.p)], [m, h, g, v] = [
-			f(i.p),
-			y(),
-			"f" in i ? f(i.f) : [],
-			!0
-		];
-	}, x = (e) => u.vector([e[0] - h[0], e[1] - h[1]]), S = (e) => {
-		if ("by" in i && i.by) oe(o, u, i.p, i.by, u.metres(e));
-		else if ("ends" in i) C(i.ends, x(e));
-		else if (i.kind === "direction") {
-			let t = u.point(i.p), n = [e[0] - t[0], t[1] - e[1]], [r, a] = p[0].axes.map((e) => W(e, n));
-			d[i.direction] = G(Math.atan2(a, r), d[i.direction]);
-		} else w(i, x(e).map((e, t) => g[t] + e / u.perMm * r.force()));
-		s.changed();
-	}, C = (e, t) => e.forEach((e, n) => {
-		let r = m.map((e, r) => e + t[r] - p[n].at[r]);
-		e.n.forEach((e, t) => d[e] = W(p[n].axes[t], r));
-	}), w = (e, t) => {
-		let n = p[0].axes.map((e) => W(e, t));
-		if (e.components) return e.components.forEach((e, t) => d[e] = n[t]);
-		let r = Math.sign(d[e.size]) || 1;
-		e.direction === void 0 ? d[e.size] = r * W(t, g) / (Math.hypot(...g) || 1) : (d[e.direction] = G(Math.atan2(r * n[1], r * n[0]), d[e.direction]), d[e.size] = r * Math.hypot(...n));
-	}, T = () => {
-		v && s.finished(), v = !1;
-	};
-	return l.addEventListener("pointerdown", (e) => {
-		e.stopPropagation(), l.setPointerCapture(e.pointerId), b();
-		let t = a(r.svg, e);
-		_ = [h[0] - t[0], h[1] - t[1]];
-	}), l.addEventListener("pointermove", (e) => {
-		let t = a(r.svg, e);
-		v && S([t[0] + _[0], t[1] + _[1]]);
-	}), l.addEventListener("pointerup", T), l.addEventListener("pointercancel", T), l.addEventListener("keydown", (e) => {
-		let t = {
-			ArrowLeft: [-1, 0],
-			ArrowRight: [1, 0],
-			ArrowUp: [0, -1],
-			ArrowDown: [0, 1]
-		};
-		if (!t[e.key]) return;
-		e.preventDefault(), e.stopPropagation(), b();
-		let n = e.shiftKey ? 5 : 1;
-		S([h[0] + n * t[e.key][0], h[1] + n * t[e.key][1]]), T();
-	}), () => {
-		if (i.kind === "direction" && v) return;
-		let [e, t] = y();
-		l.setAttribute("visibility", Number.isFinite(e + t) ? "visible" : "hidden"), l.setAttribute("cx", n(e)), l.setAttribute("cy", n(t));
-	};
-}
-var G = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI));
-function ce(e, t, n, r) {
-	let i = t.drives[0];
-	if (!i || n.count < 2 || !(i.turns || i.along) || i.p.length > 2) return;
-	let o = 0, s = 0, c = !1, l = (t) => {
-		let n = a(e.svg, t), r = e.paper.point(i.p);
-		return i.along ? W(e.paper.metres(n), e.paper.here(i.along)) : Math.atan2(r[1] - n[1], n[0] - r[0]);
-	};
-	e.svg.addEventListener("pointerdown", (t) => {
-		t.target.closest("[data-link]")?.dataset.link === i.link && (e.svg.setPointerCapture(t.pointerId), [o, s, c] = [
-			l(t),
-			r.time(),
-			!0
-		]);
-	}), e.svg.addEventListener("pointermove", (e) => {
-		if (!c) return;
-		let t = (n.position(i.name, n.count - 1) - n.position(i.name, 0)) / (n.count - 1), a = l(e), u = s + (i.turns ? G(a - o, 0) : a - o) / t;
-		n.cyclic && (u = (u % n.count + n.count) % n.count), [o, s] = [a, u], r.seek(u);
-	}), e.svg.addEventListener("pointerup", () => c = !1);
-}
 // src/kernel.ts
-function K(e) {
+function e(e) {
 	return Uint8Array.from(atob(e), (e) => e.charCodeAt(0));
 }
-function q(e) {
-	if (typeof e == "string") return new Float64Array(K(e).buffer);
-	let t = (e.to - e.from) / Math.max(e.count - 1, 1);
-	return Float64Array.from({ length: e.count }, (n, r) => r === e.count - 1 ? e.to : e.from + r * t);
+function t(t) {
+	if (typeof t == "string") return new Float64Array(e(t).buffer);
+	let n = (t.to - t.from) / Math.max(t.count - 1, 1);
+	return Float64Array.from({ length: t.count }, (e, r) => r === t.count - 1 ? t.to : t.from + r * n);
 }
-async function le(e) {
-	let t = new Blob([K(e)]).stream().pipeThrough(new DecompressionStream("deflate"));
-	return new Response(t).arrayBuffer();
+async function n(t) {
+	let n = new Blob([e(t)]).stream().pipeThrough(new DecompressionStream("deflate"));
+	return new Response(n).arrayBuffer();
 }
-var J = class e {
+var r = class e {
 	run;
 	values;
 	path;
@@ -804,19 +28,19 @@ var J = class e {
 		for (let e of i) this.places.push(a), a = a + 8 * e + 15 & -16;
 		a > t.buffer.byteLength && t.grow(Math.ceil((a - t.buffer.byteLength) / 65536)), [this.values, this.path, this.out] = i.map((e, n) => new Float64Array(t.buffer, this.places[n], e));
 	}
-	static async create(t, n) {
-		let { instance: r } = await WebAssembly.instantiate(await le(t.wasm)), { memory: i, run: a } = r.exports;
-		return new e(a, i, t, n);
+	static async create(t, r) {
+		let { instance: i } = await WebAssembly.instantiate(await n(t.wasm)), { memory: a, run: o } = i.exports;
+		return new e(o, a, t, r);
 	}
 	call(e) {
 		this.run(this.places[0], this.places[1], this.places[2], Math.ceil(e / 2));
 	}
-}, ue = class {
+}, i = class {
 	table;
 	breaks;
 	pieces;
 	constructor(e) {
-		this.table = e, this.breaks = q(e.breaks), this.pieces = q(e.pieces);
+		this.table = e, this.breaks = t(e.breaks), this.pieces = t(e.pieces);
 	}
 	at(e) {
 		let { breaks: t, pieces: n } = this, r = t.length - 1, { period: i, order: a } = this.table, o = t[0], s = i ? o + ((e - o) % i + i) % i : Math.min(Math.max(e, o), t[r]), c = 0, l = r - 1;
@@ -828,7 +52,7 @@ var J = class e {
 		for (let e = 0; e < a; e++) u = u * (s - t[c]) + n[e * r + c];
 		return u;
 	}
-}, de = class e {
+}, a = class e {
 	data;
 	whole;
 	one;
@@ -843,23 +67,23 @@ var J = class e {
 	values;
 	positions;
 	channels;
-	constructor(e, t, n, r) {
-		this.data = e, this.whole = t, this.one = n, this.slope = r, this.count = e.kernel.count, this.row = e.kernel.row, this.values = t.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = t.out, this.good = new Uint8Array(this.count), this.here = new Float64Array(e.kernel.outputs + 1), this.positions = new Map(e.drives.map((e) => [e.name, q(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
-			values: q(e.values),
-			pieces: e.table && new ue(e.table),
+	constructor(e, n, r, a) {
+		this.data = e, this.whole = n, this.one = r, this.slope = a, this.count = e.kernel.count, this.row = e.kernel.row, this.values = n.values, this.values.set(e.numbers.map((e) => e.value)), this.rows = n.out, this.good = new Uint8Array(this.count), this.here = new Float64Array(e.kernel.outputs + 1), this.positions = new Map(e.drives.map((e) => [e.name, t(e.position)])), this.channels = new Map(e.channels.map((e) => [e.name, {
+			values: t(e.values),
+			pieces: e.table && new i(e.table),
 			drive: e.table ? e.table.drive : e.name.replace(/^position /, "")
-		}])), e.kernel.channels.forEach((e, n) => {
+		}])), e.kernel.channels.forEach((e, t) => {
 			let r = this.channels.get(e).values;
-			for (let e = 0; e < this.row; e++) t.path[n * this.row + e] = r[Math.min(e, this.count - 1)];
+			for (let e = 0; e < this.row; e++) n.path[t * this.row + e] = r[Math.min(e, this.count - 1)];
 		}), this.cyclic = !e.only_at_positions && e.drives.some((e) => e.turns && this.closes(e.name));
 	}
 	static async create(t) {
-		let n = t.numbers.length, [r, i, a] = await Promise.all([
-			J.create(t.kernel, n),
-			J.create(t.kernel, n),
-			t.gradient ? J.create(t.gradient, n) : void 0
+		let n = t.numbers.length, [i, a, o] = await Promise.all([
+			r.create(t.kernel, n),
+			r.create(t.kernel, n),
+			t.gradient ? r.create(t.gradient, n) : void 0
 		]);
-		return new e(t, r, i, a);
+		return new e(t, i, a, o);
 	}
 	closes(e) {
 		let t = this.positions.get(e);
@@ -930,58 +154,836 @@ var J = class e {
 		for (let n = 0; n < this.count; n++) this.good[n] && (t = Math.max(t, e(n)));
 		return t;
 	}
-}, fe = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.35em .8em;position:sticky;top:0}.dalembert h1{margin:0;font-size:1.15em;display:inline}.dalembert .bar{flex-wrap:wrap;align-items:center;gap:.5em;margin-top:.25em;display:flex}.dalembert .bar input{min-width:8em;accent-color:var(--accent);flex:1}.dalembert .readout{font-variant-numeric:tabular-nums;min-width:9em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);min-height:1.45em;margin:.1em 0 0;font-size:.92em}.dalembert main{grid-template-columns:minmax(0,7fr) minmax(0,5fr);align-items:start;gap:.8em;padding:.8em;display:grid}.dalembert .stage{position:sticky;top:6.2em}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .stage svg{touch-action:none;max-height:calc(100vh - 9em)}.dalembert .cloud{pointer-events:none;width:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;gap:1em;font-size:.9em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=number]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-link]{cursor:pointer}.dalembert.unsolved svg:not(.chart svg){opacity:.3}@media (max-width:800px){.dalembert main{grid-template-columns:minmax(0,1fr)}.dalembert .stage{position:static}.dalembert .polar{width:100%}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert summary~div>button,.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}";
-// src/panels.ts
-function Y(e, n, r = !1) {
-	let i = t("details", e, { class: "panel" });
-	return i.open = r, t("summary", i, {}, n), t("div", i);
+}, o = "http://www.w3.org/2000/svg";
+function s(e, t, n = {}) {
+	let r = document.createElementNS(o, e);
+	for (let [e, t] of Object.entries(n)) r.setAttribute(e, String(t));
+	return t?.append(r), r;
 }
-function pe(e, n, r, i) {
-	let a = [], o = /* @__PURE__ */ new Map(), s = (n) => {
-		let r = o.get(n);
-		if (!r) {
-			let i = t("fieldset", e);
-			t("legend", i, {}, n), o.set(n, r = i);
+function c(e, t, n = {}, r = "") {
+	let i = document.createElement(e);
+	for (let [e, t] of Object.entries(n)) i.setAttribute(e, String(t));
+	return r && (i.textContent = r), t?.append(i), i;
+}
+function l(e) {
+	let t = Math.round(100 * Math.abs(e)), n = Math.floor(t / 100), r = t % 100;
+	return (e < 0 && t ? "-" : "") + n + (r ? (r < 10 ? ".0" : ".") + r : "");
+}
+function u(e, t = !1) {
+	return e.length ? "M" + e.map(([e, t]) => l(e) + " " + l(t)).join("L") + (t ? "Z" : "") : "";
+}
+function d(e, t, n) {
+	e.setAttribute("transform", `translate(${l(t)} ${l(n)})`);
+}
+function f(e, t) {
+	let n = new DOMPoint(t.clientX, t.clientY).matrixTransform(e.getScreenCTM().inverse());
+	return [n.x, n.y];
+}
+function p(e, t, n) {
+	e.replaceChildren();
+	let r = !1;
+	for (let i of t.split(/(_\{[^}]*\})/)) {
+		if (!i) continue;
+		let t = i.startsWith("_{"), a = s("tspan", e, t ? { "font-size": .7 * n } : {});
+		a.textContent = t ? i.slice(2, -1) : i, t !== r && a.setAttribute("dy", String((t ? .25 : -.25) * n)), r = t;
+	}
+}
+var m = (e) => e.replace(/_\{([^}]*)\}/g, "$1"), h = null, g = /* @__PURE__ */ new Map();
+function _(e, t, n = !1) {
+	let r = `${n}${e}`, i = g.get(r);
+	if (i === void 0) {
+		h ??= document.createElement("canvas").getContext("2d"), h.font = `${n ? "bold " : ""}100px "DejaVu Sans", "Helvetica Neue", Arial, sans-serif`, i = 0;
+		for (let t of e.split(/(_\{[^}]*\})/)) {
+			let e = t.startsWith("_{");
+			i += h.measureText(e ? t.slice(2, -1) : t).width / 100 * (e ? .7 : 1);
 		}
-		return r;
-	}, c = n.numbers.map((e, t) => ({
+		g.set(r, i);
+	}
+	return i * t;
+}
+function v(e, t, n, r, i = "middle") {
+	let a = s("text", e, {
+		class: `l-${t}-t`,
+		"font-size": r,
+		"text-anchor": i
+	});
+	return p(a, n, r), a;
+}
+var y = class {
+	g;
+	shaft;
+	head;
+	constructor(e, t, n = "") {
+		this.g = s("g", e), n && (s("title", this.g).textContent = m(n)), this.shaft = s("path", this.g, {
+			class: `l-${t}`,
+			style: "fill:none"
+		}), this.head = s("path", this.g, { class: `l-${t}-h` });
+	}
+	set(e, t, n = .3) {
+		let r = t[0] - e[0], i = t[1] - e[1], a = Math.hypot(r, i), o = a > n && Number.isFinite(a);
+		if (this.g.setAttribute("display", o ? "inline" : "none"), !o) return !1;
+		let s = r / a, c = i / a, l = Math.min(3, .75 * a), d = .3 * l, f = [t[0] - l * s, t[1] - l * c];
+		return this.shaft.setAttribute("d", u([e, [t[0] - .8 * l * s, t[1] - .8 * l * c]])), this.head.setAttribute("d", u([
+			t,
+			[f[0] - d * c, f[1] + d * s],
+			[f[0] + d * c, f[1] - d * s]
+		], !0)), !0;
+	}
+};
+function b(e) {
+	let t = [...e].sort((e, t) => e[0] - t[0] || e[1] - t[1]), n = (e, t, n) => (t[0] - e[0]) * (n[1] - e[1]) - (t[1] - e[1]) * (n[0] - e[0]), r = (e) => {
+		let t = [];
+		for (let r of e) {
+			for (; t.length > 1 && n(t[t.length - 2], t[t.length - 1], r) <= .01;) t.pop();
+			t.push(r);
+		}
+		return t;
+	};
+	return [...r(t).slice(0, -1), ...r(t.reverse()).slice(0, -1)];
+}
+// src/labels.ts
+var x = [
+	[1, -1],
+	[-1, -1],
+	[1, 1],
+	[-1, 1],
+	[0, -1],
+	[1, 0],
+	[-1, 0],
+	[0, 1]
+], S = [
+	1,
+	1.9,
+	3,
+	4.5
+];
+function C(e, t, n, r) {
+	return {
+		el: v(e, t, n, r),
+		text: n,
+		size: r,
+		bold: t === "title",
+		choice: -1
+	};
+}
+var w = class {
+	bounds;
+	texts = [];
+	discs = [];
+	lines = [];
+	constructor(e) {
+		this.bounds = e;
+	}
+	line(e, t) {
+		this.lines.push([e, t]);
+	}
+	disc(e, t) {
+		this.discs.push([
+			e[0] - t,
+			e[1] - t,
+			e[0] + t,
+			e[1] + t
+		]);
+	}
+	put(e) {
+		let t = e.label, n = _(t.text, t.size, t.bold) + .5, r = 1.1 * t.size + (t.text.includes("_") ? .3 * t.size : 0), i = e.leave ?? 1.2, a = e.away && Math.hypot(...e.away) || 1, o = Infinity, s = 0, c = [
+			0,
+			0,
+			0,
+			0
+		], l = 0;
+		for (let [u, d] of e.anchors) for (let f of S) for (let [p, m] of x) {
+			let h = i * f, g = u + p * (h + n / 2), _ = d + m * (h + r / 2), v = [
+				g - n / 2,
+				_ - r / 2,
+				g + n / 2,
+				_ + r / 2
+			], y = l % 32 * .12 + .2 * Math.floor(l / 32) - (l === t.choice ? .4 : 0);
+			e.away && (y += 1.2 * (1 - (p * e.away[0] + m * e.away[1]) / (Math.hypot(p, m) * a))), y < o && (y += this.cost(v)) < o && (o = y, s = l, c = v), l++;
+		}
+		t.choice = s, this.texts.push(c), d(t.el, (c[0] + c[2]) / 2, c[1] + .91 * t.size);
+	}
+	cost(e) {
+		let t = 0;
+		for (let n of this.texts) T(e, n) > 0 && (t += 60 + 5 * T(e, n));
+		for (let n of this.discs) T(e, n) > 0 && (t += 8 + T(e, n));
+		for (let [n, r] of this.lines) E(e, n, r) && (t += 6);
+		let [n, r, i, a] = this.bounds;
+		return (e[0] < n || e[1] < r || e[2] > i || e[3] > a) && (t += 20), t;
+	}
+};
+function T(e, t) {
+	let n = Math.min(e[2], t[2]) - Math.max(e[0], t[0]), r = Math.min(e[3], t[3]) - Math.max(e[1], t[1]);
+	return n > 0 && r > 0 ? n * r : 0;
+}
+function E(e, t, n) {
+	let r = 0, i = 1, a = [n[0] - t[0], n[1] - t[1]];
+	for (let n = 0; n < 2; n++) {
+		if (Math.abs(a[n]) < 1e-9) {
+			if (t[n] < e[n] || t[n] > e[n + 2]) return !1;
+			continue;
+		}
+		let o = (e[n] - t[n]) / a[n], s = (e[n + 2] - t[n]) / a[n];
+		r = Math.max(r, Math.min(o, s)), i = Math.min(i, Math.max(o, s));
+	}
+	return r < i;
+}
+// src/items.ts
+var D = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), O = class {
+	kernel;
+	perMm;
+	middle = [0, 0];
+	axes = [[1, 0], [0, 1]];
+	azimuth = -Math.PI / 3;
+	elevation = .45;
+	constructor(e, t, n) {
+		this.kernel = e, this.perMm = t, n && this.turn(0, 0);
+	}
+	turn(e, t) {
+		this.azimuth += e, this.elevation = Math.min(Math.max(this.elevation + t, -1.55), 1.55);
+		let n = Math.cos(this.azimuth), r = Math.sin(this.azimuth), i = Math.cos(this.elevation), a = Math.sin(this.elevation);
+		this.axes = [
+			[
+				-r,
+				n,
+				0
+			],
+			[
+				-a * n,
+				-a * r,
+				i
+			],
+			[
+				i * n,
+				i * r,
+				a
+			]
+		];
+	}
+	seen(e, t) {
+		return e.length < 3 ? [t(e[0]), t(e[1])] : [D(this.axes[0], e, t), D(this.axes[1], e, t)];
+	}
+	depth(e) {
+		return D(this.axes[2], e, (e) => this.kernel.here[e]);
+	}
+	here(e) {
+		return this.seen(e, (e) => this.kernel.here[e]);
+	}
+	point(e) {
+		return this.of(...this.here(e));
+	}
+	pointAt(e, t) {
+		return this.of(...this.seen(e, (e) => this.kernel.value(e, t)));
+	}
+	of(e, t) {
+		return [(e - this.middle[0]) / this.perMm, (this.middle[1] - t) / this.perMm];
+	}
+	project(e) {
+		return this.seen(e.map((e, t) => t), (t) => e[t]);
+	}
+	vector(e) {
+		return this.axes[0].map((t, n) => (e[0] * t - e[1] * this.axes[1][n]) * this.perMm);
+	}
+	metres(e) {
+		return [this.middle[0] + e[0] * this.perMm, this.middle[1] - e[1] * this.perMm];
+	}
+};
+function k(e, t, n) {
+	let r = n.kernel.here;
+	if (t.t === "symbol") {
+		let i = s("g", e, t.per_mm ? { class: "span" } : {});
+		return i.innerHTML = t.svg, {
+			update() {
+				let [e, a] = n.point(t.p), o = t.per_mm ? ` scale(${(t.per_mm / n.perMm).toFixed(4)})` : "", s = t.e ? ` rotate(${l(-Math.atan2(r[t.e[1]], r[t.e[0]]) * 180 / Math.PI)})` : "";
+				i.setAttribute("transform", `translate(${l(e)} ${l(a)})${s}${o}`);
+			},
+			mark: (e) => e.disc(n.point(t.p), 1.6)
+		};
+	}
+	if (t.t === "span") {
+		let r = s("g", e, { class: "span" });
+		return r.innerHTML = t.svg, {
+			update() {
+				let [[e, i], [a, o]] = t.p.map((e) => n.point(e)), s = Math.hypot(a - e, o - i), c = Math.atan2(o - i, a - e) * 180 / Math.PI;
+				r.setAttribute("transform", `translate(${l(e)} ${l(i)}) rotate(${l(c)}) scale(${(s / t.length).toFixed(4)} 1)`);
+			},
+			mark: (e) => e.line(n.point(t.p[0]), n.point(t.p[1]))
+		};
+	}
+	if (t.t === "circle") {
+		let i = s("circle", e, { class: `l-${t.role}` });
+		return { update() {
+			let [e, a] = n.point(t.p);
+			i.setAttribute("cx", l(e)), i.setAttribute("cy", l(a)), i.setAttribute("r", l(Math.abs(r[t.r]) / n.perMm));
+		} };
+	}
+	if (t.t === "pair") return A(e, t, n);
+	let i = s("path", e, {
+		class: `l-${t.role}`,
+		style: "fill:none"
+	});
+	if (t.t === "trace") return { update: () => i.setAttribute("d", j(n.kernel, (e) => n.pointAt(t.p[0], e), !0)) };
+	t.t === "hull" && (i.dataset.link = t.link);
+	let a = [], o = !1;
+	return {
+		update() {
+			let e = t.p.map((e) => n.point(e)), r = t.t === "hull" ? b(e) : e;
+			o = t.t === "hull" && r.length > 2, a = o ? r : e, t.t === "hull" && i.setAttribute("class", o ? "l-link-area" : "l-link"), i.style.fill = o ? "" : "none", i.setAttribute("d", u(a, o));
+		},
+		mark(e) {
+			a.forEach((t, n) => (n || o) && e.line(a.at(n - 1), t));
+		}
+	};
+}
+function A(e, t, n) {
+	let r = s("g", e), i = t.fixed ? "support" : "block", a = s("path", r, { class: `l-${i}` }), o = s("path", r, { class: `l-${t.shape === "ball" ? i : "pin"}` }), c = t.shape === "block" ? 4.2 : 3.4, u = t.shape === "block" ? 2.2 : 1.7;
+	return {
+		update() {
+			let [e, i] = n.point(t.p), [s, d] = n.here(t.e), f = n.depth(t.e);
+			if (r.setAttribute("transform", `translate(${l(e)} ${l(i)}) rotate(${l(-Math.atan2(d, s) * 180 / Math.PI)})`), t.shape === "ball") return a.setAttribute("d", `M${u} 0A${u} ${u} 0 1 0 ${-u} 0A${u} ${u} 0 1 0 ${u} 0Z`);
+			let p = c * Math.hypot(s, d), m = u * Math.abs(f), h = f >= 0 ? p : -p;
+			t.shape === "round" ? (a.setAttribute("d", `M${l(-p)} ${-u}L${l(p)} ${-u}A${l(m)} ${u} 0 0 1 ${l(p)} ${u}L${l(-p)} ${u}A${l(m)} ${u} 0 0 1 ${l(-p)} ${-u}Z`), o.setAttribute("d", `M${l(h + m)} 0A${l(m)} ${u} 0 1 0 ${l(h - m)} 0A${l(m)} ${u} 0 1 0 ${l(h + m)} 0Z`)) : (a.setAttribute("d", `M${l(-p - m)} ${-u}H${l(p + m)}V${u}H${l(-p - m)}Z`), o.setAttribute("d", `M${l(h - m)} ${-u}H${l(h + m)}V${u}H${l(h - m)}Z`));
+		},
+		mark: (e) => e.disc(n.point(t.p), 2.4)
+	};
+}
+function j(e, t, n = !1) {
+	let r = n && e.cyclic ? e.count : e.count - 1, i = "", a = !1;
+	for (let n = 0; n <= r; n++) {
+		let r = n % e.count, o = !!e.good[r];
+		if (o) {
+			let [e, n] = t(r);
+			i += (a ? "L" : "M") + l(e) + " " + l(n);
+		}
+		a = o;
+	}
+	return i;
+}
+function M(e, t, n, r, i) {
+	return t.t === "couple" ? I(e, t, n) : P(e, t, n, r, i);
+}
+var N = 13;
+function P(e, t, n, r, i) {
+	let a = new y(e, t.role, t.name), o = t.t === "force" ? null : new y(e, t.role), s = t.t === "force" ? t.f : t.m, c = C(e, t.role, t.name, 3.4), l = [0, 0], u = [0, 0], d = [0, 0], f = !1;
+	return {
+		label: c,
+		update() {
+			let e = n.point(t.p), [p, m] = n.here(s), h = o ? Math.hypot(...s.map((e) => n.kernel.here[e])) / N || 1 : r(), g = [p / h, -m / h], _ = !1;
+			if (i && i.length > 1 && !o) {
+				let t = i.map((e) => n.point(e)), r = [0, 1].map((e) => t.reduce((t, n) => t + n[e], 0) / t.length);
+				_ = g[0] * (r[0] - e[0]) + g[1] * (r[1] - e[1]) > 1e-9;
+			}
+			[l, u] = _ ? [[e[0] - g[0], e[1] - g[1]], e] : [e, [e[0] + g[0], e[1] + g[1]]], d = _ ? l : u, f = a.set(l, u), o?.set(l, [l[0] + .78 * (u[0] - l[0]), l[1] + .78 * (u[1] - l[1])]), c.el.setAttribute("visibility", f ? "visible" : "hidden");
+		},
+		mark: (e) => f && e.line(l, u),
+		anchor() {
+			if (!f) return null;
+			let e = d === l ? u : l, t = [d[0] - e[0], d[1] - e[1]];
+			return [
+				d,
+				[d[0] - .35 * t[0], d[1] - .35 * t[1]],
+				t
+			];
+		}
+	};
+}
+var F = 4.6;
+function I(e, t, n) {
+	let r = n.kernel.here, i = s("g", e), a = C(e, t.role, t.name, 3.4);
+	s("title", i).textContent = m(t.name), s("path", i, {
+		class: `l-${t.role}`,
+		style: "fill:none",
+		d: "M4.17 1.94A4.6 4.6 0 1 0 -4.17 1.94"
+	}), s("path", i, {
+		class: `l-${t.role}-h`,
+		d: "M-4.17 2.9L-5.6 -0.1L-3 0.3Z"
+	});
+	let o = !1;
+	return {
+		label: a,
+		update() {
+			let [e, s] = n.point(t.p), c = r[t.m[0]];
+			o = Number.isFinite(c) && Math.abs(c) > 1e-9, i.setAttribute("display", o ? "inline" : "none"), a.el.setAttribute("visibility", o ? "visible" : "hidden"), i.setAttribute("transform", `translate(${l(e)} ${l(s)}) scale(${c < 0 ? -1 : 1} 1)`);
+		},
+		mark(e) {
+			o && e.disc(n.point(t.p), F * .7);
+		},
+		anchor() {
+			let [e, r] = n.point(t.p);
+			return o ? [[e, r - F], [0, -1]] : null;
+		}
+	};
+}
+// src/board.ts
+var L = [
+	1,
+	1.25,
+	1.5,
+	2,
+	2.5,
+	3,
+	4,
+	5,
+	6,
+	8,
+	10
+];
+function R(e) {
+	if (!(e > 0) || !Number.isFinite(e)) return 1;
+	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
+	return t * (L.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
+}
+function z(e) {
+	let t = (e) => [Math.min(...e), Math.max(...e)], n = t(e.map((e) => e[0])), r = t(e.map((e) => e[1]));
+	return Number.isFinite(n[0] + n[1] + r[0] + r[1]) ? {
+		x: n,
+		y: r
+	} : null;
+}
+var ee = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
+function B(e, t) {
+	let n = e.kernel, r = Math.max(1, Math.floor(n.count / 72)), i = [];
+	for (let a of t.items.flatMap(ee)) for (let t = 0; t < n.count; t += r) n.good[t] && i.push(e.seen(a, (e) => n.value(e, t)));
+	return z(i);
+}
+var V = (e) => e.items.some((e) => e.t === "pair");
+function te(e, t, n) {
+	let r = B(new O(e, 1, V(t)), t), i = r ? (r.y[1] - r.y[0]) / (r.x[1] - r.x[0]) : NaN;
+	return Number.isFinite(i) ? Math.min(Math.max(n * i * 1.05, 96), 150) : 120;
+}
+function H(e, t, n, r) {
+	return s("svg", e, {
+		viewBox: `${-t / 2} ${-n / 2} ${t} ${n}`,
+		role: "group",
+		"aria-label": r
+	});
+}
+function U(e, t, n, r, i, a, o, c) {
+	let l = {
+		length: o.length.size,
+		force: o.force.size
+	}, u = H(e, i, a, c), d = new O(t, n.per_mm, V(n)), f = [], p = [], m = n.force;
+	n.middle && (d.middle = n.middle);
+	let h = s("g", u), g = s("g", u), _ = s("g", u);
+	for (let e of n.items) (e.t === "trace" ? f : p).push(k(h, e, d));
+	let v = n.arrows.map((e) => M(g, e, d, () => m, r ?? void 0)), y = n.labels.map((e) => ({
+		l: C(_, e.role, e.text, e.kind === "joint" ? 3.8 : 3.3),
+		p: e.p,
+		q: e.q
+	})), b = s("text", _, {
+		class: "l-note-t",
+		"font-size": 2.8,
+		x: -i / 2 + 2,
+		y: a / 2 - 2
+	});
+	function x(e) {
+		e && (d.middle = [(e.x[0] + e.x[1]) / 2, (e.y[0] + e.y[1]) / 2]);
+	}
+	function S() {
+		let e = r ? z(r.map((e) => d.here(e))) : B(d, n);
+		if (e) {
+			let t = r ? [46, 40] : [i * .76, a * .74], o = Math.max((e.x[1] - e.x[0]) / t[0], (e.y[1] - e.y[0]) / t[1]) || n.per_mm;
+			x(e), d.perMm = R(o / l.length) * l.length;
+		}
+		let o = Math.max(0, ...n.arrows.map((e) => e.t === "force" ? t.largest((n) => Math.hypot(...e.f.map((e) => t.value(e, n)))) : 0));
+		o > 0 && (m = R(o / (r ? 26 : 22) / l.force) * l.force);
+	}
+	function T() {
+		let e = new w([
+			-i / 2,
+			-a / 2,
+			i / 2,
+			a / 2 - 4
+		]);
+		for (let t of [...p, ...v]) t.mark?.(e);
+		for (let { l: t, p: n, q: r } of y) {
+			let i = E.names || !!r;
+			if (t.el.setAttribute("visibility", i ? "visible" : "hidden"), !i) continue;
+			let a = d.point(n), o = r ? d.point(r) : a, s = (r ? [
+				.5,
+				.35,
+				.65
+			] : [0]).map((e) => [a[0] + e * (o[0] - a[0]), a[1] + e * (o[1] - a[1])]);
+			e.put({
+				label: t,
+				anchors: s,
+				away: r ? void 0 : a,
+				leave: r ? .8 : 1.3
+			});
+		}
+		for (let n of v) {
+			let r = t.solved ? n.anchor() : null;
+			r ? e.put({
+				label: n.label,
+				anchors: r.slice(0, -1),
+				away: r[r.length - 1],
+				leave: .9
+			}) : n.label.el.setAttribute("visibility", "hidden");
+		}
+	}
+	let E = {
+		svg: u,
+		paper: d,
+		fit: S,
+		force: () => m,
+		names: n.labels.filter((e) => e.kind === "joint").length <= 8,
+		update(e) {
+			if (e && f.forEach((e) => e.update()), g.setAttribute("visibility", t.solved ? "visible" : "hidden"), t.finite) {
+				r && x(z(r.map((e) => d.here(e))));
+				for (let e of [...p, ...v]) e.update();
+				T(), b.textContent = `1 mm = ${+(d.perMm / l.length).toPrecision(4)} ${o.length.unit}, ${+(m / l.force).toPrecision(4)} ${o.force.unit}`;
+			}
+		}
+	};
+	return E;
+}
+// src/charts.ts
+var ne = 120, re = 5, ie = 8, ae = 4;
+function W(e, t) {
+	let n = e / t || 1, r = 10 ** Math.floor(Math.log10(n));
+	return r * ([
+		1,
+		2,
+		5,
+		10
+	].find((e) => e * r >= n) ?? 10);
+}
+function G(e, t, n) {
+	let r = Math.ceil(e / n - 1e-9), i = Math.floor(t / n + 1e-9) - r + 1;
+	return Array.from({ length: Math.max(i, 0) }, (e, t) => (r + t) * n);
+}
+var K = (e, t = 4) => Number.isFinite(e) ? String(+e.toPrecision(t)).replace("-", "−") : "–";
+function oe(e, t, n, r, i) {
+	let a = c("figure", e, { class: "chart" }), o = t.units[r.kind];
+	c("figcaption", a, {}, `${r.title}, ${o.unit}`);
+	let u = Math.min(Math.max(...r.curves.map((e) => _(e.name, 3))) + 4, 36), d = Math.max(52, 13 + ae * r.curves.length), m = H(a, ne, d, r.title), h = 104 - u, g = d - re - ie, v = -d / 2 + re, y = s("path", m, {
+		class: "l-grid",
+		style: "fill:none"
+	}), b = s("path", m, {
+		class: "l-axis",
+		style: "fill:none"
+	}), x = s("g", m), S = r.curves.map((e) => s("path", m, {
+		class: `l-${e.role}`,
+		style: "fill:none"
+	})), C = s("path", m, { class: "cursor" }), w = r.curves.map((e) => s("circle", m, {
+		class: `l-${e.role}-h`,
+		r: .9
+	})), T = Math.max(n.count - 1, 1), E = t.noise[r.kind] ?? 0, D = r.curves.map((e, t) => {
+		let n = s("text", m, {
+			class: `l-${e.role}-t key`,
+			"font-size": 3,
+			x: -44 + h + 2,
+			y: v + 3 + ae * t,
+			tabindex: 0,
+			role: "button"
+		});
+		return p(n, e.name, 3), s("title", n).textContent = "show what lowers its peak", n.addEventListener("click", () => i.pick(e)), n.addEventListener("keydown", (t) => t.key === "Enter" && i.pick(e)), n;
+	}), O = (e, t) => {
+		let r = n.value(e.row, t) / o.size;
+		return Math.abs(r) * o.size < E ? 0 : r;
+	}, k = NaN, A = NaN, M = (e) => -44 + e / T * h, N = (e) => v + g - (e - k) / (A - k) * g;
+	function P() {
+		let [e, t] = [Infinity, -Infinity];
+		for (let i of r.curves) for (let r = 0; r < n.count; r++) if (n.good[r]) {
+			let n = O(i, r);
+			e = Math.min(e, n), t = Math.max(t, n);
+		}
+		e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]);
+		let i = W(t - e, 4);
+		return [e, t] = [Math.floor(e / i + 1e-9) * i, Math.ceil(t / i - 1e-9) * i], e === k && t === A ? !1 : ([k, A] = [e, t], !0);
+	}
+	function F() {
+		let e = t.drives[0], r = W(A - k, 4), i = (e, t, n, r) => s("text", x, {
+			class: "l-note-t",
+			"font-size": 2.6,
+			"text-anchor": r,
+			x: t,
+			y: n
+		}).textContent = e;
+		x.replaceChildren();
+		let a = "";
+		for (let e of G(k, A, r)) a += `M-44 ${l(N(e))}h${h}`, i(K(e, 5), -45.2, N(e) + .9, "end");
+		if (e) {
+			let [t, r] = [0, T].map((t) => n.position(e.name, t) / e.size);
+			for (let n of G(Math.min(t, r), Math.max(t, r), W(Math.abs(r - t), 5))) {
+				let o = -44 + (n - t) / (r - t || 1) * h;
+				a += `M${l(o)} ${v}v${g}`, i(K(n, 5) + (e.unit === "°" ? "°" : ""), o, v + g + 3.4, "middle");
+			}
+			i(`${e.name}, ${e.unit}`, -44 + h, v + g + 6.6, "end");
+		}
+		y.setAttribute("d", a), b.setAttribute("d", `M-44 ${v}v${g}` + (k < 0 && A > 0 ? `M-44 ${l(N(0))}h${h}` : ""));
+	}
+	let I = (e) => i.seek((f(m, e)[0] - -44) / h * T);
+	return m.addEventListener("pointerdown", (e) => {
+		e.target.closest(".key") || (m.setPointerCapture(e.pointerId), I(e));
+	}), m.addEventListener("pointermove", (e) => e.buttons && m.hasPointerCapture(e.pointerId) && I(e)), { update(e) {
+		e && (P() && F(), S.forEach((e, t) => e.setAttribute("d", j(n, (e) => [M(e), N(O(r.curves[t], e))]))));
+		let t = l(M(Math.min(i.time(), T)));
+		C.setAttribute("d", `M${t} ${v}v${g}`), r.curves.forEach((e, r) => {
+			w[r].setAttribute("visibility", n.solved ? "visible" : "hidden"), n.solved && (w[r].setAttribute("cx", t), w[r].setAttribute("cy", l(N(n.here[e.row] / o.size)))), D[r].classList.toggle("picked", i.picked() === e);
+		});
+	} };
+}
+function se(e, t, n, r) {
+	let i = c("figure", e, { class: "polar" }), [a, o] = n.f, l = c("figcaption", i), u = H(i, 66, 66, `polar diagram of joint ${n.name}`);
+	s("path", u, {
+		class: "l-grid",
+		style: "fill:none",
+		d: "M-30 0H30M0 -30V30M15 0A15 15 0 1 0 -15 0A15 15 0 1 0 15 0M30 0A30 30 0 1 0 -30 0A30 30 0 1 0 30 0"
+	});
+	let d = s("path", u, {
+		class: `l-${n.role}`,
+		style: "fill:none"
+	}), f = new y(u, "joint-force", n.name), p = 1;
+	return { update(e) {
+		e && (p = R(t.largest((e) => Math.hypot(t.value(a, e), t.value(o, e))) / 28 / r.size) * r.size, d.setAttribute("d", j(t, (e) => [t.value(a, e) / p, -t.value(o, e) / p], !0)), l.textContent = `Joint ${n.name}: 1 mm = ${K(p / r.size)} ${r.unit}`), f.set([0, 0], t.solved ? [t.here[a] / p, -t.here[o] / p] : [0, 0]);
+	} };
+}
+function q(e, t, n, r, i) {
+	let a = c("figure", e, { class: "polygon" }), o = t.units.force;
+	c("figcaption", a, {}, r);
+	let l = H(a, 110, 80, r), d = s("g", l), f = /* @__PURE__ */ new Set(), p = i.map(({ sides: e }) => {
+		let t = e.find((e) => e.kind === "joint" && f.has(e.of));
+		for (let t of e) t.kind === "joint" && f.add(t.of);
+		return {
+			shared: t,
+			drawn: e.filter((e) => e !== t).map((e) => ({
+				s: e,
+				arrow: new y(l, e.role, e.name),
+				name: C(d, e.role, e.name, 3)
+			}))
+		};
+	}), m = s("path", l, {
+		class: "l-gap",
+		style: "fill:none"
+	}), h = s("text", l, {
+		class: "l-note-t",
+		"font-size": 2.8,
+		x: -53,
+		y: 38
+	});
+	return {
+		figure: a,
+		update() {
+			if (l.setAttribute("visibility", n.solved ? "visible" : "hidden"), !n.solved) return;
+			let e = n.here, t = /* @__PURE__ */ new Map(), r = [], i = [], a = p.flatMap(({ shared: n, drawn: a }) => {
+				let o = z(r)?.y[1] ?? 0, s = t.get(n?.of ?? "") ?? [0, o], c = (t) => [s[0] + e[t[0]], s[1] - e[t[1]]], l = s;
+				n && (s = c(n.f));
+				let u = a.map((e) => {
+					let n = s;
+					return s = c(e.s.f), e.s.kind === "joint" && !t.has(e.s.of) && t.set(e.s.of, s), r.push(n, s), {
+						...e,
+						from: n,
+						to: s
+					};
+				});
+				return i.push([l, s]), u;
+			}), s = z(r) ?? {
+				x: [0, 0],
+				y: [0, 0]
+			}, c = R(Math.max((s.x[1] - s.x[0]) / 66, (s.y[1] - s.y[0]) / 48) / o.size) * o.size, d = ([e, t]) => [(e - (s.x[0] + s.x[1]) / 2) / c, (t - (s.y[0] + s.y[1]) / 2) / c], f = new w([
+				-55,
+				-40,
+				55,
+				36
+			]);
+			for (let { from: e, to: t } of a) f.line(d(e), d(t));
+			for (let { arrow: e, name: t, from: n, to: r } of a) {
+				let [i, a] = [d(n), d(r)], o = e.set(i, a), s = [(i[0] + a[0]) / 2, (i[1] + a[1]) / 2];
+				t.el.setAttribute("visibility", o ? "visible" : "hidden"), o && f.put({
+					label: t,
+					anchors: [s],
+					away: s,
+					leave: .9
+				});
+			}
+			m.setAttribute("d", i.map(([e, t]) => u([d(e), d(t)])).join("")), h.textContent = `1 mm = ${K(c / o.size)} ${o.unit}`;
+		}
+	};
+}
+// src/handles.ts
+function ce(e, t, n, r) {
+	let i = s("g", e.svg, { class: "handles" }), a = t.handles.map((t) => ue(i, e, t, n, r));
+	return de(e, t, n, r), () => n.finite && a.forEach((e) => e());
+}
+var J = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
+function le(e, t, n, r, [i, a]) {
+	let o = e.values, s = new Float64Array(e.here.length), c = o.slice(), l = () => {
+		e.other(c, s);
+		let r = t.seen(n, (e) => s[e]), o = [i - r[0], a - r[1]];
+		return Number.isFinite(o[0] + o[1]) ? o : null;
+	};
+	for (let e = 0; e < 4; e++) {
+		c.set(o);
+		let e = l();
+		if (!e) return;
+		let t = r.map((t) => {
+			let n = 1e-6 * (Math.abs(o[t]) || 1);
+			c[t] = o[t] + n;
+			let r = l();
+			return c[t] = o[t], r ? [(e[0] - r[0]) / n, (e[1] - r[1]) / n] : [0, 0];
+		}), n = r.map((e) => Math.abs(o[e]) || 1), i = 0, a = 0, s = 0;
+		t.forEach(([e, t], r) => (i += (e * n[r]) ** 2, a += e * t * n[r] ** 2, s += (t * n[r]) ** 2));
+		let u = 1e-9 * (i + s) + 1e-300, d = (i + u) * (s + u) - a * a, f = [((s + u) * e[0] - a * e[1]) / d, ((i + u) * e[1] - a * e[0]) / d];
+		for (let i = 1; i > .05; i /= 2) {
+			r.forEach((e, r) => c[e] = o[e] + i * n[r] ** 2 * (t[r][0] * f[0] + t[r][1] * f[1]));
+			let a = l();
+			if (a && Math.hypot(...a) < Math.hypot(...e)) {
+				r.forEach((e) => o[e] = c[e]);
+				break;
+			}
+		}
+	}
+}
+function ue(e, t, n, r, i) {
+	let a = `${{
+		joint: "joint",
+		point: "point",
+		center: "",
+		load: "force",
+		direction: "direction of"
+	}[n.kind]} ${n.name}`.trim(), o = s("circle", e, {
+		class: `handle ${n.kind}`,
+		r: n.kind === "joint" ? 2.6 : 2,
+		tabindex: 0,
+		role: "slider",
+		"aria-label": `move ${a}`,
+		"aria-valuetext": a,
+		"aria-valuenow": 0,
+		"data-kind": n.kind,
+		"data-name": n.name
+	});
+	s("title", o).textContent = `drag ${a}`;
+	let c = t.paper, u = r.values, d = (e) => e.map((e) => r.here[e]), p = [], m = [], h = [0, 0], g = [], _ = [0, 0], v = !1, y = () => {
+		let e = c.point(n.p), r = "f" in n ? c.here(n.f) : "along" in n ? c.here(n.along) : [0, 0], i = n.kind === "direction" ? 16 : 1 / t.force();
+		return [e[0] + i * r[0], e[1] - i * r[1]];
+	}, b = () => {
+		let e = (e, t) => ({
+			axes: e.map(d),
+			at: d(t)
+		});
+		p = "ends" in n ? n.ends.map((t) => e(t.axes, t.at)) : [e(n.axes, n.p)], [m, h, g, v] = [
+			d(n.p),
+			y(),
+			"f" in n ? d(n.f) : [],
+			!0
+		];
+	}, x = (e) => c.vector([e[0] - h[0], e[1] - h[1]]), S = (e) => {
+		if ("by" in n && n.by) le(r, c, n.p, n.by, c.metres(e));
+		else if ("ends" in n) C(n.ends, x(e));
+		else if (n.kind === "direction") {
+			let t = c.point(n.p), r = [e[0] - t[0], t[1] - e[1]], [i, a] = p[0].axes.map((e) => J(e, r));
+			u[n.direction] = Y(Math.atan2(a, i), u[n.direction]);
+		} else w(n, x(e).map((e, n) => g[n] + e / c.perMm * t.force()));
+		i.changed();
+	}, C = (e, t) => e.forEach((e, n) => {
+		let r = m.map((e, r) => e + t[r] - p[n].at[r]);
+		e.n.forEach((e, t) => u[e] = J(p[n].axes[t], r));
+	}), w = (e, t) => {
+		let n = p[0].axes.map((e) => J(e, t));
+		if (e.components) return e.components.forEach((e, t) => u[e] = n[t]);
+		let r = Math.sign(u[e.size]) || 1;
+		e.direction === void 0 ? u[e.size] = r * J(t, g) / (Math.hypot(...g) || 1) : (u[e.direction] = Y(Math.atan2(r * n[1], r * n[0]), u[e.direction]), u[e.size] = r * Math.hypot(...n));
+	}, T = () => {
+		v && i.finished(), v = !1;
+	};
+	return o.addEventListener("pointerdown", (e) => {
+		e.stopPropagation(), o.setPointerCapture(e.pointerId), b();
+		let n = f(t.svg, e);
+		_ = [h[0] - n[0], h[1] - n[1]];
+	}), o.addEventListener("pointermove", (e) => {
+		let n = f(t.svg, e);
+		v && S([n[0] + _[0], n[1] + _[1]]);
+	}), o.addEventListener("pointerup", T), o.addEventListener("pointercancel", T), o.addEventListener("keydown", (e) => {
+		let t = {
+			ArrowLeft: [-1, 0],
+			ArrowRight: [1, 0],
+			ArrowUp: [0, -1],
+			ArrowDown: [0, 1]
+		};
+		if (!t[e.key]) return;
+		e.preventDefault(), e.stopPropagation(), b();
+		let n = e.shiftKey ? 5 : 1;
+		S([h[0] + n * t[e.key][0], h[1] + n * t[e.key][1]]), T();
+	}), () => {
+		if (n.kind === "direction" && v) return;
+		let [e, t] = y();
+		o.setAttribute("visibility", Number.isFinite(e + t) ? "visible" : "hidden"), o.setAttribute("cx", l(e)), o.setAttribute("cy", l(t));
+	};
+}
+var Y = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI));
+function de(e, t, n, r) {
+	let i = t.drives[0];
+	if (!i || n.count < 2 || !(i.turns || i.along) || i.p.length > 2) return;
+	let a = 0, o = 0, s = !1, c = (t) => {
+		let n = f(e.svg, t), r = e.paper.point(i.p);
+		return i.along ? J(e.paper.metres(n), e.paper.here(i.along)) : Math.atan2(r[1] - n[1], n[0] - r[0]);
+	};
+	e.svg.addEventListener("pointerdown", (t) => {
+		t.target.closest("[data-link]")?.dataset.link === i.link && (e.svg.setPointerCapture(t.pointerId), [a, o, s] = [
+			c(t),
+			r.time(),
+			!0
+		]);
+	}), e.svg.addEventListener("pointermove", (e) => {
+		if (!s) return;
+		let t = (n.position(i.name, n.count - 1) - n.position(i.name, 0)) / (n.count - 1), l = c(e), u = o + (i.turns ? Y(l - a, 0) : l - a) / t;
+		n.cyclic && (u = (u % n.count + n.count) % n.count), [a, o] = [l, u], r.seek(u);
+	}), e.svg.addEventListener("pointerup", () => s = !1);
+}
+// src/page.css?inline
+var fe = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.35em .8em;position:sticky;top:0}.dalembert h1{margin:0;font-size:1.15em;display:inline}.dalembert .bar{flex-wrap:wrap;align-items:center;gap:.5em;margin-top:.25em;display:flex}.dalembert .bar input{min-width:8em;accent-color:var(--accent);flex:1}.dalembert .readout{font-variant-numeric:tabular-nums;min-width:9em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);min-height:1.45em;margin:.1em 0 0;font-size:.92em}.dalembert main{grid-template-columns:minmax(0,7fr) minmax(0,5fr);align-items:start;gap:.8em;padding:.8em;display:grid}.dalembert .stage{position:sticky;top:6.2em}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .stage svg{touch-action:none;max-height:calc(100vh - 9em)}.dalembert .cloud{pointer-events:none;width:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;gap:1em;font-size:.9em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=number]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-link]{cursor:pointer}.dalembert.unsolved svg:not(.chart svg){opacity:.3}@media (max-width:800px){.dalembert main{grid-template-columns:minmax(0,1fr)}.dalembert .stage{position:static}.dalembert .polar{width:100%}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert summary~div>button,.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}";
+// src/panels.ts
+function X(e, t, n = !1) {
+	let r = c("details", e, { class: "panel" });
+	return r.open = n, c("summary", r, {}, t), c("div", r);
+}
+function pe(e, t, n, r) {
+	let i = [], a = /* @__PURE__ */ new Map(), o = (t) => {
+		let n = a.get(t);
+		if (!n) {
+			let r = c("fieldset", e);
+			c("legend", r, {}, t), a.set(t, n = r);
+		}
+		return n;
+	}, s = t.numbers.map((e, t) => ({
 		field: e,
 		n: t
 	})).sort((e, t) => Number(t.field.parameter ?? !1) - Number(e.field.parameter ?? !1));
-	for (let { field: e, n } of c) {
-		let [o, c] = e.parameter ? ["Parameters", e.label] : me(e.label), u = t("label", s(o), { title: e.about ?? e.path });
-		t("span", u, {}, c);
-		let d = t("input", u, {
+	for (let { field: e, n: t } of s) {
+		let [a, s] = e.parameter ? ["Parameters", e.label] : me(e.label), u = c("label", o(a), { title: e.about ?? e.path });
+		c("span", u, {}, s);
+		let d = c("input", u, {
 			type: "number",
 			step: "any",
 			"aria-label": e.label,
 			"data-path": e.path
 		});
-		t("span", u, { class: "unit" }, e.unit);
+		c("span", u, { class: "unit" }, e.unit);
 		let f = {
 			box: d,
-			n,
+			n: t,
 			field: e
-		}, p = (t, a) => {
-			Number.isFinite(t) && (r.values[n] = t * e.size, i(a));
+		}, p = (i, a) => {
+			Number.isFinite(i) && (n.values[t] = i * e.size, r(a));
 		};
 		if (d.addEventListener("change", () => d.value.trim() === "" ? l(f) : p(+d.value, !0)), e.parameter) {
-			let [n, r] = e.range ?? he(e.value), i = t("input", u, {
+			let [t, n] = e.range ?? he(e.value), r = c("input", u, {
 				type: "range",
-				min: n / e.size,
-				max: r / e.size,
+				min: t / e.size,
+				max: n / e.size,
 				step: "any",
 				"aria-label": `${e.label}, slider`
 			});
-			f.slide = i, i.addEventListener("input", () => p(+i.value, !1)), i.addEventListener("change", () => p(+i.value, !0));
+			f.slide = r, r.addEventListener("input", () => p(+r.value, !1)), r.addEventListener("change", () => p(+r.value, !0));
 		}
-		a.push(f);
+		i.push(f);
 	}
 	let l = (e) => {
-		let t = r.values[e.n] / e.field.size;
-		document.activeElement !== e.box && (e.box.value = String(+t.toPrecision(6))), e.slide && document.activeElement !== e.slide && (e.slide.value = String(t)), e.box.classList.toggle("changed", r.values[e.n] !== e.field.value);
+		let t = n.values[e.n] / e.field.size;
+		document.activeElement !== e.box && (e.box.value = String(+t.toPrecision(6))), e.slide && document.activeElement !== e.slide && (e.slide.value = String(t)), e.box.classList.toggle("changed", n.values[e.n] !== e.field.value);
 	};
-	return { update: () => a.forEach(l) };
+	return { update: () => i.forEach(l) };
 }
 function me(e) {
 	let t = e.indexOf(": ");
@@ -991,119 +993,119 @@ function he(e) {
 	let t = .5 * Math.abs(e) || 1;
 	return [e - t, e + t];
 }
-function ge(e, n, r) {
-	let i = t("tbody", t("table", e, { class: "answers" })), a = n.views.table.map((e) => {
-		let r = t("tr", i), a = n.units[e.kind];
-		return t("th", r, { scope: "row" }, s(e.name)), {
+function ge(e, t, n) {
+	let r = c("tbody", c("table", e, { class: "answers" })), i = t.views.table.map((e) => {
+		let n = c("tr", r), i = t.units[e.kind];
+		return c("th", n, { scope: "row" }, m(e.name)), {
 			r: e,
-			unit: a,
-			cell: t("td", r)
+			unit: i,
+			cell: c("td", n)
 		};
 	});
 	return { update() {
-		for (let { r: e, unit: t, cell: n } of a) {
-			let i = e.rows.map((e) => r.here[e] / t.size), a = (e) => t.unit === "°" ? `${U(e, 5)}°` : `${U(e)} ${t.unit}`;
-			n.textContent = r.solved ? i.length === 1 ? a(i[0]) : `${a(Math.hypot(...i))}${i.length === 2 ? ` at ${U(Math.atan2(i[1], i[0]) * 180 / Math.PI)}°` : ""}  (${i.map((e) => U(e)).join(", ")})` : "–";
+		for (let { r: e, unit: t, cell: r } of i) {
+			let i = e.rows.map((e) => n.here[e] / t.size), a = (e) => t.unit === "°" ? `${K(e, 5)}°` : `${K(e)} ${t.unit}`;
+			r.textContent = n.solved ? i.length === 1 ? a(i[0]) : `${a(Math.hypot(...i))}${i.length === 2 ? ` at ${K(Math.atan2(i[1], i[0]) * 180 / Math.PI)}°` : ""}  (${i.map((e) => K(e)).join(", ")})` : "–";
 		}
 	} };
 }
-function _e(e, n, r, i) {
-	let { terms: a, about: o } = i.equations, { force: c, moment: l } = n.units, u = a[0]?.f.length ?? 2, d = [
+function _e(e, t, n, r) {
+	let { terms: i, about: a } = r.equations, { force: o, moment: s } = t.units, l = i[0]?.f.length ?? 2, u = [
 		"x",
 		"y",
 		"z"
-	].slice(0, u).map((e, t) => ({
+	].slice(0, l).map((e, t) => ({
 		head: `ΣF${e}`,
-		unit: c,
-		sign: (t) => s(t.name) + e,
+		unit: o,
+		sign: (t) => m(t.name) + e,
 		row: (e) => e.f[t]
 	}));
-	(u === 2 ? [""] : [
+	(l === 2 ? [""] : [
 		"x",
 		"y",
 		"z"
-	]).forEach((e, t) => d.push({
-		head: `ΣM${e} about ${o}`,
-		unit: l,
-		sign: (t) => `M${e}(${s(t.name)})`,
+	]).forEach((e, t) => u.push({
+		head: `ΣM${e} about ${a}`,
+		unit: s,
+		sign: (t) => `M${e}(${m(t.name)})`,
 		row: (e) => e.m[t]
 	}));
-	let f = d.map((n) => ({
-		sum: n,
-		el: t("p", e, { class: "equation" })
+	let d = u.map((t) => ({
+		sum: t,
+		el: c("p", e, { class: "equation" })
 	}));
 	return { update() {
-		for (let { sum: e, el: t } of f) {
-			let n = a.map((t) => r.here[e.row(t)] / e.unit.size), i = Math.max(...n.map(Math.abs), 0), o = n.map((e, t) => ({
+		for (let { sum: e, el: t } of d) {
+			let r = i.map((t) => n.here[e.row(t)] / e.unit.size), a = Math.max(...r.map(Math.abs), 0), o = r.map((e, t) => ({
 				v: e,
 				k: t
-			})).filter((e) => Math.abs(e.v) > 1e-9 * i);
-			if (!r.solved || !o.length) {
-				t.textContent = `${e.head}: ${r.solved ? "nothing acts" : "no answer here"}`;
+			})).filter((e) => Math.abs(e.v) > 1e-9 * a);
+			if (!n.solved || !o.length) {
+				t.textContent = `${e.head}: ${n.solved ? "nothing acts" : "no answer here"}`;
 				continue;
 			}
-			let s = o.map((t) => e.sign(a[t.k])).join(" + "), c = o.reduce((e, t) => e + t.v, 0), l = o.map((e, t) => (e.v < 0 ? t ? " − " : "−" : t ? " + " : "") + U(Math.abs(e.v))).join("");
-			t.textContent = `${e.head}: ${s} = ${l} = ${U(Math.abs(c) < 1e-9 * i ? 0 : c)} ${e.unit.unit}`;
+			let s = o.map((t) => e.sign(i[t.k])).join(" + "), c = o.reduce((e, t) => e + t.v, 0), l = o.map((e, t) => (e.v < 0 ? t ? " − " : "−" : t ? " + " : "") + K(Math.abs(e.v))).join("");
+			t.textContent = `${e.head}: ${s} = ${l} = ${K(Math.abs(c) < 1e-9 * a ? 0 : c)} ${e.unit.unit}`;
 		}
 	} };
 }
-function ve(e, n) {
-	t("p", e, {}, "Forces and motion are found by one linear system at each position (D'Alembert's principle); every number drawn here is computed anew from the numbers beside it, in double precision.");
-	let r = t("dl", e);
-	for (let [e, i] of Object.entries(n.assumptions)) t("dt", r, {}, e), t("dd", r, {}, i);
-	n.source && t("p", e, {}, `Source: ${n.source}`), t("p", e, {}, `Made with dalembert ${n.version}.`);
+function ve(e, t) {
+	c("p", e, {}, "Forces and motion are found by one linear system at each position (D'Alembert's principle); every number drawn here is computed anew from the numbers beside it, in double precision.");
+	let n = c("dl", e);
+	for (let [e, r] of Object.entries(t.assumptions)) c("dt", n, {}, e), c("dd", n, {}, r);
+	t.source && c("p", e, {}, `Source: ${t.source}`), c("p", e, {}, `Made with dalembert ${t.version}.`);
 }
 // src/results.ts
 var ye = (e) => e.closest("details")?.open ?? !0;
-function be(e, n, r, i, a) {
-	let { charts: o, bodies: s, polygons: c } = n.views, l = [], u = [];
-	if (r.count > 1) for (let t of o) l.push(ne(e, n, r, t, i));
-	let d = Y(e, "Free body", !0), f = t("select", d, { "aria-label": "link" }), p = s.map((e, i) => {
-		t("option", f, { value: i }, `${e.title}${e.member && `, ${e.member} member`}`);
-		let a = t("div", d, { class: "body" }), o = ee(a, r, e, e.about, 110, 100, n.units, `free body of ${e.title}`);
+function be(e, t, n, r, i) {
+	let { charts: a, bodies: o, polygons: s } = t.views, l = [], u = [];
+	if (n.count > 1) for (let i of a) l.push(oe(e, t, n, i, r));
+	let d = X(e, "Free body", !0), f = c("select", d, { "aria-label": "link" }), p = o.map((e, r) => {
+		c("option", f, { value: r }, `${e.title}${e.member && `, ${e.member} member`}`);
+		let i = c("div", d, { class: "body" }), a = U(i, n, e, e.about, 110, 100, t.units, `free body of ${e.title}`);
 		return u.push({
-			box: a,
-			view: o,
-			link: i
+			box: i,
+			view: a,
+			link: r
 		}, {
-			box: a,
-			view: _e(a, n, r, e),
-			link: i
-		}), o;
+			box: i,
+			view: _e(i, t, n, e),
+			link: r
+		}), a;
 	});
-	if (c.links.length) {
-		let t = Y(e, "Force polygon"), i = Y(e, "Force polygons of the chain");
-		c.links.forEach((e, i) => {
-			let a = ie(t, n, r, `Force polygon of link ${e.title}`, [e]);
+	if (s.links.length) {
+		let r = X(e, "Force polygon"), i = X(e, "Force polygons of the chain");
+		s.links.forEach((e, i) => {
+			let a = q(r, t, n, `Force polygon of link ${e.title}`, [e]);
 			u.push({
 				box: a.figure,
 				view: a,
 				link: i
 			});
 		});
-		let a = c.chain.map((e) => c.links[e]);
+		let a = s.chain.map((e) => s.links[e]);
 		u.push({
 			box: i,
-			view: ie(i, n, r, `In the order of solution: ${a.map((e) => e.title).join(" → ")}`, a)
+			view: q(i, t, n, `In the order of solution: ${a.map((e) => e.title).join(" → ")}`, a)
 		});
 	}
-	let m = r.count > 2 ? o.flatMap((e) => e.curves).filter((e) => e.f) : [];
+	let m = n.count > 2 ? a.flatMap((e) => e.curves).filter((e) => e.f) : [];
 	if (m.length) {
-		let t = Y(e, "Polar diagrams");
+		let r = X(e, "Polar diagrams");
 		for (let e of m) u.push({
-			box: t,
-			view: re(t, r, e, n.units.force)
+			box: r,
+			view: se(r, n, e, t.units.force)
 		});
 	}
-	let h = Y(e, "Numbers of this position");
+	let h = X(e, "Numbers of this position");
 	return u.push({
 		box: h,
-		view: ge(h, n, r)
-	}), f.addEventListener("change", a), {
+		view: ge(h, t, n)
+	}), f.addEventListener("change", i), {
 		bodies: p,
 		choose(e) {
-			let t = s.findIndex((t) => t.link === e);
-			t >= 0 && (f.value = String(t)), a();
+			let t = o.findIndex((t) => t.link === e);
+			t >= 0 && (f.value = String(t)), i();
 		},
 		update(e) {
 			for (let t of l) t.update(e);
@@ -1112,43 +1114,43 @@ function be(e, n, r, i, a) {
 	};
 }
 // src/toolbar.ts
-function xe(e, n, r, i) {
-	let a = t("header", e);
-	t("h1", a, {}, n.title);
-	let o = t("div", a, {
+function xe(e, t, n, r) {
+	let i = c("header", e);
+	c("h1", i, {}, t.title);
+	let a = c("div", i, {
 		class: "bar",
 		role: "toolbar",
 		"aria-label": "cycle and page"
-	}), s = (e, n, r) => {
-		let i = t("button", o, {
+	}), o = (e, t, n) => {
+		let r = c("button", a, {
 			type: "button",
-			title: n,
-			.../^\w/.test(e) ? {} : { "aria-label": n }
+			title: t,
+			.../^\w/.test(e) ? {} : { "aria-label": t }
 		}, e);
-		return i.addEventListener("click", r), i;
-	}, c = s("▶", "play along the cycle (space)", i.play), l = t("input", o, {
+		return r.addEventListener("click", n), r;
+	}, s = o("▶", "play along the cycle (space)", r.play), l = c("input", a, {
 		type: "range",
 		min: 0,
-		max: r.end,
-		step: n.only_at_positions ? 1 : "any",
+		max: n.end,
+		step: t.only_at_positions ? 1 : "any",
 		"aria-label": "place of the cycle"
-	}), u = t("output", o, { class: "readout" }), d = s("↶", "undo (Ctrl+Z)", () => i.go(!0)), f = s("↷", "redo (Ctrl+Y)", () => i.go(!1));
-	s("Reset", "all numbers as in the file", i.reset);
-	let p = t("p", a, {
+	}), u = c("output", a, { class: "readout" }), d = o("↶", "undo (Ctrl+Z)", () => r.go(!0)), f = o("↷", "redo (Ctrl+Y)", () => r.go(!1));
+	o("Reset", "all numbers as in the file", r.reset);
+	let p = c("p", i, {
 		class: "mark",
 		role: "status"
 	});
-	l.addEventListener("input", () => i.show(+l.value));
+	l.addEventListener("input", () => r.show(+l.value));
 	for (let e of [
-		c,
+		s,
 		l,
 		u
-	]) e.hidden = r.count < 2;
+	]) e.hidden = n.count < 2;
 	return {
-		playing: (e) => c.textContent = e ? "❚❚" : "▶",
-		update(e, t) {
-			let { sentence: i } = n.statuses[r.mark];
-			p.textContent !== i && (p.textContent = i), l.value = String(e), u.textContent = n.drives.map((t) => `${t.name} = ${U(r.position(t.name, e) / t.size, 5)}${t.unit === "°" ? "" : " "}${t.unit}`).join(", "), [d.disabled, f.disabled] = t.map((e) => !e);
+		playing: (e) => s.textContent = e ? "❚❚" : "▶",
+		update(e, r) {
+			let { sentence: i } = t.statuses[n.mark];
+			p.textContent !== i && (p.textContent = i), l.value = String(e), u.textContent = t.drives.map((t) => `${t.name} = ${K(n.position(t.name, e) / t.size, 5)}${t.unit === "°" ? "" : " "}${t.unit}`).join(", "), [d.disabled, f.disabled] = r.map((e) => !e);
 		}
 	};
 }
@@ -1159,13 +1161,13 @@ var Se = class {
 	kernel;
 	on = !1;
 	arrows;
-	constructor(t, n, r) {
-		this.b = t, this.data = n, this.kernel = r;
-		let i = e("g", t.svg, { class: "gradient" }), a = n.gradient ? n.handles.flatMap((e) => "ends" in e && e.ends.length ? [e] : []) : [];
-		this.arrows = a.map((e) => ({
+	constructor(e, t, n) {
+		this.b = e, this.data = t, this.kernel = n;
+		let r = s("g", e.svg, { class: "gradient" }), i = t.gradient ? t.handles.flatMap((e) => "ends" in e && e.ends.length ? [e] : []) : [];
+		this.arrows = i.map((e) => ({
 			p: e.p,
 			ends: e.ends,
-			arrow: new f(i, "acceleration", `lower the peak by ${e.name}`)
+			arrow: new y(r, "acceleration", `lower the peak by ${e.name}`)
 		}));
 	}
 	update(e) {
@@ -1240,20 +1242,20 @@ var Se = class {
 		return [this.past.length > 0, this.future.length > 0];
 	}
 };
-function X(e, t) {
+function Z(e, t) {
 	return Object.fromEntries(e.numbers.flatMap((e, n) => t.values[n] === e.value ? [] : [[e.path, t.values[n]]]));
 }
-function Z(e, t, n) {
+function Q(e, t, n) {
 	e.numbers.forEach((e, r) => t.values[r] = Number.isFinite(n[e.path]) ? n[e.path] : e.value);
 }
 function Te(e, t, n) {
 	let r = new URLSearchParams({ t: String(+n.toFixed(4)) });
-	for (let [n, i] of Object.entries(X(e, t))) r.set(n, String(i));
+	for (let [n, i] of Object.entries(Z(e, t))) r.set(n, String(i));
 	return r.toString();
 }
 function Ee(e, t, n) {
 	let r = new Map([...new URLSearchParams(n.replace(/^#/, ""))].map(([e, t]) => [e, t.trim() ? Number(t) : NaN])), i = r.get("t") ?? 0;
-	return r.delete("t"), Z(e, t, Object.fromEntries(r)), Number.isFinite(i) ? Math.min(Math.max(i, 0), t.end) : 0;
+	return r.delete("t"), Q(e, t, Object.fromEntries(r)), Number.isFinite(i) ? Math.min(Math.max(i, 0), t.end) : 0;
 }
 function De(e, t) {
 	return e.template.map((e, n) => n % 2 ? String(t.values[+e]) : e).join("");
@@ -1277,83 +1279,83 @@ function Oe(e, t) {
 	}
 	return i.join("\n") + "\n";
 }
-function ke(t, n) {
-	let r = t.cloneNode(!0), { width: i, height: a } = t.viewBox.baseVal;
-	r.querySelectorAll(".handles").forEach((e) => e.remove()), r.setAttribute("xmlns", "http://www.w3.org/2000/svg"), r.setAttribute("width", `${i}mm`), r.setAttribute("height", `${a}mm`), r.setAttribute("font-family", "'DejaVu Sans', Arial, sans-serif");
-	let o = e("style", null);
-	return o.textContent = n, r.prepend(o), new XMLSerializer().serializeToString(r);
+function ke(e, t) {
+	let n = e.cloneNode(!0), { width: r, height: i } = e.viewBox.baseVal;
+	n.querySelectorAll(".handles").forEach((e) => e.remove()), n.setAttribute("xmlns", "http://www.w3.org/2000/svg"), n.setAttribute("width", `${r}mm`), n.setAttribute("height", `${i}mm`), n.setAttribute("font-family", "'DejaVu Sans', Arial, sans-serif");
+	let a = s("style", null);
+	return a.textContent = t, n.prepend(a), new XMLSerializer().serializeToString(n);
 }
-function Q(e, t, n) {
+function $(e, t, n) {
 	let r = document.createElement("a");
 	r.href = URL.createObjectURL(new Blob([t], { type: n })), r.download = e, r.click(), setTimeout(() => URL.revokeObjectURL(r.href), 1e3);
 }
-var Ae = (e) => s(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", je = 6;
-async function $(e, n, r = {}) {
-	if (n.format !== "dalembert-page/1") throw Error(`this page cannot show data of the form ${n.format}`);
-	let i = await de.create(n), a = document.createElement("div"), o = [];
-	a.className = "dalembert", a.tabIndex = -1;
-	let c = `@media (prefers-color-scheme:dark){${n.style.dark}}@media print{${n.style.light}}`;
-	t("style", a).textContent = fe + n.style.light + c, r.changes && Z(n, i, r.changes);
-	let l = r.address ? Ee(n, i, location.hash) : 0, u = 0, d = !0, f = 0;
-	i.cycle();
-	let p = new we(i), m = n.views.charts.flatMap((e) => e.curves.map((t) => ({
-		curve: t,
-		unit: n.units[e.kind]
-	}))), h = m.find((e) => n.gradient?.curves.includes(e.curve.row)), g = xe(a, n, i, {
-		play: F,
-		show: P,
-		go: N,
-		reset: M
-	}), _ = t("main", a), v = t("section", _, {
+var Ae = (e) => m(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", je = 6;
+async function Me(e, t, n = {}) {
+	if (t.format !== "dalembert-page/1") throw Error(`this page cannot show data of the form ${t.format}`);
+	let r = await a.create(t), i = document.createElement("div"), o = [];
+	i.className = "dalembert", i.tabIndex = -1;
+	let s = `@media (prefers-color-scheme:dark){${t.style.dark}}@media print{${t.style.light}}`;
+	c("style", i).textContent = fe + t.style.light + s, n.changes && Q(t, r, n.changes);
+	let l = n.address ? Ee(t, r, location.hash) : 0, u = 0, d = !0, f = 0;
+	r.cycle();
+	let p = new we(r), h = t.views.charts.flatMap((e) => e.curves.map((n) => ({
+		curve: n,
+		unit: t.units[e.kind]
+	}))), g = h.find((e) => t.gradient?.curves.includes(e.curve.row)), _ = xe(i, t, r, {
+		play: I,
+		show: F,
+		go: P,
+		reset: N
+	}), v = c("main", i), y = c("section", v, {
 		class: "stage",
 		"aria-label": "mechanism"
-	}), y = n.views.mechanism, b = ee(v, i, y, null, 170, I(i, y, 170), n.units, "the mechanism"), x = new Se(b, n, i), S = new Ce(v, b, n, i, n.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), C = ae(b, n, i, {
+	}), b = t.views.mechanism, x = U(y, r, b, null, 170, te(r, b, 170), t.units, "the mechanism"), S = new Se(x, t, r), C = new Ce(y, x, t, r, t.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), w = ce(x, t, r, {
 		changed: () => R(!0),
-		finished: j,
-		seek: P,
+		finished: M,
+		seek: F,
 		time: () => l
-	}), w = t("section", _, {
+	}), T = c("section", v, {
 		class: "side",
 		"aria-label": "results"
-	}), T = be(w, n, i, {
+	}), E = be(T, t, r, {
 		time: () => l,
-		seek: P,
-		pick: (e) => (h = m.find((t) => t.curve === e), R(!0)),
-		picked: () => h?.curve
-	}, () => R(!0)), E = O(), D = pe(Y(w, "Change numbers", n.numbers.some((e) => e.parameter)), n, i, (e) => e ? j() : R(!0));
-	ve(Y(w, "Method and assumptions"), n), k(), b.svg.addEventListener("click", (e) => T.choose(e.target.closest("[data-link]")?.dataset.link));
-	function O() {
-		let e = t("div", v, { class: "switches" }), r = (n, r, i, a) => {
-			let o = t("label", e, { title: r }), s = t("input", o, { type: "checkbox" });
-			s.checked = i, o.append(n), s.addEventListener("change", () => (a(s.checked), R(!0)));
-		};
-		return r("names", "names of joints", b.names, (e) => b.names = e), n.gradient && r("what lowers the peak", "arrows: moving a joint this way lowers the peak of the chosen curve", !1, (e) => x.on = e), n.handles.some((e) => e.kind === "joint") && r("tolerances", "a thousand machines with points up to 0.5 % of the drawing's width off", !1, (e) => S.on = e), b.paper.axes.length > 2 && (t("span", e, {}, "drag to look from elsewhere"), Me([b, ...T.bodies], () => R(!0))), t("span", e, { class: "spread" });
-	}
+		seek: F,
+		pick: (e) => (g = h.find((t) => t.curve === e), R(!0)),
+		picked: () => g?.curve
+	}, () => R(!0)), D = k(), O = pe(X(T, "Change numbers", t.numbers.some((e) => e.parameter)), t, r, (e) => e ? M() : R(!0));
+	ve(X(T, "Method and assumptions"), t), A(), x.svg.addEventListener("click", (e) => E.choose(e.target.closest("[data-link]")?.dataset.link));
 	function k() {
-		let e = Y(w, "Save and share"), a = Ae(n.title), o = (n, r) => t("button", e, { type: "button" }, n).addEventListener("click", r);
-		o("Model file", () => Q(`${a}.yaml`, De(n, i), "text/yaml")), o("Curves as CSV", () => Q(`${a}.csv`, Oe(n, i), "text/csv")), o("Drawing as SVG", () => Q(`${a}.svg`, ke(b.svg, n.style.light), "image/svg+xml")), o("Print", () => window.print()), r.address && o("Copy link", () => {
-			location.hash = Te(n, i, l), navigator.clipboard?.writeText(location.href);
-		});
+		let e = c("div", y, { class: "switches" }), n = (t, n, r, i) => {
+			let a = c("label", e, { title: n }), o = c("input", a, { type: "checkbox" });
+			o.checked = r, a.append(t), o.addEventListener("change", () => (i(o.checked), R(!0)));
+		};
+		return n("names", "names of joints", x.names, (e) => x.names = e), t.gradient && n("what lowers the peak", "arrows: moving a joint this way lowers the peak of the chosen curve", !1, (e) => S.on = e), t.handles.some((e) => e.kind === "joint") && n("tolerances", "a thousand machines with points up to 0.5 % of the drawing's width off", !1, (e) => C.on = e), x.paper.axes.length > 2 && (c("span", e, {}, "drag to look from elsewhere"), Ne([x, ...E.bodies], () => R(!0))), c("span", e, { class: "spread" });
 	}
 	function A() {
-		R(!0), D.update(), r.edited?.(X(n, i)), r.address && window.history.replaceState(null, "", "#" + Te(n, i, l));
+		let e = X(T, "Save and share"), i = Ae(t.title), a = (t, n) => c("button", e, { type: "button" }, t).addEventListener("click", n);
+		a("Model file", () => $(`${i}.yaml`, De(t, r), "text/yaml")), a("Curves as CSV", () => $(`${i}.csv`, Oe(t, r), "text/csv")), a("Drawing as SVG", () => $(`${i}.svg`, ke(x.svg, t.style.light), "image/svg+xml")), a("Print", () => window.print()), n.address && a("Copy link", () => {
+			location.hash = Te(t, r, l), navigator.clipboard?.writeText(location.href);
+		});
 	}
 	function j() {
-		p.note(), b.fit(), A();
+		R(!0), O.update(), n.edited?.(Z(t, r)), n.address && window.history.replaceState(null, "", "#" + Te(t, r, l));
 	}
 	function M() {
-		Z(n, i, {}), j();
+		p.note(), x.fit(), j();
 	}
-	function N(e) {
-		p.go(e) && A();
+	function N() {
+		Q(t, r, {}), M();
 	}
 	function P(e) {
-		l = Math.min(Math.max(e, 0), i.end), n.only_at_positions && (l = Math.round(l)), R(!1);
+		p.go(e) && j();
 	}
-	function F() {
-		if (g.playing(!f), f) return L();
-		let e = performance.now(), t = l, n = (r) => {
-			t += (r - e) / 1e3 / je * i.end, e = r, t >= i.end && (t = 0), P(t), f = requestAnimationFrame(n);
+	function F(e) {
+		l = Math.min(Math.max(e, 0), r.end), t.only_at_positions && (l = Math.round(l)), R(!1);
+	}
+	function I() {
+		if (_.playing(!f), f) return L();
+		let e = performance.now(), t = l, n = (i) => {
+			t += (i - e) / 1e3 / je * r.end, e = i, t >= r.end && (t = 0), F(t), f = requestAnimationFrame(n);
 		};
 		f = requestAnimationFrame(n);
 	}
@@ -1369,26 +1371,26 @@ async function $(e, n, r = {}) {
 	}
 	function z() {
 		let e = d;
-		d = !1, e && i.cycle(), i.at(l), a.classList.toggle("unsolved", !i.solved), b.update(e), C(), x.update(h?.curve);
-		let t = S.update(h?.curve.row);
-		E.textContent = t && h ? `${s(h.curve.name)}: ${U(t.mean / h.unit.size)} ± ${U(t.sigma / h.unit.size, 2)} ${h.unit.unit} (1 σ)` : "", T.update(e), g.update(l, p.can);
+		d = !1, e && r.cycle(), r.at(l), i.classList.toggle("unsolved", !r.solved), x.update(e), w(), S.update(g?.curve);
+		let t = C.update(g?.curve.row);
+		D.textContent = t && g ? `${m(g.curve.name)}: ${K(t.mean / g.unit.size)} ± ${K(t.sigma / g.unit.size, 2)} ${g.unit.unit} (1 σ)` : "", E.update(e), _.update(l, p.can);
 	}
-	return a.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => R(!0))), a.addEventListener("keydown", (e) => {
+	return i.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => R(!0))), i.addEventListener("keydown", (e) => {
 		let t = /INPUT|SELECT|TEXTAREA/.test(e.target.tagName);
-		(e.ctrlKey || e.metaKey) && !t && /^[zy]$/i.test(e.key) ? (e.preventDefault(), N(e.key.toLowerCase() === "z" && !e.shiftKey)) : e.key === " " && !t && e.target.tagName !== "BUTTON" && i.count > 1 && (e.preventDefault(), F());
-	}), i.at(l), e.replaceChildren(a), b.fit(), z(), D.update(), {
-		kernel: i,
-		data: n,
+		(e.ctrlKey || e.metaKey) && !t && /^[zy]$/i.test(e.key) ? (e.preventDefault(), P(e.key.toLowerCase() === "z" && !e.shiftKey)) : e.key === " " && !t && e.target.tagName !== "BUTTON" && r.count > 1 && (e.preventDefault(), I());
+	}), r.at(l), e.replaceChildren(i), x.fit(), z(), O.update(), {
+		kernel: r,
+		data: t,
 		times: o,
-		show: P,
+		show: F,
 		set(e) {
-			Z(n, i, e), p.note(), b.fit(), R(!0), D.update();
+			Q(t, r, e), p.note(), x.fit(), R(!0), O.update();
 		},
-		text: () => De(n, i),
-		remove: () => (L(), a.remove())
+		text: () => De(t, r),
+		remove: () => (L(), i.remove())
 	};
 }
-function Me(e, t) {
+function Ne(e, t) {
 	for (let n of e) n.svg.style.cursor = "move", n.svg.addEventListener("pointerdown", (e) => n.svg.setPointerCapture(e.pointerId)), n.svg.addEventListener("pointermove", (r) => {
 		if (n.svg.hasPointerCapture(r.pointerId)) {
 			for (let t of e) t.paper.turn(-.01 * r.movementX, .01 * r.movementY), t.fit();
@@ -1397,10 +1399,17 @@ function Me(e, t) {
 	});
 }
 // src/main.ts
-var Ne = { async render({ model: e, el: t }) {
+async function Pe(e, t) {
+	try {
+		return await Me(e, JSON.parse(new TextDecoder().decode(await n(t))), { address: location.protocol !== "about:" });
+	} catch (t) {
+		throw e.textContent = String(t), t;
+	}
+}
+var Fe = { async render({ model: e, el: t }) {
 	let n = "", r = (t) => {
 		n = JSON.stringify(t), e.set("changes", t), e.save_changes();
-	}, i = () => $(t, e.get("data"), {
+	}, i = () => Me(t, e.get("data"), {
 		edited: r,
 		changes: e.get("changes")
 	}), a = await i(), o = async () => {
@@ -1410,4 +1419,4 @@ var Ne = { async render({ model: e, el: t }) {
 		e.off("change:data", o), e.off("change:changes", s), a.remove();
 	};
 } };
-export { Ne as default, $ as mount };
+export { Fe as default, Pe as open };
