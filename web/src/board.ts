@@ -39,7 +39,7 @@ const inSpace = (d: Drawing): boolean => d.items.some((i) => i.t === "pair");
 /** Height in mm of a drawing of some width whose cycle finds room in it. */
 export function heightFor(kernel: Kernel, d: Drawing, w: number): number {
   const b = cycleBounds(new Paper(kernel, 1, inSpace(d)), d), aspect = b ? (b.y[1] - b.y[0]) / (b.x[1] - b.x[0]) : NaN;
-  return Number.isFinite(aspect) ? Math.min(Math.max(w * aspect * 1.05, 96), 150) : 120;
+  return Number.isFinite(aspect) ? w * Math.min(Math.max(aspect * 1.05, 0.56), 0.9) : 0.7 * w;
 }
 
 export function canvas(parent: Element, width: number, height: number, name: string): SVGSVGElement {

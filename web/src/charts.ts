@@ -7,7 +7,7 @@ import type { Kernel } from "./kernel";
 import { label, Placer } from "./labels";
 import { Arrow, html, letters, make, path, type Point, pointer, short, width } from "./svg";
 
-const W = 120, LEFT = 16, TOP = 5, LOW = 8, LINE = 4;
+const LEFT = 16, TOP = 5, LOW = 8, LINE = 4;
 
 /** A round step between numbers, so that about `count` of them lie in a span. */
 function step(span: number, count: number): number {
@@ -27,10 +27,12 @@ export interface View { update(cycle: boolean): void }
 
 export interface Cursor { time(): number; seek(t: number): void; pick(curve: Curve): void; picked(): Curve | undefined }
 
-export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cursor: Cursor): View {
+/** ``W``: width in mm. */
+export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cursor: Cursor, W: number): View {
   const figure = html("figure", parent, { class: "chart" }), unit = data.units[c.kind];
   html("figcaption", figure, {}, `${c.title}, ${unit.unit}`);
-  const right = Math.min(Math.max(...c.curves.map((x) => width(x.name, 3))) + 4, 36), H = Math.max(52, TOP + LOW + LINE * c.curves.length);
+  const names = data.views.charts.flatMap((x) => x.curves.map((one) => width(one.name, 3)));
+  const right = Math.min(Math.max(...names) + 4, 0.3 * W), H = Math.max(52, TOP + LOW + LINE * c.curves.length);
   const svg = canvas(figure, W, H, c.title), w = W - LEFT - right, h = H - TOP - LOW, x0 = -W / 2 + LEFT, y0 = -H / 2 + TOP;
   const grid = make("path", svg, { class: "l-grid", style: "fill:none" }), axis = make("path", svg, { class: "l-axis", style: "fill:none" });
   const scale = make("g", svg), lines = c.curves.map((x) => make("path", svg, { class: `l-${x.role}`, style: "fill:none" }));

@@ -218,7 +218,7 @@ function couple(parent: Element, a: Couple, paper: Paper): Shown {
       g.setAttribute("transform", `translate(${short(x)} ${short(y)}) scale(${m < 0 ? -1 : 1} 1)`);
     },
     mark(placer) {
-      if (shown) placer.disc(paper.point(a.p), RADIUS * 0.7);
+      if (shown) placer.disc(paper.point(a.p), RADIUS);
     },
     anchor() {
       const [x, y] = paper.point(a.p);

@@ -19,12 +19,15 @@ export interface Page {
   kernel: Kernel; data: Data; times: number[]; set(changes: Changes): void; show(t: number): void; text(): string; remove(): void;
 }
 
+/** Width in mm of the drawing, on a screen and on a phone, where letters must not shrink with it. */
+const WIDE = 170, NARROW = 105;
 /** Seconds of a cycle that is played. */
 const CYCLE = 6;
 
 export async function mount(el: HTMLElement, data: Data, options: Options = {}): Promise<Page> {
   if (data.format !== "dalembert-page/1") throw new Error(`this page cannot show data of the form ${data.format}`);
   const kernel = await Kernel.create(data), root = document.createElement("div"), times: number[] = [];
+  const narrow = (el.clientWidth || window.innerWidth) < 560, wide = narrow ? NARROW : WIDE;
   root.className = "dalembert";
   root.tabIndex = -1;
   const dark = `@media (prefers-color-scheme:dark){${data.style.dark}}@media print{${data.style.light}}`;
@@ -38,13 +41,14 @@ export async function mount(el: HTMLElement, data: Data, options: Options = {}):
 
   const bar = toolbar(root, data, kernel, { play, show, go, reset });
   const main = html("main", root), stage = html("section", main, { class: "stage", "aria-label": "mechanism" });
-  const drawing = data.views.mechanism, m = board(stage, kernel, drawing, null, 170, heightFor(kernel, drawing, 170), data.units, "the mechanism");
+  const drawing = data.views.mechanism;
+  const m = board(stage, kernel, drawing, null, wide, heightFor(kernel, drawing, wide), data.units, "the mechanism");
   const gradients = new Gradients(m, data, kernel);
   const cloud = new Cloud(stage, m, data, kernel, data.handles.flatMap((h) => (h.kind === "joint" || h.kind === "point" ? [h.p] : [])));
   const updateHandles = handles(m, data, kernel, { changed: () => request(true), finished, seek: show, time: () => t });
   const side = html("section", main, { class: "side", "aria-label": "results" });
   const pick = (c: Curve) => ((picked = curves.find((x) => x.curve === c)), request(true));
-  const shown = results(side, data, kernel, { time: () => t, seek: show, pick, picked: () => picked?.curve }, () => request(true));
+  const shown = results(side, data, kernel, { time: () => t, seek: show, pick, picked: () => picked?.curve }, () => request(true), narrow);
   const spread = switches();
   const inputs = numbersPanel(panel(side, "Change numbers", data.numbers.some((n) => n.parameter)), data, kernel, (done) => (done ? finished() : request(true)));
   methodPanel(panel(side, "Method and assumptions"), data);

@@ -11,9 +11,9 @@ export interface Results extends View { bodies: Board[]; choose(link: string | u
 
 const open = (e: Element): boolean => e.closest("details")?.open ?? true;
 
-export function results(side: Element, data: Data, kernel: Kernel, cursor: Cursor, again: () => void): Results {
+export function results(side: Element, data: Data, kernel: Kernel, cursor: Cursor, again: () => void, narrow: boolean): Results {
   const { charts, bodies, polygons } = data.views, always: View[] = [], closable: { box: Element; view: View | Numbers; link?: number }[] = [];
-  if (kernel.count > 1) for (const c of charts) always.push(chart(side, data, kernel, c, cursor));
+  if (kernel.count > 1) for (const c of charts) always.push(chart(side, data, kernel, c, cursor, narrow ? 88 : 120));
   const body = panel(side, "Free body", true), select = html("select", body, { "aria-label": "link" });
   const boards = bodies.map((b, link) => {
     html("option", select, { value: link }, `${b.title}${b.member && `, ${b.member} member`}`);

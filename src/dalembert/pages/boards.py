@@ -60,7 +60,7 @@ class Boards:
             "middle": list(self.frame.middle),
             "items": parts,
             "labels": self._names(),
-            "arrows": [x for k in mine for x in self.arrows(k)],
+            "arrows": [x for k in mine for x in self.arrows(k, tangent=True)],
             "force": self.scale(22.0, mine),
         }
 
@@ -148,7 +148,7 @@ class Boards:
         at, force, couple = a.at[0], a.force[0], np.ravel(a.couple)
         if tangent and a.kind == "joint" and self.items.circle_radius(a.of) is not None:
             x, y = force
-            arm = couple[0] / (x * x + y * y)
+            arm = couple[0] / (x * x + y * y).larger(1e-300)  # 0 where there is no force
             at, couple = (at[0] + arm * y, at[1] - arm * x), np.zeros(1)
         base: Tree = {"role": role, "of": a.of, "kind": a.kind, "link": a.link, "p": self.rows.vector(at)}
         largest = _largest(real.force)

@@ -94,13 +94,13 @@ def _follows(m: Mechanism, path: str) -> bool:
     return getattr(link, "shape", None) is not None
 
 
-AXES = ("x", "y", "z")
+AXES, WORDS = ("x", "y", "z"), {"center": "mass centre"}
 
 
 def label(path: str) -> str:
     """A path as a reader says it: 'crank: point A, x'."""
     group, name, *rest = path.split(".")
-    words = [AXES[int(w)] if w.isdigit() else w.replace("_", " ") for w in rest]
+    words = [AXES[int(w)] if w.isdigit() else WORDS.get(w, w.replace("_", " ")) for w in rest]
     if words[:1] == ["points"]:
         words = [f"point {words[1]}", *words[2:]]
     if group == "friction":

@@ -506,7 +506,7 @@ function I(e, t, n) {
 			o = Number.isFinite(c) && Math.abs(c) > 1e-9, i.setAttribute("display", o ? "inline" : "none"), a.el.setAttribute("visibility", o ? "visible" : "hidden"), i.setAttribute("transform", `translate(${l(e)} ${l(s)}) scale(${c < 0 ? -1 : 1} 1)`);
 		},
 		mark(e) {
-			o && e.disc(n.point(t.p), F * .7);
+			o && e.disc(n.point(t.p), F);
 		},
 		anchor() {
 			let [e, r] = n.point(t.p);
@@ -540,16 +540,16 @@ function z(e) {
 		y: r
 	} : null;
 }
-var ee = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
-function B(e, t) {
+var B = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
+function V(e, t) {
 	let n = e.kernel, r = Math.max(1, Math.floor(n.count / 72)), i = [];
-	for (let a of t.items.flatMap(ee)) for (let t = 0; t < n.count; t += r) n.good[t] && i.push(e.seen(a, (e) => n.value(e, t)));
+	for (let a of t.items.flatMap(B)) for (let t = 0; t < n.count; t += r) n.good[t] && i.push(e.seen(a, (e) => n.value(e, t)));
 	return z(i);
 }
-var V = (e) => e.items.some((e) => e.t === "pair");
+var ee = (e) => e.items.some((e) => e.t === "pair");
 function te(e, t, n) {
-	let r = B(new O(e, 1, V(t)), t), i = r ? (r.y[1] - r.y[0]) / (r.x[1] - r.x[0]) : NaN;
-	return Number.isFinite(i) ? Math.min(Math.max(n * i * 1.05, 96), 150) : 120;
+	let r = V(new O(e, 1, ee(t)), t), i = r ? (r.y[1] - r.y[0]) / (r.x[1] - r.x[0]) : NaN;
+	return Number.isFinite(i) ? n * Math.min(Math.max(i * 1.05, .56), .9) : .7 * n;
 }
 function H(e, t, n, r) {
 	return s("svg", e, {
@@ -562,7 +562,7 @@ function U(e, t, n, r, i, a, o, c) {
 	let l = {
 		length: o.length.size,
 		force: o.force.size
-	}, u = H(e, i, a, c), d = new O(t, n.per_mm, V(n)), f = [], p = [], m = n.force;
+	}, u = H(e, i, a, c), d = new O(t, n.per_mm, ee(n)), f = [], p = [], m = n.force;
 	n.middle && (d.middle = n.middle);
 	let h = s("g", u), g = s("g", u), _ = s("g", u);
 	for (let e of n.items) (e.t === "trace" ? f : p).push(k(h, e, d));
@@ -580,7 +580,7 @@ function U(e, t, n, r, i, a, o, c) {
 		e && (d.middle = [(e.x[0] + e.x[1]) / 2, (e.y[0] + e.y[1]) / 2]);
 	}
 	function S() {
-		let e = r ? z(r.map((e) => d.here(e))) : B(d, n);
+		let e = r ? z(r.map((e) => d.here(e))) : V(d, n);
 		if (e) {
 			let t = r ? [46, 40] : [i * .76, a * .74], o = Math.max((e.x[1] - e.x[0]) / t[0], (e.y[1] - e.y[0]) / t[1]) || n.per_mm;
 			x(e), d.perMm = R(o / l.length) * l.length;
@@ -638,8 +638,8 @@ function U(e, t, n, r, i, a, o, c) {
 	return E;
 }
 // src/charts.ts
-var ne = 120, re = 5, ie = 8, ae = 4;
-function W(e, t) {
+var W = 16, ne = 5, re = 8, ie = 4;
+function G(e, t) {
 	let n = e / t || 1, r = 10 ** Math.floor(Math.log10(n));
 	return r * ([
 		1,
@@ -648,83 +648,83 @@ function W(e, t) {
 		10
 	].find((e) => e * r >= n) ?? 10);
 }
-function G(e, t, n) {
+function K(e, t, n) {
 	let r = Math.ceil(e / n - 1e-9), i = Math.floor(t / n + 1e-9) - r + 1;
 	return Array.from({ length: Math.max(i, 0) }, (e, t) => (r + t) * n);
 }
-var K = (e, t = 4) => Number.isFinite(e) ? String(+e.toPrecision(t)).replace("-", "−") : "–";
-function oe(e, t, n, r, i) {
-	let a = c("figure", e, { class: "chart" }), o = t.units[r.kind];
-	c("figcaption", a, {}, `${r.title}, ${o.unit}`);
-	let u = Math.min(Math.max(...r.curves.map((e) => _(e.name, 3))) + 4, 36), d = Math.max(52, 13 + ae * r.curves.length), m = H(a, ne, d, r.title), h = 104 - u, g = d - re - ie, v = -d / 2 + re, y = s("path", m, {
+var q = (e, t = 4) => Number.isFinite(e) ? String(+e.toPrecision(t)).replace("-", "−") : "–";
+function ae(e, t, n, r, i, a) {
+	let o = c("figure", e, { class: "chart" }), u = t.units[r.kind];
+	c("figcaption", o, {}, `${r.title}, ${u.unit}`);
+	let d = t.views.charts.flatMap((e) => e.curves.map((e) => _(e.name, 3))), m = Math.min(Math.max(...d) + 4, .3 * a), h = Math.max(52, 13 + ie * r.curves.length), g = H(o, a, h, r.title), v = a - W - m, y = h - ne - re, b = -a / 2 + W, x = -h / 2 + ne, S = s("path", g, {
 		class: "l-grid",
 		style: "fill:none"
-	}), b = s("path", m, {
+	}), C = s("path", g, {
 		class: "l-axis",
 		style: "fill:none"
-	}), x = s("g", m), S = r.curves.map((e) => s("path", m, {
+	}), w = s("g", g), T = r.curves.map((e) => s("path", g, {
 		class: `l-${e.role}`,
 		style: "fill:none"
-	})), C = s("path", m, { class: "cursor" }), w = r.curves.map((e) => s("circle", m, {
+	})), E = s("path", g, { class: "cursor" }), D = r.curves.map((e) => s("circle", g, {
 		class: `l-${e.role}-h`,
 		r: .9
-	})), T = Math.max(n.count - 1, 1), E = t.noise[r.kind] ?? 0, D = r.curves.map((e, t) => {
-		let n = s("text", m, {
+	})), O = Math.max(n.count - 1, 1), k = t.noise[r.kind] ?? 0, A = r.curves.map((e, t) => {
+		let n = s("text", g, {
 			class: `l-${e.role}-t key`,
 			"font-size": 3,
-			x: -44 + h + 2,
-			y: v + 3 + ae * t,
+			x: b + v + 2,
+			y: x + 3 + ie * t,
 			tabindex: 0,
 			role: "button"
 		});
 		return p(n, e.name, 3), s("title", n).textContent = "show what lowers its peak", n.addEventListener("click", () => i.pick(e)), n.addEventListener("keydown", (t) => t.key === "Enter" && i.pick(e)), n;
-	}), O = (e, t) => {
-		let r = n.value(e.row, t) / o.size;
-		return Math.abs(r) * o.size < E ? 0 : r;
-	}, k = NaN, A = NaN, M = (e) => -44 + e / T * h, N = (e) => v + g - (e - k) / (A - k) * g;
-	function P() {
+	}), M = (e, t) => {
+		let r = n.value(e.row, t) / u.size;
+		return Math.abs(r) * u.size < k ? 0 : r;
+	}, N = NaN, P = NaN, F = (e) => b + e / O * v, I = (e) => x + y - (e - N) / (P - N) * y;
+	function L() {
 		let [e, t] = [Infinity, -Infinity];
 		for (let i of r.curves) for (let r = 0; r < n.count; r++) if (n.good[r]) {
-			let n = O(i, r);
+			let n = M(i, r);
 			e = Math.min(e, n), t = Math.max(t, n);
 		}
 		e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]);
-		let i = W(t - e, 4);
-		return [e, t] = [Math.floor(e / i + 1e-9) * i, Math.ceil(t / i - 1e-9) * i], e === k && t === A ? !1 : ([k, A] = [e, t], !0);
+		let i = G(t - e, 4);
+		return [e, t] = [Math.floor(e / i + 1e-9) * i, Math.ceil(t / i - 1e-9) * i], e === N && t === P ? !1 : ([N, P] = [e, t], !0);
 	}
-	function F() {
-		let e = t.drives[0], r = W(A - k, 4), i = (e, t, n, r) => s("text", x, {
+	function R() {
+		let e = t.drives[0], r = G(P - N, 4), i = (e, t, n, r) => s("text", w, {
 			class: "l-note-t",
 			"font-size": 2.6,
 			"text-anchor": r,
 			x: t,
 			y: n
 		}).textContent = e;
-		x.replaceChildren();
+		w.replaceChildren();
 		let a = "";
-		for (let e of G(k, A, r)) a += `M-44 ${l(N(e))}h${h}`, i(K(e, 5), -45.2, N(e) + .9, "end");
+		for (let e of K(N, P, r)) a += `M${b} ${l(I(e))}h${v}`, i(q(e, 5), b - 1.2, I(e) + .9, "end");
 		if (e) {
-			let [t, r] = [0, T].map((t) => n.position(e.name, t) / e.size);
-			for (let n of G(Math.min(t, r), Math.max(t, r), W(Math.abs(r - t), 5))) {
-				let o = -44 + (n - t) / (r - t || 1) * h;
-				a += `M${l(o)} ${v}v${g}`, i(K(n, 5) + (e.unit === "°" ? "°" : ""), o, v + g + 3.4, "middle");
+			let [t, r] = [0, O].map((t) => n.position(e.name, t) / e.size);
+			for (let n of K(Math.min(t, r), Math.max(t, r), G(Math.abs(r - t), 5))) {
+				let o = b + (n - t) / (r - t || 1) * v;
+				a += `M${l(o)} ${x}v${y}`, i(q(n, 5) + (e.unit === "°" ? "°" : ""), o, x + y + 3.4, "middle");
 			}
-			i(`${e.name}, ${e.unit}`, -44 + h, v + g + 6.6, "end");
+			i(`${e.name}, ${e.unit}`, b + v, x + y + 6.6, "end");
 		}
-		y.setAttribute("d", a), b.setAttribute("d", `M-44 ${v}v${g}` + (k < 0 && A > 0 ? `M-44 ${l(N(0))}h${h}` : ""));
+		S.setAttribute("d", a), C.setAttribute("d", `M${b} ${x}v${y}` + (N < 0 && P > 0 ? `M${b} ${l(I(0))}h${v}` : ""));
 	}
-	let I = (e) => i.seek((f(m, e)[0] - -44) / h * T);
-	return m.addEventListener("pointerdown", (e) => {
-		e.target.closest(".key") || (m.setPointerCapture(e.pointerId), I(e));
-	}), m.addEventListener("pointermove", (e) => e.buttons && m.hasPointerCapture(e.pointerId) && I(e)), { update(e) {
-		e && (P() && F(), S.forEach((e, t) => e.setAttribute("d", j(n, (e) => [M(e), N(O(r.curves[t], e))]))));
-		let t = l(M(Math.min(i.time(), T)));
-		C.setAttribute("d", `M${t} ${v}v${g}`), r.curves.forEach((e, r) => {
-			w[r].setAttribute("visibility", n.solved ? "visible" : "hidden"), n.solved && (w[r].setAttribute("cx", t), w[r].setAttribute("cy", l(N(n.here[e.row] / o.size)))), D[r].classList.toggle("picked", i.picked() === e);
+	let z = (e) => i.seek((f(g, e)[0] - b) / v * O);
+	return g.addEventListener("pointerdown", (e) => {
+		e.target.closest(".key") || (g.setPointerCapture(e.pointerId), z(e));
+	}), g.addEventListener("pointermove", (e) => e.buttons && g.hasPointerCapture(e.pointerId) && z(e)), { update(e) {
+		e && (L() && R(), T.forEach((e, t) => e.setAttribute("d", j(n, (e) => [F(e), I(M(r.curves[t], e))]))));
+		let t = l(F(Math.min(i.time(), O)));
+		E.setAttribute("d", `M${t} ${x}v${y}`), r.curves.forEach((e, r) => {
+			D[r].setAttribute("visibility", n.solved ? "visible" : "hidden"), n.solved && (D[r].setAttribute("cx", t), D[r].setAttribute("cy", l(I(n.here[e.row] / u.size)))), A[r].classList.toggle("picked", i.picked() === e);
 		});
 	} };
 }
-function se(e, t, n, r) {
+function oe(e, t, n, r) {
 	let i = c("figure", e, { class: "polar" }), [a, o] = n.f, l = c("figcaption", i), u = H(i, 66, 66, `polar diagram of joint ${n.name}`);
 	s("path", u, {
 		class: "l-grid",
@@ -736,10 +736,10 @@ function se(e, t, n, r) {
 		style: "fill:none"
 	}), f = new y(u, "joint-force", n.name), p = 1;
 	return { update(e) {
-		e && (p = R(t.largest((e) => Math.hypot(t.value(a, e), t.value(o, e))) / 28 / r.size) * r.size, d.setAttribute("d", j(t, (e) => [t.value(a, e) / p, -t.value(o, e) / p], !0)), l.textContent = `Joint ${n.name}: 1 mm = ${K(p / r.size)} ${r.unit}`), f.set([0, 0], t.solved ? [t.here[a] / p, -t.here[o] / p] : [0, 0]);
+		e && (p = R(t.largest((e) => Math.hypot(t.value(a, e), t.value(o, e))) / 28 / r.size) * r.size, d.setAttribute("d", j(t, (e) => [t.value(a, e) / p, -t.value(o, e) / p], !0)), l.textContent = `Joint ${n.name}: 1 mm = ${q(p / r.size)} ${r.unit}`), f.set([0, 0], t.solved ? [t.here[a] / p, -t.here[o] / p] : [0, 0]);
 	} };
 }
-function q(e, t, n, r, i) {
+function J(e, t, n, r, i) {
 	let a = c("figure", e, { class: "polygon" }), o = t.units.force;
 	c("figcaption", a, {}, r);
 	let l = H(a, 110, 80, r), d = s("g", l), f = /* @__PURE__ */ new Set(), p = i.map(({ sides: e }) => {
@@ -797,17 +797,17 @@ function q(e, t, n, r, i) {
 					leave: .9
 				});
 			}
-			m.setAttribute("d", i.map(([e, t]) => u([d(e), d(t)])).join("")), h.textContent = `1 mm = ${K(c / o.size)} ${o.unit}`;
+			m.setAttribute("d", i.map(([e, t]) => u([d(e), d(t)])).join("")), h.textContent = `1 mm = ${q(c / o.size)} ${o.unit}`;
 		}
 	};
 }
 // src/handles.ts
-function ce(e, t, n, r) {
-	let i = s("g", e.svg, { class: "handles" }), a = t.handles.map((t) => ue(i, e, t, n, r));
-	return de(e, t, n, r), () => n.finite && a.forEach((e) => e());
+function se(e, t, n, r) {
+	let i = s("g", e.svg, { class: "handles" }), a = t.handles.map((t) => le(i, e, t, n, r));
+	return ue(e, t, n, r), () => n.finite && a.forEach((e) => e());
 }
-var J = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
-function le(e, t, n, r, [i, a]) {
+var Y = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
+function ce(e, t, n, r, [i, a]) {
 	let o = e.values, s = new Float64Array(e.here.length), c = o.slice(), l = () => {
 		e.other(c, s);
 		let r = t.seen(n, (e) => s[e]), o = [i - r[0], a - r[1]];
@@ -835,7 +835,7 @@ function le(e, t, n, r, [i, a]) {
 		}
 	}
 }
-function ue(e, t, n, r, i) {
+function le(e, t, n, r, i) {
 	let a = `${{
 		joint: "joint",
 		point: "point",
@@ -869,21 +869,21 @@ function ue(e, t, n, r, i) {
 			!0
 		];
 	}, x = (e) => c.vector([e[0] - h[0], e[1] - h[1]]), S = (e) => {
-		if ("by" in n && n.by) le(r, c, n.p, n.by, c.metres(e));
+		if ("by" in n && n.by) ce(r, c, n.p, n.by, c.metres(e));
 		else if ("ends" in n) C(n.ends, x(e));
 		else if (n.kind === "direction") {
-			let t = c.point(n.p), r = [e[0] - t[0], t[1] - e[1]], [i, a] = p[0].axes.map((e) => J(e, r));
-			u[n.direction] = Y(Math.atan2(a, i), u[n.direction]);
+			let t = c.point(n.p), r = [e[0] - t[0], t[1] - e[1]], [i, a] = p[0].axes.map((e) => Y(e, r));
+			u[n.direction] = X(Math.atan2(a, i), u[n.direction]);
 		} else w(n, x(e).map((e, n) => g[n] + e / c.perMm * t.force()));
 		i.changed();
 	}, C = (e, t) => e.forEach((e, n) => {
 		let r = m.map((e, r) => e + t[r] - p[n].at[r]);
-		e.n.forEach((e, t) => u[e] = J(p[n].axes[t], r));
+		e.n.forEach((e, t) => u[e] = Y(p[n].axes[t], r));
 	}), w = (e, t) => {
-		let n = p[0].axes.map((e) => J(e, t));
+		let n = p[0].axes.map((e) => Y(e, t));
 		if (e.components) return e.components.forEach((e, t) => u[e] = n[t]);
 		let r = Math.sign(u[e.size]) || 1;
-		e.direction === void 0 ? u[e.size] = r * J(t, g) / (Math.hypot(...g) || 1) : (u[e.direction] = Y(Math.atan2(r * n[1], r * n[0]), u[e.direction]), u[e.size] = r * Math.hypot(...n));
+		e.direction === void 0 ? u[e.size] = r * Y(t, g) / (Math.hypot(...g) || 1) : (u[e.direction] = X(Math.atan2(r * n[1], r * n[0]), u[e.direction]), u[e.size] = r * Math.hypot(...n));
 	}, T = () => {
 		v && i.finished(), v = !1;
 	};
@@ -911,13 +911,13 @@ function ue(e, t, n, r, i) {
 		o.setAttribute("visibility", Number.isFinite(e + t) ? "visible" : "hidden"), o.setAttribute("cx", l(e)), o.setAttribute("cy", l(t));
 	};
 }
-var Y = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI));
-function de(e, t, n, r) {
+var X = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI));
+function ue(e, t, n, r) {
 	let i = t.drives[0];
 	if (!i || n.count < 2 || !(i.turns || i.along) || i.p.length > 2) return;
 	let a = 0, o = 0, s = !1, c = (t) => {
 		let n = f(e.svg, t), r = e.paper.point(i.p);
-		return i.along ? J(e.paper.metres(n), e.paper.here(i.along)) : Math.atan2(r[1] - n[1], n[0] - r[0]);
+		return i.along ? Y(e.paper.metres(n), e.paper.here(i.along)) : Math.atan2(r[1] - n[1], n[0] - r[0]);
 	};
 	e.svg.addEventListener("pointerdown", (t) => {
 		t.target.closest("[data-link]")?.dataset.link === i.link && (e.svg.setPointerCapture(t.pointerId), [a, o, s] = [
@@ -927,18 +927,18 @@ function de(e, t, n, r) {
 		]);
 	}), e.svg.addEventListener("pointermove", (e) => {
 		if (!s) return;
-		let t = (n.position(i.name, n.count - 1) - n.position(i.name, 0)) / (n.count - 1), l = c(e), u = o + (i.turns ? Y(l - a, 0) : l - a) / t;
+		let t = (n.position(i.name, n.count - 1) - n.position(i.name, 0)) / (n.count - 1), l = c(e), u = o + (i.turns ? X(l - a, 0) : l - a) / t;
 		n.cyclic && (u = (u % n.count + n.count) % n.count), [a, o] = [l, u], r.seek(u);
 	}), e.svg.addEventListener("pointerup", () => s = !1);
 }
 // src/page.css?inline
-var fe = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.35em .8em;position:sticky;top:0}.dalembert h1{margin:0;font-size:1.15em;display:inline}.dalembert .bar{flex-wrap:wrap;align-items:center;gap:.5em;margin-top:.25em;display:flex}.dalembert .bar input{min-width:8em;accent-color:var(--accent);flex:1}.dalembert .readout{font-variant-numeric:tabular-nums;min-width:9em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);min-height:1.45em;margin:.1em 0 0;font-size:.92em}.dalembert main{grid-template-columns:minmax(0,7fr) minmax(0,5fr);align-items:start;gap:.8em;padding:.8em;display:grid}.dalembert .stage{position:sticky;top:6.2em}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .stage svg{touch-action:none;max-height:calc(100vh - 9em)}.dalembert .cloud{pointer-events:none;width:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;gap:1em;font-size:.9em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=number]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-link]{cursor:pointer}.dalembert.unsolved svg:not(.chart svg){opacity:.3}@media (max-width:800px){.dalembert main{grid-template-columns:minmax(0,1fr)}.dalembert .stage{position:static}.dalembert .polar{width:100%}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert summary~div>button,.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}";
+var de = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.35em .8em;position:sticky;top:0}.dalembert h1{margin:0;font-size:1.15em;display:inline}.dalembert .bar{flex-wrap:wrap;align-items:center;gap:.5em;margin-top:.25em;display:flex}.dalembert .bar input{min-width:8em;accent-color:var(--accent);flex:1}.dalembert .readout{font-variant-numeric:tabular-nums;min-width:9em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);min-height:1.45em;margin:.1em 0 0;font-size:.92em}.dalembert main{grid-template-columns:minmax(0,7fr) minmax(0,5fr);align-items:start;gap:.8em;padding:.8em;display:grid}.dalembert .stage{position:sticky;top:6.2em}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .stage svg{touch-action:none;max-height:calc(100vh - 9em)}.dalembert .cloud{pointer-events:none;width:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;gap:1em;font-size:.9em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=number]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-link]{cursor:pointer}.dalembert.unsolved svg:not(.chart svg){opacity:.3}@media (max-width:500px){.dalembert .bar{gap:.3em}.dalembert .bar input{min-width:3em}.dalembert .readout{min-width:0}.dalembert button{padding:.15em .45em}}@media (max-width:800px){.dalembert main{grid-template-columns:minmax(0,1fr)}.dalembert .stage{position:static}.dalembert .polar{width:100%}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert summary~div>button,.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}";
 // src/panels.ts
-function X(e, t, n = !1) {
+function Z(e, t, n = !1) {
 	let r = c("details", e, { class: "panel" });
 	return r.open = n, c("summary", r, {}, t), c("div", r);
 }
-function pe(e, t, n, r) {
+function fe(e, t, n, r) {
 	let i = [], a = /* @__PURE__ */ new Map(), o = (t) => {
 		let n = a.get(t);
 		if (!n) {
@@ -951,7 +951,7 @@ function pe(e, t, n, r) {
 		n: t
 	})).sort((e, t) => Number(t.field.parameter ?? !1) - Number(e.field.parameter ?? !1));
 	for (let { field: e, n: t } of s) {
-		let [a, s] = e.parameter ? ["Parameters", e.label] : me(e.label), u = c("label", o(a), { title: e.about ?? e.path });
+		let [a, s] = e.parameter ? ["Parameters", e.label] : pe(e.label), u = c("label", o(a), { title: e.about ?? e.path });
 		c("span", u, {}, s);
 		let d = c("input", u, {
 			type: "number",
@@ -968,7 +968,7 @@ function pe(e, t, n, r) {
 			Number.isFinite(i) && (n.values[t] = i * e.size, r(a));
 		};
 		if (d.addEventListener("change", () => d.value.trim() === "" ? l(f) : p(+d.value, !0)), e.parameter) {
-			let [t, n] = e.range ?? he(e.value), r = c("input", u, {
+			let [t, n] = e.range ?? me(e.value), r = c("input", u, {
 				type: "range",
 				min: t / e.size,
 				max: n / e.size,
@@ -985,15 +985,15 @@ function pe(e, t, n, r) {
 	};
 	return { update: () => i.forEach(l) };
 }
-function me(e) {
+function pe(e) {
 	let t = e.indexOf(": ");
 	return t < 0 ? ["Others", e] : [e.slice(0, t), e.slice(t + 2)];
 }
-function he(e) {
+function me(e) {
 	let t = .5 * Math.abs(e) || 1;
 	return [e - t, e + t];
 }
-function ge(e, t, n) {
+function he(e, t, n) {
 	let r = c("tbody", c("table", e, { class: "answers" })), i = t.views.table.map((e) => {
 		let n = c("tr", r), i = t.units[e.kind];
 		return c("th", n, { scope: "row" }, m(e.name)), {
@@ -1004,12 +1004,12 @@ function ge(e, t, n) {
 	});
 	return { update() {
 		for (let { r: e, unit: t, cell: r } of i) {
-			let i = e.rows.map((e) => n.here[e] / t.size), a = (e) => t.unit === "°" ? `${K(e, 5)}°` : `${K(e)} ${t.unit}`;
-			r.textContent = n.solved ? i.length === 1 ? a(i[0]) : `${a(Math.hypot(...i))}${i.length === 2 ? ` at ${K(Math.atan2(i[1], i[0]) * 180 / Math.PI)}°` : ""}  (${i.map((e) => K(e)).join(", ")})` : "–";
+			let i = e.rows.map((e) => n.here[e] / t.size), a = (e) => t.unit === "°" ? `${q(e, 5)}°` : `${q(e)} ${t.unit}`;
+			r.textContent = n.solved ? i.length === 1 ? a(i[0]) : `${a(Math.hypot(...i))}${i.length === 2 ? ` at ${q(Math.atan2(i[1], i[0]) * 180 / Math.PI)}°` : ""}  (${i.map((e) => q(e)).join(", ")})` : "–";
 		}
 	} };
 }
-function _e(e, t, n, r) {
+function ge(e, t, n, r) {
 	let { terms: i, about: a } = r.equations, { force: o, moment: s } = t.units, l = i[0]?.f.length ?? 2, u = [
 		"x",
 		"y",
@@ -1044,77 +1044,77 @@ function _e(e, t, n, r) {
 				t.textContent = `${e.head}: ${n.solved ? "nothing acts" : "no answer here"}`;
 				continue;
 			}
-			let s = o.map((t) => e.sign(i[t.k])).join(" + "), c = o.reduce((e, t) => e + t.v, 0), l = o.map((e, t) => (e.v < 0 ? t ? " − " : "−" : t ? " + " : "") + K(Math.abs(e.v))).join("");
-			t.textContent = `${e.head}: ${s} = ${l} = ${K(Math.abs(c) < 1e-9 * a ? 0 : c)} ${e.unit.unit}`;
+			let s = o.map((t) => e.sign(i[t.k])).join(" + "), c = o.reduce((e, t) => e + t.v, 0), l = o.map((e, t) => (e.v < 0 ? t ? " − " : "−" : t ? " + " : "") + q(Math.abs(e.v))).join("");
+			t.textContent = `${e.head}: ${s} = ${l} = ${q(Math.abs(c) < 1e-9 * a ? 0 : c)} ${e.unit.unit}`;
 		}
 	} };
 }
-function ve(e, t) {
+function _e(e, t) {
 	c("p", e, {}, "Forces and motion are found by one linear system at each position (D'Alembert's principle); every number drawn here is computed anew from the numbers beside it, in double precision.");
 	let n = c("dl", e);
 	for (let [e, r] of Object.entries(t.assumptions)) c("dt", n, {}, e), c("dd", n, {}, r);
 	t.source && c("p", e, {}, `Source: ${t.source}`), c("p", e, {}, `Made with dalembert ${t.version}.`);
 }
 // src/results.ts
-var ye = (e) => e.closest("details")?.open ?? !0;
-function be(e, t, n, r, i) {
-	let { charts: a, bodies: o, polygons: s } = t.views, l = [], u = [];
-	if (n.count > 1) for (let i of a) l.push(oe(e, t, n, i, r));
-	let d = X(e, "Free body", !0), f = c("select", d, { "aria-label": "link" }), p = o.map((e, r) => {
-		c("option", f, { value: r }, `${e.title}${e.member && `, ${e.member} member`}`);
-		let i = c("div", d, { class: "body" }), a = U(i, n, e, e.about, 110, 100, t.units, `free body of ${e.title}`);
-		return u.push({
+var ve = (e) => e.closest("details")?.open ?? !0;
+function ye(e, t, n, r, i, a) {
+	let { charts: o, bodies: s, polygons: l } = t.views, u = [], d = [];
+	if (n.count > 1) for (let i of o) u.push(ae(e, t, n, i, r, a ? 88 : 120));
+	let f = Z(e, "Free body", !0), p = c("select", f, { "aria-label": "link" }), m = s.map((e, r) => {
+		c("option", p, { value: r }, `${e.title}${e.member && `, ${e.member} member`}`);
+		let i = c("div", f, { class: "body" }), a = U(i, n, e, e.about, 110, 100, t.units, `free body of ${e.title}`);
+		return d.push({
 			box: i,
 			view: a,
 			link: r
 		}, {
 			box: i,
-			view: _e(i, t, n, e),
+			view: ge(i, t, n, e),
 			link: r
 		}), a;
 	});
-	if (s.links.length) {
-		let r = X(e, "Force polygon"), i = X(e, "Force polygons of the chain");
-		s.links.forEach((e, i) => {
-			let a = q(r, t, n, `Force polygon of link ${e.title}`, [e]);
-			u.push({
+	if (l.links.length) {
+		let r = Z(e, "Force polygon"), i = Z(e, "Force polygons of the chain");
+		l.links.forEach((e, i) => {
+			let a = J(r, t, n, `Force polygon of link ${e.title}`, [e]);
+			d.push({
 				box: a.figure,
 				view: a,
 				link: i
 			});
 		});
-		let a = s.chain.map((e) => s.links[e]);
-		u.push({
+		let a = l.chain.map((e) => l.links[e]);
+		d.push({
 			box: i,
-			view: q(i, t, n, `In the order of solution: ${a.map((e) => e.title).join(" → ")}`, a)
+			view: J(i, t, n, `In the order of solution: ${a.map((e) => e.title).join(" → ")}`, a)
 		});
 	}
-	let m = n.count > 2 ? a.flatMap((e) => e.curves).filter((e) => e.f) : [];
-	if (m.length) {
-		let r = X(e, "Polar diagrams");
-		for (let e of m) u.push({
+	let h = n.count > 2 ? o.flatMap((e) => e.curves).filter((e) => e.f) : [];
+	if (h.length) {
+		let r = Z(e, "Polar diagrams");
+		for (let e of h) d.push({
 			box: r,
-			view: se(r, n, e, t.units.force)
+			view: oe(r, n, e, t.units.force)
 		});
 	}
-	let h = X(e, "Numbers of this position");
-	return u.push({
-		box: h,
-		view: ge(h, t, n)
-	}), f.addEventListener("change", i), {
-		bodies: p,
+	let g = Z(e, "Numbers of this position");
+	return d.push({
+		box: g,
+		view: he(g, t, n)
+	}), p.addEventListener("change", i), {
+		bodies: m,
 		choose(e) {
-			let t = o.findIndex((t) => t.link === e);
-			t >= 0 && (f.value = String(t)), i();
+			let t = s.findIndex((t) => t.link === e);
+			t >= 0 && (p.value = String(t)), i();
 		},
 		update(e) {
-			for (let t of l) t.update(e);
-			for (let { box: t, view: n, link: r } of u) r !== void 0 && (t.hidden = r !== +f.value), (r === void 0 || r === +f.value) && ye(t) && n.update(e);
+			for (let t of u) t.update(e);
+			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +p.value), (r === void 0 || r === +p.value) && ve(t) && n.update(e);
 		}
 	};
 }
 // src/toolbar.ts
-function xe(e, t, n, r) {
+function be(e, t, n, r) {
 	let i = c("header", e);
 	c("h1", i, {}, t.title);
 	let a = c("div", i, {
@@ -1150,12 +1150,12 @@ function xe(e, t, n, r) {
 		playing: (e) => s.textContent = e ? "❚❚" : "▶",
 		update(e, r) {
 			let { sentence: i } = t.statuses[n.mark];
-			p.textContent !== i && (p.textContent = i), l.value = String(e), u.textContent = t.drives.map((t) => `${t.name} = ${K(n.position(t.name, e) / t.size, 5)}${t.unit === "°" ? "" : " "}${t.unit}`).join(", "), [d.disabled, f.disabled] = r.map((e) => !e);
+			p.textContent !== i && (p.textContent = i), l.value = String(e), u.textContent = t.drives.map((t) => `${t.name} = ${q(n.position(t.name, e) / t.size, 5)}${t.unit === "°" ? "" : " "}${t.unit}`).join(", "), [d.disabled, f.disabled] = r.map((e) => !e);
 		}
 	};
 }
 // src/tools.ts
-var Se = class {
+var xe = class {
 	b;
 	data;
 	kernel;
@@ -1183,7 +1183,7 @@ var Se = class {
 			t.set([r, i], [r + 14 * a / d, i - 14 * o / d], .5);
 		});
 	}
-}, Ce = class {
+}, Se = class {
 	b;
 	kernel;
 	places;
@@ -1223,7 +1223,7 @@ var Se = class {
 	reach() {
 		return this.b.svg.viewBox.baseVal.width * .5 * this.b.paper.perMm;
 	}
-}, we = class {
+}, Ce = class {
 	kernel;
 	past = [];
 	future = [];
@@ -1242,7 +1242,7 @@ var Se = class {
 		return [this.past.length > 0, this.future.length > 0];
 	}
 };
-function Z(e, t) {
+function we(e, t) {
 	return Object.fromEntries(e.numbers.flatMap((e, n) => t.values[n] === e.value ? [] : [[e.path, t.values[n]]]));
 }
 function Q(e, t, n) {
@@ -1250,7 +1250,7 @@ function Q(e, t, n) {
 }
 function Te(e, t, n) {
 	let r = new URLSearchParams({ t: String(+n.toFixed(4)) });
-	for (let [n, i] of Object.entries(Z(e, t))) r.set(n, String(i));
+	for (let [n, i] of Object.entries(we(e, t))) r.set(n, String(i));
 	return r.toString();
 }
 function Ee(e, t, n) {
@@ -1289,108 +1289,108 @@ function $(e, t, n) {
 	let r = document.createElement("a");
 	r.href = URL.createObjectURL(new Blob([t], { type: n })), r.download = e, r.click(), setTimeout(() => URL.revokeObjectURL(r.href), 1e3);
 }
-var Ae = (e) => m(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", je = 6;
-async function Me(e, t, n = {}) {
+var Ae = (e) => m(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", je = 170, Me = 105, Ne = 6;
+async function Pe(e, t, n = {}) {
 	if (t.format !== "dalembert-page/1") throw Error(`this page cannot show data of the form ${t.format}`);
-	let r = await a.create(t), i = document.createElement("div"), o = [];
+	let r = await a.create(t), i = document.createElement("div"), o = [], s = (e.clientWidth || window.innerWidth) < 560, l = s ? Me : je;
 	i.className = "dalembert", i.tabIndex = -1;
-	let s = `@media (prefers-color-scheme:dark){${t.style.dark}}@media print{${t.style.light}}`;
-	c("style", i).textContent = fe + t.style.light + s, n.changes && Q(t, r, n.changes);
-	let l = n.address ? Ee(t, r, location.hash) : 0, u = 0, d = !0, f = 0;
+	let u = `@media (prefers-color-scheme:dark){${t.style.dark}}@media print{${t.style.light}}`;
+	c("style", i).textContent = de + t.style.light + u, n.changes && Q(t, r, n.changes);
+	let d = n.address ? Ee(t, r, location.hash) : 0, f = 0, p = !0, h = 0;
 	r.cycle();
-	let p = new we(r), h = t.views.charts.flatMap((e) => e.curves.map((n) => ({
+	let g = new Ce(r), _ = t.views.charts.flatMap((e) => e.curves.map((n) => ({
 		curve: n,
 		unit: t.units[e.kind]
-	}))), g = h.find((e) => t.gradient?.curves.includes(e.curve.row)), _ = xe(i, t, r, {
-		play: I,
-		show: F,
-		go: P,
-		reset: N
-	}), v = c("main", i), y = c("section", v, {
+	}))), v = _.find((e) => t.gradient?.curves.includes(e.curve.row)), y = be(i, t, r, {
+		play: R,
+		show: L,
+		go: I,
+		reset: F
+	}), b = c("main", i), x = c("section", b, {
 		class: "stage",
 		"aria-label": "mechanism"
-	}), b = t.views.mechanism, x = U(y, r, b, null, 170, te(r, b, 170), t.units, "the mechanism"), S = new Se(x, t, r), C = new Ce(y, x, t, r, t.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), w = ce(x, t, r, {
-		changed: () => R(!0),
-		finished: M,
-		seek: F,
-		time: () => l
-	}), T = c("section", v, {
+	}), S = t.views.mechanism, C = U(x, r, S, null, l, te(r, S, l), t.units, "the mechanism"), w = new xe(C, t, r), T = new Se(x, C, t, r, t.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), E = se(C, t, r, {
+		changed: () => B(!0),
+		finished: P,
+		seek: L,
+		time: () => d
+	}), D = c("section", b, {
 		class: "side",
 		"aria-label": "results"
-	}), E = be(T, t, r, {
-		time: () => l,
-		seek: F,
-		pick: (e) => (g = h.find((t) => t.curve === e), R(!0)),
-		picked: () => g?.curve
-	}, () => R(!0)), D = k(), O = pe(X(T, "Change numbers", t.numbers.some((e) => e.parameter)), t, r, (e) => e ? M() : R(!0));
-	ve(X(T, "Method and assumptions"), t), A(), x.svg.addEventListener("click", (e) => E.choose(e.target.closest("[data-link]")?.dataset.link));
-	function k() {
-		let e = c("div", y, { class: "switches" }), n = (t, n, r, i) => {
-			let a = c("label", e, { title: n }), o = c("input", a, { type: "checkbox" });
-			o.checked = r, a.append(t), o.addEventListener("change", () => (i(o.checked), R(!0)));
-		};
-		return n("names", "names of joints", x.names, (e) => x.names = e), t.gradient && n("what lowers the peak", "arrows: moving a joint this way lowers the peak of the chosen curve", !1, (e) => S.on = e), t.handles.some((e) => e.kind === "joint") && n("tolerances", "a thousand machines with points up to 0.5 % of the drawing's width off", !1, (e) => C.on = e), x.paper.axes.length > 2 && (c("span", e, {}, "drag to look from elsewhere"), Ne([x, ...E.bodies], () => R(!0))), c("span", e, { class: "spread" });
-	}
-	function A() {
-		let e = X(T, "Save and share"), i = Ae(t.title), a = (t, n) => c("button", e, { type: "button" }, t).addEventListener("click", n);
-		a("Model file", () => $(`${i}.yaml`, De(t, r), "text/yaml")), a("Curves as CSV", () => $(`${i}.csv`, Oe(t, r), "text/csv")), a("Drawing as SVG", () => $(`${i}.svg`, ke(x.svg, t.style.light), "image/svg+xml")), a("Print", () => window.print()), n.address && a("Copy link", () => {
-			location.hash = Te(t, r, l), navigator.clipboard?.writeText(location.href);
-		});
-	}
+	}), O = ye(D, t, r, {
+		time: () => d,
+		seek: L,
+		pick: (e) => (v = _.find((t) => t.curve === e), B(!0)),
+		picked: () => v?.curve
+	}, () => B(!0), s), k = j(), A = fe(Z(D, "Change numbers", t.numbers.some((e) => e.parameter)), t, r, (e) => e ? P() : B(!0));
+	_e(Z(D, "Method and assumptions"), t), M(), C.svg.addEventListener("click", (e) => O.choose(e.target.closest("[data-link]")?.dataset.link));
 	function j() {
-		R(!0), O.update(), n.edited?.(Z(t, r)), n.address && window.history.replaceState(null, "", "#" + Te(t, r, l));
+		let e = c("div", x, { class: "switches" }), n = (t, n, r, i) => {
+			let a = c("label", e, { title: n }), o = c("input", a, { type: "checkbox" });
+			o.checked = r, a.append(t), o.addEventListener("change", () => (i(o.checked), B(!0)));
+		};
+		return n("names", "names of joints", C.names, (e) => C.names = e), t.gradient && n("what lowers the peak", "arrows: moving a joint this way lowers the peak of the chosen curve", !1, (e) => w.on = e), t.handles.some((e) => e.kind === "joint") && n("tolerances", "a thousand machines with points up to 0.5 % of the drawing's width off", !1, (e) => T.on = e), C.paper.axes.length > 2 && (c("span", e, {}, "drag to look from elsewhere"), Fe([C, ...O.bodies], () => B(!0))), c("span", e, { class: "spread" });
 	}
 	function M() {
-		p.note(), x.fit(), j();
-	}
-	function N() {
-		Q(t, r, {}), M();
-	}
-	function P(e) {
-		p.go(e) && j();
-	}
-	function F(e) {
-		l = Math.min(Math.max(e, 0), r.end), t.only_at_positions && (l = Math.round(l)), R(!1);
-	}
-	function I() {
-		if (_.playing(!f), f) return L();
-		let e = performance.now(), t = l, n = (i) => {
-			t += (i - e) / 1e3 / je * r.end, e = i, t >= r.end && (t = 0), F(t), f = requestAnimationFrame(n);
-		};
-		f = requestAnimationFrame(n);
-	}
-	function L() {
-		cancelAnimationFrame(f), f = 0;
-	}
-	function R(e) {
-		d ||= e, u ||= requestAnimationFrame(() => {
-			u = 0;
-			let e = performance.now();
-			z(), o.push(performance.now() - e), o.length > 2e3 && o.shift();
+		let e = Z(D, "Save and share"), i = Ae(t.title), a = (t, n) => c("button", e, { type: "button" }, t).addEventListener("click", n);
+		a("Model file", () => $(`${i}.yaml`, De(t, r), "text/yaml")), a("Curves as CSV", () => $(`${i}.csv`, Oe(t, r), "text/csv")), a("Drawing as SVG", () => $(`${i}.svg`, ke(C.svg, t.style.light), "image/svg+xml")), a("Print", () => window.print()), n.address && a("Copy link", () => {
+			location.hash = Te(t, r, d), navigator.clipboard?.writeText(location.href);
 		});
 	}
-	function z() {
-		let e = d;
-		d = !1, e && r.cycle(), r.at(l), i.classList.toggle("unsolved", !r.solved), x.update(e), w(), S.update(g?.curve);
-		let t = C.update(g?.curve.row);
-		D.textContent = t && g ? `${m(g.curve.name)}: ${K(t.mean / g.unit.size)} ± ${K(t.sigma / g.unit.size, 2)} ${g.unit.unit} (1 σ)` : "", E.update(e), _.update(l, p.can);
+	function N() {
+		B(!0), A.update(), n.edited?.(we(t, r)), n.address && window.history.replaceState(null, "", "#" + Te(t, r, d));
 	}
-	return i.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => R(!0))), i.addEventListener("keydown", (e) => {
+	function P() {
+		g.note(), C.fit(), N();
+	}
+	function F() {
+		Q(t, r, {}), P();
+	}
+	function I(e) {
+		g.go(e) && N();
+	}
+	function L(e) {
+		d = Math.min(Math.max(e, 0), r.end), t.only_at_positions && (d = Math.round(d)), B(!1);
+	}
+	function R() {
+		if (y.playing(!h), h) return z();
+		let e = performance.now(), t = d, n = (i) => {
+			t += (i - e) / 1e3 / Ne * r.end, e = i, t >= r.end && (t = 0), L(t), h = requestAnimationFrame(n);
+		};
+		h = requestAnimationFrame(n);
+	}
+	function z() {
+		cancelAnimationFrame(h), h = 0;
+	}
+	function B(e) {
+		p ||= e, f ||= requestAnimationFrame(() => {
+			f = 0;
+			let e = performance.now();
+			V(), o.push(performance.now() - e), o.length > 2e3 && o.shift();
+		});
+	}
+	function V() {
+		let e = p;
+		p = !1, e && r.cycle(), r.at(d), i.classList.toggle("unsolved", !r.solved), C.update(e), E(), w.update(v?.curve);
+		let t = T.update(v?.curve.row);
+		k.textContent = t && v ? `${m(v.curve.name)}: ${q(t.mean / v.unit.size)} ± ${q(t.sigma / v.unit.size, 2)} ${v.unit.unit} (1 σ)` : "", O.update(e), y.update(d, g.can);
+	}
+	return i.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => B(!0))), i.addEventListener("keydown", (e) => {
 		let t = /INPUT|SELECT|TEXTAREA/.test(e.target.tagName);
-		(e.ctrlKey || e.metaKey) && !t && /^[zy]$/i.test(e.key) ? (e.preventDefault(), P(e.key.toLowerCase() === "z" && !e.shiftKey)) : e.key === " " && !t && e.target.tagName !== "BUTTON" && r.count > 1 && (e.preventDefault(), I());
-	}), r.at(l), e.replaceChildren(i), x.fit(), z(), O.update(), {
+		(e.ctrlKey || e.metaKey) && !t && /^[zy]$/i.test(e.key) ? (e.preventDefault(), I(e.key.toLowerCase() === "z" && !e.shiftKey)) : e.key === " " && !t && e.target.tagName !== "BUTTON" && r.count > 1 && (e.preventDefault(), R());
+	}), r.at(d), e.replaceChildren(i), C.fit(), V(), A.update(), {
 		kernel: r,
 		data: t,
 		times: o,
-		show: F,
+		show: L,
 		set(e) {
-			Q(t, r, e), p.note(), x.fit(), R(!0), O.update();
+			Q(t, r, e), g.note(), C.fit(), B(!0), A.update();
 		},
 		text: () => De(t, r),
-		remove: () => (L(), i.remove())
+		remove: () => (z(), i.remove())
 	};
 }
-function Ne(e, t) {
+function Fe(e, t) {
 	for (let n of e) n.svg.style.cursor = "move", n.svg.addEventListener("pointerdown", (e) => n.svg.setPointerCapture(e.pointerId)), n.svg.addEventListener("pointermove", (r) => {
 		if (n.svg.hasPointerCapture(r.pointerId)) {
 			for (let t of e) t.paper.turn(-.01 * r.movementX, .01 * r.movementY), t.fit();
@@ -1399,17 +1399,17 @@ function Ne(e, t) {
 	});
 }
 // src/main.ts
-async function Pe(e, t) {
+async function Ie(e, t) {
 	try {
-		return await Me(e, JSON.parse(new TextDecoder().decode(await n(t))), { address: location.protocol !== "about:" });
+		return await Pe(e, JSON.parse(new TextDecoder().decode(await n(t))), { address: location.protocol !== "about:" });
 	} catch (t) {
 		throw e.textContent = String(t), t;
 	}
 }
-var Fe = { async render({ model: e, el: t }) {
+var Le = { async render({ model: e, el: t }) {
 	let n = "", r = (t) => {
 		n = JSON.stringify(t), e.set("changes", t), e.save_changes();
-	}, i = () => Me(t, e.get("data"), {
+	}, i = () => Pe(t, e.get("data"), {
 		edited: r,
 		changes: e.get("changes")
 	}), a = await i(), o = async () => {
@@ -1419,4 +1419,4 @@ var Fe = { async render({ model: e, el: t }) {
 		e.off("change:data", o), e.off("change:changes", s), a.remove();
 	};
 } };
-export { Fe as default, Pe as open };
+export { Le as default, Ie as open };
