@@ -1,9 +1,10 @@
 """Studies: design-positions stored and resumable, beside the kernel's own time and that of the drawing alone.
 
 Method. The four-bar of 72 positions with ten numbers varied (normal, cut), the peak of its torque. Each row is the
-best of three runs into a new store; kernel and points are what one core needs for as many designs, measured in the
-same run on one block. Resident memory is the largest so far. ``--kills`` kills a run of the last size at random
-moments (SIGKILL), resumes it each time, and compares it with one that was not killed.
+best of three runs into a new store, with the time that its threads had a core; kernel and points are what one core
+needs for as many designs, measured in the same run on one block, by the core's time too. Resident memory is the
+largest so far. ``--kills`` kills a run of the last size at random moments (SIGKILL), resumes it each time, and compares
+it with one that was not killed.
 
     python benchmarks/study.py [--largest 8] [--scheduler tcp://host:8786] [--kills 10]
 """
@@ -44,14 +45,15 @@ def study(designs: int) -> da.Study:
     return da.study(da.four_bar(), VARY, ["effort.O2"], designs=designs, seed=7)
 
 
-def seconds(act: Any, times: int = 3) -> float:
-    """The best of some runs."""
+def seconds(act: Any, times: int = 3) -> tuple[float, float]:
+    """Seconds, and seconds of all cores together, each the best of some runs: others may use the cores meanwhile."""
     found = []
     for _ in range(times):
-        begun = time.perf_counter()
+        begun, core = time.perf_counter(), time.process_time()
         act()
-        found.append(time.perf_counter() - begun)
-    return min(found)
+        found.append((time.perf_counter() - begun, time.process_time() - core))
+    whole, cores = zip(*found, strict=True)
+    return min(whole), min(cores)
 
 
 def row(power: int, folder: Path, scheduler: str | None) -> None:
@@ -63,14 +65,14 @@ def row(power: int, folder: Path, scheduler: str | None) -> None:
         shutil.rmtree(store, ignore_errors=True)
         s.run(store, scheduler=scheduler)
 
-    whole = seconds(run)
+    whole, cores = seconds(run)
     block = min(s.count, s.block_size())
     values = s.plan.values(0, block)
-    points = seconds(lambda: s.plan.values(0, block)) * s.count / block
-    kernel = seconds(lambda: s.engine.block(values)) * s.count / block
+    points = seconds(lambda: s.plan.values(0, block))[1] * s.count / block
+    kernel = seconds(lambda: s.engine.block(values))[1] * s.count / block
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     size = sum(p.stat().st_size for p in store.rglob("*") if p.is_file()) / 1e6
-    times = " | ".join(f"{t:.2f}" for t in (whole, kernel, points))
+    times = " | ".join(f"{t:.2f}" for t in (whole, cores, kernel, points))
     print(f"| 1e{power} | {s.count:,} | {block:,} | {times} | {memory:.0f} | {size:.1f} |")
 
 
@@ -100,10 +102,9 @@ def main() -> None:
     given = arguments.parse_args()
     folder = Path(tempfile.mkdtemp())
     print(f"{len(os.sched_getaffinity(0))} cores, dalembert {da.__version__}")
-    print(
-        "| design-positions | designs | block | study, s | kernel, core s | points, core s | RSS, MB | store, MB |"
-    )
-    print("| --- | --- | --- | --- | --- | --- | --- | --- |")
+    heads = ("design-positions", "designs", "block", "study, s", "core s", "kernel, core s", "points, core s")
+    print("|", " | ".join((*heads, "RSS, MB", "store, MB")), "|")
+    print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     try:
         if given.kills:
             killed(given.largest, folder, given.kills)

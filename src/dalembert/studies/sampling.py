@@ -28,6 +28,9 @@ BITS = 30
 LOW = 16
 """Bits of a Sobol point's number that are looked up in one table."""
 
+AT_ONCE = 1 << 13
+"""Designs drawn together: what one number of them takes on the way stays in the nearest cache."""
+
 
 @dataclass(frozen=True)
 class Plan:
@@ -80,8 +83,10 @@ class Plan:
                 place, k = np.divmod(place, len(levels))
                 out[:, j] = levels[k]
             return out
-        for j, u in enumerate(self._shares(start, stop)):
-            out[:, j] = self.spreads[j].at(u)
+        for first in range(start, stop, AT_ONCE):
+            last = min(first + AT_ONCE, stop)
+            for j, u in enumerate(self._shares(first, last)):
+                out[first - start : last - start, j] = self.spreads[j].at(u)
         return out
 
     def _shares(self, start: int, stop: int) -> Iterator[Array]:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from dalembert.analysis.result.named_quantities import quantity
-from dalembert.errors import ModelError
 from dalembert.optimization.optimum import Optimum
 from dalembert.reports.sheet import Sheet
 from dalembert.views import draw
 from dalembert.views.charts import along
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.diagrams import curves_scene
+from dalembert.views.paper.scene import Scene
 
 
 def optimum_sheet(o: Optimum, notation: Notation | None = None) -> Sheet:
@@ -22,19 +22,20 @@ def optimum_sheet(o: Optimum, notation: Notation | None = None) -> Sheet:
     sheet.text(o.words)
     sheet.table(["number", "before", "after", "from", "to"], o.number_rows())
     sheet.table(["", "before", "after"], o.aim_rows(), "Room is what is left until a condition is broken")
-    shown, kind = Shown(o.after, notation), quantity(o.after, o.aim.of).kind
+    sheet.figure(*optimum_scenes(o, notation), caption="Before, then after, where what is least is largest.")
+    return sheet
+
+
+def optimum_scenes(o: Optimum, notation: Notation | None = None) -> list[Scene]:
+    """What is least over the cycle, then the designs before and after where it is largest in magnitude; a design that
+    does not close there is left out."""
+    shown, kind = Shown(o.after, notation or Notation()), quantity(o.after, o.aim.of).kind
     x, label, angle = along(o.after, shown)
     both = {"before": o.before, "after": o.after}
     curves = {name: r[o.aim.of] * shown.value(kind, 1.0) for name, r in both.items()}
     title, unit = f"{o.aim.of} over the cycle", shown.unit(kind)
-    sheet.figure(curves_scene(x, curves, label, f"{o.aim.of} in {unit}" if unit else o.aim.of, title, angle))
     size = np.abs(o.after[o.aim.of])
-    at = int(np.nanargmax(size)) + 1 if np.isfinite(size).any() else 1
-    scenes = []
-    for r in both.values():
-        try:
-            scenes.append(draw.mechanism(r, at, notation))
-        except ModelError as error:  # a design that does not close there
-            sheet.text(f"Not drawn: {error}.")
-    sheet.figure(*scenes, caption="Before, then after, where what is least is largest in magnitude.")
-    return sheet
+    at = int(np.nanargmax(size)) if np.isfinite(size).any() else 0
+    closed = [r for r in both.values() if np.isfinite(r[o.aim.of][at])]
+    chart = curves_scene(x, curves, label, f"{o.aim.of} in {unit}" if unit else o.aim.of, title, angle)
+    return [chart, *(draw.mechanism(r, at + 1, notation) for r in closed)]
