@@ -13,8 +13,10 @@ from pathlib import Path
 import dalembert as da
 from dalembert.bundled import cases, examples
 from dalembert.cli.describe_commands import JOINT_HEADS, joint_rows
+from dalembert.machine.members.member_table import member_table
 from dalembert.model.joints.pairs import PAIRS
 from dalembert.saving import new_file
+from dalembert.views.machine import scenes_of
 
 ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "build" / "gallery"
@@ -118,6 +120,24 @@ def figures() -> None:
     da.draw.mechanism(rubbing).save(FIGURES / "friction.svg", overwrite=True)
     force_systems()
     space_figures()
+    machine_figures()
+
+
+def machine_figures() -> None:
+    """The pictures of the worked machines; the four-bar and the crane stand on their page."""
+    page = (FIGURES.parent / "machine-examples.md").read_text(encoding="utf-8")
+    bar = da.loads(
+        "\n".join(line[4:] for line in page.partition('loads("""\n')[2].partition('\n... """')[0].split("\n"))
+    )
+    crane = da.dynamics(da.loads(page.partition("```yaml\n")[2].partition("```")[0]))
+    engine = da.dynamics(da.in_line_engine(cylinders=4))
+    drawn = {
+        "engine": [*scenes_of(da.shaking(engine))[1:], *scenes_of(da.flywheel(engine, Cs=0.01))[:2]],
+        "balance": scenes_of(da.balance(bar, ["crank", "rocker"])),
+        "crane": [da.draw.mechanism(crane, at=1), *scenes_of(member_table(crane, ["boom"]))[4:6]],
+    }
+    for name, scenes in drawn.items():
+        da.draw.beside(scenes).save(FIGURES / f"machine_{name}.svg", overwrite=True)
 
 
 def force_systems() -> None:
