@@ -64,7 +64,15 @@ def test_the_guide_has_every_status() -> None:
 
 
 @pytest.mark.parametrize(
-    "page", ["friction.md", "force-systems.md", "machine.md", "notebooks.md", "optimization.md"]
+    "page",
+    [
+        "friction.md",
+        "force-systems.md",
+        "machine.md",
+        "notebooks.md",
+        "optimization.md",
+        pytest.param("studies.md", marks=pytest.mark.long),
+    ],
 )
 def test_pages_run(page: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)

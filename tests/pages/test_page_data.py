@@ -72,7 +72,9 @@ def test_every_number_is_that_of_the_analyses(name: str) -> None:
         off = min(np.abs(v[:, right] - found).max(initial=0.0) for v in values)
         assert off <= 1e-9 * max(largest, largest * reach, 1e-9)
         arms = [out[arrow["p"]][:, right] - a.at.T[:, right] for a in some]
-        if min(np.abs(arm).max(initial=0.0) for arm in arms) > 1e-9 * reach:  # a pin's, on its friction circle
+        if (
+            min(np.abs(arm).max(initial=0.0) for arm in arms) > 1e-9 * reach
+        ):  # a pin's, on its friction circle
             (a,), ((x, y),) = some, arms
             assert (arrow["kind"], arrow["t"]) == ("joint", "force")
             turning = x * found[1] - y * found[0]
