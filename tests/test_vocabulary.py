@@ -85,3 +85,14 @@ def test_pieces_are_small(path: Path) -> None:
 def test_modules_say_what_they_are(path: Path) -> None:
     tree = ast.parse(path.read_text(encoding="utf-8"))
     assert ast.get_docstring(tree) or not tree.body, path.name
+
+
+def test_cited_sections_of_the_theory_are_there() -> None:
+    theory = (PACKAGE.parents[1] / "docs" / "theory.md").read_text(encoding="utf-8")
+    sections = set(re.findall(r"^#+ (\d+(?:\.\d+)?)\b", theory, re.MULTILINE))
+    cited = [
+        n for p in MODULES for n in re.findall(r"theory\.md (\d+(?:\.\d+)?)", p.read_text(encoding="utf-8"))
+    ]
+    assert len(sections) > 30
+    assert len(cited) > 25
+    assert set(cited) <= sections

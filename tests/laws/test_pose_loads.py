@@ -191,7 +191,7 @@ REFUSED = {
     "links.ground.angle": "load 'F' uses 'links.ground.angle', which does not turn; write joints.NAME.turn",
     "joints.guid.slide": "load 'F' uses the joint 'guid', which is not there; did you mean 'guide'?",
     "joints.guide.turn": "load 'F' uses 'joints.guide.turn', and the freedoms of that joint are slide; name one",
-    "O.speed": "load 'F'",
+    "O.speed": "value of load 'F': '3*O.speed' ends with '.speed', which has no place there",
     "links.rod.speed": "load 'F' uses 'links.rod.speed', which is no drive",
 }
 

@@ -1,4 +1,7 @@
-"""Mobility by rank: freedoms, drives, redundant constraints, and what to do when they do not match."""
+"""Mobility by rank: freedoms, drives, redundant constraints, and what to do when they do not match.
+
+Mechanics: docs/theory.md 3.4.
+"""
 
 from __future__ import annotations
 

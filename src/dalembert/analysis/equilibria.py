@@ -1,6 +1,7 @@
 """Equilibrium positions: where a given effort holds the machine, all of them in a range, with their stability.
 
 g(q) = effort needed at q - effort given. A root is stable where g grows through it: the given effort then pulls back.
+Mechanics: docs/theory.md 5.3.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""One pass from a description to every joint force, over a schedule of positions."""
+"""One pass from a description to every joint force, over a schedule of positions (docs/theory.md 5)."""
 
 from __future__ import annotations
 

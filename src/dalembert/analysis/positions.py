@@ -1,4 +1,7 @@
-"""Positions of the mechanism over the schedule: first pose, assembly mode, the motion from there, its gaps."""
+"""Positions of the mechanism over the schedule: first pose, assembly mode, the motion from there, its gaps.
+
+Mechanics: docs/theory.md 3.
+"""
 
 from __future__ import annotations
 

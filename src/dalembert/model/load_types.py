@@ -1,4 +1,4 @@
-"""Loads: forces, couples, springs and dampers, some of them unknown."""
+"""Loads: forces, couples, springs and dampers, some of them unknown (docs/theory.md 4)."""
 
 from __future__ import annotations
 

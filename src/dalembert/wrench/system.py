@@ -1,4 +1,4 @@
-"""A force system: forces and couples on one link, or on anything taken as rigid."""
+"""A force system: forces and couples on one link, or on anything taken as rigid (docs/theory.md 4)."""
 
 from __future__ import annotations
 

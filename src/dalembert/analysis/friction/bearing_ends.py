@@ -1,4 +1,7 @@
-"""Bearings and guides in space with friction: what each end carries across its axis, and its friction."""
+"""Bearings and guides in space with friction: what each end carries across its axis, and its friction.
+
+Mechanics: docs/theory.md 6.1.
+"""
 
 from __future__ import annotations
 

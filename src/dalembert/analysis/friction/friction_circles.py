@@ -1,4 +1,7 @@
-"""Friction circles: the line of action of a pin's reaction, the common tangents of two circles, and why this one."""
+"""Friction circles: the line of action of a pin's reaction, the common tangents of two circles, and why this one.
+
+Mechanics: docs/theory.md 6.1.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""What friction does to whole arcs of positions, in sentences: jam, self-locking, efforts left open."""
+"""What friction does to whole arcs of positions, in sentences: jam, self-locking, efforts left open.
+
+Mechanics: docs/theory.md 6.3.
+"""
 
 from __future__ import annotations
 

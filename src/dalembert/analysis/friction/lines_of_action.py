@@ -1,6 +1,7 @@
 """Joints' reactions with their friction on the lines on which they act: tangent to friction circles, on bearing faces.
 
 A free body then shows forces alone, each at a place where the links touch, and no couples of friction.
+Mechanics: docs/theory.md 6.1.
 """
 
 from __future__ import annotations

@@ -2,6 +2,7 @@
 
 Classes follow from what acts on a link: zero-force, two-force, two-force with couple, three-force, four-force,
 general. The order of solution starts at the smallest group of links whose equations suffice for its unknowns.
+Mechanics: docs/theory.md 7.
 """
 
 from __future__ import annotations

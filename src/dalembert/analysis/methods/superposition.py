@@ -1,4 +1,4 @@
-"""Superposition: every reaction and effort split by what causes it.
+"""Superposition: every reaction and effort split by what causes it (docs/theory.md 5.2).
 
 A x + w = 0 is linear in w, so the answer to a sum of wrenches is the sum of the answers, each found with the same
 factored A. Dry friction and the separating force of gear teeth depend on magnitudes, and are refused.

@@ -3,6 +3,7 @@
 For every drive, with the others held and unit speed: sum of F . v + T omega over all loads, weights, springs and
 inertia wrenches, plus the unknowns' own power, is zero. Dry friction does work too, and its forces follow the
 reactions: they are taken from the solution, so that with friction virtual work checks it and does not replace it.
+Mechanics: docs/theory.md 5.2.
 """
 
 from __future__ import annotations
@@ -23,7 +24,6 @@ from dalembert.analysis.methods.applied_forces import (
 from dalembert.arrays import Array
 from dalembert.core.constraints import rates
 from dalembert.core.equilibrium import load_rows
-from dalembert.core.layout import System
 from dalembert.model import GROUND
 
 if TYPE_CHECKING:
@@ -154,5 +154,5 @@ def _unit_powers(r: Result, at: State) -> Array:
     if not r.unknown_loads:
         return np.zeros((len(r.status), len(r.drives), 0))
     unit = load_rows(c.layout, c.known, at.pose)
-    spread = System(*unit[:3], unit.on_i[..., None, :, :], unit.on_j[..., None, :, :])
+    spread = unit._replace(on_i=unit.on_i[..., None, :, :], on_j=unit.on_j[..., None, :, :])
     return rates(spread, at.moving.virtual)

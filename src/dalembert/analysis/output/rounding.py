@@ -2,6 +2,7 @@
 
 A number alone does not say so: 1e-15 N is rounding in a press and a force between molecules. So the sizes are those of
 one position of one answer: the mechanism's length, its fastest turning, its largest force.
+Mechanics: docs/theory.md 1.2.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""How well the closure equations hold: what is left of the joints' and drives' conditions at each position."""
+"""How well the closure equations hold: what is left of the joints' and drives' conditions at each position.
+
+Mechanics: docs/theory.md 3.2.
+"""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 
 A joint that carries all three forces (or moments) has them along any axes; one that carries fewer has them along its
 own local axes, marked by a prime: x'. A screw's force along its axis brings its couple with it; the teeth of a gear
-press along one line.
+press along one line. Mechanics: docs/theory.md 2.2.
 """
 
 from __future__ import annotations

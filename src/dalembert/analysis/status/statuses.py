@@ -1,4 +1,7 @@
-"""Status and sentence of every position of an analysis: of all that can be wrong, the first that applies."""
+"""Status and sentence of every position of an analysis: of all that can be wrong, the first that applies.
+
+Mechanics: docs/theory.md 5.1.
+"""
 
 from __future__ import annotations
 

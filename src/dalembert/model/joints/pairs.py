@@ -1,4 +1,7 @@
-"""The table of pairs: what each type of joint in space carries, how it moves, and what describes its friction."""
+"""The table of pairs: what each type of joint in space carries, how it moves, and what describes its friction.
+
+Mechanics: docs/theory.md 2.2.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Joints: what each kind is made of, and the freedoms it leaves of link j against link i."""
+"""Joints: what each kind is made of, and the freedoms it leaves of link j against link i (docs/theory.md 2.1)."""
 
 from __future__ import annotations
 
