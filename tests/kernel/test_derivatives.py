@@ -60,7 +60,7 @@ def test_reductions(reduce: str) -> None:
     checked(four_bar(24), ["effort.O2", "magnitude.B"], reduce, tolerance=1e-6)
 
 
-@pytest.mark.parametrize("seed", tiers(range(3), range(3, 9), range(9, 60)))
+@pytest.mark.parametrize("seed", tiers(range(1), range(1, 9), range(9, 60)))
 def test_random_mechanisms(seed: int) -> None:
     """By the complex step, which loses no digits where a derivative is small beside the value over the number."""
     m = da.mechanism(tree(random_case(seed).drawing))

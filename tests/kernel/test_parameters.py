@@ -41,7 +41,7 @@ def parametrised(value: Any, path: tuple[str, ...] = ()) -> Any:
     return f"{value}*{FACTORS[match[2]]}" if match and path[0] in ("links", "joints", "loads") else value
 
 
-@pytest.mark.parametrize("seed", tiers(range(1, 3), range(3, 9), range(9, 60)))
+@pytest.mark.parametrize("seed", tiers(range(1, 2), range(2, 9), range(9, 60)))
 def test_random_mechanisms(seed: int) -> None:
     plain = da.mechanism(tree(random_case(seed).drawing))
     m = da.mechanism({**parametrised(plain.to_tree()), "parameters": PARAMETERS})

@@ -51,7 +51,7 @@ def test_slopes_from_a_solution_are_those_of_the_program(kind: str, monkeypatch:
     both(KINDS[kind](), monkeypatch)
 
 
-@pytest.mark.parametrize("name", ["slider_crank", "whitworth", "stephenson_2"])
+@pytest.mark.parametrize("name", tiers(["slider_crank"], ["whitworth", "stephenson_2"]))
 def test_slopes_with_friction(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     both(ROUGH[name](), monkeypatch)
 
@@ -125,7 +125,7 @@ def test_beside_a_dead_centre() -> None:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("seed", [12, 14])
+@pytest.mark.parametrize("seed", tiers([12], [14]))
 def test_random_mechanisms_with_strong_friction(seed: int) -> None:
     m = da.mechanism(rough_tree(seed))
     vary = frictional(m)[:2]

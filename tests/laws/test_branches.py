@@ -290,7 +290,7 @@ def test_what_lies_behind_a_dead_centre_keeps_the_side_of_every_group(seed: int)
     assert np.abs(c - meeting(b, p, pivot, q, second)).max() < 1e-6
 
 
-@over(1, 100)
+@over(0, 100)
 def test_a_lifted_linkage_behind_a_dead_centre_is_never_on_the_other_side(seed: int) -> None:
     rng = np.random.default_rng(seed)
     sizes = blocked(rng)

@@ -10,8 +10,11 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases, examples
 from tests.methods.latex_source import problems
+from tests.tiers import tiers
 
-SHOWN = [*examples(), *list(cases())[::5]]
+MANY = "four_cylinder"
+"""The one example of many links over many positions: its sheet takes as long as those of all others."""
+SHOWN = tiers([n for n in examples() if n != MANY] + list(cases())[::10], [MANY, *list(cases())[5::10]])
 SIGNS = [
     "é",
     "ß",

@@ -18,7 +18,7 @@ from dalembert.views.paper.scene import Text
 from tests.random_mechanisms import random_case
 from tests.random_space import random_case as random_space_case
 from tests.space.test_laws import solved as solved_in_space
-from tests.tiers import over
+from tests.tiers import over, over_seeds
 
 SEEDS = range(100)
 CLOSE = 1e-11
@@ -36,7 +36,7 @@ def published(name: str, **options: Any) -> Any:
     return da.solve(da.load(cases()[name]), **options)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@over_seeds(range(25), SEEDS[25:], block=75)
 def test_parts_sum_to_the_whole_and_virtual_work_finds_the_same(seed: int) -> None:
     r = solved(seed)
     good = r.ok

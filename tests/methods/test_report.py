@@ -17,8 +17,10 @@ from dalembert.reports.sheet import Equations, Figure, Matrix, Sheet, Table
 from dalembert.reports.working import working
 from dalembert.views.notation import Notation, Shown
 from tests.methods.readable import text_over_lines, text_overlaps
+from tests.tiers import tiers
 
 GALLERY = [*sorted(name for name in cases() if name.startswith("seed-")), *sorted(examples())]
+QUICK = [*GALLERY[: -len(examples()) : 3], *(name for name in sorted(examples()) if name != "four_cylinder")]
 
 
 def result(name: str, **options: Any) -> Any:
@@ -70,7 +72,7 @@ def test_the_nine_equations_hold() -> None:
         assert sum(a * x for a, x in zip(row, values, strict=True)) == pytest.approx(b, abs=1e-7)
 
 
-@pytest.mark.parametrize("name", GALLERY)
+@pytest.mark.parametrize("name", tiers(QUICK, [n for n in GALLERY if n not in QUICK]))
 def test_every_report_of_the_gallery(name: str) -> None:
     sheet = working(result(name))
     for b in blocks(sheet, Figure):

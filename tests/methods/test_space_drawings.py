@@ -269,7 +269,7 @@ def test_rounding_noise_is_no_force() -> None:
 def test_a_position_without_a_pose_is_refused_with_its_reason() -> None:
     """Others are drawn, and move; where only the forces are missing they are left out."""
     long = da.mechanism(MACHINES["rssr"]).with_values({"links.crank.points.B": ["0.2 m", "0 m", "0 m"]})
-    r = da.dynamics(long)
+    r = da.dynamics(long, positions=8)
     bad = r.status.index("not_assembled")
     for drawn in (
         lambda: da.draw.mechanism(r, at=bad + 1),
