@@ -82,14 +82,14 @@ def positions(c: Compiled) -> Positions:
 
 def _first(c: Compiled) -> tuple[int, Modes] | None:
     """The first position found that closes, and its modes."""
-    for k in _asked(c):
+    for k in _places_to_try(c):
         found = c.guess.modes(c.layout, c.targets[k])
         if found is not None:
             return int(k), found
     return None
 
 
-def _asked(c: Compiled) -> Iterator[int]:
+def _places_to_try(c: Compiled) -> Iterator[int]:
     """Positions at which a first pose is sought: some of all, then some of those at which groups in closed form close,
     however few these are."""
     yield 0

@@ -38,11 +38,7 @@ def _links(m: Mechanism) -> Iterator[ModelError]:
     for name, link in m.links.items():
         for path, size in _sizes(link):
             if size != m.dimension:
-                yield ModelError(
-                    f"a vector of link {name!r} has {size} components, and {m.dimension} are needed in {_where(m)}",
-                    "write [x, y]" if m.dimension == 2 else "write [x, y, z]",
-                    ("links", name, *path),
-                )
+                yield _wrong_size(m, f"a vector of link {name!r}", size, ("links", name, *path))
 
 
 def _sizes(link: Link) -> Iterator[tuple[tuple[str, ...], int]]:
@@ -54,6 +50,11 @@ def _sizes(link: Link) -> Iterator[tuple[tuple[str, ...], int]]:
         yield ("center",), len(link.center)
     if isinstance(link.inertia, tuple):
         yield ("inertia",), 3
+
+
+def _wrong_size(m: Mechanism, what: str, size: int, path: tuple[str, ...]) -> ModelError:
+    wrong = f"{what} has {size} components, and {m.dimension} are needed in {_where(m)}"
+    return ModelError(wrong, "write [x, y]" if m.dimension == 2 else "write [x, y, z]", path)
 
 
 def _where(m: Mechanism) -> str:
@@ -315,11 +316,7 @@ def _components(
         )
     for key, vector in vectors.items():
         if isinstance(vector, tuple) and len(vector) != m.dimension:
-            yield ModelError(
-                f"the {key} of {user} has {len(vector)} components, and {m.dimension} are needed in {_where(m)}",
-                "write [x, y]" if m.dimension == 2 else "write [x, y, z]",
-                (*path, key),
-            )
+            yield _wrong_size(m, f"the {key} of {user}", len(vector), (*path, key))
 
 
 def _torsion(m: Mechanism, load: TurnLoad, user: str, path: tuple[str, ...]) -> Iterator[ModelError]:

@@ -172,7 +172,7 @@ def _tangents(result: Result, joint: str, other: str) -> tuple[Line, ...]:
         direction = np.stack([n[:, 1], -n[:, 0]], axis=-1)
         point = np.where(same[:, None], np.nan, here + sides[0] * r[0][:, None] * n)
         lines.append(Line(point, np.where(same[:, None], np.nan, direction)))
-    return _without_taken(lines)
+    return _drop_taken(lines)
 
 
 def _possible(radius: float) -> tuple[int, ...]:
@@ -180,7 +180,7 @@ def _possible(radius: float) -> tuple[int, ...]:
     return (1, -1) if radius else (0,)
 
 
-def _without_taken(lines: list[Line]) -> tuple[Line, ...]:
+def _drop_taken(lines: list[Line]) -> tuple[Line, ...]:
     """All lines but one: at each position those that are not NaN first, in their order."""
     points, directions = np.stack([x.point for x in lines]), np.stack([x.direction for x in lines])
     order = np.argsort(np.isnan(points[:, :, 0]), axis=0, kind="stable")[:-1]

@@ -116,7 +116,7 @@ def _fields(result: Result, to: Scale, axes: Axes) -> Fields:
     for name, kind in kinds.items() if result.ends else ():
         group = "efforts" if name in result.drives else "unknown_loads"
         out[group, name] = _ranges(out[group, name], numbers(kind, result.interval(name)), result.status)
-        out["holding", name] = _sought(numbers(kind, result.holding(name)), result.holding(name))
+        out["holding", name] = _holding_ranges(numbers(kind, result.holding(name)), result.holding(name))
     out |= _reaction_fields(result, to, axes)
     for name, ends in zip(kinds, result.ends, strict=False):
         for which, end in zip(("low", "high"), ends, strict=True):
@@ -200,7 +200,7 @@ def _ranges(single: Lists, ends: Lists, status: tuple[str, ...]) -> Lists:
     return lists
 
 
-def _sought(ends: Lists, values: Array) -> Lists:
+def _holding_ranges(ends: Lists, values: Array) -> Lists:
     """`[low, high]`, where nothing bounds it null; None where it is not sought."""
     unsought = np.asarray(np.isnan(values).all(axis=-1))
     return lambda part: [None if no else both for both, no in zip(ends(part), unsought[part], strict=True)]

@@ -38,10 +38,10 @@ def least(r: Result, k: int) -> dict[str, float]:
 def sizes(r: Result) -> dict[str, Array]:
     """By kind of number: the largest there is at each position (P,), in SI; of forces and moments one size over the
     length. Kept with the result, as every number that is printed asks for it."""
-    return cached(r, _sizes)
+    return read_once(r, _sizes)
 
 
-def cached(r: Result, of: Callable[[Result], dict[str, Array]]) -> dict[str, Array]:
+def read_once(r: Result, of: Callable[[Result], dict[str, Array]]) -> dict[str, Array]:
     """What a function makes of a result, made once."""
     if of.__qualname__ not in vars(r):
         vars(r)[of.__qualname__] = of(r)

@@ -163,12 +163,12 @@ def _diagrams(result: Result, to: Scale, axes: Axes) -> Iterator[Diagram]:
     asked = {
         n: (result.effort if n in result.drives else result.unknown_load)(n) for n in unknown_kinds(result)
     }
-    unknown = _known(Named(n, to.text(k), to(k, asked[n])) for n, k in unknown_kinds(result).items())
+    unknown = _finite(Named(n, to.text(k), to(k, asked[n])) for n, k in unknown_kinds(result).items())
     for unit in dict.fromkeys(of.unit for of in unknown):
         yield Diagram("Effort", x, [of for of in unknown if of.unit == unit])
     unit = to.text("force")
     forces = {joint: to("force", result.reaction(joint, axes=axes)) for joint in result.joints}
-    sizes = _known(Named(joint, unit, np.linalg.norm(force, axis=-1)) for joint, force in forces.items())
+    sizes = _finite(Named(joint, unit, np.linalg.norm(force, axis=-1)) for joint, force in forces.items())
     sizes.sort(key=lambda of: -float(np.nan_to_num(of.values).max(initial=0.0)))
     yield Diagram("Joint forces", x, sizes[:MOST_CURVES])
     pins = [of.name for of in sizes if in_plane(result) and result.mechanism.joints[of.name].hinge]
@@ -177,7 +177,7 @@ def _diagrams(result: Result, to: Scale, axes: Axes) -> Iterator[Diagram]:
         yield Diagram(f"Polar diagram of {joint}", along, [up], polar=True)
 
 
-def _known(some: Iterable[Named]) -> list[Named]:
+def _finite(some: Iterable[Named]) -> list[Named]:
     """Those that have a value somewhere."""
     return [of for of in some if np.isfinite(of.values).any()]
 

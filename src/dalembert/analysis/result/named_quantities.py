@@ -144,7 +144,7 @@ def quantity(r: Result, name: str) -> Quantity:
     >>> quantity(r, "max(abs(effort.O2), 3 N*m)").kind
     'moment'
     """
-    found = _named(r, str(name))
+    found = _find_quantity(r, str(name))
     if found is not None:
         return found
     tree = parse_quantity(str(name), quantity_names(r), "quantity")
@@ -158,7 +158,7 @@ def quantity(r: Result, name: str) -> Quantity:
 
 
 def _scalar(r: Result, name: str) -> Quantity:
-    found = _named(r, name)
+    found = _find_quantity(r, name)
     if found is None:
         raise ModelError(f"there is no quantity {name!r}", closest(name, quantity_names(r)))
     if found.values.ndim > 1:
@@ -168,7 +168,7 @@ def _scalar(r: Result, name: str) -> Quantity:
     return found
 
 
-def _named(r: Result, name: str) -> Quantity | None:
+def _find_quantity(r: Result, name: str) -> Quantity | None:
     """The quantity of a single name, or of a component; None where there is none."""
     word, _, behind = name.partition(".")
     if word not in READ:

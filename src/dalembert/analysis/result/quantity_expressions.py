@@ -36,12 +36,12 @@ def parse_quantity(text: str, names: Sequence[str], what: str = "output") -> Tre
         prefix += "y"
     found: list[str] = []
 
-    def marked(match: re.Match[str]) -> str:
+    def mark(match: re.Match[str]) -> str:
         found.append(match[0])
         return f"{prefix}{len(found) - 1}"
 
     one = "|".join(re.escape(name) for name in sorted(names, key=len, reverse=True))
-    plain = re.sub(rf"(?<![\w.])(?:{one})(?:\.(?:{'|'.join(COMPONENTS)}))?(?![\w.])", marked, text)
+    plain = re.sub(rf"(?<![\w.])(?:{one})(?:\.(?:{'|'.join(COMPONENTS)}))?(?![\w.])", mark, text)
     unknown = re.search(r"[^\W\d][\w-]*(?:\.[\w-]+)+", plain)
     if unknown:
         raise ModelError(f"there is no {what} {unknown[0]!r}", closest(unknown[0], list(names)))
@@ -57,14 +57,14 @@ def parse_quantity(text: str, names: Sequence[str], what: str = "output") -> Tre
     places = {f"{prefix}{k}": name for k, name in enumerate(found)}
     for name in names_in(tree) - places.keys():
         raise ModelError(f"there is no {what} {name!r}", closest(name, list(names)))
-    return _renamed(tree, places)
+    return _rename(tree, places)
 
 
-def _renamed(tree: Tree, names: dict[str, str]) -> Tree:
+def _rename(tree: Tree, names: dict[str, str]) -> Tree:
     if isinstance(tree, Name):
         return Name(names[tree.name])
     if isinstance(tree, Apply):
-        return Apply(tree.function, tuple(_renamed(argument, names) for argument in tree.arguments))
+        return Apply(tree.function, tuple(_rename(argument, names) for argument in tree.arguments))
     return tree
 
 

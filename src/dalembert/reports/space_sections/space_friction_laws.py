@@ -122,7 +122,7 @@ class _Joint:
             for n, pin in enumerate(pins)
         ]
         for contact in collars:
-            mu, arm = self._given(contact), self._number("length", self.described.friction.thrust_radius)
+            mu, arm = self._mu(contact), self._number("length", self.described.friction.thrust_radius)
             size = f"|{along(self.sign, 'z' + chr(39))}|"
             letters = f"mu_{{{self.joint}}} R_{{t}} {size}"
             parts.append((letters, f"{mu} cdot {arm} cdot {self._number('force', contact.bearing)}"))
@@ -132,7 +132,7 @@ class _Joint:
     def _prismatic(self) -> list[Working]:
         of, mu = len(self.contacts), f"mu_{{{self.joint}}}"
         out = [self._bearing(contact, n, of, "yz") for n, contact in enumerate(self.contacts)]
-        parts = [self._product(mu, self._given(end), end, n, of) for n, end in enumerate(self.contacts)]
+        parts = [self._product(mu, self._mu(end), end, n, of) for n, end in enumerate(self.contacts)]
         return [*out, self._sum(along(self.force_sign, "x'"), "force", parts, self._amounts())]
 
     def _cylindrical(self) -> list[Working]:
@@ -142,12 +142,12 @@ class _Joint:
         out = [self._bearing(contact, n, of, "yz") for n, contact in enumerate(guides)]
         parts = [("p_{x'}", contact.part), *([("p_{t}", pins[0].part)] if pins else [])]
         out.append(Working(", quad ".join(f"{sign} = {self._figure(part)}" for sign, part in parts)))
-        factor, figured = f"mu_{{{name}}}", self._given(contact)
+        factor, figured = f"mu_{{{name}}}", self._mu(contact)
         if pins and circle_kind(self.c.r.mechanism, self.described) == "sin":
             below = f"(1 + ({figured} cdot {self._figure(abs(pins[0].part))})^{{2}})^{{1/2}}"
             letters = f"k_{{{name}}} = frac(mu_{{{name}}}; (1 + (mu_{{{name}}} p_{{t}})^{{2}})^{{1/2}})"
             factor, figured = f"k_{{{name}}}", self._figure(contact.strength)
-            out.append(Working(letters, f"frac({self._given(contact)}; {below})", figured))
+            out.append(Working(letters, f"frac({self._mu(contact)}; {below})", figured))
         sizes = [self._figure(abs(p[0].part)) for p in (guides, pins) if p]
         out.append(self._share("force", f"{factor} |p_{{x'}}|", f"{figured} cdot {sizes[0]}", guides))
         if pins:
@@ -167,7 +167,7 @@ class _Joint:
     def _figure(self, x: float) -> str:
         return self.c.shown.number("number", x)
 
-    def _given(self, contact: ContactForce) -> str:
+    def _mu(self, contact: ContactForce) -> str:
         return self.c.notation.given(contact.coefficient)
 
     def _spherical(self) -> list[Working]:
@@ -196,7 +196,7 @@ class _Joint:
         flank = f.thread_angle or 0.0
         axial = thread.bearing * math.cos(climb) * math.cos(flank)
         friction = (thread.amount + pin.amount) / math.sin(climb)
-        mu, degrees = self._given(thread), self.c.notation.degrees(climb)
+        mu, degrees = self._mu(thread), self.c.notation.degrees(climb)
         both = f"({self._number('force', thread.bearing)} + {self._number('force', pin.bearing)})"
         lead = self._number("length", abs(self.described.lead))
         radius = self._number("length", f.radius)

@@ -42,7 +42,7 @@ def order_and_solution(sheet: Sheet, c: ReportContext) -> None:
     tensions = {link: _tension(c, link, found[link]) for link in rods}
     for step in steps:
         pulled = [u for link, u in tensions.items() if f"the line of {link}" in step.finds]
-        _step(sheet, c, step, [*pulled, *(u for u in every if _sought(u, step))])
+        _step(sheet, c, step, [*pulled, *(u for u in every if _finds(u, step))])
 
 
 def _two_force_step(c: ReportContext, member: Member) -> Member:
@@ -95,7 +95,7 @@ def _tension(c: ReportContext, link: str, member: Member) -> Unknown:
     return Unknown(f"S_{{{c.shown.link(link)}}}", value, "force", on, place, of)
 
 
-def _sought(u: Unknown, step: Step) -> bool:
+def _finds(u: Unknown, step: Step) -> bool:
     """Whether a step finds an unknown."""
     ((kind, name),) = u.of
     return any(

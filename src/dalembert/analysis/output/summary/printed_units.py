@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.output.columns import Scale, UnitChoice, drive_kinds, load_kind
-from dalembert.analysis.output.rounding import PART, cached, largest, sizes
+from dalembert.analysis.output.rounding import PART, largest, read_once, sizes
 from dalembert.arrays import Array, Numeric, Tree
 from dalembert.printing import number
 
@@ -78,7 +78,7 @@ def print_scale(result: Result, units: UnitChoice) -> Printed:
     unit, the same in every table, drawing and report of the result. Forces and moments have one power, so that
     arms stay in the unit of the file: kN times mm is N*m."""
     plain = Printed(None if units == "SI" else result.mechanism.units)
-    most = {k: float(abs(plain(k, float(size[0])))) for k, size in cached(result, _extents).items()}
+    most = {k: float(abs(plain(k, float(size[0])))) for k, size in read_once(result, _extents).items()}
     powers = {k: p for k, size in most.items() if (p := _power(size))}
     common = max(powers.get("force", 0), 3 if "moment" in powers else 0, _power(most["moment"] / 1e3))
     if common:
@@ -130,7 +130,7 @@ def significant(result: Result, kind: str, values: Array) -> Array:
     >>> significant(statics(four_bar()), "force", np.array([1e-30, 5.0]))
     array([0., 5.])
     """
-    small: Array = PART * cached(result, _largest).get(kind, np.zeros(len(result.status)))
+    small: Array = PART * read_once(result, _largest).get(kind, np.zeros(len(result.status)))
     shape = np.shape(values)
     small = small.reshape(-1, *[1] * (len(shape) - 1)) if shape[:1] == small.shape else small[0]
     return np.where(np.abs(values) < small, 0.0, values)
