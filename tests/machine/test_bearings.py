@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import openpyxl
 import pytest
 
 import dalembert as da
@@ -100,7 +101,9 @@ def test_the_smallest_that_is_enough_is_chosen(tmp_path: Path, capsys: pytest.Ca
     (tmp_path / "m.yaml").write_text(SHAFT.format(load="1898", bearing="{rating: 12 kN}", turn=2 * math.pi))
     (tmp_path / "b.csv").write_text(TABLE)
     arguments = ["bearings", str(tmp_path / "m.yaml"), "--hours", "5000", "--table", str(tmp_path / "b.csv")]
-    outputs = [x for kind in ("json", "csv", "report") for x in (f"--{kind}", str(tmp_path / f"o.{kind}"))]
+    outputs = [
+        x for kind in ("json", "csv", "xlsx", "report") for x in (f"--{kind}", str(tmp_path / f"o.{kind}"))
+    ]
     outputs[-1] = str(tmp_path / "o.txt")
     assert main([*arguments, *outputs]) == 0
     said = capsys.readouterr().out
@@ -110,6 +113,10 @@ def test_the_smallest_that_is_enough_is_chosen(tmp_path: Path, capsys: pytest.Ca
     assert read["chosen"] == "6204"
     assert read["rating_needed"] == pytest.approx(1898 * 90 ** (1 / 3))
     assert "radial force O [N]" in (tmp_path / "o.csv").read_text()
+    book = openpyxl.load_workbook(tmp_path / "o.xlsx")
+    assert book["positions"]["C1"].value == "radial force O [N]"
+    assert book["positions"]["C2"].value == pytest.approx(1898)
+    assert any("6204" in row for row in book["answer"].values)
     assert "L_10 = ((C)/(P))^e 10^6" in (tmp_path / "o.txt").read_text()
     assert main([*arguments, "--factor", "2"]) == 0
     assert "none is enough" in capsys.readouterr().out

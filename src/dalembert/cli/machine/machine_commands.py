@@ -41,6 +41,7 @@ class Outputs:
     csv: Annotated[
         Path | None, target("Write a table, one row a position; - prints it, and nothing else.")
     ] = None
+    xlsx: Annotated[Path | None, target("Write a workbook: the table, and what is printed.")] = None
     drawing: Annotated[Path | None, with_help("Draw it to this file: .svg, .pdf, .png or .dxf.")] = None
     report: Annotated[
         Path | None, with_help("Write the worked solution to this file: .pdf, .html, .tex or .txt.")
@@ -56,7 +57,7 @@ class Outputs:
         """Refused before the work, not behind it."""
         from dalembert.cli.solve_command import check_targets
 
-        targets = {name: getattr(self, name) for name in ("json", "csv", "drawing", "report")}
+        targets = {name: getattr(self, name) for name in ("json", "csv", "xlsx", "drawing", "report")}
         check_targets(file, targets, self.force)
 
     def deliver(self, m: Mechanism, find: Callable[[], Any], **choice: Any) -> Any:
@@ -80,11 +81,14 @@ class Outputs:
                     open(new, "w", encoding="utf-8", newline="") as stream,
                 ):
                     write(answer, stream, units)
+        if self.xlsx is not None:
+            with new_file(self.xlsx, self.force) as new:
+                written.write_workbook(answer, new, units)
         if not silent:
             print(answer.text("SI" if self.units == "si" else "file", **choice))
         if self.drawing is not None or self.report is not None:
             self._draw(answer)
-        for path in (self.json, self.csv, self.drawing, self.report):
+        for path in (self.json, self.csv, self.xlsx, self.drawing, self.report):
             if path is not None and str(path) != "-":
                 print(f"Written: {path}", file=sys.stderr)
         return answer

@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 import json
 import math
+from collections.abc import Iterator
+from pathlib import Path
 from typing import IO
 
 import numpy as np
@@ -51,15 +53,30 @@ def write_json(answer: Answer, stream: IO[str], units: UnitChoice = "SI") -> Non
     stream.write("\n")
 
 
+def rows(answer: Answer, units: UnitChoice = "SI") -> Iterator[list[object]]:
+    """Heads with units, then one row a position; None where there is no value."""
+    to, some = scale(answer.result, units), list(answer.columns())
+    yield ["position", *(f"{c.name} [{to.text(c.kind)}]" if to.text(c.kind) else c.name for c in some)]
+    lists = [nan_to_none(np.asarray(to(c.kind, c.values))) for c in some]
+    yield from ([k, *row] for k, row in enumerate(zip(*lists, strict=True), 1))
+
+
 def write_csv(answer: Answer, stream: IO[str], units: UnitChoice = "SI") -> None:
     """One row a position into an open text file; an empty field where there is no value."""
-    to = scale(answer.result, units)
-    some = list(answer.columns())
-    heads = [f"{c.name} [{to.text(c.kind)}]" if to.text(c.kind) else c.name for c in some]
-    lists = [nan_to_none(np.asarray(to(c.kind, c.values))) for c in some]
-    writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(["position", *heads])
-    writer.writerows([k, *row] for k, row in enumerate(zip(*lists, strict=True), 1))
+    csv.writer(stream, lineterminator="\n").writerows(rows(answer, units))
+
+
+def write_workbook(answer: Answer, path: Path, units: UnitChoice = "SI") -> None:
+    """A sheet of the positions, and one of what is printed."""
+    from dalembert.analysis.output.workbook import add_sheet, new_book
+
+    with new_book(path) as book:
+        add_sheet(book, "positions", rows(answer, units)).freeze_panes = "C2"
+        said: list[list[str]] = []
+        for part in answer.contents(units):
+            lines = [[part]] if isinstance(part, str) else [part.heads, *part.rows, [part.note]]
+            said += [*([cell.replace("\n", " ") for cell in line] for line in lines), []]
+        add_sheet(book, "answer", said, (24,))
 
 
 def rms(values: Array) -> float:
