@@ -21,10 +21,13 @@ if TYPE_CHECKING:
     from dalembert.analysis.batch.compiled_kernel import Kernel
 
 
-def plain(k: Kernel, nodes: list[Node] | None = None, marked: bool = True) -> Program:
+def plain(
+    k: Kernel, nodes: list[Node] | None = None, marked: bool = True, without: frozenset[str] = frozenset()
+) -> Program:
     """The program with the drives' own quantities as inputs: cosines and expressions are computed inside.
 
-    nodes: other outputs than those asked for. marked: with what says whether they are right.
+    nodes: other outputs than those asked for. marked: with what says whether they are right. without: operations with
+    which an expression stays an input.
     """
     graph, inputs = k.trace.catalogue.graph, k.trace.inputs
     places: dict[int, Node] = {}
@@ -36,7 +39,9 @@ def plain(k: Kernel, nodes: list[Node] | None = None, marked: bool = True) -> Pr
             places[node.index] = raw[of].cos() if what == "cos" else raw[of].sin()
         elif isinstance(inputs.varying.get(name), Expression) and inputs.varying[name].names <= raw.keys():
             value = inputs.varying[name].at(raw, functions(graph))
-            places[node.index] = value if isinstance(value, Node) else graph.constant(value)
+            value = value if isinstance(value, Node) else graph.constant(value)
+            if not any(n.op in without for n in graph.order([value])):
+                places[node.index] = value
         elif kind == "common" or (what == "counted" and np.ptp(inputs.found[node](k.trace.course)) == 0):
             places[node.index] = graph.constant(np.ravel(inputs.found[node](k.trace.course))[0])
     program = k.program(k.flat) if nodes is None else k.program(nodes, len(nodes))

@@ -4,7 +4,8 @@ In: a ``Mechanism``, an end. Out: a ``Simulation``: a ``Result`` over time, even
 ``analysis``, ``kernel``, ``core`` and what they import.
 
 equation     M_r u' + h = tau, from the compiled inverse dynamics
-driving      what moves each drive: given efforts, motors with their switches, brakes
+actuation    what moves each drive: given efforts, motors with their switches, brakes
+steps        the method's steps, in machine code where the motion is smooth
 integration  segments between events: contacts that come to rest, switches, the user's (occurrences)
 standstill   whether friction holds a drive at rest, by the analysis of the machine at rest there
 simulation   `da.simulate`; energies: of a result, in closed form

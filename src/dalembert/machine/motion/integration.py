@@ -3,55 +3,59 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
-from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
 from dalembert.arrays import Array
-from dalembert.machine.motion.driving import Moving
+from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.equation import StoppedError
-from dalembert.machine.motion.occurrences import Condition, Guard, Track
-from dalembert.machine.motion.standstill import STILL, Contacting
+from dalembert.machine.motion.occurrences import Condition, Guard, Value
+from dalembert.machine.motion.standstill import STILL, ContactState
+from dalembert.machine.motion.steps import Stages, Steps
 from dalembert.model import Mechanism
+from dalembert.model.drives.motors import Switch
 
-TINY, TRIES = 1e-12, 100
-"""So many steps below this part of the time are no progress."""
+SHORT, TRIES = 1e-6, 100
+"""A step below this part of the longest has met something: a singular position; so many are no progress."""
 COARSEST = 1e-9
 """Tolerance up to which steps with friction are taken again that are refused."""
 CHATTER, MANY = 1e-9, 40
 """So many events within this part of the time that has gone by are chatter."""
 
 
-class Integration(Contacting):
+class Integration(ContactState):
     """One run from a start to an end."""
 
     def __init__(
         self,
         m: Mechanism,
-        moving: Moving,
+        actuation: Actuation,
         end: float,
         times: Array | None,
         conditions: Sequence[Condition],
         tolerance: float,
     ) -> None:
-        super().__init__(m, moving)
+        super().__init__(m, actuation)
         self.end, self.conditions, self.tolerance = end, conditions, tolerance
         self.waiting = None if times is None else list(times)
-        self.track, self.ended = Track(), ""
-        self.fastest = np.abs(moving.speed)
+        self.ended = ""
+        self.rows: list[tuple[float, Array, Array, Array, Array, Array]] = []
+        self.fastest = np.abs(actuation.speed)
+        self.stages: dict[tuple[bool, ...], Stages | None] = {}
 
     def keep(self, t: float, y: Array) -> None:
         """Keep an instant."""
         d = self.d
         a, effort, _ = self.at(t, y)
-        self.track.rows.append((t, y[:d].copy(), y[d : 2 * d].copy(), a, effort, y[2 * d :].copy()))
+        self.rows.append((t, y[:d].copy(), y[d : 2 * d].copy(), a, effort, y[2 * d :].copy()))
 
     def run(self) -> None:
         """Integrate from the start until the end, a condition that stops, or a state from which nothing goes on."""
-        start = self.moving
-        t, y = 0.0, np.concatenate([start.position, start.speed, np.zeros(self.d + 4)])
+        start = self.acting
+        self.reached = t, y = 0.0, np.concatenate([start.position, start.speed, np.zeros(self.d + 4)])
         try:
             self._settle_start(t, y)
             self.keep(t, y)
@@ -62,13 +66,17 @@ class Integration(Contacting):
                     t, y = self._segment(t, y)
                 self._watch_chatter()
         except StoppedError as error:
-            self.ended = f"stopped at {self.track.rows[-1][0] if self.track.rows else 0.0:.6g} s: {error}"
-            self.note(self.track.rows[-1][0] if self.track.rows else 0.0, "stopped", self.ended)
+            if self.rows and self.reached[0] > self.rows[-1][0]:
+                with suppress(StoppedError):
+                    self.keep(*self.reached)
+            t = self.rows[-1][0] if self.rows else 0.0
+            self.ended = f"stopped at {t:.6g} s: {error}"
+            self.note(t, "stopped", self.ended)
 
     def _all_rest(self) -> bool:
         """Whether what forces move is held, and what is prescribed stands."""
-        others = ~self.moving.free
-        moves = (self.moving.speed[others] != 0).any() or (self.moving.acceleration[others] != 0).any()
+        others = ~self.acting.free
+        moves = (self.acting.speed[others] != 0).any() or (self.acting.acceleration[others] != 0).any()
         return bool((self.locked | others).all() and not moves)
 
     def _watch_chatter(self) -> None:
@@ -83,23 +91,28 @@ class Integration(Contacting):
     def _segment(self, t: float, y: Array) -> tuple[float, Array]:
         """To the first event, or the end."""
         guards = self._guards(t, y)
-        solver, tiny = self._solver(t, y, self.end), 0
+        solver, tiny, longest = self._solver(t, y, self.end), 0, 0.0
         while solver.status == "running":
-            before, from_ = solver.t, solver.y.copy()
-            solver.step()
-            span = self.end if np.isfinite(self.end) else solver.t
-            tiny = tiny + 1 if solver.step_size is not None and solver.step_size < TINY * span else 0
-            if tiny > TRIES:
-                raise StoppedError(
-                    "there the steps become too small, as where something has next to no inertia"
-                )
-            if solver.status == "failed" and self.equation.rough and self.tolerance < COARSEST:
-                self.tolerance *= 10  # forces with friction are found to fewer digits than that
-                return before, from_
-            if solver.status == "failed" or not np.isfinite(solver.y).all():
-                raise StoppedError("there the steps of the integration become too small")
+            before, from_ = self.reached = solver.t, solver.y
+            if solver.step():
+                if (
+                    self.equation.rough
+                    and self.tolerance < COARSEST
+                    and not self._near_singular(before, from_)
+                ):
+                    self.tolerance *= 10  # forces with friction are found to fewer digits than that
+                    return before, from_
+                raise StoppedError(self.refusal or "there the steps of the integration become too small")
+            self.refusal, longest = "", max(longest, solver.h_previous or 0.0)
+            if solver.status == "running" and solver.h_abs < SHORT * longest:
+                self._near_singular(solver.t, solver.y)
+                tiny += 1
+                if tiny > TRIES:
+                    raise StoppedError(
+                        "there the steps become too small, as where something has next to no inertia"
+                    )
             dense: Any = None
-            crossed = [g for g in guards if self._crossed(g, solver.t, solver.y)]
+            crossed = [g for g in guards if self._crosses(g, solver.t, solver.y)]
             if crossed:
                 dense = solver.dense_output()
                 when = min(self._root(g, dense, before, solver.t) for g in crossed)
@@ -108,8 +121,13 @@ class Integration(Contacting):
                 self._happen(when, y, [g for g in crossed if self._root(g, dense, before, solver.t) <= when])
                 self.keep(when, y)
                 return when, y
-            if (self.locked & self.moving.free).any() and not self._still_held(solver.t, solver.y):
-                return self._release(before, from_, solver.dense_output(), solver.t)
+            if (self.locked & self.acting.free).any() and self._loose(solver.t, solver.y):
+                dense = solver.dense_output()
+                when = self._loosening(before, solver.t, dense)
+                y = self._exactly(before, from_, when)
+                self._keep_until(dense, before, when)
+                self._resume(when, y)
+                return when, y
             self.fastest = np.maximum(self.fastest, np.abs(solver.y[self.d : 2 * self.d]))
             if self.waiting is None:
                 self.keep(solver.t, solver.y)
@@ -117,8 +135,36 @@ class Integration(Contacting):
                 self._keep_until(solver.dense_output(), before, solver.t)
         return solver.t, solver.y
 
-    def _solver(self, t: float, y: Array, end: float) -> Any:
-        return DOP853(self.rate, t, y, end, rtol=self.tolerance, atol=self.tolerance * 1e-4)
+    def _near_singular(self, t: float, y: Array) -> bool:
+        """Raise StoppedError at a dead centre or change point, where two ways go on; otherwise False."""
+        if (self.at(t, y)[2].closure < 0).any():
+            raise StoppedError(
+                "there is a dead centre or a change point, from which the mechanism can go on in two ways, and its "
+                "drives do not tell which; let a drive go that places the links there too"
+            )
+        return False
+
+    def _solver(self, t: float, y: Array, end: float) -> Steps:
+        stages = self._machine(t, y)
+        rate = self.rate if stages is None else stages.rate
+        solver = Steps(rate, t, y, end, rtol=self.tolerance, atol=self.tolerance * 1e-4)
+        solver.stages = stages
+        return solver
+
+    def _machine(self, t: float, y: Array) -> Stages | None:
+        """Steps in machine code, where the efforts are straight lines of the speeds until the next event."""
+        free = self.acting.free & ~self.locked
+        lines = self.acting.lines(y[self.d : 2 * self.d], self.at(t, y)[0])
+        if lines is None:
+            return None
+        key = tuple(free)
+        if key not in self.stages:
+            self.stages[key] = self.equation.stages(free)
+        if (stages := self.stages[key]) is not None:
+            brake = -self.acting.brake * self.toward * free
+            given = np.where(self.acting.free, 0.0, self.acting.acceleration)
+            stages.given(np.concatenate([*lines, brake, given]))
+        return stages
 
     def _exactly(self, t: float, y: Array, when: float) -> Array:
         """The state at an instant within a step, integrated and not interpolated."""
@@ -136,33 +182,33 @@ class Integration(Contacting):
     # events
 
     def _guards(self, t: float, y: Array) -> list[Guard]:
-        """What may end the segment that begins."""
-        out = [Guard("rest", int(k), float(self.toward[k])) for k in np.flatnonzero(self.rubs & ~self.locked)]
-        out += [Guard("contact", c, float(s)) for c, s in enumerate(self.sense)]
-        for k, motor in self.moving.motors.items():
-            out += [Guard(key, k, at=s[1]) for key, s in self._switches(k)]
-            out += [Guard("kink", k, at=w) for w in motor.kinks]
-        out += [Guard("condition", n) for n in range(len(self.conditions))]
-        size = max(float(np.abs(y[: 2 * self.d]).max()), 1.0)
+        """What may end the segment that begins: each a quantity whose sign is watched."""
+        d, acting = self.d, self.acting
+
+        def speed(k: int, less: float = 0.0) -> Value:
+            return lambda t, y: float(y[d + k] - less)
+
+        def rate(c: int) -> Value:
+            return lambda t, y: float(self.rubbing_rates(t, y)[c])
+
+        def switch(k: int, of: Switch) -> Value:
+            return lambda t, y: acting.switched(of, k, t, y[:d], y[d:])
+
+        rubbing = np.flatnonzero(self.rubs & ~self.locked).tolist()
+        out = [Guard("rest", k, speed(k), float(self.toward[k])) for k in rubbing]
+        out += [Guard("contact", c, rate(c), float(s)) for c, s in enumerate(self.sense)]
+        for k, motor in acting.motors.items():
+            out += [Guard(key, k, switch(k, of)) for key, of in self._switches(k)]
+            out += [Guard("kink", k, speed(k, w)) for w in motor.kinks]
+        out += [Guard("condition", n, c.value_at(d)) for n, c in enumerate(self.conditions)]
+        size = max(float(np.abs(y[: 2 * d]).max()), 1.0)
         for g in out:
-            value = 0.0 if g.side else self._value(g, t, y)
+            value = 0.0 if g.side else g.value(t, y)
             g.side = g.side or (float(np.sign(value)) if abs(value) > 1e-12 * size else 0.0)
         return out
 
-    def _value(self, g: Guard, t: float, y: Array) -> float:
-        """What a guard watches the sign of."""
-        q, u = y[: self.d], y[self.d : 2 * self.d]
-        if g.kind == "contact":
-            return float(self.at(t, y)[2].rates[g.which])
-        if g.kind == "condition":
-            return self.conditions[g.which](t, q, u)
-        if g.kind in ("on", "off"):
-            switch = getattr(self.moving.motors[g.which], g.kind)
-            return self.moving.switched(switch, g.which, t, q, u)
-        return float(u[g.which] - g.at)
-
-    def _crossed(self, g: Guard, t: float, y: Array) -> bool:
-        value = self._value(g, t, y)
+    def _crosses(self, g: Guard, t: float, y: Array) -> bool:
+        value = g.value(t, y)
         if not g.side:
             g.side = float(np.sign(value))
             return False
@@ -170,7 +216,7 @@ class Integration(Contacting):
 
     def _root(self, g: Guard, dense: Any, before: float, after: float) -> float:
         def value(t: float) -> float:
-            return self._value(g, t, dense(t)) * g.side
+            return g.value(t, dense(t)) * g.side
 
         if value(before) <= 0:
             return before
@@ -191,11 +237,7 @@ class Integration(Contacting):
             elif g.kind == "contact":
                 rests += [k for k in stands if k not in rests]
             elif g.kind in ("on", "off"):
-                self.moving.on[g.which] = g.kind == "on"
-                self.switched.add((g.which, g.kind))
-                self.note(
-                    t, f"motor {g.kind}", f"the motor of {self.moving.names[g.which]} is switched {g.kind}"
-                )
+                self._switch(t, g.which, g.kind)
             elif g.kind == "condition":
                 c = self.conditions[g.which]
                 self.note(t, "condition", c.text)
@@ -204,33 +246,21 @@ class Integration(Contacting):
             y[d + k] = 0.0
             self._settle(k, t, y)
 
-    def _release(self, before: float, from_: Array, dense: Any, after: float) -> tuple[float, Array]:
-        """The instant at which a locked drive is let go, by halving."""
-        low, high = before, after
-        while high - low > 1e-13 * max(high, 1e-300):
-            middle = (low + high) / 2
-            if middle in (low, high):
-                break
-            low, high = (middle, high) if self._still_held(middle, dense(middle)) else (low, middle)
-        y = self._exactly(before, from_, high)
-        self._keep_until(dense, before, high)
-        for k in self._held(high, y):
-            self._settle(k, high, y)
-        self.keep(high, y)
-        return high, y
+    def _resume(self, t: float, y: Array) -> None:
+        """Let go what is no longer held."""
+        for k in self._loose(t, y):
+            self._settle(k, t, y)
+        self.keep(t, y)
 
     def _rest(self, t: float, y: Array) -> float:
         """All that forces move stands: until it is no longer held, or to the end."""
         end = self.end if np.isfinite(self.end) else t
         when = self._let_go(t, end, y)
-        while self.waiting and self.waiting[0] <= when:
-            self.keep(self.waiting.pop(0), y)
-        if when >= end:
-            self.ended = f"at rest from {t:.6g} s on"
-            if self.track.rows[-1][0] < end:
-                self.keep(end, y)
-            return self.end
-        for k in self._held(when, y):
-            self._settle(k, when, y)
-        self.keep(when, y)
-        return when
+        self._keep_until(lambda _: y, t, when)
+        if when < end:
+            self._resume(when, y)
+            return when
+        self.ended = f"at rest from {t:.6g} s on"
+        if self.rows[-1][0] < end:
+            self.keep(end, y)
+        return self.end

@@ -1,14 +1,15 @@
-"""What ends a segment of a motion, and what is kept of it."""
+"""What ends a segment of a motion."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import NamedTuple
 
-import numpy as np
-
 from dalembert.arrays import Array
+
+Value = Callable[[float, Array], float]
+"""A quantity of time and state."""
 
 
 class Event(NamedTuple):
@@ -29,29 +30,20 @@ class Condition:
     value: float
     stops: bool
 
-    def __call__(self, t: float, q: Array, u: Array) -> float:
-        return float((q if self.what == "position" else u)[self.drive] - self.value)
+    def value_at(self, d: int) -> Value:
+        """What is to pass zero, of a state of d drives."""
+        place = self.drive + d * (self.what == "speed")
+        return lambda t, y: float(y[place] - self.value)
 
 
 @dataclass
 class Guard:
-    """A quantity of the state, by its kind and which one, whose change of sign from ``side`` is an event.
+    """A ``value`` of the state, by its kind and which one, whose change of sign from ``side`` is an event.
 
     A side of 0 is not known yet.
     """
 
     kind: str
     which: int
+    value: Value
     side: float = 0.0
-    at: float = 0.0
-
-
-@dataclass
-class Track:
-    """Instants that are kept: time, positions, speeds, accelerations, efforts, works."""
-
-    rows: list[tuple[float, Array, Array, Array, Array, Array]] = field(default_factory=list)
-
-    def columns(self) -> Iterator[Array]:
-        """Each as an array (T, ...)."""
-        return (np.array(column) for column in zip(*self.rows, strict=True))

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dalembert.analysis.one_pass import at_schedule
-from dalembert.analysis.output.columns import Column, Scale, columns
+from dalembert.analysis.output.columns import Column, Scale, columns, drive_kinds
 from dalembert.analysis.result.closure_residual import closure_gap
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
-from dalembert.machine.motion.driving import Moving, moving
+from dalembert.machine.motion.actuation import Actuation, actuation
 from dalembert.machine.motion.energies import energies
 from dalembert.machine.motion.integration import Integration
 from dalembert.machine.motion.occurrences import Condition, Event
@@ -83,8 +83,7 @@ class Simulation(Answer):
         yield Column("time", "time", self.time)
         yield from columns(self.result)
         for k, drive in enumerate(self.drives):
-            kind = (TURN if self.result.mechanism.drives[drive].turns else SLIDE)["effort"]
-            yield Column(f"applied {drive}", kind, self.applied[:, k])
+            yield Column(f"applied {drive}", drive_kinds(self.result, drive)["effort"], self.applied[:, k])
         for name, values in self.works.items():
             yield Column(f"work of {name}", "energy", values)
         yield Column("kinetic energy", "energy", self.kinetic)
@@ -128,7 +127,7 @@ def simulate(
     (True, True)
     """
     try:
-        prescribed, moves = moving(m, _start(m, start))
+        prescribed, moves = actuation(m, _start(m, start))
         end, conditions = _ends(m, until, events)
         _check(count, tolerance)
         times = np.linspace(0.0, end, count)[1:] if np.isfinite(end) else None
@@ -182,33 +181,25 @@ def _condition(m: Mechanism, text: str, stops: bool) -> Condition:
     drive = found["drive"]
     if drive not in m.drives:
         raise ModelError(f"the condition {text!r} names no drive", closest(drive, list(m.drives)))
-    kinds = TURN if m.drives[drive].turns else SLIDE
-    what = found["what"]
-    value = (
-        0.0
-        if found["value"] == "0"
-        else quantity(found["value"], kinds["" if what == "position" else what], m.units.of_texts())
-    )
+    what, kinds = found["what"], TURN if m.drives[drive].turns else SLIDE
+    kind = kinds["" if what == "position" else what]
+    value = quantity(found["value"], kind, m.units.of_texts()) if found["value"] != "0" else 0.0
     return Condition(text.strip(), list(m.drives).index(drive), what, value, stops)
 
 
-def _answer(m: Mechanism, prescribed: Mechanism, moves: Moving, run: Integration) -> Simulation:
+def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, run: Integration) -> Simulation:
     """The analysis along the motion that was found, and the checks."""
-    if not run.track.rows:
+    if not run.rows:
         raise ModelError(
             f"the motion cannot begin: {run.ended}", "start elsewhere, or with another speed", ("start",)
         )
-    t, q, u, a, applied, works = run.track.columns()
-    kept = np.append(True, np.diff(t) > 0)  # of an event the state behind it
-    kept[:-1] = np.append(np.diff(t) > 0, True)[:-1]
+    t, q, u, a, applied, works = (np.array(column) for column in zip(*run.rows, strict=True))
+    kept = np.append(np.diff(t) > 0, True)  # of an event the state behind it
     t, q, u, a, applied, works = (x[kept] for x in (t, q, u, a, applied, works))
     result = at_schedule(prescribed, Schedule(tuple(m.drives), q, u, a, time=t), inertia=True)
     kinetic, potential = energies(result)
-    named = {name: works[:, k] for k, name in enumerate(m.drives)}
-    named |= {
-        name: works[:, len(m.drives) + k] for k, name in enumerate(("brakes", "loads", "dampers", "friction"))
-    }
-    named = {name: w for name, w in named.items() if name in m.drives or w.any()}
+    names = [*m.drives, "brakes", "loads", "dampers", "friction"]
+    named = {name: w for name, w in zip(names, works.T, strict=True) if name in m.drives or w.any()}
     return Simulation(
         result=result,
         time=t,
@@ -232,18 +223,12 @@ def _energy_residual(kinetic: Array, potential: Array, works: Mapping[str, Array
     return float(np.nanmax(np.abs(gap), initial=0.0)) / (largest or 1.0)
 
 
-def _law_residual(r: Result, applied: Array, moves: Moving) -> float:
+def _law_residual(r: Result, applied: Array, moves: Actuation) -> float:
     """The found motion, prescribed, asks for the efforts that made it: where they are numbers, and nothing reverses."""
     sure = np.array([s in ("ok", "self_locking") for s in r.status])
-    asked = r.effort_array[sure][:, moves.free]
-    largest = max(
-        float(np.abs(x).max(initial=0.0)) for x in (asked, applied[sure][:, moves.free], _inertial(r)[sure])
-    )
-    gap = np.abs(asked - applied[sure][:, moves.free])
-    return float(gap.max(initial=0.0)) / (largest or 1.0)
-
-
-def _inertial(r: Result) -> Array:
-    """Size (T,) of the forces in the joints as moments, beside which an effort may be nothing."""
-    force = np.abs(np.nan_to_num(r.force_array)).reshape(len(r.status), -1).max(axis=1, initial=0.0)
-    return np.asarray(force * r.compiled.layout.length)
+    asked, given = r.effort_array[sure][:, moves.free], applied[sure][:, moves.free]
+    inner = (
+        np.nan_to_num(r.force_array)[sure] * r.compiled.layout.length
+    )  # beside it an effort may be nothing
+    largest = max(float(np.abs(x).max(initial=0.0)) for x in (asked, given, inner))
+    return float(np.abs(asked - given).max(initial=0.0)) / (largest or 1.0)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
-from dalembert.machine.motion.driving import Moving
+from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.equation import Equation, StoppedError, Terms
 from dalembert.machine.motion.occurrences import Event
 from dalembert.model import Mechanism, Schedule
@@ -31,45 +33,53 @@ def at_state(m: Mechanism, first: Array, t: float, q: Array, u: Array, a: Array)
 def holding_efforts(r: Result, k: int) -> tuple[float, float]:
     """Least and greatest effort of a drive, at the second position, between which its contacts stay at rest."""
     name = r.drives[k]
-    low, high = r.interval(name)[1]
-    held = r.holding(name)[1]
-    if np.isfinite(held).any() or np.isinf(held).any():
-        low, high = (x if np.isnan(h) else h for x, h in zip((low, high), held, strict=True))
-    return float(low), float(high)
+    ends = zip(r.interval(name)[1], r.holding(name)[1], strict=True)
+    low, high = (float(x if np.isnan(held) else held) for x, held in ends)
+    return low, high
 
 
-class Contacting:
+class ContactState:
     """A motion's contacts and brakes at the moment: senses, and which drives they hold at rest."""
 
-    def __init__(self, m: Mechanism, moving: Moving) -> None:
-        self.m, self.moving, self.equation = m, moving, Equation(m)
-        self.d = len(moving.names)
+    def __init__(self, m: Mechanism, actuation: Actuation) -> None:
+        self.m, self.acting, self.equation = m, actuation, Equation(m)
+        self.d = len(actuation.names)
         self.locked: Flags = np.zeros(self.d, bool)
         self.sense, self.toward = np.ones(self.equation.contacts), np.ones(self.d)
-        self.rubs: Flags = moving.free & (self.equation.rough | (moving.brake > 0))
+        self.rubs: Flags = actuation.free & (self.equation.rough | (actuation.brake > 0))
         self.events: list[Event] = []
         self.switched: set[tuple[int, str]] = set()
-        self.evaluations = 0
+        self.evaluations, self.refusal = 0, ""
+        self.slipping: tuple[tuple[float, bytes], Array] = (np.nan, b""), np.zeros(0)
 
     def at(self, t: float, y: Array) -> tuple[Array, Array, Terms]:
         """Accelerations (D,), efforts (D,) of the drives with their brakes, and the terms."""
         q, u = y[: self.d], y[self.d : 2 * self.d]
         self.evaluations += 1
-        tau = self.moving.effort(t, q, u) - self.moving.brake * self.toward
-        free, given = (
-            self.moving.free & ~self.locked,
-            np.where(self.moving.free, 0.0, self.moving.acceleration),
-        )
+        tau = self.acting.effort(t, q, u) - self.acting.brake * self.toward
+        free = self.acting.free & ~self.locked
+        given = np.where(self.acting.free, 0.0, self.acting.acceleration)
         a, effort, terms = self.equation.accelerations(t, q, u, given, tau, free, self.sense)
-        held = self.moving.effort(t, q, u) if self.equation.rough else effort
-        return a, np.where(free, tau, np.where(self.moving.free, held, effort)), terms
+        held = self.acting.effort(t, q, u) if self.equation.rough else effort
+        return a, np.where(free, tau, np.where(self.acting.free, held, effort)), terms
 
     def rate(self, t: float, y: Array) -> Array:
-        """Time derivative of positions, speeds and works."""
-        a, effort, terms = self.at(t, y)
+        """Time derivative of positions, speeds and works; no numbers where there is none, with the reason kept."""
+        try:
+            a, effort, terms = self.at(t, y)
+        except StoppedError as error:
+            self.refusal = str(error)
+            return np.full_like(y, np.nan)
         u = y[self.d : 2 * self.d]
-        braking = -self.moving.brake * self.toward * u * ~self.locked
+        braking = -self.acting.brake * self.toward * u * ~self.locked
         return np.concatenate([u, a, (effort * u) - braking, [braking.sum()], terms.power])
+
+    def rubbing_rates(self, t: float, y: Array) -> Array:
+        """Rates of the contacts (E,), those of the last state kept."""
+        if self.slipping[0] != (t, y.tobytes()):
+            q, u = y[: self.d], y[self.d : 2 * self.d]
+            self.slipping = (t, y.tobytes()), self.equation(t, q, u, np.zeros(self.d), self.sense).rates
+        return self.slipping[1]
 
     def note(self, t: float, name: str, sentence: str) -> None:
         self.events.append(Event(t, name, sentence))
@@ -89,24 +99,24 @@ class Contacting:
         held = self.locked.copy()
         self.locked[k] = True
         try:
-            a = self.at(t, y)[0] if not self.locked[self.moving.free].all() else np.zeros(self.d)
+            a = self.at(t, y)[0] if not self.locked[self.acting.free].all() else np.zeros(self.d)
         finally:
             self.locked = held
-        r = at_state(self.m, self.moving.position, t, q, u, a)
+        r = at_state(self.m, self.acting.position, t, q, u, a)
         low, high = holding_efforts(r, k)
         if np.isnan(low) or np.isnan(high):
-            raise StoppedError(f"{self.moving.names[k]} stands, and {r.reasons[1] or r.status[1]}")
-        tau = float(self.moving.effort(t, q, u)[k])
-        return tau, low - self.moving.brake[k], high + self.moving.brake[k]
+            raise StoppedError(f"{self.acting.names[k]} stands, and {r.reasons[1] or r.status[1]}")
+        tau = float(self.acting.effort(t, q, u)[k])
+        return tau, low - self.acting.brake[k], high + self.acting.brake[k]
 
     def _settle(self, k: int, t: float, y: Array) -> None:
         """Lock a drive that stands and is held, or let it go in the sense of the end that is passed."""
         tau, low, high = self._range(k, t, y)
-        name, was = self.moving.names[k], self.locked[k]
+        name, was = self.acting.names[k], self.locked[k]
         wide = high - low > 1e-12 * max(abs(low), abs(high), 1e-300)
         if wide and low <= tau <= high:
             self.locked[k] = True
-            why = "its motor stalls" if k in self.moving.motors and self.moving.on[k] else "friction holds it"
+            why = "its motor stalls" if k in self.acting.motors and self.acting.on[k] else "friction holds it"
             self.note(
                 t,
                 "rest",
@@ -124,53 +134,51 @@ class Contacting:
         if t > 0 or was:
             self.note(t, "start" if was else "reversal", f"{name} {'starts again' if was else 'turns back'}")
 
-    def _held(self, t: float, y: Array) -> list[int]:
+    def _loose(self, t: float, y: Array) -> list[int]:
         """Locked drives that are no longer held."""
-        out = []
-        for k in np.flatnonzero(self.locked):
-            tau, low, high = self._range(int(k), t, y)
-            if not low <= tau <= high:
-                out.append(int(k))
-        return out
-
-    def _still_held(self, t: float, y: Array) -> bool:
-        return not self._held(t, y)
+        ranges = {int(k): self._range(int(k), t, y) for k in np.flatnonzero(self.locked)}
+        return [k for k, (tau, low, high) in ranges.items() if not low <= tau <= high]
 
     def _switches(self, k: int) -> list[tuple[str, Switch]]:
         """Switches of a motor that wait."""
-        pairs = (("on", self.moving.motors[k].on), ("off", self.moving.motors[k].off))
+        pairs = (("on", self.acting.motors[k].on), ("off", self.acting.motors[k].off))
         waiting = [(key, s) for key, s in pairs if s is not None and (k, key) not in self.switched]
-        return [(key, s) for key, s in waiting if key == "off" or not self.moving.on[k]]
+        return [(key, s) for key, s in waiting if key == "off" or not self.acting.on[k]]
+
+    def _switch(self, t: float, k: int, key: str) -> None:
+        """Switch a motor on or off."""
+        self.acting.on[k] = key == "on"
+        self.switched.add((k, key))
+        self.note(t, f"motor {key}", f"the motor of {self.acting.names[k]} is switched {key}")
 
     def _let_go(self, t: float, end: float, y: Array) -> float:
         """When what stands is no longer held; motors that are switched by time are, at theirs."""
         switches = [
-            (s[1], k, key) for k in self.moving.motors for key, s in self._switches(k) if s[0] == "time"
+            (s[1], k, key) for k in self.acting.motors for key, s in self._switches(k) if s[0] == "time"
         ]
         switches = [s for s in switches if s[0] > t]
         stop = min([end, *(s[0] for s in switches)])
-        if self.moving.by_time or self._loads_by_time():
+        if self.acting.by_time or self._loads_by_time():
             steps = np.linspace(t, stop, INSTANTS)[1:]
             for before, after in zip([t, *steps[:-1]], steps, strict=True):
-                if self._held(after, y):
-                    return self._halve(before, after, y)
+                if self._loose(after, y):
+                    return self._loosening(before, after, lambda _: y)
         if stop < end:
             for when, k, key in switches:
                 if when == stop:
-                    self.moving.on[k] = key == "on"
-                    self.switched.add((k, key))
-                    self.note(when, f"motor {key}", f"the motor of {self.moving.names[k]} is switched {key}")
-            return stop if self._held(stop, y) else self._let_go(stop, end, y)
+                    self._switch(when, k, key)
+            return stop if self._loose(stop, y) else self._let_go(stop, end, y)
         return end
 
     def _loads_by_time(self) -> bool:
         loads = self.m.loads.values()
         return any("time" in getattr(v, "names", ()) for load in loads for v in getattr(load, "varying", ()))
 
-    def _halve(self, low: float, high: float, y: Array) -> float:
+    def _loosening(self, low: float, high: float, state: Callable[[float], Array]) -> float:
+        """The instant at which what is locked is let go, by halving."""
         while high - low > 1e-14 * high:
             middle = (low + high) / 2
             if middle in (low, high):
                 break
-            low, high = (low, middle) if self._held(middle, y) else (middle, high)
+            low, high = (low, middle) if self._loose(middle, state(middle)) else (middle, high)
         return high

@@ -60,6 +60,24 @@ class MotorCurve:
             return self.effort[0] * (1 - speed / self.speed[1])
         return np.asarray(np.interp(speed, self.speed, self.effort))[()]
 
+    def line(self, speed: float, ahead: float) -> tuple[float, float]:
+        """Effort at speed 0 and slope of the straight line it is on; at a corner of that which comes where the speed
+        goes, with the sign of ``ahead``.
+
+        >>> MotorCurve((0.0, 10.0, 20.0), (4.0, 4.0, 0.0)).line(10.0, 1.0)
+        (8.0, -0.4)
+        """
+        import numpy as np
+
+        near = 1e-9 * max(map(abs, self.speed))
+        corner = min(abs(speed - x) for x in self.speed) <= near
+        k = int(np.searchsorted(self.speed, speed + near * np.sign(ahead) if corner else speed))
+        if not self.straight and k in (0, len(self.speed)):
+            return self.effort[0 if k == 0 else -1], 0.0
+        k = 1 if self.straight else k
+        slope = (self.effort[k] - self.effort[k - 1]) / (self.speed[k] - self.speed[k - 1])
+        return self.effort[k - 1] - slope * self.speed[k - 1], slope
+
     def tree(self, kind: str) -> dict[str, object]:
         """As a file says it."""
         kinds = of_kind(kind)

@@ -16,7 +16,7 @@ from dalembert.model.drives.starting import Start
 
 
 @dataclass
-class Moving:
+class Actuation:
     """How the drives of a mechanism move: ``free`` (D,) by forces from ``position`` and ``speed``, the others at a
     constant ``acceleration`` (D,); ``on`` (D,): which motors are switched on."""
 
@@ -57,8 +57,20 @@ class Moving:
                 out[k] = self.motors[k].at(u[k])
         return out
 
+    def lines(self, u: Array, ahead: Array) -> tuple[Array, Array] | None:
+        """Efforts (D,) at speed 0 and their slopes (D,), until a motor's next corner or switch; None where an effort
+        goes by positions or the time. ``ahead``: accelerations, which way a motor leaves a corner."""
+        first, slope = np.zeros((2, len(u)))
+        for k, drive in enumerate(self.drives):
+            if hasattr(drive.effort, "at"):
+                return None
+            first[k] = drive.effort or 0.0
+            if drive.effort is None and k in self.motors and self.on[k]:
+                first[k], slope[k] = self.motors[k].line(u[k], ahead[k])
+        return first, slope
 
-def moving(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mechanism, Moving]:
+
+def actuation(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mechanism, Actuation]:
     """The mechanism with all its drives prescribed where they start, and how they move."""
     if start:
         m = m.model_copy(update={"start": {**m.start, **start}})
@@ -71,18 +83,10 @@ def moving(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mechani
         )
     at = {name: _at_start(name, d, m.start.get(name), name in free) for name, d in m.drives.items()}
     q, u, a = np.array(list(at.values())).T
-    drives = {
-        name: d.model_copy(
-            update={
-                "position": at[name][0],
-                "speed": 1.0,
-                "acceleration": 0.0,
-                **dict.fromkeys(("effort", "motor", "law", "range")),
-                "brake": 0.0,
-            }
-        )
-        for name, d in m.drives.items()
-    }
+    steady = {"speed": 1.0, "acceleration": 0.0, "brake": 0.0} | dict.fromkeys(
+        ("effort", "motor", "law", "range")
+    )
+    drives = {n: d.model_copy(update={**steady, "position": at[n][0]}) for n, d in m.drives.items()}
     unknown = [name for name, load in m.loads.items() if load.unknown]
     if unknown:
         raise ModelError(
@@ -91,7 +95,7 @@ def moving(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mechani
             ("loads", unknown[0], "value"),
         )
     prescribed = m.model_copy(update={"drives": drives, "start": {}, "answers": ()})
-    return prescribed, Moving(m, np.array([n in free for n in m.drives]), q, u, a)
+    return prescribed, Actuation(m, np.array([n in free for n in m.drives]), q, u, a)
 
 
 def _at_start(name: str, d: Drive, start: Start | None, free: bool) -> tuple[float, float, float]:
