@@ -66,7 +66,7 @@ FACADES = {
 }
 """Result, Mechanism, Scene, Kernel, Sweep, Study, StudyResult, System, and the answers of `machine`, which print
 themselves: their methods call what is built on them, by imports inside the methods."""
-SHOWING = {"notebook", "views"}
+SHOWING = {"notebook", "pages", "views"}
 """What they call to show themselves."""
 
 

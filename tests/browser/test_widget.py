@@ -4,11 +4,20 @@ from __future__ import annotations
 
 import base64
 import json
+import os
+import shutil
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 import dalembert as da
+from dalembert.bundled import examples
 from dalembert.pages.html_page import BUNDLE
 
 HOST = """async ([code, data]) => {
@@ -58,4 +67,103 @@ def test_a_page_in_a_notebook_sends_each_drag_once(browser: Any) -> None:
     assert page.locator("h1").inner_text() == "Another"
     page.evaluate("remove()")
     assert page.locator(".dalembert").count() == 0
+    page.close()
+
+
+def test_a_mechanism_shows_itself_live_in_a_notebook(monkeypatch: pytest.MonkeyPatch) -> None:
+    shown = list[Any]()
+    monkeypatch.setattr("IPython.display.display", lambda data, raw: shown.append(data))
+    monkeypatch.setattr("dalembert.pages.widget._in_notebook", lambda: True)
+    da.four_bar()._ipython_display_()
+    view, saved = shown
+    assert "application/vnd.jupyter.widget-view+json" in view
+    assert 'srcdoc="&lt;!doctype html&gt;' in saved["text/html"]
+    with pytest.raises(NotImplementedError):
+        da.load(examples()["balance_position"])._ipython_display_()
+    monkeypatch.undo()
+    with pytest.raises(NotImplementedError):
+        da.four_bar()._ipython_display_()
+
+
+@pytest.fixture
+def jupyterlab(tmp_path: Path) -> Iterator[tuple[Path, Callable[[], str]]]:
+    """A folder, and what starts JupyterLab on it anew and gives its address."""
+    beside = shutil.which("jupyter-lab", path=str(Path(sys.executable).parent))
+    program = os.environ.get("DALEMBERT_JUPYTERLAB") or beside
+    if not program:
+        pytest.skip(
+            "there is no JupyterLab: pip install jupyterlab, or set DALEMBERT_JUPYTERLAB to a jupyter-lab"
+        )
+    folder, own = tmp_path / "notebooks", list[subprocess.Popen[bytes]]()
+    folder.mkdir()
+    kinds = ("CONFIG", "DATA", "RUNTIME")
+    settings = os.environ | {f"JUPYTER_{kind}_DIR": str(tmp_path / kind) for kind in kinds}
+
+    def stop() -> None:
+        for process in own:
+            process.terminate()
+            process.wait(30)
+        own.clear()
+
+    def start() -> str:
+        stop()
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            port = free.getsockname()[1]
+        options = ["--no-browser", "--allow-root", "--IdentityProvider.token=", f"--port={port}"]
+        command = [program, *options, f"--ServerApp.root_dir={folder}"]
+        quiet = subprocess.DEVNULL
+        own.append(subprocess.Popen(command, env=settings, stdout=quiet, stderr=quiet))
+        for _ in range(300):
+            with socket.socket() as s:
+                if s.connect_ex(("127.0.0.1", port)) == 0:
+                    return f"http://127.0.0.1:{port}/lab/tree"
+            time.sleep(0.2)
+        raise AssertionError("JupyterLab does not start")
+
+    yield folder, start
+    stop()
+
+
+@pytest.mark.long
+def test_in_jupyterlab(browser: Any, jupyterlab: tuple[Path, Callable[[], str]]) -> None:
+    """What is dragged arrives in Python; the saved notebook, opened without Python, shows the page."""
+    folder, start = jupyterlab
+    text = "import dalembert as da\nw = da.widget(da.four_bar())\nw"
+    point = "links['rocker'].points['B']"
+    asked = f"print(w.mechanism.{point} != da.four_bar().{point}, w.result.ok.all())"
+    cell: Any = {"cell_type": "code", "metadata": {}, "outputs": [], "execution_count": None}
+    kernel = {"name": "python3", "display_name": "Python 3", "language": "python"}
+    notebook = {
+        "cells": [cell | {"source": source, "id": f"c{k}"} for k, source in enumerate((text, asked))],
+        "metadata": {"kernelspec": kernel},
+        "nbformat": 4,
+        "nbformat_minor": 5,
+    }
+    (folder / "a.ipynb").write_text(json.dumps(notebook), encoding="utf-8")
+    page = browser.new_page(viewport={"width": 1400, "height": 1300})
+    page.goto(f"{start()}/a.ipynb")
+    page.locator(".jp-Cell .jp-Editor").first.click(timeout=90_000)
+    page.keyboard.press("Shift+Enter")
+    handle = page.locator('.handle[data-name="B"]').first
+    handle.wait_for(timeout=60_000)
+    page.wait_for_timeout(1500)
+    assert page.locator("[data-dalembert]").is_hidden()
+    handle.scroll_into_view_if_needed()
+    box = handle.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for k in range(1, 5):
+        page.mouse.move(x + 5 * k, y - 2 * k)
+    page.mouse.up()
+    page.locator(".jp-Cell .jp-Editor").nth(1).click()
+    page.keyboard.press("Shift+Enter")
+    page.get_by_text("True True").wait_for(timeout=30_000)
+    page.keyboard.press("Control+s")
+    page.wait_for_timeout(2000)
+    page.close()
+    page = browser.new_page(viewport={"width": 1400, "height": 1300})
+    page.goto(f"{start()}/a.ipynb")
+    page.frame_locator("[data-dalembert]").locator(".handle").first.wait_for(timeout=90_000)
     page.close()

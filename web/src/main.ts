@@ -2,6 +2,7 @@
 
 import { inflate } from "./kernel";
 import { mount, type Page } from "./page";
+import { html } from "./svg";
 
 /** The page of compressed data in an element; what goes wrong is said there. */
 export async function open(el: HTMLElement, packed: string): Promise<Page> {
@@ -25,7 +26,12 @@ export default {
       model.set("changes", changes);
       model.save_changes();
     };
-    const start = () => mount(el, model.get("data"), { edited, changes: model.get("changes") });
+    const start = async () => {
+      const made = await mount(el, model.get("data"), { edited, changes: model.get("changes") });
+      // the page that a notebook keeps for when it is opened without Python stands below; while this one lives it hides
+      html("style", el, {}, `[data-dalembert="${model.get("frame")}"]{display:none}`);
+      return made;
+    };
     let page = await start();
     const again = async () => {
       page.remove();

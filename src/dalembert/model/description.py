@@ -161,6 +161,11 @@ class Mechanism(Part):
         drives = f"driven by {', '.join(self.drives)}" if self.drives else "no drive"
         return f"<Mechanism {self.title!r}: {links} moving links, {len(self.joints)} joints, {drives}>"
 
+    def _ipython_display_(self) -> None:
+        from dalembert.pages.widget import show_live
+
+        show_live(self)
+
     def _repr_html_(self) -> str:
         from dalembert.notebook.html_views import mechanism_html
 

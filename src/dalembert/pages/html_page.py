@@ -49,8 +49,8 @@ def html_text(data: Tree) -> str:
         '<!doctype html><html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width,initial-scale=1">'
         f'<meta http-equiv="Content-Security-Policy" content="{POLICY}"><title>{escape(data["title"])}</title>'
-        "<style>body{margin:0}@media(prefers-color-scheme:dark){html{background:#151b22;color-scheme:dark}}</style></head>"
-        f'<body><div id="mechanism"></div><script type="text/plain" id="data">{packed}</script>'
+        "<style>body{margin:0}@media(prefers-color-scheme:dark){html{background:#151b22;color-scheme:dark}}</style>"
+        f'</head><body><div id="mechanism"></div><script type="text/plain" id="data">{packed}</script>'
         f"<script>{script}</script>"
         '<script>dalembert.open(document.getElementById("mechanism"),document.getElementById("data").textContent)'
         ".then(p=>{window.page=p})</script></body></html>\n"

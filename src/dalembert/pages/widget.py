@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import sys
 from functools import cache
+from html import escape
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
+from uuid import uuid4
 
+from dalembert.errors import DalembertError
 from dalembert.model import Mechanism
+from dalembert.pages.html_page import page
 from dalembert.pages.page_data import page_data
 from dalembert.pages.sweep import with_cycle
 from dalembert.saving import check_installed
@@ -31,6 +37,35 @@ def widget(m: Mechanism, static: bool = False) -> Any:
     return _kind()(m, static)
 
 
+def _in_notebook() -> bool:
+    ipython = sys.modules.get("IPython")
+    return ipython is not None and hasattr(ipython.get_ipython(), "kernel")
+
+
+def show_live(m: Mechanism) -> None:
+    """Show a mechanism's live page in a notebook.
+
+    Raises NotImplementedError, on which IPython shows what else there is, in a terminal, without anywidget, and for
+    what only the analyses can do.
+    """
+    if not _in_notebook() or find_spec("anywidget") is None:
+        raise NotImplementedError
+    try:
+        shown = widget(m)
+    except DalembertError as error:
+        raise NotImplementedError from error
+    shown._ipython_display_()
+
+
+def saved_html(m: Mechanism, static: bool, name: str) -> str:
+    """A frame with the page of a mechanism, which the widget of that name hides; it is not loaded while hidden."""
+    style = "width:100%;height:44em;border:0"
+    return (
+        f'<iframe data-dalembert="{name}" srcdoc="{escape(page(m, static=static))}" style="{style}" '
+        'sandbox="allow-scripts allow-downloads" loading="lazy" title="live page"></iframe>'
+    )
+
+
 @cache
 def _kind() -> type:
     """The class, made when it is first needed: what it is built on is an extra."""
@@ -41,10 +76,19 @@ def _kind() -> type:
         _esm = (BUNDLE / "widget.js").read_text(encoding="utf-8")
         data = traitlets.Dict().tag(sync=True)
         changes = traitlets.Dict().tag(sync=True)
+        frame = traitlets.Unicode().tag(sync=True)
 
         def __init__(self, m: Mechanism, static: bool) -> None:
             self._first, self._static = m, static
-            super().__init__(data=page_data(m, static))
+            super().__init__(data=page_data(m, static), frame=uuid4().hex)
+
+        def _ipython_display_(self) -> None:
+            """The widget, and below it the page as a file, hidden while the widget lives: for a saved notebook."""
+            from IPython.display import display
+
+            view = {"version_major": 2, "version_minor": 0, "model_id": self.model_id}
+            display({"application/vnd.jupyter.widget-view+json": view, "text/plain": repr(self)}, raw=True)
+            display({"text/html": saved_html(self._first, self._static, self.frame)}, raw=True)
 
         @property
         def mechanism(self) -> Mechanism:

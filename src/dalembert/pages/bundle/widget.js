@@ -1409,10 +1409,13 @@ async function Ie(e, t) {
 var Le = { async render({ model: e, el: t }) {
 	let n = "", r = (t) => {
 		n = JSON.stringify(t), e.set("changes", t), e.save_changes();
-	}, i = () => Pe(t, e.get("data"), {
-		edited: r,
-		changes: e.get("changes")
-	}), a = await i(), o = async () => {
+	}, i = async () => {
+		let n = await Pe(t, e.get("data"), {
+			edited: r,
+			changes: e.get("changes")
+		});
+		return c("style", t, {}, `[data-dalembert="${e.get("frame")}"]{display:none}`), n;
+	}, a = await i(), o = async () => {
 		a.remove(), a = await i();
 	}, s = () => JSON.stringify(e.get("changes")) !== n && a.set(e.get("changes"));
 	return e.on("change:data", o), e.on("change:changes", s), () => {
