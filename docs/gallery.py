@@ -131,7 +131,9 @@ def machine_figures() -> None:
     )
     crane = da.dynamics(da.loads(page.partition("```yaml\n")[2].partition("```")[0]))
     engine = da.dynamics(da.in_line_engine(cylinders=4))
+    run_up = da.simulate(da.load(FIGURES.parent / "press.yaml"), "8 s", tolerance=1e-9, count=801)
     drawn = {
+        "press": scenes_of(run_up),
         "engine": [*scenes_of(da.shaking(engine))[1:], *scenes_of(da.flywheel(engine, Cs=0.01))[:2]],
         "balance": scenes_of(da.balance(bar, ["crank", "rocker"])),
         "crane": [da.draw.mechanism(crane, at=1), *scenes_of(member_table(crane, ["boom"]))[4:6]],
