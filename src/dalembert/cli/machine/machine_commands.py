@@ -107,14 +107,27 @@ class Outputs:
 NO_OUTPUTS = Outputs()
 
 
-def solve_over_a_turn(file: Path, static: bool, positions: int | None, changes: Changes) -> Result:
-    """The analysis of a file."""
-    from dalembert.analysis import solve
-    from dalembert.cli.model_argument import load_model
-    from dalembert.machine.whole_cycle import over_a_turn
+@Parameter(name="*")
+@dataclass(frozen=True)
+class Analysis(Outputs):
+    """The analysis that an answer is found from, and what it is written to."""
 
-    m = load_model(file, changes)
-    return solve(m, static=static, positions=over_a_turn(m, positions))
+    static: Static = False
+    positions: Positions = None
+    changes: Changes = AS_IN_FILE
+
+    def of(self, file: Path) -> Result:
+        """The analysis of a file, over a whole turn where it has one position."""
+        from dalembert.analysis import solve
+        from dalembert.cli.model_argument import load_model
+        from dalembert.machine.whole_cycle import over_a_turn
+
+        self.check(file)
+        m = load_model(file, self.changes)
+        return solve(m, static=self.static, positions=over_a_turn(m, self.positions))
+
+
+AS_ASKED = Analysis()
 
 
 def shake(
@@ -131,18 +144,14 @@ def shake(
         list[str] | None, Parameter(negative=(), help="Links to count, one or more (default: all).")
     ] = None,
     orders: Annotated[int, Parameter(help="Highest order of the harmonics.")] = 4,
-    static: Static = False,
-    positions: Positions = None,
-    changes: Changes = AS_IN_FILE,
-    out: Outputs = NO_OUTPUTS,
+    out: Analysis = AS_ASKED,
 ) -> int:
     """Shaking force and moment of FILE: what the machine exerts on its foundation, and the harmonics."""
     import numpy as np
 
     from dalembert.machine.shaking import shaking
 
-    out.check(file)
-    result = solve_over_a_turn(file, static, positions, changes)
+    result = out.of(file)
     m = result.mechanism
     found = out.deliver(m, lambda: shaking(result, _point(m, about), links), orders=orders)
     if np.isfinite(found.force).all():
@@ -170,17 +179,13 @@ def flywheel(
     inertia: Annotated[
         str | None, with_help("Inertia of a flywheel that is there, such as 3.5kg*m^2.")
     ] = None,
-    static: Static = False,
-    positions: Positions = None,
-    changes: Changes = AS_IN_FILE,
-    out: Outputs = NO_OUTPUTS,
+    out: Analysis = AS_ASKED,
 ) -> int:
     """Flywheel of FILE: energy curve, inertia from Cs or back, and the exact speed over the cycle."""
     from dalembert.machine.flywheel import flywheels
     from dalembert.units import file_units, quantity
 
-    out.check(file)
-    result = solve_over_a_turn(file, static, positions, changes)
+    result = out.of(file)
     given = None if inertia is None else quantity(inertia, "inertia", file_units(result.mechanism.units))
     out.deliver(result.mechanism, lambda: flywheels.flywheel(result, None, cs, given))
     return 0

@@ -8,8 +8,8 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from dalembert.cli.machine.machine_commands import NO_OUTPUTS, Outputs, solve_over_a_turn
-from dalembert.cli.options import AS_IN_FILE, Changes, ModelFile, Positions, Static, with_help
+from dalembert.cli.machine.machine_commands import AS_ASKED, Analysis
+from dalembert.cli.options import ModelFile, with_help
 
 
 def members(
@@ -22,16 +22,12 @@ def members(
             negative=(), consume_multiple=True, help="Links, one or more (default: all with a length)."
         ),
     ] = None,
-    static: Static = False,
-    positions: Positions = None,
-    changes: Changes = AS_IN_FILE,
-    out: Outputs = NO_OUTPUTS,
+    out: Analysis = AS_ASKED,
 ) -> int:
     """Axial force, shear and bending moment inside links of FILE; stress, safety and buckling of their sections."""
     from dalembert.machine.members.member_table import member_table
 
-    out.check(file)
-    result = solve_over_a_turn(file, static, positions, changes)
+    result = out.of(file)
     out.deliver(result.mechanism, lambda: member_table(result, links))
     return 0
 
@@ -56,16 +52,12 @@ def bearings(
     ] = None,
     factor: Annotated[float, Parameter(help="The load is taken so many times (default: 1).")] = 1.0,
     safety: Annotated[float, Parameter(help="C0 over the largest load, at least (default: 1).")] = 1.0,
-    static: Static = False,
-    positions: Positions = None,
-    changes: Changes = AS_IN_FILE,
-    out: Outputs = NO_OUTPUTS,
+    out: Analysis = AS_ASKED,
 ) -> int:
     """Pressure, PV, equivalent load and life of the bearings of FILE; the smallest of a table that lives so long."""
     from dalembert.machine.bearings.bearing_table import bearings as bearing_table
 
-    out.check(file)
-    result = solve_over_a_turn(file, static, positions, changes)
+    result = out.of(file)
     out.deliver(result.mechanism, lambda: bearing_table(result, joints, hours, table, factor, safety))
     return 0
 
@@ -90,17 +82,13 @@ def motor(
         Path | None, with_help("Greatest torque of the motor: a text file with columns speed, torque.")
     ] = None,
     rated: Annotated[str | None, with_help("Torque that may last, such as 3N*m, against the rms.")] = None,
-    static: Static = False,
-    positions: Positions = None,
-    changes: Changes = AS_IN_FILE,
-    out: Outputs = NO_OUTPUTS,
+    out: Analysis = AS_ASKED,
 ) -> int:
     """Torque, speed and power that a drive of FILE asks for, and the gear ratio with which its motor needs least."""
     from dalembert.machine.motors import motor_choice
     from dalembert.units import file_units, quantity
 
-    out.check(file)
-    result = solve_over_a_turn(file, static, positions, changes)
+    result = out.of(file)
     units = file_units(result.mechanism.units)
     own, lasting = quantity(inertia, "inertia", units), rated and quantity(rated, "moment", units)
     out.deliver(
