@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from heapq import heapify, heappop, heappush
 
 import numpy as np
 
@@ -132,20 +133,20 @@ class _Work:
 
     def unit_pivots(self) -> None:
         best = {r: self.unit_pivot(r) for r in self.rows}
-        while True:
-            least = None
-            for r in self.rows:
-                found = best[r]
-                if found is not None and (least is None or found[0] < least[0]):
-                    least = (*found, r)
-                    if found[0] == 0:
-                        break
-            if least is None:
-                return
-            _, c, sign, r = least
-            near = set().union(*(self.columns[other] for other in self.rows[r]))
+        least = [(found[0], r) for r, found in best.items() if found is not None]
+        heapify(least)
+        while least:
+            fill, r = heappop(least)
+            found = best[r] if r in self.rows else None
+            if found is None or found[0] != fill:  # of before: another row was taken out since
+                continue
+            _, c, sign = found
+            near = set().union(*(self.columns[other] for other in self.rows[r])) - {r}
             self.eliminate((r,), (c,), [[sign]])
-            best |= {i: self.unit_pivot(i) for i in near if i != r}
+            for i in near:
+                new = best[i] = self.unit_pivot(i)
+                if new is not None:
+                    heappush(least, (new[0], i))
 
     def unit_pivot(self, r: int) -> tuple[int, int, float] | None:
         """Fill, column and value of the entry of a row that is exactly 1 or -1 and fills least."""

@@ -34,6 +34,19 @@ def _comparison(compare: Callable[[float, float], bool]) -> Callable[[Node, Scal
     return decided
 
 
+def _operation(name: str) -> Callable[[Node, Scalar | Array], Node]:
+    def of(self: Node, other: Scalar | Array) -> Node:
+        """What the graph makes of two values; numpy takes an array apart."""
+        if type(other) is not Node:
+            if isinstance(other, np.ndarray):
+                return NotImplemented  # type: ignore[no-any-return]
+            other = self.graph.constant(other)
+        made: Node = getattr(self.graph, name)(self, other)
+        return made
+
+    return of
+
+
 class Node:
     """One operation. ``value`` is the number of a constant, or the place of an input."""
 
@@ -51,40 +64,12 @@ class Node:
     def __repr__(self) -> str:
         return f"{self.op}#{self.index}"
 
-    def __add__(self, other: Scalar | Array) -> Node:
-        if type(other) is not Node:
-            if isinstance(other, np.ndarray):
-                return NotImplemented
-            other = self.graph.constant(other)
-        return self.graph.add(self, other)
-
-    __radd__ = __add__
-
-    def __sub__(self, other: Scalar | Array) -> Node:
-        if type(other) is not Node:
-            if isinstance(other, np.ndarray):
-                return NotImplemented
-            other = self.graph.constant(other)
-        return self.graph.sub(self, other)
+    __add__ = __radd__ = _operation("add")
+    __sub__, __truediv__ = _operation("sub"), _operation("div")
+    __mul__ = __rmul__ = _operation("mul")
 
     def __rsub__(self, other: Scalar) -> Node:
         return self.graph.sub(self.graph.constant(other), self)
-
-    def __mul__(self, other: Scalar | Array) -> Node:
-        if type(other) is not Node:
-            if isinstance(other, np.ndarray):
-                return NotImplemented
-            other = self.graph.constant(other)
-        return self.graph.mul(self, other)
-
-    __rmul__ = __mul__
-
-    def __truediv__(self, other: Scalar | Array) -> Node:
-        if type(other) is not Node:
-            if isinstance(other, np.ndarray):
-                return NotImplemented
-            other = self.graph.constant(other)
-        return self.graph.div(self, other)
 
     def __rtruediv__(self, other: Scalar) -> Node:
         return self.graph.div(self.graph.constant(other), self)

@@ -30,8 +30,9 @@ class Groups(Parts):
         return self.out
 
     def pairs(self) -> bool:
-        for (a, b), found in self.between().items():
-            x, y = self.base(a, b)
+        several = [(found, parts) for parts, found in self.between.items() if len(found) > 1]
+        for found, parts in sorted(several, key=lambda entry: self.order[id(entry[0][0])]):
+            x, y = self.base(*parts)
             pose = self.pair(x, y, found)
             if pose is not None:
                 self.merge(x, y, pose)
@@ -90,46 +91,40 @@ class Groups(Parts):
         ri, rj = mesh.radii
         if wheel == mesh.i:
             line, (ri, rj) = v.times(-1.0, line), (rj, ri)
-        phi = self.near(line, "line", mesh.rows[0])
+        phi = self.angle_near(line, "line", mesh.rows[0])
         theta = (mesh.target + (ri + rj) * phi - ri * self.turn_of(other)) / rj
         self.turn[wheel] = theta
         r = v.rotate_back(self.part[y][wheel][0], (theta.cos(), theta.sin()))
         return r, v.minus(px, v.rotate(r, self.point(ly, uy)))
 
     def triples(self) -> bool:
-        found = self.between()
-        parts = sorted(self.part, key=lambda k: k != self.owner[self.ground])
-        near: dict[int, set[int]] = {k: set() for k in parts}
-        for a, b in found:
-            near[a].add(b)
-            near[b].add(a)
-        for a in parts:
-            for b, c in combinations(sorted(near[a]), 2):
-                if c in near[b] and self.triple(a, b, c, found):
+        for a in sorted(self.part, key=lambda k: k != self.owner[self.ground]):
+            for b, c in combinations(sorted(self.near[a]), 2):
+                if c in self.near[b] and self.triple(a, b, c):
                     return True
         return False
 
-    def triple(self, a: int, b: int, c: int, found: dict[tuple[int, int], list[Relation]]) -> bool:
+    def triple(self, a: int, b: int, c: int) -> bool:
         sides = [(min(p), max(p)) for p in combinations((a, b, c), 2)]
-        kinds = {pair: _kind(found[pair]) for pair in sides}
+        kinds = {pair: _kind(self.between[pair]) for pair in sides}
         slides = [pair for pair, kind in kinds.items() if kind == "slide"]
         if None in kinds.values() or len(slides) > 2:
             return False
         if len(slides) == 2:
-            self.two_slides(slides, next(p for p in kinds if p not in slides), found)
+            self.two_slides(slides, next(p for p in kinds if p not in slides))
         elif slides:
-            self.one_slide(slides[0], next(k for k in (a, b, c) if k not in slides[0]), found)
+            self.one_slide(slides[0], next(k for k in (a, b, c) if k not in slides[0]))
         else:
             x, y, z = self.base(a, b, c)
-            self.three_pins(x, y, z, found)
+            self.three_pins(x, y, z)
         return True
 
-    def three_pins(self, x: int, y: int, z: int, found: dict[tuple[int, int], list[Relation]]) -> None:
-        (a, ya), (b, zb), (yc, zc) = self.pins(x, y, found), self.pins(x, z, found), self.pins(y, z, found)
+    def three_pins(self, x: int, y: int, z: int) -> None:
+        (a, ya), (b, zb), (yc, zc) = self.pins(x, y), self.pins(x, z), self.pins(y, z)
         d, p, q = v.minus(b, a), v.minus(yc, ya), v.minus(zc, zb)
         d2, p2, q2 = v.dot(d, d), v.dot(p, p), v.dot(q, q)
         if self.longer(p2, q2):
-            self.three_pins(x, z, y, found)
+            self.three_pins(x, z, y)
             return
         foot = 0.5 * d2 + 0.5 * (p2 - q2)
         area = self.root(p2 * d2 - foot * foot, p2 * d2)  # twice that of the triangle of d, p and q
@@ -152,14 +147,14 @@ class Groups(Parts):
         ry, rz = sides(self.sign)
         self.join(x, (y, (ry, v.minus(a, v.rotate(ry, ya)))), (z, (rz, v.minus(b, v.rotate(rz, zb)))))
 
-    def one_slide(self, slide: tuple[int, int], y: int, found: dict[tuple[int, int], list[Relation]]) -> None:
+    def one_slide(self, slide: tuple[int, int], y: int) -> None:
         """Parts x and z slide on each other; y has a pin on each."""
         x, z = self.base(*slide)
-        turn = next(r for r in found[slide] if r.kind == "turn")
-        along = next(r for r in found[slide] if r.kind == "along")
+        turn = next(r for r in self.between[slide] if r.kind == "turn")
+        along = next(r for r in self.between[slide] if r.kind == "along")
         rz = self.rotation(turn, z)
         n, c = self.line(along, z, rz)
-        (a, ya), (b, yb) = self.pins(x, y, found), self.pins(z, y, found)
+        (a, ya), (b, yb) = self.pins(x, y), self.pins(z, y)
         p = v.minus(yb, ya)
         k = c + v.dot(n, v.minus(v.rotate(rz, b), a))
         p2 = v.dot(p, p)
@@ -175,20 +170,17 @@ class Groups(Parts):
         at = v.plus(a, side(self.sign))
         self.join(x, (z, (rz, v.minus(at, v.rotate(rz, b)))), (y, (ry, v.minus(a, v.rotate(ry, ya)))))
 
-    def two_slides(
-        self,
-        slides: list[tuple[int, int]],
-        pin: tuple[int, int],
-        found: dict[tuple[int, int], list[Relation]],
-    ) -> None:
+    def two_slides(self, slides: list[tuple[int, int]], pin: tuple[int, int]) -> None:
         """Part x slides on y and on z, which are pinned together: all turns are known, the rest is linear."""
         x = next(k for k in slides[0] if k in slides[1])
         y, z = (next(k for k in pair if k != x) for pair in slides)
         rotations, lines = [], []
         for k, pair in ((y, slides[0]), (z, slides[1])):
-            rotations.append(self.rotation(next(r for r in found[pair] if r.kind == "turn"), k))
-            lines.append(self.line(next(r for r in found[pair] if r.kind == "along"), k, rotations[-1]))
-        yc, zc = self.pins(y, z, found)
+            rotations.append(self.rotation(next(r for r in self.between[pair] if r.kind == "turn"), k))
+            lines.append(
+                self.line(next(r for r in self.between[pair] if r.kind == "along"), k, rotations[-1])
+            )
+        yc, zc = self.pins(y, z)
         (n1, c1), (n2, c2) = lines  # of the translations; of the common pin:
         c1 = c1 + v.dot(n1, v.rotate(rotations[0], yc))
         c2 = c2 + v.dot(n2, v.rotate(rotations[1], zc))
@@ -213,6 +205,7 @@ class Groups(Parts):
             point, rotation = found.pose.point[link], found.pose.rotation[link]
             self.part[ground][link] = ((rotation[0], rotation[1]), (point[0], point[1]))
             self.turn[link] = found.pose.turn[link]
+        self.find_between()
 
     def smallest(self) -> list[int]:
         """Links of the first block of parts that depends on nothing unplaced."""

@@ -78,16 +78,24 @@ class Parts:
         self.owner = {k: k for k in range(self.ground + 1)}
         self.turn: dict[int, Node] = {self.ground: self.graph.zero}
         self.todo = relations(motion.layout, motion.target, motion.turns)
+        self.order = {id(r): k for k, r in enumerate(self.todo)}
+        self.find_between()
         self.out = Placed(Pose(np.zeros(0), np.zeros(0), np.zeros(0)))
 
-    def between(self) -> dict[tuple[int, int], list[Relation]]:
-        """Conditions between each two parts."""
-        out: dict[tuple[int, int], list[Relation]] = {}
-        self.todo = [r for r in self.todo if self.owner[r.i] != self.owner[r.j]]
+    def find_between(self) -> None:
+        """Conditions ``between`` each two parts, in their order, and the parts ``near`` each."""
+        self.between: dict[tuple[int, int], list[Relation]] = {}
+        self.near: dict[int, set[int]] = {part: set() for part in self.part}
         for r in self.todo:
-            a, b = self.owner[r.i], self.owner[r.j]
-            out.setdefault((a, b) if a < b else (b, a), []).append(r)
-        return out
+            if self.owner[r.i] != self.owner[r.j]:
+                self.add_between(self.owner[r.i], self.owner[r.j], [r])
+
+    def add_between(self, a: int, b: int, more: list[Relation]) -> None:
+        found = self.between.setdefault((min(a, b), max(a, b)), [])
+        found += more
+        found.sort(key=lambda r: self.order[id(r)])
+        self.near[a].add(b)
+        self.near[b].add(a)
 
     def point(self, link: int, u: Pair) -> Pair:
         """A point of a link in the axes of its part."""
@@ -100,6 +108,11 @@ class Parts:
 
     def merge(self, x: int, y: int, pose: Place) -> None:
         """Part y becomes part of x, at a pose in its axes."""
+        for z in self.near.pop(y):
+            found = self.between.pop((min(y, z), max(y, z)))
+            self.near[z].discard(y)
+            if z != x:
+                self.add_between(x, z, found)
         for link, (rotation, point) in self.part.pop(y).items():
             self.part[x][link] = (v.rotate(pose[0], rotation), v.plus(pose[1], v.rotate(pose[0], point)))
             self.owner[link] = x
@@ -154,10 +167,9 @@ class Parts:
         e = v.rotate(rotation, axis)
         return e, v.dot(e, v.minus(pj, v.rotate(rotation, pi))) - r.target
 
-    def pins(self, x: int, y: int, found: dict[tuple[int, int], list[Relation]]) -> tuple[Pair, Pair]:
+    def pins(self, x: int, y: int) -> tuple[Pair, Pair]:
         """The common pin's place on x and on y."""
-        a, b = sorted((x, y))
-        r = next(r for r in found[a, b] if r.kind == "meet")
+        r = next(r for r in self.between[min(x, y), max(x, y)] if r.kind == "meet")
         (lx, ux), (ly, uy) = self.ends(r, y)
         return self.point(lx, ux), self.point(ly, uy)
 
@@ -203,7 +215,7 @@ class Parts:
             self.out.flips = self.out.flips or self.sign.level != CONSTANT
         return rotation(self.sign)
 
-    def near(self, line: Pair, what: str, which: int) -> Node:
+    def angle_near(self, line: Pair, what: str, which: int) -> Node:
         """Angle of a line, whole turns counted along the known motion."""
         c, s = self.m.path(what + " cos", which), self.m.path(what + " sin", which)
         off = self.graph.binary(
@@ -214,7 +226,7 @@ class Parts:
     def turn_of(self, link: int) -> Node:
         """Angle of a link of the ground's part, whole turns counted."""
         if link not in self.turn:
-            self.turn[link] = self.near(self.part[self.owner[self.ground]][link][0], "turn", link)
+            self.turn[link] = self.angle_near(self.part[self.owner[self.ground]][link][0], "turn", link)
         return self.turn[link]
 
     def pose(self, partial: bool = False) -> Pose:
