@@ -83,7 +83,7 @@ def positions(c: Compiled) -> Positions:
 def _first(c: Compiled) -> tuple[int, Modes] | None:
     """The first position found that closes, and its modes."""
     for k in _places_to_try(c):
-        found = c.guess.modes(c.layout, c.targets[k])
+        found = c.first_modes if k == 0 else c.guess.modes(c.layout, c.targets[k])
         if found is not None:
             return int(k), found
     return None

@@ -40,19 +40,27 @@ def factor(layout: Layout, rows: System) -> Factor:
 
 def displacement(layout: Layout, rows: System, scaled_gap: Array) -> Array:
     """One solution of J dq = gap (gap scaled), without keeping factors: a Newton step. 0 where J is singular."""
-    square = len(rows.i) == layout.unknowns and not layout.redundant
-    if square and layout.unknowns <= SPARSE:
+    if _is_square(layout, rows) and layout.unknowns <= SPARSE:
         j = dense(layout, rows)
         j *= row_scale(layout, rows.angular)[:, None]
         dq = solve_square(j, scaled_gap)
     else:
-        scale = row_scale(layout, rows.angular)
-        found = sparse(layout, rows, scale, layout.column_scale, False) if square else factor(layout, rows)
-        dq = found.motion(scaled_gap / scale)
+        dq = _unconditioned(layout, rows, scaled_gap)
     bad = ~np.isfinite(dq)
     if bad.any():
         dq[bad] = 0.0
     return dq
+
+
+def _is_square(layout: Layout, rows: System) -> bool:
+    return len(rows.i) == layout.unknowns and not layout.redundant
+
+
+def _unconditioned(layout: Layout, rows: System, scaled_gap: Array) -> Array:
+    """Solutions of J dq = gap (gap scaled), the condition of large systems not estimated."""
+    scale, whole = row_scale(layout, rows.angular), _is_square(layout, rows) and layout.unknowns > SPARSE
+    found = sparse(layout, rows, scale, layout.column_scale, False) if whole else factor(layout, rows)
+    return found.motion(scaled_gap / scale)
 
 
 def displacements(layout: Layout, rows: System, scaled_gaps: Array) -> tuple[Array, Array | None]:
@@ -69,7 +77,7 @@ def displacements(layout: Layout, rows: System, scaled_gaps: Array) -> tuple[Arr
         except np.linalg.LinAlgError:
             dq = np.zeros((len(scaled_gaps), layout.unknowns))
     else:
-        dq = factor(layout, rows).motion(scaled_gaps / scale)
+        dq = _unconditioned(layout, rows, scaled_gaps)
     return np.asarray(np.where(np.isfinite(dq), dq, 0.0)), j
 
 

@@ -202,7 +202,7 @@ class Gearing:
 Family = Meet | Along | Turn | Mesh | Distance | Perpendicular | Angle | Helix | Idle | Gearing
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Rows:
     """The rows of one system by family; ``count`` of them in all, each with the joint it belongs to."""
 

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import combinations, starmap
 
 import numpy as np
 
 from dalembert.algebra import plane, space
 from dalembert.analysis.compile import plane_rows as table
-from dalembert.analysis.compile.joint_rows import Jointing, PlaneJoints, SpaceJoints
+from dalembert.analysis.compile.joint_rows import PlaneJoints, SpaceJoints
 from dalembert.analysis.compile.load_arrays import Setting, forcing, unknown_columns
 from dalembert.analysis.compile.pair_table import Geometry
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Tree
 from dalembert.core.equilibrium import Known
 from dalembert.core.forcing import Forcing
 from dalembert.core.friction.contact_equations import Contacts
 from dalembert.core.layout import Layout
-from dalembert.core.position.first_pose_plane import Guess
+from dalembert.core.position.first_pose_plane import Guess, Modes
 from dalembert.core.position.first_pose_space import Drawing
 from dalembert.errors import ModelError
 from dalembert.model import GROUND, Mechanism, Schedule
@@ -84,6 +84,11 @@ class Compiled:
         """Stacked targets (K + D,) of the first position."""
         return np.concatenate([self.target, self.schedule.position[0]])
 
+    @cached_property
+    def first_modes(self) -> Modes | None:
+        """The ways it closes at the first position; None where none is found."""
+        return self.guess.modes(self.layout, self.first_target)
+
     @property
     def origin(self) -> Array:
         """Ground's reference point."""
@@ -115,55 +120,95 @@ def compile_mechanism(
     Its numbers may be symbols (one position then): scale and first guess are taken from ``like``, the mechanism with
     numbers in their places.
     """
-    g = plane if m.dimension == 2 else space
-    links = tuple(name for name in m.links if name != GROUND)
-    index = {name: k for k, name in enumerate(links)} | {GROUND: len(links)}
-    at = {name: m.joint_points(name) for name in m.joints}
-    reference = _references(m, index, at)
-    jointing: Jointing = (PlaneJoints if m.dimension == 2 else SpaceJoints)(m, schedule, index, reference, at)
-    fixed, freedoms = jointing.constraints.rows(), jointing.freedoms.rows()
-    names = jointing.names
-    driven = np.array([names.index(_driven_freedom(m, d)) for d in schedule.names], np.intp)
-    layout = Layout(
-        algebra=g,
-        links=len(links),
-        joints=len(m.joints),
-        constraints=fixed,
-        freedoms=freedoms,
-        driven=driven,
-        length=characteristic_length(m, at) if like is None else like.layout.length,
-        redundant=redundant,
-        reference=reference,
-        compliance=jointing.compliance(fixed),
-    )
-    unknown = tuple(name for name, load in m.loads.items() if load.unknown)
+    joined = _Joined(m, schedule.names, redundant)
+    found = _geometry(joined) if like is None else _lay_out(joined, like)
     pose_names, standing = _without_pose_loads(m)
-    setting = Setting(standing, g, index, reference, names, _drives(schedule), len(schedule.position))
+    setting = _setting(standing, schedule, found)
+    unknown = tuple(name for name, load in m.loads.items() if load.unknown)
     return Compiled(
         mechanism=m,
         schedule=schedule,
-        links=links,
-        joints=tuple(m.joints),
-        freedoms=tuple(names),
         unknown_loads=unknown,
-        layout=layout,
-        target=table.numbers(jointing.constraints.targets),
-        guess=jointing.guess() if like is None else like.guess,
         forcing=forcing(setting),
         known=unknown_columns(setting, schedule, unknown),
-        contacts=jointing.contacts(fixed),
-        geometries=jointing.geometries,
-        passive=jointing.passive,
         pose_names=pose_names,
+        **found,
     )
+
+
+class _Joined:
+    """The links and joints of a mechanism without their loads and masses: the same where nothing of the geometry
+    differs, so that what follows from it is kept."""
+
+    def __init__(self, m: Mechanism, drives: tuple[str, ...], redundant: bool) -> None:
+        self.m, self.drives, self.redundant = m, drives, redundant
+        self.at = {name: m.joint_points(name) for name in m.joints}
+        driven = ((name, d.joint, d.freedom, d.axis, d.turns) for name, d in m.drives.items())
+        parts = (*m.joints.values(), m.friction, *m.assembly.values())
+        numbers = (m.dimension, redundant, drives, *driven, *m.links, *self.at.items(), *m.assembly)
+        self.key = (*numbers, *map(id, parts))  # its mechanism keeps the parts alive
+
+    def __hash__(self) -> int:
+        return hash(self.key)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Joined) and self.key == other.key
+
+
+@lru_cache(maxsize=32)
+def _geometry(joined: _Joined) -> Tree:
+    """Geometries met lately, for all threads."""
+    return _lay_out(joined, None)
+
+
+def _lay_out(joined: _Joined, like: Compiled | None) -> Tree:
+    """What follows from the joints and their points alone, by its names in ``Compiled``."""
+    m, at = joined.m, joined.at
+    links = tuple(name for name in m.links if name != GROUND)
+    index = _numbers(links)
+    reference = _references(m, index, at)
+    kind = PlaneJoints if m.dimension == 2 else SpaceJoints
+    jointing: PlaneJoints | SpaceJoints = kind(m, joined.drives, index, reference, at)
+    fixed, names = jointing.constraints.rows(), jointing.names
+    layout = Layout(
+        algebra=plane if m.dimension == 2 else space,
+        links=len(links),
+        joints=len(m.joints),
+        constraints=fixed,
+        freedoms=jointing.freedoms.rows(),
+        driven=np.array([names.index(_driven_freedom(m, d)) for d in joined.drives], np.intp),
+        length=characteristic_length(m, at) if like is None else like.layout.length,
+        redundant=joined.redundant,
+        reference=reference,
+        compliance=jointing.compliance(fixed),
+    )
+    return {
+        "links": links,
+        "joints": tuple(m.joints),
+        "freedoms": tuple(names),
+        "layout": layout,
+        "target": table.numbers(jointing.constraints.targets),
+        "guess": jointing.guess() if like is None else like.guess,
+        "contacts": jointing.contacts(fixed),
+        "geometries": jointing.geometries,
+        "passive": jointing.passive,
+    }
+
+
+def _numbers(links: tuple[str, ...]) -> dict[str, int]:
+    """Links by name, ground the last."""
+    return {name: k for k, name in enumerate((*links, GROUND))}
 
 
 def setting_of(c: Compiled) -> Setting:
     """What the loads of a compiled mechanism were compiled in."""
-    index = {name: k for k, name in enumerate(c.links)} | {GROUND: len(c.links)}
-    count = len(c.schedule.position)
-    drives = _drives(c.schedule)
-    return Setting(c.mechanism, c.layout.algebra, index, c.layout.reference, list(c.freedoms), drives, count)
+    return _setting(c.mechanism, c.schedule, vars(c))
+
+
+def _setting(m: Mechanism, schedule: Schedule, found: Tree) -> Setting:
+    layout, count = found["layout"], len(schedule.position)
+    index, drives = _numbers(found["links"]), _drives(schedule)
+    return Setting(m, layout.algebra, index, layout.reference, found["freedoms"], drives, count)
 
 
 def _drives(schedule: Schedule) -> dict[str, Array]:

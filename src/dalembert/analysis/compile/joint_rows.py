@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -20,41 +20,25 @@ from dalembert.core.layout import Idle, Rows
 from dalembert.core.position.first_pose_plane import Guess
 from dalembert.core.position.first_pose_space import Drawing
 from dalembert.errors import ModelError
-from dalembert.model import Mechanism, Schedule
+from dalembert.model import Mechanism
 from dalembert.model.assembly import SpacePose
 from dalembert.model.joints.pairs import AXES
 from dalembert.model.joints.plane_joints import Joint
 from dalembert.model.quantities.values import Vector
 
 
-class Jointing(Protocol):
-    """Rows and names of all joints."""
-
-    constraints: table.RowBuilder
-    freedoms: table.RowBuilder
-    names: list[tuple[str, str]]
-    geometries: tuple[pair_table.Geometry, ...]
-    passive: tuple[str, ...]
-
-    def contacts(self, fixed: Rows) -> Contacts | None: ...
-
-    def compliance(self, fixed: Rows) -> Array | None: ...
-
-    def guess(self) -> Guess | Drawing: ...
-
-
 class _Joints:
-    """What both kinds of joints have in common."""
+    """Rows and names of all joints: what both kinds have in common."""
 
     def __init__(
         self,
         m: Mechanism,
-        schedule: Schedule,
+        drives: tuple[str, ...],
         index: dict[str, int],
         reference: Array,
         at: Mapping[str, tuple[Vector, Vector]],
     ) -> None:
-        self.m, self.schedule, self.index, self.reference = m, schedule, index, reference
+        self.m, self.drives, self.index, self.reference = m, drives, index, reference
         links = len(index) - 1
         self.constraints = table.RowBuilder(links, m.dimension)
         self.freedoms = table.RowBuilder(links, m.dimension)
@@ -240,7 +224,7 @@ class SpaceJoints(_Joints):
                 continue
             drives = {
                 str(self.m.drives[d].freedom or "turn"): n
-                for n, d in enumerate(self.schedule.names)
+                for n, d in enumerate(self.drives)
                 if self.m.drive_joint(d) == name
             }
             hinges.append(pair_table.hinge(joint, self.ends[k], self.geometries[k], drives))

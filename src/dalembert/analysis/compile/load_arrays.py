@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from functools import cache
 from typing import Any, Literal
 
 import numpy as np
@@ -26,7 +28,7 @@ class Setting:
     g: Algebra
     index: dict[str, int]
     reference: Array
-    freedoms: list[tuple[str, str]]
+    freedoms: Sequence[tuple[str, str]]
     drives: dict[str, Array]
     count: int
 
@@ -35,9 +37,9 @@ def point_of(m: Mechanism, link: str, at: str | Vector, path: tuple[str | int, .
     """A point of a link in its axes: by name, `center`, or as a vector."""
     if not isinstance(at, str):
         return numbers(at)
-    points = m.points(link)
+    points = m.links[link].points
     if at in points:
-        return np.array(points[at])
+        return np.array(m.links[link].point(at))
     if at == "center":
         return np.array(m.center(link))
     raise ModelError(f"link {link!r} has no point {at!r}", f"it has {', '.join(points) or 'none'}", path)
@@ -97,10 +99,18 @@ def _forces(s: Setting, loads: Tree) -> Forces:
     for name, load in loads.items():
         link.append(s.index[load.on])
         at.append(point_of(s.m, load.on, load.at, ("loads", name, "at")) - s.reference[s.index[load.on]])
-        value += [np.broadcast_to(f, (s.count,)) for f in load.force(s.drives)]
+        constant = all(isinstance(part, float) for part in getattr(load, "varying", (None,)))
+        value += load.force({} if constant else s.drives)
     follows = np.array([load.axes == "link" for load in loads.values()], bool)
-    values = numbers(value).reshape(len(loads), s.g.d, s.count)
-    return Forces(np.array(link, np.intp), numbers(at).reshape(-1, s.g.d), follows, values.transpose(2, 0, 1))
+    values = _along(value, s.count).reshape(s.count, len(loads), s.g.d)
+    return Forces(np.array(link, np.intp), numbers(at).reshape(-1, s.g.d), follows, values)
+
+
+def _along(values: list[Any], count: int) -> Array:
+    """Numbers, and columns (P,) of those that change, as an array (P, N)."""
+    if not any(isinstance(value, np.ndarray) for value in values):
+        return np.repeat(numbers(values)[None], count, axis=0)
+    return numbers([np.broadcast_to(value, (count,)) for value in values]).T
 
 
 def _couples(s: Setting, loads: Tree) -> Couples:
@@ -108,23 +118,30 @@ def _couples(s: Setting, loads: Tree) -> Couples:
     value = []
     for load in loads.values():
         for part in load.components or (load.value,):
-            number = np.broadcast_to(part.at(s.drives) if hasattr(part, "at") else part, (s.count,))
+            number = part.at(s.drives) if hasattr(part, "at") else part
             value += [number] if load.components else [number * factor for factor in load.axis]
-    columns = numbers(value).reshape(len(loads), size, s.count)
+    values = _along(value, s.count).reshape(s.count, len(loads), size)
     follows = np.array([load.axes == "link" for load in loads.values()], bool)
     link = np.array([s.index[load.on] for load in loads.values()], np.intp)
-    return Couples(link, columns.transpose(2, 0, 1), follows)
+    return Couples(link, values, follows)
 
 
 def _springs(s: Setting) -> Springs:
     """Loads along a span: each number of ``Springs`` is the key of that name, 0 of a load without it."""
     loads = s.m.loads_on("span")
+    if not loads:
+        return _no_springs(s.g.d)
     ends = [[(s.index[link], u) for link, u in s.m.load_points(name)] for name in loads]
     links = [np.array([end[side][0] for end in ends], np.intp) for side in (0, 1)]
     arms = [numbers([end[side][1] - s.reference[end[side][0]] for end in ends]) for side in (0, 1)]
     names = [field.name for field in fields(Springs)[4:]]
     values = [numbers([getattr(load, name, 0.0) for load in loads.values()]) for name in names]
     return Springs(*links, *(arm.reshape(-1, s.g.d) for arm in arms), *values)
+
+
+@cache
+def _no_springs(d: int) -> Springs:
+    return Springs(*(np.zeros(0, np.intp),) * 2, *(np.zeros((0, d)),) * 2, *(np.zeros(0),) * 4)
 
 
 def _resistances(s: Setting) -> Resistances:
@@ -137,12 +154,12 @@ def _resistances(s: Setting) -> Resistances:
     return _in_freedoms([*rows, *_damper_rows(s.m, s.freedoms)])
 
 
-def joint_resistances(m: Mechanism, freedoms: list[tuple[str, str]]) -> Resistances:
+def joint_resistances(m: Mechanism, freedoms: Sequence[tuple[str, str]]) -> Resistances:
     """The joints' own damping."""
     return _in_freedoms(_damper_rows(m, freedoms))
 
 
-def _damper_rows(m: Mechanism, freedoms: list[tuple[str, str]]) -> list[tuple[int, float, float, float]]:
+def _damper_rows(m: Mechanism, freedoms: Sequence[tuple[str, str]]) -> list[tuple[int, float, float, float]]:
     """Row, no spring, and coefficient of each freedom that its joint damps."""
     return [
         (freedoms.index((name, freedom)), 0.0, 0.0, damping)
@@ -152,9 +169,14 @@ def _damper_rows(m: Mechanism, freedoms: list[tuple[str, str]]) -> list[tuple[in
 
 
 def _in_freedoms(rows: list[tuple[int, float, float, float]]) -> Resistances:
-    columns = list(zip(*rows, strict=True)) if rows else [()] * 4
+    if not rows:
+        return NO_RESISTANCES
+    columns = list(zip(*rows, strict=True))
     stiffness, free, damping = (numbers(c) for c in columns[1:])
     return Resistances(np.array(columns[0], np.intp), stiffness, free, damping, turns=np.zeros(len(rows)))
+
+
+NO_RESISTANCES = Resistances(np.zeros(0, np.intp), *(np.zeros(0),) * 4)
 
 
 def joint_damping(joint: Joint) -> dict[str, float]:

@@ -80,7 +80,7 @@ def _family(kind: type, entries: list[Tree]) -> Family:
 def numbers(values: object) -> Array:
     """An array of floats; of symbols where some are (the kernel is traced on them)."""
     array = np.asarray(values)
-    return array if array.dtype == object else array.astype(float)
+    return array if array.dtype.kind in "fO" else array.astype(float)
 
 
 def direction(joint: Joint) -> Array:

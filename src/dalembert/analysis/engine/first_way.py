@@ -88,7 +88,7 @@ def _by_given_angles(k: KeptProgram, c: Compiled, given: list[Any]) -> First | N
 
 def _by_search(k: KeptProgram, c: Compiled, given: list[Any]) -> First | None:
     """The ways of the pose that a search for the first pose finds."""
-    modes = c.guess.modes(c.layout, c.first_target)
+    modes = c.first_modes
     if modes is None:
         return None
     pose = modes.pose.at(0)

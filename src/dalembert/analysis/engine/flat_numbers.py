@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass, fields, replace
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.arrays import Array, Flags, Ints, Tree
-from dalembert.core.layout import Pose
+from dalembert.core.equilibrium import Known
+from dalembert.core.forcing import Couples, Forces, Inertia, Resistances, Springs
+from dalembert.core.layout import Pose, Rows
 from dalembert.core.position.whole_turns import rigid_turns
 from dalembert.kernel.graph import Graph, Node, trace_array
 
-ALONG = {("forces", "value"), ("couples", "value"), ("known", "effort")}
-"""Arrays with an axis of positions."""
+RECORDS = (Inertia, Forces, Couples, Springs, Resistances, Rows)
+"""Records inside of others."""
 
-COUNTED = ("counted", "turns")
-"""The turns of torsion springs along the positions."""
+ALONG = {(Forces, "value"), (Couples, "value"), (Known, "effort")}
+"""Arrays with an axis of positions; the turns of torsion springs may have one too."""
 
 VARIES = 2.0
 """Stands for a column that is no constant of its structure."""
@@ -45,23 +47,22 @@ def flat_numbers(c: Compiled, pose: Pose | None = None) -> Numbers:
     size = round(math.log10(c.layout.length))  # what is small is told by numbers of a structure of this size
     rows: list[Any] = [size, c.layout.links, c.layout.joints, c.layout.driven.tobytes()]
     single, along = [c.target], [c.schedule.position, c.schedule.speed, c.schedule.acceleration]
-    for name, array in _arrays(c, pose):
-        if not isinstance(array, np.ndarray):
-            rows.append(array)
-        elif array.dtype.kind != "f":
-            rows += (name, array.shape, array.tobytes())
-        elif name in ALONG or name in (COUNTED, "pose"):
-            along.append(array.reshape(len(array), -1))
-            rows.append(array.shape[1:])
-        else:
-            single.append(array.ravel())
-            rows.append(array.shape)
+    for part in (c.layout.constraints, c.layout.freedoms):
+        known, numbers = _flat_rows(part)
+        rows += known
+        single += numbers
+    for record in (c.forcing, c.known):
+        _flatten(record, rows, single, along)
+    if c.contacts is not None and pose is not None:
+        _flatten(c.contacts, rows, single, along)
+    for array in pose or ():
+        _flatten_along(array, rows, along)
     values = np.concatenate(single)
     different, which = _by_first_place(values)
     columns = np.concatenate(along, axis=1).T
-    constant = np.where(
-        (columns == 0).all(axis=1), 0.0, np.where(np.isnan(columns).all(axis=1), np.nan, VARIES)
-    )
+    constant = np.full(len(columns), VARIES)
+    constant[~columns.any(axis=1)] = 0.0
+    constant[np.isnan(columns).all(axis=1)] = np.nan
     constant[: len(c.schedule.names)] = VARIES
     if pose is not None:
         held = _held(c, pose)
@@ -97,46 +98,55 @@ def _fixed(different: Array) -> Flags:
     return np.asarray((different == 0) | (np.abs(different) == 1))
 
 
-def _arrays(c: Compiled, pose: Pose | None) -> Iterator[tuple[Any, Any]]:
-    """Every array of a compiled mechanism, with its place."""
-    yield from _inside("constraints", c.layout.constraints)
-    yield from _inside("freedoms", c.layout.freedoms)
-    yield from _inside("forcing", c.forcing)
-    yield from _inside("known", c.known)
-    if c.contacts is not None and pose is not None:
-        yield from _inside("contacts", c.contacts)
-    for array in pose or ():
-        yield "pose", array
+@lru_cache(maxsize=64)
+def _flat_rows(part: Rows) -> tuple[list[Any], list[Array]]:
+    """What ``_flatten`` puts into lists of rows, which are kept from mechanism to mechanism."""
+    rows: list[Any] = []
+    single: list[Array] = []
+    _flatten(part, rows, single, [])
+    return [tuple(rows)], [np.concatenate([*single, np.zeros(0)])]
 
 
-def _inside(name: str, whole: Any) -> Iterator[tuple[Any, Any]]:
-    """The arrays of a record, with their places, and what else is part of the structure."""
-    for part in _names(type(whole)):
+def _flatten(whole: Any, rows: list[Any], single: list[Array], along: list[Array]) -> None:
+    """Put the numbers of a record into lists, in the order of its fields, and what else is part of the structure."""
+    kind = type(whole)
+    rows.append(kind)
+    for part in FIELDS.get(kind) or _fields(kind):
         value = getattr(whole, part)
         if isinstance(value, np.ndarray):
-            yield _place(name, part, value), value
+            if value.dtype.kind != "f":
+                rows.append(value.tobytes())
+            elif _changes(kind, part, value):
+                _flatten_along(value, rows, along)
+            else:
+                single.append(value.ravel())
+                rows.append(value.shape)
         elif part == "families":
-            for f in value:
-                yield from _inside(type(f).__name__, f)
-        elif is_dataclass(value):
-            yield from _inside(part, value)
+            for family in value:
+                _flatten(family, rows, single, along)
+        elif type(value) in RECORDS:
+            _flatten(value, rows, single, along)
         else:
-            yield part, value
+            rows.append(value)
 
 
-NAMES: dict[Any, tuple[str, ...]] = {}
+def _flatten_along(array: Array, rows: list[Any], along: list[Array]) -> None:
+    along.append(array.reshape(len(array), -1))
+    rows.append(array.shape[1:])
+
+
+FIELDS: dict[Any, tuple[str, ...]] = {}
 """Names of the fields of the records met."""
 
 
-def _names(record: Any) -> tuple[str, ...]:
-    if record not in NAMES:
-        NAMES[record] = tuple(part.name for part in fields(record))
-    return NAMES[record]
+def _fields(kind: Any) -> tuple[str, ...]:
+    FIELDS[kind] = tuple(part.name for part in fields(kind))
+    return FIELDS[kind]
 
 
-def _place(record: str, name: str, array: Array) -> tuple[str, str]:
-    """Where an array of a record stands."""
-    return COUNTED if name == COUNTED[1] and array.ndim > 1 else (record, name)
+def _changes(kind: Any, part: str, array: Array) -> bool:
+    """Whether an array of a record has an axis of positions."""
+    return (kind, part) in ALONG or (kind is Resistances and part == "turns" and array.ndim > 1)
 
 
 class _Nodes:
@@ -145,12 +155,13 @@ class _Nodes:
     def __init__(self, single: list[Node | float], columns: list[Node | float]) -> None:
         self.single, self.columns = iter(single), iter(columns)
 
-    def array(self, name: Any, like: Array) -> Array:
+    def array(self, kind: Any, part: str, like: Array) -> Array:
         if like.dtype.kind != "f":
             return like
-        if name == COUNTED:
+        if kind is Resistances and _changes(kind, part, like):
             return self.along(like)
-        source, shape = (self.columns, (1, *like.shape[1:])) if name in ALONG else (self.single, like.shape)
+        changes = _changes(kind, part, like)
+        source, shape = (self.columns, (1, *like.shape[1:])) if changes else (self.single, like.shape)
         out = np.empty(shape, object)
         for place in np.ndindex(shape):
             out[place] = next(source)
@@ -160,17 +171,17 @@ class _Nodes:
         """One position of an array along the positions."""
         return np.array([next(self.columns) for _ in range(like[0].size)], object).reshape(like.shape[1:])
 
-    def record(self, name: str, whole: Any) -> Any:
+    def record(self, whole: Any) -> Any:
         """The same record on nodes."""
         parts: Tree = {}
-        for part in _names(type(whole)):
+        for part in _fields(type(whole)):
             value = getattr(whole, part)
             if isinstance(value, np.ndarray):
-                parts[part] = self.array(_place(name, part, value), value)
-            elif is_dataclass(value):
-                parts[part] = self.record(part, value)
+                parts[part] = self.array(type(whole), part, value)
+            elif type(value) in RECORDS:
+                parts[part] = self.record(value)
             elif part == "families":
-                parts[part] = tuple(self.record(type(f).__name__, f) for f in value)
+                parts[part] = tuple(map(self.record, value))
             else:
                 parts[part] = value
         return type(whole)(**parts)
@@ -203,11 +214,11 @@ def with_nodes(graph: Graph, c: Compiled, numbers: Numbers, pose: Pose | None = 
     nodes = _Nodes(single[count:], columns[3 * drives :])
     layout = replace(
         c.layout,
-        constraints=nodes.record("constraints", c.layout.constraints),
-        freedoms=nodes.record("freedoms", c.layout.freedoms),
+        constraints=nodes.record(c.layout.constraints),
+        freedoms=nodes.record(c.layout.freedoms),
     )
-    forcing, known = nodes.record("forcing", c.forcing), nodes.record("known", c.known)
-    contacts = c.contacts if pose is None or c.contacts is None else nodes.record("contacts", c.contacts)
+    forcing, known = nodes.record(c.forcing), nodes.record(c.known)
+    contacts = c.contacts if pose is None or c.contacts is None else nodes.record(c.contacts)
     symbols = replace(c, layout=layout, forcing=forcing, known=known, contacts=contacts)
     stands = None if pose is None else Pose(*(trace_array(graph, nodes.along(a)) for a in pose))
     made = tuple(x for x in (*different, *columns) if isinstance(x, Node))

@@ -156,12 +156,7 @@ def force_blocks(c: Compiled, k: ForceProgram, numbers: Numbers, size: int) -> F
     single, columns = values(numbers)
     count = c.schedule.count
     out, work = np.empty((k.kept, count)), np.empty((k.size, min(count, size)))
-    residual, power, certain, locked = (
-        np.zeros(count),
-        np.zeros(count),
-        np.zeros(count, bool),
-        np.zeros(count, bool),
-    )
+    (residual, power), (certain, locked) = np.zeros((2, count)), np.zeros((2, count), bool)
     for start in range(0, count, size):
         part = slice(start, min(start + size, count))
         here = work[:, : part.stop - start]

@@ -67,28 +67,27 @@ def _follow(r: Ready, c: Compiled, pose_only: bool) -> _Outputs | None:
 
 
 def _evaluate(r: Ready, c: Compiled, columns: Array, pose_only: bool) -> _Outputs | None:
-    """All outputs, and the checks of them; None where one fails."""
+    """All outputs, and the checks of them; None where one fails. What overflows is no warning (``at_schedule``)."""
     k, count = r.program, columns.shape[1] if len(columns) else c.schedule.count
     run, size, kept = (k.run_pose, k.pose, k.pose) if pose_only else (k.run, k.size, k.kept)
     residual, power = np.zeros(count), np.zeros(count)
     work = np.empty((size, min(count, BLOCK)))
     out = work[:kept] if count <= BLOCK else np.empty((kept, count))
-    with np.errstate(all="ignore"):
-        for start in range(0, count, BLOCK):
-            part = slice(start, start + BLOCK)
-            here = work[:, : min(BLOCK, count - start)]
-            try:
-                run([*r.single, *_at(columns, part), *r.first.ways], here)
-            except (ArithmeticError, ValueError):
+    for start in range(0, count, BLOCK):
+        part = slice(start, start + BLOCK)
+        here = work[:, : min(BLOCK, count - start)]
+        try:
+            run([*r.single, *_at(columns, part), *r.first.ways], here, one=count == 1)
+        except (ArithmeticError, ValueError):
+            return None
+        if not (np.isfinite(here.sum()) and (here[k.rows["closure"]] >= 0).all()):
+            return None
+        if not pose_only:
+            residual[part], power[part] = k.balance(c.layout, here)
+            if not (k.sure(here) & (residual[part] <= UNBALANCED)).all():
                 return None
-            if not (np.isfinite(here.sum()) and (here[k.rows["closure"]] >= 0).all()):
-                return None
-            if not pose_only:
-                residual[part], power[part] = k.balance(c.layout, here)
-                if not (k.sure(here) & (residual[part] <= UNBALANCED)).all():
-                    return None
-            if count > BLOCK:
-                out[:, part] = here[:kept]
+        if count > BLOCK:
+            out[:, part] = here[:kept]
     return _Outputs(out, residual, power)
 
 

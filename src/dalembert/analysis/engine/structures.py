@@ -24,10 +24,9 @@ BLOCK = 1024
 KEPT = 500_000
 """Operations of all programs that are kept: so many take about 200 MB."""
 
-FEW_LINKS, FEW_POSITIONS = 8, 50
+FEW_LINKS, FEW_POSITIONS, OFTEN = 8, 50, 200
 """A structure of more links met for the first time, at fewer positions, takes less time on the careful path than to
-trace: it is traced when it is met again."""
-
+trace: it is traced when it is met again, and of many links once more for every ``OFTEN`` of them."""
 
 TRACE = 8.0
 """Time that it takes to trace forces where poses are known, milliseconds a link."""
@@ -38,12 +37,9 @@ tracing takes, a structure is traced."""
 
 
 class _Met(NamedTuple):
-    """Stands for a program where a structure was met: what the careful path has taken for it."""
+    """Stands for a program where a structure was met: what the careful path has taken for it, calls or milliseconds."""
 
-    spent: float = 0.0
-
-
-MET = _Met()
+    spent: float
 
 
 Kept = KeptProgram | ForceProgram | _Met | None
@@ -58,10 +54,11 @@ class Structures:
 
     def get(self, key: Any) -> tuple[bool, Kept]:
         with self.lock:
-            there = key in self.found
-            if there:
+            try:
                 self.found.move_to_end(key)
-            return there, self.found.get(key)
+            except KeyError:
+                return False, None
+            return True, self.found[key]
 
     def put(self, key: Any, program: Kept) -> None:
         with self.lock:
@@ -95,11 +92,13 @@ def ready(c: Compiled, inertia: bool) -> Ready | None:
     single, columns = values(numbers)
     key, given = (inertia, *numbers.key), [*single, *columns[:, 0].tolist()]
     there, program = STRUCTURES.get(key)
-    if not there and c.layout.links > FEW_LINKS and c.schedule.count < FEW_POSITIONS:
-        STRUCTURES.put(key, MET)
-        return None
     if not there or isinstance(program, _Met):
-        modes = c.guess.modes(c.layout, c.first_target)
+        calls = program.spent + 1 if isinstance(program, _Met) else 0.0
+        large = c.layout.links > FEW_LINKS and c.schedule.count < FEW_POSITIONS
+        if large and calls < 1 + c.layout.links // OFTEN:
+            STRUCTURES.put(key, _Met(calls))
+            return None
+        modes = c.first_modes
         if modes is None:
             return None
         try:
@@ -109,12 +108,10 @@ def ready(c: Compiled, inertia: bool) -> Ready | None:
         if program is not None:
             remember(program, c, given, First(program.ways, modes.pose.turn[0, :-1], mode_sentence(c, modes)))
         STRUCTURES.put(key, program)
-    first = first_way(program, c, given) if isinstance(program, KeptProgram) else None
-    return (
-        None
-        if first is None or not isinstance(program, KeptProgram)
-        else Ready(program, single, columns, first)
-    )
+    if not isinstance(program, KeptProgram):
+        return None
+    first = first_way(program, c, given)
+    return None if first is None else Ready(program, single, columns, first)
 
 
 def known_forces(c: Compiled, pose: Pose, inertia: bool) -> ForceBlock | None:

@@ -55,6 +55,7 @@ class Group:
     link: Ints  # (p,)
     axis: Ints  # (p,)
     turning: tuple[Ints, ...]
+    apart: bool  # each condition decides its own coordinate, along an axis of ground
 
     @cached_property
     def incidence(self) -> Array:
@@ -108,20 +109,48 @@ def plan(layout: Layout) -> Plan | None:
     if blocks is None:
         return None
     groups = []
-    for rows, columns in blocks:
+    for (rows, columns), apart in _side_by_side(blocks, entries, conditions, layout.links):
         link = np.array([c for c in columns if c < places], np.intp)
         turning = [np.flatnonzero(leader == heads[c - places]) for c in columns if c >= places]
-        groups.append(_group(conditions.at(rows), link // 2, link % 2, turning))
+        groups.append(_group(conditions.at(rows), link // 2, link % 2, turning, apart))
     return Plan(layout.links, turns, tuple(groups))
 
 
-def _group(c: Conditions, link: Ints, axis: Ints, turning: list[Ints]) -> Group:
+Block = tuple[list[int], list[int]]
+"""Conditions, and the unknowns that they decide."""
+
+
+def _side_by_side(
+    blocks: list[Block], entries: list[list[int]], c: Conditions, ground: int
+) -> list[tuple[Block, bool]]:
+    """Coordinates that one condition each decides, along ground's axes, joined where none needs another (True): those
+    of long chains are then laid down at once. The other blocks stay in their order."""
+    place: dict[int, tuple[int, int]] = {}
+    joined: dict[tuple[int, int], Block] = {}
+    count = 0
+    for rows, columns in blocks:
+        own = set(columns)
+        after = max((place[x] for row in rows for x in entries[row] if x not in own), default=(0, 0))
+        apart = len(rows) == 1 and columns[0] < 2 * ground
+        if apart and c.frame[rows[0]] == ground and not c.far[rows[0]]:
+            key = after[0], after[1] + 1
+        else:
+            count += 1
+            key = count, 0
+        place |= dict.fromkeys(columns, key)
+        there = joined.setdefault(key, ([], []))
+        there[0].extend(rows)
+        there[1].extend(columns)
+    return [(joined[key], key[1] > 0) for key in sorted(joined)]
+
+
+def _group(c: Conditions, link: Ints, axis: Ints, turning: list[Ints], apart: bool) -> Group:
     """A group by the links it touches."""
     links = np.unique(np.concatenate([c.i, c.j, c.frame, link, *turning]))
     i, j, frame, place, *turns = (
         np.searchsorted(links, part) for part in (c.i, c.j, c.frame, link, *turning)
     )
-    return Group(links, c._replace(i=i, j=j, frame=frame), place, axis, tuple(turns))
+    return Group(links, c._replace(i=i, j=j, frame=frame), place, axis, tuple(turns), apart)
 
 
 def _turns(layout: Layout) -> tuple[tuple[tuple[int, int, float, int], ...], Ints]:

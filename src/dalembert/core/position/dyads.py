@@ -80,6 +80,9 @@ def offsets(p: Plan, target: Array) -> Array:
 def place_group(group: Group, laid: Laid, target: Array, off: Array) -> tuple[Ints, Laid]:
     """All ways to lay a group down: which of the poses (S,) each starts from, and what has become of it."""
     part = _part(group, laid, target, off)
+    if group.apart:
+        laid.point[:, group.links[group.link], group.axis] = _places(group, part)
+        return np.arange(len(target)), laid._replace(side=np.column_stack([laid.side, np.zeros(len(target))]))
     found = _ways(group, part)
     which, way = np.nonzero(np.isfinite(found).all(axis=-1))
     part = part.at(which)
@@ -132,14 +135,16 @@ def _circles(group: Group, part: Part) -> Array:
     for links in group.turning:
         none[:, links] = 0.0
     matrix, constant = _system(group, part, none)
-    free = np.linalg.qr(matrix, mode="complete")[0][..., matrix.shape[-1] :]
     columns = []
     for links in group.turning:
         for quarter in (0.0, np.pi / 2):
             rotation = none.copy()
             rotation[:, links] = _rotation(part.off[:, links] + quarter)
-            columns.append(_system(group, part, rotation)[1] - constant)
-    w, *columns = (np.einsum("skc,sk->sc", free, k) for k in (constant, *columns))
+            columns.append(_constant(group, part, rotation)[1] - constant)
+    if group.link.size:
+        free = np.linalg.qr(matrix, mode="complete")[0][..., matrix.shape[-1] :]
+        constant, *columns = (np.einsum("skc,sk->sc", free, k) for k in (constant, *columns))
+    w = constant
     one, two = np.stack(columns[:2], axis=-1), np.stack(columns[2:], axis=-1)
     back = _inverse(two)
 
@@ -203,13 +208,18 @@ def _arms(c: Conditions, rotation: Array) -> tuple[Array, Array, Array]:
 
 def _system(group: Group, part: Part, rotation: Array) -> tuple[Array, Array]:
     """Conditions matrix (S, K, p) times places plus constant (S, K) are 0, at given rotations (S, n, 2)."""
+    n, constant = _constant(group, part, rotation)
+    return _where(group.incidence, n[..., group.axis]) * group.incidence, constant
+
+
+def _constant(group: Group, part: Part, rotation: Array) -> tuple[Array, Array]:
+    """The axes (S, K, 2) of the conditions, and what they are where the places are 0 (S, K)."""
     c = group.conditions
     point = part.point.copy()
     point[:, group.link, group.axis] = 0.0
     ri, rj, n = _arms(c, rotation)
     span = _where(n, point[:, c.j] + rj - point[:, c.i] - ri)
-    matrix = _where(group.incidence, n[..., group.axis]) * group.incidence
-    return matrix, (n * span).sum(axis=-1) - part.target
+    return n, (n * span).sum(axis=-1) - part.target
 
 
 def _where(factor: Array, value: Array) -> Array:
@@ -221,6 +231,10 @@ def _places(group: Group, part: Part) -> Array:
     """Places (S, p) at known angles, those of least squares where the conditions are more than the places."""
     if not group.link.size:
         return np.zeros((len(part.turn), 0))
+    if group.apart:
+        n, constant = _constant(group, part, _rotation(part.turn))
+        own = np.arange(len(group.link))
+        return np.asarray(-constant / (n[:, own, group.axis] * group.incidence[own, own]))
     near = ~group.conditions.far
     matrix, constant = _system(group, part, _rotation(part.turn))
     if near.sum() < len(group.link):
@@ -294,6 +308,6 @@ def sides(p: Plan, turn: Array, point: Array, target: Array) -> Array:
         given = part.point[:, group.link, group.axis]
         _place_links(group, part, np.where(np.isnan(given), _places(group, part), given))
         point[:, group.links] = part.point
-        if group.closed:
+        if group.closed and not group.apart:
             found[:, k] = np.nan_to_num(np.sign(np.linalg.det(jacobian(group, part))))
     return found

@@ -116,8 +116,9 @@ def _replace_poses(pose: Pose, where: Ints, part: Pose) -> None:
         whole[where] = new
 
 
-LEAST = 1e-10
-"""Damping of least squares below which a singular matrix could no longer be solved."""
+LEAST, STILL = 1e-10, 1e-12
+"""Damping of least squares below which a singular matrix could no longer be solved; change of the gap's size, over the
+gap, below which it is the least."""
 
 
 def least_gap(layout: Layout, start: Pose, target: Array, steps: int = 200) -> Array:
@@ -128,8 +129,11 @@ def least_gap(layout: Layout, start: Pose, target: Array, steps: int = 200) -> A
         dq = damped_step(layout, stack_rows(layout, pose), stiff, best, damping)
         trial = displace(layout, pose, dq.reshape(1, layout.links, -1))
         new = gap(layout, trial, target[None])[0]
-        if np.linalg.norm(new * stiff) < np.linalg.norm(best * stiff):
+        size, least = np.linalg.norm(new * stiff), np.linalg.norm(best * stiff)
+        if size < least:
             pose, best, damping = trial, new, max(damping / 3, LEAST)
         else:
             damping *= 4
+        if abs(size - least) <= STILL * least:
+            break
     return np.asarray(best)

@@ -113,7 +113,8 @@ def _closed_form_entries(
     part = np.arange(BETWEEN) / BETWEEN
     s = np.append((along.s[:-1, None] + np.diff(along.s)[:, None] * part).ravel(), along.s[-1])
     listed = np.arange(len(s)) % BETWEEN == 0
-    there = np.zeros(len(s), bool)
+    there = np.zeros(len(s), bool)  # reached, or between two that are: what lies there bounds no range
+    there[:-1] = np.repeat(reached[:-1] & reached[1:], BETWEEN)
     there[listed] = reached
     asked = np.flatnonzero(~there)
     targets = np.concatenate([along.target(x) for x in s[asked]])

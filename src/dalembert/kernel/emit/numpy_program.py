@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import cached_property
 from typing import Any
 
 from dalembert.arrays import Array, Numeric
@@ -18,8 +19,8 @@ SINGLE: dict[str, Callable[..., Numeric]] = EVALUATE | {
     "sin": math.sin,
     "cos": math.cos,
     "atan2": math.atan2,
-    "max": max,
-    "min": min,
+    "max": lambda a, b: a if a >= b or a != a else b,
+    "min": lambda a, b: a if a <= b or a != a else b,
 }
 """Operations of single numbers; some raise ArithmeticError or ValueError where numpy gives inf or nan."""
 
@@ -27,7 +28,8 @@ SINGLE: dict[str, Callable[..., Numeric]] = EVALUATE | {
 class NumpyProgram:
     """Outputs as a function of inputs, each a number or an array along the positions.
 
-    What does not change along the positions is computed as single numbers, unless ``many`` inputs are arrays.
+    What does not change along the positions is computed as single numbers, unless ``many`` inputs are arrays; of
+    one position everything is.
     """
 
     def __init__(
@@ -61,11 +63,17 @@ class NumpyProgram:
                 self.steps.append((operations[n.op], a, -1 if n.b is None else b, place[n.index]))
             self.fills += [(row, place[n.index]) for row in wanted.get(n.index, ())]
 
-    def __call__(self, given: Sequence[Numeric], out: Array) -> None:
-        """Put outputs (outputs, ...) for values of the inputs into an array."""
+    @cached_property
+    def single_steps(self) -> list[tuple[Callable[..., Numeric], int, int, int]]:
+        """The steps on single numbers."""
+        single = {operation: SINGLE[name] for name, operation in EVALUATE.items()}
+        return [(single.get(f, f), a, b, c) for f, a, b, c in self.steps]
+
+    def __call__(self, given: Sequence[Numeric], out: Array, one: bool = False) -> None:
+        """Put outputs (outputs, ...) for values of the inputs into an array; of ``one`` position all are floats."""
         v = self.start.copy()
         v[: len(given)] = given
-        for operation, a, b, c in self.steps:
+        for operation, a, b, c in self.single_steps if one else self.steps:
             v[c] = operation(v[a]) if b < 0 else operation(v[a], v[b])
         for row, place in self.fills:
             out[row] = v[place]

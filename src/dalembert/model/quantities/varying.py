@@ -119,5 +119,7 @@ def value_at(value: Varying, drives: Mapping[str, Numeric], functions: Functions
         return found
     import numpy as np
 
+    if isinstance(value, (int, float)) and not drives:
+        return np.float64(value)
     shape = np.broadcast_shapes(*(np.shape(position) for position in drives.values()))
     return np.broadcast_to(np.asarray(found, float), shape)[()]
