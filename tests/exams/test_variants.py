@@ -170,6 +170,16 @@ def test_the_question_sheet_says_nothing_of_the_answer() -> None:
     assert question_sheet(r, asked).sheet.blocks[-1] == Heading("Working", room=True)
 
 
+def test_the_title_has_the_numbers_of_its_variant() -> None:
+    """A force that the title states is that of the variant, in the title's unit; what does not vary stays."""
+    m = bracket(value="300 N @ 90 deg").with_values({"title": "Bracket of 2 m, 0.3 kN"})
+    found = da.variants(m, {"loads.F.value": ["400 N @ 90 deg", "0.6 kN @ 90 deg"]}, count=2, seed=1)
+    titles = {v.name: v.mechanism.title for v in found}
+    assert set(titles.values()) == {"Bracket of 2 m, 0.4 kN", "Bracket of 2 m, 0.6 kN"}
+    for v in found:
+        assert str(question_sheet(v.result, found.asked, v.name)).startswith(titles[v.name])
+
+
 def test_the_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "exam"
     vary = [x for path, values in FOUR_BAR.items() for x in ("--vary", f"{path}={values}")]

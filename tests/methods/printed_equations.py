@@ -162,7 +162,7 @@ class Reader:
             if self._next("/") and self.tokens[1][0] == "number":
                 self._take()
                 power /= float(self._take())
-            whole = abs(found.value) + found.error
+            whole = abs(found.value) + (found.error if found.value != 10 else 0.0)  # a power of ten is exact
             found = Read(found.value**power, abs(whole**power - abs(found.value) ** power))
         return found
 

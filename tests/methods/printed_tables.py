@@ -49,9 +49,13 @@ def _said(reader: Reader, words: str) -> None:
             del reader.known[sign]
     for sign, rate in re.findall(r"([ωα]_c) = (−?[\d.]+)", words):
         reader.known[sign] = reader.number(rate)
-    conversion = r"As 1 [^,]+? is ([\d.]+) [^,]+, (masses|moments) [^.]* are (divided|multiplied) by"
+    conversion = (
+        r"As 1 [^,]+? is ([\d.]+[⁰¹²³⁴-⁹]*) [^,]+, (masses|moments) [^.]* are (divided|multiplied) by"
+    )
     for figure, of, how in re.findall(conversion, words):
-        factor = float(figure) ** (-1 if how == "divided" else 1)
+        base, power = re.fullmatch(r"([\d.]+)(.*)", figure).groups()  # type: ignore[union-attr]
+        whole = float(base) ** int(power.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")) or 1)
+        factor = whole ** (-1 if how == "divided" else 1)
         reader.factors |= dict.fromkeys("mIJ" if of == "masses" else "IJ", factor)
 
 

@@ -62,6 +62,16 @@ def test_the_force_of_teeth_is_along_the_line_of_action(at: int) -> None:
         assert float(inwards @ (np.array(radial.head) - radial.tail)) > 0, joint
 
 
+@pytest.mark.parametrize("name", ["scissor_lift", "ba-04-partly-balanced-cylinder"])
+def test_every_force_of_a_crowded_chain_is_labelled(name: str) -> None:
+    scene = da.draw.force_chain(result(name))
+    labels = " ".join(text.text for text in scene.texts())
+    forces = [a for a in scene.arrows() if a.kind == "force" and a.role != "gap"]
+    assert labels.count(" = ") >= len(forces)
+    assert "Without room" not in labels
+    assert text_overlaps(scene) == []
+
+
 def test_teeth_without_gears_are_refused() -> None:
     with pytest.raises(da.ModelError, match="has no gears to draw; look at its free bodies"):
         da.draw.teeth(result("four_bar"))

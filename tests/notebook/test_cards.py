@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.output.summary.printed_units import scale_for
 from dalembert.bundled import cases, examples
 from dalembert.notebook.html_card import LARGEST_DRAWING, ROWS, card
 from dalembert.printing import Table
@@ -122,6 +123,18 @@ def test_every_bundled_file_has_cards_and_all_its_names(name: str, tmp_path: Any
     for one in r._ipython_key_completions_():
         assert len(r[one]) == len(r.status), one
     r.to_xlsx(tmp_path / "r.xlsx")
+
+
+def test_large_numbers_have_the_prefix_of_the_printed_tables() -> None:
+    """A force system and a sweep in MN, as a result of such forces is; a small force beside them asks for kN."""
+    s = da.wrench.System(da.wrench.Force([8e6, 0], at=[0, 2]), da.wrench.Couple(2e5))
+    assert "F x<br>MN" in s._repr_html_()
+    m = da.four_bar().with_values({"loads": {"P": {"type": "couple", "on": "rocker", "value": "8e6 N*m"}}})
+    sweep = da.sweep(m, "links.coupler.mass", ["1 kg", "2 kg"])
+    assert "largest effort.O2<br>MN*m" in sweep._repr_html_()
+    assert scale_for(None, {"force": 8e6}).text("force") == "MN"
+    assert scale_for(None, {"force": 8e6}, 0.5).text("force") == "kN"
+    assert scale_for(None, {"force": 8e9}, 0.5).text("force") == "MN"
 
 
 def test_a_long_result_shows_first_and_last_rows_and_extremes() -> None:

@@ -89,7 +89,8 @@ def _text(found: list[Verdict], file: str) -> str:
 def _verdict(v: Verdict) -> str:
     if v.right:
         return "right"
-    return "not judged" if v.kind == "open" else f"off by {100 * v.off:.2g} %"
+    off = 100 * v.off
+    return "not judged" if v.kind == "open" else f"off by {off:.0f} %" if off >= 10 else f"off by {off:.2g} %"
 
 
 SHOWN = 10

@@ -14,6 +14,7 @@ from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Tree
 from dalembert.errors import NUMBERED, STATUSES, DalembertError
 from dalembert.exams.asked import Figure, figure, place_of_answer
+from dalembert.exams.titles import variant_title
 from dalembert.grading.figure import values_of
 from dalembert.grading.file_answers import describe_answer
 from dalembert.grading.quantities import Series
@@ -105,6 +106,8 @@ def candidate(
     """The problem with some values replaced; raises Unfit where it is not sound."""
     try:
         changed = m.with_values(values)
+        if (title := variant_title(m, changed, values)) != m.title:
+            changed = changed.with_values({"title": title})
         r = solve(changed, static=static)
         figures = tuple(figure(r, a) for a in asked)
         places = [place_of_answer(r, a) for a in asked]

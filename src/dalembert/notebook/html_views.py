@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.output.columns import Scale
+from dalembert.analysis.output.summary.printed_units import scale_for
 from dalembert.arrays import Array
 from dalembert.notebook.html_card import card
 from dalembert.printing import Part, Table, number, with_unit
@@ -111,7 +112,10 @@ def system_html(s: System) -> str:
     from dalembert.views import draw
     from dalembert.wrench.forces import Couple
 
-    to, axes = Scale(s.units), "xyz"[: s.dimension]
+    total, turning = s.reduced(), [c.size for c in s.couples]
+    most = {"force": max(f.size for f in (*s.forces, *total.parts[:1]))}
+    to = scale_for(s.units, most | {"moment": max([*turning, total.parts[1].size])})
+    axes = "xyz"[: s.dimension]
     units = (to.text("force"), to.text("length"), to.text("moment"))
     heads = ["part", *(f"F {a}\n{units[0]}" for a in axes), *(f"at {a}\n{units[1]}" for a in axes)]
     heads += [f"M {a}\n{units[2]}" for a in axes] if s.dimension == 3 else [f"M\n{units[2]}"]
@@ -122,7 +126,6 @@ def system_html(s: System) -> str:
             rows.append([name, *blank, *blank, *_cells(to("moment", part.vector))])
         else:
             rows.append([name, *_cells(to("force", part.vector)), *_cells(to("length", part.at)), ""])
-    total = s.reduced()
     named = {"force": total.force, "length": total.at, "moment": total.vector}
     sums = [cell for kind, vector in named.items() for cell in _cells(to(kind, vector))]
     rows = [[*row, *[""] * (len(heads) - len(row))] for row in [*rows, ["sum at the origin", *sums]]]
@@ -138,10 +141,12 @@ def _cells(vector: Array) -> list[str]:
 
 def sweep_html(s: Sweep) -> str:
     """A row a design: what was varied, the positions solved, the largest size of each quantity over the positions."""
-    to = Scale(s.mechanism.units)
-    peaks = {
-        name: s.over(name).reshape(-1) for name, a in s.answers.arrays.items() if a.ndim - len(s.shape) < 3
-    }
+    named = [name for name, a in s.answers.arrays.items() if a.ndim - len(s.shape) < 3]
+    peaks = {name: s.over(name).reshape(-1) for name in named}
+    most = {s.kinds[name]: 0.0 for name in named}
+    for name, peak in peaks.items():
+        most[s.kinds[name]] = max(most[s.kinds[name]], float(np.nanmax(np.abs(peak), initial=0.0)))
+    to = scale_for(s.mechanism.units, most)
     heads = [*s.paths, "solved", *(f"largest {name}\n{to.text(s.kinds[name])}" for name in peaks)]
     solved = s.ok.reshape(-1, s.status.shape[-1]).sum(axis=1)
     cells = [[number(float(v)) for v in to(s.kinds[name], peak)] for name, peak in peaks.items()]

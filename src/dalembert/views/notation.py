@@ -172,19 +172,29 @@ class Figures:
         return f"{numbers} cdot {self.conversion(factor)}"
 
     def conversion(self, factor: float) -> str:
-        """A factor between units: 1000, 32.17."""
-        whole = round(factor)
+        """A factor between units as a formula has it: 1000, 32.17, 10^{9}."""
+        whole, power = round(factor), round(math.log10(factor))
+        if power > 5 and math.isclose(factor, 10.0**power, rel_tol=1e-9):
+            return f"10^{{{power}}}"
         return str(whole) if math.isclose(factor, whole, rel_tol=1e-9) else self.notation.number(factor)
 
     def text(self, kind: str, value: float, floor: float = 0.0) -> str:
         """The number with its unit."""
+        number = self.number(kind, value, floor)
+        return _with_gap(number, self._unit_behind(number, kind))
+
+    def with_unit(self, number: str, kind: str, behind: str = "") -> str:
+        """A number with its unit as a formula has it."""
+        return f'{number} "{self._unit_behind(number, kind)}{behind}"'
+
+    def _unit_behind(self, number: str, kind: str) -> str:
+        """The unit of a number; behind a 0 without a power of ten."""
         unit = self.unit(kind)
-        gap = "" if unit == "°" else "·" if unit.startswith("10") else " "
-        return f"{self.number(kind, value, floor)}{gap}{unit}".strip()
+        return unit.partition(" ")[2] if number == "0" and unit.startswith("10") else unit
 
     def plain(self, kind: str, value: float) -> str:
         """A round number with its unit, as a scale has."""
-        return f"{self.value(kind, value):.6g} {self.unit(kind)}"
+        return _with_gap(f"{self.value(kind, value):.6g}", self.unit(kind))
 
     def polar(self, vector: tuple[float, float], kind: str = "force") -> str:
         """A vector as magnitude and direction."""
@@ -193,6 +203,10 @@ class Figures:
     def symbol(self, a: Action) -> str:
         """Sign of an action: its own name."""
         return own_name(a.of)
+
+
+def _with_gap(number: str, unit: str) -> str:
+    return f"{number}{'' if unit == '°' else '·' if unit.startswith('10') else ' '}{unit}".strip()
 
 
 class Shown(Figures):
@@ -322,7 +336,7 @@ def pretty(unit: str) -> str:
     >>> pretty("lbf*in*s^2"), pretty("deg"), pretty("10^6 lbf")
     ('lbf·in·s²', '°', '10⁶ lbf')
     """
-    raised = re.sub(r"\^(-?\d+)", lambda m: m[1].translate(SUPERSCRIPTS), unit)
+    raised = re.sub(r"\^\{?(-?\d+)\}?", lambda m: m[1].translate(SUPERSCRIPTS), unit)
     return raised.replace("*", "·").replace("deg", "°")
 
 

@@ -60,4 +60,4 @@ def _line(left: str, pieces: list[Piece], shown: Shown, kind: str) -> Working:
     largest = max((abs(p.value) for p in pieces), default=0.0)
     shown_total = shown.notation.number(0.0 if abs(total) < 1e-9 * largest else total)
     letters, numbers = join_signed([p.letters for p in pieces]), join_signed([p.numbers for p in pieces])
-    return Working(f"{left}: quad {letters} = 0", f'{numbers} = {shown_total} "{shown.unit(kind)}"')
+    return Working(f"{left}: quad {letters} = 0", f"{numbers} = {shown.with_unit(shown_total, kind)}")

@@ -230,4 +230,4 @@ def zero_sum(
 ) -> Working:
     """A sum that is zero; what rounding leaves of it is 0. ``per`` goes on behind the unit."""
     value = 0.0 if abs(total) < 1e-9 * largest else total
-    return Working(f"{letters} = 0", f'{numbers} = {shown.number(kind, value)} "{shown.unit(kind)}{per}"')
+    return Working(f"{letters} = 0", f"{numbers} = {shown.with_unit(shown.number(kind, value), kind, per)}")

@@ -14,7 +14,7 @@ from dalembert.reports.sections import kinematics
 from dalembert.reports.sections.gear_motion import mesh
 from dalembert.reports.sheet import Sheet, Working
 from dalembert.views import draw
-from dalembert.views.notation import Notation
+from dalembert.views.notation import Notation, pretty
 from dalembert.views.plane.velocity_polygons import stands_still
 
 
@@ -94,10 +94,10 @@ def units_of_inertia(sheet: Sheet, c: ReportContext) -> None:
         factor, product = shown.factor(kind, *of), "·".join(shown.unit(k).removeprefix("rad") for k in of)
         product = product.replace("·/", "/")
         if factor < 1:
-            size = shown.conversion(1 / factor)
+            size = pretty(shown.conversion(1 / factor))
             said.append(f"As 1 {shown.unit(kind)} is {size} {product}, {words} are divided by {size}.")
         elif factor > 1:
-            size = shown.conversion(factor)
+            size = pretty(shown.conversion(factor))
             said.append(f"As 1 {product} is {size} {shown.unit(kind)}, {words} are multiplied by {size}.")
     turning = shown.factor("moment", "inertia", "angular_acceleration")
     same = math.isclose(shown.factor("force", "mass", "acceleration"), turning)

@@ -103,7 +103,7 @@ def _lines(sides: list[Side], kind: str, order: int, shown: Shown) -> list[Worki
         total = math.fsum(values)
         numbers = join_signed([(v < -least, shown.number(kind, abs(v))) for v in values])
         total_shown = shown.number(kind, total, 1e-9 * largest)
-        lines.append(Working(f'{letter}: quad {numbers} = {total_shown} "{shown.unit(kind)}"'))
+        lines.append(Working(f"{letter}: quad {numbers} = {shown.with_unit(total_shown, kind)}"))
     return lines
 
 

@@ -36,6 +36,10 @@ LEADER = 5.0
 """Distance in mm beyond which a thin line leads from the label to its place."""
 
 
+NO_ROOM = "Without room"
+"""What the note on labels that cover something everywhere begins with."""
+
+
 @dataclass(frozen=True)
 class Label:
     """A text near one of some points, preferably in a direction (radians)."""
@@ -92,7 +96,7 @@ class Canvas:
             items = placer.place_text(label)
             self.items += items
             left_over += [] if items else [label.text]
-        for words, texts in (("Too short", self._below), ("Without room", left_over)):
+        for words, texts in (("Too short", self._below), (NO_ROOM, left_over)):
             listed = ", ".join(map(unbroken, texts))
             notes = [*notes, f"{words} for a label: {listed}"] if texts else notes
         self._labels, self._below = [], []

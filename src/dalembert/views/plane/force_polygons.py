@@ -23,7 +23,7 @@ from dalembert.analysis.methods.members import concurrency, members, order_of_so
 from dalembert.printing import remainder
 from dalembert.views.not_shown import doubts, has_reactions, on_one
 from dalembert.views.notation import Figures, Notation, Shown, own_name
-from dalembert.views.paper.canvas import Canvas
+from dalembert.views.paper.canvas import NO_ROOM, Canvas
 from dalembert.views.paper.frame import Frame, force_scale
 from dalembert.views.paper.scene import Arrow, Circle, Line, Point, Scene, along
 from dalembert.views.plane.circle_details import draw_circle, with_friction_circle
@@ -157,12 +157,26 @@ def _edge_label(
     canvas.label(text, *spots, prefer=away, size=2.8, role=role_of(a.kind))
 
 
+CHAINS = (50.0, 80.0, 125.0)
+"""Largest force of a chain, mm: the next where a force finds no room for its label."""
+
+
 def force_chain_scene(r: Result, k: int, notation: Notation | None = None, case: str | None = None) -> Scene:
     """The polygons of all links in the order of solution, each on the side it shares with one before."""
+    scenes = (_chain_scene(r, k, notation, case, longest) for longest in CHAINS)
+    tried = []
+    for scene in scenes:
+        tried.append(scene)
+        if not any(t.text.startswith(NO_ROOM) for t in scene.texts()):
+            return scene
+    return tried[0]
+
+
+def _chain_scene(r: Result, k: int, notation: Notation | None, case: str | None, longest: float) -> Scene:
     shown = Shown(r, notation or Notation(), k)
     some = case_actions(r, case)
     sizes = [float(np.hypot(*a.force[k])) for a in some if a.link != "ground"]
-    per_mm = force_scale(sizes, 50.0, unit_size(r, "force", shown.notation))
+    per_mm = force_scale(sizes, longest, unit_size(r, "force", shown.notation))
     canvas = Canvas()
     placed: dict[str, tuple[Point, Point]] = {}
     worst, bottom = 0.0, 0.0

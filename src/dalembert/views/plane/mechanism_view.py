@@ -236,6 +236,8 @@ def draw_actions(
         if size > 1e-9 * largest and size / per_mm > 0.05:
             draw_force(canvas, r, a, k, frame, shown, per_mm, values, kind, clear and a.kind == "load")
             drawn = True
+        elif values and size > max(1e-9 * largest, shown.least["force"]):
+            canvas.label_below(f"{shown.symbol(a)} = {shown.text('force', size)}")
         if abs(float(a.couple[k])) > max(1e-9 * max(couples, default=0.0), shown.least["moment"]):
             draw_couple(canvas, r, a, k, frame, shown, values)
     return per_mm if drawn else None

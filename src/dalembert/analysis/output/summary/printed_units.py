@@ -74,16 +74,25 @@ RADIANS = {"angular_speed": "rad/s", "angular_acceleration": "rad/s^2"}
 
 
 def print_scale(result: Result, units: UnitChoice) -> Printed:
-    """The scale of a printed answer: a kind whose largest number would be printed with an exponent has it with its
-    unit, the same in every table, drawing and report of the result. Forces and moments have one power, so that
-    arms stay in the unit of the file: kN times mm is N*m."""
-    plain = Printed(None if units == "SI" else result.mechanism.units)
-    most = {k: float(abs(plain(k, float(size[0])))) for k, size in read_once(result, _extents).items()}
-    powers = {k: p for k, size in most.items() if (p := _power(size))}
-    common = max(powers.get("force", 0), 3 if "moment" in powers else 0, _power(most["moment"] / 1e3))
+    """The scale of a printed answer, the same in every table, drawing and report of the result."""
+    most = {kind: float(size[0]) for kind, size in read_once(result, _extents).items()}
+    return scale_for(None if units == "SI" else result.mechanism.units, most, _smallest(result))
+
+
+def scale_for(units: object, most: Mapping[str, float], least: float = math.inf) -> Printed:
+    """The scale for answers whose largest numbers (SI) are known by kind: a kind whose largest would be printed with an
+    exponent has it with its unit. Forces and moments have one power, so that arms stay in the unit of the file: kN
+    times mm is N*m. ``least``: the smallest force (N), for which a lower power is taken where the largest allows it."""
+    plain = Printed(units)
+    sizes = {"force": 0.0, "moment": 0.0} | {k: float(abs(plain(k, size))) for k, size in most.items()}
+    powers = {k: p for k, size in sizes.items() if (p := _power(size))}
+    common = max(powers.get("force", 0), 3 if "moment" in powers else 0, _power(sizes["moment"] / 1e3))
+    small, large = float(abs(plain("force", least))), max(sizes["force"], sizes["moment"])
+    while common > 3 and small < 1e-4 * 10.0**common and large < 1e6 * 10.0 ** (common - 3):
+        common -= 3
     if common:
         powers |= {"force": common, "moment": common}
-    return Printed(None if units == "SI" else result.mechanism.units, powers)
+    return Printed(units, powers)
 
 
 def _power(most: float) -> int:
@@ -110,6 +119,13 @@ def _extents(result: Result) -> Tree:
     force = max(float(found["force"][0]), float(found["moment"][0]) / r.compiled.layout.length)
     noise = {"force": PART * force, "moment": PART * force * r.compiled.layout.length}
     return {kind: np.where(size > noise.get(kind, 0.0), size, 0.0) for kind, size in found.items()}
+
+
+def _smallest(result: Result) -> float:
+    """The smallest joint force of the whole answer (N) that is no rounding."""
+    sizes = np.linalg.norm(result.before.force_array, axis=-1)
+    known = sizes[np.isfinite(sizes)]
+    return float(known[known > PART * known.max(initial=0.0)].min(initial=math.inf))
 
 
 def without_reactions(result: Result) -> bool:
