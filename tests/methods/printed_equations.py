@@ -227,21 +227,21 @@ class Reader:
         if re.fullmatch(IN_LETTERS, text):
             return
         kinds = next(kinds for lead, kinds in LEADS.items() if re.match(lead, letters))
-        self.unit(re.split(r"(?<!10.)[\s,:]", behind)[0], kinds, text)
+        nothing = re.match(r"0(?![.\d])", text.rpartition(" = ")[2]) is not None
+        self.unit(re.split(r"(?<!10.)[\s,:]", behind)[0], kinds, text, nothing)
 
-    def unit(self, found: str, kinds: str, text: str) -> None:
-        """A printed unit is that of one of these kinds."""
+    def unit(self, found: str, kinds: str, text: str, nothing: bool = False) -> None:
+        """A printed unit is that of one of these kinds; behind a 0 without its power of ten."""
         if self.units is not None:
             kind_units = {kind: self.units[kind] if kind else "" for kind in kinds.split("|")}
             wanted = list(kind_units.values())
-            for (
-                kind,
-                unit,
-            ) in kind_units.items():  # a large number has a power of ten, one for a kind throughout
+            # a large number has a power of ten, one for a kind throughout
+            for kind, unit in kind_units.items():
                 plain = unit.replace("·", "*").replace("²", "^2")
-                if found not in wanted and found in [
-                    pretty(unit_with_power(plain, p)) for p in (3, 6, 9, 12)
-                ]:
+                large = [pretty(unit_with_power(plain, p)) for p in (3, 6, 9, 12)]
+                if nothing and found in [text.partition(" ")[2] for text in large if text.startswith("10")]:
+                    return
+                if found not in wanted and found in large:
                     wanted = [self.large.setdefault(kind, found)]
             assert found in wanted, f"{text}: the unit is {found!r}, and should be {' or '.join(wanted)}"
 

@@ -101,7 +101,7 @@ ITEMS: Any = [
 @pytest.mark.parametrize(("item", "box"), ITEMS, ids=lambda x: type(x).__name__)
 def test_boxes_of_primitives_here_and_elsewhere(item: Any, box: Any) -> None:
     assert item_box(item) == pytest.approx(box)
-    moved = Scene((Group((item,), "g"), item)).moved(10, -20)
+    moved = Scene((Group((item,), "g"), item)).shift(10, -20)
     assert moved.bounds == pytest.approx((box[0] + 10, box[1] - 20, box[2] + 10, box[3] - 20))
     assert len(list(moved.flat())) == 2
 

@@ -66,7 +66,7 @@ class Problem:
         found = []
         for k, answer in enumerate(answers):
             with errors_at(k):
-                found.append(self.compared(answer, tolerance))
+                found.append(self.compare(answer, tolerance))
         some = [f for f in found if isinstance(f, Figure)]
         said = explain(some, self.wrong_problems(some))
         numbers = iter(range(len(some)))
@@ -83,7 +83,7 @@ class Problem:
             raise
         return [v._replace(line=sheet.line(k)) for k, v in enumerate(found)]
 
-    def compared(self, answer: Answer, tolerance: str | None = None) -> Figure | Verdict:
+    def compare(self, answer: Answer, tolerance: str | None = None) -> Figure | Verdict:
         """A figure beside what is computed, or the verdict on a word or a count."""
         r = self.result
         if answer.quantity in WHOLE:

@@ -30,15 +30,15 @@ Mistake = tuple[str, Change]
 STANDARD = 9.80665
 
 
-def numbers_changed(part: str, **new: Callable[[Array], Array]) -> Change:
+def change_numbers(part: str, **new: Callable[[Array], Array]) -> Change:
     """Arrays of a part of the compiled mechanism replaced, each by a function of what it was."""
-    return partial(_replaced, part.split("."), new)
+    return partial(_replace, part.split("."), new)
 
 
-def _replaced(path: Sequence[str], new: dict[str, Callable[[Array], Array]], record: Any) -> Any:
+def _replace(path: Sequence[str], new: dict[str, Callable[[Array], Array]], record: Any) -> Any:
     if not path:
         return replace(record, **{name: f(getattr(record, name)) for name, f in new.items()})
-    return replace(record, **{path[0]: _replaced(path[1:], new, getattr(record, path[0]))})
+    return replace(record, **{path[0]: _replace(path[1:], new, getattr(record, path[0]))})
 
 
 def times(factor: Array | float) -> Callable[[Array], Array]:
@@ -63,7 +63,7 @@ def changes(r: Result) -> Iterator[Mistake]:
     m = r.mechanism
     if not any(m.gravity_vector):
         pull = [*[0.0] * (m.dimension - 1), -STANDARD]
-        gravity = numbers_changed("forcing.inertia", gravity=lambda _: np.array(pull))
+        gravity = change_numbers("forcing.inertia", gravity=lambda _: np.array(pull))
         yield "gravity is counted, and the problem has none", gravity
     given = [name for name, load in m.loads_on("point").items() if not load.unknown]
     for k, name in enumerate(given):
@@ -79,7 +79,7 @@ def _rate_changes(r: Result, k: int, drive: str) -> Iterator[Mistake]:
     """The speed and acceleration of a drive."""
 
     def scaled(name: str, factor: float) -> Change:
-        return numbers_changed(
+        return change_numbers(
             "schedule", **{name: lambda a: a * np.where(np.arange(a.shape[1]) == k, factor, 1.0)}
         )
 
@@ -100,17 +100,17 @@ def _force_changes(r: Result, k: int, name: str) -> Iterator[Mistake]:
     for point in [*m.points(on), "center"]:
         if point != load.at:  # type: ignore[union-attr]
             there = with_row(k, np.subtract(m.point(on, point), base))
-            change = numbers_changed("forcing.forces", at=there)
+            change = change_numbers("forcing.forces", at=there)
             yield f"the moment arm of {name} is wrong: it is taken at {point}", change
     other = "link" if load.axes == "ground" else "ground"  # type: ignore[union-attr]
-    turned = numbers_changed("forcing.forces", follows=lambda a: a ^ (np.arange(len(a)) == k))
+    turned = change_numbers("forcing.forces", follows=lambda a: a ^ (np.arange(len(a)) == k))
     yield f"the direction of {name} is counted in {other} axes", turned
     if m.dimension == 2:
         x, y = (r.compiled.forcing.forces.value[:, k, c] for c in (0, 1))
         slips = {"from the other axis": (y, x), "clockwise": (x, -y), "from the negative x axis": (-x, y)}
         for slip, both in slips.items():
             value = with_row((slice(None), k), np.stack(both, axis=-1))
-            yield f"the angle of {name} is counted {slip}", numbers_changed("forcing.forces", value=value)
+            yield f"the angle of {name} is counted {slip}", change_numbers("forcing.forces", value=value)
 
 
 def _link_changes(r: Result, k: int, link: str) -> Iterator[Mistake]:
@@ -123,12 +123,12 @@ def _link_changes(r: Result, k: int, link: str) -> Iterator[Mistake]:
     points = {n: np.array(p) for n, p in m.points(link).items()}
 
     def centered(at: Array) -> Change:
-        return numbers_changed("forcing.inertia", center=with_row(k, at - base))
+        return change_numbers("forcing.inertia", center=with_row(k, at - base))
 
     for name, p in points.items() if plane else ():
         about = with_row(k, m.inertia(link) + m.mass(link) * float(magnitude(p - center)) ** 2)
         words = f"the moment of inertia of {link} is taken about {name}, not its mass centre"
-        yield words, numbers_changed("forcing.inertia", inertia=about)
+        yield words, change_numbers("forcing.inertia", inertia=about)
     for name, p in points.items():
         yield f"the mass centre of {link} is taken at {name}", centered(p)
     if center[1] and plane:
@@ -186,11 +186,11 @@ def _friction_changes(r: Result) -> Iterator[Mistake]:
         ("R sin(phi), not mu R", ~contacts.circle & circles),
     ):
         if where.any():
-            circle = numbers_changed("contacts", circle=lambda a, w=where: a ^ w)  # type: ignore[misc]
+            circle = change_numbers("contacts", circle=lambda a, w=where: a ^ w)  # type: ignore[misc]
             yield f"the radius of the friction circles is taken as {words}", circle
     if (contacts.coefficient != contacts.resting)[rough].any():
         mu = np.where(rough, contacts.resting, contacts.coefficient)
-        resting = numbers_changed("contacts", coefficient=lambda _: mu)
+        resting = change_numbers("contacts", coefficient=lambda _: mu)
         yield "the coefficient at rest is taken for that of motion", resting
     joints = dict.fromkeys(contacts.joint[rough].tolist())
     apart = {f" of joint {r.joints[k]}": contacts.joint == k for k in joints} if len(joints) > 1 else {}
@@ -209,4 +209,4 @@ def _friction_changes(r: Result) -> Iterator[Mistake]:
 def _friction(where: Flags, coefficient: float = 1.0, lever: float = 1.0) -> Change:
     """Coefficients or levers of some contacts times a factor."""
     mu, arm = (times(np.where(where, factor, 1.0)) for factor in (coefficient, lever))
-    return numbers_changed("contacts", coefficient=mu, resting=mu, lever=arm)
+    return change_numbers("contacts", coefficient=mu, resting=mu, lever=arm)

@@ -14,7 +14,7 @@ from dalembert.analysis.methods.applied_forces import known_actions
 from dalembert.analysis.one_pass import at_poses
 from dalembert.arrays import Array, Tree
 from dalembert.errors import DalembertError, ModelError
-from dalembert.grading.wrong_data import Change, Mistake, changes, numbers_changed, times
+from dalembert.grading.wrong_data import Change, Mistake, change_numbers, changes, times
 from dalembert.units import file_units
 
 if TYPE_CHECKING:
@@ -159,7 +159,7 @@ def _scaling(r: Result, sources: Sequence[str], factor: float) -> Change | None:
             ("forces", {"value": loads[0][:, None]}),
             ("couples", {"value": loads[1][:, None]}),
         ):
-            c = numbers_changed(f"forcing.{part}", **{name: times(f) for name, f in new.items()})(c)  # type: ignore
+            c = change_numbers(f"forcing.{part}", **{name: times(f) for name, f in new.items()})(c)  # type: ignore
         return c
 
     return change

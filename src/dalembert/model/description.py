@@ -16,7 +16,7 @@ from dalembert.model.assembly import Pose, PoseValue
 from dalembert.model.drives.driven_freedoms import drive_freedoms, refuse_empty, with_freedoms
 from dalembert.model.drives.drives import Drive
 from dalembert.model.drives.schedule import Schedule, schedule
-from dalembert.model.drives.starting import Start, StartValue, started
+from dalembert.model.drives.starting import Start, StartValue, drives_at_start
 from dalembert.model.files.messages import of_originals, together
 from dalembert.model.files.source import Source
 from dalembert.model.gravity import STANDARD, Gravity, GravityValue
@@ -260,12 +260,12 @@ class Mechanism(Part):
 
     def schedule(self, positions: int | None = None) -> Schedule:
         """What the drives do, position by position; `positions` replaces the file's counts."""
-        return schedule(started(self.drives, self.start), positions)
+        return schedule(drives_at_start(self.drives, self.start), positions)
 
     @property
     def has_speeds(self) -> bool:
         """Whether some drive has a speed, an acceleration or a law, so that inertia counts."""
-        return any(drive.moves for drive in started(self.drives, self.start).values())
+        return any(drive.moves for drive in drives_at_start(self.drives, self.start).values())
 
     def with_values(self, values: Mapping[str, object]) -> Mechanism:
         """Another mechanism with some values replaced, each named by its path.

@@ -160,7 +160,7 @@ class Figures:
         found = math.prod(map(self.size, of)) / self.size(kind)
         return 1.0 if math.isclose(found, 1.0, rel_tol=1e-9) else found
 
-    def converted(self, numbers: str, kind: str, *of: str) -> str:
+    def with_factor(self, numbers: str, kind: str, *of: str) -> str:
         """A product in the reader's units, with that factor behind it where there is one: '−2 (−10, 4) / 1000'."""
         return self._with_factor(numbers, self.factor(kind, *of))
 

@@ -83,7 +83,7 @@ def grade(
             step(k, sheet.student)
             if any(sheet.student == other.student for other in sheets[:k]):
                 sheet.problems.append(f"{sheet.file}:{sheet.line}: there is another sheet of {sheet.student}")
-            out.append(marker.marked(sheet))
+            out.append(marker.mark(sheet))
     return Marks(out, rules)
 
 
@@ -104,7 +104,7 @@ class _Marker:
         self.equations: dict[tuple[str, int], LinkEquations] = {}
         self.checked: set[str] = set()
 
-    def marked(self, sheet: StudentSheet) -> StudentMarks:
+    def mark(self, sheet: StudentSheet) -> StudentMarks:
         """The marks of one sheet."""
         out = StudentMarks(sheet.student, sheet.variant, sheet.file, problems=list(sheet.problems))
         try:
@@ -164,7 +164,7 @@ class _Marker:
         filled = {k: getattr(asked.answer, k) for k in (*keys, "at", "extreme")}
         answer = answer.model_copy(update=filled | {"tolerance": asked.answer.tolerance})
         try:
-            return _Taken(asked, answer, variant.compared(asked, answer, self.tolerance), "", part, where[1])
+            return _Taken(asked, answer, variant.compare(asked, answer, self.tolerance), "", part, where[1])
         except ModelError as error:
             return _Taken(asked, answer, None, str(error.at_line(*where)), part, where[1])
 

@@ -51,11 +51,11 @@ class ExamVariant:
         """The problem solved."""
         return None if self.load is None else Problem(self.load(), self.static)
 
-    def compared(self, asked: Asked, answer: Answer, tolerance: str | None) -> Figure | Verdict:
+    def compare(self, asked: Asked, answer: Answer, tolerance: str | None) -> Figure | Verdict:
         """A student's figure beside the problem's, or without a problem beside the key's; bare numbers in its unit."""
         answer = answer.model_copy(update={"value": with_units(answer.value, asked.unit)})
         if self.problem is not None:
-            return self.problem.compared(answer, tolerance)
+            return self.problem.compare(answer, tolerance)
         if asked.answer.quantity in WORDS | WHOLE:
             return verdict_on_word(answer, asked.answer.value)
         return figure_of_key(answer, asked.answer, tolerance)
@@ -66,7 +66,7 @@ class ExamVariant:
             if asked.answer.value is None:
                 continue
             with errors_at(file=file, line=asked.line):
-                found = self.compared(asked, asked.answer.model_copy(update={"tolerance": None}), None)
+                found = self.compare(asked, asked.answer.model_copy(update={"tolerance": None}), None)
                 if not (found.met if isinstance(found, Figure) else found.right):
                     said = f"{describe_answer(asked.answer)} is {value_text(asked.answer.value)} in the key"
                     raise ModelError(f"{said}, and {found.computed} by the model file", "correct one of them")

@@ -31,7 +31,7 @@ class Start:
     turns: bool = True
 
 
-def started(drives: Mapping[str, Drive], start: Mapping[str, Start]) -> Mapping[str, Drive]:
+def drives_at_start(drives: Mapping[str, Drive], start: Mapping[str, Start]) -> Mapping[str, Drive]:
     """The drives, those without a position of their own as they start."""
     if not start:
         return drives

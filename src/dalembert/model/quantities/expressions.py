@@ -223,11 +223,11 @@ def parse_expression(text: str, parameters: Iterable[str] | None = None) -> tupl
 
     With `parameters`, names or none, a number may have a unit behind it.
     """
-    return _parsed(text, None if parameters is None else frozenset(parameters))
+    return _parse(text, None if parameters is None else frozenset(parameters))
 
 
 @lru_cache(maxsize=1024)
-def _parsed(text: str, parameters: frozenset[str] | None) -> tuple[Tree, str]:
+def _parse(text: str, parameters: frozenset[str] | None) -> tuple[Tree, str]:
     if len(text) > LONGEST:
         what = f"an expression of {len(text)} characters is too long"
         raise ModelError(what, f"at most {LONGEST}; use a table instead")

@@ -20,7 +20,7 @@ def flywheel_section(sheet: Sheet, f: Flywheel, shown: Shown) -> None:
         for e in (max(f.energies, default=0), min(f.energies, default=0), size.energy)
     )
     speed, *limits = (shown.number("angular_speed", w) for w in (abs(size.speed), *size.limits))
-    rotating = shown.converted(f"frac({fluctuation}; {cs} cdot {speed}^{{2}})", "inertia", "energy")
+    rotating = shown.with_factor(f"frac({fluctuation}; {cs} cdot {speed}^{{2}})", "inertia", "energy")
     rotating = rotating if shown.scale.text("angular_speed") == "rad/s" else ""
     rows = [
         ("T_{m}", "", shown.number("moment", f.mean), "moment"),

@@ -73,7 +73,7 @@ def pin_lines(c: ReportContext, joint: str) -> list[Working]:
         circle_radius(c, joint, friction_coefficient(r, joint, k), size),
         Working(
             f"M_{{f{shown.pair(other, on)}}} = {sign}r_{{{joint}}} {shown.reaction(joint, on)}",
-            shown.converted(product, "moment", "length", "force"),
+            shown.with_factor(product, "moment", "length", "force"),
             figure(shown, "moment", couple, f", {sense} about {joint}"),
         ),
     ]

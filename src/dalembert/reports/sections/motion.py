@@ -132,7 +132,7 @@ def _inertia_lines(c: ReportContext, link: str) -> list[Working]:
     out = [
         Working(
             f"F_{{I{n}}} = −m_{{{n}}} a_{{G{n}}}",
-            shown.converted(product, "force", "mass", "acceleration"),
+            shown.with_factor(product, "force", "mass", "acceleration"),
             f"({number('force', fx)}, {number('force', fy)}) = {figure(shown, 'force', size)}{direction}",
         )
     ]
@@ -145,7 +145,7 @@ def _inertia_lines(c: ReportContext, link: str) -> list[Working]:
     out.append(
         Working(
             f"T_{{I{n}}} = {minus}I_{{{n}}} alpha_{{{n}}}",
-            shown.converted(product, "moment", "inertia", "angular_acceleration"),
+            shown.with_factor(product, "moment", "inertia", "angular_acceleration"),
             figure(shown, "moment", couple),
         )
     )

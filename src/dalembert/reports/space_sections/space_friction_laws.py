@@ -104,7 +104,7 @@ class _Joint:
 
     def _couple(self, numbers: str) -> str:
         """A product of a length and a force as a moment."""
-        return self.c.shown.converted(numbers, "moment", "length", "force")
+        return self.c.shown.with_factor(numbers, "moment", "length", "force")
 
     def _product(self, factor: str, number: str, contact: ContactForce, n: int, of: int) -> tuple[str, str]:
         name = f"S_{{{self.joint}{f',{n + 1}' if of > 1 else ''}}}"

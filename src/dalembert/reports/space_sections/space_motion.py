@@ -139,7 +139,7 @@ def _force(c: ReportContext, link: str) -> list[Working]:
     if not mass or not (np.abs(a) > c.shown.least["acceleration"]).any():
         return []
     product = f"−{c.shown.number('mass', mass)} ({', '.join(_vector(c, 'acceleration', a))})"
-    numbers = c.shown.converted(product, "force", "mass", "acceleration")
+    numbers = c.shown.with_factor(product, "force", "mass", "acceleration")
     force = ", ".join(_vector(c, "force", -mass * a))
     size = c.shown.text("force", mass * math.hypot(*a))
     return [
@@ -164,7 +164,7 @@ def _couple(c: ReportContext, link: str) -> list[Working]:
     omega, alpha = vector("angular_speed", t.speed[k]), vector("angular_acceleration", t.acceleration[k])
     rate, gyroscopic, whole = (vector("moment", v) for v in (t.rate[k], t.gyroscopic[k], couple))
     numbers = [
-        c.shown.converted(text, "moment", "inertia", *of)
+        c.shown.with_factor(text, "moment", "inertia", *of)
         for text, of in (
             (f"J_{{{n}}} {alpha}", ["angular_acceleration"]),
             (f"{omega} times J_{{{n}}} {omega}", ["angular_speed"] * 2),

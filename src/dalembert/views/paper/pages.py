@@ -128,7 +128,7 @@ def _page(lines: Sequence[Sequence[Scene]], paper: str) -> Page:
         x = MARGIN
         for panel in line:
             left, _, right, top = panel.bounds
-            items.append(Group(panel.moved(x - left, y - top).items, panel.title))
+            items.append(Group(panel.shift(x - left, y - top).items, panel.title))
             x += right - left + GAP
         y -= _height(line) + GAP
     return Page(width, height, tuple(items))

@@ -152,7 +152,7 @@ class Scene:
         left, bottom, right, top = zip(*boxes, strict=True)
         return (float(min(left)), float(min(bottom)), float(max(right)), float(max(top)))
 
-    def moved(self, dx: float, dy: float) -> Scene:
+    def shift(self, dx: float, dy: float) -> Scene:
         """The same elsewhere on the paper."""
         return replace(self, items=tuple(shift_item(item, dx, dy) for item in self.items))
 
@@ -246,7 +246,7 @@ def stack_scenes(scenes: Sequence[Scene], gap: float = 8.0, width: float = 180.0
         left, bottom, right, high = scene.bounds
         if x > 0 and x + right - left > width:
             x, top = 0.0, row_bottom - gap
-        drawn = scene.moved(x - left, top - high)
+        drawn = scene.shift(x - left, top - high)
         items.append(Group(drawn.items, scene.title))
         row_bottom = min(row_bottom, top - (high - bottom))
         x += right - left + gap

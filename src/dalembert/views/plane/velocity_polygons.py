@@ -217,7 +217,7 @@ class _Polygon:
                 x, y = self.head(self.found[link][s.sign])
                 place = next((p for p in at if math.dist(p, (x, y)) < 0.1), (x, y))
                 names = at.setdefault(place, [])
-                name = primed(s.letter, mark)
+                name = add_prime(s.letter, mark)
                 names += [name] if name not in names and not self._fixed(s) else []
         middle = np.mean([*at], axis=0)
         for (x, y), names in at.items():
@@ -243,7 +243,7 @@ class _Polygon:
         return ", ".join(map(unbroken, texts))
 
 
-def primed(letter: str, mark: str) -> str:
+def add_prime(letter: str, mark: str) -> str:
     """A letter with its mark before the index: g' of mass centre 2."""
     head, index, rest = letter.partition("_{")
     return head + mark + index + rest

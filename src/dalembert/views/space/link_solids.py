@@ -26,7 +26,7 @@ from dalembert.views.space.solids import (
     Solid,
     Wire,
     across,
-    all_placed,
+    place_solids,
 )
 from dalembert.views.symbols.joint_solids import lift
 from dalembert.views.symbols.pair_symbols import Setting, Symbol, symbol
@@ -67,12 +67,12 @@ def link_solids(r: Result, size: float) -> dict[str, list[Solid]]:
     for name, m in mounts.items():
         found = _symbol(r, m, size)
         for end, solids in enumerate((found.on_i, found.on_j)):
-            out[m.links[end]] += all_placed(solids, m.axes[end].T, m.points[end], size)
+            out[m.links[end]] += place_solids(solids, m.axes[end].T, m.points[end], size)
             clear[m.links[end], name] = found.clear * size
         if GROUND in m.links:
             height = _layers(r, m)[m.links.index(GROUND)] if r.mechanism.dimension == 2 else 0.0
             feet = _feet(r, m, found.clear, size)
-            out[GROUND] += all_placed(feet, np.eye(3), np.array([0.0, 0.0, height * size]))
+            out[GROUND] += place_solids(feet, np.eye(3), np.array([0.0, 0.0, height * size]))
     for link in r.links:
         out[link] += _frame(r, link, clear, size)
     return out
@@ -132,7 +132,7 @@ def _symbol(r: Result, m: Mount, size: float) -> Symbol:
         return found
     shift = _layers(r, m)
     up = np.array([0.0, 0.0, 1.0])
-    parts = [all_placed(part, np.eye(3), z * up) for part, z in zip(found[:2], shift, strict=True)]
+    parts = [place_solids(part, np.eye(3), z * up) for part, z in zip(found[:2], shift, strict=True)]
     if m.kind in ("revolute", "slotted_cylinder"):
         ends = np.array([[min(shift) - 2.0], [max(shift) + 2.0]]) * up
         parts[1] = [Cylinder(ends[0], ends[1], 0.9, "inner")]

@@ -128,7 +128,7 @@ def place_solid(solid: Solid, turn: Rotation, at: Array, scale: float = 1.0) -> 
     return replace(solid, **changed)
 
 
-def all_placed(solids: Sequence[Solid], turn: Rotation, at: Array, scale: float = 1.0) -> list[Solid]:
+def place_solids(solids: Sequence[Solid], turn: Rotation, at: Array, scale: float = 1.0) -> list[Solid]:
     """Solids enlarged, turned and moved together."""
     return [place_solid(s, turn, at, scale) for s in solids]
 

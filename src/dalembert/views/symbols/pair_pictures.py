@@ -10,7 +10,7 @@ from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.scene import Arrow, Line, Point, Scene, stack_scenes
 from dalembert.views.space.camera import Camera
 from dalembert.views.space.painter import paint
-from dalembert.views.space.solids import all_placed
+from dalembert.views.space.solids import place_solids
 from dalembert.views.symbols import plane_symbols
 from dalembert.views.symbols.pair_symbols import symbol
 from dalembert.wording import closest
@@ -33,7 +33,7 @@ def pair_scene(kind: str, camera: Camera) -> Scene:
     for axis in AXES:
         if float(np.hypot(*seen[axis])) > 0.05:
             canvas.add(Line((at(axis, 0.0), at(axis, END)), "construction"))
-    solids = all_placed([*found.on_i, *found.on_j], np.eye(3), np.zeros(3), LARGER)
+    solids = place_solids([*found.on_i, *found.on_j], np.eye(3), np.zeros(3), LARGER)
     canvas.add(*paint(solids, camera))
     for axis in AXES:
         if float(np.hypot(*seen[axis])) <= 0.05:

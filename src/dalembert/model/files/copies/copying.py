@@ -220,7 +220,7 @@ class Copying:
             return self.table(value)
         if not isinstance(value, str):
             return value
-        names = {**dict.fromkeys(self.staying(), self.shift_text), **dict(self.renamed())}
+        names = {**dict.fromkeys(self.staying(), self.shift_text), **dict(self.copy_names())}
         return re.sub(
             r"(?<![\w.])[^\W\d]\w*(?:\.\w+\.\w+)?(?![\w.(])",
             lambda m: names[m[0]](m[0]) if m[0] in names else m[0],
@@ -238,7 +238,7 @@ class Copying:
         self.shifted = True
         return f"({drive} - {self.image.shift!r})" if self.image.shift else drive
 
-    def renamed(self) -> Iterator[tuple[str, Callable[[str], str]]]:
+    def copy_names(self) -> Iterator[tuple[str, Callable[[str], str]]]:
         """Coordinates of what is copied, as the copy's: turned and reflected back."""
         end, side = self.image.ending, self.image.side
 
@@ -263,7 +263,7 @@ class Copying:
     def table(self, value: Mapping[str, Any]) -> Mapping[str, Any]:
         drives = [name for name, _ in self.items("drives")]
         against = str(value.get("against", drives[0] if len(drives) - len(self.drives) == 1 else ""))
-        new = dict(self.renamed()).get(against)
+        new = dict(self.copy_names()).get(against)
         if new is not None:
             said = new(against)
             if "(" in said:

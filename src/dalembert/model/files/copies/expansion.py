@@ -87,7 +87,7 @@ def _images(entry: Any, tree: Tree, rules: Reading) -> Iterator[Image]:
         if str(name) not in links or name == GROUND:
             said = f"there is no moving link {str(name)!r}"
             raise ModelError(said, closest(str(name), sorted(links - {GROUND})), ("of", k))
-    turned = _turned(keys, links - {str(name) for name in of})
+    turned = _phases(keys, links - {str(name) for name in of})
     count = _count(keys, turned)
     phases = {link: at_item("phase", _steps, value, count, "angle", rules) for link, value in turned.items()}
     shift = keys.get("shift")
@@ -110,7 +110,7 @@ def _images(entry: Any, tree: Tree, rules: Reading) -> Iterator[Image]:
         yield Image(f"_{names[k - 1]}", phase, "mirror" in keys, shifts[k], str(keys.get("about", "")), rules)
 
 
-def _turned(keys: Mapping[str, Any], links: set[str]) -> dict[str, Any]:
+def _phases(keys: Mapping[str, Any], links: set[str]) -> dict[str, Any]:
     """Links that stay -> angles of their images."""
     if "phase" in keys and "mirror" in keys:
         raise ModelError("it is both turned and mirrored", "write phase or mirror", ("mirror",))
