@@ -5,7 +5,7 @@ import type { Chart, Curve, Data, Polygon } from "./data";
 import { curve } from "./items";
 import type { Kernel } from "./kernel";
 import { label, Placer } from "./labels";
-import { Arrow, html, letters, make, path, type Point, pointer, short, width } from "./svg";
+import { Arrow, html, letters, make, path, type Point, pointer, set, short, width } from "./svg";
 
 const LEFT = 16, TOP = 5, LOW = 8, LINE = 4;
 
@@ -113,11 +113,8 @@ export function chart(parent: Element, data: Data, kernel: Kernel, c: Chart, cur
       const x = short(at(Math.min(cursor.time(), last)));
       now.setAttribute("d", `M${x} ${y0}v${h}`);
       c.curves.forEach((one, n) => {
-        dots[n].setAttribute("visibility", kernel.solved ? "visible" : "hidden");
-        if (kernel.solved) {
-          dots[n].setAttribute("cx", x);
-          dots[n].setAttribute("cy", short(up(kernel.here[one.row] / unit.size)));
-        }
+        const place: Record<string, string> = kernel.solved ? { cx: x, cy: short(up(kernel.here[one.row] / unit.size)) } : {};
+        set(dots[n], { visibility: kernel.solved ? "visible" : "hidden", ...place });
         keys[n].classList.toggle("picked", cursor.picked() === one);
       });
     },

@@ -4,7 +4,7 @@ import type { Board } from "./board";
 import type { Data, End, Handle, Rows } from "./data";
 import type { Paper } from "./items";
 import type { Kernel } from "./kernel";
-import { make, type Point, pointer, short } from "./svg";
+import { make, type Point, pointer, set, short } from "./svg";
 
 export interface Hold { changed(): void; finished(): void; seek(t: number): void; time(): number }
 
@@ -132,9 +132,7 @@ function handle(layer: Element, b: Board, h: Handle, kernel: Kernel, hold: Hold)
   return () => {
     if (h.kind === "direction" && moving) return;
     const [x, y] = where();
-    knob.setAttribute("visibility", Number.isFinite(x + y) ? "visible" : "hidden");
-    knob.setAttribute("cx", short(x));
-    knob.setAttribute("cy", short(y));
+    set(knob, { visibility: Number.isFinite(x + y) ? "visible" : "hidden", cx: short(x), cy: short(y) });
   };
 }
 

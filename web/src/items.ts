@@ -3,7 +3,7 @@
 import type { Action, Couple, Item, Rows } from "./data";
 import type { Kernel } from "./kernel";
 import { label, type Placed, type Placer } from "./labels";
-import { Arrow, hull, make, path, plain, type Point, short } from "./svg";
+import { Arrow, hull, make, path, plain, type Point, set, short } from "./svg";
 
 const along = (axis: number[], rows: Rows, value: (row: number) => number): number => rows.reduce((t, r, k) => t + axis[k] * value(r), 0);
 
@@ -93,9 +93,7 @@ export function item(parent: Element, i: Item, paper: Paper): Part {
     return {
       update() {
         const [x, y] = paper.point(i.p);
-        c.setAttribute("cx", short(x));
-        c.setAttribute("cy", short(y));
-        c.setAttribute("r", short(Math.abs(v[i.r]) / paper.perMm));
+        set(c, { cx: short(x), cy: short(y), r: short(Math.abs(v[i.r]) / paper.perMm) });
       },
     };
   }

@@ -5,16 +5,20 @@ const SVG = "http://www.w3.org/2000/svg";
 
 type Attributes = Record<string, string | number>;
 
+/** Give an element attributes, and itself. */
+export function set<E extends Element>(el: E, attributes: Attributes): E {
+  for (const [k, v] of Object.entries(attributes)) el.setAttribute(k, String(v));
+  return el;
+}
+
 export function make<K extends keyof SVGElementTagNameMap>(name: K, parent: Element | null, attributes: Attributes = {}): SVGElementTagNameMap[K] {
-  const out = document.createElementNS(SVG, name);
-  for (const [k, v] of Object.entries(attributes)) out.setAttribute(k, String(v));
+  const out = set(document.createElementNS(SVG, name), attributes);
   parent?.append(out);
   return out;
 }
 
 export function html<K extends keyof HTMLElementTagNameMap>(name: K, parent: Element | null, attributes: Attributes = {}, text = ""): HTMLElementTagNameMap[K] {
-  const out = document.createElement(name);
-  for (const [k, v] of Object.entries(attributes)) out.setAttribute(k, String(v));
+  const out = set(document.createElement(name), attributes);
   if (text) out.textContent = text;
   parent?.append(out);
   return out;

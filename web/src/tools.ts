@@ -3,7 +3,7 @@
 import type { Board } from "./board";
 import type { Curve, Data, End, Rows } from "./data";
 import type { Kernel } from "./kernel";
-import { Arrow, make, plain } from "./svg";
+import { Arrow, make, plain, set } from "./svg";
 
 /** At each joint, point and mass centre the direction in which moving it lowers the peak of a curve. */
 export class Gradients {
@@ -162,10 +162,7 @@ export function csvText(data: Data, kernel: Kernel): string {
 export function svgText(svg: SVGSVGElement, style: string): string {
   const copy = svg.cloneNode(true) as SVGSVGElement, { width, height } = svg.viewBox.baseVal;
   copy.querySelectorAll(".handles").forEach((g) => g.remove());
-  copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
-  copy.setAttribute("width", `${width}mm`);
-  copy.setAttribute("height", `${height}mm`);
-  copy.setAttribute("font-family", "'DejaVu Sans', Arial, sans-serif");
+  set(copy, { xmlns: "http://www.w3.org/2000/svg", width: `${width}mm`, height: `${height}mm`, "font-family": "'DejaVu Sans', Arial, sans-serif" });
   const s = make("style", null);
   s.textContent = style;
   copy.prepend(s);

@@ -155,82 +155,84 @@ var r = class e {
 		return t;
 	}
 }, o = "http://www.w3.org/2000/svg";
-function s(e, t, n = {}) {
-	let r = document.createElementNS(o, e);
-	for (let [e, t] of Object.entries(n)) r.setAttribute(e, String(t));
+function s(e, t) {
+	for (let [n, r] of Object.entries(t)) e.setAttribute(n, String(r));
+	return e;
+}
+function c(e, t, n = {}) {
+	let r = s(document.createElementNS(o, e), n);
 	return t?.append(r), r;
 }
-function c(e, t, n = {}, r = "") {
-	let i = document.createElement(e);
-	for (let [e, t] of Object.entries(n)) i.setAttribute(e, String(t));
+function l(e, t, n = {}, r = "") {
+	let i = s(document.createElement(e), n);
 	return r && (i.textContent = r), t?.append(i), i;
 }
-function l(e) {
+function u(e) {
 	let t = Math.round(100 * Math.abs(e)), n = Math.floor(t / 100), r = t % 100;
 	return (e < 0 && t ? "-" : "") + n + (r ? (r < 10 ? ".0" : ".") + r : "");
 }
-function u(e, t = !1) {
-	return e.length ? "M" + e.map(([e, t]) => l(e) + " " + l(t)).join("L") + (t ? "Z" : "") : "";
+function d(e, t = !1) {
+	return e.length ? "M" + e.map(([e, t]) => u(e) + " " + u(t)).join("L") + (t ? "Z" : "") : "";
 }
-function d(e, t, n) {
-	e.setAttribute("transform", `translate(${l(t)} ${l(n)})`);
+function f(e, t, n) {
+	e.setAttribute("transform", `translate(${u(t)} ${u(n)})`);
 }
-function f(e, t) {
+function p(e, t) {
 	let n = new DOMPoint(t.clientX, t.clientY).matrixTransform(e.getScreenCTM().inverse());
 	return [n.x, n.y];
 }
-function p(e, t, n) {
+function m(e, t, n) {
 	e.replaceChildren();
 	let r = !1;
 	for (let i of t.split(/(_\{[^}]*\})/)) {
 		if (!i) continue;
-		let t = i.startsWith("_{"), a = s("tspan", e, t ? { "font-size": .7 * n } : {});
+		let t = i.startsWith("_{"), a = c("tspan", e, t ? { "font-size": .7 * n } : {});
 		a.textContent = t ? i.slice(2, -1) : i, t !== r && a.setAttribute("dy", String((t ? .25 : -.25) * n)), r = t;
 	}
 }
-var m = (e) => e.replace(/_\{([^}]*)\}/g, "$1"), h = null, g = /* @__PURE__ */ new Map();
-function _(e, t, n = !1) {
-	let r = `${n}${e}`, i = g.get(r);
+var h = (e) => e.replace(/_\{([^}]*)\}/g, "$1"), g = null, _ = /* @__PURE__ */ new Map();
+function v(e, t, n = !1) {
+	let r = `${n}${e}`, i = _.get(r);
 	if (i === void 0) {
-		h ??= document.createElement("canvas").getContext("2d"), h.font = `${n ? "bold " : ""}100px "DejaVu Sans", "Helvetica Neue", Arial, sans-serif`, i = 0;
+		g ??= document.createElement("canvas").getContext("2d"), g.font = `${n ? "bold " : ""}100px "DejaVu Sans", "Helvetica Neue", Arial, sans-serif`, i = 0;
 		for (let t of e.split(/(_\{[^}]*\})/)) {
 			let e = t.startsWith("_{");
-			i += h.measureText(e ? t.slice(2, -1) : t).width / 100 * (e ? .7 : 1);
+			i += g.measureText(e ? t.slice(2, -1) : t).width / 100 * (e ? .7 : 1);
 		}
-		g.set(r, i);
+		_.set(r, i);
 	}
 	return i * t;
 }
-function v(e, t, n, r, i = "middle") {
-	let a = s("text", e, {
+function y(e, t, n, r, i = "middle") {
+	let a = c("text", e, {
 		class: `l-${t}-t`,
 		"font-size": r,
 		"text-anchor": i
 	});
-	return p(a, n, r), a;
+	return m(a, n, r), a;
 }
-var y = class {
+var b = class {
 	g;
 	shaft;
 	head;
 	constructor(e, t, n = "") {
-		this.g = s("g", e), n && (s("title", this.g).textContent = m(n)), this.shaft = s("path", this.g, {
+		this.g = c("g", e), n && (c("title", this.g).textContent = h(n)), this.shaft = c("path", this.g, {
 			class: `l-${t}`,
 			style: "fill:none"
-		}), this.head = s("path", this.g, { class: `l-${t}-h` });
+		}), this.head = c("path", this.g, { class: `l-${t}-h` });
 	}
 	set(e, t, n = .3) {
 		let r = t[0] - e[0], i = t[1] - e[1], a = Math.hypot(r, i), o = a > n && Number.isFinite(a);
 		if (this.g.setAttribute("display", o ? "inline" : "none"), !o) return !1;
-		let s = r / a, c = i / a, l = Math.min(3, .75 * a), d = .3 * l, f = [t[0] - l * s, t[1] - l * c];
-		return this.shaft.setAttribute("d", u([e, [t[0] - .8 * l * s, t[1] - .8 * l * c]])), this.head.setAttribute("d", u([
+		let s = r / a, c = i / a, l = Math.min(3, .75 * a), u = .3 * l, f = [t[0] - l * s, t[1] - l * c];
+		return this.shaft.setAttribute("d", d([e, [t[0] - .8 * l * s, t[1] - .8 * l * c]])), this.head.setAttribute("d", d([
 			t,
-			[f[0] - d * c, f[1] + d * s],
-			[f[0] + d * c, f[1] - d * s]
+			[f[0] - u * c, f[1] + u * s],
+			[f[0] + u * c, f[1] - u * s]
 		], !0)), !0;
 	}
 };
-function b(e) {
+function x(e) {
 	let t = [...e].sort((e, t) => e[0] - t[0] || e[1] - t[1]), n = (e, t, n) => (t[0] - e[0]) * (n[1] - e[1]) - (t[1] - e[1]) * (n[0] - e[0]), r = (e) => {
 		let t = [];
 		for (let r of e) {
@@ -242,7 +244,7 @@ function b(e) {
 	return [...r(t).slice(0, -1), ...r(t.reverse()).slice(0, -1)];
 }
 // src/labels.ts
-var x = [
+var S = [
 	[1, -1],
 	[-1, -1],
 	[1, 1],
@@ -251,22 +253,22 @@ var x = [
 	[1, 0],
 	[-1, 0],
 	[0, 1]
-], S = [
+], C = [
 	1,
 	1.9,
 	3,
 	4.5
 ];
-function C(e, t, n, r) {
+function w(e, t, n, r) {
 	return {
-		el: v(e, t, n, r),
+		el: y(e, t, n, r),
 		text: n,
 		size: r,
 		bold: t === "title",
 		choice: -1
 	};
 }
-var w = class {
+var T = class {
 	bounds;
 	texts = [];
 	discs = [];
@@ -286,13 +288,13 @@ var w = class {
 		]);
 	}
 	put(e) {
-		let t = e.label, n = _(t.text, t.size, t.bold) + .5, r = 1.1 * t.size + (t.text.includes("_") ? .3 * t.size : 0), i = e.leave ?? 1.2, a = e.away && Math.hypot(...e.away) || 1, o = Infinity, s = 0, c = [
+		let t = e.label, n = v(t.text, t.size, t.bold) + .5, r = 1.1 * t.size + (t.text.includes("_") ? .3 * t.size : 0), i = e.leave ?? 1.2, a = e.away && Math.hypot(...e.away) || 1, o = Infinity, s = 0, c = [
 			0,
 			0,
 			0,
 			0
 		], l = 0;
-		for (let [u, d] of e.anchors) for (let f of S) for (let [p, m] of x) {
+		for (let [u, d] of e.anchors) for (let f of C) for (let [p, m] of S) {
 			let h = i * f, g = u + p * (h + n / 2), _ = d + m * (h + r / 2), v = [
 				g - n / 2,
 				_ - r / 2,
@@ -301,22 +303,22 @@ var w = class {
 			], y = l % 32 * .12 + .2 * Math.floor(l / 32) - (l === t.choice ? .4 : 0);
 			e.away && (y += 1.2 * (1 - (p * e.away[0] + m * e.away[1]) / (Math.hypot(p, m) * a))), y < o && (y += this.cost(v)) < o && (o = y, s = l, c = v), l++;
 		}
-		t.choice = s, this.texts.push(c), d(t.el, (c[0] + c[2]) / 2, c[1] + .91 * t.size);
+		t.choice = s, this.texts.push(c), f(t.el, (c[0] + c[2]) / 2, c[1] + .91 * t.size);
 	}
 	cost(e) {
 		let t = 0;
-		for (let n of this.texts) T(e, n) > 0 && (t += 60 + 5 * T(e, n));
-		for (let n of this.discs) T(e, n) > 0 && (t += 8 + T(e, n));
-		for (let [n, r] of this.lines) E(e, n, r) && (t += 6);
+		for (let n of this.texts) E(e, n) > 0 && (t += 60 + 5 * E(e, n));
+		for (let n of this.discs) E(e, n) > 0 && (t += 8 + E(e, n));
+		for (let [n, r] of this.lines) D(e, n, r) && (t += 6);
 		let [n, r, i, a] = this.bounds;
 		return (e[0] < n || e[1] < r || e[2] > i || e[3] > a) && (t += 20), t;
 	}
 };
-function T(e, t) {
+function E(e, t) {
 	let n = Math.min(e[2], t[2]) - Math.max(e[0], t[0]), r = Math.min(e[3], t[3]) - Math.max(e[1], t[1]);
 	return n > 0 && r > 0 ? n * r : 0;
 }
-function E(e, t, n) {
+function D(e, t, n) {
 	let r = 0, i = 1, a = [n[0] - t[0], n[1] - t[1]];
 	for (let n = 0; n < 2; n++) {
 		if (Math.abs(a[n]) < 1e-9) {
@@ -329,7 +331,7 @@ function E(e, t, n) {
 	return r < i;
 }
 // src/items.ts
-var D = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), O = class {
+var O = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), k = class {
 	kernel;
 	perMm;
 	middle = [0, 0];
@@ -361,10 +363,10 @@ var D = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), O = class {
 		];
 	}
 	seen(e, t) {
-		return e.length < 3 ? [t(e[0]), t(e[1])] : [D(this.axes[0], e, t), D(this.axes[1], e, t)];
+		return e.length < 3 ? [t(e[0]), t(e[1])] : [O(this.axes[0], e, t), O(this.axes[1], e, t)];
 	}
 	depth(e) {
-		return D(this.axes[2], e, (e) => this.kernel.here[e]);
+		return O(this.axes[2], e, (e) => this.kernel.here[e]);
 	}
 	here(e) {
 		return this.seen(e, (e) => this.kernel.here[e]);
@@ -388,87 +390,91 @@ var D = (e, t, n) => t.reduce((t, r, i) => t + e[i] * n(r), 0), O = class {
 		return [this.middle[0] + e[0] * this.perMm, this.middle[1] - e[1] * this.perMm];
 	}
 };
-function k(e, t, n) {
+function A(e, t, n) {
 	let r = n.kernel.here;
 	if (t.t === "symbol") {
-		let i = s("g", e, t.per_mm ? { class: "span" } : {});
+		let i = c("g", e, t.per_mm ? { class: "span" } : {});
 		return i.innerHTML = t.svg, {
 			update() {
-				let [e, a] = n.point(t.p), o = t.per_mm ? ` scale(${(t.per_mm / n.perMm).toFixed(4)})` : "", s = t.e ? ` rotate(${l(-Math.atan2(r[t.e[1]], r[t.e[0]]) * 180 / Math.PI)})` : "";
-				i.setAttribute("transform", `translate(${l(e)} ${l(a)})${s}${o}`);
+				let [e, a] = n.point(t.p), o = t.per_mm ? ` scale(${(t.per_mm / n.perMm).toFixed(4)})` : "", s = t.e ? ` rotate(${u(-Math.atan2(r[t.e[1]], r[t.e[0]]) * 180 / Math.PI)})` : "";
+				i.setAttribute("transform", `translate(${u(e)} ${u(a)})${s}${o}`);
 			},
 			mark: (e) => e.disc(n.point(t.p), 1.6)
 		};
 	}
 	if (t.t === "span") {
-		let r = s("g", e, { class: "span" });
+		let r = c("g", e, { class: "span" });
 		return r.innerHTML = t.svg, {
 			update() {
 				let [[e, i], [a, o]] = t.p.map((e) => n.point(e)), s = Math.hypot(a - e, o - i), c = Math.atan2(o - i, a - e) * 180 / Math.PI;
-				r.setAttribute("transform", `translate(${l(e)} ${l(i)}) rotate(${l(c)}) scale(${(s / t.length).toFixed(4)} 1)`);
+				r.setAttribute("transform", `translate(${u(e)} ${u(i)}) rotate(${u(c)}) scale(${(s / t.length).toFixed(4)} 1)`);
 			},
 			mark: (e) => e.line(n.point(t.p[0]), n.point(t.p[1]))
 		};
 	}
 	if (t.t === "circle") {
-		let i = s("circle", e, { class: `l-${t.role}` });
+		let i = c("circle", e, { class: `l-${t.role}` });
 		return { update() {
 			let [e, a] = n.point(t.p);
-			i.setAttribute("cx", l(e)), i.setAttribute("cy", l(a)), i.setAttribute("r", l(Math.abs(r[t.r]) / n.perMm));
+			s(i, {
+				cx: u(e),
+				cy: u(a),
+				r: u(Math.abs(r[t.r]) / n.perMm)
+			});
 		} };
 	}
-	if (t.t === "pair") return A(e, t, n);
-	let i = s("path", e, {
+	if (t.t === "pair") return j(e, t, n);
+	let i = c("path", e, {
 		class: `l-${t.role}`,
 		style: "fill:none"
 	});
-	if (t.t === "trace") return { update: () => i.setAttribute("d", j(n.kernel, (e) => n.pointAt(t.p[0], e), !0)) };
+	if (t.t === "trace") return { update: () => i.setAttribute("d", M(n.kernel, (e) => n.pointAt(t.p[0], e), !0)) };
 	t.t === "hull" && (i.dataset.link = t.link);
 	let a = [], o = !1;
 	return {
 		update() {
-			let e = t.p.map((e) => n.point(e)), r = t.t === "hull" ? b(e) : e;
-			o = t.t === "hull" && r.length > 2, a = o ? r : e, t.t === "hull" && i.setAttribute("class", o ? "l-link-area" : "l-link"), i.style.fill = o ? "" : "none", i.setAttribute("d", u(a, o));
+			let e = t.p.map((e) => n.point(e)), r = t.t === "hull" ? x(e) : e;
+			o = t.t === "hull" && r.length > 2, a = o ? r : e, t.t === "hull" && i.setAttribute("class", o ? "l-link-area" : "l-link"), i.style.fill = o ? "" : "none", i.setAttribute("d", d(a, o));
 		},
 		mark(e) {
 			a.forEach((t, n) => (n || o) && e.line(a.at(n - 1), t));
 		}
 	};
 }
-function A(e, t, n) {
-	let r = s("g", e), i = t.fixed ? "support" : "block", a = s("path", r, { class: `l-${i}` }), o = s("path", r, { class: `l-${t.shape === "ball" ? i : "pin"}` }), c = t.shape === "block" ? 4.2 : 3.4, u = t.shape === "block" ? 2.2 : 1.7;
+function j(e, t, n) {
+	let r = c("g", e), i = t.fixed ? "support" : "block", a = c("path", r, { class: `l-${i}` }), o = c("path", r, { class: `l-${t.shape === "ball" ? i : "pin"}` }), s = t.shape === "block" ? 4.2 : 3.4, l = t.shape === "block" ? 2.2 : 1.7;
 	return {
 		update() {
-			let [e, i] = n.point(t.p), [s, d] = n.here(t.e), f = n.depth(t.e);
-			if (r.setAttribute("transform", `translate(${l(e)} ${l(i)}) rotate(${l(-Math.atan2(d, s) * 180 / Math.PI)})`), t.shape === "ball") return a.setAttribute("d", `M${u} 0A${u} ${u} 0 1 0 ${-u} 0A${u} ${u} 0 1 0 ${u} 0Z`);
-			let p = c * Math.hypot(s, d), m = u * Math.abs(f), h = f >= 0 ? p : -p;
-			t.shape === "round" ? (a.setAttribute("d", `M${l(-p)} ${-u}L${l(p)} ${-u}A${l(m)} ${u} 0 0 1 ${l(p)} ${u}L${l(-p)} ${u}A${l(m)} ${u} 0 0 1 ${l(-p)} ${-u}Z`), o.setAttribute("d", `M${l(h + m)} 0A${l(m)} ${u} 0 1 0 ${l(h - m)} 0A${l(m)} ${u} 0 1 0 ${l(h + m)} 0Z`)) : (a.setAttribute("d", `M${l(-p - m)} ${-u}H${l(p + m)}V${u}H${l(-p - m)}Z`), o.setAttribute("d", `M${l(h - m)} ${-u}H${l(h + m)}V${u}H${l(h - m)}Z`));
+			let [e, i] = n.point(t.p), [c, d] = n.here(t.e), f = n.depth(t.e);
+			if (r.setAttribute("transform", `translate(${u(e)} ${u(i)}) rotate(${u(-Math.atan2(d, c) * 180 / Math.PI)})`), t.shape === "ball") return a.setAttribute("d", `M${l} 0A${l} ${l} 0 1 0 ${-l} 0A${l} ${l} 0 1 0 ${l} 0Z`);
+			let p = s * Math.hypot(c, d), m = l * Math.abs(f), h = f >= 0 ? p : -p;
+			t.shape === "round" ? (a.setAttribute("d", `M${u(-p)} ${-l}L${u(p)} ${-l}A${u(m)} ${l} 0 0 1 ${u(p)} ${l}L${u(-p)} ${l}A${u(m)} ${l} 0 0 1 ${u(-p)} ${-l}Z`), o.setAttribute("d", `M${u(h + m)} 0A${u(m)} ${l} 0 1 0 ${u(h - m)} 0A${u(m)} ${l} 0 1 0 ${u(h + m)} 0Z`)) : (a.setAttribute("d", `M${u(-p - m)} ${-l}H${u(p + m)}V${l}H${u(-p - m)}Z`), o.setAttribute("d", `M${u(h - m)} ${-l}H${u(h + m)}V${l}H${u(h - m)}Z`));
 		},
 		mark: (e) => e.disc(n.point(t.p), 2.4)
 	};
 }
-function j(e, t, n = !1) {
+function M(e, t, n = !1) {
 	let r = n && e.cyclic ? e.count : e.count - 1, i = "", a = !1;
 	for (let n = 0; n <= r; n++) {
 		let r = n % e.count, o = !!e.good[r];
 		if (o) {
 			let [e, n] = t(r);
-			i += (a ? "L" : "M") + l(e) + " " + l(n);
+			i += (a ? "L" : "M") + u(e) + " " + u(n);
 		}
 		a = o;
 	}
 	return i;
 }
-function M(e, t, n, r, i) {
-	return t.t === "couple" ? I(e, t, n) : P(e, t, n, r, i);
+function N(e, t, n, r, i) {
+	return t.t === "couple" ? L(e, t, n) : F(e, t, n, r, i);
 }
-var N = 13;
-function P(e, t, n, r, i) {
-	let a = new y(e, t.role, t.name), o = t.t === "force" ? null : new y(e, t.role), s = t.t === "force" ? t.f : t.m, c = C(e, t.role, t.name, 3.4), l = [0, 0], u = [0, 0], d = [0, 0], f = !1;
+var P = 13;
+function F(e, t, n, r, i) {
+	let a = new b(e, t.role, t.name), o = t.t === "force" ? null : new b(e, t.role), s = t.t === "force" ? t.f : t.m, c = w(e, t.role, t.name, 3.4), l = [0, 0], u = [0, 0], d = [0, 0], f = !1;
 	return {
 		label: c,
 		update() {
-			let e = n.point(t.p), [p, m] = n.here(s), h = o ? Math.hypot(...s.map((e) => n.kernel.here[e])) / N || 1 : r(), g = [p / h, -m / h], _ = !1;
+			let e = n.point(t.p), [p, m] = n.here(s), h = o ? Math.hypot(...s.map((e) => n.kernel.here[e])) / P || 1 : r(), g = [p / h, -m / h], _ = !1;
 			if (i && i.length > 1 && !o) {
 				let t = i.map((e) => n.point(e)), r = [0, 1].map((e) => t.reduce((t, n) => t + n[e], 0) / t.length);
 				_ = g[0] * (r[0] - e[0]) + g[1] * (r[1] - e[1]) > 1e-9;
@@ -487,14 +493,14 @@ function P(e, t, n, r, i) {
 		}
 	};
 }
-var F = 4.6;
-function I(e, t, n) {
-	let r = n.kernel.here, i = s("g", e), a = C(e, t.role, t.name, 3.4);
-	s("title", i).textContent = m(t.name), s("path", i, {
+var I = 4.6;
+function L(e, t, n) {
+	let r = n.kernel.here, i = c("g", e), a = w(e, t.role, t.name, 3.4);
+	c("title", i).textContent = h(t.name), c("path", i, {
 		class: `l-${t.role}`,
 		style: "fill:none",
 		d: "M4.17 1.94A4.6 4.6 0 1 0 -4.17 1.94"
-	}), s("path", i, {
+	}), c("path", i, {
 		class: `l-${t.role}-h`,
 		d: "M-4.17 2.9L-5.6 -0.1L-3 0.3Z"
 	});
@@ -503,19 +509,19 @@ function I(e, t, n) {
 		label: a,
 		update() {
 			let [e, s] = n.point(t.p), c = r[t.m[0]];
-			o = Number.isFinite(c) && Math.abs(c) > 1e-9, i.setAttribute("display", o ? "inline" : "none"), a.el.setAttribute("visibility", o ? "visible" : "hidden"), i.setAttribute("transform", `translate(${l(e)} ${l(s)}) scale(${c < 0 ? -1 : 1} 1)`);
+			o = Number.isFinite(c) && Math.abs(c) > 1e-9, i.setAttribute("display", o ? "inline" : "none"), a.el.setAttribute("visibility", o ? "visible" : "hidden"), i.setAttribute("transform", `translate(${u(e)} ${u(s)}) scale(${c < 0 ? -1 : 1} 1)`);
 		},
 		mark(e) {
-			o && e.disc(n.point(t.p), F);
+			o && e.disc(n.point(t.p), I);
 		},
 		anchor() {
 			let [e, r] = n.point(t.p);
-			return o ? [[e, r - F], [0, -1]] : null;
+			return o ? [[e, r - I], [0, -1]] : null;
 		}
 	};
 }
 // src/board.ts
-var L = [
+var R = [
 	1,
 	1.25,
 	1.5,
@@ -528,49 +534,49 @@ var L = [
 	8,
 	10
 ];
-function R(e) {
+function z(e) {
 	if (!(e > 0) || !Number.isFinite(e)) return 1;
 	let t = 10 ** Math.floor(Math.log10(e) + 1e-12);
-	return t * (L.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
+	return t * (R.find((n) => n * t >= e * (1 - 1e-12)) ?? 10);
 }
-function z(e) {
+function B(e) {
 	let t = (e) => [Math.min(...e), Math.max(...e)], n = t(e.map((e) => e[0])), r = t(e.map((e) => e[1]));
 	return Number.isFinite(n[0] + n[1] + r[0] + r[1]) ? {
 		x: n,
 		y: r
 	} : null;
 }
-var B = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
-function V(e, t) {
+var V = (e) => e.t === "hull" || e.t === "path" ? e.p : e.t === "symbol" || e.t === "pair" ? [e.p] : [];
+function H(e, t) {
 	let n = e.kernel, r = Math.max(1, Math.floor(n.count / 72)), i = [];
-	for (let a of t.items.flatMap(B)) for (let t = 0; t < n.count; t += r) n.good[t] && i.push(e.seen(a, (e) => n.value(e, t)));
-	return z(i);
+	for (let a of t.items.flatMap(V)) for (let t = 0; t < n.count; t += r) n.good[t] && i.push(e.seen(a, (e) => n.value(e, t)));
+	return B(i);
 }
 var ee = (e) => e.items.some((e) => e.t === "pair");
 function te(e, t, n) {
-	let r = V(new O(e, 1, ee(t)), t), i = r ? (r.y[1] - r.y[0]) / (r.x[1] - r.x[0]) : NaN;
+	let r = H(new k(e, 1, ee(t)), t), i = r ? (r.y[1] - r.y[0]) / (r.x[1] - r.x[0]) : NaN;
 	return Number.isFinite(i) ? n * Math.min(Math.max(i * 1.05, .56), .9) : .7 * n;
 }
-function H(e, t, n, r) {
-	return s("svg", e, {
+function U(e, t, n, r) {
+	return c("svg", e, {
 		viewBox: `${-t / 2} ${-n / 2} ${t} ${n}`,
 		role: "group",
 		"aria-label": r
 	});
 }
-function U(e, t, n, r, i, a, o, c) {
+function ne(e, t, n, r, i, a, o, s) {
 	let l = {
 		length: o.length.size,
 		force: o.force.size
-	}, u = H(e, i, a, c), d = new O(t, n.per_mm, ee(n)), f = [], p = [], m = n.force;
+	}, u = U(e, i, a, s), d = new k(t, n.per_mm, ee(n)), f = [], p = [], m = n.force;
 	n.middle && (d.middle = n.middle);
-	let h = s("g", u), g = s("g", u), _ = s("g", u);
-	for (let e of n.items) (e.t === "trace" ? f : p).push(k(h, e, d));
-	let v = n.arrows.map((e) => M(g, e, d, () => m, r ?? void 0)), y = n.labels.map((e) => ({
-		l: C(_, e.role, e.text, e.kind === "joint" ? 3.8 : 3.3),
+	let h = c("g", u), g = c("g", u), _ = c("g", u);
+	for (let e of n.items) (e.t === "trace" ? f : p).push(A(h, e, d));
+	let v = n.arrows.map((e) => N(g, e, d, () => m, r ?? void 0)), y = n.labels.map((e) => ({
+		l: w(_, e.role, e.text, e.kind === "joint" ? 3.8 : 3.3),
 		p: e.p,
 		q: e.q
-	})), b = s("text", _, {
+	})), b = c("text", _, {
 		class: "l-note-t",
 		"font-size": 2.8,
 		x: -i / 2 + 2,
@@ -580,16 +586,16 @@ function U(e, t, n, r, i, a, o, c) {
 		e && (d.middle = [(e.x[0] + e.x[1]) / 2, (e.y[0] + e.y[1]) / 2]);
 	}
 	function S() {
-		let e = r ? z(r.map((e) => d.here(e))) : V(d, n);
+		let e = r ? B(r.map((e) => d.here(e))) : H(d, n);
 		if (e) {
 			let t = r ? [46, 40] : [i * .76, a * .74], o = Math.max((e.x[1] - e.x[0]) / t[0], (e.y[1] - e.y[0]) / t[1]) || n.per_mm;
-			x(e), d.perMm = R(o / l.length) * l.length;
+			x(e), d.perMm = z(o / l.length) * l.length;
 		}
 		let o = Math.max(0, ...n.arrows.map((e) => e.t === "force" ? t.largest((n) => Math.hypot(...e.f.map((e) => t.value(e, n)))) : 0));
-		o > 0 && (m = R(o / (r ? 26 : 22) / l.force) * l.force);
+		o > 0 && (m = z(o / (r ? 26 : 22) / l.force) * l.force);
 	}
-	function T() {
-		let e = new w([
+	function C() {
+		let e = new T([
 			-i / 2,
 			-a / 2,
 			i / 2,
@@ -629,17 +635,17 @@ function U(e, t, n, r, i, a, o, c) {
 		names: n.labels.filter((e) => e.kind === "joint").length <= 8,
 		update(e) {
 			if (e && f.forEach((e) => e.update()), g.setAttribute("visibility", t.solved ? "visible" : "hidden"), t.finite) {
-				r && x(z(r.map((e) => d.here(e))));
+				r && x(B(r.map((e) => d.here(e))));
 				for (let e of [...p, ...v]) e.update();
-				T(), b.textContent = `1 mm = ${+(d.perMm / l.length).toPrecision(4)} ${o.length.unit}, ${+(m / l.force).toPrecision(4)} ${o.force.unit}`;
+				C(), b.textContent = `1 mm = ${+(d.perMm / l.length).toPrecision(4)} ${o.length.unit}, ${+(m / l.force).toPrecision(4)} ${o.force.unit}`;
 			}
 		}
 	};
 	return E;
 }
 // src/charts.ts
-var W = 16, ne = 5, re = 8, ie = 4;
-function G(e, t) {
+var re = 16, ie = 5, ae = 8, oe = 4;
+function W(e, t) {
 	let n = e / t || 1, r = 10 ** Math.floor(Math.log10(n));
 	return r * ([
 		1,
@@ -648,115 +654,122 @@ function G(e, t) {
 		10
 	].find((e) => e * r >= n) ?? 10);
 }
-function K(e, t, n) {
+function G(e, t, n) {
 	let r = Math.ceil(e / n - 1e-9), i = Math.floor(t / n + 1e-9) - r + 1;
 	return Array.from({ length: Math.max(i, 0) }, (e, t) => (r + t) * n);
 }
-var q = (e, t = 4) => Number.isFinite(e) ? String(+e.toPrecision(t)).replace("-", "−") : "–";
-function ae(e, t, n, r, i, a) {
-	let o = c("figure", e, { class: "chart" }), u = t.units[r.kind];
-	c("figcaption", o, {}, `${r.title}, ${u.unit}`);
-	let d = t.views.charts.flatMap((e) => e.curves.map((e) => _(e.name, 3))), m = Math.min(Math.max(...d) + 4, .3 * a), h = Math.max(52, 13 + ie * r.curves.length), g = H(o, a, h, r.title), v = a - W - m, y = h - ne - re, b = -a / 2 + W, x = -h / 2 + ne, S = s("path", g, {
+var K = (e, t = 4) => Number.isFinite(e) ? String(+e.toPrecision(t)).replace("-", "−") : "–";
+function se(e, t, n, r, i, a) {
+	let o = l("figure", e, { class: "chart" }), d = t.units[r.kind];
+	l("figcaption", o, {}, `${r.title}, ${d.unit}`);
+	let f = t.views.charts.flatMap((e) => e.curves.map((e) => v(e.name, 3))), h = Math.min(Math.max(...f) + 4, .3 * a), g = Math.max(52, 13 + oe * r.curves.length), _ = U(o, a, g, r.title), y = a - re - h, b = g - ie - ae, x = -a / 2 + re, S = -g / 2 + ie, C = c("path", _, {
 		class: "l-grid",
 		style: "fill:none"
-	}), C = s("path", g, {
+	}), w = c("path", _, {
 		class: "l-axis",
 		style: "fill:none"
-	}), w = s("g", g), T = r.curves.map((e) => s("path", g, {
+	}), T = c("g", _), E = r.curves.map((e) => c("path", _, {
 		class: `l-${e.role}`,
 		style: "fill:none"
-	})), E = s("path", g, { class: "cursor" }), D = r.curves.map((e) => s("circle", g, {
+	})), D = c("path", _, { class: "cursor" }), O = r.curves.map((e) => c("circle", _, {
 		class: `l-${e.role}-h`,
 		r: .9
-	})), O = Math.max(n.count - 1, 1), k = t.noise[r.kind] ?? 0, A = r.curves.map((e, t) => {
-		let n = s("text", g, {
+	})), k = Math.max(n.count - 1, 1), A = t.noise[r.kind] ?? 0, j = r.curves.map((e, t) => {
+		let n = c("text", _, {
 			class: `l-${e.role}-t key`,
 			"font-size": 3,
-			x: b + v + 2,
-			y: x + 3 + ie * t,
+			x: x + y + 2,
+			y: S + 3 + oe * t,
 			tabindex: 0,
 			role: "button"
 		});
-		return p(n, e.name, 3), s("title", n).textContent = "show what lowers its peak", n.addEventListener("click", () => i.pick(e)), n.addEventListener("keydown", (t) => t.key === "Enter" && i.pick(e)), n;
-	}), M = (e, t) => {
-		let r = n.value(e.row, t) / u.size;
-		return Math.abs(r) * u.size < k ? 0 : r;
-	}, N = NaN, P = NaN, F = (e) => b + e / O * v, I = (e) => x + y - (e - N) / (P - N) * y;
-	function L() {
+		return m(n, e.name, 3), c("title", n).textContent = "show what lowers its peak", n.addEventListener("click", () => i.pick(e)), n.addEventListener("keydown", (t) => t.key === "Enter" && i.pick(e)), n;
+	}), N = (e, t) => {
+		let r = n.value(e.row, t) / d.size;
+		return Math.abs(r) * d.size < A ? 0 : r;
+	}, P = NaN, F = NaN, I = (e) => x + e / k * y, L = (e) => S + b - (e - P) / (F - P) * b;
+	function R() {
 		let [e, t] = [Infinity, -Infinity];
 		for (let i of r.curves) for (let r = 0; r < n.count; r++) if (n.good[r]) {
-			let n = M(i, r);
+			let n = N(i, r);
 			e = Math.min(e, n), t = Math.max(t, n);
 		}
 		e <= t || ([e, t] = [0, 1]), e > 0 && e < .4 * t && (e = 0), t < 0 && t > .4 * e && (t = 0), t - e < 1e-9 * Math.max(Math.abs(t), Math.abs(e), 1e-9) && ([e, t] = [Math.min(e, 0), Math.max(t, 0) || 1]);
-		let i = G(t - e, 4);
-		return [e, t] = [Math.floor(e / i + 1e-9) * i, Math.ceil(t / i - 1e-9) * i], e === N && t === P ? !1 : ([N, P] = [e, t], !0);
+		let i = W(t - e, 4);
+		return [e, t] = [Math.floor(e / i + 1e-9) * i, Math.ceil(t / i - 1e-9) * i], e === P && t === F ? !1 : ([P, F] = [e, t], !0);
 	}
-	function R() {
-		let e = t.drives[0], r = G(P - N, 4), i = (e, t, n, r) => s("text", w, {
+	function z() {
+		let e = t.drives[0], r = W(F - P, 4), i = (e, t, n, r) => c("text", T, {
 			class: "l-note-t",
 			"font-size": 2.6,
 			"text-anchor": r,
 			x: t,
 			y: n
 		}).textContent = e;
-		w.replaceChildren();
+		T.replaceChildren();
 		let a = "";
-		for (let e of K(N, P, r)) a += `M${b} ${l(I(e))}h${v}`, i(q(e, 5), b - 1.2, I(e) + .9, "end");
+		for (let e of G(P, F, r)) a += `M${x} ${u(L(e))}h${y}`, i(K(e, 5), x - 1.2, L(e) + .9, "end");
 		if (e) {
-			let [t, r] = [0, O].map((t) => n.position(e.name, t) / e.size);
-			for (let n of K(Math.min(t, r), Math.max(t, r), G(Math.abs(r - t), 5))) {
-				let o = b + (n - t) / (r - t || 1) * v;
-				a += `M${l(o)} ${x}v${y}`, i(q(n, 5) + (e.unit === "°" ? "°" : ""), o, x + y + 3.4, "middle");
+			let [t, r] = [0, k].map((t) => n.position(e.name, t) / e.size);
+			for (let n of G(Math.min(t, r), Math.max(t, r), W(Math.abs(r - t), 5))) {
+				let o = x + (n - t) / (r - t || 1) * y;
+				a += `M${u(o)} ${S}v${b}`, i(K(n, 5) + (e.unit === "°" ? "°" : ""), o, S + b + 3.4, "middle");
 			}
-			i(`${e.name}, ${e.unit}`, b + v, x + y + 6.6, "end");
+			i(`${e.name}, ${e.unit}`, x + y, S + b + 6.6, "end");
 		}
-		S.setAttribute("d", a), C.setAttribute("d", `M${b} ${x}v${y}` + (N < 0 && P > 0 ? `M${b} ${l(I(0))}h${v}` : ""));
+		C.setAttribute("d", a), w.setAttribute("d", `M${x} ${S}v${b}` + (P < 0 && F > 0 ? `M${x} ${u(L(0))}h${y}` : ""));
 	}
-	let z = (e) => i.seek((f(g, e)[0] - b) / v * O);
-	return g.addEventListener("pointerdown", (e) => {
-		e.target.closest(".key") || (g.setPointerCapture(e.pointerId), z(e));
-	}), g.addEventListener("pointermove", (e) => e.buttons && g.hasPointerCapture(e.pointerId) && z(e)), { update(e) {
-		e && (L() && R(), T.forEach((e, t) => e.setAttribute("d", j(n, (e) => [F(e), I(M(r.curves[t], e))]))));
-		let t = l(F(Math.min(i.time(), O)));
-		E.setAttribute("d", `M${t} ${x}v${y}`), r.curves.forEach((e, r) => {
-			D[r].setAttribute("visibility", n.solved ? "visible" : "hidden"), n.solved && (D[r].setAttribute("cx", t), D[r].setAttribute("cy", l(I(n.here[e.row] / u.size)))), A[r].classList.toggle("picked", i.picked() === e);
+	let B = (e) => i.seek((p(_, e)[0] - x) / y * k);
+	return _.addEventListener("pointerdown", (e) => {
+		e.target.closest(".key") || (_.setPointerCapture(e.pointerId), B(e));
+	}), _.addEventListener("pointermove", (e) => e.buttons && _.hasPointerCapture(e.pointerId) && B(e)), { update(e) {
+		e && (R() && z(), E.forEach((e, t) => e.setAttribute("d", M(n, (e) => [I(e), L(N(r.curves[t], e))]))));
+		let t = u(I(Math.min(i.time(), k)));
+		D.setAttribute("d", `M${t} ${S}v${b}`), r.curves.forEach((e, r) => {
+			let a = n.solved ? {
+				cx: t,
+				cy: u(L(n.here[e.row] / d.size))
+			} : {};
+			s(O[r], {
+				visibility: n.solved ? "visible" : "hidden",
+				...a
+			}), j[r].classList.toggle("picked", i.picked() === e);
 		});
 	} };
 }
-function oe(e, t, n, r) {
-	let i = c("figure", e, { class: "polar" }), [a, o] = n.f, l = c("figcaption", i), u = H(i, 66, 66, `polar diagram of joint ${n.name}`);
-	s("path", u, {
+function ce(e, t, n, r) {
+	let i = l("figure", e, { class: "polar" }), [a, o] = n.f, s = l("figcaption", i), u = U(i, 66, 66, `polar diagram of joint ${n.name}`);
+	c("path", u, {
 		class: "l-grid",
 		style: "fill:none",
 		d: "M-30 0H30M0 -30V30M15 0A15 15 0 1 0 -15 0A15 15 0 1 0 15 0M30 0A30 30 0 1 0 -30 0A30 30 0 1 0 30 0"
 	});
-	let d = s("path", u, {
+	let d = c("path", u, {
 		class: `l-${n.role}`,
 		style: "fill:none"
-	}), f = new y(u, "joint-force", n.name), p = 1;
+	}), f = new b(u, "joint-force", n.name), p = 1;
 	return { update(e) {
-		e && (p = R(t.largest((e) => Math.hypot(t.value(a, e), t.value(o, e))) / 28 / r.size) * r.size, d.setAttribute("d", j(t, (e) => [t.value(a, e) / p, -t.value(o, e) / p], !0)), l.textContent = `Joint ${n.name}: 1 mm = ${q(p / r.size)} ${r.unit}`), f.set([0, 0], t.solved ? [t.here[a] / p, -t.here[o] / p] : [0, 0]);
+		e && (p = z(t.largest((e) => Math.hypot(t.value(a, e), t.value(o, e))) / 28 / r.size) * r.size, d.setAttribute("d", M(t, (e) => [t.value(a, e) / p, -t.value(o, e) / p], !0)), s.textContent = `Joint ${n.name}: 1 mm = ${K(p / r.size)} ${r.unit}`), f.set([0, 0], t.solved ? [t.here[a] / p, -t.here[o] / p] : [0, 0]);
 	} };
 }
-function J(e, t, n, r, i) {
-	let a = c("figure", e, { class: "polygon" }), o = t.units.force;
-	c("figcaption", a, {}, r);
-	let l = H(a, 110, 80, r), d = s("g", l), f = /* @__PURE__ */ new Set(), p = i.map(({ sides: e }) => {
+function q(e, t, n, r, i) {
+	let a = l("figure", e, { class: "polygon" }), o = t.units.force;
+	l("figcaption", a, {}, r);
+	let s = U(a, 110, 80, r), u = c("g", s), f = /* @__PURE__ */ new Set(), p = i.map(({ sides: e }) => {
 		let t = e.find((e) => e.kind === "joint" && f.has(e.of));
 		for (let t of e) t.kind === "joint" && f.add(t.of);
 		return {
 			shared: t,
 			drawn: e.filter((e) => e !== t).map((e) => ({
 				s: e,
-				arrow: new y(l, e.role, e.name),
-				name: C(d, e.role, e.name, 3)
+				arrow: new b(s, e.role, e.name),
+				name: w(u, e.role, e.name, 3)
 			}))
 		};
-	}), m = s("path", l, {
+	}), m = c("path", s, {
 		class: "l-gap",
 		style: "fill:none"
-	}), h = s("text", l, {
+	}), h = c("text", s, {
 		class: "l-note-t",
 		"font-size": 2.8,
 		x: -53,
@@ -765,9 +778,9 @@ function J(e, t, n, r, i) {
 	return {
 		figure: a,
 		update() {
-			if (l.setAttribute("visibility", n.solved ? "visible" : "hidden"), !n.solved) return;
+			if (s.setAttribute("visibility", n.solved ? "visible" : "hidden"), !n.solved) return;
 			let e = n.here, t = /* @__PURE__ */ new Map(), r = [], i = [], a = p.flatMap(({ shared: n, drawn: a }) => {
-				let o = z(r)?.y[1] ?? 0, s = t.get(n?.of ?? "") ?? [0, o], c = (t) => [s[0] + e[t[0]], s[1] - e[t[1]]], l = s;
+				let o = B(r)?.y[1] ?? 0, s = t.get(n?.of ?? "") ?? [0, o], c = (t) => [s[0] + e[t[0]], s[1] - e[t[1]]], l = s;
 				n && (s = c(n.f));
 				let u = a.map((e) => {
 					let n = s;
@@ -778,18 +791,18 @@ function J(e, t, n, r, i) {
 					};
 				});
 				return i.push([l, s]), u;
-			}), s = z(r) ?? {
+			}), c = B(r) ?? {
 				x: [0, 0],
 				y: [0, 0]
-			}, c = R(Math.max((s.x[1] - s.x[0]) / 66, (s.y[1] - s.y[0]) / 48) / o.size) * o.size, d = ([e, t]) => [(e - (s.x[0] + s.x[1]) / 2) / c, (t - (s.y[0] + s.y[1]) / 2) / c], f = new w([
+			}, l = z(Math.max((c.x[1] - c.x[0]) / 66, (c.y[1] - c.y[0]) / 48) / o.size) * o.size, u = ([e, t]) => [(e - (c.x[0] + c.x[1]) / 2) / l, (t - (c.y[0] + c.y[1]) / 2) / l], f = new T([
 				-55,
 				-40,
 				55,
 				36
 			]);
-			for (let { from: e, to: t } of a) f.line(d(e), d(t));
+			for (let { from: e, to: t } of a) f.line(u(e), u(t));
 			for (let { arrow: e, name: t, from: n, to: r } of a) {
-				let [i, a] = [d(n), d(r)], o = e.set(i, a), s = [(i[0] + a[0]) / 2, (i[1] + a[1]) / 2];
+				let [i, a] = [u(n), u(r)], o = e.set(i, a), s = [(i[0] + a[0]) / 2, (i[1] + a[1]) / 2];
 				t.el.setAttribute("visibility", o ? "visible" : "hidden"), o && f.put({
 					label: t,
 					anchors: [s],
@@ -797,17 +810,17 @@ function J(e, t, n, r, i) {
 					leave: .9
 				});
 			}
-			m.setAttribute("d", i.map(([e, t]) => u([d(e), d(t)])).join("")), h.textContent = `1 mm = ${q(c / o.size)} ${o.unit}`;
+			m.setAttribute("d", i.map(([e, t]) => d([u(e), u(t)])).join("")), h.textContent = `1 mm = ${K(l / o.size)} ${o.unit}`;
 		}
 	};
 }
 // src/handles.ts
-function se(e, t, n, r) {
-	let i = s("g", e.svg, { class: "handles" }), a = t.handles.map((t) => le(i, e, t, n, r));
-	return ue(e, t, n, r), () => n.finite && a.forEach((e) => e());
+function le(e, t, n, r) {
+	let i = c("g", e.svg, { class: "handles" }), a = t.handles.map((t) => de(i, e, t, n, r));
+	return fe(e, t, n, r), () => n.finite && a.forEach((e) => e());
 }
-var Y = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
-function ce(e, t, n, r, [i, a]) {
+var J = (e, t) => e.reduce((e, n, r) => e + n * t[r], 0);
+function ue(e, t, n, r, [i, a]) {
 	let o = e.values, s = new Float64Array(e.here.length), c = o.slice(), l = () => {
 		e.other(c, s);
 		let r = t.seen(n, (e) => s[e]), o = [i - r[0], a - r[1]];
@@ -835,14 +848,14 @@ function ce(e, t, n, r, [i, a]) {
 		}
 	}
 }
-function le(e, t, n, r, i) {
+function de(e, t, n, r, i) {
 	let a = `${{
 		joint: "joint",
 		point: "point",
 		center: "",
 		load: "force",
 		direction: "direction of"
-	}[n.kind]} ${n.name}`.trim(), o = s("circle", e, {
+	}[n.kind]} ${n.name}`.trim(), o = c("circle", e, {
 		class: `handle ${n.kind}`,
 		r: n.kind === "joint" ? 2.6 : 2,
 		tabindex: 0,
@@ -853,48 +866,48 @@ function le(e, t, n, r, i) {
 		"data-kind": n.kind,
 		"data-name": n.name
 	});
-	s("title", o).textContent = `drag ${a}`;
-	let c = t.paper, u = r.values, d = (e) => e.map((e) => r.here[e]), p = [], m = [], h = [0, 0], g = [], _ = [0, 0], v = !1, y = () => {
-		let e = c.point(n.p), r = "f" in n ? c.here(n.f) : "along" in n ? c.here(n.along) : [0, 0], i = n.kind === "direction" ? 16 : 1 / t.force();
+	c("title", o).textContent = `drag ${a}`;
+	let l = t.paper, d = r.values, f = (e) => e.map((e) => r.here[e]), m = [], h = [], g = [0, 0], _ = [], v = [0, 0], y = !1, b = () => {
+		let e = l.point(n.p), r = "f" in n ? l.here(n.f) : "along" in n ? l.here(n.along) : [0, 0], i = n.kind === "direction" ? 16 : 1 / t.force();
 		return [e[0] + i * r[0], e[1] - i * r[1]];
-	}, b = () => {
+	}, x = () => {
 		let e = (e, t) => ({
-			axes: e.map(d),
-			at: d(t)
+			axes: e.map(f),
+			at: f(t)
 		});
-		p = "ends" in n ? n.ends.map((t) => e(t.axes, t.at)) : [e(n.axes, n.p)], [m, h, g, v] = [
-			d(n.p),
-			y(),
-			"f" in n ? d(n.f) : [],
+		m = "ends" in n ? n.ends.map((t) => e(t.axes, t.at)) : [e(n.axes, n.p)], [h, g, _, y] = [
+			f(n.p),
+			b(),
+			"f" in n ? f(n.f) : [],
 			!0
 		];
-	}, x = (e) => c.vector([e[0] - h[0], e[1] - h[1]]), S = (e) => {
-		if ("by" in n && n.by) ce(r, c, n.p, n.by, c.metres(e));
-		else if ("ends" in n) C(n.ends, x(e));
+	}, S = (e) => l.vector([e[0] - g[0], e[1] - g[1]]), C = (e) => {
+		if ("by" in n && n.by) ue(r, l, n.p, n.by, l.metres(e));
+		else if ("ends" in n) w(n.ends, S(e));
 		else if (n.kind === "direction") {
-			let t = c.point(n.p), r = [e[0] - t[0], t[1] - e[1]], [i, a] = p[0].axes.map((e) => Y(e, r));
-			u[n.direction] = X(Math.atan2(a, i), u[n.direction]);
-		} else w(n, x(e).map((e, n) => g[n] + e / c.perMm * t.force()));
+			let t = l.point(n.p), r = [e[0] - t[0], t[1] - e[1]], [i, a] = m[0].axes.map((e) => J(e, r));
+			d[n.direction] = Y(Math.atan2(a, i), d[n.direction]);
+		} else T(n, S(e).map((e, n) => _[n] + e / l.perMm * t.force()));
 		i.changed();
-	}, C = (e, t) => e.forEach((e, n) => {
-		let r = m.map((e, r) => e + t[r] - p[n].at[r]);
-		e.n.forEach((e, t) => u[e] = Y(p[n].axes[t], r));
-	}), w = (e, t) => {
-		let n = p[0].axes.map((e) => Y(e, t));
-		if (e.components) return e.components.forEach((e, t) => u[e] = n[t]);
-		let r = Math.sign(u[e.size]) || 1;
-		e.direction === void 0 ? u[e.size] = r * Y(t, g) / (Math.hypot(...g) || 1) : (u[e.direction] = X(Math.atan2(r * n[1], r * n[0]), u[e.direction]), u[e.size] = r * Math.hypot(...n));
-	}, T = () => {
-		v && i.finished(), v = !1;
+	}, w = (e, t) => e.forEach((e, n) => {
+		let r = h.map((e, r) => e + t[r] - m[n].at[r]);
+		e.n.forEach((e, t) => d[e] = J(m[n].axes[t], r));
+	}), T = (e, t) => {
+		let n = m[0].axes.map((e) => J(e, t));
+		if (e.components) return e.components.forEach((e, t) => d[e] = n[t]);
+		let r = Math.sign(d[e.size]) || 1;
+		e.direction === void 0 ? d[e.size] = r * J(t, _) / (Math.hypot(..._) || 1) : (d[e.direction] = Y(Math.atan2(r * n[1], r * n[0]), d[e.direction]), d[e.size] = r * Math.hypot(...n));
+	}, E = () => {
+		y && i.finished(), y = !1;
 	};
 	return o.addEventListener("pointerdown", (e) => {
-		e.stopPropagation(), o.setPointerCapture(e.pointerId), b();
-		let n = f(t.svg, e);
-		_ = [h[0] - n[0], h[1] - n[1]];
+		e.stopPropagation(), o.setPointerCapture(e.pointerId), x();
+		let n = p(t.svg, e);
+		v = [g[0] - n[0], g[1] - n[1]];
 	}), o.addEventListener("pointermove", (e) => {
-		let n = f(t.svg, e);
-		v && S([n[0] + _[0], n[1] + _[1]]);
-	}), o.addEventListener("pointerup", T), o.addEventListener("pointercancel", T), o.addEventListener("keydown", (e) => {
+		let n = p(t.svg, e);
+		y && C([n[0] + v[0], n[1] + v[1]]);
+	}), o.addEventListener("pointerup", E), o.addEventListener("pointercancel", E), o.addEventListener("keydown", (e) => {
 		let t = {
 			ArrowLeft: [-1, 0],
 			ArrowRight: [1, 0],
@@ -902,22 +915,26 @@ function le(e, t, n, r, i) {
 			ArrowDown: [0, 1]
 		};
 		if (!t[e.key]) return;
-		e.preventDefault(), e.stopPropagation(), b();
+		e.preventDefault(), e.stopPropagation(), x();
 		let n = e.shiftKey ? 5 : 1;
-		S([h[0] + n * t[e.key][0], h[1] + n * t[e.key][1]]), T();
+		C([g[0] + n * t[e.key][0], g[1] + n * t[e.key][1]]), E();
 	}), () => {
-		if (n.kind === "direction" && v) return;
-		let [e, t] = y();
-		o.setAttribute("visibility", Number.isFinite(e + t) ? "visible" : "hidden"), o.setAttribute("cx", l(e)), o.setAttribute("cy", l(t));
+		if (n.kind === "direction" && y) return;
+		let [e, t] = b();
+		s(o, {
+			visibility: Number.isFinite(e + t) ? "visible" : "hidden",
+			cx: u(e),
+			cy: u(t)
+		});
 	};
 }
-var X = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI));
-function ue(e, t, n, r) {
+var Y = (e, t) => e - 2 * Math.PI * Math.round((e - t) / (2 * Math.PI));
+function fe(e, t, n, r) {
 	let i = t.drives[0];
 	if (!i || n.count < 2 || !(i.turns || i.along) || i.p.length > 2) return;
 	let a = 0, o = 0, s = !1, c = (t) => {
-		let n = f(e.svg, t), r = e.paper.point(i.p);
-		return i.along ? Y(e.paper.metres(n), e.paper.here(i.along)) : Math.atan2(r[1] - n[1], n[0] - r[0]);
+		let n = p(e.svg, t), r = e.paper.point(i.p);
+		return i.along ? J(e.paper.metres(n), e.paper.here(i.along)) : Math.atan2(r[1] - n[1], n[0] - r[0]);
 	};
 	e.svg.addEventListener("pointerdown", (t) => {
 		t.target.closest("[data-link]")?.dataset.link === i.link && (e.svg.setPointerCapture(t.pointerId), [a, o, s] = [
@@ -927,23 +944,23 @@ function ue(e, t, n, r) {
 		]);
 	}), e.svg.addEventListener("pointermove", (e) => {
 		if (!s) return;
-		let t = (n.position(i.name, n.count - 1) - n.position(i.name, 0)) / (n.count - 1), l = c(e), u = o + (i.turns ? X(l - a, 0) : l - a) / t;
+		let t = (n.position(i.name, n.count - 1) - n.position(i.name, 0)) / (n.count - 1), l = c(e), u = o + (i.turns ? Y(l - a, 0) : l - a) / t;
 		n.cyclic && (u = (u % n.count + n.count) % n.count), [a, o] = [l, u], r.seek(u);
 	}), e.svg.addEventListener("pointerup", () => s = !1);
 }
 // src/page.css?inline
-var de = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.35em .8em;position:sticky;top:0}.dalembert h1{margin:0;font-size:1.15em;display:inline}.dalembert .bar{flex-wrap:wrap;align-items:center;gap:.5em;margin-top:.25em;display:flex}.dalembert .bar input{min-width:8em;accent-color:var(--accent);flex:1}.dalembert .readout{font-variant-numeric:tabular-nums;min-width:9em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);min-height:1.45em;margin:.1em 0 0;font-size:.92em}.dalembert main{grid-template-columns:minmax(0,7fr) minmax(0,5fr);align-items:start;gap:.8em;padding:.8em;display:grid}.dalembert .stage{position:sticky;top:6.2em}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .stage svg{touch-action:none;max-height:calc(100vh - 9em)}.dalembert .cloud{pointer-events:none;width:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;gap:1em;font-size:.9em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=number]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-link]{cursor:pointer}.dalembert.unsolved svg:not(.chart svg){opacity:.3}@media (max-width:500px){.dalembert .bar{gap:.3em}.dalembert .bar input{min-width:3em}.dalembert .readout{min-width:0}.dalembert button{padding:.15em .45em}}@media (max-width:800px){.dalembert main{grid-template-columns:minmax(0,1fr)}.dalembert .stage{position:static}.dalembert .polar{width:100%}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert summary~div>button,.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}";
+var pe = ".dalembert{--ink:#1d2733;--grey:#5b6672;--paper:#fff;--soft:#f4f6f8;--rim:#d5dbe1;--warn:#b3261e;--accent:#1c56a8;color:var(--ink);background:var(--paper);outline:none;font:15px/1.45 system-ui,DejaVu Sans,sans-serif}.dalembert *{box-sizing:border-box}.dalembert [hidden]{display:none!important}.dalembert header{z-index:2;background:var(--paper);border-bottom:1px solid var(--rim);padding:.35em .8em;position:sticky;top:0}.dalembert h1{margin:0;font-size:1.15em;display:inline}.dalembert .bar{flex-wrap:wrap;align-items:center;gap:.5em;margin-top:.25em;display:flex}.dalembert .bar input{min-width:8em;accent-color:var(--accent);flex:1}.dalembert .readout{font-variant-numeric:tabular-nums;min-width:9em}.dalembert button{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);cursor:pointer;border-radius:.4em;padding:.15em .6em}.dalembert button:disabled{opacity:.4;cursor:default}.dalembert .mark{color:var(--warn);min-height:1.45em;margin:.1em 0 0;font-size:.92em}.dalembert main{grid-template-columns:minmax(0,7fr) minmax(0,5fr);align-items:start;gap:.8em;padding:.8em;display:grid}.dalembert .stage{position:sticky;top:6.2em}.dalembert svg{touch-action:pan-y;-webkit-user-select:none;user-select:none;width:100%;height:auto;font-family:DejaVu Sans,Helvetica Neue,Arial,sans-serif;display:block;overflow:hidden}.dalembert .stage svg{touch-action:none;max-height:calc(100vh - 9em)}.dalembert .cloud{pointer-events:none;width:100%;position:absolute;top:0;left:0}.dalembert .switches{color:var(--grey);flex-wrap:wrap;gap:1em;font-size:.9em;display:flex}.dalembert .switches label{cursor:pointer;align-items:center;gap:.3em;display:flex}.dalembert figure{margin:0 0 .4em}.dalembert figcaption{color:var(--grey);font-size:.85em}.dalembert .panel{border-top:1px solid var(--rim);padding:.3em 0}.dalembert summary{cursor:pointer;padding:.15em 0;font-weight:600}.dalembert select{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.4em;max-width:100%}.dalembert .equation{font-variant-numeric:tabular-nums;overflow-wrap:anywhere;margin:.15em 0;font-size:.85em}.dalembert .answers{border-collapse:collapse;font-variant-numeric:tabular-nums;width:100%;font-size:.85em}.dalembert .answers th{text-align:left;padding:.1em .6em .1em 0;font-weight:400}.dalembert .answers td{text-align:right}.dalembert .answers tr+tr>*{border-top:1px solid var(--soft)}.dalembert .polar{width:49%;display:inline-block}.dalembert fieldset{border:0;border-top:1px solid var(--soft);margin:0;padding:.2em 0;font-size:.88em}.dalembert legend{padding:0 .4em 0 0;font-weight:600}.dalembert fieldset label{grid-template-columns:minmax(0,1fr) 7.5em 4.5em;align-items:center;gap:.4em;margin:.1em 0;display:grid}.dalembert fieldset label input[type=range]{accent-color:var(--accent);grid-column:1/-1}.dalembert fieldset input[type=number]{font:inherit;color:inherit;background:var(--soft);border:1px solid var(--rim);border-radius:.3em;width:100%;padding:.05em .3em}.dalembert input.changed{border-color:var(--accent);font-weight:600}.dalembert .unit{color:var(--grey)}.dalembert dl{grid-template-columns:auto 1fr;gap:.1em .8em;font-size:.9em;display:grid}.dalembert dd{margin:0}.dalembert .handle{fill:var(--accent);fill-opacity:.1;stroke:var(--accent);stroke-opacity:.35;stroke-width:.25px;cursor:grab;outline:none}.dalembert .handle:hover,.dalembert .handle:focus-visible{fill-opacity:.3;stroke-opacity:1;outline:none}.dalembert .handle.center{fill:#1a7f4b;stroke:#1a7f4b}.dalembert .handle.load{fill:#c1272d;stroke:#c1272d}.dalembert .handle.direction{fill:#7a2fa0;stroke:#7a2fa0}.dalembert .span *{vector-effect:non-scaling-stroke}.dalembert .cursor{stroke:var(--grey);stroke-width:.3px;fill:none}.dalembert .key{cursor:pointer}.dalembert .key.picked{text-decoration:underline}.dalembert .chart svg{cursor:crosshair}.dalembert [data-link]{cursor:pointer}.dalembert.unsolved svg:not(.chart svg){opacity:.3}@media (max-width:500px){.dalembert .bar{gap:.3em}.dalembert .bar input{min-width:3em}.dalembert .readout{min-width:0}.dalembert button{padding:.15em .45em}}@media (max-width:800px){.dalembert main{grid-template-columns:minmax(0,1fr)}.dalembert .stage{position:static}.dalembert .polar{width:100%}}@media (prefers-color-scheme:dark){.dalembert{--ink:#e8edf2;--grey:#9aa7b4;--paper:#151b22;--soft:#222b35;--rim:#323d48;--warn:#ff7b74;--accent:#6fa8f5}}@media print{.dalembert{--ink:#000;--grey:#444;--paper:#fff;--soft:#fff;--rim:#999;--accent:#000}.dalembert header,.dalembert .stage{position:static}.dalembert .bar,.dalembert .switches,.dalembert .handles,.dalembert summary~div>button,.dalembert select{display:none}.dalembert main{display:block}.dalembert figure,.dalembert .panel{break-inside:avoid}}";
 // src/panels.ts
-function Z(e, t, n = !1) {
-	let r = c("details", e, { class: "panel" });
-	return r.open = n, c("summary", r, {}, t), c("div", r);
+function X(e, t, n = !1) {
+	let r = l("details", e, { class: "panel" });
+	return r.open = n, l("summary", r, {}, t), l("div", r);
 }
-function fe(e, t, n, r) {
+function me(e, t, n, r) {
 	let i = [], a = /* @__PURE__ */ new Map(), o = (t) => {
 		let n = a.get(t);
 		if (!n) {
-			let r = c("fieldset", e);
-			c("legend", r, {}, t), a.set(t, n = r);
+			let r = l("fieldset", e);
+			l("legend", r, {}, t), a.set(t, n = r);
 		}
 		return n;
 	}, s = t.numbers.map((e, t) => ({
@@ -951,15 +968,15 @@ function fe(e, t, n, r) {
 		n: t
 	})).sort((e, t) => Number(t.field.parameter ?? !1) - Number(e.field.parameter ?? !1));
 	for (let { field: e, n: t } of s) {
-		let [a, s] = e.parameter ? ["Parameters", e.label] : pe(e.label), u = c("label", o(a), { title: e.about ?? e.path });
-		c("span", u, {}, s);
-		let d = c("input", u, {
+		let [a, s] = e.parameter ? ["Parameters", e.label] : he(e.label), u = l("label", o(a), { title: e.about ?? e.path });
+		l("span", u, {}, s);
+		let d = l("input", u, {
 			type: "number",
 			step: "any",
 			"aria-label": e.label,
 			"data-path": e.path
 		});
-		c("span", u, { class: "unit" }, e.unit);
+		l("span", u, { class: "unit" }, e.unit);
 		let f = {
 			box: d,
 			n: t,
@@ -967,8 +984,8 @@ function fe(e, t, n, r) {
 		}, p = (i, a) => {
 			Number.isFinite(i) && (n.values[t] = i * e.size, r(a));
 		};
-		if (d.addEventListener("change", () => d.value.trim() === "" ? l(f) : p(+d.value, !0)), e.parameter) {
-			let [t, n] = e.range ?? me(e.value), r = c("input", u, {
+		if (d.addEventListener("change", () => d.value.trim() === "" ? c(f) : p(+d.value, !0)), e.parameter) {
+			let [t, n] = e.range ?? ge(e.value), r = l("input", u, {
 				type: "range",
 				min: t / e.size,
 				max: n / e.size,
@@ -979,60 +996,60 @@ function fe(e, t, n, r) {
 		}
 		i.push(f);
 	}
-	let l = (e) => {
+	let c = (e) => {
 		let t = n.values[e.n] / e.field.size;
 		document.activeElement !== e.box && (e.box.value = String(+t.toPrecision(6))), e.slide && document.activeElement !== e.slide && (e.slide.value = String(t)), e.box.classList.toggle("changed", n.values[e.n] !== e.field.value);
 	};
-	return { update: () => i.forEach(l) };
+	return { update: () => i.forEach(c) };
 }
-function pe(e) {
+function he(e) {
 	let t = e.indexOf(": ");
 	return t < 0 ? ["Others", e] : [e.slice(0, t), e.slice(t + 2)];
 }
-function me(e) {
+function ge(e) {
 	let t = .5 * Math.abs(e) || 1;
 	return [e - t, e + t];
 }
-function he(e, t, n) {
-	let r = c("tbody", c("table", e, { class: "answers" })), i = t.views.table.map((e) => {
-		let n = c("tr", r), i = t.units[e.kind];
-		return c("th", n, { scope: "row" }, m(e.name)), {
+function _e(e, t, n) {
+	let r = l("tbody", l("table", e, { class: "answers" })), i = t.views.table.map((e) => {
+		let n = l("tr", r), i = t.units[e.kind];
+		return l("th", n, { scope: "row" }, h(e.name)), {
 			r: e,
 			unit: i,
-			cell: c("td", n)
+			cell: l("td", n)
 		};
 	});
 	return { update() {
 		for (let { r: e, unit: t, cell: r } of i) {
-			let i = e.rows.map((e) => n.here[e] / t.size), a = (e) => t.unit === "°" ? `${q(e, 5)}°` : `${q(e)} ${t.unit}`;
-			r.textContent = n.solved ? i.length === 1 ? a(i[0]) : `${a(Math.hypot(...i))}${i.length === 2 ? ` at ${q(Math.atan2(i[1], i[0]) * 180 / Math.PI)}°` : ""}  (${i.map((e) => q(e)).join(", ")})` : "–";
+			let i = e.rows.map((e) => n.here[e] / t.size), a = (e) => t.unit === "°" ? `${K(e, 5)}°` : `${K(e)} ${t.unit}`;
+			r.textContent = n.solved ? i.length === 1 ? a(i[0]) : `${a(Math.hypot(...i))}${i.length === 2 ? ` at ${K(Math.atan2(i[1], i[0]) * 180 / Math.PI)}°` : ""}  (${i.map((e) => K(e)).join(", ")})` : "–";
 		}
 	} };
 }
-function ge(e, t, n, r) {
-	let { terms: i, about: a } = r.equations, { force: o, moment: s } = t.units, l = i[0]?.f.length ?? 2, u = [
+function ve(e, t, n, r) {
+	let { terms: i, about: a } = r.equations, { force: o, moment: s } = t.units, c = i[0]?.f.length ?? 2, u = [
 		"x",
 		"y",
 		"z"
-	].slice(0, l).map((e, t) => ({
+	].slice(0, c).map((e, t) => ({
 		head: `ΣF${e}`,
 		unit: o,
-		sign: (t) => m(t.name) + e,
+		sign: (t) => h(t.name) + e,
 		row: (e) => e.f[t]
 	}));
-	(l === 2 ? [""] : [
+	(c === 2 ? [""] : [
 		"x",
 		"y",
 		"z"
 	]).forEach((e, t) => u.push({
 		head: `ΣM${e} about ${a}`,
 		unit: s,
-		sign: (t) => `M${e}(${m(t.name)})`,
+		sign: (t) => `M${e}(${h(t.name)})`,
 		row: (e) => e.m[t]
 	}));
 	let d = u.map((t) => ({
 		sum: t,
-		el: c("p", e, { class: "equation" })
+		el: l("p", e, { class: "equation" })
 	}));
 	return { update() {
 		for (let { sum: e, el: t } of d) {
@@ -1044,63 +1061,63 @@ function ge(e, t, n, r) {
 				t.textContent = `${e.head}: ${n.solved ? "nothing acts" : "no answer here"}`;
 				continue;
 			}
-			let s = o.map((t) => e.sign(i[t.k])).join(" + "), c = o.reduce((e, t) => e + t.v, 0), l = o.map((e, t) => (e.v < 0 ? t ? " − " : "−" : t ? " + " : "") + q(Math.abs(e.v))).join("");
-			t.textContent = `${e.head}: ${s} = ${l} = ${q(Math.abs(c) < 1e-9 * a ? 0 : c)} ${e.unit.unit}`;
+			let s = o.map((t) => e.sign(i[t.k])).join(" + "), c = o.reduce((e, t) => e + t.v, 0), l = o.map((e, t) => (e.v < 0 ? t ? " − " : "−" : t ? " + " : "") + K(Math.abs(e.v))).join("");
+			t.textContent = `${e.head}: ${s} = ${l} = ${K(Math.abs(c) < 1e-9 * a ? 0 : c)} ${e.unit.unit}`;
 		}
 	} };
 }
-function _e(e, t) {
-	c("p", e, {}, "Forces and motion are found by one linear system at each position (D'Alembert's principle); every number drawn here is computed anew from the numbers beside it, in double precision.");
-	let n = c("dl", e);
-	for (let [e, r] of Object.entries(t.assumptions)) c("dt", n, {}, e), c("dd", n, {}, r);
-	t.source && c("p", e, {}, `Source: ${t.source}`), c("p", e, {}, `Made with dalembert ${t.version}.`);
+function ye(e, t) {
+	l("p", e, {}, "Forces and motion are found by one linear system at each position (D'Alembert's principle); every number drawn here is computed anew from the numbers beside it, in double precision.");
+	let n = l("dl", e);
+	for (let [e, r] of Object.entries(t.assumptions)) l("dt", n, {}, e), l("dd", n, {}, r);
+	t.source && l("p", e, {}, `Source: ${t.source}`), l("p", e, {}, `Made with dalembert ${t.version}.`);
 }
 // src/results.ts
-var ve = (e) => e.closest("details")?.open ?? !0;
-function ye(e, t, n, r, i, a) {
-	let { charts: o, bodies: s, polygons: l } = t.views, u = [], d = [];
-	if (n.count > 1) for (let i of o) u.push(ae(e, t, n, i, r, a ? 88 : 120));
-	let f = Z(e, "Free body", !0), p = c("select", f, { "aria-label": "link" }), m = s.map((e, r) => {
-		c("option", p, { value: r }, `${e.title}${e.member && `, ${e.member} member`}`);
-		let i = c("div", f, { class: "body" }), a = U(i, n, e, e.about, 110, 100, t.units, `free body of ${e.title}`);
+var be = (e) => e.closest("details")?.open ?? !0;
+function xe(e, t, n, r, i, a) {
+	let { charts: o, bodies: s, polygons: c } = t.views, u = [], d = [];
+	if (n.count > 1) for (let i of o) u.push(se(e, t, n, i, r, a ? 88 : 120));
+	let f = X(e, "Free body", !0), p = l("select", f, { "aria-label": "link" }), m = s.map((e, r) => {
+		l("option", p, { value: r }, `${e.title}${e.member && `, ${e.member} member`}`);
+		let i = l("div", f, { class: "body" }), a = ne(i, n, e, e.about, 110, 100, t.units, `free body of ${e.title}`);
 		return d.push({
 			box: i,
 			view: a,
 			link: r
 		}, {
 			box: i,
-			view: ge(i, t, n, e),
+			view: ve(i, t, n, e),
 			link: r
 		}), a;
 	});
-	if (l.links.length) {
-		let r = Z(e, "Force polygon"), i = Z(e, "Force polygons of the chain");
-		l.links.forEach((e, i) => {
-			let a = J(r, t, n, `Force polygon of link ${e.title}`, [e]);
+	if (c.links.length) {
+		let r = X(e, "Force polygon"), i = X(e, "Force polygons of the chain");
+		c.links.forEach((e, i) => {
+			let a = q(r, t, n, `Force polygon of link ${e.title}`, [e]);
 			d.push({
 				box: a.figure,
 				view: a,
 				link: i
 			});
 		});
-		let a = l.chain.map((e) => l.links[e]);
+		let a = c.chain.map((e) => c.links[e]);
 		d.push({
 			box: i,
-			view: J(i, t, n, `In the order of solution: ${a.map((e) => e.title).join(" → ")}`, a)
+			view: q(i, t, n, `In the order of solution: ${a.map((e) => e.title).join(" → ")}`, a)
 		});
 	}
 	let h = n.count > 2 ? o.flatMap((e) => e.curves).filter((e) => e.f) : [];
 	if (h.length) {
-		let r = Z(e, "Polar diagrams");
+		let r = X(e, "Polar diagrams");
 		for (let e of h) d.push({
 			box: r,
-			view: oe(r, n, e, t.units.force)
+			view: ce(r, n, e, t.units.force)
 		});
 	}
-	let g = Z(e, "Numbers of this position");
+	let g = X(e, "Numbers of this position");
 	return d.push({
 		box: g,
-		view: he(g, t, n)
+		view: _e(g, t, n)
 	}), p.addEventListener("change", i), {
 		bodies: m,
 		choose(e) {
@@ -1109,53 +1126,53 @@ function ye(e, t, n, r, i, a) {
 		},
 		update(e) {
 			for (let t of u) t.update(e);
-			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +p.value), (r === void 0 || r === +p.value) && ve(t) && n.update(e);
+			for (let { box: t, view: n, link: r } of d) r !== void 0 && (t.hidden = r !== +p.value), (r === void 0 || r === +p.value) && be(t) && n.update(e);
 		}
 	};
 }
 // src/toolbar.ts
-function be(e, t, n, r) {
-	let i = c("header", e);
-	c("h1", i, {}, t.title);
-	let a = c("div", i, {
+function Se(e, t, n, r) {
+	let i = l("header", e);
+	l("h1", i, {}, t.title);
+	let a = l("div", i, {
 		class: "bar",
 		role: "toolbar",
 		"aria-label": "cycle and page"
 	}), o = (e, t, n) => {
-		let r = c("button", a, {
+		let r = l("button", a, {
 			type: "button",
 			title: t,
 			.../^\w/.test(e) ? {} : { "aria-label": t }
 		}, e);
 		return r.addEventListener("click", n), r;
-	}, s = o("▶", "play along the cycle (space)", r.play), l = c("input", a, {
+	}, s = o("▶", "play along the cycle (space)", r.play), c = l("input", a, {
 		type: "range",
 		min: 0,
 		max: n.end,
 		step: t.only_at_positions ? 1 : "any",
 		"aria-label": "place of the cycle"
-	}), u = c("output", a, { class: "readout" }), d = o("↶", "undo (Ctrl+Z)", () => r.go(!0)), f = o("↷", "redo (Ctrl+Y)", () => r.go(!1));
+	}), u = l("output", a, { class: "readout" }), d = o("↶", "undo (Ctrl+Z)", () => r.go(!0)), f = o("↷", "redo (Ctrl+Y)", () => r.go(!1));
 	o("Reset", "all numbers as in the file", r.reset);
-	let p = c("p", i, {
+	let p = l("p", i, {
 		class: "mark",
 		role: "status"
 	});
-	l.addEventListener("input", () => r.show(+l.value));
+	c.addEventListener("input", () => r.show(+c.value));
 	for (let e of [
 		s,
-		l,
+		c,
 		u
 	]) e.hidden = n.count < 2;
 	return {
 		playing: (e) => s.textContent = e ? "❚❚" : "▶",
 		update(e, r) {
 			let { sentence: i } = t.statuses[n.mark];
-			p.textContent !== i && (p.textContent = i), l.value = String(e), u.textContent = t.drives.map((t) => `${t.name} = ${q(n.position(t.name, e) / t.size, 5)}${t.unit === "°" ? "" : " "}${t.unit}`).join(", "), [d.disabled, f.disabled] = r.map((e) => !e);
+			p.textContent !== i && (p.textContent = i), c.value = String(e), u.textContent = t.drives.map((t) => `${t.name} = ${K(n.position(t.name, e) / t.size, 5)}${t.unit === "°" ? "" : " "}${t.unit}`).join(", "), [d.disabled, f.disabled] = r.map((e) => !e);
 		}
 	};
 }
 // src/tools.ts
-var xe = class {
+var Ce = class {
 	b;
 	data;
 	kernel;
@@ -1163,11 +1180,11 @@ var xe = class {
 	arrows;
 	constructor(e, t, n) {
 		this.b = e, this.data = t, this.kernel = n;
-		let r = s("g", e.svg, { class: "gradient" }), i = t.gradient ? t.handles.flatMap((e) => "ends" in e && e.ends.length ? [e] : []) : [];
+		let r = c("g", e.svg, { class: "gradient" }), i = t.gradient ? t.handles.flatMap((e) => "ends" in e && e.ends.length ? [e] : []) : [];
 		this.arrows = i.map((e) => ({
 			p: e.p,
 			ends: e.ends,
-			arrow: new y(r, "acceleration", `lower the peak by ${e.name}`)
+			arrow: new b(r, "acceleration", `lower the peak by ${e.name}`)
 		}));
 	}
 	update(e) {
@@ -1183,7 +1200,7 @@ var xe = class {
 			t.set([r, i], [r + 14 * a / d, i - 14 * o / d], .5);
 		});
 	}
-}, Se = class {
+}, we = class {
 	b;
 	kernel;
 	places;
@@ -1223,7 +1240,7 @@ var xe = class {
 	reach() {
 		return this.b.svg.viewBox.baseVal.width * .5 * this.b.paper.perMm;
 	}
-}, Ce = class {
+}, Te = class {
 	kernel;
 	past = [];
 	future = [];
@@ -1242,25 +1259,25 @@ var xe = class {
 		return [this.past.length > 0, this.future.length > 0];
 	}
 };
-function we(e, t) {
+function Ee(e, t) {
 	return Object.fromEntries(e.numbers.flatMap((e, n) => t.values[n] === e.value ? [] : [[e.path, t.values[n]]]));
 }
-function Q(e, t, n) {
+function Z(e, t, n) {
 	e.numbers.forEach((e, r) => t.values[r] = Number.isFinite(n[e.path]) ? n[e.path] : e.value);
 }
-function Te(e, t, n) {
+function De(e, t, n) {
 	let r = new URLSearchParams({ t: String(+n.toFixed(4)) });
-	for (let [n, i] of Object.entries(we(e, t))) r.set(n, String(i));
+	for (let [n, i] of Object.entries(Ee(e, t))) r.set(n, String(i));
 	return r.toString();
 }
-function Ee(e, t, n) {
+function Oe(e, t, n) {
 	let r = new Map([...new URLSearchParams(n.replace(/^#/, ""))].map(([e, t]) => [e, t.trim() ? Number(t) : NaN])), i = r.get("t") ?? 0;
-	return r.delete("t"), Q(e, t, Object.fromEntries(r)), Number.isFinite(i) ? Math.min(Math.max(i, 0), t.end) : 0;
+	return r.delete("t"), Z(e, t, Object.fromEntries(r)), Number.isFinite(i) ? Math.min(Math.max(i, 0), t.end) : 0;
 }
-function De(e, t) {
+function Q(e, t) {
 	return e.template.map((e, n) => n % 2 ? String(t.values[+e]) : e).join("");
 }
-function Oe(e, t) {
+function ke(e, t) {
 	let n = (e) => /[",\n]/.test(e) || /^[=+\-@]/.test(e) ? `"${e.replace(/^([=+\-@])/, "'$1").replace(/"/g, "\"\"")}"` : e, r = e.views.charts.flatMap((t) => t.curves.map((n) => ({
 		x: n,
 		unit: e.units[t.kind]
@@ -1279,72 +1296,77 @@ function Oe(e, t) {
 	}
 	return i.join("\n") + "\n";
 }
-function ke(e, t) {
+function Ae(e, t) {
 	let n = e.cloneNode(!0), { width: r, height: i } = e.viewBox.baseVal;
-	n.querySelectorAll(".handles").forEach((e) => e.remove()), n.setAttribute("xmlns", "http://www.w3.org/2000/svg"), n.setAttribute("width", `${r}mm`), n.setAttribute("height", `${i}mm`), n.setAttribute("font-family", "'DejaVu Sans', Arial, sans-serif");
-	let a = s("style", null);
+	n.querySelectorAll(".handles").forEach((e) => e.remove()), s(n, {
+		xmlns: "http://www.w3.org/2000/svg",
+		width: `${r}mm`,
+		height: `${i}mm`,
+		"font-family": "'DejaVu Sans', Arial, sans-serif"
+	});
+	let a = c("style", null);
 	return a.textContent = t, n.prepend(a), new XMLSerializer().serializeToString(n);
 }
 function $(e, t, n) {
 	let r = document.createElement("a");
 	r.href = URL.createObjectURL(new Blob([t], { type: n })), r.download = e, r.click(), setTimeout(() => URL.revokeObjectURL(r.href), 1e3);
 }
-var Ae = (e) => m(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", je = 170, Me = 105, Ne = 6;
-async function Pe(e, t, n = {}) {
+var je = (e) => h(e).toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "").slice(0, 60) || "mechanism", Me = 170, Ne = 105, Pe = 6;
+async function Fe(e, t, n = {}) {
 	if (t.format !== "dalembert-page/1") throw Error(`this page cannot show data of the form ${t.format}`);
-	let r = await a.create(t), i = document.createElement("div"), o = [], s = (e.clientWidth || window.innerWidth) < 560, l = s ? Me : je;
+	let r = await a.create(t), i = document.createElement("div"), o = [], s = (e.clientWidth || window.innerWidth) < 560, c = s ? Ne : Me;
 	i.className = "dalembert", i.tabIndex = -1;
 	let u = `@media (prefers-color-scheme:dark){${t.style.dark}}@media print{${t.style.light}}`;
-	c("style", i).textContent = de + t.style.light + u, n.changes && Q(t, r, n.changes);
-	let d = n.address ? Ee(t, r, location.hash) : 0, f = 0, p = !0, h = 0;
+	l("style", i).textContent = pe + t.style.light + u, n.changes && Z(t, r, n.changes);
+	let d = n.address ? Oe(t, r, location.hash) : 0, f = 0, p = !0, m = 0;
 	r.cycle();
-	let g = new Ce(r), _ = t.views.charts.flatMap((e) => e.curves.map((n) => ({
+	let g = new Te(r), _ = t.views.charts.flatMap((e) => e.curves.map((n) => ({
 		curve: n,
 		unit: t.units[e.kind]
-	}))), v = _.find((e) => t.gradient?.curves.includes(e.curve.row)), y = be(i, t, r, {
+	}))), v = _.find((e) => t.gradient?.curves.includes(e.curve.row)), y = Se(i, t, r, {
 		play: R,
 		show: L,
 		go: I,
 		reset: F
-	}), b = c("main", i), x = c("section", b, {
+	}), b = l("main", i), x = l("section", b, {
 		class: "stage",
 		"aria-label": "mechanism"
-	}), S = t.views.mechanism, C = U(x, r, S, null, l, te(r, S, l), t.units, "the mechanism"), w = new xe(C, t, r), T = new Se(x, C, t, r, t.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), E = se(C, t, r, {
+	}), S = t.views.mechanism, C = ne(x, r, S, null, c, te(r, S, c), t.units, "the mechanism"), w = new Ce(C, t, r), T = new we(x, C, t, r, t.handles.flatMap((e) => e.kind === "joint" || e.kind === "point" ? [e.p] : [])), E = le(C, t, r, {
 		changed: () => B(!0),
 		finished: P,
 		seek: L,
 		time: () => d
-	}), D = c("section", b, {
+	}), D = l("section", b, {
 		class: "side",
 		"aria-label": "results"
-	}), O = ye(D, t, r, {
+	}), O = xe(D, t, r, {
 		time: () => d,
 		seek: L,
 		pick: (e) => (v = _.find((t) => t.curve === e), B(!0)),
 		picked: () => v?.curve
-	}, () => B(!0), s), k = j(), A = fe(Z(D, "Change numbers", t.numbers.some((e) => e.parameter)), t, r, (e) => e ? P() : B(!0));
-	_e(Z(D, "Method and assumptions"), t), M(), C.svg.addEventListener("click", (e) => O.choose(e.target.closest("[data-link]")?.dataset.link));
+	}, () => B(!0), s), k = j(), A = me(X(D, "Change numbers", t.numbers.some((e) => e.parameter)), t, r, (e) => e ? P() : B(!0));
+	ye(X(D, "Method and assumptions"), t), M(), C.svg.addEventListener("click", (e) => O.choose(e.target.closest("[data-link]")?.dataset.link));
 	function j() {
-		let e = c("div", x, { class: "switches" }), n = (t, n, r, i) => {
-			let a = c("label", e, { title: n }), o = c("input", a, { type: "checkbox" });
+		let e = l("div", x, { class: "switches" }), n = (t, n, r, i) => {
+			let a = l("label", e, { title: n }), o = l("input", a, { type: "checkbox" });
 			o.checked = r, a.append(t), o.addEventListener("change", () => (i(o.checked), B(!0)));
 		};
-		return n("names", "names of joints", C.names, (e) => C.names = e), t.gradient && n("what lowers the peak", "arrows: moving a joint this way lowers the peak of the chosen curve", !1, (e) => w.on = e), t.handles.some((e) => e.kind === "joint") && n("tolerances", "a thousand machines with points up to 0.5 % of the drawing's width off", !1, (e) => T.on = e), C.paper.axes.length > 2 && (c("span", e, {}, "drag to look from elsewhere"), Fe([C, ...O.bodies], () => B(!0))), c("span", e, { class: "spread" });
+		return n("names", "names of joints", C.names, (e) => C.names = e), t.gradient && n("what lowers the peak", "arrows: moving a joint this way lowers the peak of the chosen curve", !1, (e) => w.on = e), t.handles.some((e) => e.kind === "joint") && n("tolerances", "a thousand machines with points up to 0.5 % of the drawing's width off", !1, (e) => T.on = e), C.paper.axes.length > 2 && (l("span", e, {}, "drag to look from elsewhere"), Ie([C, ...O.bodies], () => B(!0))), l("span", e, { class: "spread" });
 	}
 	function M() {
-		let e = Z(D, "Save and share"), i = Ae(t.title), a = (t, n) => c("button", e, { type: "button" }, t).addEventListener("click", n);
-		a("Model file", () => $(`${i}.yaml`, De(t, r), "text/yaml")), a("Curves as CSV", () => $(`${i}.csv`, Oe(t, r), "text/csv")), a("Drawing as SVG", () => $(`${i}.svg`, ke(C.svg, t.style.light), "image/svg+xml")), a("Print", () => window.print()), n.address && a("Copy link", () => {
-			location.hash = Te(t, r, d), navigator.clipboard?.writeText(location.href);
+		let e = X(D, "Save and share"), i = je(t.title), a = (t, n) => l("button", e, { type: "button" }, t).addEventListener("click", n);
+		a("Model file", () => $(`${i}.yaml`, Q(t, r), "text/yaml")), a("Curves as CSV", () => $(`${i}.csv`, ke(t, r), "text/csv")), a("Drawing as SVG", () => $(`${i}.svg`, Ae(C.svg, t.style.light), "image/svg+xml")), a("Print", () => window.print()), n.address && a("Copy link", () => {
+			location.hash = De(t, r, d), navigator.clipboard?.writeText(location.href);
 		});
 	}
 	function N() {
-		B(!0), A.update(), n.edited?.(we(t, r)), n.address && window.history.replaceState(null, "", "#" + Te(t, r, d));
+		B(!0), A.update(), n.edited?.(Ee(t, r)), n.address && window.history.replaceState(null, "", "#" + De(t, r, d));
 	}
 	function P() {
 		g.note(), C.fit(), N();
 	}
 	function F() {
-		Q(t, r, {}), P();
+		Z(t, r, {}), P();
 	}
 	function I(e) {
 		g.go(e) && N();
@@ -1353,14 +1375,14 @@ async function Pe(e, t, n = {}) {
 		d = Math.min(Math.max(e, 0), r.end), t.only_at_positions && (d = Math.round(d)), B(!1);
 	}
 	function R() {
-		if (y.playing(!h), h) return z();
+		if (y.playing(!m), m) return z();
 		let e = performance.now(), t = d, n = (i) => {
-			t += (i - e) / 1e3 / Ne * r.end, e = i, t >= r.end && (t = 0), L(t), h = requestAnimationFrame(n);
+			t += (i - e) / 1e3 / Pe * r.end, e = i, t >= r.end && (t = 0), L(t), m = requestAnimationFrame(n);
 		};
-		h = requestAnimationFrame(n);
+		m = requestAnimationFrame(n);
 	}
 	function z() {
-		cancelAnimationFrame(h), h = 0;
+		cancelAnimationFrame(m), m = 0;
 	}
 	function B(e) {
 		p ||= e, f ||= requestAnimationFrame(() => {
@@ -1373,7 +1395,7 @@ async function Pe(e, t, n = {}) {
 		let e = p;
 		p = !1, e && r.cycle(), r.at(d), i.classList.toggle("unsolved", !r.solved), C.update(e), E(), w.update(v?.curve);
 		let t = T.update(v?.curve.row);
-		k.textContent = t && v ? `${m(v.curve.name)}: ${q(t.mean / v.unit.size)} ± ${q(t.sigma / v.unit.size, 2)} ${v.unit.unit} (1 σ)` : "", O.update(e), y.update(d, g.can);
+		k.textContent = t && v ? `${h(v.curve.name)}: ${K(t.mean / v.unit.size)} ± ${K(t.sigma / v.unit.size, 2)} ${v.unit.unit} (1 σ)` : "", O.update(e), y.update(d, g.can);
 	}
 	return i.querySelectorAll("details").forEach((e) => e.addEventListener("toggle", () => B(!0))), i.addEventListener("keydown", (e) => {
 		let t = /INPUT|SELECT|TEXTAREA/.test(e.target.tagName);
@@ -1384,13 +1406,13 @@ async function Pe(e, t, n = {}) {
 		times: o,
 		show: L,
 		set(e) {
-			Q(t, r, e), g.note(), C.fit(), B(!0), A.update();
+			Z(t, r, e), g.note(), C.fit(), B(!0), A.update();
 		},
-		text: () => De(t, r),
+		text: () => Q(t, r),
 		remove: () => (z(), i.remove())
 	};
 }
-function Fe(e, t) {
+function Ie(e, t) {
 	for (let n of e) n.svg.style.cursor = "move", n.svg.addEventListener("pointerdown", (e) => n.svg.setPointerCapture(e.pointerId)), n.svg.addEventListener("pointermove", (r) => {
 		if (n.svg.hasPointerCapture(r.pointerId)) {
 			for (let t of e) t.paper.turn(-.01 * r.movementX, .01 * r.movementY), t.fit();
@@ -1399,22 +1421,22 @@ function Fe(e, t) {
 	});
 }
 // src/main.ts
-async function Ie(e, t) {
+async function Le(e, t) {
 	try {
-		return await Pe(e, JSON.parse(new TextDecoder().decode(await n(t))), { address: location.protocol !== "about:" });
+		return await Fe(e, JSON.parse(new TextDecoder().decode(await n(t))), { address: location.protocol !== "about:" });
 	} catch (t) {
 		throw e.textContent = String(t), t;
 	}
 }
-var Le = { async render({ model: e, el: t }) {
+var Re = { async render({ model: e, el: t }) {
 	let n = "", r = (t) => {
 		n = JSON.stringify(t), e.set("changes", t), e.save_changes();
 	}, i = async () => {
-		let n = await Pe(t, e.get("data"), {
+		let n = await Fe(t, e.get("data"), {
 			edited: r,
 			changes: e.get("changes")
 		});
-		return c("style", t, {}, `[data-dalembert="${e.get("frame")}"]{display:none}`), n;
+		return l("style", t, {}, `[data-dalembert="${e.get("frame")}"]{display:none}`), n;
 	}, a = await i(), o = async () => {
 		a.remove(), a = await i();
 	}, s = () => JSON.stringify(e.get("changes")) !== n && a.set(e.get("changes"));
@@ -1422,4 +1444,4 @@ var Le = { async render({ model: e, el: t }) {
 		e.off("change:data", o), e.off("change:changes", s), a.remove();
 	};
 } };
-export { Le as default, Ie as open };
+export { Re as default, Le as open };
