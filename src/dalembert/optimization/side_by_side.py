@@ -6,7 +6,6 @@ Nocedal and Wright, Numerical Optimization, chapter 6; at its bounds a start mov
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 
@@ -19,15 +18,6 @@ FIRST = 0.1
 """Longest first step, of the box."""
 SMALLEST = 1e-9
 """A step below this part of the box ends a start; so does a gain below it."""
-
-
-class Search(NamedTuple):
-    """State of all starts: place, value, slope, inverse of the curvature."""
-
-    u: Array
-    value: Array
-    slope: Array
-    curvature: Array
 
 
 def minimize(

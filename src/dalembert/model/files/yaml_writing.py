@@ -8,7 +8,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dalembert.model.files.yaml_text import scalar
 
 WIDTH = 110
-_SPECIAL = re.compile(r"[\x7f-\x9f\u2028\u2029\ufeff\ufffe\uffff\ud800-\udfff]")
 _PLAIN = re.compile(r"[^\W\d_][\w./*^() +@-]*|[-+]?\.?[0-9][\w./*^() +@-]*")
 
 

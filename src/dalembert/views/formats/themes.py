@@ -126,7 +126,6 @@ _DARK_STROKES = {
     "#b3bcc6": "#4c5864",
     "#356": "#9fc1e0",
 }
-_BLACK = ("text", "title", "link", "link-area", "pin", "block", "mark")
 _PRINT_DASH = {"inertia": (2.2, 0.7), "weight": (0.8, 0.5), "effort": (3.0, 0.6, 0.6, 0.6)}
 
 
