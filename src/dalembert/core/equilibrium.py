@@ -3,6 +3,8 @@
 x   multipliers of the unknowns: constraints, then drive efforts that are not given, then unknown loads
 w   wrenches of everything else on the links (D'Alembert: inertia with the minus sign)
 V   twists of the links per unit speed of each drive, the others held: virtual velocities
+
+Mechanics: docs/theory.md 5.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Which solver a mechanism's matrix gets: batched inverse, singular values, or sparse LU a position."""
+"""Which solver a mechanism's matrix gets: batched inverse, singular values, or sparse LU a position.
+
+Mechanics: docs/theory.md 1.2.
+"""
 
 from __future__ import annotations
 

@@ -2,6 +2,8 @@
 
 Every function returns a ``Source``: wrenches (..., k, n) about the reference points of the links they act on, one a
 contribution, so that superposition and virtual work can take them apart; ``total_wrench`` adds them up per link.
+
+Mechanics: docs/theory.md 4.
 """
 
 from __future__ import annotations

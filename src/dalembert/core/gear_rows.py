@@ -3,6 +3,8 @@
 a, e   axis of a wheel and direction from it to the pitch point C
 t      a_i x e_i, the way the teeth of i go at C
 n      direction of the force of the teeth in the tangent plane, N the normal of that plane
+
+Mechanics: docs/theory.md 2.2.
 """
 
 from __future__ import annotations

@@ -2,6 +2,8 @@
 
 w   angular velocity of j against i
 u, v  p . (a x b) and p . b: sine and cosine of a relative angle, times the length r of p across the axis
+
+Mechanics: docs/theory.md 2.2.
 """
 
 from __future__ import annotations

@@ -4,6 +4,8 @@ A mistake in the problem (a load, a mass, friction) moves many figures at once: 
 figure would have moved with it. A slip in one value (sense, axis, unit, another joint) is of one figure. The sheet's
 explanation is that of fewest mistakes, a figure that stays unexplained counting as one and a half; among equals the
 likeliest of those that come nearest.
+
+Mechanics: docs/theory.md 12.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""One figure of a sheet beside what is computed: a number, both sides of a reversal, or at rest two ends."""
+"""One figure of a sheet beside what is computed: a number, both sides of a reversal, or at rest two ends.
+
+Mechanics: docs/theory.md 12.
+"""
 
 from __future__ import annotations
 

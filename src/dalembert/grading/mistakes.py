@@ -1,4 +1,7 @@
-"""A student's figures against ours, and the usual mistakes that explain the differences of a sheet as a whole."""
+"""A student's figures against ours, and the usual mistakes that explain the differences of a sheet as a whole.
+
+Mechanics: docs/theory.md 12.
+"""
 
 from __future__ import annotations
 

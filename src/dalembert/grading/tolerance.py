@@ -1,4 +1,7 @@
-"""When a student's figure is right: near the computed value, or rounded from it to the digits that were written."""
+"""When a student's figure is right: near the computed value, or rounded from it to the digits that were written.
+
+Mechanics: docs/theory.md 12.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Slips in a value itself: sense, axis, component, unit."""
+"""Slips in a value itself: sense, axis, component, unit.
+
+Mechanics: docs/theory.md 12.
+"""
 
 from __future__ import annotations
 

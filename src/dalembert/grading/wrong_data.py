@@ -1,6 +1,8 @@
 """Data of a problem taken wrongly, one at a time: loads, rates, masses, friction, g; its geometry stays.
 
 Nearly all are changes of the compiled numbers, so that nothing is read or checked again.
+
+Mechanics: docs/theory.md 12.
 """
 
 from __future__ import annotations

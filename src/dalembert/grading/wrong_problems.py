@@ -1,4 +1,7 @@
-"""The same problem solved with one thing wrong: parts of the superposition changed, or a datum."""
+"""The same problem solved with one thing wrong: parts of the superposition changed, or a datum.
+
+Mechanics: docs/theory.md 12.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Exact derivatives of nodes with respect to inputs, as nodes: by reverse or by forward mode, whichever is shorter."""
+"""Exact derivatives of nodes with respect to inputs, as nodes: by reverse or by forward mode, whichever is shorter.
+
+Mechanics: docs/theory.md 8.
+"""
 
 from __future__ import annotations
 

@@ -3,6 +3,8 @@
 Pivots are the entries that are exactly 1 or -1 first (the force balances: no growth, no division), least fill first.
 What remains falls into blocks, each two-link group one block of 2 x 2 whose determinant is the sine of its
 transmission angle; larger blocks are eliminated entry by entry, with pivots chosen on sampled values.
+
+Mechanics: docs/theory.md 8.
 """
 
 from __future__ import annotations

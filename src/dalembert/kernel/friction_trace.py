@@ -6,6 +6,8 @@ and the last step is small; elsewhere it is in doubt, and the general executor d
 A contact's force changes the reactions of the links between it and the ground only, so the small system falls into
 blocks, each two-link group one of three or four contacts; each block is solved for itself, those that load others
 first.
+
+Mechanics: docs/theory.md 6.2.
 """
 
 from __future__ import annotations

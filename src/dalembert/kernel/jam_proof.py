@@ -8,6 +8,8 @@ weights w >= 0 ask of a solution
 Where no d_b is negative and the first sum is above zero there is none. What is negative is first taken to the other
 contacts by S_b <= |y0_b| + sum_c |K_bc| S_c. Slopes and weights are those along which friction would grow without end:
 S and w after a few multiplications by K and its transpose. Whatever they are, what they prove is proved.
+
+Mechanics: docs/theory.md 6.3.
 """
 
 from __future__ import annotations

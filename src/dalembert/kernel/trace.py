@@ -1,4 +1,7 @@
-"""The core's equations traced once: from the drives' positions to every reaction, as nodes of one graph."""
+"""The core's equations traced once: from the drives' positions to every reaction, as nodes of one graph.
+
+Mechanics: docs/theory.md 8.
+"""
 
 from __future__ import annotations
 

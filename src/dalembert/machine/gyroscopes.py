@@ -1,4 +1,7 @@
-"""Gyroscopic couples as the books show them: what turns a rotor's angular momentum about with its carrier."""
+"""Gyroscopic couples as the books show them: what turns a rotor's angular momentum about with its carrier.
+
+Mechanics: docs/theory.md 10.1.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Harmonics of any output over whole turns: y(q) = a_0 + sum of a_k cos k q + b_k sin k q."""
+"""Harmonics of any output over whole turns: y(q) = a_0 + sum of a_k cos k q + b_k sin k q.
+
+Mechanics: docs/theory.md 10.1.
+"""
 
 from __future__ import annotations
 

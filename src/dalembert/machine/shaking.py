@@ -2,6 +2,8 @@
 
 F_s = W + F_ext - dp/dt and M_s = M_W + M_ext - dH/dt need no reaction, so that they are unique where reactions are not;
 the sum of all that joints, drives, springs and dampers do to the ground is the same, and the difference is the check.
+
+Mechanics: docs/theory.md 10.1.
 """
 
 from __future__ import annotations

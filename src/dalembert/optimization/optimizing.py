@@ -1,4 +1,7 @@
-"""``da.optimize``: the design that is best by an aim, within bounds and conditions."""
+"""``da.optimize``: the design that is best by an aim, within bounds and conditions.
+
+Mechanics: docs/theory.md 11.
+"""
 
 from __future__ import annotations
 

@@ -2,6 +2,8 @@
 
 The epsilon-constraint method (Haimes, Lasdon and Wismer, 1971): the first aim is made least while the second stays
 below a bound, for some bounds between what the best designs by each aim alone have.
+
+Mechanics: docs/theory.md 11.
 """
 
 from __future__ import annotations

@@ -1,6 +1,8 @@
 """One design at a time by sequential quadratic programming (SLSQP), with every position a row of its own.
 
 A peak is no smooth function, but its least value is that of t under -t <= T_k <= t at all positions k.
+
+Mechanics: docs/theory.md 11.
 """
 
 from __future__ import annotations

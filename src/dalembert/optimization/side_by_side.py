@@ -1,6 +1,8 @@
 """Quasi-Newton steps (BFGS) of many starts in a box at once: one call of the function for a step of all of them.
 
 Nocedal and Wright, Numerical Optimization, chapter 6; at its bounds a start moves along them, by projection.
+
+Mechanics: docs/theory.md 11.
 """
 
 from __future__ import annotations

@@ -2,6 +2,8 @@
 
 A point's path with given timing, a function (angle against angle), a motion (a point and an angle): one problem of
 least squares. All starts go side by side by Levenberg's and Marquardt's method with exact derivatives, within bounds.
+
+Mechanics: docs/theory.md 11.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Where the spread of an output comes from: each number's contribution, worst case, numbers that change nothing."""
+"""Where the spread of an output comes from: each number's contribution, worst case, numbers that change nothing.
+
+Mechanics: docs/theory.md 11.
+"""
 
 from __future__ import annotations
 

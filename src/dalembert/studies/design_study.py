@@ -1,4 +1,7 @@
-"""``da.study``: many designs of one mechanism, as a pure function from the number of a block to its arrays."""
+"""``da.study``: many designs of one mechanism, as a pure function from the number of a block to its arrays.
+
+Mechanics: docs/theory.md 11.
+"""
 
 from __future__ import annotations
 

@@ -2,6 +2,8 @@
 
 So any part of them can be made by anybody in any order, with the same bits; nothing is remembered between designs.
 Random numbers are Philox's, addressed by counter, a row of its own for each path.
+
+Mechanics: docs/theory.md 11.
 """
 
 from __future__ import annotations

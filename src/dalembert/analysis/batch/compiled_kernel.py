@@ -1,4 +1,4 @@
-"""``da.compile``: an analysis of one structure as machine code, for any numbers in it."""
+"""``da.compile``: an analysis of one structure as machine code, for any numbers in it (docs/theory.md 8)."""
 
 from __future__ import annotations
 

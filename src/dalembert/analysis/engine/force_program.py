@@ -3,6 +3,8 @@
 What the careful path finds positions of (gears, groups without closed form, springs whose turns are counted, mechanisms
 in space) and what has friction. Where friction is in doubt, at rest, reverses or jams, and near singular places, the
 careful path answers.
+
+Mechanics: docs/theory.md 8.
 """
 
 from __future__ import annotations

@@ -1,6 +1,8 @@
 """One structure's program: traced once along a known motion, then a function of numbers.
 
 Every way a group closes is an input here, 1 or -1: which one it is, the first pose decides (``first_way``).
+
+Mechanics: docs/theory.md 8.
 """
 
 from __future__ import annotations

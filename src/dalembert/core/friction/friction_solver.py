@@ -4,6 +4,8 @@ Newton starts from no friction. Where the map from bearing forces to friction to
 (``spectral_bound`` below 1) there is one solution. Elsewhere there may be several; the physical one is found by
 continuation (Allgower and Georg, 1990): the scale of all coefficients goes from 0 to 1 in steps, with the determinant
 of the equations kept positive. Where that branch ends, at the critical scale, the mechanism jams.
+
+Mechanics: docs/theory.md 6.2.
 """
 
 from __future__ import annotations

@@ -11,6 +11,8 @@ the next, as long as the unknown gains; every state on the way can be reached fr
 states of rest. A programme without a furthest state shows a wedge: friction holds any value.
 
 t   friction forces and couples (..., E), taken by a unit of each that makes numbers around one
+
+Mechanics: docs/theory.md 6.3.
 """
 
 from __future__ import annotations

@@ -5,6 +5,8 @@ motion, by virtual work: g, the change of the effort with a unit of friction, is
 of the effort's own. One that would not move only loads the others; it takes the sense that carries the effort furthest.
 
 g   change of the unknown with a unit of each contact (..., E)
+
+Mechanics: docs/theory.md 6.3.
 """
 
 from __future__ import annotations

@@ -5,6 +5,8 @@ are zero. The d themselves have no bounds: each enters once, with the sense that
 
 Friction at rest asks for hundreds of programmes of ten unknowns a position; ``scipy.optimize.linprog`` solves the same
 ones one by one, in fifty times the time.
+
+Mechanics: docs/theory.md 6.3.
 """
 
 from __future__ import annotations

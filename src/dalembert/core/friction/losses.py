@@ -1,4 +1,7 @@
-"""Wrenches and power of the joints' friction, dry and viscous; where friction turns the efforts' power round."""
+"""Wrenches and power of the joints' friction, dry and viscous; where friction turns the efforts' power round.
+
+Mechanics: docs/theory.md 6.3.
+"""
 
 from __future__ import annotations
 

@@ -3,6 +3,8 @@
 The slide of an engine stands still for an instant while the crank goes on. Its friction has one sense before and the
 other after: that of its second rate, and against it. Where that is zero too the sense is looked up at positions a
 little before and after; a contact that has none there stays at rest.
+
+Mechanics: docs/theory.md 6.3.
 """
 
 from __future__ import annotations

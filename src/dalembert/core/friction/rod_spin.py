@@ -7,6 +7,8 @@ It is found by secants and bisection, of several rods in turn and then by Newton
 by continuation from no friction. The spin's own inertia about the line is left out.
 
 s   spin, tan(phi) times the fastest rate of the rod's balls
+
+Mechanics: docs/theory.md 6.1.
 """
 
 from __future__ import annotations

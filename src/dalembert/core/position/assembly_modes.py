@@ -2,6 +2,8 @@
 
 First come those with every group on the side that the given angles state, then the nearest to the given angles. Where
 nothing is given, sliders farthest along their directions come first, then the highest links.
+
+Mechanics: docs/theory.md 3.1.
 """
 
 from __future__ import annotations

@@ -3,6 +3,8 @@
 Rows and unknowns of a square J are put in block triangular form (Dulmage and Mendelsohn, 1958): a group of links that
 only closes as a whole (Assur) has a diagonal block of its own. J becomes singular where one block does, so along a
 motion no block's determinant changes its sign, while det J, their product, keeps its own where two of them do.
+
+Mechanics: docs/theory.md 3.1.
 """
 
 from __future__ import annotations

@@ -7,6 +7,8 @@ triangular form of ``core.position.assur_groups``). Each condition between two l
 
 with n ground's x and y for points that coincide, an axis of i for a slide. Links whose relative angle is held turn
 together: all of them follow a leader's angle.
+
+Mechanics: docs/theory.md 3.1.
 """
 
 from __future__ import annotations

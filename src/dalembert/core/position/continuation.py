@@ -8,6 +8,8 @@ that near branches are told apart at their own scale, and go straight through on
 ``through_singular`` can tell. Where no step is small enough it has come to a dead centre, and ends.
 
 s  parameter of the course
+
+Mechanics: docs/theory.md 3.2.
 """
 
 from __future__ import annotations

@@ -7,6 +7,8 @@ and one angle follows from the other. Larger groups (triads) are sought by Newto
 
 S  poses that are laid down together
 side  sign of the determinant of a group's Jacobian, which tells its two ways apart
+
+Mechanics: docs/theory.md 3.1.
 """
 
 from __future__ import annotations

@@ -2,6 +2,8 @@
 
 Each link's angle is given, follows from a joint that fixes it (slider, weld, driven pin), or is free: free ones are
 zero in the first start ("as drawn") and spread evenly over the turn in the others, always in the same way.
+
+Mechanics: docs/theory.md 3.1.
 """
 
 from __future__ import annotations

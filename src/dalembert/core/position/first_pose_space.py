@@ -3,6 +3,8 @@
 Drawn means: every link's axes parallel to the ground's, its points laid joint by joint, the drives at 0. From there
 the motion is followed to the first position. Where that fails, links are laid by random values of their joints'
 freedoms, always the same ones.
+
+Mechanics: docs/theory.md 3.1.
 """
 
 from __future__ import annotations

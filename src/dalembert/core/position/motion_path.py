@@ -4,6 +4,8 @@ Between stations the poses are interpolated and corrected together; a position w
 the spacing of the stations is not trusted.
 
 s  parameter of the course
+
+Mechanics: docs/theory.md 3.2.
 """
 
 from __future__ import annotations

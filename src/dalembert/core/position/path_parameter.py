@@ -4,6 +4,8 @@ s  how far the drives have moved, the fastest of them, in radians or characteris
 
 With one drive the course runs through its positions in order of value, whatever their order in the list: the pose
 depends on the value only. With several it follows the list, and breaks where their common direction turns.
+
+Mechanics: docs/theory.md 3.2.
 """
 
 from __future__ import annotations

@@ -1,6 +1,8 @@
 """Where a motion is taken up again behind a gap: by closed forms, else by Newton and a search.
 
 Wheels in mesh and rolling ones are held while closed forms lay the links down, then turned into their phase.
+
+Mechanics: docs/theory.md 3.2.
 """
 
 from __future__ import annotations

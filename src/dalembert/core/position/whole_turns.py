@@ -1,6 +1,8 @@
 """Whole turns of relative angles, counted at a place of the motion that does not depend on the list of positions.
 
 phi  a relative angle, followed through whole turns along the motion
+
+Mechanics: docs/theory.md 3.2.
 """
 
 from __future__ import annotations

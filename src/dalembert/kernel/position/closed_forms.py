@@ -3,6 +3,8 @@
 A *part* is a set of links whose relative positions are known. Two parts with three conditions between them, or three
 parts joined pairwise by pins and sliders (all five kinds of two-link groups), become one part, until all are one with
 the ground. Of the two ways such a group closes the one of the mechanism's own motion is taken.
+
+Mechanics: docs/theory.md 8.
 """
 
 from __future__ import annotations

@@ -4,6 +4,8 @@ A rod between two balls is a distance between their centres, and stands where th
 each placed once those before it are: one that its joint and its drives hold directly, one that turns or slides and is
 held at a distance in closed form, the rest by unrolled Newton steps from the known motion. That is the solution where
 no number of the geometry varies: then it stands in place of any steps.
+
+Mechanics: docs/theory.md 8.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""Newton for links without a closed form, unrolled: the core's own closure equations, from the known motion."""
+"""Newton for links without a closed form, unrolled: the core's own closure equations, from the known motion.
+
+Mechanics: docs/theory.md 8.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The convex problem of balancing: values y + C p of some quantities, least over cones of p."""
+"""The convex problem of balancing: values y + C p of some quantities, least over cones of p.
+
+Mechanics: docs/theory.md 10.2.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""`da.balance`: counterweights that leave least of the shaking force, moment or torque, and the proof of it."""
+"""`da.balance`: counterweights that leave least of the shaking force, moment or torque, and the proof of it.
+
+Mechanics: docs/theory.md 10.2.
+"""
 
 from __future__ import annotations
 

@@ -6,6 +6,8 @@ it proves the optimum.
 
 G (K, d, n), h (K, d): K cones of one dimension d; smaller ones are filled with rows of zeros. A cone of dimension 1 is
 an inequality.
+
+Mechanics: docs/theory.md 10.2.
 """
 
 from __future__ import annotations

@@ -2,6 +2,8 @@
 
 X, Y = int x dm, int y dm and I = int (x^2 + y^2) dm about the base point, link axes. Masses within a radius R have just
 the numbers with X^2 + Y^2 <= m I and I <= R^2 m: any such p can be built.
+
+Mechanics: docs/theory.md 10.2.
 """
 
 from __future__ import annotations

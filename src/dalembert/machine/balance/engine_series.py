@@ -3,6 +3,8 @@
 A piston on a line through the crank's axis, its rod on a crank pin at r from it: the book splits the rod's mass between
 its ends and keeps two harmonics of the piston's acceleration, r w^2 (cos q + r / l cos 2 q), q from the dead centre.
 The exact series of a centric cylinder has 1, A_2 = l + l^3 / 4 + ..., A_4, ... with l for r / l, so the book loses.
+
+Mechanics: docs/theory.md 10.1.
 """
 
 from __future__ import annotations

@@ -6,6 +6,8 @@ element at s is -(a_A + u s), so that the columns of (m, X, Y, I) are
     force   -a_A, -u, -i u, 0
     moment  -D x a_A, -(D x u + e x a_A), -(D x i u + i e x a_A), -alpha      e = e^(i theta)
     effort  -(power of these and of the weight at unit speed of the drive)
+
+Mechanics: docs/theory.md 10.2.
 """
 
 from __future__ import annotations

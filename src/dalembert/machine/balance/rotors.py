@@ -2,6 +2,8 @@
 
 With u the moments m r e^(i phi) about the axis and z along it, S = int u dm and T = int z u dm vanish with corrections
 u_b = -(T - z_a S) / (z_b - z_a) and u_a = -S - u_b in planes z_a and z_b.
+
+Mechanics: docs/theory.md 10.2.
 """
 
 from __future__ import annotations

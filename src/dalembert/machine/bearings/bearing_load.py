@@ -2,6 +2,8 @@
 
 p = F / (d l), PV = p (d / 2) |w|, P = (int F^e |dphi| / int |dphi|)^(1/e) with phi the turn of j against
 i, e = 3 for balls and 10/3 for rollers, L10 = (C / P)^e million turns (ISO 281).
+
+Mechanics: docs/theory.md 10.5.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""From the fluctuation of energy to a flywheel and back: I = dE / (C_s w^2), and the ring or disc that has it."""
+"""From the fluctuation of energy to a flywheel and back: I = dE / (C_s w^2), and the ring or disc that has it.
+
+Mechanics: docs/theory.md 10.3.
+"""
 
 from __future__ import annotations
 

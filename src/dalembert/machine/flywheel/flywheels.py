@@ -1,4 +1,7 @@
-"""The flywheel of a machine: what the book says, and what its speed then does."""
+"""The flywheel of a machine: what the book says, and what its speed then does.
+
+Mechanics: docs/theory.md 10.3.
+"""
 
 from __future__ import annotations
 

@@ -3,6 +3,8 @@
 (J(q) + I) q'^2 / 2 = E_0 + int (T_m - S) dq, with J the machine's own reduced inertia and S what the drive must give
 besides kinetic energy; E_0 is such that the mean speed over time is the one asked for. Where S depends on the speed
 (dampers, friction) the speeds found are put in again until they stay. Eksergian, J. Franklin Inst. 209-211 (1930).
+
+Mechanics: docs/theory.md 10.3.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""The effort of a machine's drive as a continuous curve: the analysis itself, asked wherever a number is needed."""
+"""The effort of a machine's drive as a continuous curve: the analysis itself, asked wherever a number is needed.
+
+Mechanics: docs/theory.md 10.3.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""All that acts on a link in its own axes, its weight and inertia spread along its members where its mass is."""
+"""All that acts on a link in its own axes, its weight and inertia spread along its members where its mass is.
+
+Mechanics: docs/theory.md 10.4.
+"""
 
 from __future__ import annotations
 

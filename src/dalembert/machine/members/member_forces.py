@@ -2,6 +2,8 @@
 
 N = F.t (tension +), V_y = -F.y, V_z = F.z, T = M.t with F, M what the part beyond s exerts on the part before it, about
 the cut; dN/ds = -q_t, dV_y/ds = q_y, dV_z/ds = -q_z, dM_z/ds = V_y, dM_y/ds = V_z with q = mu (g - a).
+
+Mechanics: docs/theory.md 10.4.
 """
 
 from __future__ import annotations

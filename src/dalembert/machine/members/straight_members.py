@@ -1,4 +1,7 @@
-"""The straight members of a link, the mass along each, and where what acts on the link has its foot."""
+"""The straight members of a link, the mass along each, and where what acts on the link has its foot.
+
+Mechanics: docs/theory.md 10.4.
+"""
 
 from __future__ import annotations
 

@@ -2,6 +2,8 @@
 
 sigma = N/A - M_z y / I_z + M_y z / I_y at a fibre (y, z); von Mises at the outer fibres with torsion, and at the axis
 with shear and torsion, the larger. No notches, no stress concentration.
+
+Mechanics: docs/theory.md 10.4.
 """
 
 from __future__ import annotations

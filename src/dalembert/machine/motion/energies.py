@@ -1,4 +1,7 @@
-"""Kinetic and potential energy of a machine at the positions of a result, in closed form."""
+"""Kinetic and potential energy of a machine at the positions of a result, in closed form.
+
+Mechanics: docs/theory.md 10.6.
+"""
 
 from __future__ import annotations
 

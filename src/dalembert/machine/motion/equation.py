@@ -3,6 +3,8 @@
 effort(q, u, a) = M_r(q) a + h(q, u): the traced analysis gives it with its exact derivative by a, which is M_r. With
 dry friction it is only piecewise smooth in a; then Broyden's method, which begins at M_r. The senses of the contacts
 are inputs, so that between two events everything is smooth.
+
+Mechanics: docs/theory.md 10.6.
 """
 
 from __future__ import annotations

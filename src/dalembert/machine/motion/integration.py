@@ -1,4 +1,7 @@
-"""A motion under forces as segments that are smooth, each ended by an event: nothing is smoothed, nothing skipped."""
+"""A motion under forces as segments that are smooth, each ended by an event: nothing is smoothed, nothing skipped.
+
+Mechanics: docs/theory.md 10.6.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""`da.simulate`: the motion of a machine under forces, with every joint force along it."""
+"""`da.simulate`: the motion of a machine under forces, with every joint force along it.
+
+Mechanics: docs/theory.md 10.6.
+"""
 
 from __future__ import annotations
 

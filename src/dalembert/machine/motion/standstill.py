@@ -1,4 +1,7 @@
-"""What friction and brakes do at the moment: the test of rest is the analysis of the machine at rest there."""
+"""What friction and brakes do at the moment: the test of rest is the analysis of the machine at rest there.
+
+Mechanics: docs/theory.md 10.6.
+"""
 
 from __future__ import annotations
 

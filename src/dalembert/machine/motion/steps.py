@@ -1,4 +1,7 @@
-"""Steps of Dormand and Prince's method of order 8: scipy's solver, its stages in machine code where all is smooth."""
+"""Steps of Dormand and Prince's method of order 8: scipy's solver, its stages in machine code where all is smooth.
+
+Mechanics: docs/theory.md 10.6.
+"""
 
 from __future__ import annotations
 

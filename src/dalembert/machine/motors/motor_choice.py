@@ -3,6 +3,8 @@
 T is the drive's effort, n the gear ratio (speed of the motor over that of the drive), J_m the motor's own inertia. The
 efficiency eta divides where the drive takes power and multiplies where it gives it back. Over log n every |T_m| has one
 minimum, and so has the greatest of them.
+
+Mechanics: docs/theory.md 10.5.
 """
 
 from __future__ import annotations
