@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, TypeVar
 
 import numpy as np
@@ -29,18 +30,18 @@ Arrays = TypeVar("Arrays")
 """An array, or a NamedTuple of arrays and of such records over the same positions."""
 
 
-def at(whole: Arrays, where: Any) -> Arrays:
+def at(whole: Arrays, where: object) -> Arrays:
     """An array, or a record of arrays, at some positions."""
     record: Any = whole
-    make: Any = type(whole)
+    make: Callable[..., Arrays] = type(whole)
     found: Arrays = make(*(at(a, where) for a in record)) if isinstance(record, tuple) else record[where]
     return found
 
 
-def put(whole: Arrays, where: Any, part: Arrays) -> Arrays:
+def put(whole: Arrays, where: object, part: Arrays) -> Arrays:
     """A copy of an array, or of a record of arrays, with other values at some positions."""
     record: Any = whole
-    make: Any = type(whole)
+    make: Callable[..., Arrays] = type(whole)
     values: Any = part
     if isinstance(record, tuple):
         found: Arrays = make(*(put(a, where, b) for a, b in zip(record, values, strict=True)))

@@ -133,7 +133,7 @@ def short_item(quantity: str, of: str, value: object) -> Tree:
 COMPONENTS = ("x", "y", "z", "magnitude", "direction")
 
 
-def named_figure(name: str, value: Any) -> dict[str, Any]:
+def named_figure(name: str, value: object) -> dict[str, object]:
     """A figure by the name of its column: effort.O2, reaction.A, reaction.A.crank, speed.rod, reaction.A.x, mobility.
 
     >>> named_figure("reaction.A.coupler", "155 @ 220")

@@ -48,7 +48,7 @@ def times(factor: Array | float) -> Callable[[Array], Array]:
     return lambda a: np.asarray(a * factor)
 
 
-def with_row(k: Any, row: Any) -> Callable[[Array], Array]:
+def with_row(k: Any, row: Array) -> Callable[[Array], Array]:
     """A function that puts another row in the place of one."""
 
     def put(a: Array) -> Array:

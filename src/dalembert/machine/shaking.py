@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -175,7 +175,7 @@ def _actions(r: Result, links: tuple[str, ...]) -> tuple[list[Action], list[Acti
     return [a for a in loads if a.link in links], [a for a in carried if a.link in links]
 
 
-def _part(r: Result, a: Action) -> Any:
+def _part(r: Result, a: Action) -> object:
     """The load or drive that an action is of."""
     named: Tree = {"load": r.mechanism.loads, "effort": r.mechanism.drives}
     return named.get(a.kind, {}).get(a.of)

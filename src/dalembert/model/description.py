@@ -105,7 +105,7 @@ class Mechanism(Part):
         return _reading(keys, None)
 
     @classmethod
-    def model_validate(cls, obj: object, *, context: Any = None, **options: Any) -> Self:
+    def model_validate(cls, obj: object, *, context: object = None, **options: object) -> Self:
         """The mechanism that a tree describes, by the file's rules; raises ModelError."""
         if context is None and isinstance(obj, Mapping):
             context = file_rules(obj)
@@ -377,5 +377,5 @@ def _with_copies(
     return expanded, replace(source, copied=copied) if source else None
 
 
-def _items(value: object) -> list[tuple[Any, Any]]:
+def _items(value: object) -> list[tuple[object, object]]:
     return list(value.items()) if isinstance(value, Mapping) else []

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
+from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
 from dalembert.model.part import Part, Reading
 from dalembert.model.quantities.dependent_numbers import Dependent, parameters_of
@@ -101,7 +102,7 @@ def parameter_name(path: str, given: Parameters, others: Sequence[str]) -> str:
     return name if whole and name in given else ""
 
 
-def used_parameters(m: Any, given: Parameters) -> dict[str, Parameter]:
+def used_parameters(m: object, given: Parameters) -> dict[str, Parameter]:
     """The parameters that something in a description follows from, and those that these follow from."""
     used = (
         ancestors((name for _, leaf in dependents(m) for name in parameters_of(leaf)), given)
@@ -149,7 +150,7 @@ def _keys(kind: type[Part]) -> list[tuple[str, str]]:
     return [(field.alias or name, name) for name, field in kind.model_fields.items() if name != "parameters"]
 
 
-def _inside(part: object) -> Iterable[tuple[str, Any]]:
+def _inside(part: object) -> Iterable[tuple[str, object]]:
     """Keys and values of what may have numbers in it."""
     if isinstance(part, Part):
         return [(key, getattr(part, name)) for key, name in _keys(type(part))]
@@ -191,7 +192,7 @@ def _texts(value: object) -> object:
     return repr(value) if number else value
 
 
-def _mirror(rows: tuple[Any, ...], keys: Sequence[str]) -> tuple[Any, ...]:
+def _mirror(rows: tuple[tuple[Numeric, ...], ...], keys: Sequence[str]) -> tuple[tuple[Numeric, ...], ...]:
     """A matrix of inertia after one of its products was replaced: it stands in two places."""
     if len(keys) < 2 or keys[0] == keys[1]:
         return rows

@@ -13,6 +13,7 @@ from dalembert.analysis.batch.compiled_kernel import Kernel
 from dalembert.analysis.batch.tracing.symbolic_model import may_vary, number_kinds
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.arrays import Array, Tree
+from dalembert.kernel.graph import Node
 from dalembert.model import GROUND, Mechanism
 from dalembert.model.quantities.dependent_numbers import Dependent
 from dalembert.model.quantities.dimensions import si_unit
@@ -261,7 +262,7 @@ class _Handles:
                 }
 
 
-def channel_fields(k: Kernel, names: dict[int, str], channels: list[Any]) -> list[Tree]:
+def channel_fields(k: Kernel, names: dict[int, str], channels: list[Node]) -> list[Tree]:
     """What the kernel is given along the positions: values, and tables by their pieces, so that the page has them
     exactly between the positions too."""
     course, inputs = k.trace.course, k.trace.inputs
@@ -287,7 +288,7 @@ JUMPS = ("counted", "way", "speed", "acceleration", "known reversal")
 """Beginnings of channels that are right at the listed positions only, where they change."""
 
 
-def only_at_positions(k: Kernel, names: dict[int, str], channels: list[Any]) -> bool:
+def only_at_positions(k: Kernel, names: dict[int, str], channels: list[Node]) -> bool:
     """Whether the page may stop only at the listed positions: some input is not known in between."""
     course, found = k.trace.course, k.trace.inputs.found
     return any(

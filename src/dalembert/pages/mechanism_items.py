@@ -16,9 +16,9 @@ import numpy as np
 from dalembert.analysis.friction.joint_friction import bearing_contact, friction_circle_radius
 from dalembert.analysis.methods.applied_forces import joint_place, link_angle, link_place
 from dalembert.analysis.result.result import Result
-from dalembert.arrays import Array, Tree
+from dalembert.arrays import Array, Numeric, Tree
 from dalembert.core.friction.contact_equations import strength
-from dalembert.model import GROUND
+from dalembert.model import GROUND, Mechanism
 from dalembert.pages.rows import Rows
 from dalembert.pages.symbolic_result import SymbolicResult
 from dalembert.views.formats.svg import Writer
@@ -43,7 +43,7 @@ class Items:
     roles: set[str] = field(default_factory=set)
 
     @property
-    def mechanism(self) -> Any:
+    def mechanism(self) -> Mechanism:
         return self.r.mechanism
 
     def markup(self, items: Sequence[Item]) -> str:
@@ -61,7 +61,7 @@ class Items:
         more |= {"per_mm": self.frame.per_mm} if sized else {}
         return {"t": "symbol", "svg": self.markup(items), "p": at} | more
 
-    def path(self, kind: str, role: str, points: list[list[int]], **more: Any) -> Tree:
+    def path(self, kind: str, role: str, points: list[list[int]], **more: object) -> Tree:
         self.roles.add(role)
         return {"t": kind, "role": role, "p": points} | more
 
@@ -139,7 +139,7 @@ class Items:
                 out.append({"t": "circle", "role": "friction-circle", "p": at, "r": self.rows.of(radius)})
         return out
 
-    def circle_radius(self, name: str) -> Any:
+    def circle_radius(self, name: str) -> Numeric | None:
         """Radius of a pin's friction circle, a node; None without."""
         contacts = self.r.compiled.contacts
         if contacts is None or not friction_circle_radius(self.known, name):

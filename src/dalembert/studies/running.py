@@ -6,14 +6,14 @@ import hashlib
 import os
 import pickle
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from typing import Any
 
 import numpy as np
 
 from dalembert.analysis.batch.batch_result import CODES
-from dalembert.arrays import Ints, Tree
+from dalembert.arrays import Array, Ints, Tree
 from dalembert.errors import ModelError
 from dalembert.model.files.rewriting import text_of
 from dalembert.studies.block_engines import Block
@@ -156,7 +156,7 @@ class InMemory:
             raise ModelError(
                 f"the results take {size / 2**30:.1f} GB", "give run() the name of a store on disk"
             )
-        self.arrays: dict[str, Any] = {
+        self.arrays: dict[str, Array] = {
             name: np.empty((self.count, *a.shape[1:]), a.dtype) for name, a in probe.items()
         }
         self.blocks = -(-self.count // self.block)
@@ -169,7 +169,12 @@ class InMemory:
 
 
 def _compute(
-    study: Study, target: Any, todo: Any, threads: int | None, scheduler: Any, progress: Progress
+    study: Study,
+    target: _Target | InMemory,
+    todo: Sequence[int],
+    threads: int | None,
+    scheduler: Any,
+    progress: Progress,
 ) -> None:
     """Compute blocks and put them where they go."""
     done = study.count - sum(_length(study, target.block, b) for b in todo)
@@ -190,7 +195,9 @@ def _length(study: Study, block: int, b: int) -> int:
     return min((b + 1) * block, study.count) - b * block
 
 
-def _on_threads(study: Study, target: Any, todo: Any, threads: int, tell: Callable[[int], None]) -> None:
+def _on_threads(
+    study: Study, target: _Target | InMemory, todo: Sequence[int], threads: int, tell: Callable[[int], None]
+) -> None:
     halt = threading.Event()
     _ = study.prints  # compiles what the blocks need, once
 
@@ -219,7 +226,9 @@ def _some(rest: Iterator[int], count: int) -> list[int]:
     return [b for _ in range(count) if (b := next(rest, None)) is not None]
 
 
-def _on_dask(study: Study, target: Any, todo: Any, scheduler: Any, tell: Callable[[int], None]) -> None:
+def _on_dask(
+    study: Study, target: _Target | InMemory, todo: Sequence[int], scheduler: Any, tell: Callable[[int], None]
+) -> None:
     """The same blocks on the workers of a dask scheduler; they come back here and are stored here."""
     from dalembert.saving import check_installed
 

@@ -115,7 +115,7 @@ class Plan:
     def _sobol(self) -> Sobol:
         return Sobol(self.seed, len(self.paths), self.count)
 
-    def __getstate__(self) -> dict[str, Any]:
+    def __getstate__(self) -> dict[str, object]:
         return {name: value for name, value in self.__dict__.items() if name != "_sobol"}
 
 

@@ -44,9 +44,9 @@ def load_study(path: str | os.PathLike[str]) -> Study:
     return load_task(path, "study", KEYS, _study)
 
 
-def _study(tree: Mapping[str, Any], mechanism: Mechanism, folder: Path) -> Study:
+def _study(tree: Mapping[str, object], mechanism: Mechanism, folder: Path) -> Study:
     options = _options(tree)
-    vary: Any = _texts(_mapping(tree, "vary", "stroke: ± 0.1 mm")) if "vary" in tree else {}
+    vary: dict[str, object] = _texts(_mapping(tree, "vary", "stroke: ± 0.1 mm")) if "vary" in tree else {}
     table = tree.get("table")
     if table is not None:
         for key in ("designs", "draw", "seed"):
@@ -71,7 +71,7 @@ def _study(tree: Mapping[str, Any], mechanism: Mechanism, folder: Path) -> Study
         raise _placed(error, tree) from None
 
 
-def _placed(error: ModelError, tree: Mapping[str, Any]) -> ModelError:
+def _placed(error: ModelError, tree: Mapping[str, object]) -> ModelError:
     """The error at the key of the study that it is about."""
     if error.file or (error.path[:1] and error.path[0] in tree):
         return error
@@ -92,7 +92,7 @@ def _placed(error: ModelError, tree: Mapping[str, Any]) -> ModelError:
     return ModelError(error.what, error.remedy, place or ("vary",) * ("vary" in tree))
 
 
-def _options(tree: Mapping[str, Any]) -> Tree:
+def _options(tree: Mapping[str, object]) -> Tree:
     """The arguments of `study` that stand in a file."""
     out: Tree = plain_options(tree, {"designs": 1, "seed": 0, "positions": 1}, ("static", "keep"))
     outputs = tree.get("outputs")
@@ -135,7 +135,7 @@ def _pair(item: tuple[Any, Any]) -> tuple[tuple[str, str], Any]:
     return (paths[0], paths[1]), item[1]
 
 
-def _mapping(tree: Mapping[str, Any], key: str, example: str) -> dict[str, Any]:
+def _mapping(tree: Mapping[str, object], key: str, example: str) -> dict[str, object]:
     value = tree[key]
     if not isinstance(value, Mapping) or not value:
         what = f"{key} is empty" if value == {} else f"{key} is {quote_value(value)}, not a mapping"
@@ -143,10 +143,10 @@ def _mapping(tree: Mapping[str, Any], key: str, example: str) -> dict[str, Any]:
     return dict(value)
 
 
-def _texts(vary: Mapping[str, Any]) -> dict[str, object]:
+def _texts(vary: Mapping[str, object]) -> dict[str, object]:
     """Spreads with the bare numbers of lists as texts, which the file's units count for."""
 
-    def text(value: Any) -> Any:
+    def text(value: object) -> object:
         return repr(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
 
     return {p: [text(x) for x in said] if isinstance(said, list) else text(said) for p, said in vary.items()}

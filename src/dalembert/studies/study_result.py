@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -120,7 +120,7 @@ class StudyResult:
         """Number of the design with the least value."""
         return self._extreme(name, np.nanargmin)
 
-    def _extreme(self, name: str, where: Any) -> int:
+    def _extreme(self, name: str, where: Callable[[Array], np.intp]) -> int:
         found = self._single(name)
         if not np.isfinite(found).any():
             raise ModelError(f"no design has a value of {name}", "see failed()")

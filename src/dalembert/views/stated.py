@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any, get_args
 
 import numpy as np
@@ -14,6 +14,7 @@ from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.rounding import PART
 from dalembert.arrays import Array
 from dalembert.model import GROUND
+from dalembert.model.joints.plane_joints import Joint
 from dalembert.model.part import Part
 from dalembert.model.quantities.values import Scalar
 from dalembert.views.notation import Notation, Shown, own_name
@@ -54,7 +55,7 @@ def stated_numbers(part: Part, shown: Shown) -> list[str]:
     return out
 
 
-def _scalars(marks: tuple[Any, ...]) -> Iterator[str]:
+def _scalars(marks: tuple[object, ...]) -> Iterator[str]:
     """Kinds of the numbers that the marks of a field speak of."""
     for mark in marks:
         if isinstance(mark, Scalar):
@@ -98,7 +99,7 @@ def load_text(shown: Shown, k: int, name: str) -> str:
     return vector_text(shown, "force" if force else "moment", (a.force if force else a.couple)[k]) + where
 
 
-def _spot(shown: Shown, at: Any) -> str:
+def _spot(shown: Shown, at: str | Iterable[float] | None) -> str:
     if at is None:
         return ""
     return f" at {at}" if isinstance(at, str) else f" at ({place_text(shown, at)})"
@@ -114,7 +115,7 @@ def _along(shown: Shown, load: Any) -> str:
     return f" along {shown.text('angle', direction)}" + (" of its link" if load.axes == "link" else "")
 
 
-def place_text(shown: Shown, p: Any) -> str:
+def place_text(shown: Shown, p: Iterable[float]) -> str:
     """Coordinates in the reader's unit of length."""
     least = PART * shown.r.compiled.layout.length
     return ", ".join(shown.number("length", float(x), least) for x in p)
@@ -179,7 +180,7 @@ def axes_text(joint: Any) -> str:
     return "".join(f", {part}" for part in parts)
 
 
-def _components(v: Any) -> str:
+def _components(v: Iterable[float]) -> str:
     return f"({', '.join(f'{x:.6g}' for x in v)})"
 
 
@@ -193,7 +194,7 @@ OWN_MEASURES = (
 """Keys of joints, what they are called and of which kind."""
 
 
-def _friction(shown: Shown, joint: Any) -> str:
+def _friction(shown: Shown, joint: Joint) -> str:
     """The friction of a joint as it was given: '; μ = 0.4, R = 0.07 m'."""
     r, f, given = shown.r, getattr(joint, "friction", None), shown.notation.given
     if f is None or r.friction is None:

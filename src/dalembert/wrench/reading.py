@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -50,7 +49,7 @@ def vector(value: Vector, kind: str, units: UnitNames = None, dimension: int | N
         found = components_of(value, kind, Reading(_rules(value, units), dimension=dimension))
         return read_only([number(x, kind) for x in found])
     if isinstance(value, str):
-        items: Sequence[Any] = _items(value)
+        items: Sequence[object] = _items(value)
         units = _rules(value, units)
     else:
         items = value.tolist() if isinstance(value, np.ndarray) else value

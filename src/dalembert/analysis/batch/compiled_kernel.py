@@ -124,7 +124,7 @@ class Kernel:
     derivatives: bool
     lanes: int
 
-    def __reduce__(self) -> tuple[Any, ...]:  # pickled by its recipe, and compiled anew with as many lanes
+    def __reduce__(self) -> tuple[object, ...]:  # pickled by its recipe, and compiled anew with as many lanes
         own = self.mechanism, self.numbers, self.outputs, self.reduce, self.derivatives
         return compile, (*own, not self.trace.inertia, self.lanes)
 

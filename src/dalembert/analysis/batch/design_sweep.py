@@ -36,14 +36,14 @@ MANY, MOST = 500, 10_000_000
 KEPT = ("effort", "load", "reaction", "magnitude", "moment")
 """What is kept of each answer where nothing else is asked for."""
 
-Values = Mapping[str, Sequence[Any]]
+Values = Mapping[str, Sequence[object]]
 Done = Callable[[int, int], object]
 
 
 def sweep(
     m: Mechanism,
     vary: str | Values,
-    values: Sequence[Any] | None = None,
+    values: Sequence[object] | None = None,
     *,
     outputs: Sequence[str] | str | None = None,
     together: bool = False,
@@ -91,7 +91,7 @@ def sweep(
     return Sweep(m, dict(labels), together, kinds, nominal, found.shaped(shape))
 
 
-def _given(vary: str | Values, values: Sequence[Any] | None) -> dict[str, list[Any]]:
+def _given(vary: str | Values, values: Sequence[object] | None) -> dict[str, list[object]]:
     """Values by path, as plain Python has them."""
     if isinstance(vary, str) == (values is None) or isinstance(values, str):
         raise ModelError("a sweep needs values for its path", 'da.sweep(m, "links.rod.mass", [1, 2, 3])')
@@ -119,9 +119,9 @@ class Labels(NamedTuple):
     """Values of a path, SI, and what they are, of `units.KINDS`, or texts where they are no single numbers; and as they
     were given."""
 
-    values: tuple[Any, ...]
+    values: tuple[object, ...]
     kind: str
-    given: tuple[Any, ...]
+    given: tuple[object, ...]
 
     @property
     def unit(self) -> str:
@@ -163,7 +163,7 @@ def _kept(r: Result) -> list[str]:
 
 
 def _analysis(
-    m: Mechanism, paths: Sequence[str], design: Sequence[Any], static: bool, positions: int | None
+    m: Mechanism, paths: Sequence[str], design: Sequence[object], static: bool, positions: int | None
 ) -> Result:
     return solve(m.with_values(dict(zip(paths, design, strict=True))), static, positions)
 
@@ -205,7 +205,7 @@ def _collected(results: Iterator[Result], like: Mapping[str, Quantity], count: i
 
 
 def _compiled(
-    nominal: Result, paths: Sequence[str], designs: Sequence[Any], like: Mapping[str, Quantity], tell: Done
+    nominal: Result, paths: Sequence[str], designs: Sequence[object], like: Mapping[str, Quantity], tell: Done
 ) -> _Answers | None:
     """The same by a compiled analysis; nothing where there is none, or where it refuses a design."""
     try:

@@ -17,6 +17,7 @@ from dalembert.core.forcing import Couples, Forces, Forcing, Inertia, Resistance
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism, Schedule
 from dalembert.model.joints.plane_joints import Joint
+from dalembert.model.load_types import Couple
 from dalembert.model.quantities.values import Vector
 
 
@@ -106,7 +107,7 @@ def _forces(s: Setting, loads: Tree) -> Forces:
     return Forces(np.array(link, np.intp), numbers(at).reshape(-1, s.g.d), follows, values)
 
 
-def _along(values: list[Any], count: int) -> Array:
+def _along(values: list[Numeric], count: int) -> Array:
     """Numbers, and columns (P,) of those that change, as an array (P, N)."""
     if not any(isinstance(value, np.ndarray) for value in values):
         return np.repeat(numbers(values)[None], count, axis=0)
@@ -227,6 +228,6 @@ def unknown_columns(s: Setting, schedule: Schedule, unknown: tuple[str, ...]) ->
     )
 
 
-def _about(load: Any) -> Vector:
+def _about(load: Couple) -> Vector:
     """A unit of an unknown couple: counter-clockwise, in space about its direction."""
     return tuple(load.axis)

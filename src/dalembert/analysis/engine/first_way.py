@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -29,7 +29,7 @@ REMEMBERED = 32
 """First poses of a structure that are remembered."""
 
 
-def first_way(k: KeptProgram, c: Compiled, given: list[Any]) -> First | None:
+def first_way(k: KeptProgram, c: Compiled, given: list[object]) -> First | None:
     """The ways that the careful path takes at the first position; None where something is in doubt there."""
     key = _key(k, c, given)
     found: First | None = k.known.get(key)
@@ -39,21 +39,21 @@ def first_way(k: KeptProgram, c: Compiled, given: list[Any]) -> First | None:
     return found
 
 
-def remember(k: KeptProgram, c: Compiled, given: list[Any], first: First | None) -> None:
+def remember(k: KeptProgram, c: Compiled, given: list[object], first: First | None) -> None:
     """Keep what was found for the next analysis that starts from the same pose."""
     if len(k.known) >= REMEMBERED:
         k.known.clear()
     k.known[_key(k, c, given)] = first
 
 
-def _key(k: KeptProgram, c: Compiled, given: list[Any]) -> tuple[Any, ...]:
+def _key(k: KeptProgram, c: Compiled, given: list[object]) -> tuple[object, ...]:
     """All that decides a first pose, and names it."""
     guess = c.guess
     assert isinstance(guess, Guess)
     return c.links, tuple(given[place] for place in k.decisive), guess.turn.tobytes(), guess.point.tobytes()
 
 
-def _tried(k: KeptProgram, given: list[Any], ways: Array) -> tuple[Array, Array]:
+def _tried(k: KeptProgram, given: list[object], ways: Array) -> tuple[Array, Array]:
     """Cosines and sines (2, L, W) of the first position for ways (G, W), and closure (M, W)."""
     rotation, closure = k.nodes["rotation"], k.nodes["closure"]
     out = np.empty((rotation.size + closure.size, ways.shape[1]))
@@ -62,7 +62,7 @@ def _tried(k: KeptProgram, given: list[Any], ways: Array) -> tuple[Array, Array]
     return out[: rotation.size].reshape(*rotation.shape, -1), out[rotation.size :]
 
 
-def _by_given_angles(k: KeptProgram, c: Compiled, given: list[Any]) -> First | None:
+def _by_given_angles(k: KeptProgram, c: Compiled, given: list[object]) -> First | None:
     """The ways that were taken when it was traced, where they put all given links near their angles and no others do.
 
     Every other set of ways differs first in some group, the groups before it standing as they do here.
@@ -86,7 +86,7 @@ def _by_given_angles(k: KeptProgram, c: Compiled, given: list[Any]) -> First | N
     return First(k.ways, np.where(k.counted, wanted + off[0], angle[0]), None)
 
 
-def _by_search(k: KeptProgram, c: Compiled, given: list[Any]) -> First | None:
+def _by_search(k: KeptProgram, c: Compiled, given: list[object]) -> First | None:
     """The ways of the pose that a search for the first pose finds."""
     modes = c.first_modes
     if modes is None:

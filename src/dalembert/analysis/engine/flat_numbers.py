@@ -35,7 +35,7 @@ class Numbers(NamedTuple):
     positions, speeds, accelerations, and what changes along the positions.
     """
 
-    key: tuple[Any, ...]
+    key: tuple[object, ...]
     single: Array
     which: Ints
     columns: Array
@@ -45,7 +45,7 @@ class Numbers(NamedTuple):
 def flat_numbers(c: Compiled, pose: Pose | None = None) -> Numbers:
     """The numbers of a mechanism, in the order of ``with_nodes``; with its poses (P, L+1, ...) where they are known."""
     size = round(math.log10(c.layout.length))  # what is small is told by numbers of a structure of this size
-    rows: list[Any] = [size, c.layout.links, c.layout.joints, c.layout.driven.tobytes()]
+    rows: list[object] = [size, c.layout.links, c.layout.joints, c.layout.driven.tobytes()]
     single, along = [c.target], [c.schedule.position, c.schedule.speed, c.schedule.acceleration]
     for part in (c.layout.constraints, c.layout.freedoms):
         known, numbers = _flat_rows(part)
@@ -99,15 +99,15 @@ def _fixed(different: Array) -> Flags:
 
 
 @lru_cache(maxsize=64)
-def _flat_rows(part: Rows) -> tuple[list[Any], list[Array]]:
+def _flat_rows(part: Rows) -> tuple[list[object], list[Array]]:
     """What ``_flatten`` puts into lists of rows, which are kept from mechanism to mechanism."""
-    rows: list[Any] = []
+    rows: list[object] = []
     single: list[Array] = []
     _flatten(part, rows, single, [])
     return [tuple(rows)], [np.concatenate([*single, np.zeros(0)])]
 
 
-def _flatten(whole: Any, rows: list[Any], single: list[Array], along: list[Array]) -> None:
+def _flatten(whole: object, rows: list[object], single: list[Array], along: list[Array]) -> None:
     """Put the numbers of a record into lists, in the order of its fields, and what else is part of the structure."""
     kind = type(whole)
     rows.append(kind)
@@ -130,12 +130,12 @@ def _flatten(whole: Any, rows: list[Any], single: list[Array], along: list[Array
             rows.append(value)
 
 
-def _flatten_along(array: Array, rows: list[Any], along: list[Array]) -> None:
+def _flatten_along(array: Array, rows: list[object], along: list[Array]) -> None:
     along.append(array.reshape(len(array), -1))
     rows.append(array.shape[1:])
 
 
-FIELDS: dict[Any, tuple[str, ...]] = {}
+FIELDS: dict[type, tuple[str, ...]] = {}
 """Names of the fields of the records met."""
 
 
@@ -144,7 +144,7 @@ def _fields(kind: Any) -> tuple[str, ...]:
     return FIELDS[kind]
 
 
-def _changes(kind: Any, part: str, array: Array) -> bool:
+def _changes(kind: type, part: str, array: Array) -> bool:
     """Whether an array of a record has an axis of positions."""
     return (kind, part) in ALONG or (kind is Resistances and part == "turns" and array.ndim > 1)
 
@@ -155,7 +155,7 @@ class _Nodes:
     def __init__(self, single: list[Node | float], columns: list[Node | float]) -> None:
         self.single, self.columns = iter(single), iter(columns)
 
-    def array(self, kind: Any, part: str, like: Array) -> Array:
+    def array(self, kind: type, part: str, like: Array) -> Array:
         if like.dtype.kind != "f":
             return like
         if kind is Resistances and _changes(kind, part, like):

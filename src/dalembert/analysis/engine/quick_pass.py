@@ -91,7 +91,7 @@ def _evaluate(r: Ready, c: Compiled, columns: Array, pose_only: bool) -> _Output
     return _Outputs(out, residual, power)
 
 
-def _at(columns: Array, part: slice) -> list[Any]:
+def _at(columns: Array, part: slice) -> list[Array] | list[float]:
     """Columns at some positions; of one position single numbers, which are quicker to compute with."""
     return list(columns[:, part]) if columns.shape[1] > 1 else columns[:, 0].tolist()
 

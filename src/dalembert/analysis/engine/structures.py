@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import OrderedDict
 from threading import Lock
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -50,9 +50,9 @@ class Structures:
     """Programs by structure, those used last; one lock for all threads."""
 
     def __init__(self) -> None:
-        self.lock, self.found = Lock(), OrderedDict[Any, Kept]()
+        self.lock, self.found = Lock(), OrderedDict[object, Kept]()
 
-    def get(self, key: Any) -> tuple[bool, Kept]:
+    def get(self, key: object) -> tuple[bool, Kept]:
         with self.lock:
             try:
                 self.found.move_to_end(key)
@@ -60,7 +60,7 @@ class Structures:
                 return False, None
             return True, self.found[key]
 
-    def put(self, key: Any, program: Kept) -> None:
+    def put(self, key: object, program: Kept) -> None:
         with self.lock:
             self.found[key] = program
             size = sum(map(_size, self.found.values()))

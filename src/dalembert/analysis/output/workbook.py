@@ -10,7 +10,7 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -23,6 +23,11 @@ from dalembert.arrays import Array
 from dalembert.units import KINDS
 
 if TYPE_CHECKING:
+    from openpyxl import Workbook
+    from openpyxl.chart import ScatterChart
+    from openpyxl.chart.axis import NumericAxis
+    from openpyxl.worksheet.worksheet import Worksheet
+
     from dalembert.analysis.result.result import Result
 
 MOST_CURVES, MOST_DIAGRAMS, MOST_POINTS = 12, 6, 20_000
@@ -60,7 +65,7 @@ def write_workbook(
 
 
 @contextmanager
-def new_book(path: Path) -> Iterator[Any]:
+def new_book(path: Path) -> Iterator[Workbook]:
     """A workbook to put sheets in, saved at the end; interrupted, it lets go of its sheets without a word."""
     from openpyxl import Workbook
 
@@ -75,7 +80,9 @@ def new_book(path: Path) -> Iterator[Any]:
         raise
 
 
-def add_sheet(book: Any, title: str, rows: Iterable[Sequence[object]], widths: Sequence[int] = ()) -> Any:
+def add_sheet(
+    book: Workbook, title: str, rows: Iterable[Sequence[object]], widths: Sequence[int] = ()
+) -> Worksheet:
     """A sheet of rows of numbers and texts."""
     from openpyxl.utils import get_column_letter
 
@@ -87,7 +94,7 @@ def add_sheet(book: Any, title: str, rows: Iterable[Sequence[object]], widths: S
     return sheet
 
 
-def _text(sheet: Any, text: str) -> object:
+def _text(sheet: Worksheet, text: str) -> object:
     """A cell that is text, whatever it begins with; without characters that a workbook cannot hold."""
     from openpyxl.cell import WriteOnlyCell
     from openpyxl.cell.cell import ILLEGAL_CHARACTERS_RE
@@ -182,7 +189,7 @@ def _finite(some: Iterable[Named]) -> list[Named]:
     return [of for of in some if np.isfinite(of.values).any()]
 
 
-def _charts(book: Any, result: Result, units: UnitChoice, axes: Axes) -> None:
+def _charts(book: Workbook, result: Result, units: UnitChoice, axes: Axes) -> None:
     """The diagrams on one sheet, their numbers on another behind it: where contacts reverse those just before."""
     diagrams = [d for d in _diagrams(result, scale(result, units), axes) if d.curves]
     if not diagrams:
@@ -199,7 +206,7 @@ def _charts(book: Any, result: Result, units: UnitChoice, axes: Axes) -> None:
         row, column = row + (27 if d.polar else 21), column + 1 + len(d.curves)
 
 
-def _chart(numbers: Any, d: Diagram, column: int, rows: int) -> Any:
+def _chart(numbers: Worksheet, d: Diagram, column: int, rows: int) -> ScatterChart:
     """Lines through columns of numbers, the first of them along x; a gap where there is none."""
     from openpyxl.chart import Reference, ScatterChart, Series
     from openpyxl.chart.shapes import GraphicalProperties
@@ -224,7 +231,7 @@ def _chart(numbers: Any, d: Diagram, column: int, rows: int) -> Any:
     return chart
 
 
-def _fit(axis: Any, values: Array, degrees: bool) -> None:
+def _fit(axis: NumericAxis, values: Array, degrees: bool) -> None:
     """The axis from the first value to the last; of degrees in round parts of a turn."""
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
     if degrees and high > low:
@@ -233,7 +240,7 @@ def _fit(axis: Any, values: Array, degrees: bool) -> None:
     axis.scaling.min, axis.scaling.max = low, high
 
 
-def _square(chart: Any, values: Sequence[Array]) -> None:
+def _square(chart: ScatterChart, values: Sequence[Array]) -> None:
     """The same scale along both axes, the pole in the middle."""
     from openpyxl.chart.layout import Layout, ManualLayout
 

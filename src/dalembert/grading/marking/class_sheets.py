@@ -98,7 +98,7 @@ def _of_table(path: Path) -> Iterator[StudentSheet]:
 
 def _long(row: Row) -> Given:
     cells = row.cells
-    keys: dict[str, Any] = {name: cells[name] for name in KEYS if name in cells}
+    keys: dict[str, object] = {name: cells[name] for name in KEYS if name in cells}
     value = cell_value(cells["value"], cells.get("unit", "")) if "value" in cells else None
     return Given(keys | {"at": place(cells.get("at")), "value": value}, row.line)
 

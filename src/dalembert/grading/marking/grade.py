@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from dalembert.errors import ModelError
 from dalembert.grading.answer_sheet import answer_of
@@ -52,7 +52,7 @@ class Marks:
 
 def grade(
     answers: str | Path,
-    key: str | Path | Mechanism | Sequence[Mapping[str, Any]],
+    key: str | Path | Mechanism | Sequence[Mapping[str, object]],
     rubric: str | Path | Rubric | None = None,
     tolerance: str | None = None,
     static: bool = False,
@@ -226,7 +226,7 @@ class _Marker:
         return Mark(words, verdict.given, verdict.computed, outcome, sentence, most * share, most, t.line)
 
 
-def _fit(asked: Answer, keys: Mapping[str, Any]) -> int | None:
+def _fit(asked: Answer, keys: Mapping[str, object]) -> int | None:
     """How a given figure is the one asked: 0 just that, 1 the whole of which it is a component, 2 only its size; None
     if it is another."""
     if keys.get("quantity") != asked.quantity or (keys.get("of") or None) != asked.of:

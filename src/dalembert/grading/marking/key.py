@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -100,7 +100,7 @@ def plain(name: str) -> str:
     return name.strip().removesuffix(".0").lstrip("0").lower() or "0"
 
 
-def read_key(source: str | Path | Mechanism | Sequence[Mapping[str, Any]], static: bool = False) -> Key:
+def read_key(source: str | Path | Mechanism | Sequence[Mapping[str, object]], static: bool = False) -> Key:
     """The key of a CSV or JSON file or of its rows; of a model file what its answers ask, or all efforts and forces."""
     from dalembert.model import Mechanism, load
 
@@ -173,7 +173,9 @@ def _asked(row: Row, has_model: bool) -> Asked:
     cells = row.cells
     if "value" not in cells and not has_model:
         raise ModelError("the figure has neither a value nor a model file", "give it one of them")
-    item: dict[str, Any] = {k: cells[k] for k in KEYS if k in cells} | {"tolerance": cells.get("tolerance")}
+    item: dict[str, object] = {k: cells[k] for k in KEYS if k in cells} | {
+        "tolerance": cells.get("tolerance")
+    }
     item["value"] = cell_value(cells["value"], cells.get("unit", "")) if "value" in cells else None
     item["at"] = place(cells.get("at"))
     marks = cells.get("marks")
@@ -194,7 +196,7 @@ def _is_number(text: str) -> bool:
         return False
 
 
-def with_units(value: object, unit: str) -> Any:
+def with_units(value: object, unit: str) -> object:
     """A figure with the unit of its bare numbers: a number, `size @ direction`, or a list.
 
     >>> with_units("154.8 @ 220", "lbf"), with_units([1, "2 kN"], "N"), with_units("3 N", "lbf")
@@ -208,7 +210,7 @@ def with_units(value: object, unit: str) -> Any:
     return f"{size.strip()} {unit}{' @ ' + direction.strip() if at else ''}"
 
 
-def cell_value(text: str, unit: str = "") -> Any:
+def cell_value(text: str, unit: str = "") -> object:
     """A figure of a table: `[x, y]` is a list.
 
     >>> cell_value("[1, 2 kN]", "N")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from types import ModuleType
 from typing import Any
 
 from dalembert.kernel.graph import Node
@@ -28,7 +29,7 @@ def function(program: Program, name: str, numbers: int, outputs: list[tuple[str,
     return ca.Function(name, [v, c], [*found, mark], ["values", "inputs"], [*(o for o, _ in outputs), "mark"])
 
 
-def _mark(ca: Any, program: Program, done: dict[int, Expression]) -> Expression:
+def _mark(ca: ModuleType, program: Program, done: dict[int, Expression]) -> Expression:
     m = program.marks
 
     def below(nodes: tuple[Node, ...]) -> Expression:
@@ -51,7 +52,7 @@ def _mark(ca: Any, program: Program, done: dict[int, Expression]) -> Expression:
     return mark
 
 
-def _any(ca: Any, tests: list[Expression]) -> Expression:
+def _any(ca: ModuleType, tests: list[Expression]) -> Expression:
     total = ca.SX(0)
     for test in tests:
         total = ca.logic_or(total, test)
@@ -59,7 +60,7 @@ def _any(ca: Any, tests: list[Expression]) -> Expression:
 
 
 def _value(
-    ca: Any, node: Node, program: Program, v: Expression, c: Expression, done: dict[int, Expression]
+    ca: ModuleType, node: Node, program: Program, v: Expression, c: Expression, done: dict[int, Expression]
 ) -> Expression:
     if node.op == "const":
         return ca.SX(node.value)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import platform
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cache, cached_property, lru_cache
 from typing import Any
@@ -47,7 +48,7 @@ class Machine:
 
     lanes: int
     address: int
-    engine: Any = field(repr=False)
+    engine: object = field(repr=False)
     text: str = field(repr=False)
 
     def __call__(
@@ -56,7 +57,7 @@ class Machine:
         self.function(address(values), address(path), address(out), address(code), *counts)
 
     @cached_property
-    def function(self) -> Any:
+    def function(self) -> Callable[..., object]:
         """The function for ctypes: four addresses, four counts."""
         return ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4, *[ctypes.c_int64] * 4)(self.address)
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from typing import Any
 
 from dalembert.arrays import Array, Numeric
 from dalembert.kernel.graph import INPUTS, POSITION, Graph, Node
@@ -36,7 +35,7 @@ class NumpyProgram:
         self, graph: Graph, inputs: Sequence[Node], outputs: Sequence[Node], many: bool = False
     ) -> None:
         order = graph.order(outputs)
-        self.start: list[Any] = [None] * len(inputs)
+        self.start: list[object] = [None] * len(inputs)
         place = {node.index: k for k, node in enumerate(inputs)}
         last = {x.index: n.index for n in order for x in (n.a, n.b) if x is not None}
         wanted: dict[int, list[int]] = {}

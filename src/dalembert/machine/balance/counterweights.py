@@ -102,7 +102,7 @@ def _known(link: str, bounds: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _check(link: str, w: Counterweight) -> None:
-    numbers: list[Any] = [w.radius, w.mass, w.moment, *(w.disc or ())]
+    numbers: list[float | None] = [w.radius, w.mass, w.moment, *(w.disc or ())]
     bad = [x for x in numbers if x is not None and not (x > 0 and math.isfinite(x))]
     if bad:
         raise ModelError(f"counterweight on {link}: a bound is {bad[0]:g}", "give positive numbers")

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from dalembert.model import Box
 
 if TYPE_CHECKING:
     from dalembert.model import Mechanism
+    from dalembert.model.links.shapes import Points, ShapePart
 
 FLAT = 1e-9
 """Off a line by less than this part of its length is on it."""
@@ -150,7 +151,7 @@ def _with_mass(m: Mechanism, link: str, found: list[Straight]) -> list[Straight]
     return [replace(e, mass=tuple(p)) for e, p in zip(found, pieces, strict=True)]
 
 
-def _prisms(shape: Any, points: Any) -> list[tuple[Array, Array, float]]:
+def _prisms(shape: ShapePart, points: Points) -> list[tuple[Array, Array, float]]:
     """Directions along which a shape has the same section all the way, with its middle and length."""
     if isinstance(shape, Box):
         return [(np.array(a), shape.middle(), x) for a, x in zip(shape.own_axes, shape.size, strict=True)]

@@ -120,7 +120,7 @@ class Equation:
         return [self.graph.names[n.index] for n in self.program.inputs_in_use("channel")]
 
     @cached_property
-    def run(self) -> Callable[[list[Any], list[float]], Array]:
+    def run(self) -> Callable[[list[float], list[float]], Array]:
         """The program at single states."""
         return _machine_program(self.program, len(self.numbers), len(self.channels))
 
@@ -241,7 +241,7 @@ def _solve(mass: Array, right: Array) -> Array:
     )
 
 
-def _contacts(trace: Trace) -> tuple[list[str], list[Any], list[Node]]:
+def _contacts(trace: Trace) -> tuple[list[str], list[Node | float], list[Node]]:
     """Joints, senses and rates of contacts whose sense is that of a rate of their own.
 
     Contacts of a common slip share a direction, and teeth are pushed apart always: they follow by themselves.
@@ -265,7 +265,7 @@ def _powers(trace: Trace) -> list[Node]:
     c, traced = trace.catalogue.compiled, trace.catalogue.traced
     layout, f, pose, twist = c.layout, c.forcing, traced.pose, traced.twist
 
-    def power(*sources: fc.Source) -> Any:
+    def power(*sources: fc.Source) -> Node:
         parts = [
             (k, w)
             for s in sources
@@ -295,7 +295,7 @@ def _powers(trace: Trace) -> list[Node]:
 
 def _machine_program(
     program: Program, numbers: int, channels: int
-) -> Callable[[list[Any], list[float]], Array]:
+) -> Callable[[list[float], list[float]], Array]:
     """The program at single states: as machine code, or in numpy where there is no compiler."""
     try:
         from dalembert.kernel.emit import llvm_text
@@ -308,7 +308,7 @@ def _machine_program(
     arrays, code = (values, path, out), np.zeros(8, np.uint8)
     places, function = [address(a) for a in (*arrays, code)], machine.function
 
-    def run(given: list[Any], along: list[float]) -> Array:
+    def run(given: list[float], along: list[float]) -> Array:
         values[:numbers], path[:channels] = given, along
         function(*places, numbers, channels, 0, 1)
         return out[:-1].copy()
@@ -317,10 +317,10 @@ def _machine_program(
     return run
 
 
-def _numpy_program(program: Program) -> Callable[[list[Any], list[float]], Array]:
+def _numpy_program(program: Program) -> Callable[[list[float], list[float]], Array]:
     numbers, along = program.inputs_in_use("number"), program.inputs_in_use("channel")
 
-    def run(given: list[Any], channels: list[float]) -> Array:
+    def run(given: list[float], channels: list[float]) -> Array:
         values = {n.index: given[n.value] for n in numbers}
         values |= {n.index: x for n, x in zip(along, channels, strict=True)}
         return np.array(program.graph.evaluate(program.outputs, values), float)

@@ -5,7 +5,7 @@ Mechanics: docs/theory.md 10.6.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import Any
 
@@ -176,7 +176,7 @@ class Integration(ContactState):
             solver.step()
         return np.asarray(solver.y).copy()
 
-    def _keep_until(self, dense: Any, before: float, end: float) -> None:
+    def _keep_until(self, dense: Callable[[float], Array], before: float, end: float) -> None:
         while self.waiting and self.waiting[0] <= end:
             when = self.waiting.pop(0)
             if when > before:
@@ -217,7 +217,7 @@ class Integration(ContactState):
             return False
         return value * g.side < 0
 
-    def _root(self, g: Guard, dense: Any, before: float, after: float) -> float:
+    def _root(self, g: Guard, dense: Callable[[float], Array], before: float, after: float) -> float:
         def value(t: float) -> float:
             return g.value(t, dense(t)) * g.side
 

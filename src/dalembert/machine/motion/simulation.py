@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -109,7 +109,7 @@ class Simulation(Answer):
 def simulate(
     m: Mechanism,
     until: str | float | Sequence[str | float],
-    start: Mapping[str, Any] | None = None,
+    start: Mapping[str, object] | None = None,
     events: Sequence[str] = (),
     count: int = 201,
     tolerance: float = TOLERANCE,
@@ -148,7 +148,7 @@ def _check(count: int, tolerance: float) -> None:
         raise ModelError(f"the tolerance {tolerance:g} is not between 1e-14 and 1e-3", "leave it out: 1e-12")
 
 
-def _start(m: Mechanism, start: Mapping[str, Any] | None) -> dict[str, Start]:
+def _start(m: Mechanism, start: Mapping[str, object] | None) -> dict[str, Start]:
     """Starts given in the call, read as the file reads them."""
     if not start:
         return {}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from dalembert.analysis.output.columns import Column, Scale, UnitChoice, drive_kinds
 from dalembert.analysis.output.summary.printed_units import print_scale
@@ -35,7 +35,7 @@ class Answer:
         for drive in r.drives:
             yield Column(f"drive {drive}", drive_kinds(r, drive)["position"], r.drive_position(drive))
 
-    def contents(self, units: UnitChoice = "file", **choice: Any) -> Iterable[Part]:
+    def contents(self, units: UnitChoice = "file", **choice: object) -> Iterable[Part]:
         """What a person reads: sentences and tables."""
         text = import_module(f"dalembert.machine.output.{self.NAME}_text")
         found: Iterable[Part] = getattr(text, f"{self.NAME}_parts")(
@@ -43,7 +43,7 @@ class Answer:
         )
         return found
 
-    def text(self, units: UnitChoice = "file", **choice: Any) -> str:
+    def text(self, units: UnitChoice = "file", **choice: object) -> str:
         """The same as the command prints it, under title, source and what the numbers rest on."""
         m, of = self.result.mechanism, ("gravity", "inertia", "friction")
         said = ", ".join(f"{key} {value}" for key, value in self.result.assumptions.items() if key in of)

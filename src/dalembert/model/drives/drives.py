@@ -59,7 +59,7 @@ class DriveValue(Value):
 
     def __init__(
         self,
-        parse: Callable[[Any, str, Reading], object],
+        parse: Callable[[object, str, Reading], object],
         schema: Callable[[], JsonSchema],
         what: str = "",
     ) -> None:

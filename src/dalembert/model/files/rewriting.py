@@ -254,7 +254,7 @@ def _number(number: float, kind: str, old: object, units: Units) -> object:
     return plain(number, kind, units)
 
 
-def _polar(m: Mechanism, si: list[Any], old: str) -> object:
+def _polar(m: Mechanism, si: list[str | float], old: str) -> object:
     """A vector as polar text again, where some polar text is exactly this vector."""
     found = [si_quantity(x) or (float(x), "number") for x in si]
     vector, kind = tuple(number for number, _ in found), found[0][1]

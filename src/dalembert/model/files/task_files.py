@@ -21,7 +21,7 @@ def load_task(
     path: str | os.PathLike[str],
     what: str,
     keys: Mapping[str, str],
-    make: Callable[[Mapping[str, Any], Mechanism, Path], Task],
+    make: Callable[[Mapping[str, object], Mechanism, Path], Task],
 ) -> Task:
     """What ``make(tree, mechanism, folder)`` makes of a file with these keys, whose version is under the key ``what``;
     raises ModelError with file and line."""
@@ -45,7 +45,7 @@ def load_task(
         raise error.at_source(source) from None
 
 
-def _model(tree: Mapping[str, Any], folder: Path) -> Mechanism:
+def _model(tree: Mapping[str, object], folder: Path) -> Mechanism:
     name = tree.get("model")
     if not isinstance(name, str) or not name:
         where = ("model",) * ("model" in tree)
@@ -59,10 +59,12 @@ def _model(tree: Mapping[str, Any], folder: Path) -> Mechanism:
 
 
 def plain_options(
-    tree: Mapping[str, Any], whole: Mapping[str, int], truths: tuple[str, ...]
-) -> dict[str, Any]:
+    tree: Mapping[str, object], whole: Mapping[str, int], truths: tuple[str, ...]
+) -> dict[str, object]:
     """Whole numbers, each with the least it may be, and true or false, of the keys that are given."""
-    out: dict[str, Any] = {key: _whole(tree[key], key, least) for key, least in whole.items() if key in tree}
+    out: dict[str, object] = {
+        key: _whole(tree[key], key, least) for key, least in whole.items() if key in tree
+    }
     for key in truths:
         if key in tree:
             if not isinstance(tree[key], bool):

@@ -106,7 +106,7 @@ def _own(name: str) -> Parameters:
     return read_parameters(_tree(name)["parameters"], UNITS, {})
 
 
-def from_template(name: str, **values: Any) -> Mechanism:
+def from_template(name: str, **values: object) -> Mechanism:
     """The mechanism of a template's file with other dimensions: numbers in SI, or texts with their unit.
 
     It has the numbers that follow from them; the parameters themselves are in the file, `template_text`. `assembly` is
@@ -142,7 +142,7 @@ def _numbers(m: Mechanism) -> Mechanism:
     return m.model_copy(update={**parts, "parameters": {}, "units": Units()})
 
 
-def _members(name: str, argument: str, value: Any, said: Mapping[str, Any]) -> list[tuple[str, Any]]:
+def _members(name: str, argument: str, value: object, said: Mapping[str, object]) -> list[tuple[str, object]]:
     """The parameters that an argument gives, and their values."""
     arguments = {
         parameter: _group(parameter) for parameter, keys in said.items() if isinstance(keys, Mapping)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -37,6 +37,7 @@ from dalembert.views.space.space_view import NOTHING, triad
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
+    from dalembert.views.formats.svg import Writer
 
 LONGEST = 28.0
 """Largest force over the cycle, mm."""
@@ -65,7 +66,7 @@ class Animation:
 
         return page(self.bounds, self.title, theme, self._draw_frames)
 
-    def _draw_frames(self, writer: Any) -> str:
+    def _draw_frames(self, writer: Writer) -> str:
         count = len(self.frames)
         out = "".join(writer.item(item) for item in self.still)
         for n, scene in enumerate(self.frames):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +15,10 @@ from dalembert.views.formats.themes import BACKGROUND, THEMES, Look
 from dalembert.views.paper.lettering import BOLD, SMALL, Box, letters_width, pieces
 from dalembert.views.paper.pages import break_pages
 from dalembert.views.paper.scene import Arc, Arrow, Circle, Group, Item, Line, Polygon, Scene, Text, around
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from PIL import Image
 
 POINT = 72 / 25.4
 """Points in a millimetre."""
@@ -59,7 +63,7 @@ def _write_pages(scene: Scene, path: str | Path, theme: str, dpi: int, paper: st
 
 def pictures(
     still: Sequence[Item], frames: Iterable[Sequence[Item]], bounds: Box, theme: str = "light", dpi: int = 90
-) -> list[Any]:
+) -> list[Image.Image]:
     """Pictures of PIL: the items of each frame over those that stay still, drawn once; ``bounds`` in mm."""
     import matplotlib
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -94,16 +98,16 @@ class _Painter:
         paper = BboxTransformFrom(Bbox.from_extents(left, bottom, right, top))
         self.transform = paper + BboxTransformTo(self.figure.bbox)
         self.looks, self.order = THEMES[theme], 1
-        self._out: list[Any] = []
+        self._out: list[Artist] = []
 
-    def artists(self, items: Iterable[Item]) -> list[Any]:
+    def artists(self, items: Iterable[Item]) -> list[Artist]:
         """What the items look like."""
         self._out = []
         for item in items:
             self.item(item)
         return self._out
 
-    def _add(self, artist: Any) -> None:
+    def _add(self, artist: Artist) -> None:
         artist.set(figure=self.figure, transform=self.transform, zorder=self.order)
         self._out.append(artist)
 

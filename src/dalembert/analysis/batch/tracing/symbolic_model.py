@@ -142,7 +142,7 @@ def number_kinds(m: Mechanism, numbers: Sequence[Number]) -> tuple[str, ...]:
     )
 
 
-def _kind(tree: Any, number: Number) -> str:
+def _kind(tree: object, number: Number) -> str:
     for key in number.keys:
         tree = tree[int(key)] if isinstance(tree, list) else tree.get(key) if isinstance(tree, dict) else None
     unit = tree.partition(" ")[2] if isinstance(tree, str) else ""
@@ -166,7 +166,7 @@ def _places_joints(keys: list[str]) -> bool:
 
 
 def with_numbers(
-    m: Mechanism, where: Iterable[Number], values: Iterable[Any], symbols: Functions | None = None
+    m: Mechanism, where: Iterable[Number], values: Iterable[Scalar], symbols: Functions | None = None
 ) -> Mechanism:
     """The description with other numbers, or symbols, in their places; not checked again.
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 from dalembert.arrays import Numeric
 from dalembert.errors import ModelError
@@ -23,7 +22,7 @@ from dalembert.model.quantities.expressions import Name as Variable
 from dalembert.model.quantities.tables import Table
 from dalembert.unit_names import unit
 
-Channel = Callable[[str, Any], Node]
+Channel = Callable[[str, Expression | Table], Node]
 """The input of a load by its name and how it varies."""
 
 
@@ -61,7 +60,7 @@ def symbol_functions(graph: Graph) -> Functions:
     }
 
 
-def varies(value: Any) -> bool:
+def varies(value: object) -> bool:
     """Whether an expression or a table along the motion follows from a parameter that varies."""
     if isinstance(value, Expression):
         return any(isinstance(v, Node) for _, v in value.parameters or ())

@@ -77,7 +77,7 @@ class Copying:
         flipped = [{**s, **({"center": at(s["center"])} if "center" in s else {})} for s in _list(shapes)]
         return new | ({"shape": flipped} if shapes else {})
 
-    def place(self, place: Any) -> Any:
+    def place(self, place: object) -> object:
         """A point of a mirrored link."""
         if not isinstance(place, Mapping):
             return self.image.components(place)
@@ -159,7 +159,7 @@ class Copying:
             == "slide"
         )
 
-    def positions(self, value: Any, offset: float) -> Any:
+    def positions(self, value: object, offset: float) -> object:
         """Angles of a drive: one, a list, a range, a law."""
         if isinstance(value, Mapping):
             ends = ("from", "to", "position")
@@ -210,7 +210,7 @@ class Copying:
                 new["value"] = image.components(new["value"], offset, "force")
         return new
 
-    def going_by(self, value: Any) -> Any:
+    def going_by(self, value: object) -> object:
         """A value that goes by a drive, later by the shift; by a copied joint, link or drive: by the copy's."""
         if isinstance(value, list):
             return [self.going_by(item) for item in value]
@@ -260,7 +260,7 @@ class Copying:
         for name in self.of:
             yield f"links.{name}.angle", turn(f"links.{name}{end}.angle", self.image.offset(GROUND))
 
-    def table(self, value: Mapping[str, Any]) -> Mapping[str, Any]:
+    def table(self, value: Mapping[str, object]) -> Mapping[str, object]:
         drives = [name for name, _ in self.items("drives")]
         against = str(value.get("against", drives[0] if len(drives) - len(self.drives) == 1 else ""))
         new = dict(self.copy_names()).get(against)
@@ -281,7 +281,7 @@ class Copying:
             "shift": f"{own + float(str(self.image.shift))!r} {'m' if kind == 'length' else 'rad'}",
         }
 
-    def pose(self, assembly: Tree, name: str, pose: Any) -> None:
+    def pose(self, assembly: Tree, name: str, pose: object) -> None:
         """The copy's approximate angle; where the ground's image is turned a position is left out."""
         offset = self.image.offset(GROUND)
         if self.image.mirrored and GROUND not in self.image.phase:
@@ -299,5 +299,5 @@ def turn_free(new: str) -> Callable[[str], str]:
     return lambda _: new
 
 
-def _list(value: Any) -> list[Any]:
+def _list(value: object) -> list[Any]:
     return list(value) if isinstance(value, (list, tuple)) else [value] if isinstance(value, Mapping) else []

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
@@ -75,7 +74,7 @@ def expand(tree: Mapping[str, object], rules: Reading) -> tuple[Mapping[str, obj
     return out, copied
 
 
-def _images(entry: Any, tree: Tree, rules: Reading) -> Iterator[Image]:
+def _images(entry: object, tree: Tree, rules: Reading) -> Iterator[Image]:
     keys = mapping(entry, list(KEYS), EXAMPLE)
     of, links = (
         keys.get("of"),
@@ -110,7 +109,7 @@ def _images(entry: Any, tree: Tree, rules: Reading) -> Iterator[Image]:
         yield Image(f"_{names[k - 1]}", phase, "mirror" in keys, shifts[k], str(keys.get("about", "")), rules)
 
 
-def _phases(keys: Mapping[str, Any], links: set[str]) -> dict[str, Any]:
+def _phases(keys: Mapping[str, object], links: set[str]) -> dict[str, object]:
     """Links that stay -> angles of their images."""
     if "phase" in keys and "mirror" in keys:
         raise ModelError("it is both turned and mirrored", "write phase or mirror", ("mirror",))
@@ -128,7 +127,7 @@ def _phases(keys: Mapping[str, Any], links: set[str]) -> dict[str, Any]:
     return {str(link): [0, value] if which == "mirror" else value for link, value in given.items()}
 
 
-def _count(keys: Mapping[str, Any], turned: Mapping[str, Any]) -> int:
+def _count(keys: Mapping[str, object], turned: Mapping[str, object]) -> int:
     listed = {len(value) for value in (*turned.values(), keys.get("shift")) if isinstance(value, list)}
     count = keys.get("count", next(iter(listed), 2 if "mirror" in keys else None))
     if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST:

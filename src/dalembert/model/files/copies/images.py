@@ -10,7 +10,6 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from dalembert.errors import ModelError
 from dalembert.model.part import Reading
@@ -53,11 +52,11 @@ class Image:
             sign = "-" if self.mirrored else "+"
             return f"{math.degrees(offset)!r} deg {sign} ({value})"
 
-    def opposite(self, value: Any) -> Any:
+    def opposite(self, value: object) -> object:
         """What changes its sign in a reflection: a couple, the speed of a turn."""
         return negative(value) if self.mirrored else value
 
-    def components(self, value: Any, offset: float = 0.0, kind: str = "length") -> Any:
+    def components(self, value: object, offset: float = 0.0, kind: str = "length") -> object:
         """A vector of a link of the copy, or of one that stays with its image's offset."""
         if not self.mirrored and offset == 0:
             return value
@@ -73,7 +72,7 @@ class Image:
         return [f"{cos * x - self.side * sin * y!r} {unit}", f"{sin * x + self.side * cos * y!r} {unit}"]
 
 
-def negative(value: Any) -> Any:
+def negative(value: object) -> object:
     """The negative of a number, a quantity, an expression or a table."""
     if isinstance(value, list):
         return [negative(item) for item in value]
