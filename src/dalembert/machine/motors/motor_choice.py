@@ -167,10 +167,10 @@ def motor(
     ((72,), True)
     """
     name = drive or next(iter(r.drives), "")
+    if not name:
+        raise ModelError("the machine has no drive, and a motor turns one", "drive a joint")
     if name not in r.drives:
-        raise ModelError(
-            f"there is no drive {name!r}", closest(name, list(r.drives)) if name else "drive a joint"
-        )
+        raise ModelError(f"there is no drive {name!r}", closest(name, list(r.drives)))
     for what, value in (("efficiency", efficiency), ("ratio", 1.0 if ratio is None else ratio)):
         if not value > 0 or not math.isfinite(value):
             raise ModelError(f"{what} is {value:g}", "give a positive number")
