@@ -316,3 +316,11 @@ def test_with_friction_it_asks_for_them_too(seed: int) -> None:
 def test_a_motion_that_cannot_begin_says_why() -> None:
     with pytest.raises(da.ModelError, match="the motion cannot begin: stopped at 0 s"):
         simulated(random_case(9).tree, 0.05)
+
+
+@pytest.mark.long
+def test_a_motion_that_gets_nowhere_ends_with_a_sentence() -> None:
+    """With friction seed 0 nearly jams where it begins: 1000 steps take it 1e-23 s on."""
+    s = simulated(rubbing(random_case(0).tree), 1e-3, tolerance=1e-9)
+    assert s.ended.startswith("stopped at")
+    assert "the steps become too small" in s.ended

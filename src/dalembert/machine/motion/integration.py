@@ -23,6 +23,8 @@ from dalembert.model.drives.motors import Switch
 
 SHORT, TRIES = 1e-6, 100
 """A step below this part of the longest has met something: a singular position; so many are no progress."""
+MANY_STEPS, NEVER = 1000, 1e-9
+"""A segment that after so many steps has got on by less than this part of its time a step never arrives."""
 COARSEST = 1e-9
 """Tolerance up to which steps with friction are taken again that are refused."""
 CHATTER, MANY = 1e-9, 40
@@ -94,9 +96,12 @@ class Integration(ContactState):
     def _segment(self, t: float, y: Array) -> tuple[float, Array]:
         """To the first event, or the end."""
         guards = self._guards(t, y)
-        solver, tiny, longest = self._solver(t, y, self.end), 0, 0.0
+        solver, tiny, longest, steps = self._solver(t, y, self.end), 0, 0.0, 0
         while solver.status == "running":
             before, from_ = self.reached = solver.t, solver.y
+            steps += 1
+            if steps > MANY_STEPS and before - t < steps * NEVER * (self.end - t) < np.inf:
+                raise StoppedError("there the steps become too small, as where friction nearly jams")
             if solver.step():
                 if (
                     self.equation.rough
