@@ -65,14 +65,18 @@ def _run(arguments: list[str]) -> int:
         return 0
     from cyclopts import CycloptsError
 
-    from dalembert.cli.app import app, command_line_error
+    from dalembert.cli.app import command_line, command_line_error, overview
     from dalembert.errors import AnalysisError, DalembertError
     from dalembert.saving import DATA_FOLDER
 
     arguments, folder = _data_folder(arguments)
+    asked = arguments[0] if arguments else "--help"
+    if asked in ("--help", "-h"):
+        print(overview())
+        return 0
     token = DATA_FOLDER.set(folder)
     try:
-        status = app(
+        status = command_line(asked)(
             _name_streams(arguments), exit_on_error=False, print_error=False, result_action="return_value"
         )
     except CycloptsError as error:

@@ -1,9 +1,16 @@
-"""The table of the commands, and what is said where a command line is wrong."""
+"""The table of the commands, the help of the whole, and what is said where a command line is wrong.
+
+A command's room is imported where it is asked for, and so is what cyclopts needs to print help, which takes longer
+than to read a model: the help of the whole is printed here.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+import shutil
+import textwrap
+from collections.abc import Iterable
+from importlib import import_module
 from typing import Any
 
 from cyclopts import (
@@ -16,23 +23,51 @@ from cyclopts import (
 )
 
 from dalembert import __version__
-from dalembert.cli import (
-    answers_commands,
-    check_command,
-    describe_commands,
-    draw_command,
-    page_command,
-    solve_command,
-    variants_command,
-    wrench_command,
-)
-from dalembert.cli.machine import machine_commands, member_commands
-from dalembert.cli.studies import optimize_command, study_commands
 from dalembert.wording import closest
+
+HELP = "Force analysis of mechanisms: a model file in, motion, reactions and driving efforts out."
+EPILOGUE = """Examples:
+  dalembert examples four_bar -o four_bar.yaml
+  dalembert solve four_bar.yaml
+  dalembert solve four_bar.yaml --positions 72 --csv four_bar.csv
+  dalembert solve --help
+  dalembert --version
+
+With --data FOLDER, tables of any command's FILE may be read from there too, not only beside it.
+
+Exit status: 0 all positions solved; 1 some position is not; 2 the file or the command line is wrong."""
+
+GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
+    "Solve and show": {
+        "solve_command": ("solve",),
+        "draw_command": ("draw", "report"),
+        "page_command": ("page",),
+        "wrench_command": ("wrench",),
+    },
+    "Begin and check model files": {
+        "describe_commands": ("new", "examples", "convert", "schema", "joints"),
+        "check_command": ("check", "validate"),
+    },
+    "Choose the machine's parts": {
+        "machine.machine_commands": ("simulate", "shake", "balance", "flywheel"),
+        "machine.member_commands": ("members", "bearings", "motor"),
+    },
+    "Many designs": {
+        "studies.study_commands": ("study",),
+        "studies.optimize_command": ("optimize",),
+    },
+    "Teach": {
+        "variants_command": ("variants",),
+        "answers_commands": ("check-answers", "grade"),
+    },
+}
+"""Heading in the help -> module of `dalembert.cli` -> its commands; the module's `COMMANDS` has their functions."""
+MODULES = {name: module for modules in GROUPS.values() for module, names in modules.items() for name in names}
+"""Command -> module."""
 
 
 class HelpLayout:
-    """The layout of --help, imported where help is printed: cyclopts' part of it takes as long as reading a model."""
+    """The layout of a command's --help, imported where it is printed."""
 
     def __call__(self, console: Any, options: Any, panel: Any) -> None:
         self.__getattr__("__call__")(console, options, panel)
@@ -43,60 +78,66 @@ class HelpLayout:
         return getattr(Hanging(), name)
 
 
-app = App(
-    name="dalembert",
-    version=__version__,
-    help="Force analysis of mechanisms: a model file in, motion, reactions and driving efforts out.",
-    help_format="plaintext",
-    help_formatter=HelpLayout(),
-    default_parameter=Parameter(show_default=False),
-    suppress_keyboard_interrupt=False,
-    help_epilogue="""Examples:
-  dalembert examples four_bar -o four_bar.yaml
-  dalembert solve four_bar.yaml
-  dalembert solve four_bar.yaml --positions 72 --csv four_bar.csv
-  dalembert solve --help
+def command_line(asked: str) -> App:
+    """The parser of a command line that begins with the word `asked`: of that command, or of all."""
+    app = App(
+        name="dalembert",
+        version=__version__,
+        help_format="plaintext",
+        help_formatter=HelpLayout(),
+        default_parameter=Parameter(show_default=False),
+        suppress_keyboard_interrupt=False,
+    )
+    for name in [asked] if asked in MODULES else MODULES:
+        module, command = _command(name)
+        if isinstance(command, App):
+            app.command(command)
+        else:
+            app.command(command, help_epilogue=module.COMMANDS[command])
+    return app
 
-With --data FOLDER, tables of any command's FILE may be read from there too, not only beside it.
 
-Exit status: 0 all positions solved; 1 some position is not; 2 the file or the command line is wrong.""",
-)
+def _command(name: str) -> tuple[Any, Any]:
+    """A command's module, and its function, or its App with commands of its own."""
+    module = import_module(f"dalembert.cli.{MODULES[name]}")
+    return module, getattr(module, name.replace("-", "_"))
 
 
-COMMANDS: dict[Callable[..., int], str] = {
-    solve_command.solve: solve_command.EXAMPLES,
-    **draw_command.COMMANDS,
-    **check_command.COMMANDS,
-    **answers_commands.COMMANDS,
-    **describe_commands.COMMANDS,
-    wrench_command.wrench: wrench_command.EXAMPLES,
-    variants_command.variants: variants_command.EXAMPLES,
-    page_command.page: page_command.EXAMPLES,
-    **machine_commands.COMMANDS,
-    **member_commands.COMMANDS,
-    optimize_command.optimize: optimize_command.OPTIMIZE,
-}
-"""Function of each command -> the examples under its help; its name is the function's."""
+def overview() -> str:
+    """What `dalembert --help` prints: every command with the first sentence of its help."""
+    width = min(shutil.get_terminal_size().columns, 100)
+    text = ["Usage: dalembert COMMAND", "", *_paragraphs([HELP], width)]
+    for heading, modules in GROUPS.items():
+        text += ["", f"{heading}:"]
+        for name in (name for names in modules.values() for name in names):
+            _, command = _command(name)
+            sentence = (
+                command.help if isinstance(command, App) else (command.__doc__ or "").partition("\n\n")[0]
+            )
+            text += textwrap.wrap(
+                f"{name}: {' '.join(sentence.split())}",
+                width,
+                initial_indent="  ",
+                subsequent_indent="      ",
+                break_on_hyphens=False,
+            )
+    return "\n".join([*text, "", *_paragraphs(EPILOGUE.splitlines(), width)])
 
-for command, its_examples in COMMANDS.items():
-    app.command(command, help_epilogue=its_examples)
-app.command(study_commands.study)
+
+def _paragraphs(lines: Iterable[str], width: int) -> list[str]:
+    return [part for line in lines for part in textwrap.wrap(line, width) or [""]]
 
 
 def command_line_error(error: CycloptsError, arguments: list[str]) -> str:
     """The sentence for a wrong command line, and where to read more."""
     asked = arguments[0] if arguments else ""
-    command = f" {asked}" if asked in _commands() else ""
+    command = f" {asked}" if asked in MODULES else ""
     return f"dalembert: {_report_error(error, asked)}; see `dalembert{command} --help`"
-
-
-def _commands() -> list[str]:
-    return [name for name in app if not name.startswith("-")]
 
 
 def _report_error(error: CycloptsError, asked: str) -> str:
     if isinstance(error, UnknownCommandError):
-        return f"there is no command {asked!r}; {closest(asked, _commands())}"
+        return f"there is no command {asked!r}; {closest(asked, list(MODULES))}"
     if isinstance(error, UnusedCliTokensError):
         return f"{' '.join(error.unused_tokens or ())!r} is one too many; what has spaces stands in quotes"
     missing = isinstance(error, MissingArgumentError) and re.search(r"parameter (\S+) requires", str(error))

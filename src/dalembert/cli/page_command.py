@@ -34,3 +34,7 @@ def page(
     make_page(load_model(file, changes), output, static, force)
     print(f"{output}: open it in a browser")
     return 0
+
+
+COMMANDS = {page: EXAMPLES}
+"""Function of the command -> the examples under its help."""

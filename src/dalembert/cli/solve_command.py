@@ -221,3 +221,7 @@ def _write(result: Result, kind: str, path: Path, wanted: Wanted) -> None:
         return
     writers = {"csv": export.to_csv, "xlsx": export.to_xlsx, "netcdf": export.to_netcdf}
     writers[kind](result, path, wanted.force, wanted.written_units, wanted.axes)
+
+
+COMMANDS = {solve: EXAMPLES}
+"""Function of the command -> the examples under its help."""

@@ -71,3 +71,7 @@ def variants(
     print(tables(["variant", *choices], rows, 1))
     print(f"Written: {output}; --seed {found.seed} draws the same again.", file=sys.stderr)
     return 0
+
+
+COMMANDS = {variants: EXAMPLES}
+"""Function of the command -> the examples under its help."""

@@ -65,3 +65,7 @@ def wrench(
         if path is not None:
             print(f"Written: {path}", file=sys.stderr)
     return 0
+
+
+COMMANDS = {wrench: EXAMPLES}
+"""Function of the command -> the examples under its help."""

@@ -49,3 +49,7 @@ def optimize(
     if report is not None:
         write_report(found).save(report, force)
     return 0 if found.feasible else 1
+
+
+COMMANDS = {optimize: OPTIMIZE}
+"""Function of the command -> the examples under its help."""
