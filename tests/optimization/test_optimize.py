@@ -160,7 +160,7 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
         ("[280 mm, 360 mm]", "280 mm", "optimize.yaml:4: the bounds of 'links.ground.points.O4.0'"),
         ("starts: 5", "starts: many", "optimize.yaml:8: starts is 'many'"),
         ("optimize: 1", "optimize: 2", "optimize.yaml:1: 2 is no version"),
-        ("effort.O2", "efort.O2", "optimize.yaml:1: there is no output 'efort.O2'"),
+        ("effort.O2", "efort.O2", "optimize.yaml:6: there is no output 'efort.O2'"),
         ("280 mm,", "280 kg,", "'280 kg' is a mass, and a length is needed"),
     ],
 )

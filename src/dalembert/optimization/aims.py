@@ -12,7 +12,7 @@ import numpy as np
 
 from dalembert.analysis.batch.compiled_kernel import Kernel, compile  # noqa: A004
 from dalembert.arrays import Array
-from dalembert.errors import ModelError
+from dalembert.errors import ModelError, errors_at
 from dalembert.model import Mechanism
 from dalembert.wording import closest
 
@@ -43,16 +43,24 @@ def parse_aim(text: str) -> Aim:
     >>> parse_aim("rms shaking.x"), parse_aim("effort.O2").word
     (Aim(word='rms', of='shaking.x'), 'peak')
     """
+    word, of = _first_word(text)
+    if not of:
+        raise ModelError(f"{text!r} names nothing that could be least", "write one like peak effort.O2")
+    return Aim(word or "peak", of)
+
+
+def _first_word(text: str) -> tuple[str, str]:
+    """The word of ``WORDS`` that a text begins with, empty where it has none, and the expression behind it."""
     word, _, rest = text.strip().partition(" ")
     if word in WORDS:
-        return Aim(word, rest.strip())
+        return word, rest.strip()
     if re.fullmatch(r"[a-z]\w*", word) and re.match(r"[a-z]+\.", rest.strip()):
         raise ModelError(f"{text!r} begins with {word!r}, which is no aim", closest(word, list(WORDS)))
-    return Aim("peak", text.strip())
+    return "", text.strip()
 
 
 def parse_condition(text: str) -> Condition:
-    """A condition at every position: two expressions with >= or <= between; `peak` stands for both signs.
+    """A condition at every position: two expressions with >= or <= between; `peak X` is bounded above, in both signs.
 
     >>> parse_condition("transmission.B >= 33 deg").margin
     '(transmission.B) - (33 deg)'
@@ -61,17 +69,20 @@ def parse_condition(text: str) -> Condition:
     """
     parts = re.split(r"\s*(>=|<=|>|<|=)\s*", text.strip())
     if len(parts) != 3 or parts[1] == "=" or not (parts[0] and parts[2]):
-        raise ModelError(f"{text!r} is no condition", "write one like transmission.B >= 33 deg")
+        raise ModelError(
+            f"{text!r} is no condition", "write one with a single >= or <=, like transmission.B >= 33 deg"
+        )
     left, sign, right = parts
-    word, _, rest = left.partition(" ")
-    if word == "peak":
-        left = f"abs({rest})"
-    elif word in WORDS:
+    big, small = map(_first_word, (left, right) if sign[0] == ">" else (right, left))
+    if big[0] == "peak":
+        raise ModelError(f"{text!r} bounds a peak from below", "bound it from above, or leave peak out")
+    word = next((word for word, _ in (big, small) if word not in ("", "peak")), "")
+    if word:
         raise ModelError(
             f"{text!r} bounds a {word}", "a condition holds at every position: leave it out, or write peak"
         )
-    big, small = (left, right) if sign[0] == ">" else (right, left)
-    return Condition(text.strip(), f"({big}) - ({small})")
+    below = f"abs({small[1]})" if small[0] else small[1]
+    return Condition(text.strip(), f"({big[1]}) - ({below})")
 
 
 class Value(NamedTuple):
@@ -102,6 +113,19 @@ class Problem:
     conditions: tuple[Condition, ...]
     positions: Array
     static: bool = False
+
+    def check(self) -> None:
+        """Raise ModelError, with the key that it is about, where the aim or a condition is none of this mechanism."""
+        with errors_at("least"):
+            rates = self.smooth.rates[self.aim.of]
+            if len(rates) > 1:
+                raise ModelError(f"{self.aim.of} is a vector", f"write {self.aim.of}.x or .magnitude")
+            if all(rate is rate.graph.zero for rate in rates[0]):
+                what = f"{self.aim.of} is the same whatever the numbers that vary"
+                raise ModelError(what, "let others vary, or name another output")
+        for k, condition in enumerate(self.conditions):
+            with errors_at("where", k):
+                self.smooth.trace.catalogue.nodes(condition.margin)
 
     def kernel(self, outputs: Sequence[str], reduce: str | None) -> Kernel:
         return compile(self.mechanism, self.vary, list(outputs), reduce, derivatives=True, static=self.static)

@@ -44,10 +44,14 @@ def _options(tree: Mapping[str, Any]) -> dict[str, Any]:
         )
     where = tree.get("where", [])
     where = [where] if isinstance(where, str) else where
-    if not isinstance(where, list) or not all(isinstance(text, str) for text in where):
+    if not isinstance(where, list):
         raise ModelError(
             f"where is {quote_value(where)}", "write a list: [transmission.B >= 33 deg]", ("where",)
         )
+    for k, text in enumerate(where):
+        if not isinstance(text, str):
+            what = f"condition {k + 1} is {quote_value(text)}"
+            raise ModelError(what, "write one like transmission.B >= 33 deg", ("where", k))
     bounds = {str(name): _bounds(str(name), given) for name, given in vary.items()}
     options = plain_options(tree, {"starts": 1, "seed": 0, "positions": 1}, ("static",))
     return {"vary": bounds, "least": least, "where": where, **options}

@@ -13,10 +13,10 @@ import numpy as np
 from dalembert.analysis.batch.tracing.symbolic_model import Number, number_kinds, numbers
 from dalembert.analysis.solution import solve
 from dalembert.arrays import Array, Flags
-from dalembert.errors import ModelError
+from dalembert.errors import ModelError, errors_at
 from dalembert.machine.whole_cycle import over_a_turn
 from dalembert.model import Mechanism
-from dalembert.optimization.aims import Problem, parse_aim, parse_condition
+from dalembert.optimization.aims import Condition, Problem, parse_aim, parse_condition
 from dalembert.optimization.optimum import Optimum
 from dalembert.optimization.polishing import polish
 from dalembert.optimization.side_by_side import minimize
@@ -63,11 +63,8 @@ def optimize(
     >>> best.value < best.value_before, best.feasible
     (True, True)
     """
-    try:
-        p, steps, found = _problem(mechanism, vary, least, where, positions, static)
-        return _best(p, steps, found, starts, seed)
-    except ModelError as error:
-        raise (error.at_source(mechanism.source) if error.path else error) from None
+    p, steps, found = _problem(mechanism, vary, least, where, positions, static)
+    return _best(p, steps, found, starts, seed)
 
 
 def _problem(
@@ -76,17 +73,16 @@ def _problem(
     """The problem, the steps of its numbers (NaN where there are none), and the numbers."""
     found, low, high, steps = bounds_of(m, vary)
     texts = [where] if isinstance(where, str) else where
-    schedule = m.schedule(over_a_turn(m, positions))
-    problem = Problem(
-        m,
-        tuple(vary),
-        low,
-        high,
-        parse_aim(least),
-        tuple(parse_condition(text) for text in texts),
-        schedule.position,
-        static,
-    )
+    with errors_at("positions"):
+        place = m.schedule(over_a_turn(m, positions)).position
+    with errors_at("least"):
+        aim = parse_aim(least)
+    conditions = list[Condition]()
+    for k, text in enumerate(texts):
+        with errors_at("where", k):
+            conditions.append(parse_condition(text))
+    problem = Problem(m, tuple(vary), low, high, aim, tuple(conditions), place, static)
+    problem.check()
     return problem, steps, found
 
 
@@ -96,9 +92,11 @@ def bounds_of(m: Mechanism, vary: Bounds) -> tuple[tuple[Number, ...], Array, Ar
         raise ModelError("nothing varies", 'give vary={"links.crank.points.A.0": (0.1, 0.15)}')
     found, ends = list[Number](), list[tuple[Array, Array, Array]]()
     for path, given in vary.items():
-        mine = numbers(m, [path])
-        ends.append(_ends(m, path, given, len(mine)))
-        found += mine
+        try:
+            known, found = len(found), list(numbers(m, list(vary)[: len(ends) + 1]))
+            ends.append(_ends(m, path, given, len(found) - known))
+        except ModelError as error:  # of the line that asks for it, not of the model file's
+            raise ModelError(error.what, error.remedy, ("vary", path)) from None
     low, high, steps = (np.concatenate(of) for of in zip(*ends, strict=True))
     return tuple(found), low, high, steps
 
@@ -150,7 +148,7 @@ def _starts(p: Problem, count: int, seed: int) -> Array:
 def random_places(answers: Callable[[Array], Flags], own: Array, count: int, seed: int) -> Array:
     """Places (start, number) in the unit box that have an answer: a given one, then random ones."""
     if isinstance(count, bool) or not isinstance(count, int | np.integer) or not 1 <= count <= 1_000_000:
-        raise ModelError(f"starts={count!r} is no number of starts", "give 1 to 1,000,000")
+        raise ModelError(f"starts={count!r} is no number of starts", "give 1 to 1,000,000", ("starts",))
     draw, got, drawn = np.random.default_rng(seed), 0, 0
     found = [own[None][answers(own[None])]]
     while got < count and drawn < MOST_DRAWN * count:
@@ -164,6 +162,7 @@ def random_places(answers: Callable[[Array], Flags], own: Array, count: int, see
         raise ModelError(
             f"none of {drawn:,} designs drawn from the bounds has an answer at every position",
             "narrow the bounds, or the range of the drive",
+            ("vary",),
         )
     return places
 

@@ -17,9 +17,6 @@ from dalembert.model.paths import parameter_name, value_at
 from dalembert.units import quantity
 from dalembert.wording import quote_value
 
-SAME = {"mass": ("weight", "shape"), "weight": ("mass", "shape"), "center": ("shape",), "inertia": ("shape",)}
-"""Key of a link -> the keys that may give the same in its place."""
-
 
 def varied_numbers(m: Mechanism, path: str) -> list[Number]:
     """The numbers behind a path: of a vector its components; a drive's position too, which no kernel varies."""
@@ -27,24 +24,11 @@ def varied_numbers(m: Mechanism, path: str) -> list[Number]:
     if name := parameter_name(path, m.parameters, m.keys()):
         return [Number(name, float(m.parameters[name].value), parameter=True)]
     value = value_at(m, keys)
-    if value is None:
-        _refuse_absent(m, path, keys)
     if keys[0] == "drives" and isinstance(value, (int, float)) and not isinstance(value, bool):
         return [Number(path, float(value))]
     if keys[0] == "drives" and keys[2:3] and keys[2] in DRIVEN:
         raise ModelError(f"{path!r} is no single number", "leave it out: a single position may vary", keys)
     return list(numbers(m, [path]))
-
-
-def _refuse_absent(m: Mechanism, path: str, keys: list[str]) -> None:
-    """Say which key gives what a path asks for and does not have."""
-    others = SAME.get(keys[-1], ()) if keys[0] == "links" and len(keys) == 3 else ()
-    part = m.links[keys[1]] if others else None
-    given = next((o for o in others if getattr(part, "shapes" if o == "shape" else o) not in (None, ())), "")
-    there = ".".join([*keys[:-1], given])
-    what = f"{path!r} has no number: the file gives {there!r}" if given else f"{path!r} has no number"
-    remedy = {"": f"give {keys[-1]} a value in the model file first", "shape": f"vary a number below {there}"}
-    raise ModelError(what, remedy.get(given, f"vary {there}"), keys)
 
 
 def check_twofold(m: Mechanism, found: Iterable[Number]) -> None:

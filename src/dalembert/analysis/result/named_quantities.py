@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
 from dalembert.algebra import plane
 from dalembert.analysis.output.columns import OF_LINKS, OF_POINTS, drive_kinds, load_kind
-from dalembert.analysis.result.quantity_expressions import kind_of, parse_quantity
+from dalembert.analysis.result.quantity_expressions import check_units, kind_of, parse_quantity
 from dalembert.analysis.result.transmission_lines import (
     angle_between,
     ground_points,
@@ -149,6 +149,7 @@ def quantity(r: Result, name: str) -> Quantity:
         return found
     tree = parse_quantity(str(name), quantity_names(r), "quantity")
     parts = {n: _scalar(r, n) for n in names_in(tree)}
+    check_units(tree, lambda n: parts[n].kind)
     with np.errstate(all="ignore"):
         value = evaluate(tree, {n: q.values for n, q in parts.items()}, numpy_functions())
     return Quantity(
@@ -173,16 +174,23 @@ def _find_quantity(r: Result, name: str) -> Quantity | None:
     word, _, behind = name.partition(".")
     if word not in READ:
         return None
-    of, kind, read = READ[word]
+    of, _, read = READ[word]
     whole, _, part = behind.rpartition(".")
     tries = [(behind, []), (whole, [part])] if part.isidentifier() else [(behind, [])]
     for thing, parts in tries:
         if thing in things(r, of):
-            if not kind:
-                kinds = drive_kinds(r, thing) if of == "drives" else {"load": load_kind(r, thing)}
-                kind = kinds["position" if word == "drive" else word]
-            return Quantity(kind, _component(name, read(r, thing), parts))
+            return Quantity(kind_of_name(r, f"{word}.{thing}"), _component(name, read(r, thing), parts))
     return None
+
+
+def kind_of_name(r: Any, name: str) -> str:
+    """The kind of the quantity of a name without a component, of what has ``Named``'s names and is compiled."""
+    word, _, thing = name.partition(".")
+    of, kind, _ = READ[word]
+    if kind:
+        return kind
+    kinds = drive_kinds(r, thing) if of == "drives" else {"load": load_kind(r, thing)}
+    return kinds["position" if word == "drive" else word]
 
 
 def _component(name: str, values: Array, asked: list[str]) -> Array:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Sequence
 
 from dalembert.errors import ModelError
+from dalembert.model.quantities.dimensions import dimension
 from dalembert.model.quantities.expressions import (
     GRAMMAR,
     Apply,
@@ -13,8 +14,10 @@ from dalembert.model.quantities.expressions import (
     Number,
     Tree,
     names_in,
+    nodes,
     parse_expression,
 )
+from dalembert.units import KINDS
 from dalembert.wording import closest, quote_value
 
 COMPONENTS = ("x", "y", "z", "magnitude")
@@ -66,6 +69,32 @@ def _rename(tree: Tree, names: dict[str, str]) -> Tree:
     if isinstance(tree, Apply):
         return Apply(tree.function, tuple(_rename(argument, names) for argument in tree.arguments))
     return tree
+
+
+def check_units(tree: Tree, kind: Callable[[str], str]) -> None:
+    """Raise ModelError where what is written with a unit is added to, or compared with, a quantity of another kind.
+    Plain numbers are SI beside anything, and so are weights in a sum of unlike quantities.
+
+    >>> kinds = {"effort.O": "moment", "magnitude.A": "force"}
+    >>> check_units(parse_quantity("abs(effort.O) + 0.1*magnitude.A - 3 N*m", list(kinds)), kinds.__getitem__)
+    >>> check_units(parse_quantity("magnitude.A - 3 kg", list(kinds)), kinds.__getitem__)
+    Traceback (most recent call last):
+    dalembert.errors.ModelError: 'magnitude.A - 3 kg' cannot be: magnitude.A is a force, and 3 kg is a mass; ...
+    """
+    known = {name: KINDS[kind(name)].dimension for name in names_in(tree)}
+    for part in nodes(tree):
+        if isinstance(part, Apply) and part.function in KEEP_KIND and any(map(_with_unit, part.arguments)):
+            try:
+                for argument in part.arguments:
+                    dimension(argument, known)
+            except ModelError:
+                continue
+            dimension(part, known)
+
+
+def _with_unit(tree: Tree) -> bool:
+    """Whether a part is of numbers alone, and some of them have a unit."""
+    return not names_in(tree) and any(isinstance(n, Number) and n.text not in ("", "pi") for n in nodes(tree))
 
 
 def kind_of(tree: Tree, kind: Callable[[str], str]) -> str:

@@ -13,8 +13,8 @@ from dalembert.algebra.protocol import Algebra
 from dalembert.analysis.batch.tracing.traced_parameters import symbol_functions
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.result.link_motion import LinkMotion, place_of
-from dalembert.analysis.result.named_quantities import names_of
-from dalembert.analysis.result.quantity_expressions import parse_quantity
+from dalembert.analysis.result.named_quantities import kind_of_name, names_of
+from dalembert.analysis.result.quantity_expressions import check_units, parse_quantity
 from dalembert.analysis.result.transmission_lines import angle_between, ground_points, transmission_lines
 from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
@@ -41,6 +41,8 @@ class Catalogue(LinkMotion):
             return self._named(name)
         tree = parse_quantity(name, self.names)
         parts = {n: self._scalar(n) for n in names_in(tree)}
+        whole = {n: n if n in self.names else n.rpartition(".")[0] for n in parts}
+        check_units(tree, lambda n: kind_of_name(self, whole[n]))
         try:
             with np.errstate(all="ignore"):
                 value = evaluate(tree, parts, symbol_functions(self.graph))

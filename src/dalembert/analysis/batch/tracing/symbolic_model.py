@@ -51,6 +51,8 @@ def numbers(m: Mechanism, vary: Iterable[str]) -> tuple[Number, ...]:
             out.append(_parameter(m, name))
             continue
         value = value_at(m, path.split("."))
+        if value is None:
+            _refuse_absent(m, path, path.split("."))
         _refuse_law(m, path)
         out += _numbers(path, value)
     refuse_twofold(m, out)
@@ -114,7 +116,7 @@ def _numbers(path: str, value: object) -> list[Number]:
             "vary single speeds, or vary their scale in the units",
             keys,
         )
-    if isinstance(value, bool) or value is None or isinstance(value, str):
+    if isinstance(value, (bool, str)):
         raise ModelError(
             f"{path!r} is {value!r}, which is no number", "give it a number in the description first", keys
         )
@@ -127,6 +129,21 @@ def _numbers(path: str, value: object) -> list[Number]:
     raise ModelError(
         f"{path!r} is no number", "name a number, or a vector of numbers, of the description", keys
     )
+
+
+SAME = {"mass": ("weight", "shape"), "weight": ("mass", "shape"), "center": ("shape",), "inertia": ("shape",)}
+"""Key of a link -> the keys that may give the same in its place."""
+
+
+def _refuse_absent(m: Mechanism, path: str, keys: list[str]) -> None:
+    """Say which key gives what a path asks for and does not have."""
+    others = SAME.get(keys[-1], ()) if keys[0] == "links" and len(keys) == 3 else ()
+    part = m.links[keys[1]] if others else None
+    given = next((o for o in others if getattr(part, "shapes" if o == "shape" else o) not in (None, ())), "")
+    there = ".".join([*keys[:-1], given])
+    what = f"{path!r} has no number: the file gives {there!r}" if given else f"{path!r} has no number"
+    remedy = {"": f"give {keys[-1]} a value in the model file first", "shape": f"vary a number below {there}"}
+    raise ModelError(what, remedy.get(given, f"vary {there}"), keys)
 
 
 ANY = 1.25
