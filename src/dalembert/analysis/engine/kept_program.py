@@ -37,7 +37,7 @@ CACHED = 500_000
 """Outputs that are checked at once, so that they stay in the cache."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Outputs:
     """A traced structure: its inputs, and arrays of nodes by name, in the order of its outputs."""
 
@@ -117,7 +117,7 @@ class Outputs:
         return np.abs(out[self.rows[name]]).reshape(*self.nodes[name].shape, out.shape[1])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class KeptProgram(Outputs):
     """A structure from its drives' positions to all forces: inputs (numbers, columns, then ways), and the ways it was
     traced in.
@@ -125,7 +125,8 @@ class KeptProgram(Outputs):
     squares: how many rows of closure are such. whole: it gives more than the pose; not so where turns of springs are to
     be counted. fixed (L,): links whose angle the drives alone give; counted: those whose whole turns some row counts;
     last: the last way that a link's rotation depends on, -1 for none. driven: the drives whose positions are inputs,
-    which are the first columns. known: first poses found lately, by what decides them.
+    which are the first columns. symbols, traced: the mechanism on nodes, and all that was traced of it. known: first
+    poses found lately, by what decides them.
     """
 
     ways: tuple[float, ...]
@@ -135,6 +136,8 @@ class KeptProgram(Outputs):
     counted: Flags
     last: Ints
     driven: tuple[int, ...]
+    symbols: Symbols = field(repr=False)
+    traced: Traced = field(repr=False)
     known: dict[Any, Any] = field(default_factory=dict, compare=False, repr=False)
 
     @property
@@ -183,7 +186,7 @@ def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) ->
     except (ValueError, TypeError, KeyError):  # no closed form, or none that its numbers alone decide
         return None
     graph.samples.clear()
-    return _kept(graph, (*symbols.inputs, *ways.inputs), traced, ways, symbols.drives[0], c)
+    return _kept(graph, symbols, traced, ways, c)
 
 
 def problem_of(
@@ -259,9 +262,8 @@ class _Ways:
         return self.inputs[-1]
 
 
-def _kept(
-    graph: Graph, inputs: tuple[Node, ...], t: Traced, ways: _Ways, position: Array, c: Compiled
-) -> KeptProgram | None:
+def _kept(graph: Graph, symbols: Symbols, t: Traced, ways: _Ways, c: Compiled) -> KeptProgram | None:
+    inputs = (*symbols.inputs, *ways.inputs)
     needs = _needs(graph, ways.inputs, {n.index for n in inputs})
     fixed = np.array([needs[n.index] >= 0 for n in t.pose.turn[:-1]], bool)
     squares = {n.index: n for n in t.closure if n.level != CONSTANT}
@@ -281,7 +283,7 @@ def _kept(
         return None
     last = [max(needs[n.index].bit_length() for n in pair) - 1 for pair in t.pose.rotation[:-1]]
     found = tuple(float(graph.nominal[n.index]) for n in ways.inputs)
-    driven = tuple(k for k, q in enumerate(position) if q.op in INPUTS)
+    driven = tuple(k for k, q in enumerate(symbols.drives[0]) if q.op in INPUTS)
     return KeptProgram(
         graph=graph,
         inputs=inputs,
@@ -293,6 +295,8 @@ def _kept(
         counted=counted_links(c.layout),
         last=np.array(last, np.intp),
         driven=driven,
+        symbols=symbols,
+        traced=t,
     )
 
 

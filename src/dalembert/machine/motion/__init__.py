@@ -3,7 +3,7 @@
 In: a ``Mechanism``, an end. Out: a ``Simulation``: a ``Result`` over time, events, works, checks. Imports
 ``analysis``, ``kernel``, ``core`` and what they import.
 
-equation     M_r u' + h = tau, from the compiled inverse dynamics
+equation     M_r u' + h = tau, from the compiled inverse dynamics (equation_trace: a structure's, or its own)
 actuation    what moves each drive: given efforts, motors with their switches, brakes
 steps        the method's steps, in machine code where the motion is smooth
 integration  segments between events: contacts that come to rest, switches, the user's (occurrences)

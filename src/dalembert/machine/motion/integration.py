@@ -17,7 +17,7 @@ from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.equation import StoppedError
 from dalembert.machine.motion.occurrences import Condition, Guard, Value
 from dalembert.machine.motion.standstill import STILL, ContactState
-from dalembert.machine.motion.steps import Stages, Steps
+from dalembert.machine.motion.steps import LEAST, Between, Integrator, MachineSteps, Steps
 from dalembert.model import Mechanism
 from dalembert.model.drives.motors import Switch
 
@@ -49,13 +49,33 @@ class Integration(ContactState):
         self.ended = ""
         self.rows: list[tuple[float, Array, Array, Array, Array, Array]] = []
         self.fastest = np.abs(actuation.speed)
-        self.stages: dict[tuple[bool, ...], Stages | None] = {}
+        self.samples: list[tuple[float, Between]] = []
 
     def keep(self, t: float, y: Array) -> None:
         """Keep an instant."""
-        d = self.d
+        self._keep_samples()
+        d, code = self.d, self._machine(t, y)
+        if code is not None:
+            self._keep_rates(*code, np.array([t]), y[None])
+            return
         a, effort, _ = self.at(t, y)
         self.rows.append((t, y[:d].copy(), y[d : 2 * d].copy(), a, effort, y[2 * d :].copy()))
+
+    def _keep_samples(self) -> None:
+        """Keep the instants of the segment that wait, all at once, before anything else happens."""
+        if self.samples:
+            waiting, self.samples = self.samples, []
+            t, y = np.array([t for t, _ in waiting]), np.array([between(t) for t, between in waiting])
+            code = self._machine(t[0], y[0])
+            assert code is not None
+            self._keep_rates(*code, t, y)
+
+    def _keep_rates(self, code: Integrator, values: Array, t: Array, y: Array) -> None:
+        """Keep instants (M,) with the accelerations of the machine code; efforts that are asked for come later: NaN."""
+        d = self.d
+        a, (first, slope, brake, _) = code.rates(values, t, y)[:, d : 2 * d], values[-4 * d :].reshape(4, d)
+        applied = np.where(self.acting.free & ~self.locked, first + slope * y[:, d : 2 * d] + brake, np.nan)
+        self.rows += zip(t.tolist(), y[:, :d], y[:, d : 2 * d], a, applied, y[:, 2 * d :].copy(), strict=True)
 
     def run(self) -> None:
         """Integrate from the start until the end, a condition that stops, or a state from which nothing goes on."""
@@ -70,7 +90,9 @@ class Integration(ContactState):
                 else:
                     t, y = self._segment(t, y)
                 self._watch_chatter()
+            self._keep_samples()
         except StoppedError as error:
+            self._keep_samples()
             if self.rows and self.reached[0] > self.rows[-1][0]:
                 with suppress(StoppedError):
                     self.keep(*self.reached)
@@ -152,27 +174,27 @@ class Integration(ContactState):
             )
         return False
 
-    def _solver(self, t: float, y: Array, end: float) -> Steps:
-        stages = self._machine(t, y)
-        rate = self.rate if stages is None else stages.rate
-        solver = Steps(rate, t, y, end, rtol=self.tolerance, atol=self.tolerance * 1e-4)
-        solver.stages = stages
-        return solver
+    def _solver(self, t: float, y: Array, end: float) -> Steps | MachineSteps:
+        code = self._machine(t, y)
+        if code is not None:
+            return MachineSteps(
+                *code, t, y, end, self.tolerance, bool(self.waiting and len(self.waiting) > 1)
+            )
+        return Steps(self.rate, t, y, end, rtol=self.tolerance, atol=self.tolerance * LEAST)
 
-    def _machine(self, t: float, y: Array) -> Stages | None:
-        """Steps in machine code, where the efforts are straight lines of the speeds until the next event."""
+    def _machine(self, t: float, y: Array) -> tuple[Integrator, Array] | None:
+        """Machine code and its values, where the efforts are straight lines of the speeds until the next event."""
         free = self.acting.free & ~self.locked
-        lines = self.acting.lines(y[self.d : 2 * self.d], self.at(t, y)[0])
+        code = self.equation.steps(free)
+        if code is None:
+            return None
+        ahead = self.at(t, y)[0] if self.acting.motors else np.zeros(self.d)
+        lines = self.acting.lines(y[self.d : 2 * self.d], ahead)
         if lines is None:
             return None
-        key = tuple(free)
-        if key not in self.stages:
-            self.stages[key] = self.equation.stages(free)
-        if (stages := self.stages[key]) is not None:
-            brake = -self.acting.brake * self.toward * free
-            given = np.where(self.acting.free, 0.0, self.acting.acceleration)
-            stages.given(np.concatenate([*lines, brake, given]))
-        return stages
+        brake = -self.acting.brake * self.toward * free
+        given = np.where(self.acting.free, 0.0, self.acting.acceleration)
+        return code, np.concatenate([self.equation.values, *lines, brake, given])
 
     def _exactly(self, t: float, y: Array, when: float) -> Array:
         """The state at an instant within a step, integrated and not interpolated."""
@@ -184,7 +206,9 @@ class Integration(ContactState):
     def _keep_until(self, dense: Callable[[float], Array], before: float, end: float) -> None:
         while self.waiting and self.waiting[0] <= end:
             when = self.waiting.pop(0)
-            if when > before:
+            if when > before and isinstance(dense, Between):
+                self.samples.append((when, dense))
+            elif when > before:
                 self.keep(when, dense(when))
 
     # events
@@ -232,6 +256,7 @@ class Integration(ContactState):
 
     def _happen(self, t: float, y: Array, crossed: list[Guard]) -> None:
         """What follows from events at one instant; the state may be changed."""
+        self._keep_samples()
         d = self.d
         rests = [g.which for g in crossed if g.kind == "rest"]
         for g in crossed:
@@ -256,6 +281,7 @@ class Integration(ContactState):
 
     def _resume(self, t: float, y: Array) -> None:
         """Let go what is no longer held."""
+        self._keep_samples()
         for k in self._loose(t, y):
             self._settle(k, t, y)
         self.keep(t, y)

@@ -200,6 +200,7 @@ def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, run: Integrat
     kept = np.append(np.diff(t) > 0, True)  # of an event the state behind it
     t, q, u, a, applied, works = (x[kept] for x in (t, q, u, a, applied, works))
     result = at_schedule(prescribed, Schedule(tuple(m.drives), q, u, a, time=t), inertia=True)
+    applied = np.where(np.isnan(applied), result.effort_array, applied)
     kinetic, potential = energies(result)
     names = [*m.drives, "brakes", "loads", "dampers", "friction"]
     named = {name: w for name, w in zip(names, works.T, strict=True) if name in m.drives or w.any()}

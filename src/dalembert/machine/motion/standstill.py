@@ -13,7 +13,8 @@ from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
 from dalembert.machine.motion.actuation import Actuation
-from dalembert.machine.motion.equation import Equation, StoppedError, Terms
+from dalembert.machine.motion.equation import StoppedError, Terms
+from dalembert.machine.motion.equation_trace import equation_of
 from dalembert.machine.motion.occurrences import Event
 from dalembert.model import Mechanism, Schedule
 from dalembert.model.drives.motors import Switch
@@ -45,7 +46,7 @@ class ContactState:
     """A motion's contacts and brakes at the moment: senses, and which drives they hold at rest."""
 
     def __init__(self, m: Mechanism, actuation: Actuation) -> None:
-        self.m, self.acting, self.equation = m, actuation, Equation(m)
+        self.m, self.acting, self.equation = m, actuation, equation_of(m)
         self.d = len(actuation.names)
         self.locked: Flags = np.zeros(self.d, bool)
         self.sense, self.toward = np.ones(self.equation.contacts), np.ones(self.d)
@@ -90,8 +91,9 @@ class ContactState:
     def _settle_start(self, t: float, y: Array) -> None:
         """Senses at the start; what stands there is held, or goes the way it is pushed."""
         u = y[self.d : 2 * self.d]
-        rates = self.equation(t, y[: self.d], u, np.zeros(self.d), self.sense).rates
-        self.sense = np.where(rates < 0, -1.0, 1.0)
+        if self.equation.contacts:
+            rates = self.equation(t, y[: self.d], u, np.zeros(self.d), self.sense).rates
+            self.sense = np.where(rates < 0, -1.0, 1.0)
         self.toward = np.where(u < 0, -1.0, 1.0)
         for k in np.flatnonzero(self.rubs & (u == 0)):
             self._settle(int(k), t, y)

@@ -1,93 +1,169 @@
-"""Steps of Dormand and Prince's method of order 8: scipy's solver, its stages in machine code where all is smooth.
+"""Steps of Dormand and Prince's method of order 8: in machine code where all is smooth, else scipy's solver.
 
 Mechanics: docs/theory.md 10.6.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from scipy.integrate import DOP853
-from scipy.integrate._ivp.rk import rk_step
 
 from dalembert.arrays import Array
+from dalembert.kernel.emit.integrator import EXTRA, STAGES, WIDTH, integrator, record_size, state_size
+from dalembert.kernel.memory import address
 from dalembert.kernel.program import Program
 
-STAGES, ERRORS = 12, np.array([DOP853.E5, DOP853.E3])
-WEIGHTS = np.column_stack([np.vstack([DOP853.A[1:], DOP853.B]), [*DOP853.C[1:], 1.0]])
-"""Of the rates before each stage, and its part of the step."""
+LEAST = 1e-4
+"""Absolute tolerance over the relative one."""
+AT_ONCE = 16
+"""Attempts of steps of one motion at once: an event among them makes the others useless."""
 
 
-class Stages:
-    """The stages of a step: a program of the channels (y (n,), t, h, parameters, rates (12, n)) and of the numbers in a
-    row of ``WEIGHTS`` gives the rate at a stage."""
+def _table() -> Array:
+    """The weights, as ``kernel.emit.integrator`` has them."""
+    rows = [*DOP853.A, DOP853.B, *DOP853.A_EXTRA, DOP853.E5, DOP853.E3, *DOP853.D]
+    table = np.array([np.pad(row, (0, WIDTH - len(row))) for row in rows])
+    table[: STAGES + EXTRA + 1, -1] = [*DOP853.C, 1.0, *DOP853.C_EXTRA]
+    return table
 
-    def __init__(self, stage: Program, n: int, parameters: int) -> None:
-        from dalembert.kernel.emit import llvm_text
+
+TABLE = _table()
+
+
+class Integrator:
+    """Machine code for steps of motions side by side, whose rate is a program of channels (state (n,), time) and of
+    numbers; its places say where each stands."""
+
+    def __init__(self, rate: Program, n: int, numbers: int, lanes: int = 1) -> None:
         from dalembert.kernel.emit.machine_code import compile_module
-        from dalembert.kernel.memory import address
 
-        self.machine, self.n = compile_module(llvm_text.pairs(stage, 1), 1), n
-        self.z, self.one, self.weights = np.zeros(n + 2 + parameters + 13 * n), np.zeros(n), WEIGHTS.copy()
-        self.k, self.mark = self.z[n + 2 + parameters :].reshape(STAGES + 1, n), np.zeros(1)
-        ends = [(w, out) for w, out in zip(self.weights, self.k[1:], strict=True)]
-        self.calls, self.first = (
-            [(address(w), address(self.z), address(out), address(self.mark), 0, 0, 0, 1) for w, out in pairs]
-            for pairs in (ends, [(self.weights[0], self.one)])
-        )
+        self.n, self.numbers, self.lanes = n, numbers, lanes
+        self.machine = compile_module(integrator(rate, n, lanes), lanes)
 
-    def given(self, parameters: Array) -> None:
-        """Take the parameters."""
-        self.z[self.n + 2 : self.n + 2 + len(parameters)] = parameters
+    def advance(self, values: Array, motions: Array, most: int, between: bool = False) -> Array:
+        """Go on with motions (block, ``state_size``, lane) by at most so many attempts of steps; their records (block,
+        most, ``record_size``, lane), of which only as many as were made have numbers. No attempts: only the rates."""
+        blocks = len(motions)
+        records = np.empty((blocks, max(most, 1), record_size(self.n), self.lanes))
+        where = (address(values), address(motions), address(records), address(TABLE))
+        self.machine.function(*where, self.numbers, most, int(between), blocks)
+        return records
 
-    def rate(self, t: float, y: Array) -> Array:
-        """The rate (n,) at one state."""
-        self._run(t, y, 0.0, self.first)
-        return np.asarray(self.one.copy())
+    def rates(self, values: Array, t: Array | float, y: Array) -> Array:
+        """Rates (M, n) at states (M, n) of motions with the same values, one lane wide."""
+        motions = np.zeros((len(y), state_size(self.n), 1))
+        motions[:, : self.n, 0], motions[:, 2 * self.n, 0] = y, t
+        self.advance(np.tile(values, (len(y), 1)), motions, 0)
+        return motions[:, self.n : 2 * self.n, 0]
 
-    def __call__(self, t: float, y: Array, h: float, k: Array) -> Array:
-        """Fill the rates k (13, n) of a step whose first row is there; the state behind it (n,)."""
-        self.k[0], self.k[1:] = k[0], 0.0
-        self._run(t, y, h, self.calls)
-        k[:] = self.k
-        return np.asarray(y + h * (DOP853.B @ k[:STAGES]))
 
-    def _run(self, t: float, y: Array, h: float, calls: Sequence[tuple[int, ...]]) -> None:
-        n, function = self.n, self.machine.function
-        self.z[:n], self.z[n], self.z[n + 1] = y, t, h
-        for call in calls:
-            function(*call)
+def first_step(y: Array, f: Array, ahead: Any, room: Array | float, tolerance: float) -> Array:
+    """Length (M,) of the first steps of motions with states and rates (M, n); ``ahead(h)``: rates behind steps h (M,)
+    along those. Hairer, Norsett, Wanner, II.4."""
+    scale = tolerance * (LEAST + np.abs(y))
+
+    def size(x: Array) -> Array:
+        return np.asarray(np.sqrt(np.mean((x / scale) ** 2, axis=1)))
+
+    with np.errstate(all="ignore"):
+        d0, d1 = size(y), size(f)
+        h = np.minimum(np.where((d0 < 1e-5) | (d1 < 1e-5), 1e-6, 0.01 * d0 / d1), room)
+        d2 = size(ahead(h) - f) / h
+        still = (d1 <= 1e-15) & (d2 <= 1e-15)
+        longer = np.where(still, np.maximum(1e-6, h * 1e-3), (0.01 / np.maximum(d1, d2)) ** (1 / 8))
+        return np.asarray(np.minimum(np.minimum(100 * h, longer), room))
+
+
+class Between:
+    """States between the ends of a step, by a polynomial of order 7, of its record."""
+
+    def __init__(self, record: Array, n: int) -> None:
+        self.t, self.h, (y, new, f, ahead, *more) = record[0], record[1], record[2:].reshape(8, n)
+        change = new - y
+        self.parts = (y, change, self.h * f - change, 2 * change - self.h * (ahead + f), *more)
+
+    def __call__(self, t: Any) -> Array:
+        x = np.asarray((t - self.t) / self.h)[..., None]
+        out: Any = 0.0
+        for k, part in enumerate(reversed(self.parts)):
+            out = (out + part) * (x if k % 2 == 0 else 1 - x) if k < 7 else out + part
+        return np.asarray(out)
+
+
+class MachineSteps:
+    """Steps of one motion, taken some at a time in machine code and handed on one by one, as scipy's solvers do."""
+
+    def __init__(
+        self, code: Integrator, values: Array, t: float, y: Array, end: float, rtol: float, between: bool
+    ) -> None:
+        self.code, self.values, self.end, self.between, self.n = code, values, end, between, code.n
+        self.t, self.y, self.status, self.h_previous = t, y, "running", 0.0
+        n = self.n
+        self.motion = np.zeros((1, state_size(n), 1))
+        whole = self.motion[0, :, 0]
+        whole[:n], whole[2 * n], whole[2 * n + 2 : 2 * n + 6] = y, t, (end, rtol, LEAST * rtol, 10.0)
+        f = code.rates(values, t, y[None])
+
+        def ahead(h: Array) -> Array:
+            return code.rates(values, t + h, y + h[:, None] * f)
+
+        whole[2 * n + 1] = self.h_abs = float(first_step(y[None], f, ahead, end - t, rtol)[0])
+        self.records, self.next = np.zeros((0, record_size(n))), 0
+
+    def step(self) -> str | None:
+        """Take the next step; a message where there is none."""
+        while True:
+            if self.next == len(self.records) and not self._more():
+                self.status = "failed"
+                return DOP853.TOO_SMALL_STEP
+            record, n = self.records[self.next], self.n
+            self.next += 1
+            if record[1] > 0:
+                break
+        self.record, self.h_previous = record, float(record[1])
+        self.y = record[2 + n : 2 + 2 * n]
+        self.h_abs = self.h_previous
+        inner = self.next < len(self.records)
+        self.t = float(self.records[self.next][0] if inner else self.motion[0, 2 * n, 0])
+        if self.t >= self.end:
+            self.status = "finished"
+        return None
+
+    def _more(self) -> bool:
+        """Further attempts in machine code; whether there are any."""
+        whole = self.motion[0, :, 0]
+        if not whole[2 * self.n + 1] > 0:
+            return False
+        self.records = self.code.advance(self.values, self.motion, AT_ONCE, self.between)[
+            0, : int(whole[-1]), :, 0
+        ]
+        self.next = 0
+        return True
+
+    def dense_output(self) -> Between:
+        """States within the last step."""
+        if not self.between:
+            motion = self.motion.copy()
+            whole, n = motion[0, :, 0], self.n
+            whole[:n], whole[2 * n], whole[2 * n + 1] = (
+                self.record[2 : 2 + n],
+                self.record[0],
+                self.h_previous,
+            )
+            whole[2 * n + 2], whole[2 * n + 3 : 2 * n + 5] = np.inf, 1e300
+            self.record = self.code.advance(self.values, motion, 1, True)[0, 0, :, 0]
+        return Between(self.record, self.n)
 
 
 class Steps(DOP853):
-    """scipy's solver; ``stages`` compute a step at once, and a rate that is no number refuses it."""
+    """scipy's solver, which begins where no rate tells how far to step, too."""
 
-    stages: Stages | None = None
     rtol: float
     atol: float
 
-    def _step_impl(self) -> tuple[bool, str | None]:
-        t, y, most = self.t, self.y, 10.0
-        k: Any = self.K
-        least = 10 * float(np.spacing(t))
-        h = max(least, self.h_abs)  # least if there was no rate to guess one from
-        while h >= least:
-            h = min(t + h, self.t_bound) - t
-            k[0] = self.f
-            if self.stages:
-                new = self.stages(t, y, h, k)
-            else:
-                new, _ = rk_step(self.fun, t, y, k[0], h, self.A, self.B, self.C, k)
-            off = ERRORS @ k / (self.atol + self.rtol * np.maximum(np.abs(y), np.abs(new)))
-            fifth, third = (off * off).sum(axis=1).tolist()
-            error = h * fifth / math.sqrt((fifth + 0.01 * third) * len(y)) if fifth or third else 0.0
-            factor = 0.9 * error**self.error_exponent if error > 0 else most
-            if error < 1:
-                self.h_previous, self.y_old, self.h_abs = h, y, h * min(most, factor)
-                self.t, self.y, self.f = t + h, new, k[-1].copy()
-                return True, None
-            h, most = h * (max(0.2, factor) if error >= 1 else 0.2), 1.0
-        return False, self.TOO_SMALL_STEP
+    def _step_impl(self) -> Any:
+        self.h_abs = max(10 * float(np.spacing(self.t)), self.h_abs)
+        with np.errstate(all="ignore"):
+            return super()._step_impl()  # type: ignore[misc]

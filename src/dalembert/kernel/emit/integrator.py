@@ -1,0 +1,284 @@
+"""Dormand and Prince's method of order 8 with its step control, as LLVM text: one motion a lane, with steps of its own.
+
+The rates are a program of the state and of numbers. Hairer, Norsett, Wanner, Solving ODEs I, II.5 (DOP853).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from dalembert.kernel.emit.llvm_builder import Text, operations
+from dalembert.kernel.emit.llvm_text import WIDE, head, module
+from dalembert.kernel.program import Program
+
+STAGES, EXTRA, WIDTH = 12, 3, 17
+"""Stages of a step, those more for what lies between its ends, and the columns of the table of weights: of the rates
+before each stage, and its place in the step. Rows: 0 nothing, then the stages, the two errors, four for between."""
+SELDOM = "noinline optnone"
+"""What runs a few times a step: LLVM would take longer to improve it than all else together."""
+ERRORS = STAGES + EXTRA + 1
+SAFETY, LEAST, MOST, STILL = 0.9, 0.2, 10.0, 2e-15
+"""Of the step's control: its factors; and a refused step below this part of the time ends a motion: its next is 0."""
+
+
+def state_size(n: int) -> int:
+    """Numbers of a motion: state, its rates, time, next step, end, two tolerances, most growth, attempts made."""
+    return 2 * n + 7
+
+
+def record_size(n: int) -> int:
+    """Numbers of an attempt: time, step (0 if refused), state before and behind, rates there, four for between."""
+    return 2 + 8 * n
+
+
+class _Integrator(Text):
+    """The text of steps for a state of n numbers; of memory an offset counts in lanes' vectors."""
+
+    def __init__(self, lanes: int, n: int) -> None:
+        super().__init__(lanes)
+        self.n = n
+
+    def at(self, base: str, offset: str | int) -> str:
+        """Where one vector stands."""
+        return self.let(f"getelementptr inbounds {self.kind}, ptr {base}, i64 {offset}")
+
+    def get(self, base: str, offset: str | int) -> str:
+        return self.let(f"load {self.kind}, ptr {self.at(base, offset)}, align 8")
+
+    def set(self, value: str, base: str, offset: str | int) -> None:
+        self.put(f"store {self.kind} {value}, ptr {self.at(base, offset)}, align 8")
+
+    def sum(self, a: str, b: str | int) -> str:
+        return self.let(f"add i64 {a}, {b}")
+
+    def product(self, a: str, b: str | int) -> str:
+        return self.let(f"mul i64 {a}, {b}")
+
+    def loop(
+        self, count: str | int, turn: Callable[..., list[str]], start: tuple[str, ...] = (), go: str = ""
+    ) -> list[str]:
+        """Repeat what a function of a counter, and of values handed on, writes; until ``go`` is 0, too."""
+        self.count += 1
+        name, i = f"l{self.count}", f"%i{self.count}"
+        self.put(f"br label %{name}pre")
+        self.lines += [f"{name}pre:", f"  br label %{name}", f"{name}:"]
+        self.put(f"{i} = phi i64 [ 0, %{name}pre ], [ {i}n, %{name}end ]")
+        place, old = len(self.lines), [f"%{name}v{k}" for k in range(len(start))]
+        new = turn(i, *old)
+        self.lines[place:place] = [
+            f"  {v} = phi {self.kind} [ {a}, %{name}pre ], [ {b}, %{name}end ]"
+            for v, a, b in zip(old, start, new, strict=True)
+        ]
+        self.put(f"br label %{name}end")
+        self.lines.append(f"{name}end:")
+        self.put(f"{i}n = add nuw i64 {i}, 1")
+        more = self.let(f"icmp ult i64 {i}n, {count}")
+        if go:
+            more = self.let(f"and i1 {more}, {self.let(f'load i1, ptr {go}')}")
+        self.put(f"br i1 {more}, label %{name}, label %{name}out")
+        self.lines.append(f"{name}out:")
+        return new
+
+    def combined(self, row: str, rows: str | int, i: str) -> str:
+        """The rates found so far, of number i, by the weights of a row."""
+        weights = self.let(f"getelementptr inbounds double, ptr %table, i64 {self.product(row, WIDTH)}")
+        return self.let(f"call {self.kind} @combined(ptr %k, ptr {weights}, i64 {rows}, i64 {i})")
+
+    def stage(self, s: str, t: str, h: str) -> list[str]:
+        """The rates of one stage, at a state that is left in z."""
+        given = ", ".join(f"ptr %{name}" for name in ("y", "given", "k", "z", "table"))
+        self.put(f"call void @next({given}, i64 {s}, {self.kind} {t}, {self.kind} {h})")
+        return []
+
+    def error(self, h: str, tolerance: str, least: str) -> str:
+        """The estimated error of a step over what is allowed."""
+
+        def one(i: str, fifth: str, third: str) -> list[str]:
+            off = [self.combined(str(ERRORS + k), STAGES + 1, i) for k in range(2)]
+            ends = [self.intrinsic("fabs", self.get(base, i)) for base in ("%y", "%w")]
+            size = self.select(self.compare("ogt", *ends), *ends)
+            scale = self.intrinsic("fmuladd", tolerance, size, least)
+            parts = [self.let(f"fdiv {self.kind} {x}, {scale}") for x in off]
+            return [
+                self.intrinsic("fmuladd", x, x, acc) for x, acc in zip(parts, (fifth, third), strict=True)
+            ]
+
+        fifth, third = self.loop(self.n, one, (self.splat(0.0),) * 2)
+        below = self.intrinsic("fmuladd", self.splat(0.01), third, fifth)
+        root = self.intrinsic("sqrt", self.let(f"fmul {self.kind} {below}, {self.splat(float(self.n))}"))
+        above = self.let(f"fmul {self.kind} {h}, {fifth}")
+        found = self.let(f"fdiv {self.kind} {above}, {root}")
+        return self.select(self.compare("oeq", below, self.splat(0.0)), self.splat(0.0), found)
+
+    def both(self, a: str, b: str) -> str:
+        return self.let(f"and {self.bit} {a}, {b}")
+
+
+def integrator(rate: Program, n: int, lanes: int) -> str:
+    """Function of values (block, numbers, lane), motions (block, ``state_size``, lane), records (block, most,
+    ``record_size``, lane), the table of weights; then how many numbers, attempts at most, whether with what lies
+    between the ends of steps, blocks. Of no attempts it gives the rates at the states."""
+    t = _Integrator(lanes, n)
+    names = head(t, rate)
+    t.lines.append(
+        f"define internal void @stage(ptr noalias %y, ptr noalias %given, ptr noalias %k) {WIDE} {{"
+    )
+    for x in rate.inputs:
+        names[x.index] = t.get("%y" if x.op == "channel" else "%given", rate.places[x.index])
+    operations(t, [x for x in rate.order if x.a is not None], names)
+    for k, node in enumerate(rate.outputs):
+        t.set(names[node.index], "%k", k)
+    t.lines += ["  ret void", "}"]
+    _combined(t)
+    _next(t)
+    t.lines.append(
+        "define void @run(ptr noalias readonly %values, ptr noalias %state, ptr noalias %out, "
+        f"ptr noalias readonly %table, i64 %numbers, i64 %most, i64 %between, i64 %blocks) {SELDOM} {WIDE} {{"
+    )
+    for name, size in (("k", (STAGES + EXTRA + 1) * n), ("z", n + 1), ("w", n), ("live", 1)):
+        t.put(f"%{name} = alloca {t.kind}, i64 {size}, align 64")
+    t.loop("%blocks", lambda b: _motion(t, b))
+    t.lines += ["  ret void", "}"]
+    three = ", ".join([t.kind] * 3)
+    return module(t, rate, [f"declare {t.kind} @llvm.fmuladd.{t.suffix}({three})"])
+
+
+def _combined(t: _Integrator) -> None:
+    """The sum of so many rates of number i by weights."""
+    given = "ptr noalias readonly %k, ptr noalias readonly %weights, i64 %rows, i64 %i"
+    t.lines.append(f"define internal {t.kind} @combined({given}) {WIDE} {{")
+
+    def one(j: str, sum_: str) -> list[str]:
+        k = t.get("%k", t.sum(t.product(j, t.n), "%i"))
+        return [t.intrinsic("fmuladd", t.broadcast(t.load("%weights", j, vector=False)), k, sum_)]
+
+    found = t.loop("%rows", one, (t.splat(0.0),))
+    t.lines += [f"  ret {t.kind} {found[0]}", "}"]
+
+
+def _next(t: _Integrator) -> None:
+    """One stage of a step."""
+    given = "ptr %y, ptr %given, ptr %k, ptr %z, ptr %table, i64 %s"
+    t.lines.append(f"define internal void @next({given}, {t.kind} %t, {t.kind} %h) {WIDE} {{")
+
+    def one(i: str) -> list[str]:
+        t.set(t.intrinsic("fmuladd", "%h", t.combined("%s", "%s", i), t.get("%y", i)), "%z", i)
+        return []
+
+    t.loop(t.n, one)
+    place = t.sum(t.product("%s", WIDTH), WIDTH - 1)
+    weight = t.broadcast(t.load("%table", place, vector=False))
+    t.set(t.intrinsic("fmuladd", "%h", weight, "%t"), "%z", t.n)
+    t.put(f"call void @stage(ptr %z, ptr %given, ptr {t.at('%k', t.product('%s', t.n))})")
+    t.lines += ["  ret void", "}"]
+
+
+def _motion(t: _Integrator, b: str) -> list[str]:
+    """The motions of a block: rates where they stand, then attempts of steps until all have ended."""
+    n = t.n
+    t.put(f"%given = getelementptr inbounds {t.kind}, ptr %values, i64 {t.product(b, '%numbers')}")
+    t.put(f"%y = getelementptr inbounds {t.kind}, ptr %state, i64 {t.product(b, state_size(n))}")
+    t.put(f"%f = getelementptr inbounds {t.kind}, ptr %y, i64 {n}")
+    _copy(t, ("%y", 0, "%z"))
+    t.set(t.get("%y", 2 * n), "%z", n)
+    t.put("call void @stage(ptr %z, ptr %given, ptr %f)")
+    t.set(t.splat(0.0), "%y", 2 * n + 6)
+    t.put(f"%pages = mul i64 {b}, %most")
+    t.put("%some = icmp ugt i64 %most, 0")
+    t.put("br i1 %some, label %attempts, label %done")
+    t.lines.append("attempts:")
+    t.loop("%most", lambda j: _attempt(t, j), go="%live")
+    t.put("br label %done")
+    t.lines.append("done:")
+    return []
+
+
+def _copy(t: _Integrator, *ways: tuple[str, str | int, str]) -> None:
+    """Copy vectors of n, from an offset of one place to another place."""
+
+    def one(i: str) -> list[str]:
+        for source, offset, goal in ways:
+            t.set(t.get(source, t.sum(i, offset)), goal, i)
+        return []
+
+    t.loop(t.n, one)
+
+
+def _attempt(t: _Integrator, j: str) -> list[str]:
+    """One attempt of a step of every lane: those that have ended, or go nowhere, stay."""
+    n, zero = t.n, t.splat(0.0)
+    time, wish, end, tolerance, least, growth, made = (t.get("%y", 2 * n + k) for k in range(7))
+    room = t.let(f"fsub {t.kind} {end}, {time}")
+    last = t.compare("oge", wish, room)
+    h = t.select(last, room, wish)
+    _copy(t, ("%f", 0, "%k"))
+
+    t.loop(STAGES, lambda s: t.stage(t.sum(s, 1), time, h))
+    _copy(t, ("%z", 0, "%w"))
+    error = t.error(h, tolerance, least)
+    moves, small = t.compare("ogt", h, zero), t.compare("olt", error, t.splat(1.0))
+    taken = t.both(moves, small)
+    root = error
+    for _ in range(3):
+        root = t.intrinsic("sqrt", root)
+    factor = t.let(f"fdiv {t.kind} {t.splat(SAFETY)}, {root}")
+    grown = t.select(t.compare("olt", factor, growth), factor, growth)
+    shrunk = t.select(t.compare("ogt", factor, t.splat(LEAST)), factor, t.splat(LEAST))
+    step = t.let(f"fmul {t.kind} {h}, {t.select(small, grown, shrunk)}")
+    tiny = t.compare("olt", step, t.let(f"fmul {t.kind} {t.splat(STILL)}, {t.intrinsic('fabs', time)}"))
+    step = t.select(small, step, t.select(tiny, zero, step))
+    t.put(f"%page = add i64 %pages, {j}")
+    t.put(f"%record = getelementptr inbounds {t.kind}, ptr %out, i64 {t.product('%page', record_size(n))}")
+    t.put("%wanted = icmp ugt i64 %between, 0")
+    t.put("br i1 %wanted, label %more, label %kept")
+    t.lines.append("more:")
+    _between(t, time, h)
+    t.put("br label %kept")
+    t.lines.append("kept:")
+    t.set(time, "%record", 0)
+    t.set(t.select(taken, h, zero), "%record", 1)
+
+    def advance(i: str) -> list[str]:
+        newest = t.sum(i, STAGES * n)
+        for place, base, old, new in (
+            (2, "%y", i, t.get("%w", i)),
+            (2 + 2 * n, "%f", i, t.get("%k", newest)),
+        ):
+            before = t.get(base, old)
+            t.set(before, "%record", t.sum(i, place))
+            t.set(new, "%record", t.sum(i, place + n))
+            t.set(t.select(taken, new, before), base, i)
+        return []
+
+    t.loop(n, advance)
+    new = t.select(taken, t.select(last, end, t.let(f"fadd {t.kind} {time}, {h}")), time)
+    wish = t.select(moves, step, wish)
+    refused = t.both(moves, t.compare("uge", error, t.splat(1.0)))
+    growth = t.select(refused, t.splat(1.0), t.splat(MOST))
+    made = t.let(f"fadd {t.kind} {made}, {t.splat(1.0)}")
+    for k, value in ((0, new), (1, wish), (5, growth), (6, made)):
+        t.set(value, "%y", 2 * n + k)
+    live = t.both(t.compare("olt", new, end), t.compare("ogt", wish, zero))
+    if t.lanes > 1:
+        live = t.let(f"call i1 @llvm.vector.reduce.or.v{t.lanes}i1({t.bit} {live})")
+    t.put(f"store i1 {live}, ptr %live")
+    return []
+
+
+def _between(t: _Integrator, time: str, h: str) -> None:
+    """The stages more, and what they say of the state between the ends of the step."""
+    n = t.n
+
+    t.loop(EXTRA, lambda s: t.stage(t.sum(s, STAGES + 1), time, h))
+
+    def row(r: str) -> list[str]:
+        def one(i: str) -> list[str]:
+            found = t.combined(t.sum(r, ERRORS + 2), STAGES + EXTRA + 1, i)
+            place = t.sum(t.sum(t.product(r, n), i), 2 + 4 * n)
+            t.set(t.let(f"fmul {t.kind} {h}, {found}"), "%record", place)
+            return []
+
+        t.loop(n, one)
+        return []
+
+    t.loop(4, row)

@@ -1,0 +1,186 @@
+"""Equations of motion from traced analyses: a structure's, with the numbers of one mechanism, or its own.
+
+Mechanics: docs/theory.md 10.6.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from dalembert.analysis.batch.compiled_kernel import Kernel
+from dalembert.analysis.batch.kernel_export import plain
+from dalembert.analysis.batch.tracing.traced_analysis import Trace, trace_analysis
+from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mechanism
+from dalembert.analysis.compile.pose_loads import TIME
+from dalembert.analysis.engine.kept_program import KeptProgram
+from dalembert.analysis.engine.structures import ready
+from dalembert.arrays import Array
+from dalembert.core import forcing as fc
+from dalembert.errors import ModelError
+from dalembert.kernel.derivatives import gradients
+from dalembert.kernel.graph import Graph, Node, trace_array
+from dalembert.kernel.program import Program
+from dalembert.kernel.trace import Traced
+from dalembert.machine.motion.equation import LOCK, Equation, LastPose
+from dalembert.model import Mechanism, Schedule
+
+OUTSIDE = frozenset({"min", "exp", "log", "asin", "acos", "tan"})
+"""Operations of expressions without machine code."""
+
+LATEST: deque[tuple[Mechanism, Equation]] = deque(maxlen=8)
+"""Equations of single mechanisms, those met last."""
+
+
+def equation_of(m: Mechanism) -> Equation:
+    """The equation of a mechanism whose drives are all prescribed: its structure's, or its own."""
+    with LOCK:
+        found = _of_structure(m) or next((e.again() for same, e in LATEST if same == m), None)
+        if found is None:
+            LATEST.append((m, trace_equation(m)))
+            found = LATEST[-1][1].again()
+    return found
+
+
+def trace_equation(m: Mechanism, vary: Sequence[str] = ()) -> Equation:
+    """The equation of one mechanism, for any numbers at the paths ``vary``."""
+    names = tuple(m.drives)
+    rates = [f"drives.{n}.{what}" for what in ("speed", "acceleration") for n in names]
+    trace = trace_analysis(m, [*vary, *rates], inertia=True)
+    graph, traced, count = trace.catalogue.graph, trace.catalogue.traced, len(names)
+    kernel = Kernel(m, trace, (), None, False, 1)
+    numbers = kernel.number_nodes[-2 * count :]
+    effort = [n for name in names for n in trace.catalogue.nodes(f"effort.{name}")]
+    mass = [n for row in gradients(graph, effort, numbers[count:]) for n in row]
+    joints, senses, rubbing = _contacts(trace)
+    inputs = [graph.input("channel", f"sense {k}", 1.0) for k in range(len(senses))]
+    places = {n.index: new for n, new in zip(senses, inputs, strict=True) if isinstance(n, Node)}
+    parts = [effort, mass, _powers(graph, trace.catalogue.compiled, traced), rubbing, traced.closure]
+
+    def program(*more: Node) -> Program:
+        nodes = [*(n for part in parts for n in part), *more]
+        plainly = plain(kernel, nodes, marked=False, without=OUTSIDE).outputs
+        return Program(graph, tuple(graph.substitute(plainly, places)))
+
+    found = program()
+    known = [x for n in found.inputs_in_use("channel") if (x := graph.names[n.index]).startswith("known ")]
+    if known:  # whole turns, and groups without a closed form: followed from state to state
+        found = program(*(n for a in traced.pose for n in trace_array(graph, a).ravel()))
+    channels = [_channel(trace, names, n, inputs) for n in found.inputs_in_use("channel")]
+    own = {n.index: k for k, n in enumerate(kernel.number_nodes)}
+    out = Equation(names, found, parts, numbers, own, np.append(kernel.nominal, 0.0), channels)
+    out.joints, out.rough = joints, trace.catalogue.compiled.contacts is not None
+    out.known = LastPose(trace.course.pose, trace.course.followed) if known else None
+    out.by_newton = any(not name.startswith("known turn") for name in known)
+    return out
+
+
+def _channel(trace: Trace, names: tuple[str, ...], node: Node, senses: list[Node]) -> Any:
+    """Where an input stands in positions, senses and time, or how it follows from time and positions."""
+    name, count = trace.catalogue.graph.names[node.index], len(names)
+    if node in senses:
+        return count + senses.index(node)
+    what, _, of = name.partition(" ")
+    if what == "position" and of in names:
+        return names.index(of)
+    if name == TIME:
+        return count + len(senses)
+    if what == "known":
+        found = trace.inputs.found[node]
+        return lambda t, q, known: np.ravel(found(known))[0]
+    if name in trace.inputs.varying and not any("." in n for n in trace.inputs.varying[name].names):
+        varying = trace.inputs.varying[name]
+        return lambda t, q, known: varying.at({**dict(zip(names, q, strict=True)), TIME: t})
+    raise ModelError(
+        f"the motion under forces needs {name!r}, which does not follow from the drives' positions alone",
+        "choose drives that place the links in closed form, one group after the other",
+    )
+
+
+def _of_structure(m: Mechanism) -> Equation | None:
+    """The equation of a mechanism of the plane whose program is kept by structure, with its numbers; None where there
+    is none: with friction, or loads that go by positions or time."""
+    if any(getattr(load, "varying", ()) for load in m.loads.values()):
+        return None
+    names = tuple(m.drives)
+    at, one = np.array([[d.position for d in m.drives.values()]], float), np.ones((1, len(names)))
+    c = compile_mechanism(m, Schedule(names, at, one, one))
+    if c.contacts is not None or c.layout.compliance is not None or c.pose_names:
+        return None
+    found = ready(c, inertia=True)
+    if found is None or not found.program.whole:
+        return None
+    values = [*found.single, *found.columns[:, 0], *found.first.ways, 0.0]
+    return _shared(found.program, names).again(np.array(values))
+
+
+@lru_cache(16)
+def _shared(k: KeptProgram, names: tuple[str, ...]) -> Equation:
+    """The equation of a structure, whose values are the inputs of its program."""
+    graph, (q, u, a) = k.graph, k.symbols.drives
+    effort = list(k.traced.effort)
+    mass = [n for row in gradients(graph, effort, list(a)) for n in row]
+    parts = [effort, mass, _powers(graph, k.symbols.compiled, k.traced), [], k.traced.closure]
+    own = [
+        n if n.op == "number" else graph.input("number", f"value {j}", 1.0) for j, n in enumerate(k.inputs)
+    ]
+    numbers = {n.index: x for n, x in zip(k.inputs, own, strict=True) if n not in list(q)}
+    program = Program(graph, tuple(graph.substitute([n for part in parts for n in part], numbers)))
+    channels = [list(q).index(n) for n in program.inputs_in_use("channel")]
+    rates, places = [numbers[n.index] for n in (*u, *a)], {n.index: j for j, n in enumerate(own)}
+    return Equation(names, program, parts, rates, places, np.zeros(len(own) + 1), channels)
+
+
+def _contacts(trace: Trace) -> tuple[list[str], list[Node | float], list[Node]]:
+    """Joints, senses and rates of contacts whose sense is that of a rate of their own.
+
+    Contacts of a common slip share a direction, and teeth are pushed apart always: they follow by themselves.
+    """
+    c = trace.catalogue.compiled
+    slip, contacts = trace.catalogue.traced.friction.slip, c.contacts
+    if slip is None or contacts is None:
+        return [], [], []
+    own = [
+        e
+        for e in range(contacts.count)
+        if not contacts.fixed[e] and contacts.led[e] == e and (contacts.group == contacts.group[e]).sum() == 1
+    ]
+    rate = trace_array(trace.catalogue.graph, slip.state.rate)
+    joints = [c.joints[contacts.joint[e]] for e in own]
+    return joints, [slip.state.sense[e] for e in own], [rate[e] for e in own]
+
+
+def _powers(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:
+    """Powers of forces and couples, of dampers, and of dry friction, as nodes."""
+    layout, f, pose, twist = c.layout, c.forcing, traced.pose, traced.twist
+
+    def power(*sources: fc.Source) -> Node:
+        parts = [
+            (k, w)
+            for s in sources
+            for k, w in zip(s.link, s.wrench.reshape(-1, twist.shape[-1]), strict=True)
+        ]
+        return sum(((w * twist[k]).sum() for k, w in parts), graph.zero)
+
+    def elastic(at: Array) -> list[fc.Source]:
+        springs = [fc.spring_wrench(layout, f.springs, pose, at)] if len(f.springs.a) else []
+        return (
+            [*springs, fc.resistance_wrench(layout, f.resistances, pose, at)]
+            if len(f.resistances.row)
+            else springs
+        )
+
+    dampers = power(*elastic(twist)) - power(*elastic(0.0 * twist))
+    slip, rubbing = traced.friction.slip, graph.zero
+    if slip is not None and c.contacts is not None:
+        rubbing = (np.where(c.contacts.fixed, 0.0, slip.cz) * slip.state.rate).sum()
+    loads = graph.zero
+    if len(f.forces.link) or len(f.couples.link):  # all power less that of the others
+        inertial = fc.inertia_wrench(layout, f.inertia, pose, twist, traced.acceleration[:-1])
+        others = power(*elastic(twist), fc.weight(layout, f.inertia, pose), inertial)
+        loads = (traced.loads * twist[:-1]).sum() - others - rubbing
+    return list(trace_array(graph, np.array([loads, dampers, rubbing], object)))
