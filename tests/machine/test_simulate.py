@@ -303,9 +303,9 @@ def test_what_is_wrong_says_so_at_its_line(drives: str, sentence: str) -> None:
     assert sentence in str(caught.value)
 
 
-@pytest.mark.parametrize("seed", tiers([], [1, 2, 3]))
+@pytest.mark.parametrize("seed", tiers([57], [1, 2, 3]))
 def test_with_friction_it_asks_for_them_too(seed: int) -> None:
-    """Of seed 2 a fixed point iteration for the accelerations runs away."""
+    """Of seed 2 a fixed point iteration for the accelerations runs away; in 57 links are welded to the ground."""
     s = simulated(rubbing(random_case(seed).tree), 1e-3, tolerance=1e-9)
     assert s.ended == "at 0.001 s"
     assert s.law_residual < 1e-9
@@ -316,11 +316,5 @@ def test_with_friction_it_asks_for_them_too(seed: int) -> None:
 def test_a_motion_that_cannot_begin_says_why() -> None:
     with pytest.raises(da.ModelError, match="the motion cannot begin: stopped at 0 s"):
         simulated(random_case(9).tree, 0.05)
-
-
-@pytest.mark.long
-def test_a_motion_that_gets_nowhere_ends_with_a_sentence() -> None:
-    """With friction seed 0 nearly jams where it begins: 1000 steps take it 1e-23 s on."""
-    s = simulated(rubbing(random_case(0).tree), 1e-3, tolerance=1e-9)
-    assert s.ended.startswith("stopped at")
-    assert "the steps become too small" in s.ended
+    with pytest.raises(da.ModelError, match="the motion cannot begin: stopped at 0 s: nothing there has inertia"):
+        simulated(rubbing(random_case(0).tree), 1e-3)

@@ -23,7 +23,7 @@ from dalembert.arrays import Array
 from dalembert.core import forcing as fc
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
-from dalembert.kernel.graph import Graph, Node, trace_array
+from dalembert.kernel.graph import CONSTANT, Graph, Node, trace_array
 from dalembert.kernel.program import Program
 from dalembert.kernel.trace import Traced
 from dalembert.machine.motion.equation import LOCK, Equation, LastPose
@@ -58,13 +58,12 @@ def trace_equation(m: Mechanism, vary: Sequence[str] = ()) -> Equation:
     mass = [n for row in gradients(graph, effort, numbers[count:]) for n in row]
     joints, senses, rubbing = _contacts(trace)
     inputs = [graph.input("channel", f"sense {k}", 1.0) for k in range(len(senses))]
-    places = {n.index: new for n, new in zip(senses, inputs, strict=True) if isinstance(n, Node)}
+    places = {n.index: new for n, new in zip(senses, inputs, strict=True)}
     parts = [effort, mass, _powers(graph, trace.catalogue.compiled, traced), rubbing, traced.closure]
 
     def program(*more: Node) -> Program:
-        nodes = [*(n for part in parts for n in part), *more]
-        plainly = plain(kernel, nodes, marked=False, without=OUTSIDE).outputs
-        return Program(graph, tuple(graph.substitute(plainly, places)))
+        nodes = graph.substitute([*(n for part in parts for n in part), *more], places)
+        return plain(kernel, nodes, marked=False, without=OUTSIDE)
 
     found = program()
     known = [x for n in found.inputs_in_use("channel") if (x := graph.names[n.index]).startswith("known ")]
@@ -135,7 +134,7 @@ def _shared(k: KeptProgram, names: tuple[str, ...]) -> Equation:
     return Equation(names, program, parts, rates, places, np.zeros(len(own) + 1), channels)
 
 
-def _contacts(trace: Trace) -> tuple[list[str], list[Node | float], list[Node]]:
+def _contacts(trace: Trace) -> tuple[list[str], list[Node], list[Node]]:
     """Joints, senses and rates of contacts whose sense is that of a rate of their own.
 
     Contacts of a common slip share a direction, and teeth are pushed apart always: they follow by themselves.
@@ -144,14 +143,17 @@ def _contacts(trace: Trace) -> tuple[list[str], list[Node | float], list[Node]]:
     slip, contacts = trace.catalogue.traced.friction.slip, c.contacts
     if slip is None or contacts is None:
         return [], [], []
+    sense, rate = (trace_array(trace.catalogue.graph, x) for x in (slip.state.sense, slip.state.rate))
     own = [
         e
         for e in range(contacts.count)
-        if not contacts.fixed[e] and contacts.led[e] == e and (contacts.group == contacts.group[e]).sum() == 1
+        if not contacts.fixed[e]
+        and contacts.led[e] == e
+        and (contacts.group == contacts.group[e]).sum() == 1
+        and sense[e].level != CONSTANT  # it never slips
     ]
-    rate = trace_array(trace.catalogue.graph, slip.state.rate)
     joints = [c.joints[contacts.joint[e]] for e in own]
-    return joints, [slip.state.sense[e] for e in own], [rate[e] for e in own]
+    return joints, [sense[e] for e in own], [rate[e] for e in own]
 
 
 def _powers(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:
