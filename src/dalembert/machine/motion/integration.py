@@ -145,10 +145,12 @@ class Integration(ContactState):
             crossed = [g for g in guards if self._crosses(g, solver.t, solver.y)]
             if crossed:
                 dense = solver.dense_output()
-                when = min(self._root(g, dense, before, solver.t) for g in crossed)
-                y = self._exactly(before, from_, when) if when > before else from_
+                roots = [self._root(g, dense, before, solver.t) for g in crossed]
+                earliest = min(roots)
+                first = [g for g, root in zip(crossed, roots, strict=True) if root <= earliest]
+                when, y = self._meet(first[0], earliest, before, from_)
                 self._keep_until(dense, before, when)
-                self._happen(when, y, [g for g in crossed if self._root(g, dense, before, solver.t) <= when])
+                self._happen(when, y, first)
                 self.keep(when, y)
                 return when, y
             if (self.locked & self.acting.free).any() and self._loose(solver.t, solver.y):
@@ -202,6 +204,18 @@ class Integration(ContactState):
         while solver.status == "running":
             solver.step()
         return np.asarray(solver.y).copy()
+
+    def _meet(self, g: Guard, when: float, t: float, y: Array) -> tuple[float, Array]:
+        """The instant near ``when`` at which a guard passes zero, by the motion itself from (t, y), and the state."""
+        there = self._exactly(t, y, when) if when > t else y
+        for _ in range(2 if when > t else 0):
+            short = 1e-3 * (when - t)
+            slope = (g.value(when + short, there + short * self.rate(when, there)) - g.value(when, there)) / short
+            later = when - g.value(when, there) / slope if slope else when
+            if not t < later < self.end or abs(later - when) > short:
+                break
+            when, there = float(later), self._exactly(t, y, float(later))
+        return when, there
 
     def _keep_until(self, dense: Callable[[float], Array], before: float, end: float) -> None:
         while self.waiting and self.waiting[0] <= end:
