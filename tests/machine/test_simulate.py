@@ -316,5 +316,7 @@ def test_with_friction_it_asks_for_them_too(seed: int) -> None:
 def test_a_motion_that_cannot_begin_says_why() -> None:
     with pytest.raises(da.ModelError, match="the motion cannot begin: stopped at 0 s"):
         simulated(random_case(9).tree, 0.05)
-    with pytest.raises(da.ModelError, match="the motion cannot begin: stopped at 0 s: nothing there has inertia"):
+    with pytest.raises(
+        da.ModelError, match="the motion cannot begin: stopped at 0 s: nothing there has inertia"
+    ):
         simulated(rubbing(random_case(0).tree), 1e-3)

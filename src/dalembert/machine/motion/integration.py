@@ -208,9 +208,11 @@ class Integration(ContactState):
     def _meet(self, g: Guard, when: float, t: float, y: Array) -> tuple[float, Array]:
         """The instant near ``when`` at which a guard passes zero, by the motion itself from (t, y), and the state."""
         there = self._exactly(t, y, when) if when > t else y
-        for _ in range(2 if when > t else 0):
+        for _ in range(2 if self.equation.rough and when > t else 0):  # else it is exact to rounding
             short = 1e-3 * (when - t)
-            slope = (g.value(when + short, there + short * self.rate(when, there)) - g.value(when, there)) / short
+            slope = (
+                g.value(when + short, there + short * self.rate(when, there)) - g.value(when, there)
+            ) / short
             later = when - g.value(when, there) / slope if slope else when
             if not t < later < self.end or abs(later - when) > short:
                 break
