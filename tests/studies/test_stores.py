@@ -16,7 +16,7 @@ import dalembert as da
 from dalembert.bundled import examples
 from dalembert.studies import Study, StudyResult
 from dalembert.studies.running import compute_block
-from dalembert.studies.store import Store, locked
+from dalembert.studies.store import Store
 from tests.tiers import tiers
 
 DESIGNS = 20_000
@@ -104,7 +104,7 @@ def test_half_written_files_are_swept(study: Study, store: Path, finished: Path)
 
 def test_a_second_run_is_refused_while_one_writes(study: Study, store: Path) -> None:
     with (
-        locked(store),
+        Store(store).locked(),
         pytest.raises(
             da.ModelError,
             match=rf"s\.zarr is being written by process {os.getpid()} on .* since .*; wait for it",

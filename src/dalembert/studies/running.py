@@ -18,7 +18,8 @@ from dalembert.errors import ModelError
 from dalembert.model.files.rewriting import text_of
 from dalembert.studies.block_engines import Block
 from dalembert.studies.design_study import Study
-from dalembert.studies.store import FIELDS, Layout, Store, ledger_row, locked, unwritable
+from dalembert.studies.store import FIELDS, Layout, Store, ledger_row
+from dalembert.studies.store_folder import unwritable
 from dalembert.studies.study_result import StudyResult
 from dalembert.units import KINDS
 
@@ -52,7 +53,7 @@ def run_study(
         _compute(study, memory, range(memory.blocks), threads, scheduler, progress)
         return StudyResult(study, memory.arrays, memory.rows, memory.block)
     store = Store(target)
-    with locked(store.path):
+    with store.locked():
         try:
             block = _opened(study, store)
             ledger = store.ledger()
@@ -63,11 +64,11 @@ def run_study(
                     row[0] = 0
                 todo += [] if row[0] else [b]
             _compute(study, _Target(store, block, study.count), todo, threads, scheduler, progress)
-        except OSError as error:
-            raise unwritable(store.path, error) from None
+        except store.place.errors as error:
+            raise unwritable(store, error) from None
         left = int((store.ledger()[:, 0] == 0).sum())
         if left:
-            raise ModelError(f"{left} blocks of {store.path} are missing after the run", "resume it")
+            raise ModelError(f"{left} blocks of {store} are missing after the run", "resume it")
     return StudyResult(study, store.arrays, store.ledger(), block)
 
 
@@ -79,14 +80,14 @@ def _opened(study: Study, store: Store) -> int:
     for key, sentence in CHANGED.items():
         if known["prints"][key] != study.prints[key]:
             raise ModelError(
-                f"{store.path}: {sentence}, and results would be mixed",
+                f"{store}: {sentence}, and results would be mixed",
                 "name another store, or go back to what it was",
             )
-    store.sweep()
+    store.place.sweep()
     block = int(known["block"])
     if known["designs"] > study.count:
         raise ModelError(
-            f"{store.path} has {known['designs']} designs, and {study.count} are asked for",
+            f"{store} has {known['designs']} designs, and {study.count} are asked for",
             "ask for as many or more, or name another store",
         )
     if known["designs"] < study.count or store.arrays["status"].shape[0] != study.count:

@@ -6,13 +6,10 @@ A block counts as done when its row in the ledger is there and agrees with the c
 from __future__ import annotations
 
 import os
-import shutil
-import socket
 import time
 import zlib
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
-from pathlib import Path
+from collections.abc import Mapping
+from contextlib import AbstractContextManager
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,10 +18,11 @@ from dalembert.analysis.batch.batch_result import CODES, first_mark
 from dalembert.arrays import Array, Ints, Tree
 from dalembert.errors import ModelError
 from dalembert.saving import check_installed
+from dalembert.studies.object_store import Objects, is_address
+from dalembert.studies.store_folder import Folder
 
 FIELDS = ("check", "ms", *CODES)
 """A row of the ledger: CRC-32 of the block's arrays plus one (0: not done), milliseconds, designs by status."""
-KEPT = "finished blocks are kept: make room, and resume"
 
 
 class Layout(NamedTuple):
@@ -54,112 +52,45 @@ def ledger_row(block: Mapping[str, Array], ms: float) -> Ints:
     return np.array([checksum(block), round(ms), *np.bincount(marks, minlength=len(CODES))], np.int64)
 
 
-@contextmanager
-def locked(store: Path) -> Iterator[None]:
-    """One run at a time writes a store: a lock on a file beside it, let go by the system when its process dies."""
-    import fcntl
-
-    path = store.with_name(store.name + ".lock")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        file = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
-    except OSError as error:
-        raise unwritable(store, error) from None
-    try:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            who = os.read(file, 200).decode(errors="replace") or "another process"
-            raise ModelError(f"{store} is being written by {who}", "wait for it, or end it") from None
-        os.ftruncate(file, 0)
-        said = f"process {os.getpid()} on {socket.gethostname()} since {time.strftime('%F %T')}"
-        os.write(file, said.encode())
-        yield
-    finally:
-        os.close(file)
-
-
-def unwritable(store: Path, error: OSError) -> ModelError:
-    """The sentence for a disk that is full, read-only, or gone."""
-    return ModelError(f"{store} cannot be written: {(error.strerror or str(error)).lower()}", KEPT)
-
-
 class Store:
-    """A zarr group on disk; raises ModelError for what is none, or not of a study."""
+    """A zarr group in a folder or in an object store; raises ModelError for what is none, or not of a study."""
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         check_installed("zarr", "a stored study", "study")
-        self.path = Path(path)
+        self.place = Objects(str(path)) if is_address(path) else Folder(path)
         self.group: Any = None
         self.arrays: dict[str, Any] = {}
 
+    def __str__(self) -> str:
+        return str(self.place)
+
     def exists(self) -> bool:
         """Whether there is a study; raises ModelError where there is something else."""
-        if not self.path.exists():
-            return False
-        if (self.path / "ledger" / "zarr.json").is_file():
-            return True
-        if self.path.is_dir() and not any(self.path.iterdir()):
-            return False
-        raise ModelError(f"{self.path} is there and is no study", "give another name")
+        return self.place.exists()
+
+    def locked(self) -> AbstractContextManager[None]:
+        """One run at a time writes it."""
+        return self.place.locked()
 
     def create(
         self, attributes: Tree, count: int, block: int, layout: Mapping[str, Layout], table: Any
     ) -> None:
-        """Make it beside and rename it: it is there whole, or not at all."""
-        new = self.path.with_name(self.path.name + ".new")
-        shutil.rmtree(new, ignore_errors=True)
-        self._fill(new, attributes, count, block, layout, table)
-        if self.path.exists():
-            self.path.rmdir()
-        new.rename(self.path)
-
-    def _fill(
-        self, path: Path, attributes: Tree, count: int, block: int, layout: Mapping[str, Layout], table: Any
-    ) -> None:
-        import zarr
-
-        group = zarr.create_group(str(path), zarr_format=3)
-        for name, of in layout.items():
-            group.create_array(
-                name,
-                shape=(count, *of.shape),
-                chunks=(block, *of.shape),
-                dtype=of.dtype,
-                compressors=zarr.codecs.ZstdCodec(level=1) if of.dtype == "u1" else None,
-                fill_value=255 if of.dtype == "u1" else np.nan,
-                dimension_names=("design", *of.dimensions),
-                attributes=of.attributes,
-            )
-        if table is not None:
-            group.create_array("table", data=table, dimension_names=("design", "number"))
-        rows = (-(-count // block), len(FIELDS))
-        group.create_array(
-            "ledger",
-            shape=rows,
-            chunks=(1, len(FIELDS)),
-            dtype="i8",
-            compressors=None,
-            fill_value=0,
-            dimension_names=("block", "field"),
-            attributes={"fields": list(FIELDS)},
-        )
-        own = {"block": block, "designs": count, "blocks_of": list(layout), "created": time.strftime("%FT%T")}
-        group.attrs.update({**attributes, **own})
+        """Make it, without a block."""
+        self.place.create(lambda target: _fill(target, attributes, count, block, layout, table))
 
     def open(self, mode: str = "r+") -> Tree:
         """Its attributes."""
         import zarr
 
         if not self.exists():
-            raise ModelError(f"there is no study {self.path}", "dalembert study run FILE makes one")
+            raise ModelError(f"there is no study {self}", "dalembert study run FILE makes one")
         try:
-            self.group = zarr.open_group(str(self.path), mode=mode, zarr_format=3)
+            self.group = zarr.open_group(self.place.group(), mode=mode, zarr_format=3)
             found = dict(self.group.attrs)
             self.arrays = {name: self.group[name] for name in [*found["blocks_of"], "ledger"]}
         except (KeyError, ValueError, TypeError, OSError) as error:
             raise ModelError(
-                f"{self.path} is no readable study: {error}", "run it anew under another name"
+                f"{self} is no readable study: {error}", "run it anew under another name"
             ) from None
         return found
 
@@ -167,11 +98,6 @@ class Store:
     def names(self) -> list[str]:
         """Arrays of each block."""
         return [name for name in self.arrays if name != "ledger"]
-
-    def sweep(self) -> None:
-        """Remove half-written files of a run that was killed: zarr writes beside and renames."""
-        for path in self.path.rglob("*.partial"):
-            path.unlink()
 
     def resize(self, count: int, block: int) -> None:
         """More designs; the last block is done again if it was not full. What is there stays."""
@@ -189,10 +115,11 @@ class Store:
         self.arrays["ledger"][b] = 0
         for name in self.names:
             rest = "/0" * (self.arrays[name].ndim - 1)
-            (self.path / name / f"c/{b}{rest}").unlink(missing_ok=True)
+            self.place.remove(f"{name}/c/{b}{rest}")
 
     def put(self, b: int, block: int, count: int, found: Mapping[str, Array], ms: float) -> Ints:
         """Write a block, the ledger's row last."""
+        self.place.check()
         which = slice(b * block, min((b + 1) * block, count))
         row = ledger_row(found, ms)
         for name, values in found.items():
@@ -221,3 +148,43 @@ class Store:
         except Exception:  # of a chunk that was cut or is unreadable
             return False
         return np.array_equal(found, row)
+
+
+def _fill(
+    target: Any,
+    attributes: Tree,
+    count: int,
+    block: int,
+    layout: Mapping[str, Layout],
+    table: Any,
+) -> None:
+    """The group and its arrays; the attributes last: one without them is half-made."""
+    import zarr
+
+    group = zarr.create_group(target, zarr_format=3, attributes={"dalembert": attributes["dalembert"]})
+    for name, of in layout.items():
+        group.create_array(
+            name,
+            shape=(count, *of.shape),
+            chunks=(block, *of.shape),
+            dtype=of.dtype,
+            compressors=zarr.codecs.ZstdCodec(level=1) if of.dtype == "u1" else None,
+            fill_value=255 if of.dtype == "u1" else np.nan,
+            dimension_names=("design", *of.dimensions),
+            attributes=of.attributes,
+        )
+    if table is not None:
+        group.create_array("table", data=table, dimension_names=("design", "number"))
+    rows = (-(-count // block), len(FIELDS))
+    group.create_array(
+        "ledger",
+        shape=rows,
+        chunks=(1, len(FIELDS)),
+        dtype="i8",
+        compressors=None,
+        fill_value=0,
+        dimension_names=("block", "field"),
+        attributes={"fields": list(FIELDS)},
+    )
+    own = {"block": block, "designs": count, "blocks_of": list(layout), "created": time.strftime("%FT%T")}
+    group.attrs.update({**attributes, **own})

@@ -194,7 +194,7 @@ def stored_study(store: Store, found: Mapping[str, Any]) -> Study:
     """The study that a store's attributes describe, of as many designs as it has."""
     from dalembert.model import loads
 
-    m = loads(found["model"], name=f"the model in {store.path}")
+    m = loads(found["model"], name=f"the model in {store}")
     table = np.asarray(store.group["table"][:]) if "table" in store.group else None
     tree = {**found["study"], "designs": found["designs"]}
     return study_of_tree(m, tree, table)

@@ -31,8 +31,8 @@ study = App(
 )
 
 StudyFile = Annotated[Path, with_help("Study file: YAML, JSON or TOML.")]
-StorePath = Annotated[Path, with_help("Store of a study, a folder.")]
-Either = Annotated[Path, with_help("Store of a study, or its study file.")]
+StorePath = Annotated[str, with_help("Store of a study: a folder, or an address as s3://bucket/pump.zarr.")]
+Either = Annotated[str, with_help("Store of a study, or its study file.")]
 Threads = Annotated[int | None, Parameter(converter=whole(1), help="Threads (default: one a core).")]
 Scheduler = Annotated[
     str | None, with_help("Address of a dask scheduler whose workers compute, as tcp://host:8786.")
@@ -46,7 +46,7 @@ def run(
     file: StudyFile,
     /,
     *,
-    output: Annotated[Path | None, output("Store to make (default: FILE with the ending .zarr).")] = None,
+    output: Annotated[str | None, output("Store to make (default: FILE with the ending .zarr).")] = None,
     threads: Threads = None,
     scheduler: Scheduler = None,
 ) -> int:
@@ -54,7 +54,7 @@ def run(
     from dalembert.studies.store import Store
     from dalembert.studies.study_file import load_study
 
-    store = output or file.with_suffix(".zarr")
+    store = output or str(file.with_suffix(".zarr"))
     if Store(store).exists():
         raise ModelError(
             f"{store} is there already", f"dalembert study resume {store}, or name another with -o"
@@ -67,12 +67,12 @@ def resume(
     study: Either,
     /,
     *,
-    output: Annotated[Path | None, output("Store of a study file (default: with the ending .zarr).")] = None,
+    output: Annotated[str | None, output("Store of a study file (default: with the ending .zarr).")] = None,
     threads: Threads = None,
     scheduler: Scheduler = None,
 ) -> int:
     """Go on with a study that was stopped: blocks that are missing or broken are computed, the others checked."""
-    store = study if study.is_dir() else output or study.with_suffix(".zarr")
+    store = study if _is_store(study) else output or str(Path(study).with_suffix(".zarr"))
     _stored(store)
     return _run(_read(study), store, threads, scheduler)
 
@@ -172,20 +172,26 @@ def report(
     return 0
 
 
-def _stored(store: Path) -> StudyResult:
+def _is_store(path: str) -> bool:
+    from dalembert.studies.object_store import is_address
+
+    return is_address(path) or Path(path).is_dir()
+
+
+def _stored(store: str) -> StudyResult:
     from dalembert.studies import StudyResult
 
     return StudyResult.open(store)
 
 
-def _read(path: Path) -> Study:
+def _read(path: str) -> Study:
     """The study of a store, or of a file."""
     from dalembert.studies.study_file import load_study
 
-    return _stored(path).study if path.is_dir() else load_study(path)
+    return _stored(path).study if _is_store(path) else load_study(path)
 
 
-def _run(study: Study, store: Path, threads: int | None, scheduler: str | None) -> int:
+def _run(study: Study, store: str, threads: int | None, scheduler: str | None) -> int:
     """Run with a bar on the terminal, and show."""
     from dalembert.studies.output.study_text import summary
 

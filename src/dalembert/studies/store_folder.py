@@ -1,0 +1,98 @@
+"""A store of a study in a folder: made whole by a rename, written by one run at a time by a lock of the system."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from socket import gethostname
+from typing import Any
+
+from dalembert.errors import ModelError
+
+KEPT = "finished blocks are kept: make room, and resume"
+
+
+def this_run() -> str:
+    """This process, in words for those whom its lock keeps out."""
+    return f"process {os.getpid()} on {gethostname()} since {time.strftime('%F %T')}"
+
+
+class Folder:
+    """A folder on a disk."""
+
+    errors: tuple[type[Exception], ...] = (OSError,)
+    """What is raised where it cannot be read or written."""
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = Path(path)
+
+    def __str__(self) -> str:
+        return str(self.path)
+
+    def group(self) -> Any:
+        """What zarr takes for the group."""
+        return str(self.path)
+
+    def exists(self) -> bool:
+        """Whether there is a study; raises ModelError where there is something else."""
+        if not self.path.exists():
+            return False
+        if (self.path / "ledger" / "zarr.json").is_file():
+            return True
+        if self.path.is_dir() and not any(self.path.iterdir()):
+            return False
+        raise ModelError(f"{self.path} is there and is no study", "give another name")
+
+    def create(self, fill: Callable[[Any], None]) -> None:
+        """Make it beside and rename it: it is there whole, or not at all."""
+        new = self.path.with_name(self.path.name + ".new")
+        shutil.rmtree(new, ignore_errors=True)
+        fill(str(new))
+        if self.path.exists():
+            self.path.rmdir()
+        new.rename(self.path)
+
+    def remove(self, key: str) -> None:
+        """Take a chunk away, if it is there."""
+        (self.path / key).unlink(missing_ok=True)
+
+    def sweep(self) -> None:
+        """Remove half-written files of a run that was killed: zarr writes beside and renames."""
+        for path in self.path.rglob("*.partial"):
+            path.unlink()
+
+    def check(self) -> None:
+        """The lock is not lost while the process is there."""
+
+    @contextmanager
+    def locked(self) -> Iterator[None]:
+        """One run at a time: a lock on a file beside it, let go by the system when its process dies."""
+        import fcntl
+
+        path = self.path.with_name(self.path.name + ".lock")
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            file = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
+        except OSError as error:
+            raise unwritable(self, error) from None
+        try:
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError:
+                who = os.read(file, 200).decode(errors="replace") or "another process"
+                raise ModelError(f"{self} is being written by {who}", "wait for it, or end it") from None
+            os.ftruncate(file, 0)
+            os.write(file, this_run().encode())
+            yield
+        finally:
+            os.close(file)
+
+
+def unwritable(place: object, error: Exception) -> ModelError:
+    """The sentence for a disk that is full, read-only, or gone; and for an object store that does not answer."""
+    said = getattr(error, "strerror", None) or str(error).strip() or type(error).__name__
+    return ModelError(f"{place} cannot be written: {said[:1].lower()}{said[1:].splitlines()[0]}", KEPT)

@@ -1,0 +1,251 @@
+"""Stores at an address: as those in folders, bit by bit; a lease in place of the lock, attributes last in place of a
+rename."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.bundled import examples
+from dalembert.cli import main
+from dalembert.studies import Study, StudyResult, object_store
+from dalembert.studies.object_store import Objects
+from dalembert.studies.store import Store
+from tests.tiers import tiers
+
+DESIGNS = 20_000
+FILE = f"""
+study: 1
+model: {examples()["four_bar"]}
+vary: {{links.coupler.weight: ± 5 %, links.rocker.weight: uniform ± 5 %}}
+outputs: [effort.O2, magnitude.A]
+designs: {DESIGNS}
+seed: 3
+"""
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory: pytest.TempPathFactory) -> Study:
+    from dalembert.studies.study_file import load_study
+
+    path = tmp_path_factory.mktemp("address") / "s.yaml"
+    path.write_text(FILE)
+    return load_study(path)
+
+
+@pytest.fixture(scope="module")
+def answers(study: Study, tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+    """Of a store in a folder, byte by byte."""
+    path = tmp_path_factory.mktemp("folder") / "s.zarr"
+    study.run(path)
+    return chunks_of({str(p.relative_to(path)): p.read_bytes() for p in path.rglob("*") if p.is_file()})
+
+
+def chunks_of(objects: dict[str, bytes]) -> dict[str, bytes]:
+    return {key: data for key, data in objects.items() if "/c/" in key and "ledger" not in key}
+
+
+@pytest.fixture
+def address() -> Iterator[str]:
+    name = f"memory://studies/{time.time_ns()}/s.zarr"
+    yield name
+    kept = Objects(name).objects
+    kept.remove(kept.keys(""))
+
+
+def stored(address: str) -> dict[str, bytes]:
+    place = Objects(address)
+    keys = place.objects.keys(f"{place.name}/")
+    return {key.removeprefix(f"{place.name}/"): place.objects.read(key) or b"" for key in keys}
+
+
+def test_the_same_bits_as_in_a_folder(study: Study, address: str, answers: dict[str, bytes]) -> None:
+    pytest.importorskip("xarray")
+    import xarray
+
+    r = study.run(address)
+    assert chunks_of(stored(address)) == answers
+    with xarray.open_zarr(address, consolidated=False) as found:
+        assert np.array_equal(found["effort.O2"].values, r["effort.O2"])
+    more = StudyResult.open(address).study.extended(DESIGNS + 5000).run(address)
+    assert np.array_equal(more["effort.O2"], study.extended(DESIGNS + 5000).run()["effort.O2"])
+    assert [
+        k for k in Objects(address).objects.keys("") if not k.startswith(("s.zarr/", "s.zarr.lock/"))
+    ] == []
+
+
+@pytest.mark.parametrize("damage", ["flip", "cut", "delete", "ledger"])
+def test_a_damaged_object_is_computed_again(
+    damage: str, study: Study, address: str, answers: dict[str, bytes]
+) -> None:
+    study.run(address)
+    kept, key = Objects(address).objects, "s.zarr/" + ("ledger/c/1/0" if damage == "ledger" else "status/c/1")
+    data = kept.read(key)
+    assert data is not None
+    kept.remove([key])
+    if damage in ("flip", "cut"):
+        kept.write(key, data[: len(data) // 2] + (bytes([data[-1] ^ 1]) * 3 if damage == "flip" else b""))
+    counted: list[int] = []
+    study.run(address, progress=lambda done, of: counted.append(done))
+    assert len(counted) == 1, "one block"
+    assert chunks_of(stored(address)) == answers
+
+
+@pytest.mark.parametrize("written", [1, 2, 4])
+def test_a_half_made_store_is_none_and_is_made_anew(
+    written: int, study: Study, address: str, answers: dict[str, bytes]
+) -> None:
+    study.run(address)
+    kept = Objects(address).objects
+    group = json.loads(kept.read("s.zarr/zarr.json") or b"")
+    group["attributes"] = {"dalembert": group["attributes"]["dalembert"]}
+    keys = [k for k in kept.keys("s.zarr/") if k.endswith("zarr.json")]
+    kept.remove([k for k in kept.keys("s.zarr/") if k not in keys[-written:]])
+    kept.write("s.zarr/zarr.json", json.dumps(group).encode())
+    with pytest.raises(da.ModelError, match=r"there is no study memory://.*s\.zarr; dalembert study run"):
+        StudyResult.open(address)
+    study.run(address)
+    assert chunks_of(stored(address)) == answers
+
+
+def test_what_is_no_study_is_left_alone(study: Study, address: str) -> None:
+    kept = Objects(address).objects
+    for key, data in (("s.zarr/mine.txt", b"precious"), ("s.zarr/zarr.json", b'{"attributes": {}}')):
+        kept.write(key, data)
+        with pytest.raises(da.ModelError, match=r"s\.zarr is there and is no study; give another name"):
+            study.run(address)
+        assert kept.read(key) == data
+
+
+def test_a_second_run_is_refused_with_its_holder_and_its_end(study: Study, address: str) -> None:
+    sentence = (
+        r"s\.zarr is being written by process \d+ on .* since .*, whose lease ends at \d\d:\d\d:\d\d if it is "
+        "not renewed; wait for it, or end it; one that died is taken over after that time"
+    )
+    with Store(address).locked(), pytest.raises(da.ModelError, match=sentence):
+        study.run(address)
+    study.run(address)  # let go
+
+
+def test_a_lease_is_renewed_taken_over_when_it_has_ended_and_then_lost(
+    study: Study, address: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(object_store, "LEASE", 0.2)
+    dead, heir = Store(address), Store(address)
+    with dead.locked():
+        time.sleep(0.4)
+        with pytest.raises(da.ModelError, match="whose lease ends"), heir.locked():
+            raise AssertionError("it was renewed")
+        lease = dead.place._lease  # type: ignore[union-attr]
+        assert lease is not None
+        lease._ended.set()  # as of a process that died
+        lease._thread.join()
+        time.sleep(0.25)
+        with pytest.raises(da.ModelError, match="could not be renewed in time; finished blocks are kept"):
+            dead.place.check()
+        with heir.locked():
+            heir.place.check()
+            lease._ended.clear()
+            lease._renew()
+            with pytest.raises(da.ModelError, match=r"the lease of .* is process \d+ on .*'s now"):
+                dead.place.check()
+    study.run(address)
+
+
+@pytest.mark.parametrize(
+    ("address", "sentence"),
+    [
+        ("s3://bucket", "s3://bucket names no place for a store; write s3://bucket/pump.zarr"),
+        ("zz://a/s.zarr", "zz://a/s.zarr: protocol not known: zz; fsspec knows memory://, file://, s3://"),
+        (
+            "memory://none/s.zarr",
+            "there is no study memory://none/s.zarr; dalembert study run FILE makes one",
+        ),
+    ],
+)
+def test_an_address_that_is_none_is_said(
+    address: str, sentence: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["study", "show", address]) == 2
+    assert sentence in capsys.readouterr().err
+
+
+def test_what_serves_an_address_may_be_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(address: str) -> None:
+        raise ImportError("Install s3fs to access S3")
+
+    monkeypatch.setattr(object_store, "ByFsspec", refuse)
+    monkeypatch.setattr(object_store, "find_spec", lambda name: None)
+    with pytest.raises(
+        da.ModelError, match=r"a study at s3://b/s\.zarr needs the package obstore, which is not inst"
+    ):
+        Objects("s3://b/s.zarr")
+
+
+def test_the_commands_take_an_address(
+    address: str, study: Study, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "s.yaml"
+    file.write_text(FILE.replace(str(DESIGNS), "300"))
+    assert main(["study", "run", str(file), "-o", address]) == 0
+    assert main(["study", "run", str(file), "-o", address]) == 2
+    assert f"{address} is there already; dalembert study resume {address}" in capsys.readouterr().err
+    assert main(["study", "resume", address]) == main(["study", "resume", str(file), "-o", address]) == 0
+    assert main(["study", "extend", address, "--designs", "400"]) == main(["study", "show", address]) == 0
+    assert "400 of 400 designs" in capsys.readouterr().out
+    assert main(["study", "design", address, "7", "-o", str(tmp_path / "d.yaml")]) == 0
+    assert main(["study", "export", address, "-o", str(tmp_path / "s.csv")]) == 0
+    assert len((tmp_path / "s.csv").read_text().splitlines()) == 401
+
+
+@pytest.mark.long
+def test_a_report_of_an_address(address: str, study: Study, tmp_path: Path) -> None:
+    study.run(address)
+    assert main(["study", "report", address, "-o", str(tmp_path / "s.html")]) == 0
+
+
+KILLED = """
+import os, random, signal, sys, time
+from dalembert.studies import object_store
+from dalembert.studies.store import Store
+from dalembert.studies.study_file import load_study
+object_store.LEASE = 0.3
+put = Store.put
+def late(self, *rest):
+    time.sleep(0.02)
+    return put(self, *rest)
+Store.put = late
+study = load_study(sys.argv[1])
+study.prints
+for seed in sys.argv[3:]:
+    child = os.fork()
+    if not child:
+        study.run(f"{sys.argv[2]}/{seed}.zarr", threads=2)
+        os._exit(0)
+    time.sleep(random.Random(int(seed)).uniform(0.0, 0.8))
+    os.kill(child, signal.SIGKILL)
+    os.waitpid(child, 0)
+"""
+"""Runs that write slowly below an address, each killed at a random moment."""
+
+
+@pytest.mark.parametrize("seeds", tiers([], [range(30)]))
+def test_killed_runs_are_taken_over_and_resumed_bit_by_bit(
+    seeds: range, study: Study, answers: dict[str, bytes], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(object_store, "LEASE", 0.3)
+    (tmp_path / "s.yaml").write_text(FILE)
+    names = [str(tmp_path / "s.yaml"), f"file://{tmp_path}", *map(str, seeds)]
+    subprocess.run([sys.executable, "-c", KILLED, *names], check=True)
+    time.sleep(0.35)
+    for seed in seeds:
+        study.run(f"file://{tmp_path}/{seed}.zarr")
+        assert chunks_of(stored(f"file://{tmp_path}/{seed}.zarr")) == answers, seed
