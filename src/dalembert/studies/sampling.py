@@ -1,7 +1,7 @@
 """Designs by their number: each follows from the seed, the path and its number alone.
 
 So any part of them can be made by anybody in any order, with the same bits; nothing is remembered between designs.
-Random numbers are Philox's, addressed by counter, a row of its own for each path.
+Random numbers are Philox's, addressed by counter, a row of its own for each path: `kernel.emit.random_numbers`.
 
 Mechanics: docs/theory.md 11.
 """
@@ -9,7 +9,7 @@ Mechanics: docs/theory.md 11.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import prod
@@ -19,6 +19,8 @@ import numpy as np
 
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
+from dalembert.kernel.emit.random_numbers import FIELDS, draw, quantiles
+from dalembert.saving import check_installed
 from dalembert.studies.spreads import Spread
 from dalembert.wording import closest
 
@@ -29,9 +31,8 @@ BITS = 30
 """Of a Sobol number; there are two to this power."""
 LOW = 16
 """Bits of a Sobol point's number that are looked up in one table."""
-
-AT_ONCE = 1 << 13
-"""Designs drawn together: what one number of them takes on the way stays in the nearest cache."""
+SHARE, SCORE = Spread("uniform", 0, 1), Spread("normal", 0, 1)
+"""Of which a share is the value, and the normal score."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,8 @@ class Plan:
             k = next(k for k, s in enumerate(self.spreads) if s.kind != "levels")
             what = f"{self.paths[k]}: a factorial needs levels"
             raise ModelError(what, "write a list, or 70..90 N in 5", (self.paths[k],))
+        if self.draw not in ("factorial", "table"):
+            check_installed("llvmlite", "drawing designs", "study")
         most = 2**BITS if self.draw == "sobol" else MOST
         if not 1 <= self.count <= most:
             more = "; more can be drawn at random" if self.draw == "sobol" else ""
@@ -85,31 +88,42 @@ class Plan:
                 place, k = np.divmod(place, len(levels))
                 out[:, j] = levels[k]
             return out
-        for first in range(start, stop, AT_ONCE):
-            last = min(first + AT_ONCE, stop)
-            for j, u in enumerate(self._shares(first, last)):
-                out[first - start : last - start, j] = self.spreads[j].at(u)
+        if self.draw == "random" and self.mixing is None:
+            out = draw(self._rows, start, stop)
+        else:
+            out = quantiles(self._rows, self._shares(start, stop))
+        for j, s in enumerate(self.spreads):
+            if s.kind == "levels":
+                out[:, j] = s.pick(out[:, j])
         return out
 
-    def _shares(self, start: int, stop: int) -> Iterator[Array]:
-        """Share of the designs below each number's value, path by path."""
-        rows = self._independent(start, stop)
-        if self.mixing is None:
-            return rows
-        from scipy.special import ndtr, ndtri
-
-        scores = np.stack([ndtri(u) for u in rows])
-        return iter(ndtr(sum_in_order(self.mixing, scores)))
-
-    def _independent(self, start: int, stop: int) -> Iterator[Array]:
+    def _shares(self, start: int, stop: int) -> Array:
+        """Share of the designs below each number's value (number, design)."""
         if self.draw == "sobol":
-            yield from self._sobol(np.arange(start, stop))
-            return
-        for path in self.paths:
-            u = uniforms(self.seed, path, start, stop)
-            if self.draw == "latin":
-                u = (permuted(np.arange(start, stop), self.count, self.seed, path) + u) / self.count
-            yield u
+            u = self._sobol(np.arange(start, stop))
+        else:
+            u = draw(self._rows_of([SHARE.law] * len(self.paths)), start, stop).T
+        if self.draw == "latin":
+            for path, row in zip(self.paths, u, strict=True):
+                row += permuted(np.arange(start, stop), self.count, self.seed, path)
+                row /= self.count
+        if self.mixing is None:
+            return u
+        from scipy.special import ndtr
+
+        scores = quantiles(self._rows_of([SCORE.law] * len(self.paths)), u).T
+        return np.asarray(ndtr(sum_in_order(self.mixing, scores)))
+
+    @cached_property
+    def _rows(self) -> Array:
+        return self._rows_of([s.law for s in self.spreads])
+
+    def _rows_of(self, laws: Sequence[tuple[float, ...]]) -> Array:
+        """How each number is drawn, as `draw` reads it."""
+        out = np.zeros((len(laws), FIELDS), np.uint64)
+        out[:, :2] = [_key(self.seed, path) for path in self.paths]
+        out.view(float)[:, 2 : 2 + len(laws[0])] = laws
+        return out
 
     @cached_property
     def _sobol(self) -> Sobol:
@@ -132,17 +146,6 @@ def sum_in_order(matrix: Array, rows: Array) -> Array:
 def _key(seed: int, path: str) -> Array:
     name = int.from_bytes(hashlib.sha256(path.encode()).digest()[:8], "little")
     return np.array([seed % 2**64, name], np.uint64)
-
-
-def uniforms(seed: int, path: str, start: int, stop: int) -> Array:
-    """Numbers ``start`` to ``stop`` of the endless row of a seed and a path, between 0 and 1 and never either.
-
-    >>> bool((uniforms(7, "r", 5, 9) == uniforms(7, "r", 0, 100)[5:9]).all())
-    True
-    """
-    first = start // 4  # Philox makes four numbers a count
-    raw = np.random.Philox(key=_key(seed, path), counter=[first, 0, 0, 0]).random_raw(stop - 4 * first)
-    return np.asarray(((raw[start - 4 * first :] >> np.uint64(11)) + 0.5) * 2.0**-53)
 
 
 def permuted(index: Array, count: int, seed: int, path: str) -> Array:
@@ -192,11 +195,14 @@ class Sobol:
     def _next(row: Any) -> Array:
         return np.asarray(row.random(1)[0] * 2.0**BITS, np.uint64)
 
-    def __call__(self, index: Array) -> Iterator[Array]:
+    def __call__(self, index: Array) -> Array:
+        """Points (number, index)."""
         gray = index ^ (index >> 1)
-        low, high = gray & ((1 << LOW) - 1), gray >> LOW
-        for table, shift, directions in zip(self.table, self.shift, self.directions.T, strict=True):
-            x = table[low % len(table)] ^ shift
+        low, high = (gray & ((1 << LOW) - 1)) % self.table.shape[1], gray >> LOW
+        out = np.empty((len(self.table), len(index)))
+        for row, table, shift, directions in zip(out, self.table, self.shift, self.directions.T, strict=True):
+            x = table[low] ^ shift
             for k, direction in enumerate(directions[LOW:]):
                 x ^= np.where((high >> k) & 1, direction, np.uint64(0))
-            yield (x + 0.5) * 2.0**-BITS
+            row[:] = (x + 0.5) * 2.0**-BITS
+        return out

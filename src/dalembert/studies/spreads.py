@@ -37,17 +37,18 @@ class Spread:
     b: float = 0.0
     levels: tuple[float, ...] = ()
 
-    def at(self, u: Array) -> Array:
-        """The value below which the share u (0 to 1) of the designs lies."""
-        from scipy.special import ndtr, ndtri
-
-        if self.kind == "uniform":
-            return np.asarray(self.a + u * (self.b - self.a))
-        if self.kind == "normal":
-            return np.asarray(self.a + self.b * ndtri(u))
+    @property
+    def law(self) -> tuple[float, float, float, float, bool]:
+        """Low, width, a, b and whether normal of the value a + b x below which a share u (0 to 1) of the designs lies:
+        x is low + width u, or the normal score of that. Of levels it is the share itself."""
         if self.kind == "tolerance":
-            low = ndtr(-CUT)
-            return np.asarray(self.a + self.b / CUT * ndtri(low + u * (1 - 2 * low)))
+            low = math.erfc(CUT / math.sqrt(2)) / 2
+            return low, 1 - 2 * low, self.a, self.b / CUT, True
+        a, b = {"uniform": (self.a, self.b - self.a), "normal": (self.a, self.b)}.get(self.kind, (0.0, 1.0))
+        return 0.0, 1.0, a, b, self.kind == "normal"
+
+    def pick(self, u: Array) -> Array:
+        """The levels at shares u of them."""
         place = np.minimum((u * len(self.levels)).astype(int), len(self.levels) - 1)
         return np.asarray(np.asarray(self.levels)[place])
 

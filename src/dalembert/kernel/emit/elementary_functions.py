@@ -66,7 +66,7 @@ def _emit_division(lanes: int, name: str) -> list[str]:
     t = Text(lanes)
     t.lines.append(f"define internal {t.kind} @{name}({t.kind} %x) alwaysinline {{")
     below = "%x" if name == "reciprocal" else t.intrinsic("sqrt", "%x")
-    value = _exact(t, "fdiv", t.splat(1.0), below)
+    value = t.exact("fdiv", t.splat(1.0), below)
     return [*t.lines, f"  ret {t.kind} {value}", "}"]
 
 
@@ -76,12 +76,12 @@ def _emit_estimate(lanes: int, name: str) -> list[str]:
     declared = f"declare <8 x double> @{_ESTIMATE}{kind}.pd.512(<8 x double>, <8 x double>, i8)"
     t.lines += [declared, f"define internal {t.kind} @{name}({t.kind} %x) alwaysinline {{"]
     y = _estimate(t, kind, "%x")
-    given = "%x" if name == "reciprocal" else _exact(t, "fmul", "%x", y)
-    e = _fma(t, t.let(f"fneg {t.kind} {given}"), y, t.splat(1.0))
+    given = "%x" if name == "reciprocal" else t.exact("fmul", "%x", y)
+    e = t.fma(t.let(f"fneg {t.kind} {given}"), y, t.splat(1.0))
     if name == "reciprocal":
-        value = _fma(t, y, _fma(t, e, _fma(t, e, e, e), e), y)
+        value = t.fma(y, t.fma(e, t.fma(e, e, e), e), y)
     else:
-        value = _fma(t, _exact(t, "fmul", y, e), _horner(t, (0.3125, 0.375, 0.5), e), y)
+        value = t.fma(t.exact("fmul", y, e), t.horner((0.3125, 0.375, 0.5), e), y)
     return [*t.lines, f"  ret {t.kind} {value}", "}"]
 
 
@@ -104,41 +104,23 @@ def _estimate(t: Text, kind: str, x: str) -> str:
     return t.let(f"shufflevector <8 x double> {halves[0]}, <8 x double> {halves[1]}, {places(0, 16)}")
 
 
-def _exact(t: Text, op: str, a: str, b: str) -> str:
-    return t.let(f"{op} {t.kind} {a}, {b}")
-
-
-def _fma(t: Text, a: str, b: str, c: str) -> str:
-    return t.intrinsic("fma", a, b, c)
-
-
-def _horner(t: Text, coefficients: tuple[float, ...], z: str) -> str:
-    total = t.splat(coefficients[0])
-    for c in coefficients[1:]:
-        total = _fma(t, total, z, t.splat(c))
-    return total
-
-
 def _circular(lanes: int, name: str, shift: int) -> list[str]:
     """sin(x), or cos(x) = sin(x + pi/2): the quadrant is counted one further."""
     t = Text(lanes)
     t.lines.append(f"define internal {t.kind} @{name}({t.kind} %x) alwaysinline {{")
-    n = t.intrinsic("rint", _exact(t, "fmul", "%x", t.splat(0.6366197723675814)))
+    n = t.intrinsic("rint", t.exact("fmul", "%x", t.splat(0.6366197723675814)))
     minus = t.let(f"fneg {t.kind} {n}")
     r = "%x"
     for part in HALF_PI:
-        r = _fma(t, minus, t.splat(part), r)
-    z = _exact(t, "fmul", r, r)
-    sine = _fma(t, _exact(t, "fmul", _horner(t, SINE, z), z), r, r)
-    z2 = _exact(t, "fmul", z, z)
-    cosine = _fma(t, _horner(t, COSINE, z), z2, _fma(t, z, t.splat(-0.5), t.splat(1.0)))
+        r = t.fma(minus, t.splat(part), r)
+    z = t.exact("fmul", r, r)
+    sine = t.fma(t.exact("fmul", t.horner(SINE, z), z), r, r)
+    z2 = t.exact("fmul", z, z)
+    cosine = t.fma(t.horner(COSINE, z), z2, t.fma(z, t.splat(-0.5), t.splat(1.0)))
     quadrant = t.let(f"fptosi {t.kind} {n} to {t.whole}")
-    one, two = (str(k) if lanes == 1 else "<" + ", ".join([f"i64 {k}"] * lanes) + ">" for k in (1, 2))
     if shift:
-        quadrant = t.let(f"add {t.whole} {quadrant}, {one}")
-    zero = "0" if lanes == 1 else "zeroinitializer"
-    swapped = t.let(f"icmp ne {t.whole} {t.let(f'and {t.whole} {quadrant}, {one}')}, {zero}")
-    negative = t.let(f"icmp ne {t.whole} {t.let(f'and {t.whole} {quadrant}, {two}')}, {zero}")
+        quadrant = t.integer("add", quadrant, 1)
+    swapped, negative = (t.integer("icmp ne", t.integer("and", quadrant, k), 0) for k in (1, 2))
     value = t.select(swapped, cosine, sine)
     value = t.select(negative, t.let(f"fneg {t.kind} {value}"), value)
     return [*t.lines, f"  ret {t.kind} {value}", "}"]
@@ -152,16 +134,16 @@ def _angle(lanes: int) -> list[str]:
     steep = t.compare("ogt", ay, ax)
     large, small = t.select(steep, ay, ax), t.select(steep, ax, ay)
     safe = t.select(t.compare("oeq", large, t.splat(0.0)), t.splat(1.0), large)
-    q = _exact(t, "fdiv", small, safe)
+    q = t.exact("fdiv", small, safe)
     upper = t.compare("ogt", q, t.splat(0.4142135623730950))
-    folded = _exact(t, "fdiv", _exact(t, "fsub", q, t.splat(1.0)), _exact(t, "fadd", q, t.splat(1.0)))
+    folded = t.exact("fdiv", t.exact("fsub", q, t.splat(1.0)), t.exact("fadd", q, t.splat(1.0)))
     q = t.select(upper, folded, q)
-    z = _exact(t, "fmul", q, q)
-    ratio = _exact(t, "fdiv", _exact(t, "fmul", _horner(t, ATAN_P, z), z), _horner(t, ATAN_Q, z))
-    a = _fma(t, ratio, q, q)
-    a = t.select(upper, _exact(t, "fadd", a, t.splat(0.7853981633974483)), a)
-    a = t.select(steep, _exact(t, "fsub", t.splat(1.5707963267948966), a), a)
+    z = t.exact("fmul", q, q)
+    ratio = t.exact("fdiv", t.exact("fmul", t.horner(ATAN_P, z), z), t.horner(ATAN_Q, z))
+    a = t.fma(ratio, q, q)
+    a = t.select(upper, t.exact("fadd", a, t.splat(0.7853981633974483)), a)
+    a = t.select(steep, t.exact("fsub", t.splat(1.5707963267948966), a), a)
     left = t.compare("olt", "%x", t.splat(0.0))
-    a = t.select(left, _exact(t, "fsub", t.splat(3.141592653589793), a), a)
+    a = t.select(left, t.exact("fsub", t.splat(3.141592653589793), a), a)
     signed = t.intrinsic("copysign", a, "%y")
     return [*t.lines, f"  ret {t.kind} {signed}", "}"]

@@ -6,7 +6,7 @@ A ``Text`` spells one module; its lanes are the places of a vector.
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from dalembert.kernel.graph import Node
 
@@ -47,13 +47,13 @@ class Text:
             return number(x)
         return "<" + ", ".join([f"double {number(x)}"] * self.lanes) + ">"
 
-    def broadcast(self, scalar: str) -> str:
+    def broadcast(self, scalar: str, of: str = "double") -> str:
         """A scalar in every lane."""
         if self.lanes == 1:
             return scalar
-        one = self.let(f"insertelement {self.kind} poison, double {scalar}, i32 0")
-        zeros = f"<{self.lanes} x i32> zeroinitializer"
-        return self.let(f"shufflevector {self.kind} {one}, {self.kind} poison, {zeros}")
+        kind, zeros = f"<{self.lanes} x {of}>", f"<{self.lanes} x i32> zeroinitializer"
+        one = self.let(f"insertelement {kind} poison, {of} {scalar}, i32 0")
+        return self.let(f"shufflevector {kind} {one}, {kind} poison, {zeros}")
 
     def load(self, base: str, offset: int | str, vector: bool = True) -> str:
         place = self.let(f"getelementptr inbounds double, ptr {base}, i64 {offset}")
@@ -70,12 +70,36 @@ class Text:
     def binary(self, op: str, a: str, b: str) -> str:
         return self.let(f"{op} {FAST} {self.kind} {a}, {b}")
 
+    def exact(self, op: str, a: str, b: str) -> str:
+        """Rounded as written, whatever stands beside it."""
+        return self.let(f"{op} {self.kind} {a}, {b}")
+
+    def fma(self, a: str, b: str, c: str) -> str:
+        return self.intrinsic("fma", a, b, c)
+
+    def horner(self, coefficients: Sequence[float], z: str) -> str:
+        """A polynomial, its highest power first."""
+        total = self.splat(coefficients[0])
+        for c in coefficients[1:]:
+            total = self.fma(total, z, self.splat(c))
+        return total
+
+    def integer(self, op: str, a: str, b: str | int) -> str:
+        """Of whole numbers of 64 bits, or one of them the same in every lane."""
+        if isinstance(b, int):
+            b = str(b) if self.lanes == 1 else "<" + ", ".join([f"i64 {b}"] * self.lanes) + ">"
+        return self.let(f"{op} {self.whole} {a}, {b}")
+
     def call(self, name: str, *arguments: str) -> str:
         given = ", ".join(f"{self.kind} {a}" for a in arguments)
         return self.let(f"call {self.kind} @{name}({given})")
 
     def intrinsic(self, name: str, *arguments: str) -> str:
         return self.call(f"llvm.{name}.{self.suffix}", *arguments)
+
+    def declare(self, name: str, arguments: int = 1) -> str:
+        """The line that an intrinsic needs."""
+        return f"declare {self.kind} @llvm.{name}.{self.suffix}({', '.join([self.kind] * arguments)})"
 
     def select(self, test: str, a: str, b: str) -> str:
         return self.let(f"select {self.bit} {test}, {self.kind} {a}, {self.kind} {b}")

@@ -145,12 +145,8 @@ def pairs(program: Program, lanes: int) -> str:
 def module(t: Text, program: Program, declared: list[str] | None = None) -> str:
     """The function with the elementary functions it calls."""
     used = {n.op for n in program.order}
-    names = ("sqrt", "fabs", "rint", "fma")
-    declared = list(declared or [])
-    for name in names:
-        given = ", ".join([t.kind] * (3 if name == "fma" else 1))
-        declared.append(f"declare {t.kind} @llvm.{name}.{t.suffix}({given})")
-    declared.append(f"declare {t.kind} @llvm.copysign.{t.suffix}({t.kind}, {t.kind})")
+    needed = {"sqrt": 1, "fabs": 1, "rint": 1, "fma": 3, "copysign": 2}
+    declared = [*(declared or []), *(t.declare(*one) for one in needed.items())]
     if t.lanes > 1:
         declared.append(f"declare i1 @llvm.vector.reduce.or.v{t.lanes}i1({t.bit})")
     return "\n".join([*declared, *elementary(t.lanes, used), *t.lines]) + "\n"
