@@ -88,10 +88,28 @@ def test_a_bearing_in_space_has_axial_factors() -> None:
     assert b.axial.max() > 1
     assert math.isnan(b.equivalent)
     assert f"{joint}, C: an axial force, and no axial_factor" in str(da.bearings(r))
-    factors = {"rating": 5000.0, "radial_factor": 0.56, "axial_factor": 1.5}
+    factors = {"rating": 5000.0, "radial_factor": 0.56, "axial_factor": 1.5, "diameter": 0.02, "length": 0.03}
     b = da.bearing(da.dynamics(r.mechanism.with_values({f"joints.{joint}.bearing": factors})), joint)
     assert np.allclose(b.load, np.maximum(b.radial, 0.56 * b.radial + 1.5 * b.axial))
     assert math.isfinite(b.hours)
+    assert np.allclose(b.result[f"pressure.{joint}"], b.radial / 6e-4)
+
+
+def test_pressure_is_an_output_of_compiled_analyses() -> None:
+    """With the bearing's own size as a varied number; nothing need turn for it."""
+    sized = da.slider_crank(crank=0.05, rod=0.2).with_values(
+        {"joints.A.bearing": {"diameter": 0.02, "length": 0.015}}
+    )
+    r = da.statics(
+        sized.with_values({"loads": {"F": {"type": "force", "on": "rod", "at": "B", "value": [900.0, 50.0]}}})
+    )
+    assert np.allclose(r["pressure.A"], np.hypot(*r.reaction("A").T) / 3e-4)
+    k = da.compile(sized, vary=["joints.A.bearing.diameter"], outputs=["pressure.A"], derivatives=True)
+    wide, force = k([[0.04]]), np.hypot(*da.dynamics(sized).reaction("A").T)
+    assert np.allclose(wide.value("pressure.A")[0], force / 6e-4)
+    assert np.allclose(wide.gradient("pressure.A")[0, :, 0], -force / 6e-4 / 0.04)
+    with pytest.raises(ModelError, match=r"there is no output 'pressure.B'; did you mean 'pressure.A'"):
+        da.compile(sized, outputs=["pressure.B"])
 
 
 TABLE = "name, C [kN], C0 [kN], d [mm]\n6202, 7.8, 3.55, 15\n6205, 14, 7.8, 25\n6204, 12.7, 6.55, 20\n"

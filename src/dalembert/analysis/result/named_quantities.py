@@ -61,6 +61,17 @@ def _transmission(r: Result, of: str) -> Array:
     return np.asarray(angle_between(*lines))
 
 
+def _pressure(r: Result, joint: str) -> Array:
+    """Force across the axis over the projected area."""
+    from dalembert.analysis.friction.bearing_ends import bearing_axis
+
+    force = r.reaction(joint)
+    if r.mechanism.dimension == 3:
+        axis = bearing_axis(r, joint)
+        force = force - (force * axis).sum(axis=1, keepdims=True) * axis
+    return np.asarray(np.linalg.norm(force, axis=-1) / bearing_areas(r)[joint])
+
+
 def _shaking(part: str) -> Read:
     def read(r: Result, about: str) -> Array:
         from dalembert.machine.shaking import shaking
@@ -80,6 +91,7 @@ READ: dict[str, tuple[str, str, Read]] = {
     "drive": ("drives", "", _of("drive_position")),
     "power": ("drives", "power", lambda r, of: r.effort(of) * r.drive_speed(of)),
     "transmission": ("hinges", "angle", _transmission),
+    "pressure": ("sized bearings", "pressure", _pressure),
     "shaking": ("", "force", _shaking("force")),
     "shaking_moment": ("fixed points", "moment", _shaking("moment")),
     **{word: ("links", kind, _of(word)) for word, kind in OF_LINKS.items()},
@@ -112,9 +124,17 @@ def things(r: Named, of: str) -> list[str]:
         return [f"{link}.{point}" for link in r.links for point in (*links[link].points, CENTER)]
     if of == "hinges":
         return transmission_names(r.mechanism)
+    if of == "sized bearings":
+        return list(bearing_areas(r))
     if of == "fixed points":
         return ["", *ground_points(r.mechanism)]
     return list(getattr(r, of)) if of else [""]
+
+
+def bearing_areas(r: Named) -> dict[str, Any]:
+    """Projected area of each bearing with a diameter and a length; where a number varies, a node."""
+    bearings = {name: getattr(r.mechanism.joints[name], "bearing", None) for name in r.joints}
+    return {name: b.area for name, b in bearings.items() if b is not None and b.area is not None}
 
 
 def names_of(r: Named, words: Iterable[str]) -> list[str]:

@@ -47,15 +47,14 @@ class BearingLoad:
     @property
     def sized(self) -> bool:
         """Whether it has a pressure."""
-        return self.bearing is not None and bool(self.bearing.diameter and self.bearing.length)
+        return self.bearing is not None and self.bearing.area is not None
 
     @property
     def pressure(self) -> Array:
         """Force across the axis over the projected area (P,), Pa; raises ModelError without diameter and length."""
-        b = self.bearing
-        if b is None or b.diameter is None or b.length is None:
+        if self.bearing is None or self.bearing.area is None:
             raise self._lacks("no size", "give diameter: 20 mm and length: 15 mm")
-        return self.radial / (b.diameter * b.length)
+        return self.radial / self.bearing.area
 
     @property
     def pv(self) -> Array:

@@ -33,6 +33,11 @@ class Bearing(Part):
     )
 
     @property
+    def area(self) -> float | None:
+        """Projected, diameter times length; None where one is not given."""
+        return self.diameter * self.length if self.diameter and self.length else None
+
+    @property
     def exponent(self) -> float:
         """Of load in life."""
         return 3.0 if self.kind == "ball" else 10 / 3

@@ -13,7 +13,7 @@ from dalembert.algebra.protocol import Algebra
 from dalembert.analysis.batch.tracing.traced_parameters import symbol_functions
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.result.link_motion import LinkMotion, place_of
-from dalembert.analysis.result.named_quantities import kind_of_name, names_of
+from dalembert.analysis.result.named_quantities import bearing_areas, kind_of_name, names_of
 from dalembert.analysis.result.quantity_expressions import check_units, parse_quantity
 from dalembert.analysis.result.transmission_lines import angle_between, ground_points, transmission_lines
 from dalembert.arrays import Array, Numeric
@@ -78,7 +78,9 @@ class Catalogue(LinkMotion):
     @cached_property
     def names(self) -> list[str]:
         """Every output there is, without components."""
-        return names_of(self, [word for word in KINDS if self.algebra.d == 2 or word != "angle"])
+        return names_of(
+            self, [word for word in KINDS if self.algebra.d == 2 or word not in ("angle", "pressure")]
+        )
 
     @property
     def point_array(self) -> Array:  # type: ignore[override]
@@ -200,6 +202,7 @@ KINDS: dict[str, Callable[[Catalogue, str], Numeric]] = {
     "magnitude": _magnitude,
     "power": lambda c, of: c.traced.effort[c.drive(of)] * c.speeds[c.drive(of)],
     "transmission": _transmission,
+    "pressure": lambda c, of: _magnitude(c, of) / bearing_areas(c)[of],
     "shaking": lambda c, of: _shaking(c, of)[: c.algebra.d],
     "shaking_moment": lambda c, of: _shaking(c, of)[c.algebra.d :],
     "moment": lambda c, of: c.traced.moment[c.joint(of)],
