@@ -17,7 +17,9 @@ from dalembert.cli import main
 from dalembert.errors import ModelError
 from dalembert.machine.balance.cone_programme import minimise
 from tests.machine.cranks import crank_machine
-from tests.tiers import over
+from tests.random_space import random_case as random_in_space
+from tests.random_space import tree as tree_in_space
+from tests.tiers import nth, over
 
 FOUR_BAR = """
 links:
@@ -236,6 +238,75 @@ def test_discs_and_places(four_bar: Any) -> None:
     assert da.balance(shaped, ["crank", "rocker"]).complete
 
 
+def test_a_plane_machine_lifted_into_space_gets_the_same_counterweights(four_bar: Any) -> None:
+    """Its reactions are not unique there, which balancing does not ask for; a disc has its tensor about the axis."""
+    bounds = {"crank": {"radius": 0.1, "mass": 2.0}, "rocker": {"radius": 0.15, "mass": 1.5}}
+    lifted = da.lifted(four_bar)
+    assert set(da.dynamics(lifted).status) == {"redundant"}
+    for least in ("rms", "max"):
+        of = {"force": 1.0, "moment": 0.6, "torque": 0.4}
+        a, b = (da.balance(m, bounds, least=least, of=of) for m in (four_bar, lifted))  # type: ignore[arg-type]
+        assert b.value == pytest.approx(a.value, rel=1e-8)
+        assert b.numbers[:, :3] == pytest.approx(a.numbers[:, :3], abs=1e-6)
+        assert b.numbers[:, 4:6].sum(axis=1) == pytest.approx(a.numbers[:, 3], abs=1e-7)
+        assert b.residual < 1e-12
+    p = da.balance(lifted, {"crank": {"disc": (7800.0, 0.02, 0.05)}, "rocker": None}).placed["crank"]
+    assert p.radius is not None
+    assert np.diag(p.inertia) == pytest.approx(p.mass * p.radius**2 * np.array([0.25, 0.25, 0.5]))
+
+
+def moving_in_space(seed: int) -> Any:
+    """A random mechanism in space at five positions of its drives."""
+    m = da.mechanism(tree_in_space(random_in_space(seed)))
+    s, values = m.schedule(), {}
+    for k, name in enumerate(s.names):
+        values[f"drives.{name}.position"] = [float(s.position[0, k] + 0.02 * i) for i in range(5)]
+        values[f"drives.{name}.speed"] = float(s.speed[0, k])
+        values[f"drives.{name}.acceleration"] = float(s.acceleration[0, k])
+    return da.dynamics(m.with_values(values))
+
+
+def moves(seed: int) -> bool:
+    """Whether it gets so far."""
+    return bool(np.isfinite(moving_in_space(seed).acceleration_array).all())
+
+
+@over(1, 200)
+def test_in_space_no_others_leave_less_and_the_machine_is_what_was_promised(seed: int) -> None:
+    r = moving_in_space(nth(seed, moves))
+    links, rng = r.links[:2] if seed % 2 else r.links[-2:], np.random.default_rng(seed)
+    free = {link: {"radius": 0.3, "mass": 2.0} for link in links}
+    placed = {link: {"place": tuple(rng.uniform(-0.3, 0.3, 3)), "mass": 3.0} for link in links}
+    whole = {"force": 1.0, "moment": 0.5} | ({"torque": 0.3} if r.drives else {})
+    for bounds, of in ((free, {"force": 1.0}), (placed, whole)):
+        for least in ("rms", "max"):
+            b = da.balance(r, bounds, least=least, of=of)  # type: ignore[arg-type]
+            assert b.gap < 1e-8
+            assert b.residual < 1e-9
+            assert bounds is placed or all(p.moment <= 0.3 * p.mass + 1e-7 for p in b.placed.values())
+            assert b.numbers[:, 0].max() < 3.0 * (1 + 1e-6)
+
+
+def test_an_rssr_is_balanced_by_its_crank_and_rocker(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file, drawing = str(examples()["rssr"]), tmp_path / "b.svg"
+    on = ["--on", "crank", "rocker:radius=60mm"]
+    assert main(["balance", file, *on, "--drawing", str(drawing), "--report", str(tmp_path / "b.txt")]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "The force is balanced completely: the moment is the same about every point" in said
+    assert "Size of the shaking force" in drawing.read_text()
+    at = ["--on", "rod:place=10mm/0/-60mm,mass=0.1kg", "crank:x=-0.01kg*m/0,y=0/0,mass=1kg", "--of", "moment"]
+    assert main(["balance", file, *at, "--json", "-"]) == 0
+    found = json.loads(capsys.readouterr().out)["balance"]["counterweights"]
+    assert found["rod"]["center"] == pytest.approx([0.01, 0.0, -0.06])
+    assert found["crank"]["angle"] is None
+    free = ["--on", "rod:radius=60mm,mass=0.1kg", "--of", "moment"]
+    assert main(["balance", file, *free]) == 2
+    said = " ".join(capsys.readouterr().err.split())
+    assert "its link turns about no one axis; say where it is: place: (x, y, z)" in said
+
+
 WRONG = [
     ({"arm": {}}, {}, "a counterweight cannot be on 'arm'"),
     ({"crank": {"radios": 1}}, {}, "counterweight on crank: there is no bound 'radios'"),
@@ -247,6 +318,7 @@ WRONG = [
     ),
     ({"crank": {}}, {"of": "power"}, "'power' cannot be balanced"),
     ({"crank": {"x": (1.0, 0.0)}}, {}, "the range of x is empty"),
+    ({"crank": {"place": (1.0, 0.0, 0.0)}}, {}, "a place has 2 coordinates"),
     ({}, {}, "no link is to have a counterweight"),
 ]
 

@@ -199,6 +199,15 @@ def test_the_motion_found_asks_for_a_constant_torque(seed: int) -> None:
     assert sum(f.size.pulses) == pytest.approx(0, abs=1e-8 * max(f.size.energy, 1e-9 * scale))
 
 
+def test_reactions_that_are_not_unique_do_not_matter() -> None:
+    m = crank_machine(2)
+    a, b = (da.flywheel(da.dynamics(x), Cs=0.05) for x in (m, da.lifted(m)))
+    assert set(b.result.status) == {"redundant"}
+    assert a.exact_size is not None
+    assert b.exact_size is not None
+    assert b.exact_size.inertia == pytest.approx(a.exact_size.inertia, rel=1e-9)
+
+
 def test_an_even_effort_needs_none() -> None:
     rotor = da.dynamics(da.load(cases()["ba-01-rotor-with-four-masses"]), positions=72)
     for r in (shaft("0", 100), shaft("30", 100), rotor):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.arrays import Array
-from dalembert.errors import ModelError
+from dalembert.errors import STATUSES, AnalysisError, ModelError
 from dalembert.machine.harmonics import whole_turns
 
 if TYPE_CHECKING:
@@ -24,6 +24,17 @@ def over_a_turn(m: Mechanism, positions: int | None = None) -> int | None:
     if positions is not None or len(turning) != 1 or any(d.unknown or d.counts() for d in m.drives.values()):
         return positions
     return ENOUGH
+
+
+def refuse_unknown(r: Result, what: str, *needed: Array) -> None:
+    """Raise AnalysisError with the sentence of a position where a number (P, ...) that is needed is not known.
+
+    Reactions that are not unique hinder nobody who does not ask for them.
+    """
+    known = np.all([np.isfinite(x).reshape(len(r.status), -1).all(axis=1) for x in needed], axis=0)
+    if not known.all():
+        k = int(np.argmin(known))
+        raise AnalysisError(f"{what}; position {k + 1}: {r.reasons[k] or STATUSES[r.status[k]].sentence}")
 
 
 def durations(r: Result) -> Array:

@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from dalembert.errors import ModelError
-from dalembert.units import file_units, quantity
+from dalembert.units import Units, file_units, quantity
 
 if TYPE_CHECKING:
     from dalembert.model import Mechanism
 
 KINDS = {"radius": "length", "mass": "mass"}
+RANGES = ("x", "y", "z")
 DISC = ("density", "length", "length")
 
 
@@ -30,12 +31,22 @@ def bounds_of(m: Mechanism, text: str) -> tuple[str, dict[str, object]]:
                     f"--on {text}: a disc is density/thickness/radius", "write disc=7800kg/m^3/20mm/80mm"
                 )
             found[key] = tuple(quantity(v, kind, units) for v, kind in zip(sizes, DISC, strict=True))
+        elif key == "place":
+            found[key] = tuple(quantity(v, "length", units) for v in value.split("/"))
+        elif key in RANGES:
+            found[key] = tuple(_moment(v, units) for v in value.split("/"))
         elif key == "moment":
-            mass, _, length = value.partition("*")
-            found[key] = quantity(mass, "mass", units) * quantity(length or "1", "length", units)
+            found[key] = _moment(value, units)
         else:
             found[key] = quantity(value, KINDS[key], units) if key in KINDS else value
     return link, found
+
+
+def _moment(text: str, units: Units) -> float:
+    """A mass times a length, kg m: 0.3kg*m, 2kg*80mm, or a number in the units of the file."""
+    mass, _, length = text.partition("*")
+    length = length if length[:1].isdigit() else f"1{length}"
+    return quantity(mass, "mass", units) * quantity(length, "length", units)
 
 
 def sum_of(text: str) -> str | dict[str, float]:

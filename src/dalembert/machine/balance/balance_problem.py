@@ -6,7 +6,7 @@ Mechanics: docs/theory.md 10.2.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +14,9 @@ import numpy as np
 from dalembert.arrays import Array
 from dalembert.errors import AnalysisError, ModelError
 from dalembert.machine.balance.cone_programme import minimise
-from dalembert.machine.balance.counterweights import NONE, Counterweight
+from dalembert.machine.balance.counterweights import Counterweight
+from dalembert.machine.balance.mass_columns import MassNumbers, numbers_of
+from dalembert.machine.link_axes import in_space
 from dalembert.machine.output.written import greatest, rms
 
 NOTHING = 1e-12
@@ -23,7 +25,7 @@ NOTHING = 1e-12
 
 @dataclass(frozen=True)
 class Solved:
-    """Mass numbers (4 W,), the value reached and a bound below all values, and the single quantities: all as parts of
+    """Mass numbers (N W,), the value reached and a bound below all values, and the single quantities: all as parts of
     what they were before."""
 
     numbers: Array
@@ -34,11 +36,23 @@ class Solved:
 
 @dataclass(frozen=True)
 class Problem:
-    """Values (P, d) by quantity, their columns (P, d, 4 W), and the counterweights' bounds."""
+    """Values (P, d) by quantity, their columns (P, d, N W), the counterweights' bounds, and the axis (3,) that each
+    one's link turns about, None of several: N numbers each, 4 in the plane and 10 in space (``mass_columns``)."""
 
     base: dict[str, Array]
     columns: dict[str, Array]
     weights: tuple[tuple[str, Counterweight], ...]
+    axes: dict[str, Array | None]
+
+    @property
+    def count(self) -> int:
+        """N."""
+        return int(self.columns["force"].shape[-1] // len(self.weights))
+
+    @property
+    def dimension(self) -> int:
+        """Of the mechanism."""
+        return int(self.columns["force"].shape[1])
 
     def sizes(self, least: str) -> dict[str, float]:
         """Rms or greatest value of each quantity without counterweights."""
@@ -53,7 +67,7 @@ class Problem:
         before = self.sizes(least)
         used = {n: w / before[n] for n, w in of.items() if w and before[n]}
         if not used:
-            return self._solved(np.zeros(4 * len(self.weights)), 0.0, least, of)
+            return self._solved(np.zeros(self.count * len(self.weights)), 0.0, least, of)
         maps, cones = self._variables(used)
         y = {n: f * self.base[n] for n, f in used.items()}
         C = {n: f * np.einsum("pdk,kn->pdn", self.columns[n], maps) for n, f in used.items()}
@@ -65,9 +79,12 @@ class Problem:
         return self._solved(maps @ (x / scale), bound, least, of)
 
     def _solved(self, numbers: Array, bound: float, least: str, of: Mapping[str, float]) -> Solved:
-        p = numbers.reshape(-1, 4).copy()
-        for k, (_, w) in enumerate(self.weights):
-            p[k] = _buildable(p[k], w)
+        p = numbers.reshape(len(self.weights), -1).copy()
+        for k, (link, w) in enumerate(self.weights):
+            if not w.place:
+                body = _buildable(numbers_of(p[k]), w, self.axes[link])
+                p[k] = body.vector(self.dimension)
+            p[k] *= p[k][0] > NOTHING * (w.mass or 0.0)
         before = self.sizes(least)
         left = {n: self.predict(n, p.ravel()) for n in self.base}
         parts = {
@@ -77,32 +94,48 @@ class Problem:
         return Solved(p.ravel(), math.hypot(*some) if least == "rms" else sum(some), bound, parts)
 
     def _variables(self, used: Mapping[str, float]) -> tuple[Array, list[tuple[Array, Array]]]:
-        """Mass numbers as a linear map (4 W, n) of the numbers that matter, and the cones (G, h) these are in."""
-        squares = np.concatenate([(f * self.columns[n]) ** 2 for n, f in used.items()], axis=1)
-        effect = np.sqrt(squares.sum(axis=1).mean(axis=0))
-        columns: list[Array] = []
-        bounds: list[tuple[int, Counterweight, list[int]]] = []
-        for k, (link, w) in enumerate(self.weights):
-            radius = w.radius or 1.0
-            mine = effect[4 * k : 4 * k + 4] * np.array([1.0, radius, radius, radius**2])
-            matter = [bool(e > NOTHING * max(mine.max(), 1e-300)) for e in mine]
-            kept = [0] if w.place else [j for j in range(4) if j in (1, 2) or matter[j]]
-            kept = [j for j in kept if w.span(j) is None or tuple(w.span(j) or ()) != NONE]
-            if not w.place and {0, 3} & {*kept} and (w.mass is None or w.disc is not None):
-                raise ModelError(
-                    f"counterweight on {link}: its mass and inertia matter here, and its mass has no bound",
-                    "give radius and mass" + (" in place of the disc" if w.disc else ""),
-                )
-            bounds.append((len(columns), w, kept))
-            for j in kept:
-                column = np.zeros(4 * len(self.weights))
-                place = w.place or (0.0, 0.0)
-                part = np.array([1.0, *place, math.hypot(*place) ** 2]) if w.place else np.eye(4)[j]
-                column[4 * k : 4 * k + 4] = part
-                columns.append(column)
-        maps = np.stack(columns, axis=1)
-        cones = [cone for start, w, kept in bounds for cone in _cones(maps.shape[1], start, w, kept)]
+        """Mass numbers as a linear map (N W, n) of the numbers that matter, and the cones (G, h) these are in."""
+        each = self.count
+        whole = np.concatenate([f * self.columns[n] for n, f in used.items()], axis=1)
+        parts = np.split(whole, len(self.weights), axis=-1)
+        kept = [self._numbers(link, w, part) for (link, w), part in zip(self.weights, parts, strict=True)]
+        starts = np.cumsum([0, *map(len, kept)])
+        maps = np.zeros((whole.shape[-1], starts[-1]))
+        for k, some in enumerate(kept):
+            for j, v in enumerate(some.values(), starts[k]):
+                maps[each * k : each * (k + 1), j] = v
+        cones = []
+        for k, (_, w) in enumerate(self.weights):
+            moment = maps[each * k + 1 : each * k + 1 + self.dimension]
+            cones += _cones(starts[-1], starts[k], w, [*kept[k]], moment)
         return maps, cones
+
+    def _numbers(self, link: str, w: Counterweight, columns: Array) -> dict[str, Array]:
+        """The numbers of one counterweight that matter, by kind, each as a direction (N,) of its mass numbers."""
+        d, axis, radius = self.dimension, self.axes[link], w.radius or 1.0
+        if w.place:
+            place = in_space(w.place)
+            point = MassNumbers(1.0, place, np.outer(place, place)).vector(d)
+            return {"mass": point} if (columns @ point).any() else {}
+        sizes = np.array([1.0, *[radius] * d, *[radius**2] * (self.count - 1 - d)])
+        effect = np.sqrt(((columns * sizes) ** 2).sum(axis=1).mean(axis=0))
+        least, none = NOTHING * float(effect.max()), np.zeros((3, 3))
+        found = {"mass": MassNumbers(1.0, none[0], none)}
+        found |= {f"moment {i}": MassNumbers(0.0, v, none) for i, v in enumerate(w.directions(axis))}
+        spread = bool((effect[d + 1 :] > least).any())
+        if spread and axis is not None:
+            found["inertia"] = MassNumbers(0.0, none[0], (np.eye(3) - np.outer(axis, axis)) / 2)
+        scale = {"mass": 1.0, "inertia": radius**2}
+        kept = {n: v.vector(d) for n, v in found.items()}
+        kept = {n: v for n, v in kept.items() if np.abs(columns @ v).max() * scale.get(n, radius) > least}
+        where = f"counterweight on {link}: its "
+        if spread and axis is None:
+            remedy = "say where it is: place: (x, y, z)"
+            raise ModelError(f"{where}inertia matters here, and its link turns about no one axis", remedy)
+        if {"mass", "inertia"} & kept.keys() and (w.mass is None or w.disc is not None):
+            remedy = "give radius and mass" + (" in place of the disc" if w.disc else "")
+            raise ModelError(f"{where}mass and inertia matter here, and its mass has no bound", remedy)
+        return kept
 
     def _least_squares(
         self, y: dict[str, Array], C: dict[str, Array], cones: list[tuple[Array, Array]]
@@ -110,7 +143,7 @@ class Problem:
         """Without bounds by a factorisation, whose residual is at right angles to all columns; else by cones."""
         count = math.sqrt(len(next(iter(y.values()))))
         right = np.concatenate([v.ravel() for v in y.values()]) / count
-        left = np.concatenate([c.reshape(-1, c.shape[-1]) for c in C.values()]) / count
+        left = np.concatenate([np.concatenate(c) for c in C.values()]) / count
         x = np.linalg.lstsq(left, -right, rcond=1e-13)[0]
         rest = right + left @ x
         if all(h[0] + g[0] @ -x >= np.linalg.norm(h[1:] - g[1:] @ x) for g, h in cones):
@@ -149,65 +182,78 @@ def _programme(
         G[k, : len(g)], h[k, : len(g)] = g, right
     cost = np.concatenate([np.zeros(n), np.ones(extra)])
     found = minimise(cost, G, h)
-    if not found.gap + found.infeasible < 1e-6:
+    left = found.gap + found.infeasible
+    if not left < 1e-6:
         raise AnalysisError(
-            f"no best counterweights are found: the proof leaves a gap of {found.gap:.1e}; give narrower bounds"
+            f"no best counterweights are found: the proof leaves a gap of {left:.1e}; give narrower bounds"
         )
     return found.x[:n], found.dual
 
 
-def _cones(n: int, start: int, w: Counterweight, kept: list[int]) -> list[tuple[Array, Array]]:
-    """The bounds of one counterweight on the variables that matter, each as (G, h) with h - G x in a cone."""
-    at = {j: start + k for k, j in enumerate(kept)}
+def _cones(
+    n: int, start: int, w: Counterweight, kept: Sequence[str], moment: Array
+) -> list[tuple[Array, Array]]:
+    """The bounds of one counterweight on the variables that matter, each as (G, h) with h - G x in a cone.
+
+    ``kept``: kinds of its variables, from ``start``; ``moment`` (d, n): its m x, m y, m z as rows of all variables.
+    """
+    row = {name: np.eye(n)[start + k] for k, name in enumerate(kept)}
     radius, mass = w.radius or 1.0, math.inf if w.mass is None else w.mass
     out: list[tuple[Array, Array]] = []
 
-    def cone(scale: float, *rows: tuple[Mapping[int, float], float]) -> None:
+    def cone(scale: float, *rows: tuple[Array | float, float]) -> None:
         """Rows of terms and a constant, the first at least the size of the others, over a scale."""
-        g, h = np.zeros((len(rows), n)), np.array([constant / scale for _, constant in rows])
-        for k, (terms, _) in enumerate(rows):
-            for j in terms.keys() & at.keys():
-                g[k, at[j]] = -terms[j] / scale
-        out.append((g, h))
+        terms = np.array([np.zeros(n) + term for term, _ in rows])
+        out.append((-terms / scale, np.array([constant / scale for _, constant in rows])))
 
+    if not kept:
+        return out
     if w.place:
         most = min(mass, w.most_moment / max(math.hypot(*w.place), 1e-300))
-        cone(1.0, ({0: 1.0}, 0.0))
+        cone(1.0, (row["mass"], 0.0))
         if math.isfinite(most):
-            cone(most, ({0: -1.0}, most))
+            cone(most, (-row["mass"], most))
         return out
-    x, y, largest = ({1: 1.0}, 0.0), ({2: 1.0}, 0.0), min(mass * radius, w.most_moment)
+    along, largest = [(m, 0.0) for m in moment], min(mass * radius, w.most_moment)
     if math.isfinite(largest):
-        cone(largest, ({}, largest), x, y)
-    for j in {1, 2} & at.keys():
-        low, high = w.span(j) or (-math.inf, math.inf)
+        cone(largest, (0.0, largest), *along)
+    for m, span in zip(moment, w.spans, strict=False):
+        low, high = span or (-math.inf, math.inf)
         size = max(abs(low), abs(high))
-        if math.isfinite(size):
-            cone(size, ({j: 1.0}, -low))
-            cone(size, ({j: -1.0}, high))
-    if not {0, 3} & at.keys():
+        if math.isfinite(size) and m.any():
+            cone(size, (m, -low))
+            cone(size, (-m, high))
+    if not {"mass", "inertia"} & row.keys():
         return out
     scale = mass * radius
-    heavy: tuple[Mapping[int, float], float] = ({0: radius}, 0.0) if 0 in at else ({}, scale)
-    if 0 in at:
-        cone(scale, ({0: -radius}, scale))
-        cone(scale, heavy, x, y)
-    if 3 in at:  # X^2 + Y^2 <= m I and I <= R^2 m
-        less = ({**heavy[0], 3: -1 / radius}, heavy[1])
-        cone(scale, ({**heavy[0], 3: 1 / radius}, heavy[1]), less, ({1: 2.0}, 0.0), ({2: 2.0}, 0.0))
-        cone(scale, less)
+    heavy = (radius * row["mass"], 0.0) if "mass" in row else (np.zeros(n), scale)
+    if "mass" in row:
+        cone(scale, (-heavy[0], scale))
+        cone(scale, heavy, *along)
+    if "inertia" in row:  # h^2 <= m I and I <= R^2 m
+        more, less = (heavy[0] + sign * row["inertia"] / radius for sign in (1, -1))
+        cone(scale, (more, heavy[1]), (less, heavy[1]), *((2 * m, 0.0) for m in moment))
+        cone(scale, (less, heavy[1]))
     return out
 
 
-def _buildable(p: Array, w: Counterweight) -> Array:
-    """Numbers of a counterweight whose mass or inertia did not matter: the lightest within the radius, or the disc."""
-    mass, x, y, inertia = (float(v) for v in p)
-    moment, radius = math.hypot(x, y), w.radius or 1.0
+def _buildable(p: MassNumbers, w: Counterweight, axis: Array | None) -> MassNumbers:
+    """Numbers of a counterweight whose mass or inertia did not matter: the lightest within the radius, or the disc.
+
+    What inertia it has beyond that of its centre is of two points beside it, across the axis, or of the disc.
+    """
+    mass, inertia, h = float(p.mass), float(np.trace(p.second)), p.moment
+    moment, radius = float(np.linalg.norm(h)), w.radius or 1.0
     if w.disc is not None and moment:
         size = w.disc_of(moment)
-        return np.array([moment / size, x, y, 1.5 * moment * size])
-    if inertia <= 0 and mass <= 0:
-        return np.array([moment / radius, x, y, moment * radius])
-    if mass <= 0:
+        mass, inertia = moment / size, 1.5 * moment * size
+    elif inertia <= 0 and mass <= 0:
+        mass, inertia = moment / radius, moment * radius
+    elif mass <= 0:
         mass = max(moment**2 / inertia, inertia / radius**2)
-    return np.array([mass, x, y, max(inertia, moment**2 / mass if mass > 0 else 0.0)])
+    if mass <= 0:
+        return MassNumbers(0.0, 0 * h, np.zeros((3, 3)))
+    axis = np.zeros(3) if axis is None else axis
+    beside = np.linalg.svd(np.array([axis, h]))[2][-1]
+    way = (np.eye(3) - np.outer(axis, axis)) / 2 if w.disc is not None else np.outer(beside, beside)
+    return MassNumbers(mass, h, np.outer(h, h) / mass + max(inertia - moment**2 / mass, 0.0) * way)

@@ -16,7 +16,7 @@ from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.output.columns import Column, Scale
 from dalembert.analysis.solution import dynamics
 from dalembert.arrays import Array, Tree
-from dalembert.errors import AnalysisError, ModelError
+from dalembert.errors import ModelError
 from dalembert.machine.balance.balance_problem import Problem, Solved
 from dalembert.machine.balance.counterweights import (
     Counterweight,
@@ -25,11 +25,11 @@ from dalembert.machine.balance.counterweights import (
     counterweights,
     with_masses,
 )
-from dalembert.machine.balance.mass_columns import mass_columns
+from dalembert.machine.balance.mass_columns import mass_columns, numbers_of
 from dalembert.machine.output.answer import Answer
 from dalembert.machine.output.written import greatest, rms
 from dalembert.machine.shaking import About, Shaking, shaking
-from dalembert.machine.whole_cycle import over_a_turn
+from dalembert.machine.whole_cycle import over_a_turn, refuse_unknown
 from dalembert.model import GROUND
 
 if TYPE_CHECKING:
@@ -45,14 +45,14 @@ COMPLETE = 1e-9
 
 @dataclass(frozen=True)
 class Placed:
-    """A counterweight found: mass (kg), centre (2,) and inertia about it (kg m2), in link axes; m r (kg m) and its
-    angle (rad) from the base point; radius of its disc, if it is one."""
+    """A counterweight found: mass (kg), centre (d,) and inertia about it (kg m2, in space (3, 3)), in link axes; m r
+    (kg m) and in the plane its angle (rad) from the base point; radius of its disc, if it is one."""
 
     mass: float
     center: Array
-    inertia: float
+    inertia: float | Array
     moment: float
-    angle: float
+    angle: float | None
     radius: float | None = None
 
 
@@ -60,7 +60,8 @@ class Placed:
 class Balance(Answer):
     """Counterweights by link, what is left, and the proof that no others leave less.
 
-    ``before``, ``after``: shaking without and with them. ``numbers`` (W, 4): m, X, Y, I of each. ``bound``: no
+    ``before``, ``after``: shaking without and with them. ``numbers`` (W, N): of each m, m x, m y and I about its base
+    point, in space (m, m x, m y, m z, int xx dm, yy, zz, xy, xz, yz). ``bound``: no
     counterweights within the bounds leave less than this part of what ``of`` was before; ``value``: what these leave;
     their difference is the ``gap``. ``residual``: how far the mechanism with them, analysed anew, is off.
     """
@@ -155,7 +156,7 @@ class Balance(Answer):
                 "center": to("length", p.center),
                 "inertia": to("inertia", p.inertia),
                 "moment": to("mass", to("length", p.moment)),
-                "angle": to("angle", p.angle),
+                "angle": None if p.angle is None else to("angle", p.angle),
             }
             for link, p in self.placed.items()
         }
@@ -197,18 +198,20 @@ def balance(
     from dalembert.model import Mechanism as Description
 
     r = dynamics(m, over_a_turn(m, positions)) if isinstance(m, Description) else m
-    if not r.ok.all():
-        which, _, sentence = r.problems()[0]
-        raise AnalysisError(f"balancing needs every position; position {which}: {sentence}")
     wanted = _quantities(of, r)
     asked = counterweights(r.mechanism, weights)
     before = shaking(r, about)
     drive = r.drives[0] if r.drives else None
-    base = {"force": without_weight(before, "force"), "moment": without_weight(before, "moment")[:, None]}
-    base["torque"] = r.effort(drive)[:, None] if drive else np.zeros_like(base["moment"])
-    problem = Problem(base, mass_columns(r, asked, before.point, drive), tuple(asked.items()))
+    count = len(r.status)
+    base = {name: without_weight(before, name).reshape(count, -1) for name in ("force", "moment")}
+    base["torque"] = r.effort(drive)[:, None] if drive else np.zeros((count, 1))
+    refuse_unknown(r, "balancing needs every position", *base.values())
+    floors = {n: before.floor("force" if n == "force" else "moment") for n in base}
+    base = {n: v if np.abs(v).max() > floors[n] else 0 * v for n, v in base.items()}
+    columns = mass_columns(r, asked, before.point, drive)
+    problem = Problem(base, columns.of, tuple(asked.items()), columns.axes)
     found = problem.solve(least, wanted)
-    numbers = found.numbers.reshape(-1, 4)
+    numbers = found.numbers.reshape(len(asked), -1)
     placed = {link: _placed(r, link, w, p) for (link, w), p in zip(asked.items(), numbers, strict=True)}
     after = shaking(
         at_schedule(
@@ -260,21 +263,23 @@ def _difference(after: Shaking, found: Solved, problem: Problem, drive: str | No
 
 def _placed(r: Result, link: str, w: Counterweight, p: Array) -> Placed:
     """The counterweight with these numbers: with mass 0, none."""
-    base = base_point(r.mechanism, link, w.at)
-    mass, moment = float(p[0]), math.hypot(p[1], p[2])
-    center = base + (p[1:3] / mass if mass > 0 else np.zeros(2))
-    inertia = max(float(p[3]) - (moment**2 / mass if mass > 0 else 0.0), 0.0)
+    d, numbers, base = r.mechanism.dimension, numbers_of(p), base_point(r.mechanism, link, w.at)
+    mass, h, moment = float(p[0]), numbers.moment, float(np.linalg.norm(numbers.moment))
+    s = numbers.second - np.outer(h, h) / mass if mass > 0 else np.zeros((3, 3))
+    own = np.trace(s) * np.eye(3) - s
+    center = base + (h[:d] / mass if mass > 0 else np.zeros(d))
     radius = w.disc_of(moment) if w.disc is not None else None
-    return Placed(mass, center, inertia, moment, math.atan2(p[2], p[1]) if moment else 0.0, radius)
+    angle = None if d == 3 else math.atan2(h[1], h[0]) if moment else 0.0
+    return Placed(mass, center, max(float(np.trace(s)), 0.0) if d == 2 else own, moment, angle, radius)
 
 
 def _force_left(r: Result, links: list[str]) -> float:
     """Part of the force that unbounded counterweights on some links leave, as light as may be far out."""
     asked = counterweights(r.mechanism, links)
     s = shaking(r)
-    columns = mass_columns(r, asked, s.point, None)["force"]
+    columns = mass_columns(r, asked, s.point, None).of["force"]
     base = without_weight(s, "force").ravel()
-    flat = columns.reshape(len(base), -1, 4)[..., 1:3].reshape(len(base), -1)
+    flat = columns.reshape(len(base), len(links), -1)[..., 1 : columns.shape[1] + 1].reshape(len(base), -1)
     scale = np.abs(flat).max(axis=0)
     flat = flat[:, scale > 1e-12 * scale.max()] / scale[scale > 1e-12 * scale.max()]
     left = base - flat @ np.linalg.lstsq(flat, base, rcond=1e-12)[0]

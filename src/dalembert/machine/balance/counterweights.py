@@ -1,7 +1,7 @@
-"""Counterweights: where they may be and how heavy, as cones of their mass numbers p = (m, X, Y, I).
+"""Counterweights: where they may be and how heavy, as cones of their mass numbers m, h = int s dm and I = int s^2 dm.
 
-X, Y = int x dm, int y dm and I = int (x^2 + y^2) dm about the base point, link axes. Masses within a radius R have just
-the numbers with X^2 + Y^2 <= m I and I <= R^2 m: any such p can be built.
+About the base point, link axes; in space flat across the axis their link turns about. Masses within a radius R have
+just the numbers with h^2 <= m I and I <= R^2 m: any such can be built.
 
 Mechanics: docs/theory.md 10.2.
 """
@@ -33,23 +33,36 @@ class Counterweight:
     """What a counterweight on a link may be; SI, link axes about the point ``at`` (the link's joint with the ground).
 
     ``radius``: all its mass lies within, m (default: as far as the link's points go); ``mass``: the most, kg;
-    ``moment``: the most of m r, kg m; ``place``: where its centre is, then only its mass is sought; ``x``, ``y``:
-    ranges of m x and m y, kg m, (0, 0) for none; ``disc``: (density, thickness, largest radius) of a disc whose rim
-    passes through ``at``.
+    ``moment``: the most of m r, kg m; ``place``: where it is as a point, then only its mass is sought; ``x``, ``y``,
+    ``z``: ranges of m x, m y and m z, kg m, (0, 0) for none; ``disc``: (density, thickness, largest radius) of a disc
+    whose rim passes through ``at``, in space across the axis that the link turns about.
     """
 
     at: str | None = None
     radius: float | None = None
     mass: float | None = None
     moment: float | None = None
-    place: tuple[float, float] | None = None
+    place: tuple[float, ...] | None = None
     x: Range | None = None
     y: Range | None = None
+    z: Range | None = None
     disc: tuple[float, float, float] | None = None
 
-    def span(self, number: int) -> Range | None:
-        """The range of mass number 1 or 2, m x or m y."""
-        return {1: self.x, 2: self.y}.get(number)
+    @property
+    def spans(self) -> tuple[Range | None, ...]:
+        """The ranges of m x, m y and m z."""
+        return self.x, self.y, self.z
+
+    def directions(self, axis: Array | None) -> list[Array]:
+        """At right angles unit vectors (3,) of what m x, m y, m z may be: across the axis, none where the range is."""
+        shut = [e for e, span in zip(np.eye(3), self.spans, strict=True) if span and tuple(span) == NONE]
+        fixed = shut if axis is None else [axis, *shut]
+        found: list[Array] = []
+        for e in [*fixed, *np.eye(3)]:
+            rest = e - sum((u * (u @ e) for u in found), np.zeros(3))
+            if np.linalg.norm(rest) > 1e-6:
+                found.append(rest / np.linalg.norm(rest))
+        return [u for u in found if not any(abs(u @ e) > 1e-6 for e in fixed)]
 
     @property
     def most_moment(self) -> float:
@@ -81,7 +94,7 @@ def counterweights(m: Mechanism, wanted: Wanted) -> dict[str, Counterweight]:
         at = w.at or _pivot(m, link)
         base = base_point(m, link, at)
         reach = max([math.dist(base, u) for u in m.points(link).values()], default=0.0)
-        _check(link, w)
+        _check(link, w, m.dimension)
         out[link] = Counterweight(**{**vars(w), "at": at, "radius": w.radius or reach or 1.0})
     if not out:
         raise ModelError("no link is to have a counterweight", 'name some: {"crank": {"radius": 0.1}}')
@@ -101,13 +114,15 @@ def _known(link: str, bounds: Mapping[str, Any]) -> dict[str, Any]:
     return dict(bounds)
 
 
-def _check(link: str, w: Counterweight) -> None:
+def _check(link: str, w: Counterweight, d: int) -> None:
     numbers: list[float | None] = [w.radius, w.mass, w.moment, *(w.disc or ())]
     bad = [x for x in numbers if x is not None and not (x > 0 and math.isfinite(x))]
     if bad:
         raise ModelError(f"counterweight on {link}: a bound is {bad[0]:g}", "give positive numbers")
-    for name, span in (("x", w.x), ("y", w.y)):
-        if span is not None and not (span[0] < span[1] or tuple(span) == NONE):
+    if (w.place is not None and len(w.place) != d) or (d == 2 and w.z is not None):
+        raise ModelError(f"counterweight on {link}: a place has {d} coordinates", "give so many, in metres")
+    for name, span in zip("xyz", w.spans, strict=True):
+        if span is not None and not ((len(span) == 2 and span[0] < span[1]) or tuple(span) == NONE):
             raise ModelError(
                 f"counterweight on {link}: the range of {name} is empty",
                 f"write {name}: (low, high), or (0, 0)",
@@ -134,6 +149,8 @@ def with_masses(m: Mechanism, added: Mapping[str, Sequence[tuple[float, Array, f
         mass = sum(w for w, *_ in parts)
         center = sum((w * c for w, c, _ in parts), np.zeros(m.dimension)) / mass
         inertia = sum((i + w * _spread(c - center) for w, c, i in parts), np.zeros_like(own))
+        if np.abs(inertia).max() < 1e-14 * sum(w * float(c @ c) for w, c, _ in parts):
+            inertia = np.zeros_like(own)  # one mass, but for rounding
         values |= {f"links.{link}.shape": None} if m.links[link].shapes else {}
         values |= {f"links.{link}.mass": float(mass), f"links.{link}.center": center.tolist()}
         values[f"links.{link}.inertia"] = ((inertia + inertia.T) / 2).tolist()

@@ -1,10 +1,10 @@
 """What a unit of each mass number of a counterweight adds to the shaking force, the moment and the effort.
 
-With A the base point, D = A - P, u = (i alpha - w^2) e^(i theta) in complex numbers: the inertia force of a mass
-element at s is -(a_A + u s), so that the columns of (m, X, Y, I) are
+With A the base point, D = A - P and U = [alpha]x + [w]x [w]x, the inertia force of a mass element at s from A is
+-(a_A + U s) dm. The numbers m, h = int s dm and S = int s s' dm of all of it, in the plane only the trace of S, give
 
-    force   -a_A, -u, -i u, 0
-    moment  -D x a_A, -(D x u + e x a_A), -(D x i u + i e x a_A), -alpha      e = e^(i theta)
+    force   -(m a_A + U h)
+    moment  -(h x a_A + int s x U s dm) + D x force       the integral is the axial vector of U S
     effort  -(power of these and of the weight at unit speed of the drive)
 
 Mechanics: docs/theory.md 10.2.
@@ -12,60 +12,116 @@ Mechanics: docs/theory.md 10.2.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import state
-from dalembert.analysis.plane_only import refuse_space
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Numeric
 from dalembert.machine.balance.counterweights import Counterweight, base_point
+from dalembert.machine.link_axes import LinkAxes, couple_in_space, in_space
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
 
+NOISE = 1e-13
+"""Part of the machine's largest acceleration that is rounding."""
+ONE_AXIS = 1e-9
+"""Turning off an axis, as a part of that about it, that is none."""
 
-def mass_columns(
-    r: Result, weights: dict[str, Counterweight], about: Array, drive: str | None
-) -> dict[str, Array]:
-    """Columns of `force` (P, 2, 4 W), `moment` and `torque` (P, 1, 4 W)."""
-    refuse_space(
-        r.mechanism, "a counterweight", "give the shaking force, or balance a rotor: da.balance_rotor"
-    )
-    parts = [
-        _columns(r, link, base_point(r.mechanism, link, w.at), about, drive) for link, w in weights.items()
+
+class MassNumbers(NamedTuple):
+    """m, kg, h (3,), kg m, and S (3, 3), kg m2, about the base point in link axes; or of several, a first axis more."""
+
+    mass: Numeric
+    moment: Array
+    second: Array
+
+    def vector(self, d: int) -> Array:
+        """The numbers (4,) of the plane: m, x, y and the trace; in space (10,): S as xx, yy, zz, xy, xz, yz."""
+        rows, columns = (0, 1, 2, 0, 0, 1), (0, 1, 2, 1, 2, 2)
+        second = [np.trace(self.second)] if d == 2 else self.second[rows, columns]
+        return np.array([self.mass, *self.moment[:d], *second])
+
+
+def units(d: int) -> MassNumbers:
+    """A unit of each number, in the order of the vector: 4 in the plane, 10 in space."""
+    mixed = [np.outer(*np.eye(3)[[i, j]]) for i, j in ((0, 1), (0, 2), (1, 2))]
+    second = [np.diag([0.5, 0.5, 0.0])] if d == 2 else [*map(np.diag, np.eye(3)), *(s + s.T for s in mixed)]
+    n = 1 + d + len(second)
+    moment, seconds = np.zeros((n, 3)), np.zeros((n, 3, 3))
+    moment[1 : d + 1], seconds[d + 1 :] = np.eye(3)[:d], second
+    return MassNumbers(np.eye(n)[0], moment, seconds)
+
+
+def numbers_of(vector: Array) -> MassNumbers:
+    """Of a vector (4,) or (10,)."""
+    m, h, s = units(2 if len(vector) == 4 else 3)
+    return MassNumbers(vector @ m, vector @ h, np.tensordot(vector, s, 1))
+
+
+class Columns(NamedTuple):
+    """``of``: columns (P, d, N W) of `force`, of `moment` and `torque`; ``axes`` by link: the one it turns about."""
+
+    of: dict[str, Array]
+    axes: dict[str, Array | None]
+
+
+def mass_columns(r: Result, weights: dict[str, Counterweight], about: Array, drive: str | None) -> Columns:
+    """Columns of the numbers (N) of every counterweight (W); axes (3,) in link axes, None of a link with several."""
+    parts, axes = [], {}
+    for link, w in weights.items():
+        own, spin = LinkAxes(r, link), np.zeros((0, 3))
+        part, spin = _columns(r, own, base_point(r.mechanism, link, w.at), in_space(about), drive)
+        parts.append(part)
+        plane = r.mechanism.dimension == 2
+        axes[link] = np.eye(3)[2] if plane else _axis(np.concatenate([own.turning, spin]))
+    return Columns({name: np.concatenate([p[name] for p in parts], axis=-1) for name in parts[0]}, axes)
+
+
+def _axis(turning: Array) -> Array | None:
+    """The direction (3,) of all turnings (T, 3), if there is one."""
+    _, size, axes = np.linalg.svd(np.concatenate([turning, np.zeros((3, 3))]), full_matrices=False)
+    return None if size[1] > ONE_AXIS * size[0] or not size[0] else np.asarray(axes[0])
+
+
+def _columns(
+    r: Result, own: LinkAxes, base: Array, about: Array, drive: str | None
+) -> tuple[dict[str, Array], Array]:
+    """Of one counterweight, and the link's turning (P, 3) in own axes at unit speed of the drive."""
+    d, link = r.mechanism.dimension, own.link
+    m, h, s = units(d)
+    a, rate = own.own(r._acceleration(link, base)), own.rate
+    if (
+        not r.inertia
+        or max(np.abs(a).max(), np.abs(rate).max()) <= NOISE * np.abs(r.acceleration_array).max()
+    ):
+        a, rate = 0 * a, 0 * rate  # a link that stands still
+    force = -(m[:, None] * a[:, None] + np.einsum("pij,nj->pni", rate, h))
+    product = np.einsum("pij,njk->pnik", rate, s)
+    axial = [
+        product[..., (i + 2) % 3, (i + 1) % 3] - product[..., (i + 1) % 3, (i + 2) % 3] for i in range(3)
     ]
-    return {name: np.concatenate([p[name] for p in parts], axis=-1) for name in parts[0]}
-
-
-def _columns(r: Result, link: str, base: Array, about: Array, drive: str | None) -> dict[str, Array]:
-    """Of one counterweight, four columns each."""
-    place, acceleration = (_complex(v) for v in (r._place(link, base), r._acceleration(link, base)))
-    e = np.exp(1j * r.angle(link))
-    alpha, u = r.acceleration(link), (1j * r.acceleration(link) - r.speed(link) ** 2) * e
-    zero = np.zeros_like(u)
-    force = -np.stack([acceleration, u, 1j * u, zero], axis=-1)
-    own = -np.stack(
-        [zero, _cross(e, acceleration), _cross(1j * e, acceleration), alpha], axis=-1
-    ).real  # about A
-    moment = _cross((place - complex(*about))[:, None], force) + own
-    columns = {"force": np.stack([force.real, force.imag], axis=1), "moment": moment[:, None, :]}
-    columns["torque"] = np.zeros_like(columns["moment"])
+    couple = -(np.cross(h, a[:, None]) + np.stack(axial, axis=-1))
+    force, couple = (np.einsum("pij,pnj->pin", own.rotation, v) for v in (force, couple))
+    moment = couple + _cross(in_space(r._place(link, base)) - about, force)
+    columns = {"force": force[:, :d], "moment": moment[:, 2:] if d == 2 else moment}
+    columns["torque"], spin = np.zeros((len(a), 1, len(m))), np.zeros((0, 3))
     if drive is not None:
-        twist = state(r).moving.virtual[:, r.drives.index(drive), r.links.index(link)]
-        spin, g = twist[:, 2], complex(*r.mechanism.gravity_vector)
-        arm = e * complex(*base) - e * complex(*r.compiled.layout.reference[r.links.index(link)])
-        velocity = _complex(twist[:, :2]) + 1j * spin * arm
-        whole = force + np.stack([zero + g, zero, zero, zero], axis=-1)
-        turning = own + np.stack([zero, _cross(e, zero + g), _cross(1j * e, zero + g), zero], axis=-1).real
-        power = (np.conj(velocity)[:, None] * whole).real + spin[:, None] * turning
-        columns["torque"] = -power[:, None, :]
-    return columns
+        k, gravity = r.links.index(link), in_space(r.mechanism.gravity_vector)
+        virtual = state(r).moving.virtual[:, r.drives.index(drive)]
+        twist = virtual[:, k] * (np.abs(virtual[:, k]).max() > NOISE * np.abs(virtual).max())
+        spin = couple_in_space(twist[:, 2] if d == 2 else twist[:, 3:])
+        arm = own.rotation @ (in_space(base) - in_space(r.compiled.layout.reference[k]))
+        velocity = in_space(twist[:, :d]) + np.cross(spin, arm)
+        turned = own.rotation @ h.T
+        couple = couple - _cross(np.broadcast_to(gravity, arm.shape), turned)
+        power = np.einsum("pi,pin->pn", velocity, force + gravity[:, None] * m)
+        columns["torque"] = -(power + np.einsum("pi,pin->pn", spin, couple))[:, None]
+        spin = own.own(spin)
+    return columns, spin
 
 
-def _complex(v: Array) -> Array:
-    return np.asarray(v[..., 0] + 1j * v[..., 1])
-
-
-def _cross(u: Array, v: Array) -> Array:
-    return np.asarray((np.conj(u) * v).imag)
+def _cross(arm: Array, columns: Array) -> Array:
+    """Products of arms (P, 3) with columns (P, 3, N)."""
+    return np.cross(arm[:, :, None], columns, axis=1)

@@ -13,8 +13,9 @@ from dalembert.analysis.methods.applied_forces import state
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.arrays import Array
 from dalembert.core.forcing import center_motion
-from dalembert.errors import AnalysisError, ModelError
+from dalembert.errors import ModelError
 from dalembert.machine.harmonics import whole_turns
+from dalembert.machine.whole_cycle import refuse_unknown
 from dalembert.model import Schedule
 from dalembert.wording import closest
 
@@ -30,9 +31,7 @@ class TurningMoment:
         self.result, self.drive = r, _only_drive(r, drive)
         self.turns = whole_turns(r.drive_position(self.drive))
         self.speed = _steady_speed(r, self.drive)
-        if not r.ok.all():
-            which, _, sentence = r.problems()[0]
-            raise AnalysisError(f"a flywheel needs every position of the cycle; position {which}: {sentence}")
+        refuse_unknown(r, "a flywheel needs every position of the cycle", r.effort(self.drive))
         self.first = float(r.drive_position(self.drive)[0])
         m = r.mechanism
         self.smooth = m.with_values({"friction.enabled": False}) if r.friction is not None else None
@@ -81,9 +80,9 @@ class TurningMoment:
         rates = [np.broadcast_to(x, q.shape) for x in (speed, acceleration)]
         u, a = (np.concatenate([x[:1], x])[:, None] for x in rates)
         found = at_schedule(m, Schedule((self.drive,), angle[:, None], u, a), inertia)
-        if not found.ok.all():
-            sentence = found.problems()[0][-1]
-            raise AnalysisError(f"between the positions of the cycle: {sentence}")
+        refuse_unknown(
+            found, "a flywheel needs what is between the positions of the cycle", found.effort(self.drive)
+        )
         return found
 
 

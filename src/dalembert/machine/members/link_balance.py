@@ -12,7 +12,8 @@ import numpy as np
 
 from dalembert.analysis.methods.applied_forces import Action, on_link, whole_actions
 from dalembert.arrays import Array, Ints
-from dalembert.machine.members.straight_members import Straight, in_space
+from dalembert.machine.link_axes import LinkAxes, in_space
+from dalembert.machine.members.straight_members import Straight
 
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
@@ -40,14 +41,12 @@ class Loads(NamedTuple):
     spread: list[tuple[int, Wrench]]
 
 
-class LinkBalance:
+class LinkBalance(LinkAxes):
     """A link's motion and what acts on it, in its own axes, with three components; ``unknown`` (P,) is 0 or NaN."""
 
     def __init__(self, r: Result, link: str) -> None:
-        self.r, self.link = r, link
+        super().__init__(r, link)
         count, d = len(r.status), r.mechanism.dimension
-        self.rotation = np.tile(np.eye(3), (count, 1, 1))
-        self.rotation[:, :d, :d] = r.rotation(link)
         self.actions = on_link(whole_actions(r), link)
         self.unknown = np.zeros(count)
         for name in r.joints:
@@ -56,19 +55,7 @@ class LinkBalance:
         self.center = in_space(r.mechanism.center(link))
         gravity = np.array(r.mechanism.gravity_vector, float)
         self.gravity = self.own(np.broadcast_to(gravity, (count, d)))
-        self.acceleration, self.rate = np.zeros((count, 3)), np.zeros((count, 3, 3))
-        if r.inertia:
-            self.acceleration = self.own(r.center_acceleration(link))
-            alpha, w = (_cross(self.own_couple(v)) for v in (r.acceleration(link), r.speed(link)))
-            self.rate = alpha + w @ w
-
-    def own(self, v: Array) -> Array:
-        """Vectors (P, d) of ground axes in link axes (P, 3)."""
-        return np.asarray(np.einsum("pji,pj->pi", self.rotation, in_space(v)))
-
-    def own_couple(self, v: Array) -> Array:
-        """The same of a couple or a turning: (P,) in the plane."""
-        return self.own(v if v.ndim > 1 else np.stack([0 * v, 0 * v, v], axis=-1))
+        self.acceleration = self.own(r.center_acceleration(link)) if r.inertia else np.zeros((count, 3))
 
     def place(self, a: Action) -> Array:
         """Where an action acts (P, 3)."""
@@ -115,12 +102,3 @@ def _seated(members: tuple[Straight, ...], place: Array, force: Array, couple: A
     member = np.argmin(np.nan_to_num(np.array([off for _, off in feet])), axis=0)
     foot = np.take_along_axis(np.array([s for s, _ in feet]), member[None], axis=0)[0]
     return Wrench(place, force, couple, member, foot)
-
-
-def _cross(v: Array) -> Array:
-    """Matrices (P, 3, 3) of the product with vectors (P, 3)."""
-    out = np.zeros((len(v), 3, 3))
-    for k in range(3):
-        out[:, (k + 2) % 3, (k + 1) % 3] = v[:, k]
-        out[:, (k + 1) % 3, (k + 2) % 3] = -v[:, k]
-    return out

@@ -13,6 +13,7 @@ import numpy as np
 
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
+from dalembert.machine.link_axes import in_space
 from dalembert.model import Box
 
 if TYPE_CHECKING:
@@ -58,12 +59,6 @@ class Straight:
     def rounded(self, s: Array | float) -> Array:
         """Distances without rounding noise, so that a place is on one side of a force or on the other."""
         return np.asarray(np.round(np.asarray(s) / self.length, DIGITS) * self.length)
-
-
-def in_space(vector: Sequence[float] | Array) -> Array:
-    """Vectors (..., 2) of the plane, or (..., 3), with three components."""
-    v = np.asarray(vector, float)
-    return v if v.shape[-1] == 3 else np.concatenate([v, np.zeros((*v.shape[:-1], 1))], axis=-1)
 
 
 def straight(ends: tuple[str, str], a: Array, b: Array) -> Straight:

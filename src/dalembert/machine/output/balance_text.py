@@ -18,14 +18,17 @@ def balance_parts(b: Balance, to: Printed) -> Iterator[Part]:
     length, mass = to.text("length"), to.text("mass")
     rows = []
     for link, p in b.placed.items():
-        x, y = round_components([float(to("length", v)) for v in p.center])
-        turned = number(math.degrees(p.angle), 5) if p.moment else "-"
+        center = map(number, round_components([float(to("length", v)) for v in p.center]))
+        turned = [] if p.angle is None else [number(math.degrees(p.angle), 5) if p.moment else "-"]
         size = "-" if p.radius is None else to.number("length", p.radius)
         moment = to.number("mass", to("length", p.moment))
-        rows.append([link, moment, turned, to.number("mass", p.mass), number(x), number(y), size])
-    heads = ["counterweight\non link", f"m r\n{mass}*{length}", "angle\ndeg", f"mass\n{mass}"]
-    yield Table([*heads, *(f"{x}\n{length}" for x in ("centre x", "y", "disc radius"))], rows)
-    yield "Angles and centres in link axes; m r and its angle from the link's base point."
+        rows.append([link, moment, *turned, to.number("mass", p.mass), *center, size])
+    plane = b.problem.dimension == 2
+    heads = ["counterweight\non link", f"m r\n{mass}*{length}", *["angle\ndeg"] * plane, f"mass\n{mass}"]
+    places = ("centre x", "y", "disc radius") if plane else ("centre x", "y", "z", "disc radius")
+    yield Table([*heads, *(f"{x}\n{length}" for x in places)], rows)
+    both = "Angles and centres in link axes; m r and its angle" if plane else "Centres in link axes; m r"
+    yield f"{both} from the link's base point."
     about = f"Moment about {b.before.about}; weights, which are constant, are left out of force and moment."
     yield Table(["", "before", "after", "left"], _comparison_rows(b, to), note=wrap(about))
     yield proof(b)

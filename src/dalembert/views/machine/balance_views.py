@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from dalembert.analysis.methods.applied_forces import magnitude
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.machine.balance.balancing import Balance, without_weight
@@ -12,28 +13,39 @@ from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.diagrams import curves_scene, polar_scene
 from dalembert.views.paper.scene import Scene
 
+NOTHING = 1e-6
+"""A trade-off that gains or costs less, in per cent, is none."""
+
 
 def balance_scenes(b: Balance, notation: Notation) -> list[Scene]:
-    """Polar diagram of the force, moment and torque over the cycle, the trade-off with the torque."""
+    """Force (in the plane a polar diagram, in space its size), moment and torque over the cycle, the trade-off."""
     shown = Shown(b.result, notation)
     sides = {"before": b.before, "after": b.after}
-    force = {name: without_weight(s, "force") / shown.size("force") for name, s in sides.items()}
-    out = [polar_scene(force, shown.unit("force"), "Shaking force")]
+    force, moment = ({n: without_weight(s, of) for n, s in sides.items()} for of in ("force", "moment"))
+    plane, out = b.problem.dimension == 2, list[Scene]()
+    if plane:
+        scaled = {name: values / shown.size("force") for name, values in force.items()}
+        out.append(polar_scene(scaled, shown.unit("force"), "Shaking force"))
     if len(b.result.status) < 3 or not b.result.drives:
         return out
-    drive = b.result.drives[0]
-    some: dict[str, dict[str, Array]] = {
-        f"Shaking moment about {b.before.about}": {n: without_weight(s, "moment") for n, s in sides.items()},
-        f"Torque of {drive}": {n: s.result.effort(drive) for n, s in sides.items()},
-    }
+    drive, size = b.result.drives[0], "" if plane else "Size of the "
+    some: dict[str, dict[str, Array]] = {} if plane else {f"{size}shaking force": force}
+    some[f"{size}shaking moment about {b.before.about}"] = moment
+    some[f"Torque of {drive}"] = {n: s.result.effort(drive) for n, s in sides.items()}
     x, label, angle = along(b.result, shown)
     for title, curves in some.items():
-        series = {name: values / shown.size("moment") for name, values in curves.items()}
-        out.append(curves_scene(x, series, label, f"Moment in {shown.unit('moment')}", title, angle))
-    other = "torque" if "torque" not in b.of else "force"
+        kind = "force" if curves is force else "moment"
+        series = {n: (v if v.ndim == 1 else magnitude(v)) / shown.size(kind) for n, v in curves.items()}
+        unit = f"{kind.capitalize()} in {shown.unit(kind)}"
+        out.append(curves_scene(x, series, label, unit, title[:1].upper() + title[1:], angle))
+    other = next((n for n in ("torque", "force", "moment") if n not in b.of), None)
+    if other is None:
+        return out
     try:
         pairs = 100 * np.array(b.trade_off(other))
     except ModelError:  # the other asks for bounds that are not given
+        return out
+    if np.ptp(pairs, axis=0).min() < NOTHING:
         return out
     of = " and ".join(b.of)
     title, left = f"Trade-off: {b.least} of {of} against {other}", {other: pairs[:, 1]}
