@@ -8,9 +8,10 @@ task. Every answer is judged by `da.dynamics`. All in one run, one after the oth
 torque    Norton's four-bar 11-3 over a turn: ground pivot O4, coupler point B, a counterweight on the coupler; least
           peak torque while the transmission angle stays above 33 degrees.
 shaking   a slider-crank at 3,000 rpm: counterweights on crank and rod; least peak shaking force.
-path      a four-bar whose coupler point passes 10 points that a known four-bar made, at its crank angles.
+path      a four-bar whose coupler point passes 10 points that a known four-bar made, at its crank angles; then 10
+          at angles that are not told.
 
-    python benchmarks/optimize.py [--starts 1000] [--figures docs/figures]
+    python -m benchmarks.optimize [--starts 1000] [--figures docs/figures]
 """
 
 from __future__ import annotations
@@ -23,9 +24,10 @@ from typing import Any
 
 import numpy as np
 from scipy.optimize import differential_evolution
+from tests.optimization.test_optimize import TORQUE, norton
+from tests.optimization.test_synthesize import MODEL, VARY, made
 
 import dalembert as da
-from dalembert.bundled import cases
 from dalembert.reports.machine_sections.optimum_section import optimum_scenes
 from dalembert.views.paper.diagrams import polar_scene
 from dalembert.views.paper.scene import stack_scenes
@@ -48,25 +50,6 @@ def four_bar(q: Any, crank: Any, b: Any, turned: Any, rocker: Any, ground: Any) 
     return line - turned, np.angle(joint - ground), a, joint
 
 
-def torque_model() -> da.Mechanism:
-    """Norton 11-3 over a turn at constant speed, with a counterweight welded to the coupler."""
-    text = cases()["seed-003-norton-11-3"].read_text(encoding="utf-8").split("# The book rounds")[0]
-    for old, new in (
-        ("  rocker:  {", "  cw: {points: {W: [0, 0]}, weight: 0, center: [0, 0], inertia: 0}\n  rocker:  {"),
-        ("  O4: {type", "  W: {type: weld, links: [coupler, cw], at: [A, W]}\n  O4: {type"),
-        ("position: 60,", "position: {from: 0, to: 360, count: 72},"),
-        (", acceleration: -40 rad/s^2", ""),
-    ):
-        text = text.replace(old, new)
-    return da.loads(text)
-
-
-TORQUE = {
-    "links.ground.points.O4": ("[17 in, -2 in]", "[21 in, 2 in]"),
-    "links.coupler.points.B": ("[13 in, -2 in]", "[17 in, 2 in]"),
-    "links.cw.weight": (0.0, "10 lbf"),
-    "links.cw.center": ("[-15 in, -15 in]", "[15 in, 15 in]"),
-}
 TORQUE_BOX = [(17, 21), (-2, 2), (13, 17), (-2, 2), (0, 10), (-15, 15), (-15, 15)]
 
 
@@ -146,40 +129,17 @@ def shaking_numpy(x: Any) -> Any:
     return np.abs(turning(moved, speed)[1]).max(axis=1)
 
 
-PATH = """
-gravity: none
-links:
-  ground: {points: {O2: [0, 0], O4: [0.3, 0.0]}}
-  crank: {points: {O2: [0, 0], A: [0.1, 0]}}
-  coupler: {points: {A: [0, 0], B: [0.28, 0], P: [0.14, 0.1]}}
-  rocker: {points: {O4: [0, 0], B: [0.22, 0]}}
-joints:
-  O2: {type: pin, links: [ground, crank]}
-  A: {type: pin, links: [crank, coupler]}
-  B: {type: pin, links: [coupler, rocker]}
-  O4: {type: pin, links: [ground, rocker]}
-drives: {O2: {position: {from: 0, to: 324 deg, count: 10}}}
-assembly: {coupler: 50 deg, rocker: 100 deg}
-"""
-PATH_VARY = {
-    "links.ground.points.O2": (-0.1, 0.1),
-    "links.ground.points.O4": ("[0.15 m, -0.15 m]", "[0.45 m, 0.15 m]"),
-    "links.crank.points.A.0": (0.05, 0.2),
-    "links.coupler.points.B.0": (0.15, 0.45),
-    "links.coupler.points.P": ("[0, 0]", "[0.3 m, 0.25 m]"),
-    "links.rocker.points.B.0": (0.12, 0.4),
-}
 PATH_BOX = [(-0.1, 0.1)] * 2 + [(0.15, 0.45), (-0.15, 0.15), (0.05, 0.2), (0.15, 0.45), (0, 0.3), (0, 0.25)]
 PATH_BOX += [(0.12, 0.4)]
-KNOWN = (0.01, -0.02, 0.33, 0.03, 0.09, 0.3, 0.17, 0.12, 0.25)
+KNOWN = tuple(da.compile(made(), list(VARY)).nominal.tolist())
 CRANK = np.radians(np.arange(10) * 36.0)
 
 
-def path_points(x: Any) -> Any:
-    """Points of the coupler (design, 10) as complex numbers, of designs (number, design)."""
+def path_points(x: Any, crank: Any = CRANK) -> Any:
+    """Points of the coupler (design, angle) as complex numbers, of designs (number, design)."""
     x = np.atleast_2d(np.asarray(x, float).T).T[..., None]
     o2, o4 = x[0] + 1j * x[1], x[2] + 1j * x[3]
-    c, _, a, _ = four_bar(CRANK, x[4], x[5], 0.0, x[8], o4 - o2)
+    c, _, a, _ = four_bar(crank, x[4], x[5], 0.0, x[8], o4 - o2)
     return o2 + a + (x[6] + 1j * x[7]) * np.exp(1j * c)
 
 
@@ -190,6 +150,23 @@ SIZE = float(np.hypot(np.ptp(WANTED.real), np.ptp(WANTED.imag)))
 def path_numpy(x: Any) -> Any:
     """Rms distance from the points over their spread."""
     off = np.sqrt((np.abs(path_points(x) - WANTED) ** 2).mean(axis=-1)) / SIZE
+    return np.where(np.isfinite(off), off, BROKEN)
+
+
+UNTIMED = np.sort(np.random.default_rng(3).uniform(0, 2 * np.pi, 10))
+"""Angles of the crank that are not told."""
+FREE = path_points(np.array(KNOWN), UNTIMED)[0]
+
+
+def untimed_numpy(x: Any) -> Any:
+    """Rms distance of points, over their spread, from the path, 180 chords; their order is not asked for."""
+    path = path_points(x, np.radians(np.arange(180) * 2.0))
+    chord = np.roll(path, -1, axis=-1) - path
+    near = []
+    for point in FREE:
+        part = np.clip(((point - path) * np.conj(chord)).real / np.abs(chord) ** 2, 0, 1)
+        near.append(np.abs(point - path - part * chord).min(axis=-1))
+    off = np.sqrt((np.stack(near) ** 2).mean(axis=0)) / np.hypot(np.ptp(FREE.real), np.ptp(FREE.imag))
     return np.where(np.isfinite(off), off, BROKEN)
 
 
@@ -270,7 +247,7 @@ def check(name: str, mine: float, own: float) -> None:
 
 
 def best_torque(starts: int) -> da.Optimum:
-    m = torque_model()
+    m = norton()
     before = float(np.abs(da.dynamics(m)["effort.O2"]).max())
     check("torque", float(torque_numpy([19, 0, 15, 0, 0, 0, 0])[0]), before)
     begun = time.perf_counter()
@@ -301,15 +278,26 @@ def best_shaking(starts: int) -> da.Optimum:
 
 
 def best_path(starts: int) -> da.Synthesis:
-    m = da.loads(PATH)
+    m = da.loads(MODEL)
     targets = {"point.coupler.P": np.stack([WANTED.real, WANTED.imag], axis=1)}
     begun = time.perf_counter()
-    found = da.synthesize(m, PATH_VARY, targets, starts=starts)
+    found = da.synthesize(m, VARY, targets, starts=starts)
     said = f"da.synthesize, {found.exact} of {found.started} exact"
     row("path, rms/size", said, time.perf_counter() - begun, found.started, found.error)
     evolution("path, rms/size", path_numpy, PATH_BOX, 17, 1000)
     swarm("path, rms/size")
+    untimed_path(starts)
     return found
+
+
+def untimed_path(starts: int) -> None:
+    """A path whose timing is free."""
+    targets = {"point.coupler.P": np.stack([FREE.real, FREE.imag], axis=1)}
+    begun = time.perf_counter()
+    found = da.synthesize(da.loads(MODEL), VARY, targets, starts=starts, timing="free")
+    said = f"da.synthesize, {found.exact} of {found.started} exact"
+    row("free path, rms/size", said, time.perf_counter() - begun, found.started, found.error)
+    evolution("free path, rms/size", untimed_numpy, PATH_BOX, 15, 300)
 
 
 def figures(folder: Path, torque: da.Optimum, shaking: da.Optimum, path: da.Synthesis) -> None:

@@ -15,6 +15,12 @@ from dalembert.optimization.aims import Problem, parse_aim, parse_condition
 
 WHERE = ("transmission.B >= 33 deg",)
 BOX = {"links.ground.points.O4.0": (0.28, 0.36), "links.rocker.points.B.0": (0.2, 0.28)}
+TORQUE: dict[str, Any] = {
+    "links.ground.points.O4": ("[17 in, -2 in]", "[21 in, 2 in]"),
+    "links.coupler.points.B": ("[13 in, -2 in]", "[17 in, 2 in]"),
+    "links.cw.weight": (0.0, "10 lbf"),
+    "links.cw.center": ("[-15 in, -15 in]", "[15 in, 15 in]"),
+}
 
 
 def norton() -> da.Mechanism:
@@ -33,13 +39,7 @@ def norton() -> da.Mechanism:
 
 @pytest.mark.long
 def test_peak_torque_of_norton_11_3() -> None:
-    vary = {
-        "links.ground.points.O4": ("[17 in, -2 in]", "[21 in, 2 in]"),
-        "links.coupler.points.B": ("[13 in, -2 in]", "[17 in, 2 in]"),
-        "links.cw.weight": (0.0, "10 lbf"),
-        "links.cw.center": ("[-15 in, -15 in]", "[15 in, 15 in]"),
-    }
-    best = da.optimize(norton(), vary, "peak effort.O2", WHERE, starts=40)
+    best = da.optimize(norton(), TORQUE, "peak effort.O2", WHERE, starts=40)
     assert best.feasible
     assert best.value_before == pytest.approx(42.487, abs=1e-3)
     assert best.value == pytest.approx(23.4184, abs=1e-3)  # differential evolution: 23.4204

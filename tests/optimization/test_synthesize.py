@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.batch.own_positions import OwnPositions
+from tests.tiers import tiers
 
 MODEL = """dalembert: 1
 gravity: none
@@ -61,6 +63,53 @@ def test_a_path_is_found_again() -> None:
     )
 
 
+@pytest.mark.parametrize("outputs", tiers([["point.coupler.P"]], [["point.coupler.P", "angle.coupler"]]))
+@pytest.mark.parametrize("turn", tiers([0], [1, 2]))
+def test_what_is_done_at_unknown_positions_is_found_again(outputs: list[str], turn: int) -> None:
+    """A path, and a motion, with free timing: of drives that go round, have a range, and turn back."""
+    q = np.radians([20.0, 61, 90, 130, 171, 222, 245, 280, 301, 330])
+    given, q = [(None, q), ([0.2, 2.0, 4.0], q[:6]), ([4.0, 0.1], q[5::-1])][turn]
+    k = da.compile(made(), outputs=outputs)
+    r = k(positions=q)
+    targets = {name: r.value(name)[0] for name in outputs}
+    vary = VARY if given is None else dict(list(VARY.items())[2:4])
+    model = da.loads(MODEL) if given is None else made()
+    found = da.synthesize(model, vary, targets, given, starts=40, timing="free")
+    assert found.error < 1e-10
+    assert all(np.allclose(found.found[name], targets[name], atol=1e-9) for name in outputs)
+    at = found.positions[:, 0]
+    assert np.allclose(at, q, atol=1e-6)
+    moved = da.compile(found.mechanism, outputs=outputs)(positions=at)
+    assert np.allclose(moved.value(outputs[0])[0], targets[outputs[0]], atol=1e-9)
+
+
+def test_derivatives_by_positions_of_their_own() -> None:
+    """Beside differences, and the values beside those of the kernel itself; near stations and between them."""
+    k = da.compile(made(), list(VARY), ["point.coupler.P", "angle.rocker"], derivatives=True, static=True)
+    of = OwnPositions(k, np.linspace(0, 2 * np.pi, 36, endpoint=False))
+    rng = np.random.default_rng(1)
+    values, q = k.nominal * (1 + 0.03 * rng.standard_normal((3, 9))), rng.uniform(-0.5, 7, (3, 5))
+    found, h = of(values, q), 1e-6
+    assert found.ok.all()
+    assert np.allclose((of(values, q + h).value - of(values, q - h).value) / (2 * h), found.slope[..., -1])
+    for d in range(3):
+        r = k(values[d], q[d])
+        assert np.array_equal(r.value("point.coupler.P")[0], found.value[d, :, :2])
+        assert np.allclose(r.gradient("angle.rocker")[0], found.slope[d, :, 2, :-1], rtol=1e-12)
+
+
+def test_designs_close_between_the_targets() -> None:
+    """A rocker that two positions leave whole, and that cannot go from one to the other."""
+    vary: Any = {"links.coupler.points.B.0": (0.12, 0.14)}
+    wanted, ends = {"angle.rocker": [1.9, 1.8]}, np.radians([60.0, 300])
+    m = da.loads(MODEL).with_values({"links.rocker.points.B.0": 0.14})
+    k = da.compile(m.with_values({"links.coupler.points.B.0": 0.28}), list(vary), ["angle.rocker"])
+    r = k([[0.13]], np.radians([60.0, 180, 300]))
+    assert r.ok[0].tolist() == [True, False, True]
+    with pytest.raises(da.ModelError, match="closes all the way from the first target to the last"):
+        da.synthesize(m, vary, wanted, ends, starts=4)
+
+
 @pytest.mark.long
 def test_a_motion_at_other_positions() -> None:
     turned = np.radians([10.0, 60, 100, 170, 250])
@@ -93,6 +142,8 @@ def test_a_function_as_near_as_a_grid_of_designs() -> None:
         ({"targets": {"angle.roker": [1.0] * 10}}, "did you mean 'angle.rocker'?"),
         ({"vary": {"links.crank.points.A.0": (0.1, 0.2, 0.01)}}, "takes no steps"),
         ({"vary": {"links.crank.points.A.0": (2.0, 2.1)}}, "has an answer at every position"),
+        ({"timing": "fre"}, "timing='fre' is none"),
+        ({"timing": "free", "targets": {"angle.rocker": 3.0}}, "targets of angle.rocker have shape ()"),
     ],
 )
 def test_wrong_targets(changed: dict[str, Any], message: str) -> None:

@@ -303,7 +303,7 @@ class Kernel:
                 raise
             raise ModelError(f"device {device!r} cannot be used: {error}", 'use device="cpu"') from None
         code, again = found.code, 0
-        other = self._may_change_branch(given)
+        other = self.may_change_branch(given)
         if other is not None:
             code[other] = CODES.index("undecided")
         if not np.isfinite(given).all():
@@ -342,7 +342,7 @@ class Kernel:
         flips = self.trace.catalogue.traced.flips
         return np.flatnonzero([chooses_motion(self.mechanism, path, flips) for path in self.numbers])
 
-    def _may_change_branch(self, values: Array) -> Flags | None:
+    def may_change_branch(self, values: Array) -> Flags | None:
         """Designs whose motion may be another than the file's, each left to the general executor; None for none."""
         if not self._deciding.size:
             return None

@@ -66,9 +66,9 @@ class Runner:
         k = self.k
         if kind == "gradient":  # derivatives alone, at chosen positions
             rates = [n for found in k.rates.values() for row in found for n in row]
-            return self._pairs(k.program([*(n for nodes in k.nodes.values() for n in nodes), *rates]))
+            return self.pairs(k.program([*(n for nodes in k.nodes.values() for n in nodes), *rates]))
         if kind == "pairs":
-            return self._pairs(k.program(k.flat))
+            return self.pairs(k.program(k.flat))
         if kind in ("grid", "past cache"):
             program = k.program(k.flat) if kind == "grid" else self.machine("grid")[0]
             text = llvm_text.grid(program, k.lanes, past_cache=kind != "grid")
@@ -77,7 +77,7 @@ class Runner:
         program = k.program(nodes)
         return program, compile_module(llvm_text.grid(program, k.lanes, slots), k.lanes), slots
 
-    def _pairs(self, program: Program) -> tuple[Program, Machine, Slots]:
+    def pairs(self, program: Program) -> tuple[Program, Machine, Slots]:
         return program, compile_module(llvm_text.pairs(program, self.k.lanes), self.k.lanes), ()
 
     def _reduction_values(self) -> tuple[list[Node], Slots]:

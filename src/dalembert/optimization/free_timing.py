@@ -1,0 +1,138 @@
+"""Targets that a mechanism passes in their order, wherever its drive stands then: its positions are unknown too.
+
+They are numbers beside the others in one problem of least squares, each moved by less than half of what parts it from
+the next, so that the order stays; they begin where a design comes nearest to the targets (dynamic programming).
+
+Mechanics: docs/theory.md 11.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dalembert.analysis.batch.checked_input import numbers as checked
+from dalembert.analysis.batch.compiled_kernel import Kernel
+from dalembert.analysis.batch.own_positions import OwnPositions
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.errors import ModelError
+from dalembert.machine.whole_cycle import over_a_turn
+from dalembert.optimization.least_squares import Errors, Misfit, wanted
+
+TURN = 2 * np.pi
+STATIONS = 72
+"""Positions at which designs are tried, and have to close; or six to a target where that is more."""
+NEARER = 0.45
+"""Part of the way to the next target's position that a position may move at once."""
+FIRST = 12
+"""Of the stations nearest to the first target, how many are tried for it where the drive goes round."""
+BLOCK = 1000
+"""Designs that are timed at once."""
+
+
+@dataclass(frozen=True)
+class FreeTiming(Misfit):
+    """A misfit whose places have behind the numbers the drive's positions, increasing along ``sense``."""
+
+    own: OwnPositions
+    sense: float
+    whole: bool
+    """Whether the drive goes round, so that after the last target the first one follows."""
+
+    @classmethod
+    def of(
+        cls, k: Kernel, low: Array, span: Array, targets: Mapping[str, ArrayLike], given: ArrayLike | None
+    ) -> FreeTiming:
+        """Of targets between the first and the last of some positions, default the file's or a turn."""
+        m, drives = k.mechanism, k.trace.course.schedule.names
+        if len(drives) != 1:
+            raise ModelError(
+                f"timing is free of one drive, and there are {len(drives)}", 'give timing="given"'
+            )
+        q = m.schedule(over_a_turn(m)).position if given is None else checked("positions", given)
+        q = k.course(q).schedule.position[:, 0]
+        turns, step = m.drives[drives[0]].turns, q[-1] - q[0]
+        step = step / max(len(q) - 1, 1)
+        target, spread = wanted(k, targets, None)
+        whole = bool(turns and abs(q[-1] - q[0]) > TURN - 1.01 * abs(step))
+        count = max(STATIONS, 6 * len(target))
+        ends = (q[0], q[0] + np.sign(step) * TURN) if whole else (q[0], q[-1])
+        own = OwnPositions(k, np.linspace(*ends, count, endpoint=not whole))
+        return cls(
+            k, low, span, target, spread, own.stations[:, None], own, float(np.sign(step) or 1.0), whole
+        )
+
+    def __call__(self, x: Array) -> Errors:
+        n = len(self.span)
+        found = self.own(self.low + x[:, :n] * self.span, self.sense * x[:, n:])
+        count = len(self.target)
+        slope = np.zeros((*found.slope.shape[:-1], n + count))
+        slope[..., :n] = found.slope[..., :n] * self.span
+        slope[:, range(count), :, range(n, n + count)] = self.sense * found.slope[..., -1].swapaxes(0, 1)
+        return self.errors(np.where(found.ok[..., None], found.value, np.nan), slope)
+
+    def answers(self, u: Array) -> Flags:
+        return np.asarray(self._at(u, self.positions).ok.all(axis=1))
+
+    def moves(self, x: Array) -> Flags:
+        return self.answers(x)
+
+    def begin(self, u: Array) -> Array:
+        blocks = [u[k : k + BLOCK] for k in range(0, len(u), BLOCK)]
+        return np.hstack([u, np.concatenate([self._timing(block) for block in blocks])])
+
+    def _timing(self, u: Array) -> Array:
+        """Where designs come nearest to the targets, one after the other (design, P), along the sense."""
+        r, count = self._at(u, self.positions), len(self.own.stations)
+        value = np.concatenate([r.value(n).reshape(len(u), count, -1) for n in self.kernel.outputs], axis=2)
+        cost = (((value[:, None] - self.target[:, None]) / self.spread[:, None]) ** 2).sum(axis=3)
+        best, least = np.zeros(cost.shape[:2]), np.full(len(u), np.inf)
+        for first in np.argsort(cost[:, 0], axis=1)[:, : FIRST if self.whole else 1].T:
+            there, begun = cost, first[:, None] * self.whole
+            if self.whole:
+                there = np.take_along_axis(cost, (begun + np.arange(count))[:, None] % count, axis=2)
+                there[:, 0, 1:] = np.inf
+            total, at = _in_order(there)
+            better = total < least
+            best[better], least[better] = (begun + at)[better], total[better]
+        step = abs(self.own.stations[1] - self.own.stations[0])
+        return np.asarray(self.sense * self.own.stations[0] + best * step)
+
+    def held(self, x: Array, down: Array) -> Flags:
+        held = super().held(x, down)
+        held[:, len(self.span) :] = False
+        return held
+
+    def moved(self, x: Array, step: Array) -> Array:
+        n = len(self.span)
+        t, low, high = x[:, n:], *np.sort(self.sense * self.own.stations[[0, -1]])
+        if self.whole:
+            low, high = t[:, -1:] - TURN, t[:, :1] + TURN
+        edges = np.hstack([np.broadcast_to(low, (len(t), 1)), t, np.broadcast_to(high, (len(t), 1))])
+        gaps = np.diff(edges, axis=1) * NEARER
+        at = t + np.clip(step[:, n:], -gaps[:, :-1], gaps[:, 1:])
+        return np.hstack([super().moved(x[:, :n], step[:, :n]), at])
+
+    def places(self, x: Array) -> Array:
+        return self.sense * x[len(self.span) :, None]
+
+
+def _in_order(cost: Array) -> tuple[Array, Ints]:
+    """Least sums (design,) of costs (design, P, S), and the stations (design, P), each behind the one before.
+
+    Bellman's dynamic programming: the least sum up to a target at a station follows from those of the target before.
+    """
+    stations, total, back = np.arange(cost.shape[2]), cost[:, 0], list[Ints]()
+    for k in range(1, cost.shape[1]):
+        best = np.minimum.accumulate(total, axis=1)
+        place = np.maximum.accumulate(np.where(total == best, stations, 0), axis=1)
+        none = np.full((len(cost), 1), np.inf)
+        total = cost[:, k] + np.hstack([none, best[:, :-1]])
+        back.append(np.hstack([place[:, :1], place[:, :-1]]))
+    at = [np.argmin(total, axis=1)]
+    for place in reversed(back):
+        at.append(np.take_along_axis(place, at[-1][:, None], axis=1)[:, 0])
+    return total.min(axis=1), np.stack(at[::-1], axis=1)
