@@ -13,6 +13,8 @@ from scipy.integrate import solve_ivp
 import dalembert as da
 from dalembert.errors import ModelError
 from tests.random_mechanisms import random_case
+from tests.random_space import random_case as space_case
+from tests.random_space import tree as space_tree
 from tests.tiers import tiers
 
 ROTOR = """
@@ -257,8 +259,9 @@ def test_the_press_of_the_guide_comes_to_a_steady_state() -> None:
 def rubbing(tree: Any) -> Any:
     """The mechanism with friction in its pins and sliders."""
     for joint in tree["joints"].values():
-        if joint["type"] in ("pin", "slider"):
-            joint["friction"] = {"coefficient": 0.05} | ({"radius": "4 mm"} if joint["type"] == "pin" else {})
+        if joint["type"] in ("pin", "slider", "revolute", "prismatic"):
+            turns = joint["type"] in ("pin", "revolute")
+            joint["friction"] = {"coefficient": 0.05} | ({"radius": "4 mm"} if turns else {})
     return tree
 
 
@@ -310,6 +313,17 @@ def test_with_friction_it_asks_for_them_too(seed: int) -> None:
     assert s.ended == "at 0.001 s"
     assert s.law_residual < 1e-9
     assert s.energy_residual < 1e-9
+
+
+@pytest.mark.parametrize("rough", [False, True])
+@pytest.mark.parametrize("seed", tiers([24], [3, 5, 33]))
+def test_in_space_it_asks_for_them_too(seed: int, rough: bool) -> None:
+    """Poses are followed from state to state there; without friction, and with it in hinges and slides."""
+    made = space_tree(space_case(seed))
+    s = simulated(rubbing(made) if rough else made, 0.05, 1e-10 if rough else 1e-12)
+    assert s.ended == "at 0.05 s"
+    assert np.ptp(s.result.drive_position(s.drives[0])) > 1e-3
+    assert max(s.law_residual, s.energy_residual) < 1e-9
 
 
 @pytest.mark.long

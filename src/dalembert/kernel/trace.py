@@ -62,7 +62,8 @@ class Problem:
     stacked targets at the first position. Where there are ``slips`` the known motion is the solution, and they are the
     friction of each contact in it (``reversals`` its sense where that reverses): then one step of Newton is left, which
     carries the derivatives. ``margins`` are, by
-    freedom, how far the turns of springs may be from the known motion's for the same count of whole turns."""
+    freedom, how far the turns of springs may be from the known motion's for the same count of whole turns. ``moves``:
+    the drives go on from where the known motion is."""
 
     graph: Graph
     layout: Layout
@@ -83,6 +84,7 @@ class Problem:
     reversals: Array | None
     margins: dict[int, Node]
     at_pose: Callable[[Forcing, Pose], Forcing] | None = None  # of loads that go by the pose
+    moves: bool = False
 
 
 @dataclass(frozen=True)
@@ -213,7 +215,7 @@ def _trace_pose(
     whole = trace_array(p.graph, np.concatenate([target, drives.position]))
     ways = (positions, newton_correction) if layout.algebra.d == 2 else (space_positions, space_correction)
     place = ways[p.slips is not None]
-    return place(Motion(p.graph, layout, whole, turns, path, p.signs))
+    return place(Motion(p.graph, layout, whole, turns, path, p.signs, moves=p.moves))
 
 
 def _cos(angle: Scalar) -> Scalar:

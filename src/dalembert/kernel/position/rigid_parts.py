@@ -56,7 +56,7 @@ class Motion:
 
     ``path`` gives one quantity of the known motion, that of the mechanism with the file's numbers, as an input;
     ``signs`` says which of two relative rotations of two links it has; in space which of two rotations, or points, of
-    the second, in ground axes.
+    the second, in ground axes. ``moves``: the drives' positions differ from the known motion's.
     """
 
     graph: Graph
@@ -66,6 +66,7 @@ class Motion:
     path: Callable[[str, int], Node]
     signs: Callable[[tuple[Scalar, ...], tuple[Scalar, ...], int, int], Scalar]
     placed: set[int] = field(default_factory=set)
+    moves: bool = False
 
 
 class Parts:

@@ -3,7 +3,7 @@
 A rod between two balls is a distance between their centres, and stands where they do. The other links fall into blocks,
 each placed once those before it are: one that its joint and its drives hold directly, one that turns or slides and is
 held at a distance in closed form, the rest by unrolled Newton steps from the known motion. That is the solution where
-no number of the geometry varies: then it stands in place of any steps.
+neither a number of the geometry varies nor a drive moves on: then it stands in place of any steps.
 
 Mechanics: docs/theory.md 8.
 """
@@ -48,7 +48,7 @@ def varies(layout: Layout, target: Array) -> bool:
 
 def space_positions(m: Motion, steps: int = STEPS) -> Placed:
     """Poses of all links from the drives' positions."""
-    known, moves = known_pose(m), varies(m.layout, m.target)
+    known, moves = known_pose(m), m.moves or varies(m.layout, m.target)
     out = Placed(Pose(*(a.copy() for a in known)))
     m.placed = {m.layout.links}
     rods, m = without_rods(m)

@@ -22,7 +22,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from dalembert.arrays import Array, Flags
-from dalembert.core.layout import Pose
+from dalembert.core.layout import Layout, Pose
+from dalembert.core.rotation_rows import recount_turns
 from dalembert.errors import AnalysisError
 from dalembert.kernel.emit import llvm_text
 from dalembert.kernel.graph import Node, trace_array
@@ -40,6 +41,7 @@ which they end where it does not fall any more."""
 
 NEAR = 1e-7
 """How far the pose of a state may be from the one that Newton's steps began at, so that they have ended."""
+NO_INERTIA = "nothing there has inertia"
 OPEN = "there the mechanism does not close, or its drives do not place its links"
 
 
@@ -68,6 +70,7 @@ class LastPose:
 
     pose: Pose
     followed: Any
+    layout: Layout
 
     def follow(self, values: Array) -> float:
         """Take another pose, all its numbers in a row; how far it is, in m or rad."""
@@ -76,6 +79,8 @@ class LastPose:
         new = Pose(*(x.reshape(part[:1].shape) for x, part in zip(parts, self.pose, strict=True)))
         if not np.isfinite(values).all():
             return 0.0
+        if self.layout.algebra.d == 3:
+            new = recount_turns(self.layout, new)
         far = max(float(np.abs(x - y[:1]).max(initial=0.0)) for x, y in zip(new, self.pose, strict=True))
         self.pose = new
         return far
@@ -236,9 +241,7 @@ def _solve(mass: Array, right: Array) -> Array:
     with suppress(np.linalg.LinAlgError):
         if len(right) > 1 or mass[0, 0] > 0:
             return np.asarray(np.linalg.solve(mass, right))
-    raise StoppedError(
-        "nothing there has inertia, or friction makes it negative: no acceleration is determined"
-    )
+    raise StoppedError(f"{NO_INERTIA}, or friction makes it negative: no acceleration is determined")
 
 
 def _machine_program(

@@ -50,7 +50,7 @@ def trace_equation(m: Mechanism, vary: Sequence[str] = ()) -> Equation:
     """The equation of one mechanism, for any numbers at the paths ``vary``."""
     names = tuple(m.drives)
     rates = [f"drives.{n}.{what}" for what in ("speed", "acceleration") for n in names]
-    trace = trace_analysis(m, [*vary, *rates], inertia=True)
+    trace = trace_analysis(m, [*vary, *rates], inertia=True, moves=True)
     graph, traced, count = trace.catalogue.graph, trace.catalogue.traced, len(names)
     kernel = Kernel(m, trace, (), None, False, 1)
     numbers = kernel.number_nodes[-2 * count :]
@@ -73,7 +73,8 @@ def trace_equation(m: Mechanism, vary: Sequence[str] = ()) -> Equation:
     own = {n.index: k for k, n in enumerate(kernel.number_nodes)}
     out = Equation(names, found, parts, numbers, own, np.append(kernel.nominal, 0.0), channels)
     out.joints, out.rough = joints, trace.catalogue.compiled.contacts is not None
-    out.known = LastPose(trace.course.pose, trace.course.followed) if known else None
+    followed = trace.course.followed
+    out.known = LastPose(trace.course.pose, followed, followed.compiled.layout) if known else None
     out.by_newton = any(not name.startswith("known turn") for name in known)
     return out
 

@@ -13,7 +13,7 @@ from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
 from dalembert.machine.motion.actuation import Actuation
-from dalembert.machine.motion.equation import StoppedError, Terms
+from dalembert.machine.motion.equation import NO_INERTIA, StoppedError, Terms
 from dalembert.machine.motion.equation_trace import equation_of
 from dalembert.machine.motion.occurrences import Event
 from dalembert.model import Mechanism, Schedule
@@ -21,6 +21,8 @@ from dalembert.model.drives.motors import Switch
 
 STILL = 1e-9
 """A speed below this part of the greatest there has been is rest, at an event where it passes zero."""
+WEIGHTLESS = 1e-12
+"""Part of the greatest inertia that is rounding."""
 INSTANTS = 400
 """At so many instants it is asked whether what rests by friction is still held."""
 
@@ -91,12 +93,30 @@ class ContactState:
     def _settle_start(self, t: float, y: Array) -> None:
         """Senses at the start; what stands there is held, or goes the way it is pushed."""
         u = y[self.d : 2 * self.d]
+        if self.equation.rough:
+            self._check_inertia(t, y)
         if self.equation.contacts:
             rates = self.equation(t, y[: self.d], u, np.zeros(self.d), self.sense).rates
             self.sense = np.where(rates < 0, -1.0, 1.0)
         self.toward = np.where(u < 0, -1.0, 1.0)
         for k in np.flatnonzero(self.rubs & (u == 0)):
             self._settle(int(k), t, y)
+
+    def _check_inertia(self, t: float, y: Array) -> None:
+        """Refuse drives that move nothing with inertia; friction is left out, which could seem to be some."""
+        q, u, free = y[: self.d], y[self.d : 2 * self.d], np.flatnonzero(self.acting.free)
+        mass = self.equation(t, q, u, np.zeros(self.d), 0 * self.sense).mass[np.ix_(free, free)]
+        if not np.isfinite(mass).all():
+            return
+        size = np.sqrt(np.abs(mass.diagonal()))
+        light = size <= WEIGHTLESS * size.max()
+        size[light] = 1.0
+        least, way = np.linalg.eigh((mass + mass.T) / (2 * size * size[:, None]))
+        if light.any() or least[0] < WEIGHTLESS:
+            k = np.flatnonzero(light)[0] if light.any() else np.argmax(np.abs(way[:, 0]))
+            raise StoppedError(
+                f"{NO_INERTIA}: forces that move {self.acting.names[free[k]]} move no mass; give its links masses"
+            )
 
     def _range(self, k: int, t: float, y: Array) -> tuple[float, float, float]:
         """Effort that acts on a drive at rest, and the least and greatest with which it stays there."""

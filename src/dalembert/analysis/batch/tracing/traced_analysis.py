@@ -36,10 +36,13 @@ class Trace:
     inertia: bool
 
 
-def trace_analysis(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Result | None = None) -> Trace:
+def trace_analysis(
+    m: Mechanism, vary: Iterable[str], inertia: bool, solved: Result | None = None, moves: bool = False
+) -> Trace:
     """Everything an analysis computes, as nodes; raises ModelError for what the kernel leaves to the analyses.
 
     With the general executor's answer for the file's own numbers, ``solved``: from a known solution, not from nothing.
+    ``moves``: the drives go on from the known motion, which is that of the state before.
     """
     schedule = m.schedule()
     if schedule.unknown is not None:
@@ -77,6 +80,7 @@ def trace_analysis(m: Mechanism, vary: Iterable[str], inertia: bool, solved: Res
         margins=margins if moved else {},
         contacts=c.contacts,
         at_pose=_pose_loads(inputs, c, moved),
+        moves=moves,
     )
     return Trace(course, inputs, where, Catalogue(graph, c, _run(problem), drives.speed), inertia)
 
