@@ -69,6 +69,9 @@ if TYPE_CHECKING:
     from dalembert.machine.harmonics import harmonics as harmonics
     from dalembert.machine.members.member_forces import MemberForces as MemberForces
     from dalembert.machine.members.member_forces import member_forces as member_forces
+    from dalembert.machine.motion.compiled_motion import MotionBatch as MotionBatch
+    from dalembert.machine.motion.compiled_motion import MotionKernel as MotionKernel
+    from dalembert.machine.motion.compiled_motion import compile_motion as compile_motion
     from dalembert.machine.motion.simulation import Simulation as Simulation
     from dalembert.machine.motion.simulation import simulate as simulate
     from dalembert.machine.motors.motor_choice import MotorChoice as MotorChoice
@@ -199,6 +202,7 @@ _NAMES = {
     "machine.gyroscopes": "Gyroscopic gyroscopic",
     "machine.harmonics": "harmonics",
     "machine.motors.motor_choice": "MotorChoice motor",
+    "machine.motion.compiled_motion": "MotionBatch MotionKernel compile_motion",
     "machine.motion.simulation": "Simulation simulate",
     "machine.members.member_forces": "MemberForces member_forces",
     "machine.shaking": "shaking",

@@ -112,6 +112,8 @@ class Equation:
         self.known: LastPose | None = None
         self.by_newton = False
         self.kept: dict[object, Any] = {}
+        self.kernel: Any = None
+        self.asked, self.asked_channels = program, channels
         self.begin()
 
     def begin(self) -> Equation:
@@ -153,25 +155,25 @@ class Equation:
         mass, power, rates = (out[i:j] for i, j in pairwise(ends[:4]))
         return Terms(out[:d], mass.reshape(d, d), power, rates, out[ends[3] : ends[4]])
 
-    def steps(self, free: Flags, lanes: int = 1) -> Integrator | None:
+    def steps(self, free: Flags, lanes: int = 1, works: bool = True) -> Integrator | None:
         """Steps of motions side by side in machine code, where drives go by forces (``free``, (D,)) that are straight
         lines of their own speed; None where it is not smooth, or needs more than the drives' positions and the time.
 
-        The state: positions, speeds, works of drives, of brakes, loads, dampers and friction. Behind ``values`` there
-        stand, each (D,): effort at speed 0, its slope, that of the brake, acceleration of what is prescribed.
+        The state: positions, speeds; ``works`` of drives, of brakes, loads, dampers and friction. Behind ``values``
+        there stand, each (D,): effort at speed 0, its slope, that of the brake, acceleration of what is prescribed.
         """
         uneven = self.rough or self.known or any(callable(f) for f in self.channels)
         if uneven or find_spec("llvmlite") is None:
             return None
-        key = (lanes, *free.tolist())
+        key = (lanes, works, *free.tolist())
         with LOCK:
             if key not in self.kept:
-                self.kept[key] = self._steps(free, lanes)
+                self.kept[key] = self._steps(free, lanes, works)
         return self.kept[key]  # type: ignore[no-any-return]
 
-    def _steps(self, free: Flags, lanes: int) -> Integrator:
+    def _steps(self, free: Flags, lanes: int, works: bool) -> Integrator:
         d, graph, outputs = len(self.names), self.graph, self.program.outputs
-        n = 3 * d + 4
+        n = 3 * d + 4 if works else 2 * d
         slots = [graph.input("channel", f"state {k}", 1.0) for k in range(n + 1)]
         given = np.array([graph.input("number", f"given {k}", 0.0) for k in range(4 * d)]).reshape(4, d)
         q, u, t = slots[:d], np.array(slots[d : 2 * d]), slots[n]
@@ -185,8 +187,10 @@ class Equation:
         a, applied = np.where(free, 0.0, given[3]), given[0] + given[1] * u
         effort, mass = np.split(found(self.ends[1], a), [d])
         a[free] = solve_nodes(mass.reshape(d, d)[np.ix_(free, free)], (applied + given[2] - effort)[free])
-        asked, _, power = np.split(found(self.ends[2], a), self.ends[:2])
-        rate = [*u, *a, *np.where(free, applied, asked) * u, (given[2] * u).sum(), *power]
+        rate = [*u, *a]
+        if works:
+            asked, _, power = np.split(found(self.ends[2], a), self.ends[:2])
+            rate += [*np.where(free, applied, asked) * u, (given[2] * u).sum(), *power]
         program = Program(graph, tuple(trace_array(graph, rate)))
         first = len(self.values)
         numbers = {x.index: first + k for k, x in enumerate(given.ravel())}

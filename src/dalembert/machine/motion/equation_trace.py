@@ -46,13 +46,16 @@ def equation_of(m: Mechanism) -> Equation:
     return found
 
 
-def trace_equation(m: Mechanism, vary: Sequence[str] = ()) -> Equation:
-    """The equation of one mechanism, for any numbers at the paths ``vary``."""
+def trace_equation(
+    m: Mechanism, vary: Sequence[str] = (), outputs: tuple[str, ...] | None = None
+) -> Equation:
+    """The equation of one mechanism, for any numbers at the paths ``vary``; with what is ``asked`` of a state: outputs,
+    then what is below zero where it is in doubt."""
     names = tuple(m.drives)
     rates = [f"drives.{n}.{what}" for what in ("speed", "acceleration") for n in names]
     trace = trace_analysis(m, [*vary, *rates], inertia=True, moves=True)
     graph, traced, count = trace.catalogue.graph, trace.catalogue.traced, len(names)
-    kernel = Kernel(m, trace, (), None, False, 1)
+    kernel = Kernel(m, trace, outputs or (), None, False, 1)
     numbers = kernel.number_nodes[-2 * count :]
     effort = [n for name in names for n in trace.catalogue.nodes(f"effort.{name}")]
     mass = [n for row in gradients(graph, effort, numbers[count:]) for n in row]
@@ -72,6 +75,13 @@ def trace_equation(m: Mechanism, vary: Sequence[str] = ()) -> Equation:
     channels = [_channel(trace, names, n, inputs) for n in found.inputs_in_use("channel")]
     own = {n.index: k for k, n in enumerate(kernel.number_nodes)}
     out = Equation(names, found, parts, numbers, own, np.append(kernel.nominal, 0.0), channels)
+    out.kernel = kernel
+    if outputs is not None:
+        out.asked = plain(
+            kernel, [*kernel.flat, *traced.closure, *traced.open], marked=False, without=OUTSIDE
+        )
+        out.asked.__dict__["places"] = out.asked.places | own
+        out.asked_channels = [_channel(trace, names, n, inputs) for n in out.asked.inputs_in_use("channel")]
     out.joints, out.rough = joints, trace.catalogue.compiled.contacts is not None
     followed = trace.course.followed
     out.known = LastPose(trace.course.pose, followed, followed.compiled.layout) if known else None

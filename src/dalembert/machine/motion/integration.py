@@ -17,7 +17,7 @@ from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.equation import StoppedError
 from dalembert.machine.motion.occurrences import Condition, Guard, Value
 from dalembert.machine.motion.standstill import STILL, ContactState
-from dalembert.machine.motion.steps import LEAST, Between, Integrator, MachineSteps, Steps
+from dalembert.machine.motion.steps import LEAST, Between, Integrator, MachineSteps, Steps, between
 from dalembert.model import Mechanism
 from dalembert.model.drives.motors import Switch
 
@@ -65,7 +65,8 @@ class Integration(ContactState):
         """Keep the instants of the segment that wait, all at once, before anything else happens."""
         if self.samples:
             waiting, self.samples = self.samples, []
-            t, y = np.array([t for t, _ in waiting]), np.array([between(t) for t, between in waiting])
+            t = np.array([t for t, _ in waiting])
+            y = between(np.array([step.record for _, step in waiting]), t)
             code = self._machine(t[0], y[0])
             assert code is not None
             self._keep_rates(*code, t, y)

@@ -130,9 +130,9 @@ def simulate(
     (True, True)
     """
     try:
-        prescribed, moves = actuation(m, _start(m, start))
-        end, conditions = _ends(m, until, events)
-        _check(count, tolerance)
+        prescribed, moves = actuation(m, read_start(m, start))
+        end, conditions = read_end(m, until, events)
+        check_choices(count, tolerance)
         times = np.linspace(0.0, end, count)[1:] if np.isfinite(end) else None
         run = Integration(prescribed, moves, end, times, conditions, tolerance)
     except ModelError as error:
@@ -141,14 +141,15 @@ def simulate(
     return _answer(m, prescribed, moves, run)
 
 
-def _check(count: int, tolerance: float) -> None:
+def check_choices(count: int, tolerance: float) -> None:
+    """Raise ModelError for so many instants, or such a tolerance."""
     if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST:
         raise ModelError(f"{count} instants are asked for", f"ask for 2 to {MOST}")
     if not 1e-14 <= tolerance <= 1e-3:
         raise ModelError(f"the tolerance {tolerance:g} is not between 1e-14 and 1e-3", "leave it out: 1e-12")
 
 
-def _start(m: Mechanism, start: Mapping[str, object] | None) -> dict[str, Start]:
+def read_start(m: Mechanism, start: Mapping[str, object] | None) -> dict[str, Start]:
     """Starts given in the call, read as the file reads them."""
     if not start:
         return {}
@@ -163,7 +164,7 @@ def _start(m: Mechanism, start: Mapping[str, object] | None) -> dict[str, Start]
 CONDITION = re.compile(r"\s*(?P<drive>\S+)\.(?P<what>position|speed)\s*=\s*(?P<value>.+?)\s*")
 
 
-def _ends(
+def read_end(
     m: Mechanism, until: str | float | Sequence[str | float], events: Sequence[str]
 ) -> tuple[float, list[Condition]]:
     """The end, infinite where only conditions end it, and the conditions."""

@@ -5,6 +5,7 @@ Mechanics: docs/theory.md 10.6.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,10 @@ LEAST = 1e-4
 """Absolute tolerance over the relative one."""
 AT_ONCE = 16
 """Attempts of steps of one motion at once: an event among them makes the others useless."""
+
+
+PARTS = ("state", "rates", "time", "step", "end", "tolerance", "least", "growth", "attempts")
+"""Of a motion, as ``kernel.emit.integrator`` has them."""
 
 
 def _table() -> Array:
@@ -51,10 +56,34 @@ class Integrator:
         self.machine.function(*where, self.numbers, most, int(between), blocks)
         return records
 
+    def blocks(self, array: Array) -> Array:
+        """Rows (M, ...), of motions, as lanes of blocks; the last ones are the last again."""
+        from dalembert.kernel.emit.machine_code import to_blocks
+
+        return to_blocks(array, self.lanes)
+
+    def motions(self, y: Array, t: Array | float, end: float, tolerance: float) -> Array:
+        """Motions at states (M, n) and times, before their first step."""
+        out = np.zeros((len(y), state_size(self.n)))
+        out[:, : self.n], out[:, 2 * self.n] = y, t
+        out[:, 2 * self.n + 2 : 2 * self.n + 6] = end, tolerance, LEAST * tolerance, 10.0
+        return self.blocks(out)
+
+    def part(self, motions: Array, count: int, name: str) -> Array:
+        """One of ``PARTS`` of the first motions (M, ...)."""
+        return np.asarray(motions.transpose(0, 2, 1).reshape(-1, motions.shape[1])[:count, self._place(name)])
+
+    def put(self, motions: Array, name: str, values: Array) -> None:
+        """Set one of ``PARTS`` (M,) of motions."""
+        motions[:, self._place(name)] = self.blocks(values[:, None])
+
+    def _place(self, name: str) -> slice:
+        n, k = self.n, PARTS.index(name)
+        return slice(k * n, (k + 1) * n) if k < 2 else slice(2 * n + k - 2, 2 * n + k - 1)
+
     def rates(self, values: Array, t: Array | float, y: Array) -> Array:
         """Rates (M, n) at states (M, n) of motions with the same values, one lane wide."""
-        motions = np.zeros((len(y), state_size(self.n), 1))
-        motions[:, : self.n, 0], motions[:, 2 * self.n, 0] = y, t
+        motions = self.motions(y, t, 0.0, 0.0)
         self.advance(np.tile(values, (len(y), 1)), motions, 0)
         return motions[:, self.n : 2 * self.n, 0]
 
@@ -76,20 +105,26 @@ def first_step(y: Array, f: Array, ahead: Any, room: Array | float, tolerance: f
         return np.asarray(np.minimum(np.minimum(100 * h, longer), room))
 
 
+def between(records: Array, t: Array) -> Array:
+    """States (K, n) within steps, by polynomials of order 7 of their records, at times (K,)."""
+    rows = records[:, 2:].reshape(len(records), 8, records.shape[1] // 8)
+    y, new, f, ahead, *more = np.moveaxis(rows, 1, 0)
+    h, change = records[:, 1:2], new - y
+    x, out = (t[:, None] - records[:, :1]) / h, 0.0
+    parts = (change, h * f - change, 2 * change - h * (ahead + f), *more)
+    for k, part in enumerate(reversed(parts)):
+        out = (out + part) * (x if k % 2 == 0 else 1 - x)
+    return np.asarray(out + y)
+
+
+@dataclass
 class Between:
-    """States between the ends of a step, by a polynomial of order 7, of its record."""
+    """States within a step of a record."""
 
-    def __init__(self, record: Array, n: int) -> None:
-        self.t, self.h, (y, new, f, ahead, *more) = record[0], record[1], record[2:].reshape(8, n)
-        change = new - y
-        self.parts = (y, change, self.h * f - change, 2 * change - self.h * (ahead + f), *more)
+    record: Array
 
-    def __call__(self, t: Any) -> Array:
-        x = np.asarray((t - self.t) / self.h)[..., None]
-        out: Any = 0.0
-        for k, part in enumerate(reversed(self.parts)):
-            out = (out + part) * (x if k % 2 == 0 else 1 - x) if k < 7 else out + part
-        return np.asarray(out)
+    def __call__(self, t: float) -> Array:
+        return np.asarray(between(self.record[None], np.array([t]))[0])
 
 
 class MachineSteps:
@@ -101,15 +136,14 @@ class MachineSteps:
         self.code, self.values, self.end, self.between, self.n = code, values, end, between, code.n
         self.t, self.y, self.status, self.h_previous = t, y, "running", 0.0
         n = self.n
-        self.motion = np.zeros((1, state_size(n), 1))
-        whole = self.motion[0, :, 0]
-        whole[:n], whole[2 * n], whole[2 * n + 2 : 2 * n + 6] = y, t, (end, rtol, LEAST * rtol, 10.0)
+        self.motion = code.motions(y[None], t, end, rtol)
         f = code.rates(values, t, y[None])
 
         def ahead(h: Array) -> Array:
             return code.rates(values, t + h, y + h[:, None] * f)
 
-        whole[2 * n + 1] = self.h_abs = float(first_step(y[None], f, ahead, end - t, rtol)[0])
+        self.h_abs = float(first_step(y[None], f, ahead, end - t, rtol)[0])
+        self.motion[0, 2 * n + 1] = self.h_abs
         self.records, self.next = np.zeros((0, record_size(n))), 0
 
     def step(self) -> str | None:
@@ -154,7 +188,7 @@ class MachineSteps:
             )
             whole[2 * n + 2], whole[2 * n + 3 : 2 * n + 5] = np.inf, 1e300
             self.record = self.code.advance(self.values, motion, 1, True)[0, 0, :, 0]
-        return Between(self.record, self.n)
+        return Between(self.record)
 
 
 class Steps(DOP853):

@@ -1,0 +1,278 @@
+"""``da.compile_motion``: motions under forces of many designs side by side in machine code, each with steps of its own.
+
+Mechanics: docs/theory.md 10.6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dalembert.analysis.batch import over_positions
+from dalembert.analysis.batch.tracing.symbolic_model import Number
+from dalembert.arrays import Array, Flags
+from dalembert.errors import ModelError
+from dalembert.kernel.memory import available
+from dalembert.machine.motion.actuation import Actuation, actuation
+from dalembert.machine.motion.equation import Equation
+from dalembert.machine.motion.equation_trace import trace_equation
+from dalembert.machine.motion.motion_block import MotionBlock, Motions
+from dalembert.machine.motion.simulation import check_choices, read_end, read_start
+from dalembert.model import Mechanism
+from dalembert.model.paths import reached
+
+AT_ONCE = 16_384
+"""Instants of the designs computed at once."""
+REMEDY = "use da.simulate for such a machine"
+UNDECIDED = "undecided: its steps became too small, or it comes near a dead centre; da.simulate says why"
+ROWS = {"effort": 0, "motor.stall": 0, "motor.no_load": 1, "position": 3, "speed": 4}
+"""What of a drive may vary beside the equation, as rows: effort at speed 0, speed without effort, acceleration of
+what is prescribed, position and speed at time 0."""
+
+
+@dataclass(frozen=True)
+class MotionBatch:
+    """Motions of many designs: ``arrays`` by output, (design, instant[, component]), or without instants if reduced.
+
+    ``time`` (design,): when each ended, s; ``ended``: by what; ``position``, ``speed`` (design, drive) there. NaN where
+    it is undecided how a motion goes on: not ``ok``.
+    """
+
+    values: Array = field(repr=False)
+    time: Array = field(repr=False)
+    position: Array = field(repr=False)
+    speed: Array = field(repr=False)
+    ended: tuple[str, ...] = field(repr=False)
+    arrays: dict[str, Array] = field(repr=False)
+
+    @property
+    def ok(self) -> Flags:
+        """Which designs have numbers."""
+        return np.isfinite(self.time)
+
+    def value(self, output: str) -> Array:
+        """An output by the name it was compiled with."""
+        if output not in self.arrays:
+            raise ModelError(f"{output!r} was not compiled", f"compile with outputs=[..., {output!r}]")
+        return self.arrays[output]
+
+
+def compile_motion(
+    mechanism: Mechanism,
+    until: str | float | Sequence[str | float],
+    vary: Sequence[str] = (),
+    outputs: Sequence[str] = (),
+    reduce: str | None = None,
+    start: Mapping[str, object] | None = None,
+    count: int = 201,
+    tolerance: float = 1e-9,
+) -> MotionKernel:
+    """`da.simulate` of one structure as machine code, for any numbers at ``vary``: each design by steps of its own.
+
+    until: a time, and conditions such as ``"O2.speed = 0 rad/s"`` that end a design's motion before it. vary: paths as
+    in `da.compile`, and ``drives.NAME.effort``, ``drives.NAME.motor.stall`` and ``.no_load``, ``start.NAME.position``
+    and ``.speed``. outputs: names as in `da.compile`, at ``count`` instants evenly from a design's start to its end;
+    reduce: over these, as there, or ``final``. tolerance: of the steps, relative. Raises ModelError for what is not
+    smooth: dry friction, brakes, motors with corners or switches, efforts that go by positions or time.
+
+    >>> import dalembert as da
+    >>> m = da.slider_crank(crank=0.05, rod=0.2)
+    >>> start = {"O2": {"position": "30 deg", "speed": "20 rad/s"}}
+    >>> k = da.compile_motion(m, "0.5 s", ["links.piston.mass"], ["magnitude.A"], reduce="peak", start=start)
+    >>> k([[1.0], [2.0]]).value("magnitude.A").shape
+    (2,)
+    """
+    if reduce != "final":
+        over_positions.check(reduce)
+    try:
+        return _compile(mechanism, until, tuple(vary), tuple(outputs), reduce, start, count, tolerance)
+    except ModelError as error:
+        raise error.at_source(mechanism.source) from None
+
+
+def _compile(
+    m: Mechanism,
+    until: str | float | Sequence[str | float],
+    vary: tuple[str, ...],
+    outputs: tuple[str, ...],
+    reduce: str | None,
+    start: Mapping[str, object] | None,
+    count: int,
+    tolerance: float,
+) -> MotionKernel:
+    from dalembert.kernel.emit.machine_code import host_lanes
+
+    prescribed, moves = actuation(m, read_start(m, start))
+    end, conditions = read_end(m, until, ())
+    check_choices(count, tolerance)
+    if not np.isfinite(end):
+        raise ModelError("a motion whose condition is never met has no end", 'add a time: until=["5 s", ...]')
+    _refuse(moves)
+    own = [path for path in vary if _of_drive(path)]
+    hidden = [p for path in vary if path not in own for p in reached(m, path) if _of_drive(p)]
+    if hidden:
+        raise ModelError(f"a number that varies sets {hidden[0]!r}", f"vary {hidden[0]!r} itself")
+    equation = trace_equation(prescribed, [path for path in vary if path not in own], outputs)
+    code = equation.steps(moves.free, host_lanes(), works=False)
+    if code is None:
+        raise ModelError("the motion is not smooth: friction, or loads that no formula gives", REMEDY)
+    lines = _lines(moves)
+    traced = equation.kernel.trace.numbers[: -2 * len(moves.names)]
+    numbers = (*traced, *(_number(moves, lines, path) for path in own))
+    places = [k for path in vary for k, n in enumerate(numbers) if f"{n.path}.".startswith(f"{path}.")]
+    instants = 1 if reduce == "final" or not outputs else count
+    block = MotionBlock(equation, code, tuple(conditions), end, tolerance, instants)
+    return MotionKernel(m, block, lines, numbers, tuple(places), reduce)
+
+
+def _refuse(moves: Actuation) -> None:
+    """What the steps cannot do: efforts that are no straight line of the drive's speed."""
+    for k, (name, drive) in enumerate(moves.m.drives.items()):
+        motor = moves.motors.get(k)
+        if hasattr(drive.effort, "at"):
+            raise ModelError(f"the effort of drive {name!r} goes by positions or time", REMEDY)
+        if drive.brake:
+            raise ModelError(f"drive {name!r} has a brake, which holds at rest", REMEDY)
+        if motor is not None and (not motor.straight or motor.on or motor.off):
+            raise ModelError(f"the motor of drive {name!r} has corners or switches", REMEDY)
+
+
+def _lines(moves: Actuation) -> Array:
+    """``ROWS`` (5, D) of the drives."""
+    lines = np.zeros((5, len(moves.names)))
+    lines[1] = np.inf
+    for k, drive in enumerate(moves.drives):
+        motor = moves.motors.get(k)
+        lines[0, k] = float(drive.effort or 0.0)  # type: ignore[arg-type]  # no expression
+        if motor is not None and drive.effort is None:
+            lines[:2, k] = motor.effort[0], motor.speed[1]
+    lines[2:] = np.where(moves.free, 0.0, moves.acceleration), moves.position, moves.speed
+    return lines
+
+
+def _of_drive(path: str) -> bool:
+    """Whether a path is of how a drive moves: given beside the equation, not in it."""
+    return path.startswith("start.") or path.partition(".")[2].partition(".")[2].split(".")[0] in (
+        "effort",
+        "motor",
+    )
+
+
+def _number(moves: Actuation, lines: Array, path: str) -> Number:
+    kind, name, *last = path.split(".")
+    what, k = ".".join(last), moves.names.index(name) if name in moves.names else -1
+    there = (
+        [n for n in ROWS if n.startswith("motor") == (k in moves.motors)] if k >= 0 and moves.free[k] else []
+    )
+    if what not in there or (kind == "start") != (ROWS[what] > 2):
+        raise ModelError(
+            f"{path!r} is no number of a drive that forces move", "there are: " + ", ".join(there)
+        )
+    return Number(path, float(lines[ROWS[what], k]))
+
+
+@dataclass(frozen=True)
+class MotionKernel:
+    """Compiled motions; call it with values (design, number) in SI, in the order of ``numbers``."""
+
+    mechanism: Mechanism = field(repr=False)
+    block: MotionBlock = field(repr=False)
+    lines: Array = field(repr=False)
+    where: tuple[Number, ...] = field(repr=False)
+    places: tuple[int, ...] = field(repr=False)
+    reduce: str | None
+
+    @property
+    def equation(self) -> Equation:
+        """That of the drives."""
+        return self.block.equation
+
+    @property
+    def numbers(self) -> tuple[str, ...]:
+        """Paths of the numbers, one a column of the values."""
+        return tuple(self.where[k].path for k in self.places)
+
+    @property
+    def nominal(self) -> Array:
+        """The numbers as the description has them."""
+        return np.array([self.where[k].value for k in self.places])
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """Names of the outputs."""
+        return tuple(self.equation.kernel.outputs)
+
+    def __call__(self, values: ArrayLike | None = None, threads: int | None = None) -> MotionBatch:
+        """Motions of many designs: values (design, number), default the description's own; by so many ``threads``,
+        default one a core."""
+        given = self._values(values)
+        if 8 * len(given) * self.block.asked * (1 if self.reduce else self.block.instants) > available():
+            raise ModelError(
+                "the results are too large for memory", "reduce them, or take fewer designs at once"
+            )
+        each = max(self.block.code.lanes, AT_ONCE // self.block.instants)
+        self.block.machine  # noqa: B018  # compiled once, not by each thread
+        with ThreadPoolExecutor(threads) as pool:
+            found = list(pool.map(self._reduced, (given[k : k + each] for k in range(0, len(given), each))))
+        return self._answer(given, Motions(*(np.concatenate(x) for x in zip(*found, strict=True))))
+
+    def _values(self, values: ArrayLike | None) -> Array:
+        count = len(self.where)
+        given = np.asarray(self.nominal if values is None else values, float)
+        given = given.reshape(-1, max(count, 1))[:, :count] if given.ndim < 2 else given
+        if given.ndim != 2 or given.shape[1] != count or not np.isfinite(given).all():
+            raise ModelError(
+                f"values of shape {given.shape} do not fit {count} numbers, or are not all finite",
+                "give (design, number) in the order of .numbers",
+            )
+        return given
+
+    def _reduced(self, values: Array) -> Motions:
+        """Motions of some designs, their outputs reduced; each design's instants side by side, so that none depends on
+        what others there are."""
+        own = values[:, np.argsort(self.places)] if self.places else values
+        with np.errstate(all="ignore"):
+            found = self.block(*self._begin(own))
+            out = found.out[:, -1] if self.reduce == "final" else found.out
+            if self.reduce not in (None, "final") and self.block.asked:
+                one = np.ascontiguousarray(np.moveaxis(out, 1, -1))
+                out = over_positions.reduce_positions(self.reduce, np.moveaxis(one, -1, 0))
+        return found._replace(out=out, sure=found.sure & ~self._other_branch(own))
+
+    def _other_branch(self, values: Array) -> Flags:
+        """Designs whose assembly mode may be another than the file's."""
+        kernel = self.equation.kernel
+        whole = np.tile(kernel.nominal, (len(values), 1))
+        whole[:, : -2 * self.lines.shape[1]] = values[:, : whole.shape[1] - 2 * self.lines.shape[1]]
+        found = kernel.may_change_branch(whole)
+        return np.zeros(len(values), bool) if found is None else np.asarray(found)
+
+    def _begin(self, values: Array) -> tuple[Array, Array]:
+        """States (M, n) at time 0, and values (M, ...) of the steps."""
+        names, many = self.equation.names, (len(values), 1)
+        own = len(self.equation.values) - 1 - 2 * len(names)
+        base, parts = np.tile(self.equation.values, many), np.tile(self.lines, (len(values), 1, 1))
+        base[:, :own] = values[:, :own]
+        for column, n in enumerate(self.where[own:], own):
+            _, name, what = n.path.split(".", 2)
+            parts[:, ROWS[what], names.index(name)] = values[:, column]
+        first, ends, ahead, q, u = parts.swapaxes(0, 1)
+        return np.concatenate([q, u], axis=1), np.concatenate(
+            [base, first, -first / ends, 0 * first, ahead], axis=1
+        )
+
+    def _answer(self, given: Array, found: Motions) -> MotionBatch:
+        d, axis, place, arrays = self.lines.shape[1], 1 if self.reduce else 2, 0, {}
+        texts = [*(c.text for c in self.block.conditions), "time"]
+        ended = [texts[k] if sure else UNDECIDED for k, sure in zip(found.met, found.sure, strict=True)]
+        for x in (found.out, found.time, found.state):
+            x[~found.sure] = np.nan
+        for name, nodes in self.equation.kernel.nodes.items():
+            part = np.take(found.out, range(place, place + len(nodes)), axis=axis)
+            arrays[name] = part if len(nodes) > 1 else part.squeeze(axis)
+            place += len(nodes)
+        return MotionBatch(given, found.time, found.state[:, :d], found.state[:, d:], tuple(ended), arrays)

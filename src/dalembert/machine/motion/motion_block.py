@@ -1,0 +1,145 @@
+"""Motions of many designs at once, each by steps of its own, until its end; and what is asked of them along it.
+
+Mechanics: docs/theory.md 10.6.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.kernel.memory import address
+from dalembert.machine.motion.equation import Equation
+from dalembert.machine.motion.occurrences import Condition
+from dalembert.machine.motion.steps import Integrator, between, first_step
+
+ATTEMPTS, MOST, ROOTS = 24, 100_000, 60
+"""Attempts of steps at once, and those after which a motion is given up; halvings that find a condition's time."""
+
+
+class Motions(NamedTuple):
+    """Of designs side by side: end (M,), by which condition (-1: the time), state there, outputs (M, instants, N), and
+    whether all is sure."""
+
+    time: Array
+    met: Array
+    state: Array
+    out: Array
+    sure: Flags
+
+
+@dataclass(frozen=True)
+class MotionBlock:
+    """Steps in machine code, and the outputs of an equation at so many ``instants`` evenly until the end."""
+
+    equation: Equation
+    code: Integrator
+    conditions: tuple[Condition, ...]
+    end: float
+    tolerance: float
+    instants: int
+
+    @cached_property
+    def asked(self) -> int:
+        """How many numbers all outputs have."""
+        return sum(map(len, self.equation.kernel.nodes.values()))
+
+    @cached_property
+    def machine(self) -> Any:
+        """The outputs, then what is below zero where a state is in doubt."""
+        from dalembert.kernel.emit.llvm_text import pairs
+        from dalembert.kernel.emit.machine_code import compile_module
+
+        return compile_module(pairs(self.equation.asked, self.code.lanes), self.code.lanes)
+
+    def __call__(self, begin: Array, given: Array) -> Motions:
+        """Motions from states (M, n) with values (M, ...) of the steps."""
+        records, design, failed = self._integrate(begin, given)
+        time, met = self._ends(records, design, len(begin))
+        t = time[:, None] * (np.linspace(0.0, 1.0, self.instants) if self.instants > 1 else np.ones(1))
+        each = np.arange(len(t))[
+            :, None
+        ]  # all steps in one row: those of a design, by time, behind those before it
+        place = np.searchsorted(design + records[:, 0] / (2 * self.end), each + t / (2 * self.end)) - 1
+        low, high = np.searchsorted(design, each), np.searchsorted(design, each + 1) - 1
+        states = between(records[np.clip(place, low, high).ravel()], t.ravel())
+        sure = ~failed & np.isfinite(states).reshape(len(t), -1).all(axis=1)
+        out, fine = self._at(np.repeat(given, self.instants, axis=0), states, t.ravel())
+        shape = (len(t), self.instants)
+        sure &= fine.reshape(shape).all(axis=1)
+        return Motions(time, met, states.reshape(*shape, -1)[:, -1], out.reshape(*shape, -1), sure)
+
+    def _integrate(self, y: Array, given: Array) -> tuple[Array, Ints, Flags]:
+        """All steps (R, ``record_size``), those of a design one after the other, of which design, and which failed."""
+        code, m = self.code, len(y)
+        values, motions = code.blocks(given), code.motions(y, 0.0, self.end, self.tolerance)
+        code.advance(values, motions, 0)
+        f = code.part(motions, m, "rates")
+
+        def ahead(h: Array) -> Array:
+            there = code.motions(y + h[:, None] * f, h, self.end, self.tolerance)
+            code.advance(values, there, 0)
+            return code.part(there, m, "rates")
+
+        code.put(motions, "step", first_step(y, f, ahead, self.end, self.tolerance))
+        rows, of, attempts, stop = [], [], 0, np.full(m, self.end)
+        while attempts < MOST:
+            records = code.advance(values, motions, ATTEMPTS, True).transpose(0, 3, 1, 2)
+            records = records.reshape(-1, *records.shape[2:])[:m]
+            taken = (np.arange(ATTEMPTS) < code.part(motions, m, "attempts")) & (records[..., 1] > 0)
+            rows.append(records[taken])
+            of.append(np.nonzero(taken)[0])
+            time, step = code.part(motions, m, "time")[:, 0], code.part(motions, m, "step")[:, 0]
+            attempts += ATTEMPTS
+            for c in self.conditions:
+                stop[of[-1][self._meets(c, rows[-1])]] = -1.0  # it goes no further
+            code.put(motions, "end", np.minimum(stop, self.end))
+            if not ((time < stop) & (step > 0)).any():
+                break
+        design = np.concatenate(of)
+        order = np.argsort(design, kind="stable")
+        return np.concatenate(rows)[order], design[order], time < stop
+
+    def _meets(self, c: Condition, records: Array) -> Flags:
+        """In which steps a condition is met."""
+        n, place = self.code.n, c.drive + len(self.equation.names) * (c.what == "speed")
+        old, new = records[:, 2 + place] - c.value, records[:, 2 + n + place] - c.value
+        return np.asarray((old != 0) & (old * new <= 0))
+
+    def _ends(self, records: Array, design: Ints, count: int) -> tuple[Array, Ints]:
+        """When each design's motion ends, and by which condition: -1 by the time."""
+        time, met = np.full(count, self.end), np.full(count, -1)
+        for k, c in enumerate(self.conditions):
+            steps = np.flatnonzero(self._meets(c, records))
+            steps = steps[np.unique(design[steps], return_index=True)[1]]  # of each design the first
+            place, rows = c.drive + len(self.equation.names) * (c.what == "speed"), records[steps]
+            low, high = rows[:, 0].copy(), rows[:, 0] + rows[:, 1]
+            side = np.sign(rows[:, 2 + place] - c.value)
+            for _ in range(ROOTS):
+                middle = (low + high) / 2
+                before = (between(rows, middle)[:, place] - c.value) * side > 0
+                low, high = np.where(before, middle, low), np.where(before, high, middle)
+            sooner = high < time[design[steps]]
+            time[design[steps][sooner]], met[design[steps][sooner]] = high[sooner], k
+        return time, met
+
+    def _at(self, given: Array, y: Array, t: Array) -> tuple[Array, Flags]:
+        """Outputs (K, N) at states, and where they are sure."""
+        code, d = self.code, len(self.equation.names)
+        motions = code.motions(y, t, self.end, self.tolerance)
+        code.advance(code.blocks(given), motions, 0)
+        rates, e = code.part(motions, len(y), "rates"), self.equation
+        given[:, e.rates[:d]], given[:, e.rates[d:]] = y[:, d : 2 * d], rates[:, d : 2 * d]
+        path = code.blocks(np.column_stack([y[:, :d], t])[:, e.asked_channels])
+        lanes, blocks = code.lanes, len(motions)
+        out, marks = np.empty((blocks, len(e.asked.outputs), lanes)), np.zeros(blocks * lanes, np.uint8)
+        values = code.blocks(given[:, : len(e.values)])
+        arrays = (address(a) for a in (values, path, out, marks))
+        self.machine.function(*arrays, values.shape[1], path.shape[1], 0, blocks)
+        found, asked = out.transpose(0, 2, 1).reshape(blocks * lanes, -1)[: len(y)], self.asked
+        fine = np.isfinite(found[:, :asked]).all(axis=1) & (found[:, asked:] >= 0).all(axis=1)
+        return found[:, :asked], np.asarray(fine)

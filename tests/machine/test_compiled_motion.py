@@ -1,0 +1,122 @@
+"""Motions of many designs in machine code: each is that of da.simulate, whatever stands beside it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import dalembert as da
+from dalembert.errors import ModelError
+from tests.machine.test_simulate import FOUR_BAR, own_energies, rotor
+
+pytest.importorskip("llvmlite")
+VARY = ["links.coupler.mass", "links.crank.points.A", "drives.O2.effort", "start.O2.speed"]
+
+
+def designs(k: Any, count: int) -> Any:
+    """Numbers about those of the description."""
+    return (k.nominal + 0.01 * (k.nominal == 0)) * np.random.default_rng(3).uniform(
+        0.9, 1.1, (count, len(k.numbers))
+    )
+
+
+def simulated(values: Any, until: Any, count: int = 201) -> Any:
+    """One design by da.simulate, its numbers put in by their paths."""
+    mass, x, y, effort, speed = values
+    m = da.loads(FOUR_BAR).with_values(
+        {"links.coupler.mass": mass, "links.crank.points.A": (x, y), "drives.O2.effort": effort}
+    )
+    return da.simulate(m, until, start={"O2": {"position": "60 deg", "speed": float(speed)}}, count=count)
+
+
+def test_each_design_is_that_of_simulate() -> None:
+    outputs = ["effort.O2", "reaction.B", "magnitude.A * 2"]
+    k = da.compile_motion(da.loads(FOUR_BAR), "0.4 s", VARY, outputs, count=21, tolerance=1e-11)
+    values = designs(k, 9)
+    r = k(values)
+    assert r.ok.all()
+    assert r.value("reaction.B").shape == (9, 21, 2)
+    for d in (0, 4, 8):
+        s = simulated(values[d], "0.4 s", 21)
+        assert r.position[d] == pytest.approx(s.position("O2")[-1:], rel=1e-9)
+        assert r.value("reaction.B")[d] == pytest.approx(s.result["reaction.B"], rel=1e-6, abs=1e-6)
+        assert r.value("magnitude.A * 2")[d] == pytest.approx(s.result["magnitude.A * 2"], rel=1e-6)
+    peak = da.compile_motion(da.loads(FOUR_BAR), "0.4 s", VARY, outputs, "peak", count=21, tolerance=1e-11)(
+        values
+    )
+    assert peak.value("reaction.B") == pytest.approx(np.abs(r.value("reaction.B")).max(axis=1), rel=1e-12)
+    last = da.compile_motion(da.loads(FOUR_BAR), "0.4 s", VARY, outputs, "final", tolerance=1e-11)(values)
+    assert last.value("reaction.B") == pytest.approx(r.value("reaction.B")[:, -1], rel=1e-7)
+
+
+def test_energy_is_kept() -> None:
+    k = da.compile_motion(da.loads(FOUR_BAR), "2 s", ["start.O2.speed"], tolerance=1e-12)
+    r = k(np.linspace(20, 60, 11))
+    for speed, q, u in zip(r.values[:, 0], r.position[:, 0], r.speed[:, 0], strict=True):
+        (j, v), (j0, v0) = own_energies(q), own_energies(np.pi / 3)
+        assert j * u**2 / 2 + v == pytest.approx(j0 * speed**2 / 2 + v0, rel=1e-9)
+
+
+def test_no_design_depends_on_what_stands_beside_it() -> None:
+    k = da.compile_motion(da.loads(FOUR_BAR), "0.3 s", VARY, ["magnitude.A", "effort.O2"], "rms")
+    values = designs(k, 37)
+    whole, turned, one = k(values), k(values[::-1], threads=1), k(values[20])
+    for name in k.outputs:
+        assert (whole.value(name) == turned.value(name)[::-1]).all()
+        assert whole.value(name)[20] == one.value(name)[0]
+    assert (whole.position == turned.position[::-1]).all()
+
+
+def test_a_condition_ends_each_design_at_its_own_time() -> None:
+    until = ["1 s", "O2.position = 500 deg"]
+    k = da.compile_motion(da.loads(FOUR_BAR), until, VARY, ["magnitude.A"], "final", tolerance=1e-12)
+    values = designs(k, 9)
+    values[4, -1] = 2.0  # too slow to arrive
+    r = k(values)
+    assert r.ended[4] == "time"
+    assert {*r.ended[:4]} == {"O2.position = 500 deg"}
+    assert k(values[4]).ended == ("time",)
+    for d in (0, 8):
+        s = simulated(values[d], until)
+        assert r.time[d] == pytest.approx(s.time[-1], rel=1e-9)
+        assert r.value("magnitude.A")[d] == pytest.approx(s.result["magnitude.A"][-1], rel=1e-7)
+
+
+def test_a_rotor_runs_up_by_its_motor() -> None:
+    """w = w0 (1 - exp(-T t / (I w0)))."""
+    m = rotor(0.8, "drives: {O: {motor: {stall: 40 N*m, no_load: 150 rad/s}}}\nstart: {O: {position: 0}}")
+    k = da.compile_motion(m, "2 s", ["drives.O.motor.stall", "drives.O.motor.no_load", "links.rotor.inertia"])
+    values = np.array([[40, 150, 0.8], [80, 150, 0.8], [40, 100, 0.4]])
+    stall, free, inertia = values.T
+    assert k(values).speed[:, 0] == pytest.approx(free * (1 - np.exp(-2 * stall / inertia / free)), rel=1e-7)
+
+
+def test_a_motion_that_cannot_go_on_is_undecided() -> None:
+    """With a short coupler the crank comes to a dead centre."""
+    vary = ["links.coupler.points.B.0"]
+    k = da.compile_motion(da.loads(FOUR_BAR), "0.3 s", vary, ["magnitude.A"], "peak", tolerance=1e-8)
+    r = k([0.15, 0.1])
+    assert r.ok.tolist() == [True, False]
+    assert r.ended[1].startswith("undecided")
+    assert np.isnan(r.value("magnitude.A")).tolist() == [False, True]
+
+
+@pytest.mark.parametrize(
+    ("change", "vary", "sentence"),
+    [
+        (("effort: 0", "effort: 0, brake: 1 N*m"), [], "has a brake, which holds at rest"),
+        (
+            ("O4: {type: pin, ", "O4: {type: pin, friction: {coefficient: 0.1, radius: 5 mm}, "),
+            [],
+            "is not smooth",
+        ),
+        (("effort: 0", "motor: {stall: 4 N*m, no_load: 9 rad/s, off: 1 s}"), [], "has corners or switches"),
+        (("effort: 0", "effort: 2*cos(O2)"), [], "goes by positions or time"),
+        (("", ""), ["start.O4.speed"], "is no number of a drive that forces move"),
+    ],
+)
+def test_what_it_cannot_do_it_says(change: tuple[str, str], vary: list[str], sentence: str) -> None:
+    with pytest.raises(ModelError, match=sentence):
+        da.compile_motion(da.loads(FOUR_BAR.replace(*change)), "1 s", vary)
