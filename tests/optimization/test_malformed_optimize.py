@@ -79,6 +79,7 @@ def malformed() -> list[tuple[str, str, int]]:
     for k, line in enumerate(FILE.splitlines(), 1):
         if not line.startswith(" "):
             out.append((line, "q" + line, k))
+    out += [("starts: 5", f"method: {x}", 10) for x in ("3", "null", "slsqp", "nlopt.slsq", "pymoo.nsga2")]
     return [*out, ("starts: 5", "links: {}", 10)]
 
 

@@ -12,6 +12,8 @@ import pytest
 import dalembert as da
 from dalembert.bundled import cases
 from dalembert.optimization.aims import Problem, parse_aim, parse_condition
+from dalembert.optimization.optimizers import METHODS
+from tests.tiers import tiers
 
 WHERE = ("transmission.B >= 33 deg",)
 BOX = {"links.ground.points.O4.0": (0.28, 0.36), "links.rocker.points.B.0": (0.2, 0.28)}
@@ -70,6 +72,43 @@ def test_gradients_of_aim_and_conditions(aim: str) -> None:
         assert np.allclose(slope, p(u).slope[:, k], rtol=1e-6, atol=1e-7)
 
 
+@pytest.mark.parametrize(
+    "method", tiers([], [name for name, (does, _) in METHODS.items() if does != "front"])
+)
+def test_another_optimizer_finds_the_same_design(method: str) -> None:
+    pytest.importorskip(method.partition(".")[0])
+    where = ("transmission.B >= 50 deg", "peak magnitude.O4 <= 130 N")
+    best = da.optimize(da.four_bar(), BOX, "peak effort.O2", where, starts=8, positions=24, method=method)
+    same = da.optimize(da.four_bar(), BOX, "peak effort.O2", where, starts=8, positions=24)
+    assert best.feasible
+    assert best.value == pytest.approx(same.value, rel=1e-7)
+
+
+@pytest.mark.parametrize(
+    "method", tiers([], [name for name, (does, _) in METHODS.items() if does == "front"])
+)
+def test_an_evolved_front_lies_on_that_by_bounds(method: str) -> None:
+    """Each of its designs keeps the condition, and is as good as the best by one aim that is no worse by the other."""
+    pytest.importorskip("pymoo")
+    box = {"links.coupler.center.1": (-0.1, 0.1), "links.rocker.center.0": (0.05, 0.2)}
+    aims, rule, m = ["effort.O2", "magnitude.B"], "magnitude.O4 <= 110", da.four_bar()
+    front = da.pareto(m, box, aims, rule, points=4, starts=8, positions=12, method=method)
+    assert len(front.designs) == 4
+    assert (np.diff(front.values, axis=0) * [1, -1] > 0).all()
+    for first, second in front.values:
+        bound = f"peak magnitude.B <= {float(second)!r}"
+        best = da.optimize(m, box, aims[0], [rule, bound], starts=4, positions=12).value
+        assert first == pytest.approx(best, rel=2e-3)
+
+
+@pytest.mark.parametrize("method", ["nlopt", "pymoo.de"])
+def test_a_method_whose_package_is_missing(method: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("dalembert.optimization.optimizers.find_spec", lambda package: None)
+    package = method.partition(".")[0]
+    with pytest.raises(da.ModelError, match=f"needs {package}; pip install {package}"):
+        da.optimize(da.four_bar(), BOX, "peak effort.O2", method=method)
+
+
 @pytest.mark.long
 def test_steps() -> None:
     vary: Any = {**BOX, "links.rocker.points.B.0": (0.2, 0.28, "5 mm")}
@@ -109,6 +148,8 @@ def test_conditions_that_no_design_keeps() -> None:
         ({"least": "peak efort.O2"}, "there is no output 'efort.O2'; did you mean 'effort.O2'?"),
         ({"where": "transmission.B"}, "'transmission.B' is no condition"),
         ({"where": "rms effort.O2 <= 3"}, "bounds a rms"),
+        ({"method": "nlopt.slsq"}, "there is no method 'nlopt.slsq' for this; did you mean 'nlopt.slsqp'?"),
+        ({"method": "pymoo.nsga2"}, "there is no method 'pymoo.nsga2' for this"),
         ({"starts": 0}, "starts=0 is no number of starts"),
         ({"vary": {"links.crank.points.A.0": (1.0, 1.1)}}, "has an answer at every position"),
     ],

@@ -5,9 +5,12 @@ the mechanism found. Imports ``analysis`` and ``machine`` and what these import;
 
 aims              the words of an aim and of conditions; their values and exact gradients for many designs
 side_by_side      quasi-Newton steps of all starts at once, one call of the kernel for each
+optimizers        those of scipy, nlopt and pymoo by name
 polishing         the best of them, each by itself: the least largest value t with |T_k| <= t at every position
 optimizing        ``da.optimize``: starts, search, discrete steps, the best that keeps every condition
 optimize_file     the same from a file beside the model file
+least_squares     Levenberg's and Marquardt's method from many starts at once
+free_timing       targets whose positions of the drive are unknown too
 synthesis         ``da.synthesize``: outputs that take given values, by least squares
 pareto_front      ``da.pareto``: designs between two aims
 optimum           what was found, before and after

@@ -14,6 +14,7 @@ from dalembert.analysis.batch.compiled_kernel import Kernel, compile  # noqa: A0
 from dalembert.arrays import Array
 from dalembert.errors import ModelError, errors_at
 from dalembert.model import Mechanism
+from dalembert.optimization.optimizers import DEFAULT
 from dalembert.wording import closest
 
 WORDS = ("peak", "mean", "rms", "norm8")
@@ -113,6 +114,7 @@ class Problem:
     conditions: tuple[Condition, ...]
     positions: Array
     static: bool = False
+    method: str = DEFAULT
 
     def check(self) -> None:
         """Raise ModelError, with the key that it is about, where the aim or a condition is none of this mechanism."""

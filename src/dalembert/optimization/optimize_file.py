@@ -23,6 +23,7 @@ KEYS = {
     "seed": "a whole number that draws the same designs again",
     "positions": "number of positions in place of the file's",
     "static": "true leaves inertia out",
+    "method": "an optimizer by name, as nlopt.slsqp or pymoo.de",
 }
 
 
@@ -54,6 +55,8 @@ def _options(tree: Mapping[str, Any]) -> dict[str, Any]:
             raise ModelError(what, "write one like transmission.B >= 33 deg", ("where", k))
     bounds = {str(name): _bounds(str(name), given) for name, given in vary.items()}
     options = plain_options(tree, {"starts": 1, "seed": 0, "positions": 1}, ("static",))
+    if "method" in tree:
+        options["method"] = tree["method"]
     return {"vary": bounds, "least": least, "where": where, **options}
 
 

@@ -6,6 +6,7 @@ Mechanics: docs/theory.md 11.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -17,6 +18,7 @@ from dalembert.errors import ModelError, errors_at
 from dalembert.machine.whole_cycle import over_a_turn
 from dalembert.model import Mechanism
 from dalembert.optimization.aims import Condition, Problem, parse_aim, parse_condition
+from dalembert.optimization.optimizers import DEFAULT, METHODS, find_method, search_by
 from dalembert.optimization.optimum import Optimum
 from dalembert.optimization.polishing import polish
 from dalembert.optimization.side_by_side import minimize
@@ -46,6 +48,7 @@ def optimize(
     seed: int = 0,
     positions: int | None = None,
     static: bool = False,
+    method: str = DEFAULT,
 ) -> Optimum:
     """The best of a mechanism's designs: numbers within bounds, an aim that is least, conditions at every position.
 
@@ -54,6 +57,7 @@ def optimize(
     ``mean``, ``rms`` or ``norm8`` of an output or an expression of outputs (`da.compile`). where: conditions such as
     ``transmission.B >= 33 deg`` or ``peak magnitude.A <= 2 kN``. starts: designs drawn at random from the bounds,
     beside the mechanism's own, all improved side by side with exact gradients; the best ten are polished one by one.
+    method: another that polishes or searches (``METHODS``), as ``nlopt.slsqp`` or ``pymoo.de``, where it is installed.
     Raises ModelError for unknown names, empty bounds, and where no design in the bounds has an answer.
 
     >>> import dalembert as da
@@ -63,11 +67,13 @@ def optimize(
     >>> best.value < best.value_before, best.feasible
     (True, True)
     """
-    p, steps, found = _problem(mechanism, vary, least, where, positions, static)
+    name = find_method(method, "polish", "search")
+    p, steps, found = problem_of(mechanism, vary, least, where, positions, static)
+    p = replace(p, method=name)
     return _best(p, steps, found, starts, seed)
 
 
-def _problem(
+def problem_of(
     m: Mechanism, vary: Bounds, least: str, where: str | Sequence[str], positions: int | None, static: bool
 ) -> tuple[Problem, Array, tuple[Number, ...]]:
     """The problem, the steps of its numbers (NaN where there are none), and the numbers."""
@@ -124,9 +130,13 @@ def _ends(m: Mechanism, path: str, given: Sequence[object], count: int) -> tuple
 
 
 def _best(p: Problem, steps: Array, found: tuple[Number, ...], starts: int, seed: int) -> Optimum:
-    places = _starts(p, starts, seed)
-    with progress("Improving designs") as step:
-        places, values = minimize(p, places, progress=lambda done: step(done))
+    places = started = starts_of(p, starts, seed)
+    if METHODS[p.method][0] == "search":
+        places = search_by(p.method, lambda u: p(u).value, places, seed)
+        values = p(places).value
+    else:
+        with progress("Improving designs") as step:
+            places, values = minimize(p, places, progress=lambda done: step(done))
     order = np.argsort(values)[:POLISHED]
     with progress("Polishing designs", len(order)) as step:
         ends = []
@@ -137,10 +147,10 @@ def _best(p: Problem, steps: Array, found: tuple[Number, ...], starts: int, seed
     judged = [judge(p, u) for u in ends]
     best = min(range(len(ends)), key=lambda k: judged[k])
     alike = [j for j in judged[: len(order)] if j[0] <= 0 and j[1] <= judged[best][1] * (1 + SAME)]
-    return _optimum(p, ends[best], found, judged[best][0] <= 0, len(alike), len(order), len(places))
+    return optimum_of(p, ends[best], found, judged[best][0] <= 0, len(alike), len(order), len(started))
 
 
-def _starts(p: Problem, count: int, seed: int) -> Array:
+def starts_of(p: Problem, count: int, seed: int) -> Array:
     """Places that have an answer: the description's own, then random ones."""
     return random_places(lambda u: np.isfinite(p(u).value), p.nominal, count, seed)
 
@@ -198,7 +208,7 @@ def _on(u: Array, which: Flags, values: Array) -> Array:
     return out
 
 
-def _optimum(
+def optimum_of(
     p: Problem, u: Array, found: tuple[Number, ...], feasible: bool, alike: int, polished: int, started: int
 ) -> Optimum:
     m, values = p.mechanism, p.numbers(u)

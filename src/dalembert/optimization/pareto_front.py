@@ -14,14 +14,18 @@ from typing import Any
 
 import numpy as np
 
+from dalembert.analysis.batch.compiled_kernel import compile  # noqa: A004
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
 from dalembert.optimization.aims import parse_aim
-from dalembert.optimization.optimizing import Bounds, optimize
+from dalembert.optimization.optimizers import DEFAULT, METHODS, OPEN, evolve, find_method
+from dalembert.optimization.optimizing import Bounds, judge, optimize, optimum_of, problem_of, starts_of
 from dalembert.optimization.optimum import Optimum
 from dalembert.printing import table
 
+DEFAULTS = {"starts": 1000, "seed": 0, "positions": None, "static": False}
+"""Of `da.optimize`."""
 AS_GOOD = 1e-6
 """Part of an aim within which a design counts as no better."""
 
@@ -48,9 +52,11 @@ def pareto(
     least: Sequence[str],
     where: str | Sequence[str] = (),
     points: int = 7,
+    method: str = DEFAULT,
     **options: Any,
 ) -> Front:
-    """A front of some points between two aims, of which the second is a peak; all else as in `da.optimize`.
+    """A front of some points between two aims, of which the second is a peak; all else as in `da.optimize`. A method
+    that makes fronts itself, such as ``pymoo.nsga2``, takes any two aims; its designs are not polished.
 
     Raises ModelError where the second aim is no peak, or where no design keeps the conditions.
 
@@ -65,7 +71,11 @@ def pareto(
         raise ModelError(
             "a front is between two aims, of 2 points or more", 'give ["effort.O2", "magnitude.A"]'
         )
-    first, second = (parse_aim(text) for text in least)
+    _, second = map(parse_aim, least)
+    name = find_method("pymoo.nsga2" if method == "pymoo" else method, "polish", "search", "front")
+    options["method"] = name
+    if METHODS[name][0] == "front":
+        return _front(least, _evolved(mechanism, vary, least, where, points, {**DEFAULTS, **options}))
     if second.word != "peak":
         raise ModelError(f"{least[1]!r} is no peak, which alone can be bounded", "name the peak second")
     rules = [where] if isinstance(where, str) else list(where)
@@ -76,11 +86,44 @@ def pareto(
         for bound in np.linspace(high, low, points)[1:-1]
     ]
     found = [o for o in (ends[0], *between, ends[1]) if o.feasible]
+    return _front(least, found)
+
+
+def _front(least: Sequence[str], found: Sequence[Optimum]) -> Front:
     if not found:
         raise ModelError("no design keeps every condition", "widen the bounds, or leave a condition out")
-    values = np.array([[o.size_of(first), o.size_of(second)] for o in found])
+    values = np.array([[o.size_of(parse_aim(aim)) for aim in least] for o in found])
     kept = _undominated(values)
     return Front((least[0], least[1]), tuple(found[k] for k in kept), values[kept])
+
+
+def _evolved(
+    m: Mechanism, vary: Bounds, least: Sequence[str], where: str | Sequence[str], points: int, options: Any
+) -> list[Optimum]:
+    """Designs taken evenly from the front of a method that makes one, those that keep every condition."""
+    method, positions, static = (options[key] for key in ("method", "positions", "static"))
+    p, steps, numbers = problem_of(m, vary, least[0], where, positions, static)
+    if not np.isnan(steps).all():
+        raise ModelError(f"{method} takes no steps", "give (low, high)", ("vary",))
+    aims = [parse_aim(text) for text in least]
+    kernels = [compile(m, p.vary, [aim.of], aim.word, static=static) for aim in aims]
+
+    def of(u: Array) -> dict[str, Array]:
+        values = p.numbers(u)
+        found = [k(values, p.positions, redo=False).value(a.of) for k, a in zip(kernels, aims, strict=True)]
+        out = {"F": np.nan_to_num(np.stack(found, axis=1), nan=OPEN * p.scale)}
+        if p.conditions:
+            lacks = p.broken(values, p.positions, redo=False)
+            out["G"] = np.stack(
+                [np.nan_to_num(lacks.value(n), nan=OPEN) for n in lacks.kernel.outputs], axis=1
+            )
+        return out
+
+    begun = starts_of(p, options["starts"], options["seed"])
+    last = evolve(method, of, 2, len(p.conditions), begun, options["seed"])
+    order = last[np.argsort(of(last)["F"][:, 0])]
+    some = order[np.unique(np.linspace(0, len(order) - 1, points).round().astype(int))]
+    return [optimum_of(p, u, numbers, True, 1, len(some), len(begun)) for u in some if judge(p, u)[0] <= 0]
 
 
 def _undominated(values: Array) -> list[int]:

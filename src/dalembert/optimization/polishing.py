@@ -7,19 +7,13 @@ Mechanics: docs/theory.md 11.
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from dalembert.arrays import Array, Flags
 from dalembert.optimization.aims import Problem, Rows
-
-STEPS = 100
-"""Most iterations."""
-OPEN = 1e3
-"""What is lacked where there is no answer, over the usual size."""
+from dalembert.optimization.optimizers import OPEN, polish_by
 
 
 @dataclass
@@ -79,22 +73,14 @@ class _Design:
 def polish(p: Problem, u: Array, free: Flags | None = None) -> Array:
     """A better place from a place u (number,) in the unit box; numbers that are not free stay. u itself where none is
     found."""
-    from scipy.optimize import minimize
-
-    solver: Any = minimize
     d = _Design(p, u, np.ones(len(u), bool) if free is None else free)
     if not d.free.any():
         return u
     start = u[d.free]
-    bounds: list[tuple[float, float | None]] = [(0.0, 1.0)] * len(start)
+    high = np.ones(len(start))
     if d.peak:
         start = np.append(start, np.nanmax(np.abs(d.rows(start).aim), initial=0.0) / p.scale)
-        bounds.append((0.0, None))
-    rules = [{"type": "ineq", "fun": d.room, "jac": d.room_slope}] if d.peak or p.conditions else []
-    options = {"maxiter": STEPS, "ftol": 1e-10}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # scipy says where a step leaves the bounds by rounding
-        found = solver(
-            d.aim, start, jac=True, method="SLSQP", bounds=bounds, constraints=rules, options=options
-        )
-    return d.place(found.x) if np.isfinite(found.x).all() else u
+        high = np.append(high, np.inf)
+    rules = (d.room, d.room_slope) if d.peak or p.conditions else None
+    x = polish_by(p.method, d.aim, rules, start, high)
+    return d.place(x) if np.isfinite(x).all() else u
