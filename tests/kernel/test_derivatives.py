@@ -54,7 +54,7 @@ def test_every_load() -> None:
 
 
 @pytest.mark.parametrize(
-    "reduce", ["peak", "mean", "rms", "envelope", "norm8", "refined_peak", "refined_place"]
+    "reduce", ["peak", "mean", "rms", "envelope", "norm8", "refined_peak", "refined_place", "squares"]
 )
 def test_reductions(reduce: str) -> None:
     checked(four_bar(24), ["effort.O2", "magnitude.B"], reduce, tolerance=1e-6)

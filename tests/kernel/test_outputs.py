@@ -131,3 +131,37 @@ def test_share_of_the_cycle_above_a_limit() -> None:
     share = da.compile(m, outputs=["(1 + sign(magnitude.B - 30 N))/2"], reduce="mean")
     wanted = (da.dynamics(m)["magnitude.B"] > 30).mean()
     assert share().value(share.outputs[0])[0] == pytest.approx(wanted)
+
+
+def test_squares_to_a_target() -> None:
+    """Of vectors by component, with exact derivatives; a target of another shape or kernel is refused."""
+    vary, outputs = ["links.crank.points.A", "links.coupler.mass"], ["point.coupler.B", "effort.O2"]
+    k, plain = (da.compile(da.four_bar(), vary, outputs, how, derivatives=True) for how in ("squares", None))
+    values = k.nominal * np.array([[1, 1, 1], [1.05, 1, 2], [0.9, 1.1, 0.3]])
+    each = plain(values)
+    target = {name: 1.3 * each.value(name)[0] for name in outputs}
+    found = k(values, target=target)
+    blocks = [r.value("effort.O2")[0] for r in k.blocks(values, 1, target=target)]
+    assert np.array_equal(found.value("effort.O2"), blocks)
+    for name in outputs:
+        off = each.value(name) - target[name]
+        slope = 2 * (off[..., None] * each.gradient(name)).sum(axis=1)
+        assert np.allclose(found.value(name), (off**2).sum(axis=1), rtol=1e-13)
+        assert np.allclose(found.gradient(name), slope, rtol=1e-12, atol=1e-14 * np.abs(slope).max())
+    assert np.allclose(k(values).value("effort.O2"), (each.value("effort.O2") ** 2).sum(axis=1), rtol=1e-13)
+    short = target | {"effort.O2": np.zeros(71)}
+    nowhere = target | {"effort.O2": np.full(72, np.nan)}
+    for wrong, said in (
+        (short, r"target= of effort.O2 has shape \(71,\); give one of shape \(72,\)"),
+        (nowhere, "targets of effort.O2 are not all finite; leave those positions out: positions="),
+        (
+            {"effort.O2": np.zeros(72)},
+            "target= is for effort.O2, and there are outputs point.coupler.B, effort.O2",
+        ),
+    ):
+        with pytest.raises(da.ModelError, match=said):
+            k(values, target=wrong)
+    with pytest.raises(
+        da.ModelError, match='only squares are taken to a target; compile with reduce="squares"'
+    ):
+        plain(values, target=target)

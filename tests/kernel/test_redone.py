@@ -138,15 +138,19 @@ def test_a_peak_over_positions_of_both() -> None:
     """A design with some positions in doubt is reduced as a whole, its slopes too."""
     m = cycle("toggle_press", 24).with_values({"friction.coefficient": 1.5})
     vary = frictional(m)[:1]
-    k, whole = (
+    k, squares, whole = (
         da.compile(m, vary=vary, outputs=["effort.O2"], reduce=reduce, derivatives=True)
-        for reduce in ("peak", None)
+        for reduce in ("peak", "squares", None)
     )
     r, w = k(), whole()
     value, rate = w.effort("O2")[0], w.gradient("effort.O2")[0]
     place = np.abs(value).argmax()
     assert r.redone == w.redone == 1
     assert np.allclose(r.gradient("effort.O2")[0], np.sign(value[place]) * rate[place], rtol=1e-9)
+    s, off = squares(target=value + 1 + np.sin(value)), -1 - np.sin(value)
+    assert s.redone == 1
+    assert np.allclose(s.effort("O2")[0], (off**2).sum(), rtol=1e-9)
+    assert np.allclose(s.gradient("effort.O2")[0], 2 * off @ rate, rtol=1e-9)
 
 
 def test_contacts_that_the_file_s_numbers_do_not_have(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -157,6 +157,8 @@ def make_engine(
     lanes: int | None = None,
 ) -> Engine:
     """The kernel where it reaches, else the analyses, with the sentence why; raises ModelError where neither does."""
+    if reduce == "squares":
+        raise ModelError("a study has no target for squares", 'reduce an expression by "rms"', ("reduce",))
     try:
         at = None if positions is None else m.schedule(positions).position
         kernel = compile_kernel(m, paths, outputs, reduce, static=static, lanes=lanes)

@@ -62,6 +62,8 @@ def redone(
     ]
     if k.reduce:
         cycle = k.reduce in over_positions.REFINED and course.cycle
+        if course.target is not None:
+            sides = [{name: side[name] - course.target[name] for name in side} for side in sides]
         _reduction(k, d, sides, slopes_, found, cycle)
         return
     if len(sides) > 1:
@@ -93,6 +95,7 @@ def _reduction(
             if k.reduce in over_positions.REFINED:
                 value, rate = (over_positions.larger_side(values, some) for some in (values, each))
             slope = over_positions.slope(k.reduce, value, rate, cycle)
+            slope = slope / len(sides) if k.reduce == "squares" else slope
             found.rates[name][d] = slope.reshape(found.rates[name][d].shape)
 
 

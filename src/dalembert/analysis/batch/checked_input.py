@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
+from dalembert.model import Schedule
 
 KINDS = {
     "c": "complex",
@@ -66,6 +67,45 @@ def targets(out: Array | Mapping[str, Array], shapes: dict[str, tuple[int, ...]]
     if len({id(array) for array in given.values()}) < len(given):
         raise ModelError("out= has one array for several results", "give each its own")
     return {name: np.asarray(given[name]) for name in shapes}
+
+
+def check_positions(given: Array, schedule: Schedule) -> None:
+    """Raise ModelError for positions that are none of the file's drives."""
+    drives = len(schedule.names)
+    if not np.isfinite(given).all():
+        raise ModelError("positions are not all finite", "give numbers that are")
+    if given.ndim != 2 or given.shape[1] != drives or not len(given):
+        raise ModelError(
+            f"positions of shape {given.shape} do not fit {drives} drive(s)", "give (position, drive)"
+        )
+    for rate in (schedule.speed, schedule.acceleration):
+        if np.ptp(rate, axis=0).any():
+            what = "the drives' speeds change along the file's positions"
+            raise ModelError(what, "leave positions out", ("drives",))
+
+
+def read_target(
+    target: ArrayLike | Mapping[str, ArrayLike], shapes: dict[str, tuple[int, int]], reduce: str | None
+) -> dict[str, Array]:
+    """What outputs are compared with, by name (position, component); one alone stands for that of a single one."""
+    if reduce != "squares":
+        raise ModelError("only squares are taken to a target", 'compile with reduce="squares"')
+    given = target if isinstance(target, Mapping) else {next(iter(shapes)): target}
+    if set(given) != set(shapes):
+        raise ModelError(
+            f"target= is for {', '.join(given)}, and there are outputs {', '.join(shapes)}",
+            "give an array of each by its name",
+        )
+    out = {}
+    for name, shape in shapes.items():
+        found = numbers(f"targets of {name}", given[name])
+        if found.shape not in (shape, shape[:1] if shape[1] == 1 else shape):
+            whole = shape if shape[1] > 1 else shape[:1]
+            raise ModelError(f"target= of {name} has shape {found.shape}", f"give one of shape {whole}")
+        if not np.isfinite(found).all():
+            raise ModelError(f"targets of {name} are not all finite", "leave those positions out: positions=")
+        out[name] = found.reshape(shape)
+    return out
 
 
 def _strange(array: Array) -> str:

@@ -19,7 +19,7 @@ from dalembert.analysis.batch.batch_result import (
     mark_overflow,
     not_finite,
 )
-from dalembert.analysis.batch.checked_input import numbers, targets
+from dalembert.analysis.batch.checked_input import check_positions, numbers, read_target, targets
 from dalembert.analysis.batch.sides import Sides
 from dalembert.analysis.batch.tracing.kernel_inputs import Course
 from dalembert.analysis.batch.tracing.symbolic_model import chooses_motion
@@ -223,20 +223,17 @@ class Kernel:
         last = self._last_course
         if last and np.array_equal(last[0].schedule.position, given):
             return last[0]
-        if not np.isfinite(given).all():
-            raise ModelError("positions are not all finite", "give numbers that are")
-        if given.ndim != 2 or given.shape[1] != drives or not len(given):
-            raise ModelError(
-                f"positions of shape {given.shape} do not fit {drives} drive(s)",
-                "give (position, drive)",
-            )
-        for rate in (known.schedule.speed, known.schedule.acceleration):
-            if np.ptp(rate, axis=0).any():
-                raise ModelError(
-                    "the drives' speeds change along the file's positions", "leave positions out", ("drives",)
-                )
+        check_positions(given, known.schedule)
         last[:] = [known.at(given.copy())]
         return last[0]
+
+    def _course_to(
+        self, positions: ArrayLike | None, target: ArrayLike | Mapping[str, ArrayLike] | None
+    ) -> Course:
+        """The mechanism at positions, and what outputs are compared with there."""
+        course = self.course(positions)
+        shapes = {name: (len(course.schedule.position), len(of)) for name, of in self.nodes.items()}
+        return course if target is None else course.with_target(read_target(target, shapes, self.reduce))
 
     @cached_property
     def _last_course(self) -> list[Course]:
@@ -251,6 +248,7 @@ class Kernel:
         redo: bool = True,
         device: str = "cpu",
         out: Array | Mapping[str, Array] | None = None,
+        target: ArrayLike | Mapping[str, ArrayLike] | None = None,
     ) -> BatchResult:
         """Answers for many designs.
 
@@ -258,9 +256,10 @@ class Kernel:
         drives' values (position, drive), default the file's. threads: at most so many, default one a core.
         progress: called with (designs done, designs). redo: ask the general executor where the kernel is not sure.
         device: ``cpu``, or ``cuda`` for an NVIDIA card through cupy. out: the array that an output goes to, one on disk
-        by ``np.memmap`` too, or arrays by output (of derivatives by ``gradient.`` and the output).
+        by ``np.memmap`` too, or arrays by output (of derivatives by ``gradient.`` and the output). target: what
+        ``squares`` compares an output with (position[, component]), or arrays by output; default 0.
         """
-        given, course = self._values(values), self.course(positions)
+        given, course = self._values(values), self._course_to(positions, target)
         return self._answer(given, course, threads, progress, redo, device, out)
 
     def blocks(
@@ -268,12 +267,13 @@ class Kernel:
         values: ArrayLike | None = None,
         size: int | None = None,
         positions: ArrayLike | None = None,
+        target: ArrayLike | Mapping[str, ArrayLike] | None = None,
         **options: Any,
     ) -> Iterator[BatchResult]:
         """Answers for ``size`` designs after ``size``, default as many as take 64 MB: of however many designs no more
         stand in memory at once. ``options`` are the other arguments of a call."""
         _check_count("size", size)
-        given, course = self._values(values), self.course(positions)
+        given, course = self._values(values), self._course_to(positions, target)
         each = 8 * max(1, len(self.flat)) * (1 if self.reduce else len(course.schedule.position))
         step = size or max(1, BLOCK // each)
         return (self._answer(given[k : k + step], course, **options) for k in range(0, len(given), step))

@@ -20,13 +20,17 @@ PARTS: dict[str, tuple[str, ...]] = {
     "norm8": ("power8",),
     "refined_peak": ("argpeak",),
     "refined_place": ("argpeak",),
+    "squares": ("square",),
 }
 """Largest magnitude; mean; root mean square; (least, largest); place of the largest magnitude, from 0; the smooth
 stand-in of the peak, the eighth root of the mean of the eighth powers; and the peak between the positions, by a
-parabola through the largest magnitude and its neighbours, and its place."""
+parabola through the largest magnitude and its neighbours, and its place; the sum of squares, of the differences to a
+target where there is one."""
 
 POWER = {"rms": 2, "norm8": 8}
 """Reductions that are means of powers, with their root taken."""
+SUMS = {"mean": 1, "squares": 2, **POWER}
+"""Reductions that are made of sums of powers."""
 REFINED = ("refined_peak", "refined_place")
 PLACES = ("argpeak", "refined_place")
 """Reductions that are places among the positions."""
@@ -139,6 +143,8 @@ def reduce_positions(reduce: str, values: Array, cycle: bool = False) -> Array:
         return np.stack([values.min(axis=0), values.max(axis=0)], axis=-1)
     if reduce == "mean":
         return np.asarray((values / len(values)).sum(axis=0))
+    if reduce == "squares":
+        return np.asarray((values**2).sum(axis=0))
     power = POWER[reduce]
     largest = np.where((peak := size.max(axis=0)) > 0, peak, 1.0)  # so that no power overflows
     mean: Array = ((values / largest) ** power).mean(axis=0)
@@ -147,10 +153,12 @@ def reduce_positions(reduce: str, values: Array, cycle: bool = False) -> Array:
 
 def reduce_sides(reduce: str, sides: Sequence[Array], cycle: bool = False) -> Array:
     """The reduction of values just before reversals and just after them, or of the same ones; of places among the
-    positions. No parabola goes from one side to the other."""
+    positions. No parabola goes from one side to the other; of squares each side has half."""
     if reduce in REFINED:
         return reduce_positions(reduce, larger_side(sides, sides), cycle)
     found = reduce_positions(reduce, np.concatenate(sides))
+    if reduce == "squares":
+        return found / len(sides)
     return found % len(sides[0]) if reduce == "argpeak" else found
 
 
@@ -170,6 +178,8 @@ def slope(reduce: str, values: Array, rates: Array, cycle: bool = False) -> Arra
         return refined_slope(reduce, near, rates[three, np.arange(values.shape[1])], inner)
     if reduce == "mean":
         return np.asarray(rates.mean(axis=0))
+    if reduce == "squares":
+        return np.asarray(2 * (values[..., None] * rates).sum(axis=0))
     if reduce in POWER:
         size = reduce_positions(reduce, values)
         size[~rates.any(axis=(0, 2))] = 1.0  # always zero

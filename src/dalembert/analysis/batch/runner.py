@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from functools import cache
+from functools import cache, partial
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dalembert.analysis.batch import over_positions
-from dalembert.analysis.batch.tracing.kernel_inputs import Course
+from dalembert.analysis.batch.tracing.kernel_inputs import Course, target_values
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.kernel.emit import llvm_text
@@ -85,15 +85,23 @@ class Runner:
         k = self.k
         parts = over_positions.with_places(k.reduce) if k.derivatives else over_positions.PARTS[k.reduce]
         nodes = [n for found in k.nodes.values() for n in found]
+        if k.reduce == "squares":
+            nodes = [n - self._target(name, j) for name, of in k.nodes.items() for j, n in enumerate(of)]
         slots = [(m, p) for m in range(len(nodes)) for p in parts]
-        if k.derivatives and k.reduce in ("mean", *over_positions.POWER):
-            power = over_positions.POWER.get(k.reduce, 1) - 1
+        if k.derivatives and k.reduce in over_positions.SUMS:
+            power = over_positions.SUMS[k.reduce] - 1
             rates = [row for found in k.rates.values() for row in found]
             for value, row in zip(list(nodes), rates, strict=True):
                 weight = value**power if power else 1.0
                 nodes += [weight * rate for rate in row]
             slots += [(m, "sum") for m in range(len(rates), len(nodes))]
         return nodes, tuple(slots)
+
+    def _target(self, name: str, component: int) -> Node:
+        """What one component of an output is compared with."""
+        value = partial(target_values, output=name, component=component)
+        found: Node = self.k.trace.inputs.make("channel", f"target {component} {name}", value)
+        return found
 
     def way(self, positions: int) -> str:
         if self.k.reduce is not None:
@@ -322,12 +330,16 @@ def slopes(
             else:
                 first = flat + m * len(k.trace.numbers)
                 total = np.stack([parts[first + n, "sum"] for n in range(len(k.trace.numbers))], axis=-1)
-                each.append(_mean(k.reduce, parts, m, total / count, count))
+                each.append(_of_sums(k.reduce, parts, m, total, count))
         out[name] = each[0] if len(each) == 1 else np.stack(each, axis=1)
     return out
 
 
-def _mean(reduce: str, parts: dict[tuple[int, str], Array], m: int, total: Array, count: int) -> Array:
+def _of_sums(reduce: str, parts: dict[tuple[int, str], Array], m: int, total: Array, count: int) -> Array:
+    """Gradient of one component from the sum of its derivatives, each times a power of the value."""
+    if reduce == "squares":
+        return 2 * total
+    total = total / count
     if reduce == "mean":
         return total
     part = over_positions.PARTS[reduce][0]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import Any
@@ -35,6 +36,14 @@ class Course:
     mechanism: Mechanism
     schedule: Schedule
     result: Result | None = None
+    target: Mapping[str, Array] | None = None
+    """What each output is compared with (position, component)."""
+
+    def with_target(self, target: Mapping[str, Array]) -> Course:
+        """The same course, as far as it is followed."""
+        found = copy(self)
+        found.__dict__["target"] = target
+        return found
 
     @cached_property
     def compiled(self) -> Compiled:
@@ -252,6 +261,13 @@ def _place(pose: Pose, components: int, a: int, b: int) -> Array:
         sin = r[:, a, 0] * r[:, b, 1] - r[:, a, 1] * r[:, b, 0]
         return np.stack([cos, sin])
     return np.asarray((pose.point if components == 3 else r)[:, b].T)
+
+
+def target_values(course: Course, output: str, component: int) -> Array:
+    """What one component of an output is compared with (P,)."""
+    if course.target is None:
+        return np.zeros(len(course.schedule.position))
+    return np.asarray(course.target[output][:, component])
 
 
 def _turns(course: Course, place: int) -> Array:
