@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dalembert.analysis.methods.applied_forces import state
+from dalembert.analysis.result.joint_freedoms import whole_pose
 from dalembert.arrays import Array
 from dalembert.core.constraints import measure
+from dalembert.core.equilibrium import with_ground
 from dalembert.core.forcing import center_motion
 from dalembert.core.geometry import arm
 
@@ -24,8 +26,10 @@ def energies(r: Result) -> tuple[Array, Array]:
 
     Weights: -m g r_G; springs: k (l - l0)^2 / 2 + F l; in turns k (q - q0)^2 / 2.
     """
-    at, layout, f = state(r), r.compiled.layout, r.compiled.forcing
-    g, masses, pose, twist = layout.algebra, f.inertia, at.pose, at.moving.twist
+    layout, f, pose, twist = r.compiled.layout, r.compiled.forcing, whole_pose(r), with_ground(r.twist_array)
+    g, masses = layout.algebra, f.inertia
+    if not np.isfinite(twist).all():  # left out where forces have no answer
+        twist = state(r).moving.twist
     place, v, _ = center_motion(layout, masses, pose, twist, np.zeros_like(twist[..., :-1, :]))
     w = twist[..., :-1, g.d :]
     turning = (g.angular_momentum_rate(pose.rotation[..., :-1, :], w, masses.inertia) * w).sum(axis=-1)
