@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 
 import dalembert as da
 from dalembert.errors import ModelError
+from dalembert.model.drives.end_stops import Stops
 from tests.random_mechanisms import random_case
 from tests.random_space import random_case as space_case
 from tests.random_space import tree as space_tree
@@ -282,6 +283,60 @@ def test_the_motion_found_asks_for_the_efforts_that_made_it(seed: int) -> None:
     assert s.energy_residual < 1e-9
 
 
+HAMMER = Path(__file__).parents[2] / "docs" / "drop-hammer.yaml"
+
+
+def test_a_hammer_bounces_rests_on_its_stop_and_is_lifted() -> None:
+    """Impacts at t0 (1 + 2 e + 2 e^2 + ...), rest at t0 (1 + e)/(1 - e), until the rope pulls with the weight."""
+    m, e, g = da.load(HAMMER), 0.4, 9.80665
+    s, first = da.simulate(m, "2 s", count=401), math.sqrt(2 * 0.5 / g)
+    struck = s.event("impact")
+    expected = [first * (1 + 2 * sum(e**j for j in range(1, k + 1))) for k in range(6)]
+    assert [x.time for x in struck[:6]] == pytest.approx(expected, rel=1e-9)
+    assert [x.speed for x in struck[:6]] == pytest.approx([g * first * e**k for k in range(6)], rel=1e-9)
+    assert struck[0].lost == pytest.approx((1 - e * e) * 80 * g * 0.5, rel=1e-9)
+    rest, up = s.event("ram stays on its stop")[0], s.event("ram leaves its stop")[0]
+    assert rest.time == pytest.approx(first * (1 + e) / (1 - e), rel=1e-6)
+    assert up.time == pytest.approx(1 + 80 * g / 2000, rel=1e-9)
+    at = (s.time > rest.time) & (s.time < 1)
+    assert s.stop_force[at, 0] == pytest.approx(80 * g)
+    assert s.result.effort("ram")[at] == pytest.approx(80 * g)
+    assert -s.works["impacts"][-1] == pytest.approx(80 * g * 0.5, rel=1e-9)
+    assert max(s.energy_residual, s.law_residual) < 1e-9
+    other = m.with_values({"drives.ram.stops": {"from": "0 m", "restitution": 0.5}})
+    assert da.mechanism(other.model_dump(mode="json")).drives["ram"].stops == Stops(0.0, math.inf, 0.5)
+    with pytest.raises(
+        ModelError, match=r"drop-hammer.yaml:\d+: ram starts beyond its stops; start between them"
+    ):
+        da.simulate(m, "2 s", start={"ram": {"position": "-1 mm"}})
+
+
+@pytest.mark.parametrize("rough", [False, True])
+def test_two_carts_exchange_their_momentum_at_a_stop_between_them(rough: bool) -> None:
+    """u+ = u- - (1 + e) M^-1 n (n u-) / (n M^-1 n) of two freedoms is Newton's law of impact of two bodies."""
+    rub = ", friction: {coefficient: 0.1}" if rough else ""
+    s = da.simulate(
+        da.loads(f"""
+links:
+  ground: {{points: {{O: [0, 0]}}}}
+  one: {{points: {{O: [0, 0]}}, mass: 3 kg}}
+  two: {{points: {{O: [0, 0]}}, mass: 1 kg}}
+joints:
+  A: {{type: slider, links: [ground, one], at: [O, O], direction: 0 deg}}
+  B: {{type: slider, links: [one, two], at: [O, O], direction: 0 deg{rub}}}
+drives: {{A: {{effort: 0 N}}, B: {{effort: 0 N, stops: {{to: 0.2 m, restitution: 0.6}}}}}}
+start: {{A: {{position: 0 m, speed: 1 m/s}}, B: {{position: 0 m, speed: 4 m/s}}}}
+"""),
+        "0.1 s",
+        count=5,
+    )
+    assert [(e.name, e.time) for e in s.events] == [("impact", pytest.approx(0.05, rel=1e-9))]
+    assert s.speed("B")[-1] == pytest.approx(-2.4, rel=1e-9)
+    assert 3 * s.speed("A")[-1] + (s.speed("A") + s.speed("B"))[-1] == pytest.approx(8, rel=1e-9)
+    assert s.events[0].lost == pytest.approx(3 / 4 * 4**2 * (1 - 0.36) / 2, rel=1e-9)
+    assert max(s.energy_residual, s.law_residual) < 1e-9
+
+
 @pytest.mark.parametrize(
     ("drives", "sentence"),
     [
@@ -293,6 +348,9 @@ def test_the_motion_found_asks_for_the_efforts_that_made_it(seed: int) -> None:
             "drives: {O: {motor: {curve: {speed: [0, 9 rpm, 9 rpm], torque: [4, 2, 0]}}}}\nstart: {O: {position: 0}}",
             "no function of the speed: point 3",
         ),
+        ("drives: {O: {effort: 0, stops: {restitution: 0.5}}}", "the stops say neither from nor to"),
+        ("drives: {O: {effort: 0, stops: {from: 0, to: 9 deg, restitution: 2}}}", "a restitution of 2"),
+        ("drives: {O: {effort: 0, stops: {from: 9 deg, to: 9 deg}}}", "the stops go from 9 deg to 9 deg"),
         ("drives: {O: {motor: {stall: 4 N*m}}}\nstart: {O: {position: 0}}", "stall and no_load, or a curve"),
         (
             "drives: {O: {effort: 0}}\nstart: {P: {position: 0}}",

@@ -84,7 +84,7 @@ def actuation(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mech
     at = {name: _at_start(name, d, m.start.get(name), name in free) for name, d in m.drives.items()}
     q, u, a = np.array(list(at.values())).T
     steady = {"speed": 1.0, "acceleration": 0.0, "brake": 0.0} | dict.fromkeys(
-        ("effort", "motor", "law", "range")
+        ("effort", "motor", "law", "range", "stops")
     )
     drives = {n: d.model_copy(update={**steady, "position": at[n][0]}) for n, d in m.drives.items()}
     unknown = [name for name, load in m.loads.items() if load.unknown]
@@ -101,6 +101,10 @@ def actuation(m: Mechanism, start: dict[str, Start] | None = None) -> tuple[Mech
 def _at_start(name: str, d: Drive, start: Start | None, free: bool) -> tuple[float, float, float]:
     """Position, speed and acceleration at time 0."""
     if start is not None:
+        if d.stops is not None and not d.stops.least <= start.position <= d.stops.greatest:
+            raise ModelError(
+                f"{name} starts beyond its stops", "start between them", ("start", name, "position")
+            )
         return start.position, start.speed, 0.0
     if d.law is not None:
         raise ModelError(

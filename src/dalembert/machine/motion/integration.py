@@ -15,8 +15,9 @@ from scipy.optimize import brentq
 from dalembert.arrays import Array
 from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.equation import StoppedError
+from dalembert.machine.motion.impacts import StopState
 from dalembert.machine.motion.occurrences import Condition, Guard, Value
-from dalembert.machine.motion.standstill import STILL, ContactState
+from dalembert.machine.motion.standstill import STILL
 from dalembert.machine.motion.steps import LEAST, Between, Integrator, MachineSteps, Steps, between
 from dalembert.model import Mechanism
 from dalembert.model.drives.motors import Switch
@@ -31,7 +32,7 @@ CHATTER, MANY = 1e-9, 40
 """So many events within this part of the time that has gone by are chatter."""
 
 
-class Integration(ContactState):
+class Integration(StopState):
     """One run from a start to an end."""
 
     def __init__(
@@ -47,8 +48,7 @@ class Integration(ContactState):
         self.end, self.conditions, self.tolerance = end, conditions, tolerance
         self.waiting = None if times is None else list(times)
         self.ended = ""
-        self.rows: list[tuple[float, Array, Array, Array, Array, Array]] = []
-        self.fastest = np.abs(actuation.speed)
+        self.rows: list[tuple[float, Array, Array, Array, Array, Array, Array]] = []
         self.samples: list[tuple[float, Between]] = []
 
     def keep(self, t: float, y: Array) -> None:
@@ -59,7 +59,9 @@ class Integration(ContactState):
             self._keep_rates(*code, np.array([t]), y[None])
             return
         a, effort, _ = self.at(t, y)
-        self.rows.append((t, y[:d].copy(), y[d : 2 * d].copy(), a, effort, y[2 * d :].copy()))
+        q, u = y[:d].copy(), y[d : 2 * d].copy()
+        on_stop = np.where(self.on_stop != 0, self.acting.effort(t, q, u), np.nan)
+        self.rows.append((t, q, u, a, effort, y[2 * d :].copy(), on_stop))
 
     def _keep_samples(self) -> None:
         """Keep the instants of the segment that wait, all at once, before anything else happens."""
@@ -76,7 +78,9 @@ class Integration(ContactState):
         d = self.d
         a, (first, slope, brake, _) = code.rates(values, t, y)[:, d : 2 * d], values[-4 * d :].reshape(4, d)
         applied = np.where(self.acting.free & ~self.locked, first + slope * y[:, d : 2 * d] + brake, np.nan)
-        self.rows += zip(t.tolist(), y[:, :d], y[:, d : 2 * d], a, applied, y[:, 2 * d :].copy(), strict=True)
+        on_stop = np.where(self.on_stop != 0, first + slope * y[:, d : 2 * d], np.nan)
+        works = y[:, 2 * d :].copy()
+        self.rows += zip(t.tolist(), y[:, :d], y[:, d : 2 * d], a, applied, works, on_stop, strict=True)
 
     def run(self) -> None:
         """Integrate from the start until the end, a condition that stops, or a state from which nothing goes on."""
@@ -143,12 +147,13 @@ class Integration(ContactState):
                         "there the steps become too small, as where something has next to no inertia"
                     )
             dense: Any = None
-            crossed = [g for g in guards if self._crosses(g, solver.t, solver.y)]
+            crossed = [g for g in guards if g.kind == "stop" or self._crosses(g, solver.t, solver.y)]
             if crossed:
                 dense = solver.dense_output()
                 roots = [self._root(g, dense, before, solver.t) for g in crossed]
                 earliest = min(roots)
                 first = [g for g, root in zip(crossed, roots, strict=True) if root <= earliest]
+            if crossed and earliest <= solver.t:
                 when, y = self._meet(first[0], earliest, before, from_)
                 self._keep_until(dense, before, when)
                 self._happen(when, y, first)
@@ -208,7 +213,7 @@ class Integration(ContactState):
 
     def _meet(self, g: Guard, when: float, t: float, y: Array) -> tuple[float, Array]:
         """The instant near ``when`` at which a guard passes zero, by the motion itself from (t, y), and the state."""
-        there = self._exactly(t, y, when) if when > t else y
+        there = self._exactly(t, y, when) if when > t else y.copy()
         for _ in range(2 if self.equation.rough and when > t else 0):  # else it is exact to rounding
             short = 1e-3 * (when - t)
             slope = (
@@ -249,6 +254,7 @@ class Integration(ContactState):
         for k, motor in acting.motors.items():
             out += [Guard(key, k, switch(k, of)) for key, of in self._switches(k)]
             out += [Guard("kink", k, speed(k, w)) for w in motor.kinks]
+        out += self.stop_guards()
         out += [Guard("condition", n, c.value_at(d)) for n, c in enumerate(self.conditions)]
         size = max(float(np.abs(y[: 2 * d]).max()), 1.0)
         for g in out:
@@ -264,6 +270,10 @@ class Integration(ContactState):
         return value * g.side < 0
 
     def _root(self, g: Guard, dense: Callable[[float], Array], before: float, after: float) -> float:
+        if g.kind == "stop":
+            when = self.strikes(g, dense, before, after)
+            return np.inf if when is None else when
+
         def value(t: float) -> float:
             return g.value(t, dense(t)) * g.side
 
@@ -286,6 +296,8 @@ class Integration(ContactState):
                 )
             elif g.kind == "contact":
                 rests += [k for k in stands if k not in rests]
+            elif g.kind == "stop":
+                self.strike(g.which, -g.side, t, y)
             elif g.kind in ("on", "off"):
                 self._switch(t, g.which, g.kind)
             elif g.kind == "condition":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import nan
 from typing import NamedTuple
 
 from dalembert.arrays import Array
@@ -13,11 +14,13 @@ Value = Callable[[float, Array], float]
 
 
 class Event(NamedTuple):
-    """What happened when, as a sentence, at which state."""
+    """What happened when, as a sentence; of an impact the speed before, rad/s or m/s, and the energy lost, J."""
 
     time: float
     name: str
     sentence: str
+    speed: float = nan
+    lost: float = nan
 
 
 @dataclass(frozen=True)

@@ -39,7 +39,8 @@ TOLERANCE, MOST = 1e-12, 100_000
 class Simulation(Answer):
     """A motion under forces: ``result`` has every joint force at the instants ``time`` (T,), s.
 
-    ``applied`` (T, D): what acts in each drive's freedom, brakes included. ``works``: J since the start, (T,), by name.
+    ``applied`` (T, D): what acts in each drive's freedom, brakes and stops included; ``stop_force`` (T, D): of the stop
+    that it rests on. ``works``: J since the start, (T,), by name.
     ``kinetic``, ``potential`` (T,). Checks: ``energy_residual``, the gap of the energy balance over the largest energy;
     ``law_residual``, of the efforts that the found motion asks for when it is prescribed, over the largest; and
     ``closure``, of the loops, m or rad.
@@ -50,6 +51,7 @@ class Simulation(Answer):
     result: Result
     time: Array
     applied: Array
+    stop_force: Array
     works: Mapping[str, Array]
     kinetic: Array
     potential: Array
@@ -87,6 +89,10 @@ class Simulation(Answer):
         yield from columns(self.result)
         for k, drive in enumerate(self.drives):
             yield Column(f"applied {drive}", drive_kinds(self.result, drive)["effort"], self.applied[:, k])
+            if self.stop_force[:, k].any():
+                yield Column(
+                    f"stop {drive}", drive_kinds(self.result, drive)["effort"], self.stop_force[:, k]
+                )
         for name, values in self.works.items():
             yield Column(f"work of {name}", "energy", values)
         yield Column("kinetic energy", "energy", self.kinetic)
@@ -96,14 +102,15 @@ class Simulation(Answer):
         """Events, the end and the checks."""
         return {
             "ended": self.ended,
-            "events": [
-                {"time": float(np.asarray(to("time", e.time))), "name": e.name, "sentence": e.sentence}
-                for e in self.events
-            ],
+            "events": [self._event(e, to) for e in self.events],
             "energy_residual": self.energy_residual,
             "law_residual": self.law_residual,
             "closure": self.closure,
         }
+
+    def _event(self, e: Event, to: Scale) -> Tree:
+        known = {"time": float(np.asarray(to("time", e.time))), "name": e.name, "sentence": e.sentence}
+        return known | ({} if np.isnan(e.lost) else {"lost": float(np.asarray(to("energy", e.lost)))})
 
 
 def simulate(
@@ -197,18 +204,23 @@ def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, run: Integrat
         raise ModelError(
             f"the motion cannot begin: {run.ended}", "start elsewhere, or with another speed", ("start",)
         )
-    t, q, u, a, applied, works = (np.array(column) for column in zip(*run.rows, strict=True))
+    t, q, u, a, applied, works, on_stop = (np.array(column) for column in zip(*run.rows, strict=True))
     kept = np.append(np.diff(t) > 0, True)  # of an event the state behind it
-    t, q, u, a, applied, works = (x[kept] for x in (t, q, u, a, applied, works))
+    t, q, u, a, applied, works, on_stop = (x[kept] for x in (t, q, u, a, applied, works, on_stop))
     result = at_schedule(prescribed, Schedule(tuple(m.drives), q, u, a, time=t), inertia=True)
     applied = np.where(np.isnan(applied), result.effort_array, applied)
+    stop_force = _stop_force(result, on_stop, moves)
+    applied = np.where(np.isnan(on_stop), applied, on_stop + stop_force)
     kinetic, potential = energies(result)
     names = [*m.drives, "brakes", "loads", "dampers", "friction"]
     named = {name: w for name, w in zip(names, works.T, strict=True) if name in m.drives or w.any()}
+    if run.losses:
+        named["impacts"] = -np.array([sum(lost for when, lost in run.losses if when <= x) for x in t])
     return Simulation(
         result=result,
         time=t,
         applied=applied,
+        stop_force=stop_force,
         works=named,
         kinetic=kinetic,
         potential=potential,
@@ -219,6 +231,17 @@ def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, run: Integrat
         closure=float(np.nanmax(closure_gap(result), initial=0.0)),
         evaluations=run.evaluations,
     )
+
+
+def _stop_force(r: Result, pushed: Array, moves: Actuation) -> Array:
+    """What stops give (T, D) to drives that rest on them, ``pushed`` by these efforts: what friction does not hold."""
+    out = np.zeros_like(pushed)
+    for k in np.flatnonzero(np.isfinite(pushed).any(axis=0)):
+        ends = r.interval(r.drives[k]) if r.friction is not None else r.effort_array[:, [k, k]]
+        low, high = np.where(np.isnan(ends), r.effort_array[:, [k, k]], ends).T
+        held = np.clip(pushed[:, k], low - moves.brake[k], high + moves.brake[k])
+        out[:, k] = np.where(np.isfinite(pushed[:, k]), held - pushed[:, k], 0.0)
+    return out
 
 
 def _energy_residual(kinetic: Array, potential: Array, works: Mapping[str, Array]) -> float:

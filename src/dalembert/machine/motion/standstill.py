@@ -45,12 +45,14 @@ def holding_efforts(r: Result, k: int) -> tuple[float, float]:
 
 
 class ContactState:
-    """A motion's contacts and brakes at the moment: senses, and which drives they hold at rest."""
+    """A motion's contacts and brakes at the moment: senses, and which drives they hold at rest; ``on_stop`` (D,): -1
+    where a drive rests on its least stop, 1 on its greatest."""
 
     def __init__(self, m: Mechanism, actuation: Actuation) -> None:
         self.m, self.acting, self.equation = m, actuation, equation_of(m)
         self.d = len(actuation.names)
         self.locked: Flags = np.zeros(self.d, bool)
+        self.on_stop = np.zeros(self.d)
         self.sense, self.toward = np.ones(self.equation.contacts), np.ones(self.d)
         self.rubs: Flags = actuation.free & (self.equation.rough | (actuation.brake > 0))
         self.events: list[Event] = []
@@ -128,19 +130,24 @@ class ContactState:
         finally:
             self.locked = held
         r = at_state(self.m, self.acting.position, t, q, u, a)
-        low, high = holding_efforts(r, k)
+        name = self.acting.names[k]
+        low, high = holding_efforts(r, k) if self.equation.rough else (float(r.effort(name)[1]),) * 2
         if np.isnan(low) or np.isnan(high):
-            raise StoppedError(f"{self.acting.names[k]} stands, and {r.reasons[1] or r.status[1]}")
+            raise StoppedError(f"{name} stands, and {r.reasons[1] or r.status[1]}")
         tau = float(self.acting.effort(t, q, u)[k])
-        return tau, low - self.acting.brake[k], high + self.acting.brake[k]
+        low, high = low - self.acting.brake[k], high + self.acting.brake[k]
+        return tau, -np.inf if self.on_stop[k] < 0 else low, np.inf if self.on_stop[k] > 0 else high
 
     def _settle(self, k: int, t: float, y: Array) -> None:
         """Lock a drive that stands and is held, or let it go in the sense of the end that is passed."""
         tau, low, high = self._range(k, t, y)
         name, was = self.acting.names[k], self.locked[k]
-        wide = high - low > 1e-12 * max(abs(low), abs(high), 1e-300)
+        wide = bool(self.on_stop[k]) or high - low > 1e-12 * max(abs(low), abs(high), 1e-300)
         if wide and low <= tau <= high:
             self.locked[k] = True
+            if self.on_stop[k]:
+                self.note(t, "rest", f"{name} stays on its stop")
+                return
             why = "its motor stalls" if k in self.acting.motors and self.acting.on[k] else "friction holds it"
             self.note(
                 t,
@@ -148,7 +155,7 @@ class ContactState:
                 f"{name} comes to rest and stays: {why}; effort {tau:.6g}, held from {low:.6g} to {high:.6g}",
             )
             return
-        self.locked[k] = False
+        self.locked[k], left, self.on_stop[k] = False, self.on_stop[k], 0.0
         self.toward[k] = 1.0 if tau > high or (not wide and tau >= (low + high) / 2) else -1.0
         there = self.equation(t, y[: self.d], y[self.d : 2 * self.d], np.zeros(self.d), self.sense).rates
         ahead = np.zeros(self.d)
@@ -157,7 +164,8 @@ class ContactState:
         still = np.abs(there) <= STILL * np.abs(pushed)
         self.sense = np.where(still & (pushed != 0), np.where(pushed < 0, -1.0, 1.0), self.sense)
         if t > 0 or was:
-            self.note(t, "start" if was else "reversal", f"{name} {'starts again' if was else 'turns back'}")
+            what = "leaves its stop" if left else "starts again" if was else "turns back"
+            self.note(t, "start" if was else "reversal", f"{name} {what}")
 
     def _loose(self, t: float, y: Array) -> list[int]:
         """Locked drives that are no longer held."""
@@ -206,4 +214,4 @@ class ContactState:
             if middle in (low, high):
                 break
             low, high = (low, middle) if self._loose(middle, state(middle)) else (middle, high)
-        return high
+        return float(high)

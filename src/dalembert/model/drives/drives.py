@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal, Self, cast
 from pydantic import Field, FieldSerializationInfo, ValidationInfo, field_serializer, model_validator
 
 from dalembert.errors import ModelError
+from dalembert.model.drives.end_stops import Stops, end_stops, stops_schema
 from dalembert.model.drives.laws import Law, Rise, TimeTable, count, law_schema
 from dalembert.model.drives.laws import law as read_law
 from dalembert.model.drives.motors import MotorCurve, motor_curve, motor_schema
@@ -142,7 +143,13 @@ def slides(freedom: str | None) -> bool:
 
 def implied_freedom(keys: Mapping[str, object]) -> str | None:
     """Slide or turn, if the unit of some value says so."""
-    for key, what in (("position", ""), ("range", ""), ("speed", "speed"), ("acceleration", "acceleration")):
+    for key, what in (
+        ("position", ""),
+        ("range", ""),
+        ("stops", ""),
+        ("speed", "speed"),
+        ("acceleration", "acceleration"),
+    ):
         value = keys.get(key)
         value = value.get("from") if isinstance(value, Mapping) else value
         first = value[0] if isinstance(value, (list, tuple)) and value else value
@@ -198,6 +205,9 @@ class Drive(Part):
     brake: Annotated[float, DriveValue(_brake, lambda: NUMBER_OR_TEXT, "effort")] = Field(
         0.0, description="dry effort against the motion of its freedom, which holds at rest: used by simulate"
     )
+    stops: Annotated[Stops, DriveValue(end_stops, stops_schema)] | None = Field(
+        None, description="least and greatest position, where forces move its freedom: used by simulate"
+    )
     range: (
         Annotated[tuple[float, float], DriveValue(_interval, lambda: list_schema(NUMBER_OR_TEXT, 2, 2))]
         | None
@@ -237,7 +247,7 @@ class Drive(Part):
     @model_validator(mode="after")
     def _one_motion(self) -> Self:
         if self.law is not None:
-            self._refuse("a law of motion", "position", "speed", "acceleration", "range")
+            self._refuse("a law of motion", "position", "speed", "acceleration", "range", "stops")
         elif self.position is None and self.motor is None and self.effort is None:
             what = "its position is not said"
             raise ModelError(what, "write position: 60 deg, or {from: ..., to: ..., count: ...}, or a law")
@@ -296,6 +306,7 @@ class Drive(Part):
         "effort",
         "motor",
         "brake",
+        "stops",
         "range",
         when_used="json",
         return_type=Any,
@@ -319,6 +330,6 @@ def _tree(value: Any, kind: str) -> object:
             "to": value_text(value.stop, kind),
             "count": value.count,
         }
-    if isinstance(value, (Rise, TimeTable, MotorCurve)):
+    if isinstance(value, (Rise, TimeTable, MotorCurve, Stops)):
         return value.tree(kind)
     return value if value is None or value == UNKNOWN else varying_tree(value, kind)
