@@ -77,7 +77,7 @@ def compile_motion(
     in `da.compile`, and ``drives.NAME.effort``, ``drives.NAME.motor.stall`` and ``.no_load``, ``start.NAME.position``
     and ``.speed``. outputs: names as in `da.compile`, at ``count`` instants evenly from a design's start to its end;
     reduce: over these, as there, or ``final``. tolerance: of the steps, relative. Raises ModelError for what is not
-    smooth: dry friction, brakes, motors with corners or switches, efforts that go by positions or time.
+    smooth: dry friction, brakes, stops, motors with corners or switches, efforts that go by positions or time.
 
     >>> import dalembert as da
     >>> m = da.slider_crank(crank=0.05, rod=0.2)
@@ -137,6 +137,8 @@ def _refuse(moves: Actuation) -> None:
             raise ModelError(f"the effort of drive {name!r} goes by positions or time", REMEDY)
         if drive.brake:
             raise ModelError(f"drive {name!r} has a brake, which holds at rest", REMEDY)
+        if drive.stops:
+            raise ModelError(f"drive {name!r} has stops, which change its speed at once", REMEDY)
         if motor is not None and (not motor.straight or motor.on or motor.off):
             raise ModelError(f"the motor of drive {name!r} has corners or switches", REMEDY)
 
