@@ -225,7 +225,8 @@ def test_c_function_and_casadi(name: str, mu: float, tmp_path: Path) -> None:
         given = np.array([float(column[p]) for column in columns])
         mark = library.machine(pointer(k.nominal.copy()), pointer(given), pointer(out))
         effort, other = function(k.nominal, given)
-        assert mark == float(other) == r.code[0, p]
+        assert mark == float(other)
+        assert mark == r.code[0, p] or (CODES[mark], r.status[0, p]) == ("at_rest", "reversal")
         if CODES[mark] in ("ok", "self_locking"):
             assert out[0] == pytest.approx(r.effort("O2")[0, p], rel=1e-10)
             assert float(effort) == pytest.approx(r.effort("O2")[0, p], rel=1e-10)

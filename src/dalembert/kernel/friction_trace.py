@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from dalembert.arrays import Array, Tree
-from dalembert.core.branchless import above, top
+from dalembert.core.branchless import above, top, where
 from dalembert.core.equilibrium import Motion, Statement
 from dalembert.core.forcing import pair, total_wrench
 from dalembert.core.friction.contact_equations import (
@@ -37,6 +37,7 @@ from dalembert.core.friction.contact_equations import (
     with_strength,
 )
 from dalembert.core.friction.losses import dry_wrenches, power_reversed, viscous_wrenches
+from dalembert.core.friction.reversal import crossing
 from dalembert.core.layout import Layout, Pose, System
 from dalembert.kernel.elimination import components, structural
 from dalembert.kernel.graph import CONSTANT, Graph, Node, is_zero, trace_array
@@ -93,17 +94,21 @@ def trace_friction(
     still: Array | None,
     slips: Array | None = None,
     reversals: Array | None = None,
+    side: Node | None = None,
 ) -> FrictionTrace:
     """Multipliers with friction; ``still``: what loads the links beside inertia, None where there is none.
 
     ``slips``: z of each contact where the solution is known; then there are no verdicts, which are known too, and
     ``reversals`` has the sense of contacts that reverse there, else 0.
+    ``side``: -1 just before reversals, 1 just after.
     """
     contacts = _trace_contacts(graph, contacts)
     twist = trace_array(graph, moving.twist)  # without motion they are numbers
     along, found = response(layout, contacts, pose, s.forces, s.w, twist)
     r = Response(*(trace_array(graph, a) for a in found))
     state = senses(layout, contacts, along, twist)
+    if side is not None:
+        state = _at_side(layout, contacts, along, pose, moving, state, side)
     if reversals is not None:
         moves = 1.0 - np.abs(reversals)
         open_: Any = moves * trace_array(graph, state.open)
@@ -136,6 +141,16 @@ def trace_friction(
         marks=replace(marks, slips=(*marks.slips, *idle), rest=rest, turned=_nonzero(turns)),
         slip=Slip(along, state, r, c * z),
     )
+
+
+def _at_side(
+    layout: Layout, contacts: Contacts, along: System, pose: Pose, moving: Motion, now: SlipState, side: Node
+) -> SlipState:
+    """Senses just before or just after; open where the second rates do not tell them either."""
+    found = crossing(layout, contacts, along, pose, moving, now, np.ones(contacts.count, bool))
+    sense = where(np.array(side.positive(), object), found.after, found.before)
+    unknown = ~found.here & ~found.slow
+    return now._replace(sense=where(unknown, now.sense, sense), open=now.open & unknown)
 
 
 def _trace_contacts(graph: Graph, contacts: Contacts) -> Contacts:

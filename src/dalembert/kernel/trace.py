@@ -85,6 +85,7 @@ class Problem:
     margins: dict[int, Node]
     at_pose: Callable[[Forcing, Pose], Forcing] | None = None  # of loads that go by the pose
     moves: bool = False
+    side: Node | None = None  # -1 just before reversals, 1 just after
 
 
 @dataclass(frozen=True)
@@ -201,7 +202,8 @@ def _trace_equilibrium(
         none = np.zeros((layout.joints, d)), np.zeros((layout.joints, 3) if d == 3 else layout.joints)
         return s, FrictionTrace(x, total, *none, Marks())
     still = statement_of(*(kind for kind in sources if kind != "inertia")).w if p.inertia else None
-    return s, trace_friction(p.graph, layout, p.contacts, pose, moving, s, still, p.slips, p.reversals)
+    known = p.slips, p.reversals, p.side
+    return s, trace_friction(p.graph, layout, p.contacts, pose, moving, s, still, *known)
 
 
 def _trace_pose(

@@ -39,6 +39,10 @@ SOLVED = tuple(CODES.index(status) for status in errors.SOLVED)
 """Marks of positions that are solved."""
 
 
+BLOCK = 1 << 26
+"""Bytes of the results of a block of designs."""
+
+
 def among(marks: NDArray[np.uint8], some: Sequence[int]) -> Flags:
     """Where a mark is one of some, of many marks twenty times as fast as np.isin."""
     return np.asarray(np.logical_or.reduce([marks == mark for mark in some]))

@@ -61,10 +61,7 @@ def redone(
         for side, one in zip(result.sides, sides, strict=True)
     ]
     if k.reduce:
-        cycle = k.reduce in over_positions.REFINED and course.cycle
-        if course.target is not None:
-            sides = [{name: side[name] - course.target[name] for name in side} for side in sides]
-        _reduction(k, d, sides, slopes_, found, cycle)
+        reduce_design(k, d, sides, slopes_, found, course)
         return
     if len(sides) > 1:
         found.open_after()
@@ -76,16 +73,19 @@ def redone(
             rates[name][d, here] = rate.reshape(rates[name][d, here].shape)
 
 
-def _reduction(
+def reduce_design(
     k: Kernel,
     d: int,
     sides: list[dict[str, Array]],
     rates: list[dict[str, Array]],
     found: Sides,
-    cycle: bool,
+    course: Course,
 ) -> None:
     """Reductions over the positions, those with two numbers taken twice."""
     assert k.reduce is not None
+    cycle = k.reduce in over_positions.REFINED and course.cycle
+    if course.target is not None:
+        sides = [{name: side[name] - course.target[name] for name in side} for side in sides]
     for name, array in found.arrays.items():
         values = [side[name] for side in sides]
         array[d] = over_positions.reduce_sides(k.reduce, values, cycle).reshape(array[d].shape)

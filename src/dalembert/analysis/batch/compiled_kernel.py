@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from dalembert.analysis.batch import over_positions
 from dalembert.analysis.batch.batch_result import (
+    BLOCK,
     CODES,
     NUMBERED,
     BatchResult,
@@ -25,7 +26,7 @@ from dalembert.analysis.batch.tracing.kernel_inputs import Course
 from dalembert.analysis.batch.tracing.symbolic_model import chooses_motion
 from dalembert.analysis.batch.tracing.traced_analysis import Trace, trace_analysis
 from dalembert.analysis.one_pass import at_schedule
-from dalembert.arrays import Array, Flags, Ints, Numeric
+from dalembert.arrays import Array, Flags, Ints
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.graph import CONSTANT, Node
@@ -34,8 +35,6 @@ from dalembert.model import Mechanism
 
 LARGEST = float(np.finfo(float).max)
 """Largest number there is."""
-BLOCK = 1 << 26
-"""Bytes of the results of a block of designs."""
 
 
 def compile(  # noqa: A001
@@ -90,12 +89,6 @@ def _check_count(name: str, count: object) -> None:
         isinstance(count, bool) or not isinstance(count, int | np.integer) or count <= 0
     ):
         raise ModelError(f"{name}={count!r} is no number of {name}", "give 1 or more, or leave it out")
-
-
-def _moves(course: Course, dimensions: int) -> Numeric:
-    """Where a contact without a rate may only reverse."""
-    moves = course.schedule.moves
-    return moves if dimensions > 1 else moves.any()
 
 
 def _products(nodes: Sequence[Node]) -> list[Node]:
@@ -260,7 +253,7 @@ class Kernel:
         ``squares`` compares an output with (position[, component]), or arrays by output; default 0.
         """
         given, course = self._values(values), self._course_to(positions, target)
-        return self._answer(given, course, threads, progress, redo, device, out)
+        return self.answer(given, course, threads, progress, redo, device, out)
 
     def blocks(
         self,
@@ -276,9 +269,9 @@ class Kernel:
         given, course = self._values(values), self._course_to(positions, target)
         each = 8 * max(1, len(self.flat)) * (1 if self.reduce else len(course.schedule.position))
         step = size or max(1, BLOCK // each)
-        return (self._answer(given[k : k + step], course, **options) for k in range(0, len(given), step))
+        return (self.answer(given[k : k + step], course, **options) for k in range(0, len(given), step))
 
-    def _answer(
+    def answer(
         self,
         given: Array,
         course: Course,
@@ -288,6 +281,9 @@ class Kernel:
         device: str = "cpu",
         out: Array | Mapping[str, Array] | None = None,
     ) -> BatchResult:
+        """What a call does, of designs along a course."""
+        from dalembert.analysis.batch.reversal_sides import settle_reversals
+
         _check_count("threads", threads)
         if device not in ("cpu", "cuda"):
             raise ModelError(f"there is no device {device!r}", "there are: cpu, cuda")
@@ -303,11 +299,11 @@ class Kernel:
                 raise
             raise ModelError(f"device {device!r} cannot be used: {error}", 'use device="cpu"') from None
         code, again = found.code, 0
-        other = self.may_change_branch(given)
-        if other is not None:
+        if (other := self.may_change_branch(given)) is not None:
             code[other] = CODES.index("undecided")
         if not np.isfinite(given).all():
             code[~np.isfinite(given).all(axis=1)] = CODES.index("failed")
+        settle_reversals(self, given, course, found, threads)
         if np.count_nonzero(code) or not (self.reduce is None or found.finite):
             again = self._settle(given, course, found, redo)
         whole = (self, given, course.schedule.position.copy(), code)
@@ -383,7 +379,8 @@ class Kernel:
 
         code, arrays, rates = found.code, found.arrays, found.rates
         if redo:
-            code[(code == CODES.index("at_rest")) & _moves(course, code.ndim)] = CODES.index("undecided")
+            moves = course.schedule.moves if code.ndim > 1 else course.schedule.moves.any()
+            code[(code == CODES.index("at_rest")) & moves] = CODES.index("undecided")
         if self.reduce is not None:  # a power or a sum may overflow where no value does
             code[not_finite(code, arrays) & among(code, NUMBERED)] = CODES.index("undecided")
         undecided = code == CODES.index("undecided")

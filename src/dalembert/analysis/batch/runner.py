@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from functools import cache, partial
+from dataclasses import replace
+from functools import cache, cached_property, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 
 from dalembert.analysis.batch import over_positions
 from dalembert.analysis.batch.tracing.kernel_inputs import Course, target_values
+from dalembert.analysis.batch.tracing.traced_analysis import trace_analysis
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.kernel.emit import llvm_text
@@ -102,6 +104,18 @@ class Runner:
         value = partial(target_values, output=name, component=component)
         found: Node = self.k.trace.inputs.make("channel", f"target {component} {name}", value)
         return found
+
+    @cached_property
+    def sided(self) -> Any:
+        """The kernel with the side of reversals as an input."""
+        k = self.k
+        trace = trace_analysis(k.mechanism, k.numbers, k.trace.inertia, sided=True)
+        return replace(k, trace=trace, reduce=None)
+
+    @cached_property
+    def unreduced(self) -> Any:
+        """The kernel that keeps all positions."""
+        return replace(self.k, reduce=None)
 
     def way(self, positions: int) -> str:
         if self.k.reduce is not None:

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dalembert.arrays import Array, Flags, at
+from dalembert.core.branchless import where
 from dalembert.core.constraints import system
 from dalembert.core.equilibrium import Motion, motion
 from dalembert.core.friction.contact_equations import (
@@ -29,6 +30,17 @@ from dalembert.core.position.newton import CLOSED, close_loops, displace
 
 ASIDE = 0.01
 """How far before and after: radians, or characteristic lengths, of the fastest link."""
+
+
+class Crossing(NamedTuple):
+    """Contacts (..., E) whose rates pass through zero ``here``, and those that hardly move but do, ``slow``: their
+    senses just before and just after; ``turning``: those of the second rates."""
+
+    here: Flags
+    slow: Flags
+    before: Array
+    after: Array
+    turning: SlipState
 
 
 class Driven(NamedTuple):
@@ -54,12 +66,7 @@ def sides(
 
     spun (E,): contacts of rods that spin, whose second rates are not those of the motion.
     """
-    turning = next_senses(layout, contacts, along, pose, moving.twist, moving.acceleration)
-    passes = zero_crossings(layout, contacts, moving.twist, now.rate, turning.rate) & ~turning.open
-    here = passes & (now.open | ~spun)
-    slow = now.open & ~here & ~turning.open  # it hardly moves, but it does, and on for a while
-    slowly = _sign(contacts, now.rate)
-    before, after = (np.where(slow, slowly, side) for side in (-turning.sense, turning.sense))
+    here, slow, before, after, turning = crossing(layout, contacts, along, pose, moving, now, ~spun)
     known, rest = here | slow, now.open & turning.open
     some = np.flatnonzero(rest.any(axis=-1))
     if some.size:
@@ -70,6 +77,25 @@ def sides(
         known[some] |= rest[some] & ~last.open & ~next_.open
     open_ = ~known | contacts.fixed
     return SlipState(before, open_, now.rate), SlipState(after, open_, now.rate)
+
+
+def crossing(
+    layout: Layout,
+    contacts: Contacts,
+    along: System,
+    pose: Pose,
+    moving: Motion,
+    now: SlipState,
+    follows: Flags,
+) -> Crossing:
+    """What passes through zero, by the second rates; follows (E,): contacts whose second rates are the motion's."""
+    turning = next_senses(layout, contacts, along, pose, moving.twist, moving.acceleration)
+    passes = zero_crossings(layout, contacts, moving.twist, now.rate, turning.rate) & ~turning.open
+    here = passes & ~(~now.open & ~follows)
+    slow = now.open & ~here & ~turning.open  # it hardly moves, but it does, and on for a while
+    slowly = _sign(contacts, now.rate)
+    before, after = (where(slow, slowly, side) for side in (-turning.sense, turning.sense))
+    return Crossing(here, slow, before, after, turning)
 
 
 def _sign(contacts: Contacts, rate: Array) -> Array:

@@ -206,6 +206,10 @@ class Inputs:
         """Sense of each contact where it reverses in a known solution, else 0."""
         return self._by_contact(c, "reversal", lambda known: known.reversals)
 
+    def side(self) -> Node:
+        """1 just after reversals; -1, put in its place, just before."""
+        return self.make("channel", "side", lambda c: np.ones(len(c.schedule.position)))
+
     def _by_contact(
         self, c: Compiled, what: str, of: Callable[[Course], dict[tuple[str, str], Array]]
     ) -> Array:

@@ -37,12 +37,18 @@ class Trace:
 
 
 def trace_analysis(
-    m: Mechanism, vary: Iterable[str], inertia: bool, solved: Result | None = None, moves: bool = False
+    m: Mechanism,
+    vary: Iterable[str],
+    inertia: bool,
+    solved: Result | None = None,
+    moves: bool = False,
+    sided: bool = False,
 ) -> Trace:
     """Everything an analysis computes, as nodes; raises ModelError for what the kernel leaves to the analyses.
 
     With the general executor's answer for the file's own numbers, ``solved``: from a known solution, not from nothing.
     ``moves``: the drives go on from the known motion, which is that of the state before.
+    ``sided``: with the side of reversals as an input.
     """
     schedule = m.schedule()
     if schedule.unknown is not None:
@@ -81,6 +87,7 @@ def trace_analysis(
         contacts=c.contacts,
         at_pose=_pose_loads(inputs, c, moved),
         moves=moves,
+        side=inputs.side() if sided else None,
     )
     return Trace(course, inputs, where, Catalogue(graph, c, _run(problem), drives.speed), inertia)
 

@@ -1,0 +1,92 @@
+"""Positions where contacts reverse, in a kernel: numbers just before and just after, by a program of their own.
+
+Its one input more is the side; senses are those of the second rates, as in `core.friction.reversal`.
+"""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.batch.batch_result import BLOCK, CODES, NUMBERED, among, first_mark
+from dalembert.analysis.batch.careful_path import reduce_design
+from dalembert.analysis.batch.sides import Sides
+from dalembert.analysis.batch.tracing.kernel_inputs import Course
+from dalembert.arrays import Array, Ints
+
+if TYPE_CHECKING:
+    from dalembert.analysis.batch.compiled_kernel import Kernel
+
+AT_REST, LOCKED, REVERSAL = (CODES.index(name) for name in ("at_rest", "self_locking", "reversal"))
+BUILDING = threading.Lock()
+"""One thread compiles."""
+
+
+def settle_reversals(k: Kernel, values: Array, course: Course, found: Sides, threads: int | None) -> None:
+    """Put both sides in the place of marks `at_rest` where the machine moves; without second rates these stay."""
+    moves = course.schedule.moves
+    if k.reduce is None:
+        designs, positions = np.nonzero((found.code == AT_REST) & moves)
+        if len(designs):
+            _settle_pairs(k, values, course, found, designs, positions, threads)
+    elif moves.any():
+        _settle_reduced(k, values, course, found, np.flatnonzero(found.code == AT_REST), threads)
+
+
+def _settle_pairs(
+    k: Kernel,
+    values: Array,
+    course: Course,
+    found: Sides,
+    designs: Ints,
+    positions: Ints,
+    threads: int | None,
+) -> None:
+    with BUILDING:
+        runner, side = k.runner.sided.runner, k.runner.sided.trace.inputs.side()
+        program, machine, _ = runner.machine("pairs")
+        columns, common = runner.inputs(program, course)
+    column = program.inputs_in_use("channel").index(side)
+    both = []
+    for sign in (-1.0, 1.0):
+        columns_ = columns[positions]
+        columns_[:, column] = sign
+        both.append(runner.at_pairs(program, machine, values[designs], columns_, common, threads))
+    good = np.logical_and.reduce(
+        [among(code, (0, LOCKED)) & np.isfinite(out).all(axis=1) for out, code in both]
+    )
+    locked = (both[0][1] == LOCKED) | (both[1][1] == LOCKED)
+    here = designs[good], positions[good]
+    found.code[here] = np.where(locked, LOCKED, REVERSAL)[good]
+    found.open_after()
+    places = ((found.arrays, found.rates), (found.after, found.after_rates))
+    for wholes, (out, _) in zip(places, both, strict=True):
+        for whole, part in zip(wholes, runner.by_output(out[good].T[None]), strict=True):
+            for name, numbers in part.items():
+                whole[name][here] = numbers[0]
+
+
+def _settle_reduced(
+    k: Kernel, values: Array, course: Course, found: Sides, designs: Ints, threads: int | None
+) -> None:
+    """Reductions of some designs, from both sides of all their positions."""
+    plain, count = k.runner.unreduced, len(course.schedule.position)
+    step = max(1, BLOCK // (8 * max(1, len(plain.flat)) * count))
+    for some in np.split(designs, range(step, len(designs), step)):
+        r = plain.answer(values[some], course, threads, redo=False)
+        after = r.after or r
+        found.code[some] = first_mark(r.code)
+        for n, d in enumerate(some):
+            if found.code[d] in NUMBERED:
+                sides = [
+                    {name: a[n].reshape(len(a[n]), -1) for name, a in of.arrays.items()} for of in (r, after)
+                ]
+                rates = [_rates(of.gradients, sides[0], n) for of in (r, after)]
+                reduce_design(k, int(d), sides, rates, found, course)
+
+
+def _rates(gradients: dict[str, Array], like: dict[str, Array], n: int) -> dict[str, Array]:
+    """Derivatives (position, component, number) of one design."""
+    return {name: a[n].reshape(*like[name].shape, -1) for name, a in gradients.items()}
