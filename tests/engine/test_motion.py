@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.analysis.compile import compiled_mechanism
 from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
 from dalembert.analysis.engine import structures
+from dalembert.analysis.engine.flat_numbers import flat_numbers
 from dalembert.analysis.engine.kept_program import Outputs
 from dalembert.analysis.engine.walk import walk_through
 from tests.engine.comparing import both, counted, difference
@@ -130,3 +133,21 @@ def test_places_between_listed_positions_are_even() -> None:
     short = walk_through(compile_mechanism(m2 := four_bar((0.0, 0.4)), m2.schedule()), 0.2)
     assert short is not None
     assert len(short.between) == 7
+
+
+@pytest.mark.parametrize("template", ["four_bar", "slider_crank", "whitworth", "watt_1", "scotch_yoke"])
+def test_a_layout_that_is_kept_moves_as_if_laid_out_anew(template: str) -> None:
+    """Other points of the links: the same arms, lengths and whole numbers as of a description met first."""
+    m = getattr(da, template)()
+    compile_mechanism(m, m.schedule(1))
+    for link in m.links:
+        for point, (x, *_) in m.points(link).items():
+            with suppress(da.ModelError):  # a point placed from another has no number of its own
+                m = m.with_values({f"links.{link}.points.{point}.0": x + 0.003})
+    moved = flat_numbers(compile_mechanism(m, m.schedule(1)))
+    compiled_mechanism._geometry.cache_clear()
+    compiled_mechanism._first_placed.cache_clear()
+    anew = flat_numbers(compile_mechanism(m, m.schedule(1)))
+    assert moved.key == anew.key
+    for a, b in zip(moved[1:], anew[1:], strict=True):
+        np.testing.assert_array_equal(a, b)

@@ -265,7 +265,8 @@ def select_rows(rows: Rows, kept: Ints, first: int = 0) -> list[Family]:
     """The families of some rows only (ascending), renumbered from ``first``."""
     out: list[Family] = []
     for f in rows.families:
-        mask = np.asarray(np.isin(f.row, kept).reshape(len(f.i), -1).all(axis=1))
+        same = f.row == kept[0] if len(kept) == 1 else np.isin(f.row, kept)
+        mask = np.asarray(same.reshape(len(f.i), -1).all(axis=1))
         if mask.any():
             parts = {name: value[mask] for name, value in vars(f).items() if name != "row"}
             out.append(type(f)(row=first + np.searchsorted(kept, f.row[mask]), **parts))

@@ -34,12 +34,18 @@ def _comparison(compare: Callable[[float, float], bool]) -> Callable[[Node, Scal
     return decided
 
 
-def _operation(name: str) -> Callable[[Node, Scalar | Array], Node]:
+def _operation(
+    name: str, neutral: int, absorbing: int | None = None
+) -> Callable[[Node, Scalar | Array], Node]:
     def of(self: Node, other: Scalar | Array) -> Node:
         """What the graph makes of two values; numpy takes an array apart."""
         if type(other) is not Node:
             if isinstance(other, np.ndarray):
                 return NotImplemented  # type: ignore[no-any-return]
+            if other == neutral and self.level:
+                return self
+            if other == absorbing and self.level:
+                return self.graph.zero
             other = self.graph.constant(other)
         made: Node = getattr(self.graph, name)(self, other)
         return made
@@ -64,9 +70,9 @@ class Node:
     def __repr__(self) -> str:
         return f"{self.op}#{self.index}"
 
-    __add__ = __radd__ = _operation("add")
-    __sub__, __truediv__ = _operation("sub"), _operation("div")
-    __mul__ = __rmul__ = _operation("mul")
+    __add__ = __radd__ = _operation("add", 0)
+    __sub__, __truediv__ = _operation("sub", 0), _operation("div", 1)
+    __mul__ = __rmul__ = _operation("mul", 1, 0)
 
     def __rsub__(self, other: Scalar) -> Node:
         return self.graph.sub(self.graph.constant(other), self)
@@ -161,6 +167,7 @@ class Graph:
     def __init__(self) -> None:
         self.nodes: list[Node] = []
         self.table: dict[tuple[object, ...], Node] = {}
+        self.constants: dict[float, Node] = {}
         self.count = {"number": 0, "common": 0, "channel": 0}
         self.names: dict[int, str] = {}
         self.nominal: dict[int, Numeric] = {}
@@ -170,10 +177,13 @@ class Graph:
 
     def constant(self, value: SupportsFloat) -> Node:
         number = float(value)
-        key = ("const", number, math.copysign(1.0, number)) if number == 0 else ("const", number)
-        node = self.table.get(key)
-        if node is None:
-            node = self.table[key] = Node(self, "const", None, None, number, CONSTANT)
+        node = self.constants.get(number)
+        if node is None or (number == 0 and math.copysign(1.0, number) < 0):
+            key = ("const", math.copysign(1.0, number), number)
+            node = self.table.get(key)
+            if node is None:
+                node = self.table[key] = Node(self, "const", None, None, number, CONSTANT)
+                self.constants.setdefault(number, node)
         return node
 
     def input(self, kind: str, name: str, nominal: Numeric) -> Node:
@@ -377,7 +387,6 @@ def unit_value(x: Scalar) -> float:
 def trace_array(graph: Graph, array: object) -> Array:
     """An array of nodes: numbers become constants."""
     source = np.asarray(array)
-    out = np.empty(source.shape, object)
-    for place, x in np.ndenumerate(source):
-        out[place] = x if type(x) is Node else graph.constant(x)
-    return out
+    out = np.empty(source.size, object)
+    out[:] = [x if type(x) is Node else graph.constant(x) for x in source.ravel().tolist()]
+    return out.reshape(source.shape)

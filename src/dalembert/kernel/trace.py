@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -104,7 +105,6 @@ class Traced:
     moment: Array
     effort: Array
     load: Array
-    residual: Node
     unbalanced: Array
     loads: Array
     virtual: Array
@@ -115,6 +115,14 @@ class Traced:
     friction: FrictionTrace
     flips: bool
     sources: dict[str, Source]
+    graph: Graph
+    scale: Array
+
+    @cached_property
+    def residual(self) -> Node:
+        """Largest out-of-balance force (moment over length) over the largest load."""
+        out, size = (trace_array(self.graph, a * self.scale) for a in (self.unbalanced, self.loads))
+        return _largest(self.graph, out) / (_largest(self.graph, size) + 1e-300)
 
 
 def trace(p: Problem) -> Traced:
@@ -158,7 +166,6 @@ def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> 
         moment=trace_array(g, couple.reshape(friction.moment.shape) + friction.moment),
         effort=trace_array(g, effort),
         load=trace_array(g, found.load),
-        residual=_residual(g, layout, reacted, friction.total),
         unbalanced=trace_array(g, reacted + friction.total),
         loads=trace_array(g, friction.total),
         virtual=trace_array(g, moving.virtual),
@@ -176,6 +183,8 @@ def _trace_at(p: Problem, layout: Layout, placed: Placed, apart: list[Node]) -> 
         friction=friction,
         flips=placed.flips,
         sources=sources,
+        graph=g,
+        scale=layout.wrench_scale,
     )
 
 
@@ -232,8 +241,10 @@ def _with_phase(p: Problem, layout: Layout) -> tuple[Array, list[Node]]:
     """Targets of meshes and rolling wheels: their measures at the first position, of each design its own; and what
     is negative where wheels do not meet there."""
     rows = phase_rows(layout.constraints)
+    if not rows.size:
+        return p.target, []
     geometry = [a for f in layout.stack.families for n, a in vars(f).items() if n not in ("row", "i", "j")]
-    if not rows.size or not any(type(x) is Node for a in geometry for x in np.ravel(a)):
+    if not any(type(x) is Node for a in geometry for x in np.ravel(a)):
         return p.target, []
     kept = np.setdiff1d(np.arange(layout.constraints.count), rows)
     known = np.concatenate([p.like_target[kept], p.like_target[layout.constraints.count :]])
@@ -278,13 +289,6 @@ def _multipliers(p: Problem, layout: Layout, pose: Pose, s: Statement) -> tuple[
     return x, total
 
 
-def _residual(graph: Graph, layout: Layout, reacted: Array, w: Array) -> Node:
-    """Largest out-of-balance force (moment over length) over the largest load."""
-    scale = layout.wrench_scale
-    out, size = trace_array(graph, (reacted + w) * scale), trace_array(graph, w * scale)
-    return _largest(graph, out) / (_largest(graph, size) + 1e-300)
-
-
 def _largest(graph: Graph, array: Array) -> Node:
     top = graph.zero
     for x in array.ravel():
@@ -303,7 +307,7 @@ def _singular(p: Problem, *factors: object) -> list[Node]:
     pivots = [x for f in {id(f): f for f in factors}.values() for x in _pivots(f)]
     out = []
     for pivot, sample in zip(pivots, p.graph.evaluate(pivots, {}), strict=True):
-        usual = float(np.nanquantile(np.abs(sample), 0.75))
+        usual = float(abs(sample) if np.ndim(sample) == 0 else np.nanquantile(np.abs(sample), 0.75))
         if usual > 0:
             out.append(pivot * pivot * (1 / usual**2) - NEAR)
     return out
@@ -334,6 +338,8 @@ executor says whether it is none."""
 
 def _unheld(graph: Graph, layout: Layout, spins: Array, w: Array) -> list[Node]:
     """Below zero where loads turn a link about the line of its two ball joints, which nothing holds."""
+    if not spins.size:
+        return []
     size = HELD * layout.length * _largest(graph, trace_array(graph, w * layout.wrench_scale))
     return [size - abs(x) for x in spins if not is_zero(x)]
 

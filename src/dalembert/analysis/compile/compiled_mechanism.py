@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from itertools import combinations, starmap
 
@@ -18,7 +18,7 @@ from dalembert.arrays import Array, Tree
 from dalembert.core.equilibrium import Known
 from dalembert.core.forcing import Forcing
 from dalembert.core.friction.contact_equations import Contacts
-from dalembert.core.layout import Layout
+from dalembert.core.layout import Layout, Rows
 from dalembert.core.position.first_pose_plane import Guess, Modes
 from dalembert.core.position.first_pose_space import Drawing
 from dalembert.errors import ModelError
@@ -145,8 +145,17 @@ class _Joined:
         self.at = {name: m.joint_points(name) for name in m.joints}
         driven = ((name, d.joint, d.freedom, d.axis, d.turns) for name, d in m.drives.items())
         parts = (*m.joints.values(), m.friction, *m.assembly.values())
-        numbers = (m.dimension, redundant, drives, *driven, *m.links, *self.at.items(), *m.assembly)
-        self.key = (*numbers, *map(id, parts))  # its mechanism keeps the parts alive
+        self.unplaced = (
+            m.dimension,
+            redundant,
+            drives,
+            *driven,
+            *m.links,
+            *m.joints,
+            *m.assembly,
+            *map(id, parts),
+        )
+        self.key = (*self.unplaced, *self.at.values())  # its mechanism keeps the parts alive
 
     def __hash__(self) -> int:
         return hash(self.key)
@@ -155,10 +164,58 @@ class _Joined:
         return isinstance(other, _Joined) and self.key == other.key
 
 
+class _Unplaced:
+    """The same wherever the joints' points stand on their links."""
+
+    def __init__(self, joined: _Joined) -> None:
+        self.joined = joined
+
+    def __hash__(self) -> int:
+        return hash(self.joined.unplaced)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Unplaced) and self.joined.unplaced == other.joined.unplaced
+
+
 @lru_cache(maxsize=32)
 def _geometry(joined: _Joined) -> Tree:
     """Geometries met lately, for all threads."""
-    return _lay_out(joined, None)
+    like, found = _first_placed(_Unplaced(joined))
+    if like.key == joined.key:
+        return found
+    whole = joined.m.dimension == 3 or found["contacts"] or np.isfinite(found["guess"].point).any()
+    return _lay_out(joined, None) if whole else found | {"layout": _moved(joined, found)}
+
+
+@lru_cache(maxsize=32)
+def _first_placed(unplaced: _Unplaced) -> tuple[_Joined, Tree]:
+    """The geometry of those joints that was met first."""
+    return unplaced.joined, _lay_out(unplaced.joined, None)
+
+
+def _moved(joined: _Joined, found: Tree) -> Layout:
+    """The layout of the same joints in the plane, without friction, at other points of their links."""
+    m, at = joined.m, joined.at
+    layout: Layout = found["layout"]
+    index = _numbers(found["links"])
+    reference = _references(m, index, at)
+    ends = np.array([[index[link] for link in joint.links] for joint in m.joints.values()], np.intp)
+    arms = table.numbers(list(at.values())).reshape(-1, 2, 2) - reference[ends.reshape(-1, 2)]
+
+    def moved(rows: Rows) -> Rows:
+        families = []
+        for f in rows.families:
+            ui, uj = arms[rows.joint[f.row[:, 0] if f.row.ndim > 1 else f.row]].swapaxes(0, 1)
+            families.append(type(f)(**{**vars(f), "ui": ui, "uj": uj}) if hasattr(f, "ui") else f)
+        return replace(rows, families=tuple(families))
+
+    return replace(
+        layout,
+        constraints=moved(layout.constraints),
+        freedoms=moved(layout.freedoms),
+        length=characteristic_length(m, at),
+        reference=reference,
+    )
 
 
 def _lay_out(joined: _Joined, like: Compiled | None) -> Tree:

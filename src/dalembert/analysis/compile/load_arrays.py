@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any, Literal
 
 import numpy as np
@@ -56,11 +56,11 @@ def forcing(s: Setting) -> Forcing:
     m, g = s.m, s.g
     forces, couples = load_forces(s)
     links = [name for name in m.links if name != "ground"]
-    centers = [np.subtract(m.center(k), s.reference[s.index[k]]) for k in links]
+    centers = numbers([m.center(k) for k in links]).reshape(-1, g.d)
     return Forcing(
         inertia=Inertia(
             mass=numbers([m.mass(k) for k in links]),
-            center=numbers(centers).reshape(-1, g.d),
+            center=centers - s.reference[: len(links)],
             inertia=numbers([_inertia(m, k) for k in links]).reshape(len(links), -1),
             gravity=np.array(m.gravity_vector),
         ),
@@ -203,6 +203,8 @@ def _effort(s: Setting, name: str, schedule: Schedule) -> Array:
 def unknown_columns(s: Setting, schedule: Schedule, unknown: tuple[str, ...]) -> Known:
     """What is given of the efforts, and what is asked of the loads."""
     g = s.g
+    if not unknown and all(s.m.drives[n].effort is None for n in schedule.names):
+        return _efforts_asked(len(schedule.names), s.count, g.d, g.n)
     effort = [_effort(s, name, schedule) for name in schedule.names]
     asked = np.array(
         [s.m.drives[n].effort is None or schedule.unknown is not None for n in schedule.names], bool
@@ -225,6 +227,16 @@ def unknown_columns(s: Setting, schedule: Schedule, unknown: tuple[str, ...]) ->
         about=numbers(about).reshape(-1, g.n - g.d),
         follows=np.array([load.axes == "link" for load in loads], bool),
         couple=np.array([load.ON == "link" for load in loads], bool),
+    )
+
+
+@lru_cache(maxsize=32)
+def _efforts_asked(drives: int, count: int, d: int, n: int) -> Known:
+    """All efforts asked for, and no loads."""
+    none, never = np.zeros((0, d)), np.zeros(0, bool)
+    effort = np.broadcast_to(np.nan, (count, drives))
+    return Known(
+        np.ones(drives, bool), effort, np.zeros(0, np.intp), none, none, np.zeros((0, n - d)), never, never
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from contextlib import suppress
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +12,7 @@ from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.engine.kept_program import KeptProgram
 from dalembert.analysis.positions import mode_sentence
 from dalembert.arrays import Array
-from dalembert.core.position.assembly_modes import NEAR, wrap_angle
+from dalembert.core.position.assembly_modes import NEAR
 from dalembert.core.position.first_pose_plane import Guess
 
 AGREES = 1e-6
@@ -24,6 +26,9 @@ class First(NamedTuple):
     turn: Array
     mode: str | None
 
+
+FEW = 6
+"""Sets of ways that are tried one after the other, on single numbers; more of them side by side."""
 
 REMEMBERED = 32
 """First poses of a structure that are remembered."""
@@ -54,11 +59,16 @@ def _key(k: KeptProgram, c: Compiled, given: list[object]) -> tuple[object, ...]
 
 
 def _tried(k: KeptProgram, given: list[object], ways: Array) -> tuple[Array, Array]:
-    """Cosines and sines (2, L, W) of the first position for ways (G, W), and closure (M, W)."""
+    """Cosines and sines (2, L, W) of the first position for ways (G, W), and closure (M, W); NaN where it has none."""
     rotation, closure = k.nodes["rotation"], k.nodes["closure"]
-    out = np.empty((rotation.size + closure.size, ways.shape[1]))
-    with np.errstate(all="ignore"):
-        k.try_ways([*given, *ways], out)
+    out = np.full((rotation.size + closure.size, ways.shape[1]), np.nan)
+    if ways.shape[1] > FEW:
+        with np.errstate(all="ignore"):
+            k.try_ways([*given, *ways], out)
+    else:
+        for column, way in zip(out.T, ways.T.tolist(), strict=True):
+            with suppress(ArithmeticError, ValueError):
+                k.try_ways([*given, *way], column, one=True)
     return out[: rotation.size].reshape(*rotation.shape, -1), out[rotation.size :]
 
 
@@ -69,21 +79,42 @@ def _by_given_angles(k: KeptProgram, c: Compiled, given: list[object]) -> First 
     """
     guess = c.guess
     assert isinstance(guess, Guess)
-    told = np.isfinite(guess.turn[:-1])
-    if not told.any() or (k.counted & ~k.fixed & ~told).any() or np.isfinite(guess.point[:-1]).any():
+    wanted = guess.turn[:-1].tolist()
+    told = [math.isfinite(x) for x in wanted]
+    loose = (k.counted & ~k.fixed).tolist()
+    if not any(told) or any(x and not y for x, y in zip(loose, told, strict=True)):
+        return None
+    if np.isfinite(guess.point[:-1]).any():
         return None
     count = len(k.ways)
-    flips = 1.0 - 2.0 * np.eye(count, count + 1, 1)
-    rotation, closure = _tried(k, given, np.array(k.ways)[:, None] * flips)
-    angle = np.arctan2(rotation[1], rotation[0]).T
-    wanted = np.where(told, guess.turn[:-1], angle[0])
-    off = wrap_angle(angle - wanted)
-    if not ((closure[:, 0] >= 0).all() and (off[0] ** 2).sum() < NEAR**2):
+    rotation, closure = _tried(
+        k, given, np.array(k.ways)[:, None] * (1.0 - 2.0 * np.eye(count, count + 1, 1))
+    )
+    if not (closure[:, 0] >= 0).all():
         return None
-    other = np.where(k.last == np.arange(count)[:, None], np.abs(off[1:]) * told, 0.0)
-    if not (other.max(axis=1, initial=0.0) > NEAR).all():
+    cosine, sine = rotation.tolist()
+    last, ways = k.last.tolist(), [list[float]() for _ in range(count)]
+    turn, missed = [], 0.0
+    for link, known in enumerate(told):
+        angle = math.atan2(sine[link][0], cosine[link][0])
+        if known:
+            off = _wrapped(angle - wanted[link])
+            missed += off * off
+            group = last[link]
+            if group >= 0:
+                other = math.atan2(sine[link][group + 1], cosine[link][group + 1])
+                ways[group].append(abs(_wrapped(other - wanted[link])))
+        turn.append(wanted[link] + off if known and k.counted[link] else angle)
+    if not missed < NEAR**2 or any(
+        not (all(map(math.isfinite, w)) and max(w, default=0.0) > NEAR) for w in ways
+    ):
         return None
-    return First(k.ways, np.where(k.counted, wanted + off[0], angle[0]), None)
+    return First(k.ways, np.array(turn), None)
+
+
+def _wrapped(angle: float) -> float:
+    """An angle reduced to (-pi, pi]; NaN of none."""
+    return angle - 2 * math.pi * math.ceil(angle / (2 * math.pi) - 0.5) if math.isfinite(angle) else angle
 
 
 def _by_search(k: KeptProgram, c: Compiled, given: list[object]) -> First | None:

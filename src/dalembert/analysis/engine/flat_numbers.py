@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
+from itertools import islice
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -59,10 +60,12 @@ def flat_numbers(c: Compiled, pose: Pose | None = None) -> Numbers:
         _flatten_along(array, rows, along)
     values = np.concatenate(single)
     different, which = _by_first_place(values)
-    columns = np.concatenate(along, axis=1).T
+    columns = np.concatenate([a.T for a in along])
     constant = np.full(len(columns), VARIES)
-    constant[~columns.any(axis=1)] = 0.0
-    constant[np.isnan(columns).all(axis=1)] = np.nan
+    first = columns[:, 0]
+    some = np.flatnonzero((first == 0) | (first != first))  # no other is all 0, or no number at any position
+    constant[some[~columns[some].any(axis=1)]] = 0.0
+    constant[some[np.isnan(columns[some]).all(axis=1)]] = np.nan
     constant[: len(c.schedule.names)] = VARIES
     if pose is not None:
         held = _held(c, pose)
@@ -162,10 +165,9 @@ class _Nodes:
             return self.along(like)
         changes = _changes(kind, part, like)
         source, shape = (self.columns, (1, *like.shape[1:])) if changes else (self.single, like.shape)
-        out = np.empty(shape, object)
-        for place in np.ndindex(shape):
-            out[place] = next(source)
-        return out if any(isinstance(x, Node) for x in out.flat) else out.astype(float)
+        found = list(islice(source, math.prod(shape)))
+        out = np.array(found, object if any(type(x) is Node for x in found) else float)
+        return out.reshape(shape)
 
     def along(self, like: Array) -> Array:
         """One position of an array along the positions."""
@@ -207,7 +209,7 @@ def with_nodes(graph: Graph, c: Compiled, numbers: Numbers, pose: Pose | None = 
     ]
     columns: list[Node | float] = [
         float(kind) if kind != VARIES else graph.input("channel", f"column {k}", column)
-        for k, (column, kind) in enumerate(zip(numbers.columns, numbers.constant, strict=True))
+        for k, (column, kind) in enumerate(zip(numbers.columns, numbers.constant.tolist(), strict=True))
     ]
     single = [different[k] for k in numbers.which]
     count, drives = len(c.target), len(c.schedule.names)

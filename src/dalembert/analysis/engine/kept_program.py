@@ -16,7 +16,7 @@ import numpy as np
 
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.engine.flat_numbers import Numbers, Symbols, with_nodes
-from dalembert.arrays import Array, Flags, Ints
+from dalembert.arrays import Array, Flags, Ints, Numeric
 from dalembert.core.layout import Layout, Pose
 from dalembert.core.position.assembly_modes import counted_links
 from dalembert.kernel.emit.numpy_program import NumpyProgram
@@ -146,6 +146,11 @@ class KeptProgram(Outputs):
         return int(self.rows[POSE[-1]].stop)
 
     @cached_property
+    def free(self) -> Ints:
+        """Links whose angle the drives alone do not give."""
+        return np.flatnonzero(~self.fixed)
+
+    @cached_property
     def run_pose(self) -> NumpyProgram:
         """The outputs of the pose at positions."""
         return NumpyProgram(self.graph, self.inputs, self.outputs(*POSE))
@@ -165,20 +170,23 @@ class KeptProgram(Outputs):
 
 
 class DeadCentreError(Exception):
-    """Raised where both ways of a group are one: a structure is traced in another pose."""
+    """Raised where both ways of a group are one, or its pose does not say which: it is traced in another pose."""
 
 
 def trace_structure(c: Compiled, numbers: Numbers, pose: Pose, inertia: bool) -> KeptProgram | None:
-    """The program of a mechanism whose first pose (1, L+1, ...) is known; None where it needs more than its numbers."""
+    """The program of a mechanism whose first pose (L+1, ...) is known; None where it needs more than its numbers."""
     graph = Graph()
-    numbers = numbers._replace(columns=numbers.columns[:, :1])
+    numbers = numbers._replace(columns=numbers.columns[:, 0])
     symbols = with_nodes(graph, c, numbers)
     known: dict[tuple[str, int], Node] = {}
     ways = _Ways(graph, pose)
 
     def path(what: str, which: int) -> Node:
         if (what, which) not in known:
-            known[what, which] = graph.input("channel", f"known {what} {which}", _known(pose, what, which))
+            value = _known(pose, what, which)
+            if not np.isfinite(value):
+                raise DeadCentreError
+            known[what, which] = graph.input("channel", f"known {what} {which}", value)
         return known[what, which]
 
     try:
@@ -235,9 +243,9 @@ def _circular(f: str, angle: Scalar) -> Scalar:
     return node
 
 
-def _known(pose: Pose, what: str, which: int) -> Array:
-    columns = {"x": pose.point[:, which, 0], "y": pose.point[:, which, 1], "turn": pose.turn[:, which]}
-    columns |= {"turn cos": pose.rotation[:, which, 0], "turn sin": pose.rotation[:, which, 1]}
+def _known(pose: Pose, what: str, which: int) -> Numeric:
+    columns = {"x": pose.point[which, 0], "y": pose.point[which, 1], "turn": pose.turn[which]}
+    columns |= {"turn cos": pose.rotation[which, 0], "turn sin": pose.rotation[which, 1]}
     if what not in columns:
         raise KeyError(what)
     return columns[what]
@@ -252,13 +260,12 @@ class _Ways:
     def __call__(self, plus: tuple[Scalar, ...], minus: tuple[Scalar, ...], a: int, b: int) -> Node:
         nodes = [n if isinstance(n, Node) else self.graph.constant(n) for n in (*plus, *minus)]
         pc, ps, mc, ms = self.graph.evaluate(nodes, {})
-        r = self.pose.rotation
-        cos = r[:, a, 0] * r[:, b, 0] + r[:, a, 1] * r[:, b, 1]
-        sin = r[:, a, 0] * r[:, b, 1] - r[:, a, 1] * r[:, b, 0]
+        (ca, sa), (cb, sb) = self.pose.rotation[[a, b]].tolist()
+        cos, sin = ca * cb + sa * sb, ca * sb - sa * cb
         nearer = np.hypot(mc - cos, ms - sin) - np.hypot(pc - cos, ps - sin)
-        if not abs(nearer[0]) > 0:
+        if not abs(nearer) > 0:
             raise DeadCentreError
-        self.inputs.append(self.graph.input("common", f"way {len(self.inputs)}", float(np.sign(nearer[0]))))
+        self.inputs.append(self.graph.input("common", f"way {len(self.inputs)}", float(np.sign(nearer))))
         return self.inputs[-1]
 
 
@@ -312,9 +319,11 @@ def _needs(graph: Graph, ways: list[Node], known: set[int]) -> list[int]:
     bits = {n.index: 1 << k for k, n in enumerate(ways)}
     out: list[int] = []
     for n in graph.nodes:
-        if n.a is not None:
-            a, b = out[n.a.index], out[(n.b or n.a).index]
-            out.append(-1 if a < 0 or b < 0 else a | b)
-        else:
+        if n.a is None:
             out.append(-1 if n.op in INPUTS and n.index not in known else bits.get(n.index, 0))
+        elif n.b is None:
+            out.append(out[n.a.index])
+        else:
+            one, two = out[n.a.index], out[n.b.index]
+            out.append(-1 if one < 0 or two < 0 else one | two)
     return out

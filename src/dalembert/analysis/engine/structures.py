@@ -8,9 +8,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from dalembert.algebra import plane
 from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.engine.first_way import First, first_way, remember
-from dalembert.analysis.engine.flat_numbers import flat_numbers, values
+from dalembert.analysis.engine.flat_numbers import Numbers, flat_numbers, values
 from dalembert.analysis.engine.force_program import ForceBlock, ForceProgram, force_blocks, trace_forces
 from dalembert.analysis.engine.kept_program import DeadCentreError, KeptProgram, Outputs, trace_structure
 from dalembert.analysis.positions import mode_sentence
@@ -98,20 +99,36 @@ def ready(c: Compiled, inertia: bool) -> Ready | None:
         if large and calls < 1 + c.layout.links // OFTEN:
             STRUCTURES.put(key, _Met(calls))
             return None
-        modes = c.first_modes
-        if modes is None:
-            return None
         try:
-            program = trace_structure(c, numbers, modes.pose.at(slice(0, 1)), inertia)
+            program = _traced(c, numbers, given, inertia)
         except DeadCentreError:
             return None
-        if program is not None:
-            remember(program, c, given, First(program.ways, modes.pose.turn[0, :-1], mode_sentence(c, modes)))
         STRUCTURES.put(key, program)
     if not isinstance(program, KeptProgram):
         return None
     first = first_way(program, c, given)
     return None if first is None else Ready(program, single, columns, first)
+
+
+def _traced(c: Compiled, numbers: Numbers, given: list[object], inertia: bool) -> KeptProgram | None:
+    """The program of a structure met for the first time: traced the way its given angles say, without a search, or
+    where they leave open which way a group closes, in its first pose; None where it has neither."""
+    assert isinstance(c.guess, Guess)
+    if np.isfinite(c.guess.turn[:-1]).any():
+        turn = c.guess.angles(c.layout, c.first_target)
+        try:
+            program = trace_structure(c, numbers, Pose(c.guess.point, turn, plane.rotation(turn)), inertia)
+        except DeadCentreError:
+            pass
+        else:
+            return program
+    modes = c.first_modes
+    if modes is None:
+        raise DeadCentreError
+    program = trace_structure(c, numbers, modes.pose.at(0), inertia)
+    if program is not None:
+        remember(program, c, given, First(program.ways, modes.pose.turn[0, :-1], mode_sentence(c, modes)))
+    return program
 
 
 def known_forces(c: Compiled, pose: Pose, inertia: bool) -> ForceBlock | None:

@@ -69,23 +69,24 @@ def with_between(k: KeptProgram, columns: Array, walk: Walk) -> Array:
 
 def count_turns(k: KeptProgram, out: Array, way: Walk, first: Array) -> bool:
     """Put in the links' angles, whole turns counted along the motion; not where one of them turns far at a step."""
-    free = np.flatnonzero(~k.fixed)
+    free = k.free
+    if len(way.order) == 1:
+        out[k.rows["turn"].start + free] = first[free, None]
+        return True
     at_once = max(1, MANY // len(way.order))
     for start in range(0, len(free), at_once):
         links = free[start : start + at_once]
         rows = k.rows["rotation"].start + links
         angle = np.arctan2(out[rows + len(k.fixed)], out[rows])
-        if len(way.order) == 1:
-            out[k.rows["turn"].start + links] = first[links, None]
-            continue
-        turns = np.diff(angle[:, way.order], axis=1)
-        step = turns.copy()
-        np.rint(turns / (2 * np.pi), out=turns)
-        step -= 2 * np.pi * turns
-        if (np.abs(step) > TURN).any():
+        step = np.diff(angle[:, way.order], axis=1)
+        turns = np.rint(step / (2 * np.pi))
+        if turns.any():
+            step -= 2 * np.pi * turns
+        if (np.abs(step, out=step) > TURN).any():
             return False
         whole = np.zeros_like(angle)
-        whole[:, way.order[1:]] = -np.cumsum(turns, axis=1)
+        if turns.any():
+            whole[:, way.order[1:]] = -np.cumsum(turns, axis=1)
         whole += (np.rint((first[links] - angle[:, 0]) / (2 * np.pi)) - whole[:, 0])[:, None]
         out[k.rows["turn"].start + links] = angle + 2 * np.pi * whole
     return True

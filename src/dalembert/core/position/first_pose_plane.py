@@ -65,6 +65,12 @@ class Guess:
         """The links laid down joint by joint (L+1, ...): before any correction."""
         return tree_pose(layout, target, self)
 
+    def angles(self, layout: Layout, target: Array) -> Array:
+        """The given angles (L+1,) and those that follow from them and the drives, NaN where none does."""
+        turn = np.append(self.turn[:-1], 0.0)[None]
+        _spread_turns(turn, target, _edges(layout))
+        return np.asarray(turn[0])
+
     def near(self, pose: Pose) -> Guess:
         """The guess with what it leaves open taken from a pose (L+1, ...), and no points."""
         turn = np.where(np.isfinite(self.turn), self.turn, pose.turn)

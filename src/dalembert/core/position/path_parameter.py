@@ -87,4 +87,5 @@ def walk(layout: Layout, drives: Array) -> tuple[Ints, Array, Array]:
         order = np.argsort(drives[:, 0], kind="stable")
     angular = layout.freedoms.angular[layout.driven]
     moves = np.diff(drives[order], axis=0) * np.where(angular, 1.0, 1 / layout.length)
-    return order, moves, np.concatenate([[0.0], np.cumsum(np.abs(moves).max(axis=1, initial=0.0))])
+    way = np.abs(moves[:, 0]) if drives.shape[1] == 1 else np.abs(moves).max(axis=1, initial=0.0)
+    return order, moves, np.concatenate([[0.0], np.cumsum(way)])

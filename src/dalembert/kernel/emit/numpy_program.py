@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from functools import cached_property
 
 from dalembert.arrays import Array, Numeric
-from dalembert.kernel.graph import INPUTS, POSITION, Graph, Node
+from dalembert.kernel.graph import POSITION, Graph, Node
 from dalembert.kernel.operations import EVALUATE
 
 SINGLE: dict[str, Callable[..., Numeric]] = EVALUATE | {
@@ -35,32 +35,38 @@ class NumpyProgram:
         self, graph: Graph, inputs: Sequence[Node], outputs: Sequence[Node], many: bool = False
     ) -> None:
         order = graph.order(outputs)
-        self.start: list[object] = [None] * len(inputs)
+        start: list[object] = [None] * len(inputs)
         place = {node.index: k for k, node in enumerate(inputs)}
-        last = {x.index: n.index for n in order for x in (n.a, n.b) if x is not None}
+        last: dict[int, int] = {}
+        for n in order:
+            if n.a is not None:
+                last[n.a.index] = last[(n.a if n.b is None else n.b).index] = n.index
         wanted: dict[int, list[int]] = {}
         for k, node in enumerate(outputs):
             wanted.setdefault(node.index, []).append(k)
-        self.steps: list[tuple[Callable[..., Numeric], int, int, int]] = []
-        self.fills: list[tuple[int, int]] = []
+        steps: list[tuple[Callable[..., Numeric], int, int, int]] = []
         free: list[int] = []
+        passing: set[int] = set()  # what is computed and no output: its place is taken again
         for n in order:
             if n.op == "const":
-                place[n.index] = len(self.start)
-                self.start.append(n.value)
-            elif n.op not in INPUTS:
-                assert n.a is not None
-                a, b = place[n.a.index], place[(n.b or n.a).index]
-                for x in {n.a.index, (n.b or n.a).index}:
-                    if last[x] == n.index and x not in wanted and graph.nodes[x].a is not None:
-                        free.append(place[x])
+                place[n.index] = len(start)
+                start.append(n.value)
+            elif n.a is not None:
+                one, two = n.a.index, -1 if n.b is None else n.b.index
+                if last[one] == n.index and one in passing:
+                    free.append(place[one])
+                if two not in (-1, one) and last[two] == n.index and two in passing:
+                    free.append(place[two])
                 if not free:
-                    free.append(len(self.start))
-                    self.start.append(None)
-                place[n.index] = free.pop()
+                    free.append(len(start))
+                    start.append(None)
+                if n.index not in wanted:
+                    passing.add(n.index)
+                place[n.index] = there = free.pop()
                 operations = EVALUATE if many or n.level & POSITION else SINGLE
-                self.steps.append((operations[n.op], a, -1 if n.b is None else b, place[n.index]))
-            self.fills += [(row, place[n.index]) for row in wanted.get(n.index, ())]
+                steps.append((operations[n.op], place[one], place[two] if two >= 0 else -1, there))
+        self.start, self.steps = start, steps
+        self.fills = [(row, place[index]) for index, rows in wanted.items() for row in rows]
 
     @cached_property
     def single_steps(self) -> list[tuple[Callable[..., Numeric], int, int, int]]:

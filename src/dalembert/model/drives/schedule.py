@@ -12,8 +12,8 @@ from dalembert.errors import ModelError
 from dalembert.model.drives.drives import Drive, Range
 from dalembert.model.drives.laws import MOST
 
-Motion = tuple[Any, Array, Array, Array]
-"""Time, if a law says it, position, speed and acceleration of a drive."""
+Motion = tuple[Any, Any, Any, Any]
+"""Time, if a law says it, position, speed and acceleration of a drive: arrays, lists or single numbers."""
 
 
 @dataclass(frozen=True)
@@ -122,16 +122,14 @@ def _count(drives: Mapping[str, Drive], positions: int | None) -> int:
 
 def _motion(drive: Drive, size: int) -> Motion:
     """Time, position, speed and acceleration of one drive."""
-    import numpy as np
-
     if drive.law is not None:
         return drive.law.motion(size)
     position: object = drive.position
     if isinstance(position, Range):
-        position = _steps(position, size, drive.turns)
+        position = _steps(position, size, drive.turns) if size > 1 else position.start
     elif isinstance(position, str):
         position = math.nan
-    return None, np.asarray(position, float), np.asarray(drive.speed), np.asarray(drive.acceleration)
+    return None, position, drive.speed, drive.acceleration
 
 
 def _steps(span: Range, size: int, turns: bool) -> Array:
