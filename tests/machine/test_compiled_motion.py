@@ -115,6 +115,7 @@ def test_a_motion_that_cannot_go_on_is_undecided() -> None:
         (("effort: 0", "motor: {stall: 4 N*m, no_load: 9 rad/s, off: 1 s}"), [], "has corners or switches"),
         (("effort: 0", "effort: 2*cos(O2)"), [], "goes by positions or time"),
         (("", ""), ["start.O4.speed"], "is no number of a drive that forces move"),
+        (("", ""), ["drives.O2.position"], "vary 'start.O2.position'"),
     ],
 )
 def test_what_it_cannot_do_it_says(change: tuple[str, str], vary: list[str], sentence: str) -> None:

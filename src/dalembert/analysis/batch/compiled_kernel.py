@@ -72,7 +72,7 @@ def compile(  # noqa: A001
         raise ModelError(
             "the place of a peak has no derivative", 'leave derivatives out, or reduce by "peak"'
         )
-    kernel = Kernel(mechanism, trace, names, reduce, derivatives, lanes or _host_lanes())
+    kernel = Kernel(mechanism, trace, names, reduce, derivatives, lanes or lanes_here())
     if lanes is None and kernel.program(kernel.flat).waits:
         kernel = replace(kernel, lanes=2 * kernel.lanes)
     kernel.warm()
@@ -97,7 +97,7 @@ def _products(nodes: Sequence[Node]) -> list[Node]:
     return [a * b for a, b in zip(found[::2], found[1::2], strict=False)] + found[len(found) & ~1 :]
 
 
-def _host_lanes() -> int:
+def lanes_here() -> int:
     try:
         from dalembert.kernel.emit.machine_code import host_lanes
 

@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dalembert.analysis.batch import over_positions
+from dalembert.analysis.batch.checked_input import numbers
+from dalembert.analysis.batch.compiled_kernel import lanes_here
 from dalembert.analysis.batch.tracing.symbolic_model import Number
 from dalembert.arrays import Array, Flags
 from dalembert.errors import ModelError
@@ -104,8 +106,6 @@ def _compile(
     count: int,
     tolerance: float,
 ) -> MotionKernel:
-    from dalembert.kernel.emit.machine_code import host_lanes
-
     prescribed, moves = actuation(m, read_start(m, start))
     end, conditions = read_end(m, until, ())
     check_choices(count, tolerance)
@@ -113,20 +113,24 @@ def _compile(
         raise ModelError("a motion whose condition is never met has no end", 'add a time: until=["5 s", ...]')
     _refuse(moves)
     own = [path for path in vary if _of_drive(path)]
+    placed = next((path for path in vary if path.startswith("drives.") and path.endswith(".position")), "")
+    if placed:
+        raise ModelError(f"{placed!r} moves along the motion", f"vary 'start{placed[6:]}'")
     hidden = [p for path in vary if path not in own for p in reached(m, path) if _of_drive(p)]
     if hidden:
         raise ModelError(f"a number that varies sets {hidden[0]!r}", f"vary {hidden[0]!r} itself")
+    lanes = lanes_here()
     equation = trace_equation(prescribed, [path for path in vary if path not in own], outputs)
-    code = equation.steps(moves.free, host_lanes(), works=False)
+    code = equation.steps(moves.free, lanes, works=False)
     if code is None:
         raise ModelError("the motion is not smooth: friction, or loads that no formula gives", REMEDY)
     lines = _lines(moves)
     traced = equation.kernel.trace.numbers[: -2 * len(moves.names)]
-    numbers = (*traced, *(_number(moves, lines, path) for path in own))
-    places = [k for path in vary for k, n in enumerate(numbers) if f"{n.path}.".startswith(f"{path}.")]
+    where = (*traced, *(_number(moves, lines, path) for path in own))
+    places = [k for path in vary for k, n in enumerate(where) if f"{n.path}.".startswith(f"{path}.")]
     instants = 1 if reduce == "final" or not outputs else count
     block = MotionBlock(equation, code, tuple(conditions), end, tolerance, instants)
-    return MotionKernel(m, block, lines, numbers, tuple(places), reduce)
+    return MotionKernel(m, block, lines, where, tuple(places), reduce)
 
 
 def _refuse(moves: Actuation) -> None:
@@ -224,7 +228,7 @@ class MotionKernel:
 
     def _values(self, values: ArrayLike | None) -> Array:
         count = len(self.where)
-        given = np.asarray(self.nominal if values is None else values, float)
+        given = numbers("values", self.nominal if values is None else values)
         given = given.reshape(-1, max(count, 1))[:, :count] if given.ndim < 2 else given
         if given.ndim != 2 or given.shape[1] != count or not np.isfinite(given).all():
             raise ModelError(
