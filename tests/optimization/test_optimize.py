@@ -109,6 +109,42 @@ def test_a_method_whose_package_is_missing(method: str, monkeypatch: pytest.Monk
         da.optimize(da.four_bar(), BOX, "peak effort.O2", method=method)
 
 
+def test_the_least_closure_margin_over_a_turn_is_that_of_grashof() -> None:
+    """Of random cranks: the shortest and the longest distance from A to O4 are within what coupler and rocker reach."""
+    rng, ends = np.random.default_rng(2), np.append(np.linspace(0, 2 * np.pi, 24, endpoint=False), np.pi)
+    names = ["links.crank.points.A.0", "links.coupler.points.B.0", "links.rocker.points.B.0"]
+    k = da.compile(da.four_bar(), [*names, "links.ground.points.O4.0"], ["closure.B"], derivatives=True)
+    lengths = k.nominal * rng.uniform(0.6, 1.4, (200, 4))
+    margin = k(lengths, ends).value("closure.B").min(axis=1)
+    crank, coupler, rocker, ground = lengths.T
+    grashof = np.minimum(coupler + rocker - crank - ground, abs(ground - crank) - abs(coupler - rocker))
+    assert 50 < (grashof > 1e-3).sum() < 190
+    assert np.allclose(margin[grashof > 1e-3], grashof[grashof > 1e-3], rtol=0, atol=1e-12)
+    assert np.isnan(margin[grashof < -1e-3]).all()
+    assert np.allclose(
+        da.kinematics(da.four_bar())["closure.B"],
+        da.compile(da.four_bar(), outputs=["closure.B"])().value("closure.B")[0],
+        atol=1e-14,
+    )
+    engine = da.slider_crank()
+    rod, crank_length = engine.links["rod"].points["B"][0], engine.links["crank"].points["A"][0]
+    assert da.kinematics(engine)["closure.B"].min() == pytest.approx(rod - crank_length, rel=1e-3)
+
+
+@pytest.mark.long
+def test_a_design_with_every_kind_of_condition() -> None:
+    vary: Any = {**BOX, "links.crank.points.A.0": ("60 mm", "120 mm", "5 mm")}
+    where = ("closure.B >= 15 mm", "point.coupler.B.x <= 0.36 m", "abs(point.coupler.B.y) <= 270 mm", *WHERE)
+    best = da.optimize(da.four_bar(), vary, "peak speed.rocker", where, starts=20)
+    r, lengths = da.dynamics(best.mechanism), dict(zip(best.numbers, best.values, strict=True))
+    assert best.feasible
+    ground, rocker, crank = (lengths[path] for path in vary)
+    assert abs(crank / 0.005 - round(crank / 0.005)) < 1e-9
+    assert min(0.3 + rocker - crank - ground, ground - crank - abs(0.3 - rocker)) >= 15e-3 - 1e-4
+    assert r["point.coupler.B.x"].max() <= 0.36 + 1e-6
+    assert np.abs(r["point.coupler.B.y"]).max() <= 0.27 + 1e-6
+
+
 @pytest.mark.long
 def test_steps() -> None:
     vary: Any = {**BOX, "links.rocker.points.B.0": (0.2, 0.28, "5 mm")}

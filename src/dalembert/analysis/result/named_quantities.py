@@ -11,8 +11,11 @@ from dalembert.algebra import plane
 from dalembert.analysis.output.columns import OF_LINKS, OF_POINTS, drive_kinds, load_kind
 from dalembert.analysis.result.quantity_expressions import check_units, kind_of, parse_quantity
 from dalembert.analysis.result.transmission_lines import (
-    angle_between,
+    Line,
+    OfLines,
+    closure_margin,
     ground_points,
+    transmission_angle,
     transmission_lines,
     transmission_names,
 )
@@ -51,14 +54,20 @@ def _magnitude(r: Result, joint: str) -> Array:
     return np.asarray(np.linalg.norm(r.reaction(joint), axis=-1))
 
 
-def _transmission(r: Result, of: str) -> Array:
-    lines = [
-        np.broadcast_to(line.along, (len(r.status), 2))
-        if line.link == GROUND
-        else plane.rotate(plane.rotation(r.angle(line.link)), line.along)
-        for line in transmission_lines(r.mechanism, of)
-    ]
-    return np.asarray(angle_between(*lines))
+def _hinge(value: OfLines) -> Read:
+    """What is made of the two lines of a hinge."""
+
+    def read(r: Result, of: str) -> Array:
+        lines = transmission_lines(r.mechanism, of)
+        return np.asarray(value(_turned(r, lines[0]), _turned(r, lines[1]), lines))
+
+    return read
+
+
+def _turned(r: Result, line: Line) -> Array:
+    if line.link == GROUND:
+        return np.broadcast_to(line.along, (len(r.status), 2))
+    return plane.rotate(plane.rotation(r.angle(line.link)), line.along)
 
 
 def _pressure(r: Result, joint: str) -> Array:
@@ -90,7 +99,8 @@ READ: dict[str, tuple[str, str, Read]] = {
     "power_lost": ("joints", "power", _of("power_lost")),
     "drive": ("drives", "", _of("drive_position")),
     "power": ("drives", "power", lambda r, of: r.effort(of) * r.drive_speed(of)),
-    "transmission": ("hinges", "angle", _transmission),
+    "transmission": ("hinges", "angle", _hinge(transmission_angle)),
+    "closure": ("hinges", "length", _hinge(closure_margin)),
     "pressure": ("sized bearings", "pressure", _pressure),
     "shaking": ("", "force", _shaking("force")),
     "shaking_moment": ("fixed points", "moment", _shaking("moment")),

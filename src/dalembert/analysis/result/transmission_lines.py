@@ -6,6 +6,7 @@ away. Of several other joints the first in the file is meant, or the one that is
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -23,6 +24,11 @@ class Line(NamedTuple):
 
     link: str
     along: Array
+    slides: bool = False
+
+
+OfLines = Callable[[Array, Array, Sequence[Line]], Numeric]
+"""Of the two lines at a hinge, turned to where they stand (..., 2), and as they are on their links."""
 
 
 def transmission_names(m: Mechanism) -> list[str]:
@@ -66,15 +72,34 @@ def _line(m: Mechanism, link: str, joint: str, at: Vector, other: str) -> Line:
     part = m.joints[other]
     if isinstance(part, Slider):
         angle = part.direction
-        return Line(part.links[0], np.array([-np.sin(angle), np.cos(angle)]))
+        return Line(part.links[0], np.array([-np.sin(angle), np.cos(angle)]), slides=True)
     there = m.joint_points(other)[part.links.index(link)]
     return Line(link, np.subtract(there, at))
 
 
-def angle_between(a: Array, b: Array) -> Numeric:
+def transmission_angle(a: Array, b: Array, lines: Sequence[Line]) -> Numeric:
     """Acute angle of two lines (..., 2), 0 to a quarter turn."""
     across = abs(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
     return np.arctan2(across, abs((a * b).sum(axis=-1)))
+
+
+def closure_margin(a: Array, b: Array, lines: Sequence[Line]) -> Numeric:
+    """How much farther apart, or nearer to each other, the far ends of two lines (..., 2) could stand before the lines
+    are stretched or folded and the linkage opens: min(a + b - d, d - |a - b|); across a slide, a - |offset|.
+
+    Over a whole turn of a four-bar's crank its least value is the margin of Grashof's condition for that crank.
+    """
+    slides = [line.slides for line in lines]
+    if all(slides):
+        raise ModelError(
+            "a pin between two links that slide has no closure margin", "take its transmission angle"
+        )
+    if any(slides):
+        size = np.sqrt(((b if slides[0] else a) ** 2).sum(axis=-1))
+        return size - abs((a * b).sum(axis=-1))
+    one, two, apart = (np.sqrt((x * x).sum(axis=-1)) for x in (a, b, a - b))
+    stretched, folded = one + two - apart, apart - abs(one - two)
+    return (stretched + folded - abs(stretched - folded)) / 2
 
 
 def ground_points(m: Mechanism) -> dict[str, Vector]:

@@ -15,7 +15,13 @@ from dalembert.analysis.compile.compiled_mechanism import Compiled
 from dalembert.analysis.result.link_motion import LinkMotion, place_of
 from dalembert.analysis.result.named_quantities import bearing_areas, kind_of_name, names_of
 from dalembert.analysis.result.quantity_expressions import check_units, parse_quantity
-from dalembert.analysis.result.transmission_lines import angle_between, ground_points, transmission_lines
+from dalembert.analysis.result.transmission_lines import (
+    OfLines,
+    closure_margin,
+    ground_points,
+    transmission_angle,
+    transmission_lines,
+)
 from dalembert.arrays import Array, Numeric
 from dalembert.errors import ModelError
 from dalembert.kernel.graph import Graph, Node, trace_array
@@ -142,17 +148,18 @@ def _magnitude(c: Catalogue, joint: str) -> Node:
     return total
 
 
-def _transmission(c: Catalogue, of: str) -> Numeric:
-    lines = []
-    for line in transmission_lines(c.mechanism, of):
+def _hinge(c: Catalogue, of: str, value: OfLines) -> Numeric:
+    """What is made of the two lines of a hinge."""
+    turned_lines, lines = [], transmission_lines(c.mechanism, of)
+    for line in lines:
         along = np.asarray(line.along, object)
         turned = (
             along
             if line.link == GROUND
             else plane.rotate(c.traced.pose.rotation[place_of(c.links, line.link, "link")], along)
         )
-        lines.append(trace_array(c.graph, turned))
-    return angle_between(*lines)
+        turned_lines.append(trace_array(c.graph, turned))
+    return value(turned_lines[0], turned_lines[1], lines)
 
 
 def _shaking(c: Catalogue, about: str) -> Array:
@@ -201,7 +208,8 @@ KINDS: dict[str, Callable[[Catalogue, str], Numeric]] = {
     "reaction": lambda c, of: c.traced.force[c.joint(of)],
     "magnitude": _magnitude,
     "power": lambda c, of: c.traced.effort[c.drive(of)] * c.speeds[c.drive(of)],
-    "transmission": _transmission,
+    "transmission": partial(_hinge, value=transmission_angle),
+    "closure": partial(_hinge, value=closure_margin),
     "pressure": lambda c, of: _magnitude(c, of) / bearing_areas(c)[of],
     "shaking": lambda c, of: _shaking(c, of)[: c.algebra.d],
     "shaking_moment": lambda c, of: _shaking(c, of)[c.algebra.d :],
