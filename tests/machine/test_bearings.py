@@ -12,6 +12,7 @@ import openpyxl
 import pytest
 
 import dalembert as da
+from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.errors import ModelError
 from tests.machine.cranks import crank_machine
@@ -78,6 +79,17 @@ def test_pressure_and_life_against_sums_of_ones_own(seed: int) -> None:
     period = 2 * np.pi / abs(r.drive_speed("O")[0])
     assert b.hours == pytest.approx(b.turns / (turned.sum() / 2 / np.pi) * period / 3600, rel=2e-3)
     assert b.mean_pv == pytest.approx(float((b.pressure * 0.01 * np.abs(b.rate)).mean()), rel=1e-9)
+
+
+def test_a_couple_across_the_axis_is_printed() -> None:
+    """That of a crank whose pin is in the plane of its bearing is what bends it there, out of that plane."""
+    r = da.dynamics(da.load(examples()["rssr"]))
+    t = da.bearings(r)
+    bent = da.member_forces(r, "crank").at(0.0)["bending y"]
+    assert t.loads["O"].couple == pytest.approx(np.abs(bent), rel=1e-9)
+    said = " ".join(str(t).split())
+    assert "O (629.005 N*mm), C (519.761 N*mm): a couple across the axis" in said
+    assert da.bearings(da.dynamics(da.four_bar())).loads["O2"].tilting == 0
 
 
 def test_a_bearing_in_space_has_axial_factors() -> None:

@@ -33,7 +33,8 @@ MILLION = 1e6
 class BearingLoad:
     """Forces (P,) of a joint across its axis and along it, N, and its turning (P,), rad/s, of j against i.
 
-    ``time`` (P,), s: what each position stands for. ``bearing``: as the file has it, or by its kind alone.
+    ``couple`` (P,), N m: across the axis, which no load here counts: two bearings take it. ``time`` (P,), s: what each
+    position stands for. ``bearing``: as the file has it, or by its kind alone.
     """
 
     result: Result = field(repr=False)
@@ -41,8 +42,16 @@ class BearingLoad:
     bearing: Bearing | None
     radial: Array = field(repr=False)
     axial: Array = field(repr=False)
+    couple: Array = field(repr=False)
     rate: Array = field(repr=False)
     time: Array = field(repr=False)
+
+    @property
+    def tilting(self) -> float:
+        """The largest couple across the axis, N m; 0 where it is rounding."""
+        length = self.result.compiled.layout.length
+        most = float(np.nanmax(self.couple, initial=0.0))
+        return most if most > 1e-9 * length * float(np.nanmax(self.radial, initial=0.0)) else 0.0
 
     @property
     def sized(self) -> bool:
@@ -165,17 +174,15 @@ def bearing(r: Result, joint: str) -> BearingLoad:
     force = r.reaction(joint)
     i, j = (np.zeros(1) if n == GROUND else r.speed(n) for n in r.mechanism.joints[joint].links)
     if r.mechanism.dimension == 2:
-        radial, axial, rate = magnitude(force), np.zeros(len(force)), j - i
+        radial, rate, axial = magnitude(force), j - i, np.zeros(len(force))
+        couple = axial
     else:
-        axis = bearing_axis(r, joint)
-        along = (force * axis).sum(axis=1)
-        radial, axial, rate = (
-            magnitude(force - along[:, None] * axis),
-            np.abs(along),
-            ((j - i) * axis).sum(axis=1),
-        )
+        axis, moment = bearing_axis(r, joint), r.reaction_moment(joint)
+        along, about = ((v * axis).sum(axis=1) for v in (force, moment))
+        radial, couple = magnitude(force - along[:, None] * axis), magnitude(moment - about[:, None] * axis)
+        axial, rate = np.abs(along), ((j - i) * axis).sum(axis=1)
     given = getattr(r.mechanism.joints[joint], "bearing", None)
-    return BearingLoad(r, joint, given, radial, axial, rate + 0.0 * radial, durations(r))
+    return BearingLoad(r, joint, given, radial, axial, couple, rate + 0.0 * radial, durations(r))
 
 
 def turning_joints(r: Result) -> list[str]:

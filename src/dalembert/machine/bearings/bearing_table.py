@@ -38,6 +38,8 @@ class BearingTable(Answer):
             yield Column(f"radial force {joint}", "force", b.radial)
             if b.axial.any():
                 yield Column(f"axial force {joint}", "force", b.axial)
+            if b.tilting:
+                yield Column(f"couple across {joint}", "moment", b.couple)
             yield Column(f"turning {joint}", "angular_speed", b.rate)
             if b.sized:
                 yield Column(f"pressure {joint}", "pressure", b.pressure)
@@ -48,6 +50,7 @@ class BearingTable(Answer):
         out: Tree = {}
         for joint, b in self.loads.items():
             own = out[joint] = {"equivalent_load": to("force", b.equivalent), "swings": b.swings}
+            own["couple_not_counted"] = to("moment", b.tilting)
             own["mean_turning"] = to("angular_speed", b.speed)
             if b.sized:
                 own |= {"pressure": to("pressure", b.pressure.max()), "mean_PV": b.mean_pv, "PV": b.pv.max()}

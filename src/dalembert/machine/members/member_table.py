@@ -29,6 +29,13 @@ class MemberTable(Answer):
     buckling: dict[str, Buckling]
     left_out: dict[str, str]
 
+    @property
+    def unknown(self) -> dict[str, str]:
+        """Positions at which a link has no numbers, with the reason."""
+        if not any((f.residual != f.residual).any() for f in self.links.values()):
+            return {}
+        return {which: sentence for which, _, sentence in self.result.problems()}
+
     def columns(self) -> Iterator[Column]:
         """The drives' positions, every inner force, and the greatest stress."""
         yield from self.drive_columns()
@@ -50,7 +57,7 @@ class MemberTable(Answer):
                 for key in ("critical", "compression"):
                     b[key] = to("force", b[key])
                 out[link]["buckling"] = b | {"position": b["position"] + 1}
-        return {"members": out, "left_out": self.left_out}
+        return {"members": out, "left_out": self.left_out, "unknown": self.unknown}
 
 
 def _stress_record(s: Stresses, to: Scale) -> Tree:

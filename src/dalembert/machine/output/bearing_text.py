@@ -54,6 +54,12 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
     ]
     if thrust:
         yield f"{', '.join(thrust)}: an axial force, and no axial_factor in the bearing to count it by."
+    tilted = [f"{joint} ({to.quantity('moment', b.tilting)})" for joint, b in t.loads.items() if b.tilting]
+    if tilted:
+        yield (
+            f"{', '.join(tilted)}: a couple across the axis, the largest in brackets, that load and life do not "
+            "count; describe two joints where two bearings take it."
+        )
 
 
 def _choice(t: BearingTable, to: Printed) -> Table:

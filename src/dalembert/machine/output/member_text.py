@@ -32,8 +32,11 @@ def member_parts(t: MemberTable, to: Printed) -> Iterator[Part]:
     """The largest inner forces of each link with place and position, stresses, buckling, and what was left out."""
     heads = ["link", "largest", "", "unit", "member", f"at\n{to.text('length')}", "where"]
     rows = _largest_rows(t, to)
-    yield Table(heads, rows, 2) if rows else "Nothing is carried inside the links."
-    yield from (table for table in (_stress_table(t, to), _buckling_table(t, to)) if table.rows)
+    if rows or not t.unknown:
+        yield Table(heads, rows, 2) if rows else "Nothing is carried inside the links."
+    for which, why in t.unknown.items():
+        yield f"At position {which} forces inside links are not known: {why}"
+    yield from (table for f in (_stress_table, _fatigue_table, _buckling_table) if (table := f(t, to)).rows)
     said = "N tension +; the distance is from the first end of the member. "
     known = [float(x) for f in t.links.values() for x in f.residual[f.residual == f.residual]]
     yield said + (f"Forces and moments close on every link within {remainder(max(known))}." if known else "")
@@ -48,7 +51,7 @@ def _largest_rows(t: MemberTable, to: Printed) -> list[list[str]]:
         for of in f.names:
             kind = kind_of(of)
             value, member, place, k = f.largest(of)
-            if abs(value) > least[kind] or math.isnan(value):
+            if abs(value) > least[kind]:
                 shown = [to.number(kind, value), to.text(kind), member, to.number("length", place)]
                 rows.append([link, f"{SIGNS[of]} {of}", *shown, where(t.result, to, k)])
     return rows
@@ -57,26 +60,34 @@ def _largest_rows(t: MemberTable, to: Printed) -> list[list[str]]:
 def _stress_table(t: MemberTable, to: Printed) -> Table:
     rows = []
     for link, s in t.stress.items():
-        f, k = s.fatigue(), s.position
-        direct, bent = s.parts()
-        numbers = [number(float(to("pressure", x)), 5) for x in (s.largest, direct, bent)]
+        k = s.position
+        numbers = [number(float(to("pressure", x)), 5) for x in (s.largest, *s.parts())]
         place = number(float(to("length", float(s.place[k]))), 4)
-        swing = [number(float(to("pressure", x)), 5) for x in (f.mean, f.amplitude)]
-        safety = ["-" if n is None else number(n, 4) for n in (s.safety, f.safety)]
-        rows.append([link, *numbers, place, where(t.result, to, k), safety[0], *swing, safety[1]])
-    unit = to.text("pressure")
-    heads = ["stress\nof link", f"largest\n{unit}", "by N\n", "by M\n", f"at\n{to.text('length')}", "where\n"]
-    heads += ["safety,\nyield", "fatigue:\nmean", "ampli-\ntude", "safety,\nGoodman"]
-    return Table(heads, rows)
+        rows.append([link, *numbers, place, where(t.result, to, k), _safety(s.safety)])
+    heads = ["stress\nof link", f"largest\n{to.text('pressure')}", "by N\n", "by M\n"]
+    return Table([*heads, f"at\n{to.text('length')}", "where\n", "safety,\nyield"], rows)
+
+
+def _fatigue_table(t: MemberTable, to: Printed) -> Table:
+    rows = []
+    for link, s in t.stress.items():
+        f = s.fatigue()
+        numbers = [number(float(to("pressure", x)), 5) for x in (f.mean, f.amplitude)]
+        rows.append([link, *numbers, f.member, to.number("length", f.place), _safety(f.safety)])
+    heads = ["fatigue\nof link", f"mean\n{to.text('pressure')}", "amplitude\n", "member\n"]
+    return Table([*heads, f"at\n{to.text('length')}", "safety,\nGoodman"], rows)
+
+
+def _safety(n: float | None) -> str:
+    return "-" if n is None or math.isinf(n) else number(n, 4)
 
 
 def _buckling_table(t: MemberTable, to: Printed) -> Table:
     rows = []
     for link, b in t.buckling.items():
         sizes = [number(float(to("force", x)), 5) for x in (b.compression, b.critical)]
-        safety = "-" if math.isinf(b.safety) else number(b.safety, 4)
-        note = "" if b.two_force else "bent as well: for comparison"
-        rows.append([link, sizes[0], sizes[1], b.formula, number(b.slenderness, 4), safety, note])
+        rows.append([link, *sizes, b.formula, number(b.slenderness, 4), _safety(b.safety)])
     heads = ["buckling\nof link", f"compression\n{to.text('force')}", "critical\n", "by\n"]
-    heads += ["slender-\nness", "safety\n", ""]
-    return Table(heads, rows)
+    bent = ", ".join(link for link, b in t.buckling.items() if not b.two_force)
+    note = f"{bent}: bent as well, so that this is for comparison." if bent else ""
+    return Table([*heads, "slender-\nness", "safety\n"], rows, note=note)

@@ -1,30 +1,51 @@
-"""Diagrams of N, V and M along each member: least and greatest of the cycle, and where the size is largest."""
+"""Diagrams of N, V, T and M on the links and along each member, least and greatest of the cycle."""
 
 from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dalembert.arrays import Array
-from dalembert.machine.members.member_forces import IN_PLANE, ORDER, MemberCurve, MemberForces, kind_of
+from dalembert.machine.link_axes import LinkAxes, in_space
+from dalembert.machine.members.member_forces import ORDER, MemberCurve, MemberForces, kind_of
 from dalembert.machine.members.member_table import MemberTable
 from dalembert.machine.output.member_text import SIGNS, floors
 from dalembert.views.notation import Notation, Shown
 from dalembert.views.paper.canvas import Canvas
 from dalembert.views.paper.diagrams import curves_scene
 from dalembert.views.paper.frame import round_up
-from dalembert.views.paper.scene import Line, Scene
+from dalembert.views.paper.scene import Line, Point, Scene
 from dalembert.views.plane.mechanism_view import draw_links, place_title, scale_notes, whole_frame
+from dalembert.views.space.camera import Camera
+from dalembert.views.space.space_mechanism import draw_machine, whole_sight
+from dalembert.views.space.space_view import scale_notes as sight_notes
+from dalembert.views.space.space_view import triad
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
 
 ORDINATE = 18.0
 """Millimetres that the largest inner force is drawn, at most."""
+SEEN = 0.2
+"""Millimetres below which a diagram is left out: the charts have it."""
 PLACES = 61
 """Along a member, beside both sides of every force."""
 
 
 def member_scenes(t: MemberTable, notation: Notation) -> list[Scene]:
-    """In the plane each inner force on the links where it is largest; a chart of each over every member's length."""
-    shown = Shown(t.result, notation)
-    out = _on_links(t, shown) if t.result.mechanism.dimension == 2 else []
+    """Each inner force on the links where it is largest; a chart of each over every member's length."""
+    shown, out = Shown(t.result, notation), []
+    for of in next(iter(t.links.values())).names:
+        kind = kind_of(of)
+        largest = {link: f.largest(of) for link, f in t.links.items()}
+        some = {n: f for n, f in t.links.items() if abs(largest[n][0]) > floors(f)[kind]}
+        if some:
+            size, k, link = max((abs(largest[n][0]), largest[n][3], n) for n in some)
+            seen = some[link].curve(largest[link][1]).member.axes @ _turn(t.result, link, k).T
+            out.append(_on_links(some, of, size, Paper(t.result, k, shown, seen[[0, _across(of)]])))
     for forces in t.links.values():
         least = floors(forces)
         for curve in forces.curves:
@@ -35,35 +56,65 @@ def member_scenes(t: MemberTable, notation: Notation) -> list[Scene]:
     return out
 
 
-def _on_links(t: MemberTable, shown: Shown) -> list[Scene]:
-    """The mechanism where an inner force is largest, its diagram on every member, + to the left of it."""
-    out = []
-    for of in IN_PLANE:
-        kind, row = kind_of(of), ORDER.index(of)
-        largest = {link: f.largest(of) for link, f in t.links.items()}
-        some = {n: f for n, f in t.links.items() if abs(largest[n][0]) > floors(f)[kind]}
-        if not some:
+class Paper:
+    """A position of a machine drawn as it stands, in space so that two vectors (2, 3) are seen well, with the ways of
+    places and of vectors in millimetres onto it."""
+
+    place: Callable[[Array], Point]
+    vector: Callable[[Array], Array]
+
+    def __init__(self, r: Result, k: int, shown: Shown, facing: Array) -> None:
+        self.r, self.k, self.shown, self.canvas = r, k, shown, Canvas()
+        if r.mechanism.dimension == 2:
+            frame = whole_frame(r, k, 112.0, 80.0)
+            self.place, self.vector = lambda p: frame(p[:2]), lambda v: v[:2]
+            draw_links(self.canvas, r, k, frame)
+            self.notes, self.scales = scale_notes(shown, frame, None)
+            return
+        cameras = [Camera(math.pi * (2 * n + 1) / 4) for n in range(4)]
+        camera = max(cameras, key=lambda c: abs(float(np.linalg.det(c(facing)))))
+        s = whole_sight(r, k, camera, 112.0, 80.0)
+        self.place, self.vector = s, s.camera
+        draw_machine(self.canvas, r, k, s)
+        left, bottom, _, _ = Scene(tuple(self.canvas.items)).bounds
+        triad(self.canvas, s.camera, (left - 12.0, bottom))
+        self.notes, self.scales = sight_notes(shown, s, None)
+
+
+def _on_links(some: dict[str, MemberForces], of: str, size: float, paper: Paper) -> Scene:
+    """The mechanism where an inner force is largest, its diagram on every member, + along the member's y or z."""
+    r, k, shown, canvas = paper.r, paper.k, paper.shown, paper.canvas
+    kind, row, plane = kind_of(of), ORDER.index(of), r.mechanism.dimension == 2
+    per_mm = round_up(size / shown.size(kind) / ORDINATE) * shown.size(kind)
+    for link, curve in ((link, c) for link, f in some.items() for c in f.curves):
+        places, values = sampled(curve)
+        mm, turned = values[k, :, row] / per_mm, _turn(r, link, k)
+        if not np.abs(mm).max() > SEEN:
             continue
-        size, k = max((abs(largest[n][0]), largest[n][3]) for n in some)
-        per_mm = round_up(size / shown.size(kind) / ORDINATE) * shown.size(kind)
-        frame, canvas = whole_frame(t.result, k, 112.0, 80.0), Canvas()
-        draw_links(canvas, t.result, k, frame)
-        for link, curve in ((link, c) for link, f in some.items() for c in f.curves):
-            places, values = sampled(curve)
-            turned, at = t.result.rotation(link)[k], t.result.position(link)[k]
-            along, start = turned @ curve.member.along[:2], turned @ curve.member.start[:2] + at
-            feet = [frame(start + s * along) for s in places]
-            mm = values[k, :, row] / per_mm
-            tips = [(x - h * along[1], y + h * along[0]) for (x, y), h in zip(feet, mm, strict=True)]
-            canvas.add(Line((feet[0], *tips, feet[-1]), "curve-1"))
-            canvas.add(*(Line((a, b), "curve-1") for a, b in zip(feet[::6], tips[::6], strict=True)))
-            n = int(np.argmax(np.abs(mm)))
-            canvas.label(shown.text(kind, float(values[k, n, row])), tips[n], size=2.8)
-        notes, scales = scale_notes(shown, frame, None)
-        notes[0] += f"; {SIGNS[of]}: 1 mm = {shown.plain(kind, per_mm)}, + to the left of its member"
-        title = place_title(t.result, k, f"{SIGNS[of]}, {of}", shown)
-        out.append(canvas.scene(title, notes=notes, scales=scales | {kind: per_mm}))
-    return out
+        axes = curve.member.axes @ turned.T
+        start = turned @ curve.member.start + in_space(r.position(link))[k]
+        feet = [paper.place(start + s * axes[0]) for s in places]
+        x, y = map(float, paper.vector(axes[_across(of)]))
+        tips = [(a + h * x, b + h * y) for (a, b), h in zip(feet, mm, strict=True)]
+        canvas.add(Line((feet[0], *tips, feet[-1]), "curve-1"))
+        canvas.add(*(Line((a, b), "curve-1") for a, b in zip(feet[::6], tips[::6], strict=True)))
+        n = int(np.argmax(np.abs(mm)))
+        canvas.label(shown.text(kind, float(values[k, n, row])), tips[n], size=2.8)
+    sense = "to the left of" if plane else f"along {' yz'[_across(of)]} of"
+    scale = f"{SIGNS[of]}: 1 mm = {shown.plain(kind, per_mm)}, + {sense} its member"
+    notes = [f"{paper.notes[0].removesuffix('.')}; {scale}{'' if plane else '.'}", *paper.notes[1:]]
+    title = place_title(r, k, f"{SIGNS[of]}, {of}", shown)
+    return canvas.scene(title, notes=notes, scales=paper.scales | {kind: per_mm})
+
+
+def _across(of: str) -> int:
+    """The member's axis that a diagram stands along: z, as number 2, of what bends in that plane."""
+    return 2 if of in ("shear z", "bending y") else 1
+
+
+def _turn(r: Result, link: str, k: int) -> Array:
+    """Rotation (3, 3) of a link at a position."""
+    return np.asarray(LinkAxes(r, link).rotation[k])
 
 
 def _diagram(forces: MemberForces, curve: MemberCurve, of: str, shown: Shown) -> Scene:
