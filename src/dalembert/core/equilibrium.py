@@ -276,12 +276,9 @@ def reactions(layout: Layout, pose: Pose, rows: System, found: Balance) -> tuple
     dtype = found.constraint.dtype
     force = np.zeros((*lead, layout.joints, g.d), dtype)
     couple = np.zeros((*lead, layout.joints, g.n - g.d), dtype)
-    for k, joint in enumerate(constraints.joint):
-        multiplier = found.constraint[..., k, None]
-        if constraints.angular[k]:
-            couple[..., max(joint, 0), :] += (joint >= 0) * multiplier * rows.on_j[..., k, g.d :]
-        else:
-            force[..., joint, :] += multiplier * rows.on_j[..., k, : g.d]
+    for turns, own in constraints.lots:
+        into, part = (couple, slice(g.d, None)) if turns else (force, slice(None, g.d))
+        into[..., constraints.joint[own], :] += found.constraint[..., own, None] * rows.on_j[..., own, part]
     for row, part in _screw_rows(g, constraints, pose, rows):
         couple[..., constraints.joint[row], :] += found.constraint[..., row, None] * part
     for f, pushed, _ in found.separation:

@@ -219,6 +219,18 @@ class Rows:
         return np.concatenate([*found, np.zeros(0, np.intp)]).astype(np.intp)
 
     @cached_property
+    def lots(self) -> list[tuple[bool, Ints]]:
+        """Rows of joints in lots, angular ones or not, none with two rows of a joint: a lot is summed at once."""
+        found = []
+        for turns in (False, True):
+            left = np.flatnonzero((self.joint >= 0) & (self.angular == turns))
+            while left.size:
+                first = np.unique(self.joint[left], return_index=True)[1]
+                found.append((turns, left[first]))
+                left = np.delete(left, first)
+        return found
+
+    @cached_property
     def ends(self) -> tuple[Ints, Ints]:
         """Links i and j of each row."""
         i, j = np.zeros(self.count, np.intp), np.zeros(self.count, np.intp)

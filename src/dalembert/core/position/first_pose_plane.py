@@ -228,12 +228,13 @@ def _starting_poses(layout: Layout, target: Array, guess: Guess, angles: Array, 
     given = np.isfinite(guess.point).all(axis=-1)
     point[:, given] = guess.point[given]
     placed = set(np.flatnonzero(given).tolist()) | {layout.links}
+    arms = _arms(layout, edges, rotation)
+
+    def place(edge: _PointEdge) -> None:
+        _place(edge, _offset(g, edge, target, rotation, slides), point, *arms)
+
     while len(placed) <= layout.links:
-        if _extend_tree(placed, edges.pins, lambda e: _place(g, e, target, point, rotation, slides)):
-            continue
-        if _extend_tree(
-            placed, edges.others, lambda e: _place(g, e, target, point, rotation, slides), one=True
-        ):
+        if _extend_tree(placed, edges.pins, place) or _extend_tree(placed, edges.others, place, one=True):
             continue
         lone = min(set(range(layout.links)) - placed)
         point[:, lone] = 0.0
@@ -295,13 +296,12 @@ def _edges(layout: Layout) -> _Edges:
     place = {int(f): layout.constraints.count + k for k, f in enumerate(layout.driven)}
     for rows, where in ((layout.constraints, None), (layout.freedoms, place)):
         for f in rows.families:
-            for k in range(len(f.i)):
-                row = int(np.ravel(f.row[k])[0])
+            own = f.row.reshape(len(f.i), -1)[:, 0]
+            for k, (i, j, row) in enumerate(zip(f.i.tolist(), f.j.tolist(), own.tolist(), strict=True)):
                 if where is not None:
                     if row not in where:
                         continue
                     row = where[row]
-                i, j = int(f.i[k]), int(f.j[k])
                 if isinstance(f, Turn):
                     turns.append((i, j, row))
                 elif isinstance(f, Meet):
@@ -324,10 +324,15 @@ def _turns(layout: Layout, target: Array, guess: Guess, angles: Array, edges: _E
     turn[:, -1] = 0.0
     _spread_turns(turn, target, edges)
     given = np.isfinite(guess.turn)
-    further = np.linspace(0, 1, len(turn))
-    for k in np.argsort(~given, kind="stable").tolist():
+    further = np.linspace(0, 1, len(turn))[:, None]
+    own = np.where(given, np.nan_to_num(guess.turn) + angles * further, angles)
+    tied = np.unique([link for edge in edges.turns for link in edge[:2]]).astype(np.intp)
+    alone = np.isnan(turn[0])
+    alone[tied] = False
+    turn[:, alone] = own[:, alone]
+    for k in tied[np.argsort(~given[tied], kind="stable")]:
         if np.isnan(turn[0, k]):
-            turn[:, k] = guess.turn[k] + angles[:, k] * further if given[k] else angles[:, k]
+            turn[:, k] = own[:, k]
             _spread_turns(turn, target, edges)
     return turn
 
@@ -343,18 +348,32 @@ def _spread_turns(turn: Array, target: Array, edges: _Edges) -> None:
                 grown = True
 
 
-def _place(g: Algebra, edge: _PointEdge, target: Array, point: Array, rotation: Array, slides: Array) -> None:
-    """Lay one of the two links of an edge by the other."""
-    offset = np.zeros(point[:, 0].shape)
+def _arms(layout: Layout, edges: _Edges, rotation: Array) -> tuple[Array, Array]:
+    """Arms (S, K + D, 2) on links i and j of each edge, by its row."""
+    every = [*edges.pins, *edges.others]
+    ri, rj = np.zeros((2, len(rotation), layout.stack.count, layout.algebra.d))
+    if every:
+        i, j, ui, uj, _, row, _ = zip(*every, strict=True)
+        ri[:, row] = layout.algebra.rotate(rotation[:, i], np.array(ui))
+        rj[:, row] = layout.algebra.rotate(rotation[:, j], np.array(uj))
+    return ri, rj
+
+
+def _offset(g: Algebra, edge: _PointEdge, target: Array, rotation: Array, slides: Array) -> Array | float:
+    """From the point of i to that of j (S, 2): along a slide, or at a distance."""
     if edge.axis is not None:
         across = g.rotate(rotation[:, edge.i], edge.axis)
         along = -plane.across(across)
-        offset = across * target[edge.row] + along * slides[:, edge.row, None]
-    elif edge.far:
+        return np.asarray(across * target[edge.row] + along * slides[:, edge.row, None])
+    if edge.far:
         far = target[edge.row] if np.isnan(edge.far) else edge.far
-        offset = far * g.rotation(np.pi / 2 * slides[:, edge.row] / np.abs(slides).max())
-    ri, rj = g.rotate(rotation[:, edge.i], edge.ui), g.rotate(rotation[:, edge.j], edge.uj)
+        return np.asarray(far * g.rotation(np.pi / 2 * slides[:, edge.row] / np.abs(slides).max()))
+    return 0.0
+
+
+def _place(edge: _PointEdge, offset: Array | float, point: Array, ri: Array, rj: Array) -> None:
+    """Lay one of the two links of an edge by the other."""
     if np.isnan(point[0, edge.j, 0]):
-        point[:, edge.j] = point[:, edge.i] + ri + offset - rj
+        point[:, edge.j] = point[:, edge.i] + ri[:, edge.row] + offset - rj[:, edge.row]
     else:
-        point[:, edge.i] = point[:, edge.j] + rj - offset - ri
+        point[:, edge.i] = point[:, edge.j] + rj[:, edge.row] - offset - ri[:, edge.row]

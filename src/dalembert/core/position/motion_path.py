@@ -172,8 +172,11 @@ def _correct_stations(layout: Layout, along: Course, s: Array, pose: Pose, insid
     targets = np.concatenate([along.target(x) for x in s])
     pose, _ = close_loops(layout, pose, targets)
     slopes = np.concatenate([along.slope(x, inside - x) for x in s]) * layout.row_scale
-    with np.errstate(all="ignore"):
-        return Nodes(s, pose, twists(layout, displacement(layout, stack_rows(layout, pose), slopes)))
+    rates = np.zeros((len(s), layout.unknowns))
+    if slopes.any():
+        with np.errstate(all="ignore"):
+            rates = displacement(layout, stack_rows(layout, pose), slopes)
+    return Nodes(s, pose, twists(layout, rates))
 
 
 def _fill(layout: Layout, along: Course, nodes: Nodes, places: Ints, found: Path) -> None:
