@@ -1,12 +1,17 @@
-"""Matchings and strongly connected components, of positions and of eliminations, against those of scipy."""
+"""Matchings and strongly connected components against those of scipy; solutions of long chains against dense ones."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
+from benchmarks.linkages import chain
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, maximum_bipartite_matching
 
+from dalembert.analysis.compile.compiled_mechanism import compile_mechanism
+from dalembert.core import bands
+from dalembert.core.constraints import dense, stack_rows
+from dalembert.core.factor import damped_step, factor
 from dalembert.core.position.assur_groups import match_columns, strong_components
 from dalembert.kernel.elimination import components, maximum_matching
 
@@ -47,3 +52,36 @@ def test_every_row_that_can_have_a_column_of_its_own_has_one(density: float) -> 
         assert found == {row: column for row, column in enumerate(own) if column >= 0}
         outcomes.add(size < 8)
     assert density < 0.4 or outcomes == {True, False}
+
+
+@pytest.mark.parametrize("widest", [bands.WIDEST, 0])
+def test_long_chains_are_solved_in_bands_and_in_sparse_columns_as_dense_matrices_are(
+    widest: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(bands, "WIDEST", widest)
+    bands._bands.cache_clear()
+    m = chain(24, positions=3)
+    c = compile_mechanism(m, m.schedule())
+    layout, first = c.layout, c.first_modes
+    assert first is not None
+    pose = first.pose.at(np.array([0, 0]))
+    pose.point[1, 3] += 0.05  # two poses, one of them open
+    rows = stack_rows(layout, pose)
+    assert (bands.bands_of(rows, layout.links, 3) is None) == (widest == 0)
+    j = dense(layout, rows)
+    rng = np.random.default_rng(4)
+    rates, wrench = rng.normal(size=(2, 2, layout.unknowns))
+    found = factor(layout, rows)
+    np.testing.assert_allclose((j @ found.motion(rates)[..., None])[..., 0], rates, atol=1e-11)
+    np.testing.assert_allclose((j.mT @ found.forces(wrench)[..., None])[..., 0], wrench, atol=1e-11)
+    one, weight = rows.at(slice(0, 1)), rng.uniform(1, 2, layout.unknowns)
+    scaled = j[0] * (layout.row_scale * weight)[:, None] * layout.column_scale
+    right = rates[0] * weight
+    expected = np.linalg.solve(scaled.T @ scaled + 0.1 * np.eye(len(scaled)), scaled.T @ right)
+    step = damped_step(layout, one, weight, rates[0], 0.1)
+    np.testing.assert_allclose(step, expected * layout.column_scale, atol=1e-11)
+    one.on_i[:, 5] = one.on_j[:, 5] = 0.0
+    singular = factor(layout, one)
+    assert singular.rcond[0] == 0
+    assert np.isnan(singular.motion(rates[:1])).all()
+    bands._bands.cache_clear()

@@ -277,8 +277,8 @@ def reactions(layout: Layout, pose: Pose, rows: System, found: Balance) -> tuple
     force = np.zeros((*lead, layout.joints, g.d), dtype)
     couple = np.zeros((*lead, layout.joints, g.n - g.d), dtype)
     for turns, own in constraints.lots:
-        into, part = (couple, slice(g.d, None)) if turns else (force, slice(None, g.d))
-        into[..., constraints.joint[own], :] += found.constraint[..., own, None] * rows.on_j[..., own, part]
+        into, kind = (couple, slice(g.d, None)) if turns else (force, slice(None, g.d))
+        into[..., constraints.joint[own], :] += found.constraint[..., own, None] * rows.on_j[..., own, kind]
     for row, part in _screw_rows(g, constraints, pose, rows):
         couple[..., constraints.joint[row], :] += found.constraint[..., row, None] * part
     for f, pushed, _ in found.separation:

@@ -1,4 +1,4 @@
-"""Which solver a mechanism's matrix gets: batched inverse, singular values, or sparse LU a position.
+"""Which solver a mechanism's matrix gets: batched inverse, singular values, or banded or sparse LU a position.
 
 Mechanics: docs/theory.md 1.2.
 """
@@ -7,11 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dalembert.arrays import Array, Flags
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.core.bands import BandedLU, Bands, bands_of
 from dalembert.core.constraints import dense
 from dalembert.core.layout import Layout, System
 from dalembert.core.linear import Factor, inverse, pseudo_inverse, solve_square
@@ -91,6 +93,9 @@ def damped_step(layout: Layout, rows: System, weight: Array, scaled_gap: Array, 
     if layout.unknowns <= SPARSE:
         j = dense(layout, rows)[0] * scale[:, None] * column
         return np.linalg.solve(j.T @ j + damping * np.eye(j.shape[1]), j.T @ right) * column
+    bands = bands_of(rows, layout.links, layout.algebra.n)
+    if bands is not None:
+        return bands.least_squares(rows, scale, column, right, damping)
     from scipy.sparse import eye_array
     from scipy.sparse.linalg import spsolve
 
@@ -101,7 +106,7 @@ def damped_step(layout: Layout, rows: System, weight: Array, scaled_gap: Array, 
 
 @dataclass(frozen=True)
 class Sparse:
-    """Square systems by sparse LU, one a position; cost grows with the number of links."""
+    """Square systems by banded or sparse LU, one a position; cost grows with the number of links."""
 
     solvers: tuple[Any, ...]
     matrices: tuple[csc_array, ...]
@@ -132,8 +137,11 @@ class Sparse:
 
 def sparse(layout: Layout, rows: System, row: Array, column: Array, condition: bool = True) -> Sparse:
     """Sparse LU of square systems J, position by position; without ``condition`` its number is not estimated."""
-    matrices = _sparse_matrices(layout, rows, row, column)
-    found = [_lu(matrix, condition) for matrix in matrices]
+    matrices, bands = (
+        _sparse_matrices(layout, rows, row, column),
+        bands_of(rows, layout.links, layout.algebra.n),
+    )
+    found = [_lu(matrix, bands, condition) for matrix in matrices]
     lead = rows.on_j.shape[:-2]
     solvers, rcond = tuple(lu for lu, _ in found), np.array([reciprocal for _, reciprocal in found])
     return Sparse(solvers, matrices, lead, row, column, rcond.reshape(lead))
@@ -143,28 +151,35 @@ def _sparse_matrices(layout: Layout, rows: System, row: Array, column: Array) ->
     """Scaled J (K, n L) of each position in compressed columns; ground's columns left out."""
     from scipy.sparse import csc_array
 
-    n, count = layout.algebra.n, len(rows.i)
-    links = np.concatenate([rows.i, rows.j])
-    moving = links < layout.links
-    k = np.repeat(np.tile(np.arange(count), 2)[moving], n)
-    columns = (links[moving][:, None] * n + np.arange(n)).ravel()
-    both = np.concatenate([rows.on_i, rows.on_j], axis=-2)[..., moving, :]
-    data = both.reshape(-1, len(k)) * (row[k] * column[columns])
-    order = np.lexsort((k, columns))
-    order = order[(data != 0).any(axis=0)[order]]
-    ends = np.searchsorted(columns[order], np.arange(layout.unknowns + 1))
-    shape = (count, layout.unknowns)
-    values = np.ascontiguousarray(data[:, order])  # row by row, as SuperLU takes them
-    return tuple(csc_array((x, k[order], ends), shape=shape) for x in values)
+    row_of, columns, order = _columns(rows.i.tobytes(), rows.j.tobytes(), layout.links, layout.algebra.n)
+    both = np.concatenate([rows.on_i, rows.on_j], axis=-2)
+    data = both.reshape(-1, both.shape[-2] * both.shape[-1])[:, order] * (row[row_of] * column[columns])
+    some = (data != 0).any(axis=0)
+    ends = np.searchsorted(columns[some], np.arange(layout.unknowns + 1)).astype(np.intc)
+    kept, shape = row_of[some], (len(rows.i), layout.unknowns)
+    values = np.ascontiguousarray(data[:, some])  # row by row, as SuperLU takes them
+    return tuple(csc_array((x, kept, ends), shape=shape) for x in values)
 
 
-def _lu(matrix: csc_array, condition: bool) -> tuple[Any, float]:
+@lru_cache(maxsize=4)
+def _columns(i: bytes, j: bytes, links: int, n: int) -> tuple[Ints, Ints, Ints]:
+    """Entries of J by columns, those of ground left out: their rows, their columns, and where they stand among those of
+    all links i (bytes of indices), then of all links j."""
+    both = np.frombuffer(i + j, np.intp)
+    row: Ints = np.repeat(np.tile(np.arange(len(both) // 2, dtype=np.intc), 2), n)
+    column: Ints = (both[:, None] * n + np.arange(n)).ravel()
+    order = np.lexsort((row, column))
+    order = order[column[order] < links * n]
+    return row[order], column[order], order
+
+
+def _lu(matrix: csc_array, bands: Bands | None, condition: bool) -> tuple[Any, float]:
     """Factors and estimated reciprocal condition number; None and 0 where exactly singular."""
     from scipy.sparse.linalg import LinearOperator, onenormest, splu
 
     try:
-        lu = splu(matrix)
-    except RuntimeError:
+        lu = splu(matrix) if bands is None else BandedLU(bands, matrix)
+    except (RuntimeError, np.linalg.LinAlgError):
         return None, 0.0
     if not condition:
         return lu, 1.0

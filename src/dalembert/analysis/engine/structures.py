@@ -16,6 +16,7 @@ from dalembert.analysis.engine.force_program import ForceBlock, ForceProgram, fo
 from dalembert.analysis.engine.kept_program import DeadCentreError, KeptProgram, Outputs, trace_structure
 from dalembert.analysis.positions import mode_sentence
 from dalembert.arrays import Array
+from dalembert.core.factor import SPARSE
 from dalembert.core.layout import Pose
 from dalembert.core.position.first_pose_plane import Guess, phase_rows
 
@@ -26,8 +27,9 @@ KEPT = 500_000
 """Operations of all programs that are kept: so many take about 200 MB."""
 
 FEW_LINKS, FEW_POSITIONS, OFTEN = 8, 50, 200
-"""A structure of more links met for the first time, at fewer positions, takes less time on the careful path than to
-trace: it is traced when it is met again, and of many links once more for every ``OFTEN`` of them."""
+"""A structure of more links met for the first time, at fewer positions (twice as many where its matrix is not dense),
+takes less time on the careful path than to trace: it is traced when it is met again, and of many links once more for
+every ``OFTEN`` of them."""
 
 TRACE = 8.0
 """Time that it takes to trace forces where poses are known, milliseconds a link."""
@@ -95,7 +97,8 @@ def ready(c: Compiled, inertia: bool) -> Ready | None:
     there, program = STRUCTURES.get(key)
     if not there or isinstance(program, _Met):
         calls = program.spent + 1 if isinstance(program, _Met) else 0.0
-        large = c.layout.links > FEW_LINKS and c.schedule.count < FEW_POSITIONS
+        few = FEW_POSITIONS if c.layout.unknowns <= SPARSE else 2 * FEW_POSITIONS
+        large = c.layout.links > FEW_LINKS and c.schedule.count < few
         if large and calls < 1 + c.layout.links // OFTEN:
             STRUCTURES.put(key, _Met(calls))
             return None

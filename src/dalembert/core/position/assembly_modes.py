@@ -139,12 +139,16 @@ def _order(layout: Layout, laid: Laid, stated: Array, wanted: Wanted) -> Ints:
     wrong = (laid.side * stated[: laid.side.shape[1]] < 0).sum(axis=1)
     off = np.nansum(wrap_angle(laid.turn - wanted.turn)[:, :-1] ** 2, axis=1)
     shift = np.nansum((laid.point - wanted.point)[:, :-1] ** 2, axis=(1, 2)) / layout.length**2
-    along, height = measures(layout, to_pose(layout, laid))
-    keys = [wrong, off, shift, -along, -height]
+    keys = [wrong, off, shift]
     if wanted.start is not None:
         away = np.nansum(wrap_angle(laid.turn - wanted.start.turn) ** 2, axis=1)
-        apart = np.nansum((laid.point - wanted.start.point) ** 2, axis=(1, 2)) / layout.length**2
-        keys.insert(3 if wanted.given else 5, away + apart)
+        keys.append(away + np.nansum((laid.point - wanted.start.point) ** 2, axis=(1, 2)) / layout.length**2)
+    if wanted.given:
+        order = np.lexsort([key.round(9) for key in reversed(keys)])
+        if np.any([np.diff(key[order].round(9)) for key in keys], axis=0).all():
+            return order  # no two alike: how far sliders stand decides nothing
+    along, height = measures(layout, to_pose(layout, laid))
+    keys[len(keys) if wanted.given else 3 : 0] = [-along, -height]
     return np.lexsort([key.round(9) for key in reversed(keys)])
 
 

@@ -66,10 +66,22 @@ class Group:
         return np.asarray((c.j[:, None] == self.link) * 1.0 - (c.i[:, None] == self.link))
 
     @cached_property
+    def own(self) -> list[tuple[Flags, ...]]:
+        """Of each unknown angle, the conditions (K, 1) whose link i, whose link j and whose axis turn with it."""
+        c = self.conditions
+        ends = np.stack([c.i, c.j, c.frame])[..., None]
+        return [tuple((ends == links).any(axis=-1, keepdims=True)) for links in self.turning]
+
+    @cached_property
+    def some(self) -> tuple[Flags, ...]:
+        """The conditions (K, 1) whose arm on i, arm on j and axis is not 0."""
+        c = self.conditions
+        return tuple((u != 0).any(axis=-1, keepdims=True) for u in (c.ui, c.uj, c.axis))
+
+    @cached_property
     def sliding(self) -> int:
         """Conditions along axes that turn with an unknown angle."""
-        own = np.concatenate([*self.turning, np.zeros(0, np.intp)])
-        return int(np.isin(self.conditions.frame, own).sum())
+        return sum(int(own[2].sum()) for own in self.own)
 
     @cached_property
     def closed(self) -> bool:

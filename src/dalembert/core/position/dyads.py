@@ -20,7 +20,7 @@ import numpy as np
 from dalembert.algebra import plane
 from dalembert.arrays import Array, Flags, Index, Ints
 from dalembert.core.linear import apply, generalized_inverse, solve_square
-from dalembert.core.position.assur_plan import Conditions, Group, Plan
+from dalembert.core.position.assur_plan import Group, Plan
 from dalembert.core.position.newton import LONGEST_TURN
 
 TOUCHING = 1e-8
@@ -127,35 +127,33 @@ def _determinant(group: Group, part: Part, angle: float) -> Array:
     """Determinant (S,) of the conditions at an angle: 0 where places exist that meet them all."""
     part = part._replace(turn=part.turn.copy())
     _turn(group, part, np.full((len(part.turn), 1), angle))
-    matrix, constant = _system(group, part, _rotation(part.turn))
+    matrix, constant = _system(group, part, plane.rotation(part.turn))
     return np.asarray(np.linalg.det(np.concatenate([matrix, constant[..., None]], axis=-1)))
 
 
 def _circles(group: Group, part: Part) -> Array:
     """Two angles: what the places leave of the conditions is w + M1 u1 + M2 u2 = 0 with unit vectors u."""
-    none = _rotation(part.turn)
+    none = plane.rotation(part.turn)
     for links in group.turning:
         none[:, links] = 0.0
-    matrix, constant = _system(group, part, none)
-    columns = []
-    for links in group.turning:
-        for quarter in (0.0, np.pi / 2):
-            rotation = none.copy()
-            rotation[:, links] = _rotation(part.off[:, links] + quarter)
-            columns.append(_constant(group, part, rotation)[1] - constant)
+    n, constant = _constant(group, part, none)
+    ri, rj, _ = _arms(group, plane.rotation(part.off))
+    arms = [_turned_arms(own, ri, rj) for own in group.own]
+    columns = [(n * _where(n, turned)).sum(axis=-1) for arm in arms for turned in (arm, plane.across(arm))]
     if group.link.size:
+        matrix = _matrix(group, n)
         free = np.linalg.qr(matrix, mode="complete")[0][..., matrix.shape[-1] :]
         constant, *columns = (np.einsum("skc,sk->sc", free, k) for k in (constant, *columns))
-    w = constant
     one, two = np.stack(columns[:2], axis=-1), np.stack(columns[2:], axis=-1)
     back = _inverse(two)
 
-    def second(angle: Array) -> Array:
-        return -apply(back, apply(one, _rotation(angle)) + w)
+    def second(unit: Array) -> Array:
+        """The second unit vectors (S, m, 2) by the first ones."""
+        return -apply(back[:, None], apply(one[:, None], unit) + constant[:, None])
 
-    samples = [second(np.full(len(w), angle)) for angle in np.arange(5) * 2 * np.pi / 5]
-    first = _roots((np.stack(samples, axis=1) ** 2).sum(axis=-1) - 1.0)
-    u = np.stack([second(first[:, k]) for k in range(first.shape[1])], axis=1)
+    samples = second(plane.rotation(np.arange(5) * 2 * np.pi / 5))
+    first = _roots((samples**2).sum(axis=-1) - 1.0)
+    u = second(plane.rotation(first))
     return np.stack([first, np.arctan2(u[..., 1], u[..., 0])], axis=-1)
 
 
@@ -185,10 +183,6 @@ def _roots(samples: Array) -> Array:
     return out
 
 
-def _rotation(turn: Array) -> Array:
-    return np.stack([np.cos(turn), np.sin(turn)], axis=-1)
-
-
 def _turn(group: Group, part: Part, angle: Array) -> None:
     """Set the angles (S, angles) of a group's links."""
     for k, links in enumerate(group.turning):
@@ -199,19 +193,30 @@ def _place_links(group: Group, part: Part, places: Array) -> None:
     part.point[:, group.link, group.axis] = places
 
 
-def _arms(c: Conditions, rotation: Array) -> tuple[Array, Array, Array]:
+def _arms(group: Group, rotation: Array) -> tuple[Array, Array, Array]:
     """Arms on i and j and the axes (S, K, 2), in ground axes."""
+    c = group.conditions
     ri, rj, n = (
-        np.where((u != 0).any(axis=-1, keepdims=True), plane.rotate(rotation[:, link], u), 0.0)
-        for link, u in ((c.i, c.ui), (c.j, c.uj), (c.frame, c.axis))
+        np.where(some, plane.rotate(rotation[:, link], u), 0.0)
+        for some, link, u in zip(group.some, (c.i, c.j, c.frame), (c.ui, c.uj, c.axis), strict=True)
     )
     return ri, rj, n
+
+
+def _turned_arms(own: tuple[Flags, ...], ri: Array, rj: Array) -> Array:
+    """Arms (S, K, 2) of an unknown angle's own links, of those on i with the other sign."""
+    return np.where(own[1], rj, 0.0) - np.where(own[0], ri, 0.0)
 
 
 def _system(group: Group, part: Part, rotation: Array) -> tuple[Array, Array]:
     """Conditions matrix (S, K, p) times places plus constant (S, K) are 0, at given rotations (S, n, 2)."""
     n, constant = _constant(group, part, rotation)
-    return _where(group.incidence, n[..., group.axis]) * group.incidence, constant
+    return _matrix(group, n), constant
+
+
+def _matrix(group: Group, n: Array) -> Array:
+    """Derivatives (S, K, p) of the conditions by the places."""
+    return _where(group.incidence, n[..., group.axis]) * group.incidence
 
 
 def _constant(group: Group, part: Part, rotation: Array) -> tuple[Array, Array]:
@@ -219,7 +224,7 @@ def _constant(group: Group, part: Part, rotation: Array) -> tuple[Array, Array]:
     c = group.conditions
     point = part.point.copy()
     point[:, group.link, group.axis] = 0.0
-    ri, rj, n = _arms(c, rotation)
+    ri, rj, n = _arms(group, rotation)
     span = _where(n, point[:, c.j] + rj - point[:, c.i] - ri)
     return n, (n * span).sum(axis=-1) - part.target
 
@@ -234,11 +239,11 @@ def _places(group: Group, part: Part) -> Array:
     if not group.link.size:
         return np.zeros((len(part.turn), 0))
     if group.apart:
-        n, constant = _constant(group, part, _rotation(part.turn))
+        n, constant = _constant(group, part, plane.rotation(part.turn))
         own = np.arange(len(group.link))
         return np.asarray(-constant / (n[:, own, group.axis] * group.incidence[own, own]))
     near = ~group.conditions.far
-    matrix, constant = _system(group, part, _rotation(part.turn))
+    matrix, constant = _system(group, part, plane.rotation(part.turn))
     if near.sum() < len(group.link):
         return -apply(generalized_inverse(matrix[:, near]), constant[:, near])
     q, r = np.linalg.qr(matrix[:, near])
@@ -248,7 +253,7 @@ def _places(group: Group, part: Part) -> Array:
 def _lines(group: Group, part: Part) -> tuple[Array, Array, Array, Array]:
     """Arms on i and j, the axes n and the ways from point to point of the conditions (S, K, 2)."""
     c = group.conditions
-    ri, rj, n = _arms(c, _rotation(part.turn))
+    ri, rj, n = _arms(group, plane.rotation(part.turn))
     span = part.point[:, c.j] + rj - part.point[:, c.i] - ri
     n = np.where(c.far[:, None], span / np.linalg.norm(span, axis=-1, keepdims=True), n)
     return ri, rj, n, span
@@ -256,15 +261,16 @@ def _lines(group: Group, part: Part) -> tuple[Array, Array, Array, Array]:
 
 def jacobian(group: Group, part: Part) -> Array:
     """Derivatives (S, K, angles + p) of a group's conditions by its angles and places."""
-    c = group.conditions
     ri, rj, n, span = _lines(group, part)
     columns = []
-    for links in group.turning:
-        own_i, own_j, own_n = (np.isin(link, links).reshape(-1, 1) for link in (c.i, c.j, c.frame))
-        arm = np.where(own_j, plane.across(rj), 0.0) - np.where(own_i, plane.across(ri), 0.0)
-        axis = np.where(own_n, plane.across(n), 0.0)
-        columns.append((n * _where(n, arm)).sum(axis=-1) + (axis * _where(axis, span)).sum(axis=-1))
-    places = _where(group.incidence, n[..., group.axis]) * group.incidence
+    for own in group.own:
+        arm = plane.across(_turned_arms(own, ri, rj))
+        column = (n * _where(n, arm)).sum(axis=-1)
+        if own[2].any():
+            axis = np.where(own[2], plane.across(n), 0.0)
+            column = column + (axis * _where(axis, span)).sum(axis=-1)
+        columns.append(column)
+    places = _matrix(group, n)
     return np.concatenate([np.stack(columns, axis=-1), places], axis=-1) if columns else places
 
 
@@ -289,7 +295,7 @@ def _gap(group: Group, part: Part) -> Array:
 def _distinct(group: Group, which: Ints, part: Part) -> Ints:
     """The first of each of the ways that several starts have led to."""
     places = part.point[:, group.link, group.axis]
-    turned = _rotation(part.turn[:, [links[0] for links in group.turning]])
+    turned = plane.rotation(part.turn[:, [links[0] for links in group.turning]])
     size = max(float(np.abs(places).max(initial=0.0)), 1e-300)
     told = np.column_stack([which, turned.reshape(len(which), 2 * len(group.turning)), places / size]).round(
         6

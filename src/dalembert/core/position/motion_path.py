@@ -96,11 +96,12 @@ def _march_both_ways(
 
 
 def _around(layout: Layout, along: Course, period: Array, known: Path) -> Path:
-    """Positions of the cycle before and after this one, from the first and last of the list."""
-    count, listed = len(along.s), np.empty_like(along.targets)
+    """Positions of the cycle before and after this one, from the first and last of the list, where the motion itself
+    has come there: what it reached around the other way goes on into the motion that is known."""
+    count, listed, followed = len(along.s), np.empty_like(along.targets), known.reached
     listed[along.order] = along.targets
     for sign, place in ((-1, 0), (1, count - 1)):
-        if known.reached[place] and not known.reached.all():
+        if followed[place] and not known.reached.all():
             cycle = course(layout, np.concatenate([listed + sign * period, listed[place : place + 1]]))
             found = _both_ways(layout, known.pose.at(place), cycle, cycle.at(count), count)
             known = _first_reached(known, _apart(_same(layout, found, listed, -sign * period), known))
