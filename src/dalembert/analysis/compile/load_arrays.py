@@ -108,9 +108,9 @@ def _forces(s: Setting, loads: Tree) -> Forces:
 
 
 def _along(values: list[Numeric], count: int) -> Array:
-    """Numbers, and columns (P,) of those that change, as an array (P, N)."""
+    """Numbers, and columns (P,) of those that change, as an array (P, N), to be read only."""
     if not any(isinstance(value, np.ndarray) for value in values):
-        return np.repeat(numbers(values)[None], count, axis=0)
+        return np.broadcast_to(numbers(values), (count, len(values)))
     return numbers([np.broadcast_to(value, (count,)) for value in values]).T
 
 

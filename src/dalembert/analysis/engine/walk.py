@@ -19,7 +19,7 @@ lies between two listed positions is looked at too."""
 MOST = 20_000
 """Places between the listed positions that are looked at."""
 
-MANY = 500_000
+MANY = 200_000
 """Angles that are counted at once, so that it takes little memory."""
 
 TURN = 1.0
@@ -74,21 +74,29 @@ def count_turns(k: KeptProgram, out: Array, way: Walk, first: Array) -> bool:
         out[k.rows["turn"].start + free] = first[free, None]
         return True
     at_once = max(1, MANY // len(way.order))
-    for start in range(0, len(free), at_once):
-        links = free[start : start + at_once]
-        rows = k.rows["rotation"].start + links
-        angle = np.arctan2(out[rows + len(k.fixed)], out[rows])
-        step = np.diff(angle[:, way.order], axis=1)
+    parts = (free[start : start + at_once] for start in range(0, len(free), at_once))
+    return all(_count_turns(k, out, way, first, links) for links in parts)
+
+
+def _count_turns(k: KeptProgram, out: Array, way: Walk, first: Array, links: Ints) -> bool:
+    """Put in the angles of some links."""
+    rows = k.rows["rotation"].start + links
+    angle = np.arctan2(out[rows + len(k.fixed)], out[rows])
+    whole = np.zeros_like(angle)
+    for part in range(0, len(way.order) - 1, MANY):
+        order = way.order[part : part + MANY + 1]
+        step = np.diff(angle[:, order], axis=1)
         turns = np.rint(step / (2 * np.pi))
-        if turns.any():
+        turned = turns.any()
+        if turned:
             step -= 2 * np.pi * turns
         if (np.abs(step, out=step) > TURN).any():
             return False
-        whole = np.zeros_like(angle)
-        if turns.any():
-            whole[:, way.order[1:]] = -np.cumsum(turns, axis=1)
-        whole += (np.rint((first[links] - angle[:, 0]) / (2 * np.pi)) - whole[:, 0])[:, None]
-        out[k.rows["turn"].start + links] = angle + 2 * np.pi * whole
+        if turned or part:
+            whole[:, order[1:]] = whole[:, order[:1]] - np.cumsum(turns, axis=1)
+    whole += (np.rint((first[links] - angle[:, 0]) / (2 * np.pi)) - whole[:, 0])[:, None]
+    whole *= 2 * np.pi
+    out[k.rows["turn"].start + links] = np.add(angle, whole, out=whole)
     return True
 
 
