@@ -90,6 +90,26 @@ def test_a_damaged_chunk_is_computed_again(
     assert same(store, finished)
 
 
+@pytest.mark.parametrize("array", ["effort.O2", "status"])
+@pytest.mark.parametrize("damage", [flip, cut, Path.unlink])
+def test_a_damaged_chunk_is_not_shown(store: Path, finished: Path, array: str, damage: object) -> None:
+    damage(store / array / "c" / "1")  # type: ignore[operator]
+    left, whole = StudyResult.open(store), StudyResult.open(finished)
+    lost = slice(left.block, 2 * left.block)
+    assert not left.done[lost].any()
+    assert left.done.sum() == DESIGNS - left.block
+    assert np.isnan(left["effort.O2"][lost]).all()
+    assert np.array_equal(left["effort.O2"][left.done], whole["effort.O2"][left.done])
+    assert (left.status[lost] == "").all()
+
+
+def test_attributes_that_are_none_of_a_study_are_said(store: Path) -> None:
+    group = store / "zarr.json"
+    group.write_text(group.read_text().replace('"spreads"', '"spread"'))
+    with pytest.raises(da.ModelError, match=r"s\.zarr is no readable study: 'spreads'; run it anew"):
+        StudyResult.open(store)
+
+
 def test_a_finished_study_is_not_computed_again(study: Study, store: Path) -> None:
     counted: list[int] = []
     study.run(store, progress=lambda done, of: counted.append(done))

@@ -89,10 +89,12 @@ class Store:
             found = dict(self.group.attrs)
             self.arrays = {name: self.group[name] for name in [*found["blocks_of"], "ledger"]}
         except (KeyError, ValueError, TypeError, OSError) as error:
-            raise ModelError(
-                f"{self} is no readable study: {error}", "run it anew under another name"
-            ) from None
+            raise self.unreadable(error) from None
         return found
+
+    def unreadable(self, error: Exception) -> ModelError:
+        """The sentence for a group whose attributes or arrays are not those of a study."""
+        return ModelError(f"{self} is no readable study: {error}", "run it anew under another name")
 
     @property
     def names(self) -> list[str]:

@@ -43,12 +43,22 @@ class StudyResult:
         self.study, self.arrays, self.ledger, self.block = study, arrays, ledger, block
 
     @classmethod
-    def open(cls, path: str | os.PathLike[str]) -> StudyResult:
-        """The results of a store, finished or not; the study is that of its own attributes."""
+    def open(cls, path: str | os.PathLike[str], check: bool = True) -> StudyResult:
+        """The results of a store, finished or not; the study is that of its own attributes.
+
+        check: blocks that are not what was written, by their checksums, count as not done; a resumed run repairs them.
+        """
         store = Store(path)
         found = store.open("r")
-        study = stored_study(store, found)
-        return cls(study, store.arrays, store.ledger(), int(found["block"]))
+        try:
+            study, block = stored_study(store, found), int(found["block"])
+        except (KeyError, TypeError, ValueError) as error:
+            raise store.unreadable(error) from None
+        ledger = store.ledger()
+        for b in np.flatnonzero(ledger[:, 0]) if check else ():
+            if not store.sound(int(b), block, study.count, ledger[b]):
+                ledger[b] = 0
+        return cls(study, store.arrays, ledger, block)
 
     def __repr__(self) -> str:
         return f"<StudyResult: {int(self.done.sum()):,} of {self.study.count:,} designs, {self.counts()}>"
@@ -61,7 +71,14 @@ class StudyResult:
     def __getitem__(self, name: str) -> Array:
         if name not in self.arrays or name == "ledger":
             raise ModelError(f"the study has not kept {name!r}", closest(name, list(self.study.outputs)))
-        values = np.array(self.arrays[name][: self.study.count])
+        array = self.arrays[name]
+        try:
+            values = np.array(array[: self.study.count])
+        except Exception:  # whatever a codec says of a chunk that was cut, which is not done
+            values = np.zeros(array.shape, array.dtype)
+            for b in np.flatnonzero(self.ledger[:, 0]):
+                which = slice(b * self.block, (b + 1) * self.block)
+                values[which] = array[which]
         values[~self.done] = 255 if values.dtype == np.uint8 else np.nan
         return values
 

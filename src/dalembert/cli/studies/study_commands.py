@@ -72,8 +72,10 @@ def resume(
     scheduler: Scheduler = None,
 ) -> int:
     """Go on with a study that was stopped: blocks that are missing or broken are computed, the others checked."""
+    from dalembert.studies.store import Store
+
     store = study if _is_store(study) else output or str(Path(study).with_suffix(".zarr"))
-    _stored(store)
+    Store(store).open("r")
     return _run(_read(study), store, threads, scheduler)
 
 
@@ -87,9 +89,9 @@ def extend(
     scheduler: Scheduler = None,
 ) -> int:
     """Add designs to a study drawn by random or sobol; those that are there stay as they are."""
-    if designs != int(designs):
+    if not designs.is_integer():
         raise ModelError(f"--designs {designs} is no whole number", "give one, as 100000 or 1e6")
-    return _run(_stored(store).study.extended(int(designs)), store, threads, scheduler)
+    return _run(_read(store).extended(int(designs)), store, threads, scheduler)
 
 
 @study.command(
@@ -186,9 +188,10 @@ def _stored(store: str) -> StudyResult:
 
 def _read(path: str) -> Study:
     """The study of a store, or of a file."""
+    from dalembert.studies import StudyResult
     from dalembert.studies.study_file import load_study
 
-    return _stored(path).study if _is_store(path) else load_study(path)
+    return StudyResult.open(path, check=False).study if _is_store(path) else load_study(path)
 
 
 def _run(study: Study, store: str, threads: int | None, scheduler: str | None) -> int:
