@@ -120,6 +120,7 @@ class Equation:
         """Know nothing of the motion yet."""
         self.last, self.size = np.zeros(len(self.names)), 1e-300
         self.slopes: dict[tuple[bool, ...], Array] = {}
+        self.placed: tuple[tuple[float, ...], list[Any]] = ((), [])
         return self
 
     def again(self, values: Array | None = None) -> Equation:
@@ -146,11 +147,22 @@ class Equation:
     def __call__(self, t: float, q: Array, u: Array, a: Array, sense: Array) -> Terms:
         d, ends, state = len(u), self.ends, (*q, *sense, t)
         self.values[self.rates] = [*u, *a]
+        at = (t, *q.tolist())
         for _ in range(STEPS):
+            if (
+                at != self.placed[0]
+            ):  # the pose of a state that has been followed stays with other accelerations
+                self.placed = (), [f(t, q, self.known) if callable(f) else 0.0 for f in self.channels]
             out = self.run(
-                [state[f] if type(f) is int else float(f(t, q, self.known)) for f in self.channels]
+                [
+                    state[f] if type(f) is int else x
+                    for f, x in zip(self.channels, self.placed[1], strict=True)
+                ]
             )
-            if not self.known or self.known.follow(out[ends[4] :]) <= NEAR or not self.by_newton:
+            if not self.known or at == self.placed[0]:
+                break
+            if self.known.follow(out[ends[4] :]) <= NEAR or not self.by_newton:
+                self.placed = at, [f(t, q, self.known) if callable(f) else 0.0 for f in self.channels]
                 break
         mass, power, rates = (out[i:j] for i, j in pairwise(ends[:4]))
         return Terms(out[:d], mass.reshape(d, d), power, rates, out[ends[3] : ends[4]])
