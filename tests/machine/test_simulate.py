@@ -373,6 +373,19 @@ def test_with_friction_it_asks_for_them_too(seed: int) -> None:
     assert s.energy_residual < 1e-9
 
 
+@pytest.mark.parametrize("first", tiers([], [], range(0, 200, 20)))
+def test_of_200_with_friction_each_moves_or_says_why_not(first: int) -> None:
+    """Those that do not move have a drive whose links have no mass."""
+    for seed in range(first, first + 20):
+        try:
+            s = simulated(rubbing(random_case(seed).tree), 1e-3, tolerance=1e-9)
+        except ModelError as error:
+            assert "nothing there has inertia: forces that move" in str(error)
+        else:
+            assert s.ended == "at 0.001 s", seed
+            assert max(s.law_residual, s.energy_residual) < 1e-9, seed
+
+
 @pytest.mark.parametrize("rough", [False, True])
 @pytest.mark.parametrize("seed", tiers([24], [3, 5, 33]))
 def test_in_space_it_asks_for_them_too(seed: int, rough: bool) -> None:
