@@ -48,7 +48,10 @@ def _settle_pairs(
         runner, side = k.runner.sided.runner, k.runner.sided.trace.inputs.side()
         program, machine, _ = runner.machine("pairs")
         columns, common = runner.inputs(program, course)
-    column = program.inputs_in_use("channel").index(side)
+    used = program.inputs_in_use("channel")
+    if side not in used:  # no output or mark depends on it
+        return
+    column = used.index(side)
     both = []
     for sign in (-1.0, 1.0):
         columns_ = columns[positions]
@@ -57,6 +60,8 @@ def _settle_pairs(
     good = np.logical_and.reduce(
         [among(code, (0, LOCKED)) & np.isfinite(out).all(axis=1) for out, code in both]
     )
+    if not good.any():
+        return
     locked = (both[0][1] == LOCKED) | (both[1][1] == LOCKED)
     here = designs[good], positions[good]
     found.code[here] = np.where(locked, LOCKED, REVERSAL)[good]
