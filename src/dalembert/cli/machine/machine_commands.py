@@ -206,7 +206,7 @@ def balance(
             consume_multiple=True,
             negative=(),
             help="Links that get a counterweight, each with its bounds: crank, or "
-            "crank:radius=80mm,mass=2kg,moment=...,disc=DENSITY/THICKNESS/RADIUS,at=POINT.",
+            "crank:radius=80mm,mass=2kg,moment=...,place=X/Y,x=FROM/TO,disc=DENSITY/THICKNESS/RADIUS,at=POINT.",
         ),
     ],
     least: Annotated[

@@ -51,7 +51,7 @@ def motor_parts(c: MotorChoice, to: Printed) -> Iterator[Part]:
         c.rated is not None
     )
     yield (
-        f"Enough by {' and '.join(given)}."
+        f"Whether it is enough is judged by {' and '.join(given)}."
         if given
         else "No curve and no rated torque given: nothing is judged."
     )
