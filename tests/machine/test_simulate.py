@@ -373,17 +373,24 @@ def test_with_friction_it_asks_for_them_too(seed: int) -> None:
     assert s.energy_residual < 1e-9
 
 
-@pytest.mark.parametrize("first", tiers([], [], range(0, 200, 20)))
-def test_of_200_with_friction_each_moves_or_says_why_not(first: int) -> None:
-    """Those that do not move have a drive whose links have no mass."""
-    for seed in range(first, first + 20):
-        try:
-            s = simulated(rubbing(random_case(seed).tree), 1e-3, tolerance=1e-9)
-        except ModelError as error:
-            assert "nothing there has inertia: forces that move" in str(error)
-        else:
-            assert s.ended == "at 0.001 s", seed
-            assert max(s.law_residual, s.energy_residual) < 1e-9, seed
+WEIGHTLESS = {
+    *(0, 9, 13, 21, 39, 40, 47, 52, 53, 54, 55, 68, 69, 75, 87, 90),
+    *(109, 120, 136, 147, 151, 157, 158, 169, 180, 182),
+}
+"""Of 200 seeds those with a drive whose links have no mass."""
+
+
+@pytest.mark.parametrize("seed", tiers([], [], sorted(set(range(200)) - WEIGHTLESS)))
+def test_of_200_with_friction_each_moves(seed: int) -> None:
+    s = simulated(rubbing(random_case(seed).tree), 1e-3, tolerance=1e-9)
+    assert s.ended == "at 0.001 s"
+    assert max(s.law_residual, s.energy_residual) < 1e-9
+
+
+@pytest.mark.parametrize("seed", tiers([], [], sorted(WEIGHTLESS)))
+def test_or_says_why_not(seed: int) -> None:
+    with pytest.raises(ModelError, match="nothing there has inertia: forces that move"):
+        simulated(rubbing(random_case(seed).tree), 1e-3, tolerance=1e-9)
 
 
 @pytest.mark.parametrize("rough", [False, True])
