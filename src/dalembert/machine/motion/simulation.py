@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 TOLERANCE, MOST = 1e-12, 100_000
 """Of the integration, relative; and the most instants that are kept."""
+DOUBT = 1e-5
+"""Gap of a check above which the answer says so: results are read to five digits at most."""
 
 
 @dataclass(frozen=True)
@@ -42,8 +44,8 @@ class Simulation(Answer):
     ``applied`` (T, D): what acts in each drive's freedom, brakes and stops included; ``stop_force`` (T, D): of the stop
     that it rests on. ``works``: J since the start, (T,), by name.
     ``kinetic``, ``potential`` (T,). Checks: ``energy_residual``, the gap of the energy balance over the largest energy;
-    ``law_residual``, of the efforts that the found motion asks for when it is prescribed, over the largest; and
-    ``closure``, of the loops, m or rad.
+    ``law_gap`` (T,), of the efforts that the found motion asks for when it is prescribed, over the largest,
+    ``law_residual`` its largest; and ``closure``, of the loops, m or rad.
     """
 
     NAME = "simulation"
@@ -58,9 +60,28 @@ class Simulation(Answer):
     events: tuple[Event, ...]
     ended: str
     energy_residual: float
-    law_residual: float
+    law_gap: Array
     closure: float
     evaluations: int = field(repr=False, default=0)
+
+    @property
+    def law_residual(self) -> float:
+        """The largest of ``law_gap``."""
+        return float(self.law_gap.max(initial=0.0))
+
+    @property
+    def doubt(self) -> str:
+        """What the checks do not confirm, as beside a singular position where a motion ends; empty where they do."""
+        at, said = np.flatnonzero(self.law_gap > DOUBT), []
+        if len(at):
+            when = f"{self.time[at[0]]:.6g} s" + (f" and {len(at) - 1} more" if len(at) > 1 else "")
+            said.append(
+                f"at {when} accelerations and forces are uncertain: prescribed, that motion asks for other efforts, "
+                f"by {self.law_residual:.1g} of the largest"
+            )
+        if self.energy_residual > DOUBT:
+            said.append(f"the energy balance has a gap of {self.energy_residual:.1g} of the largest energy")
+        return "; ".join(said)
 
     @property
     def drives(self) -> tuple[str, ...]:
@@ -106,6 +127,7 @@ class Simulation(Answer):
             "energy_residual": self.energy_residual,
             "law_residual": self.law_residual,
             "closure": self.closure,
+            "doubt": self.doubt,
         }
 
     def _event(self, e: Event, to: Scale) -> Tree:
@@ -227,7 +249,7 @@ def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, run: Integrat
         events=tuple(run.events),
         ended=run.ended or f"at {t[-1]:.6g} s",
         energy_residual=_energy_residual(kinetic, potential, named),
-        law_residual=_law_residual(result, applied, moves),
+        law_gap=_law_gap(result, applied, moves),
         closure=float(np.nanmax(closure_gap(result), initial=0.0)),
         evaluations=run.evaluations,
     )
@@ -251,12 +273,10 @@ def _energy_residual(kinetic: Array, potential: Array, works: Mapping[str, Array
     return float(np.nanmax(np.abs(gap), initial=0.0)) / (largest or 1.0)
 
 
-def _law_residual(r: Result, applied: Array, moves: Actuation) -> float:
+def _law_gap(r: Result, applied: Array, moves: Actuation) -> Array:
     """The found motion, prescribed, asks for the efforts that made it: where they are numbers, and nothing reverses."""
     sure = np.array([s in ("ok", "self_locking") for s in r.status])
-    asked, given = r.effort_array[sure][:, moves.free], applied[sure][:, moves.free]
-    inner = (
-        np.nan_to_num(r.force_array)[sure] * r.compiled.layout.length
-    )  # beside it an effort may be nothing
-    largest = max(float(np.abs(x).max(initial=0.0)) for x in (asked, given, inner))
-    return float(np.abs(asked - given).max(initial=0.0)) / (largest or 1.0)
+    asked, given = r.effort_array[:, moves.free], applied[:, moves.free]
+    inner = np.nan_to_num(r.force_array) * r.compiled.layout.length  # beside it an effort may be nothing
+    largest = max(float(np.abs(x[sure]).max(initial=0.0)) for x in (asked, given, inner))
+    return np.where(sure, np.abs(asked - given).max(axis=1, initial=0.0), 0.0) / (largest or 1.0)

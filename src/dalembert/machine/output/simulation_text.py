@@ -35,6 +35,8 @@ def simulation_parts(s: Simulation, to: Printed) -> Iterator[Part]:
         f"found, prescribed, asks for the efforts that made it within {remainder(s.law_residual)}; the loops close "
         f"within {remainder(s.closure)} m."
     )
+    if s.doubt:
+        yield f"Doubtful: {s.doubt}."
     problems = [row for row in s.result.problems() if row[1] != "at_rest"]
     if problems:
         yield "\n".join(f"instants {which}: {sentence}" for which, _, sentence in problems)
