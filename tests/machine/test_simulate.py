@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from copy import deepcopy
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -268,7 +269,8 @@ def test_the_press_of_the_guide_comes_to_a_steady_state() -> None:
 
 
 def rubbing(tree: Any) -> Any:
-    """The mechanism with friction in its pins and sliders."""
+    """The mechanism with friction in its pins and sliders; the tree given is another test's too."""
+    tree = deepcopy(tree)
     for joint in tree["joints"].values():
         if joint["type"] in ("pin", "slider", "revolute", "prismatic"):
             turns = joint["type"] in ("pin", "revolute")
