@@ -24,6 +24,8 @@ from dalembert.model import Mechanism
 
 ONE_AT_A_TIME = threading.Lock()
 """The general executor keeps programs with their memory: one thread at a time."""
+BLOCK_WORK = 3_000_000_000
+"""Scalar operations that take a core about a tenth of a second."""
 PROBED = 64
 """Designs whose bits stand for those of all, when it is asked whether two programs are the same."""
 UNSURE = (CODES.index("undecided"), CODES.index("at_rest"))
@@ -47,6 +49,9 @@ class Engine(Protocol):
     @property
     def positions(self) -> int: ...
 
+    @property
+    def most_at_once(self) -> int: ...
+
     def block(self, values: Array) -> Block: ...
 
 
@@ -67,10 +72,18 @@ class KernelEngine:
         return len(self.kernel.trace.course.schedule.position if self.at is None else self.at)
 
     @property
+    def most_at_once(self) -> int:
+        """Designs of a block that takes a tenth of a second, beside which it takes little to store it."""
+        return int(BLOCK_WORK // (self.positions * max(1, self._program[0].size)))
+
+    @property
     def text(self) -> str:
         """The program before it is machine code: what is computed, whatever the version is called."""
-        runner = self.kernel.runner
-        return str(runner.machine(runner.way(self.positions))[1].text)
+        return str(self._program[1].text)
+
+    @property
+    def _program(self) -> Any:
+        return self.kernel.runner.machine(self.kernel.runner.way(self.positions))
 
     def block(self, values: Array) -> Block:
         found = self.kernel(values, self.at, threads=1, redo=False)
@@ -105,6 +118,11 @@ class AnalysisEngine:
     @property
     def positions(self) -> int:
         return len(self.nominal.status)
+
+    @property
+    def most_at_once(self) -> int:
+        """Designs of a block: each takes milliseconds."""
+        return 64
 
     @property
     def text(self) -> str:

@@ -260,11 +260,11 @@ class Study:
         return self.engine.why
 
     def block_size(self) -> int:
-        """Designs of a block of a new store: a power of two of some million design-positions, at most 64 MB."""
+        """Designs of a block of a new store: a power of two, of a tenth of a second, at most 64 MB."""
         engine = self.engine
         kept = 1 if self.reduce else engine.positions
         each = 8 * (len(self.paths) + 3 * kept * len(self.outputs))
-        most = min(4_000_000 // engine.positions, BLOCK_BYTES // each) if not engine.why else 64
+        most = min(engine.most_at_once, BLOCK_BYTES // each)
         size = 1 << max(0, min(most, max(self.count // 16, 16 if engine.why else 4096)).bit_length() - 1)
         while self.count / size > MOST_BLOCKS:
             size *= 2
