@@ -19,6 +19,7 @@ from dalembert.cli import main
 from dalembert.studies import Study, StudyResult, object_store
 from dalembert.studies.object_store import Objects
 from dalembert.studies.store import Store
+from tests.studies.test_stores import KILLED
 from tests.tiers import tiers
 
 DESIGNS = 20_000
@@ -212,29 +213,8 @@ def test_a_report_of_an_address(address: str, study: Study, tmp_path: Path) -> N
     assert main(["study", "report", address, "-o", str(tmp_path / "s.html")]) == 0
 
 
-KILLED = """
-import os, random, signal, sys, time
-from dalembert.studies import object_store
-from dalembert.studies.store import Store
-from dalembert.studies.study_file import load_study
-object_store.LEASE = 0.3
-put = Store.put
-def late(self, *rest):
-    time.sleep(0.02)
-    return put(self, *rest)
-Store.put = late
-study = load_study(sys.argv[1])
-study.prints
-for seed in sys.argv[3:]:
-    child = os.fork()
-    if not child:
-        study.run(f"{sys.argv[2]}/{seed}.zarr", threads=2)
-        os._exit(0)
-    time.sleep(random.Random(int(seed)).uniform(0.0, 0.8))
-    os.kill(child, signal.SIGKILL)
-    os.waitpid(child, 0)
-"""
-"""Runs that write slowly below an address, each killed at a random moment."""
+SHORT = "from dalembert.studies import object_store\nobject_store.LEASE = 0.3\n"
+"""Leases that end soon after a kill."""
 
 
 @pytest.mark.parametrize("seeds", tiers([], [range(30)]))
@@ -244,7 +224,7 @@ def test_killed_runs_are_taken_over_and_resumed_bit_by_bit(
     monkeypatch.setattr(object_store, "LEASE", 0.3)
     (tmp_path / "s.yaml").write_text(FILE)
     names = [str(tmp_path / "s.yaml"), f"file://{tmp_path}", *map(str, seeds)]
-    subprocess.run([sys.executable, "-c", KILLED, *names], check=True)
+    subprocess.run([sys.executable, "-c", SHORT + KILLED, *names], check=True)
     time.sleep(0.35)
     for seed in seeds:
         study.run(f"file://{tmp_path}/{seed}.zarr")

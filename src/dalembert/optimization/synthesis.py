@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dalembert.analysis.batch.checked_input import numbers as checked
-from dalembert.analysis.batch.compiled_kernel import compile  # noqa: A004
+from dalembert.analysis.batch.compiled_kernel import Kernel, compile  # noqa: A004
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.model import Mechanism
@@ -90,13 +90,7 @@ def synthesize(
     if timing not in ("given", "free"):
         raise ModelError(f"timing={timing!r} is none", 'give "given" or "free"')
     k = compile(mechanism, tuple(vary), list(targets), derivatives=True, static=True)
-    f: Misfit
-    if timing == "free":
-        f = FreeTiming.of(k, low, high - low, targets, positions)
-    else:
-        place = None if positions is None else checked("positions", positions)
-        count = len(k.course(place).schedule.position)
-        f = Misfit(k, low, high - low, *wanted(k, targets, count), place)
+    f = _misfit(k, low, high - low, targets, positions, timing == "free")
     own = np.clip((k.nominal - low) / np.where(high > low, high - low, 1.0), 0, 1)
     x, cost = least_squares(f, f.begin(random_places(f.answers, own, starts, seed)))
     cost = np.where(f.moves(x), cost, np.inf)
@@ -120,3 +114,19 @@ def synthesize(
         positions=k.course(place).schedule.position,
         found={name: r.value(name)[0] for name in targets},
     )
+
+
+def _misfit(
+    k: Kernel,
+    low: Array,
+    size: Array,
+    targets: Mapping[str, ArrayLike],
+    positions: ArrayLike | None,
+    free: bool,
+) -> Misfit:
+    """What is to be small, with the drives' positions given or free."""
+    if free:
+        return FreeTiming.of(k, low, size, targets, positions)
+    place = None if positions is None else checked("positions", positions)
+    count = len(k.course(place).schedule.position)
+    return Misfit(k, low, size, *wanted(k, targets, count), place)
