@@ -25,11 +25,13 @@ def replace_value(
     here = (*walked, key)
     if isinstance(part, Part):
         name = _field(part, key, here)
-        inner = replace_value(getattr(part, name), rest, value, rules, here) if rest else value
+        inner = replace_value(_by_keys(part, key, name), rest, value, rules, here) if rest else value
         return _rebuilt(part, name, inner, rules, here)
     if isinstance(part, Mapping):
-        _require_known(key, list(part), here)
-        return {**part, key: replace_value(part[key], rest, value, rules, here) if rest else value}
+        if rest or not isinstance(part, Written):
+            _require_known(key, list(part), here)
+        new = {**part, key: replace_value(part[key], rest, value, rules, here) if rest else value}
+        return Written(new) if isinstance(part, Written) else new
     if isinstance(part, tuple):
         _require_known(key, [str(i) for i in range(len(part))], here)
         items = list(part)
@@ -38,6 +40,22 @@ def replace_value(
     raise ModelError(
         f"the path {'.'.join([*here, *rest])!r} goes into a single value", "leave out its end", walked
     )
+
+
+class Written(dict[str, object]):
+    """A value as a file writes it, whose keys are checked where it is read again."""
+
+
+def _by_keys(part: Part, key: str, name: str) -> Any:
+    """A field; as a file writes it where it is a value with keys of its own: stops, a motor, a start, a range."""
+    value = getattr(part, name)
+    inner = value.values() if isinstance(value, Mapping) else (value,)
+    if any(isinstance(x, (Part, Table, Expression)) or not dataclasses.is_dataclass(x) for x in inner):
+        return value
+    tree = part.model_dump(mode="json", by_alias=True, include={name}).get(key)
+    if not isinstance(tree, Mapping):
+        return value
+    return {k: Written(v) for k, v in tree.items()} if isinstance(value, Mapping) else Written(tree)
 
 
 Leaf = float | Expression

@@ -13,9 +13,10 @@ from scipy.optimize import brentq
 
 from dalembert.arrays import Array
 from dalembert.machine.motion.actuation import Actuation
-from dalembert.machine.motion.occurrences import Event, Guard
+from dalembert.machine.motion.occurrences import Event, Guard, Words
 from dalembert.machine.motion.standstill import STILL, ContactState
 from dalembert.model import Mechanism
+from dalembert.model.drives.drives import kind_of
 
 SLOW = 1e-8
 """What goes back from a stop with less than this part of the greatest speed there has been stays on it."""
@@ -86,10 +87,10 @@ class StopState(ContactState):
 
     def _note_impact(self, k: int, t: float, of: tuple[float, float, float, float]) -> None:
         place, before, after, lost = of
-        unit = "rad" if self.acting.drives[k].turns else "m"
-        back = f"goes back with {after:.6g} {unit}/s" if after else "does not go back"
-        sentence = (
-            f"{self.acting.names[k]} strikes its stop at {place:.6g} {unit} with {before:.6g} {unit}/s and {back}; "
-            f"{lost:.6g} J are lost"
+        drive, name = self.acting.drives[k], self.acting.names[k]
+        kind, rate = kind_of(drive.freedom, ""), kind_of(drive.freedom, "speed")
+        back: Words = ("goes back with ", (rate, after)) if after else ("does not go back",)
+        said: Words = (f"{name} strikes its stop at ", (kind, place), " with ", (rate, before), " and ")
+        self.events.append(
+            Event(t, "impact", (*said, *back, "; ", ("energy", lost), " are lost"), name, before, lost)
         )
-        self.events.append(Event(t, "impact", sentence, before, lost))

@@ -16,7 +16,7 @@ from dalembert.arrays import Array
 from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.equation import StoppedError
 from dalembert.machine.motion.impacts import StopState
-from dalembert.machine.motion.occurrences import Condition, Guard, Value
+from dalembert.machine.motion.occurrences import Condition, Guard, Value, Words
 from dalembert.machine.motion.standstill import STILL
 from dalembert.machine.motion.steps import LEAST, Between, Integrator, MachineSteps, Steps, between
 from dalembert.model import Mechanism
@@ -47,7 +47,7 @@ class Integration(StopState):
         super().__init__(m, actuation)
         self.end, self.conditions, self.tolerance = end, conditions, tolerance
         self.waiting = None if times is None else list(times)
-        self.ended = ""
+        self.ended: Words = ()
         self.rows: list[tuple[float, Array, Array, Array, Array, Array, Array]] = []
         self.samples: list[tuple[float, Between]] = []
 
@@ -102,8 +102,8 @@ class Integration(StopState):
                 with suppress(StoppedError):
                     self.keep(*self.reached)
             t = self.rows[-1][0] if self.rows else 0.0
-            self.ended = f"stopped at {t:.6g} s: {error}"
-            self.note(t, "stopped", self.ended)
+            self.ended = ("stopped at ", ("time", t), f": {error}")
+            self.note(t, "stopped", *self.ended)
 
     def _all_rest(self) -> bool:
         """Whether what forces move is held, and what is prescribed stands."""
@@ -291,9 +291,8 @@ class Integration(StopState):
             stands = [int(k) for k in np.flatnonzero(self.rubs & ~self.locked) if abs(y[d + k]) <= small]
             if g.kind == "contact" and not stands:
                 self.sense[g.which] *= -1
-                self.note(
-                    t, "reversal", f"{self.equation.joints[g.which]} reverses: its friction turns round"
-                )
+                joint = self.equation.joints[g.which]
+                self.note(t, "reversal", f"{joint} reverses: its friction turns round", of=joint)
             elif g.kind == "contact":
                 rests += [k for k in stands if k not in rests]
             elif g.kind == "stop":
@@ -303,7 +302,7 @@ class Integration(StopState):
             elif g.kind == "condition":
                 c = self.conditions[g.which]
                 self.note(t, "condition", c.text)
-                self.ended = f"{c.text} at {t:.6g} s" if c.stops else self.ended
+                self.ended = (f"{c.text} at ", ("time", t)) if c.stops else self.ended
         for k in dict.fromkeys(rests):
             y[d + k] = 0.0
             self._settle(k, t, y)
@@ -323,7 +322,7 @@ class Integration(StopState):
         if when < end:
             self._resume(when, y)
             return when
-        self.ended = f"at rest from {t:.6g} s on"
+        self.ended = ("at rest from ", ("time", t), " on")
         if self.rows[-1][0] < end:
             self.keep(end, y)
         return self.end

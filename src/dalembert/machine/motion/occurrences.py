@@ -7,20 +7,43 @@ from dataclasses import dataclass
 from math import nan
 from typing import NamedTuple
 
+from dalembert.analysis.output.columns import Scale
 from dalembert.arrays import Array
+from dalembert.printing import number
 
 Value = Callable[[float, Array], float]
 """A quantity of time and state."""
 
 
+Words = tuple[str | tuple[str, float], ...]
+"""A sentence: texts, and SI numbers with their kinds."""
+SI = Scale(None)
+
+
+def say(words: Words, to: Scale = SI) -> str:
+    """The sentence in the units of a scale.
+
+    >>> say(("it strikes with ", ("speed", 0.5)))
+    'it strikes with 0.5 m/s'
+    """
+    return "".join(w if isinstance(w, str) else f"{number(float(to(*w)))} {to.text(w[0])}" for w in words)
+
+
 class Event(NamedTuple):
-    """What happened when, as a sentence; of an impact the speed before, rad/s or m/s, and the energy lost, J."""
+    """What happened when, in ``words``, to which drive or joint (``of``); of an impact the speed before, rad/s or m/s,
+    and the energy lost, J."""
 
     time: float
     name: str
-    sentence: str
+    words: Words
+    of: str = ""
     speed: float = nan
     lost: float = nan
+
+    @property
+    def sentence(self) -> str:
+        """What happened, in SI units."""
+        return say(self.words)
 
 
 @dataclass(frozen=True)

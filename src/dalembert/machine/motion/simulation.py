@@ -20,7 +20,7 @@ from dalembert.errors import ModelError
 from dalembert.machine.motion.actuation import Actuation, actuation
 from dalembert.machine.motion.energies import energies
 from dalembert.machine.motion.integration import Integration
-from dalembert.machine.motion.occurrences import Condition, Event
+from dalembert.machine.motion.occurrences import Condition, Event, Words, say
 from dalembert.machine.output.answer import Answer
 from dalembert.model import Mechanism, Schedule
 from dalembert.model.drives.drives import SLIDE, TURN
@@ -58,11 +58,16 @@ class Simulation(Answer):
     kinetic: Array
     potential: Array
     events: tuple[Event, ...]
-    ended: str
+    ending: Words
     energy_residual: float
     law_gap: Array
     closure: float
     evaluations: int = field(repr=False, default=0)
+
+    @property
+    def ended(self) -> str:
+        """By what it ended."""
+        return say(self.ending)
 
     @property
     def law_residual(self) -> float:
@@ -122,7 +127,7 @@ class Simulation(Answer):
     def record(self, to: Scale) -> Tree:
         """Events, the end and the checks."""
         return {
-            "ended": self.ended,
+            "ended": say(self.ending, to),
             "events": [self._event(e, to) for e in self.events],
             "energy_residual": self.energy_residual,
             "law_residual": self.law_residual,
@@ -131,7 +136,7 @@ class Simulation(Answer):
         }
 
     def _event(self, e: Event, to: Scale) -> Tree:
-        known = {"time": float(np.asarray(to("time", e.time))), "name": e.name, "sentence": e.sentence}
+        known = {"time": float(np.asarray(to("time", e.time))), "name": e.name, "sentence": say(e.words, to)}
         return known | ({} if np.isnan(e.lost) else {"lost": float(np.asarray(to("energy", e.lost)))})
 
 
@@ -224,7 +229,7 @@ def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, run: Integrat
     """The analysis along the motion that was found, and the checks."""
     if not run.rows:
         raise ModelError(
-            f"the motion cannot begin: {run.ended}", "start elsewhere, or with another speed", ("start",)
+            f"the motion cannot begin: {say(run.ended)}", "start elsewhere, or with another speed", ("start",)
         )
     t, q, u, a, applied, works, on_stop = (np.array(column) for column in zip(*run.rows, strict=True))
     kept = np.append(np.diff(t) > 0, True)  # of an event the state behind it
@@ -247,7 +252,7 @@ def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, run: Integrat
         kinetic=kinetic,
         potential=potential,
         events=tuple(run.events),
-        ended=run.ended or f"at {t[-1]:.6g} s",
+        ending=run.ended or ("at ", ("time", t[-1])),
         energy_residual=_energy_residual(kinetic, potential, named),
         law_gap=_law_gap(result, applied, moves),
         closure=float(np.nanmax(closure_gap(result), initial=0.0)),

@@ -15,8 +15,9 @@ from dalembert.arrays import Array, Flags
 from dalembert.machine.motion.actuation import Actuation
 from dalembert.machine.motion.equation import NO_INERTIA, StoppedError, Terms
 from dalembert.machine.motion.equation_trace import equation_of
-from dalembert.machine.motion.occurrences import Event
+from dalembert.machine.motion.occurrences import Event, Words
 from dalembert.model import Mechanism, Schedule
+from dalembert.model.drives.drives import kind_of
 from dalembert.model.drives.motors import Switch
 
 STILL = 1e-9
@@ -89,8 +90,8 @@ class ContactState:
             self.slipping = (t, y.tobytes()), self.equation(t, q, u, np.zeros(self.d), self.sense).rates
         return self.slipping[1]
 
-    def note(self, t: float, name: str, sentence: str) -> None:
-        self.events.append(Event(t, name, sentence))
+    def note(self, t: float, name: str, *words: str | tuple[str, float], of: str = "") -> None:
+        self.events.append(Event(t, name, words, of))
 
     def _settle_start(self, t: float, y: Array) -> None:
         """Senses at the start; what stands there is held, or goes the way it is pushed."""
@@ -146,14 +147,12 @@ class ContactState:
         if wide and low <= tau <= high:
             self.locked[k] = True
             if self.on_stop[k]:
-                self.note(t, "rest", f"{name} stays on its stop")
+                self.note(t, "rest", f"{name} stays on its stop", of=name)
                 return
+            kind = kind_of(self.acting.drives[k].freedom, "effort")
             why = "its motor stalls" if k in self.acting.motors and self.acting.on[k] else "friction holds it"
-            self.note(
-                t,
-                "rest",
-                f"{name} comes to rest and stays: {why}; effort {tau:.6g}, held from {low:.6g} to {high:.6g}",
-            )
+            ends: Words = ("; effort ", (kind, tau), ", held from ", (kind, low), " to ", (kind, high))
+            self.note(t, "rest", f"{name} comes to rest and stays: {why}", *ends, of=name)
             return
         self.locked[k], left, self.on_stop[k] = False, self.on_stop[k], 0.0
         self.toward[k] = 1.0 if tau > high or (not wide and tau >= (low + high) / 2) else -1.0
@@ -165,7 +164,7 @@ class ContactState:
         self.sense = np.where(still & (pushed != 0), np.where(pushed < 0, -1.0, 1.0), self.sense)
         if t > 0 or was:
             what = "leaves its stop" if left else "starts again" if was else "turns back"
-            self.note(t, "start" if was else "reversal", f"{name} {what}")
+            self.note(t, "start" if was else "reversal", f"{name} {what}", of=name)
 
     def _loose(self, t: float, y: Array) -> list[int]:
         """Locked drives that are no longer held."""

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.machine.motion.occurrences import say
 from dalembert.model.drives.drives import SLIDE, TURN
 from dalembert.printing import Part, Table, number, remainder
 
 if TYPE_CHECKING:
+    from dalembert.machine.motion.occurrences import Event
     from dalembert.machine.motion.simulation import Simulation
 
 ROWS = 21
@@ -20,12 +23,12 @@ ROWS = 21
 
 def simulation_parts(s: Simulation, to: Printed) -> Iterator[Part]:
     """The drives over time, events, works, greatest joint forces and the checks."""
-    yield f"Motion under forces from 0 to {to.quantity('time', s.time[-1])}: {s.ended}."
+    yield f"Motion under forces from 0 to {to.quantity('time', s.time[-1])}: {say(s.ending, to)}."
     yield _drives(s, to)
-    events = [f"at {to.quantity('time', e.time)}: {e.sentence}" for e in s.events[:ROWS]]
-    more = [f"... and {len(s.events) - ROWS} more"] if len(s.events) > ROWS else []
+    events = _events(s, to)
+    more = [f"... and {len(events) - ROWS} more"] if len(events) > ROWS else []
     if events:
-        yield "\n".join(["Events", *events, *more])
+        yield "\n".join(["Events", *events[:ROWS], *more])
     yield _works(s, to)
     joints = _joints(s, to)
     if joints.rows:
@@ -59,6 +62,29 @@ def _drives(s: Simulation, to: Printed) -> Table:
     which = np.unique(np.linspace(0, len(s.time) - 1, ROWS).astype(int))
     rows = [[number(float(np.asarray(c)[n])) for c in columns] for n in which]
     return Table(heads, rows, 0)
+
+
+def _events(s: Simulation, to: Printed) -> list[str]:
+    """A line for each event; where impacts and reversals follow one another, one for all of each drive or joint."""
+    lines = []
+    for swift, run in groupby(s.events, lambda e: e.name in ("impact", "reversal")):
+        of: dict[tuple[str, str], list[Event]] = {}
+        for e in run:
+            of.setdefault((e.name, e.of if swift else str(id(e))), []).append(e)
+        lines += [_line(several, to) for several in of.values()]
+    return lines
+
+
+def _line(several: list[Event], to: Printed) -> str:
+    first, last = several[0], several[-1]
+    said, when = say(first.words, to), to.quantity("time", first.time)
+    if len(several) == 1:
+        return f"at {when}: {said}"
+    span = f"from {when} to {to.quantity('time', last.time)}: {len(several)} {first.name}s of {first.of}"
+    if first.name != "impact":
+        return span
+    lost = to.quantity("energy", sum(e.lost for e in several))
+    return f"{span}, {lost} lost together; in the first, {said}"
 
 
 def _works(s: Simulation, to: Printed) -> Table:
