@@ -95,12 +95,14 @@ def trace_friction(
     slips: Array | None = None,
     reversals: Array | None = None,
     side: Node | None = None,
+    given: Array | None = None,
 ) -> FrictionTrace:
     """Multipliers with friction; ``still``: what loads the links beside inertia, None where there is none.
 
     ``slips``: z of each contact where the solution is known; then there are no verdicts, which are known too, and
     ``reversals`` has the sense of contacts that reverse there, else 0.
     ``side``: -1 just before reversals, 1 just after.
+    ``given``: c z of each contact, whatever its law; then there are no verdicts either.
     """
     contacts = _trace_contacts(graph, contacts)
     twist = trace_array(graph, moving.twist)  # without motion they are numbers
@@ -113,6 +115,11 @@ def trace_friction(
         moves = 1.0 - np.abs(reversals)
         open_: Any = moves * trace_array(graph, state.open)
         state = state._replace(sense=reversals + moves * state.sense, open=open_)
+    if given is not None:
+        total = s.w + total_wrench(layout, pair(along, given))
+        wrenches = dry_wrenches(layout, contacts, pose, along, np.where(contacts.fixed, 0.0, given))
+        x, slip = multiplier(r, given), Slip(along, state, r, given)
+        return FrictionTrace(x, total, *wrenches, Marks(), slip)
     sense, c = trace_array(graph, state.sense), trace_array(graph, strength(contacts, 1.0, sense=state.sense))
     z, bears, marks = trace_slip(graph, contacts, with_strength(r, c), sense, slips)
     x = multiplier(r, c * z)

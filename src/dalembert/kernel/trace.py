@@ -64,7 +64,7 @@ class Problem:
     friction of each contact in it (``reversals`` its sense where that reverses): then one step of Newton is left, which
     carries the derivatives. ``margins`` are, by
     freedom, how far the turns of springs may be from the known motion's for the same count of whole turns. ``moves``:
-    the drives go on from where the known motion is."""
+    the drives go on from where the known motion is, and friction of each contact is an input, not yet known."""
 
     graph: Graph
     layout: Layout
@@ -212,7 +212,11 @@ def _trace_equilibrium(
         return s, FrictionTrace(x, total, *none, Marks())
     still = statement_of(*(kind for kind in sources if kind != "inertia")).w if p.inertia else None
     known = p.slips, p.reversals, p.side
-    return s, trace_friction(p.graph, layout, p.contacts, pose, moving, s, still, *known)
+    count = p.contacts.count if p.moves else 0
+    given = np.array([p.graph.input("channel", f"friction {e}", 0.0) for e in range(count)], object)
+    return s, trace_friction(
+        p.graph, layout, p.contacts, pose, moving, s, still, *known, given if p.moves else None
+    )
 
 
 def _trace_pose(

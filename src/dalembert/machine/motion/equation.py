@@ -1,8 +1,7 @@
 """The equation of motion of the drives, as a function of numbers: inverse dynamics, which is affine in accelerations.
 
-effort(q, u, a) = M_r(q) a + h(q, u): the traced analysis gives it with its exact derivative by a, which is M_r. With
-dry friction it is only piecewise smooth in a; then Broyden's method, which begins at M_r. The senses of the contacts
-are inputs, so that between two events everything is smooth.
+effort(q, u, a) = M_r(q) a + h(q, u): the traced analysis gives it with its exact derivative by a, which is M_r. Dry
+friction is one more input of it, which ``dry_friction`` finds.
 
 Mechanics: docs/theory.md 10.6.
 """
@@ -15,7 +14,6 @@ from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib.util import find_spec
-from itertools import pairwise
 from threading import RLock
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -29,16 +27,14 @@ from dalembert.kernel.emit import llvm_text
 from dalembert.kernel.graph import Node, trace_array
 from dalembert.kernel.memory import address
 from dalembert.kernel.program import Program
+from dalembert.machine.motion.dry_friction import Contacted, DryFriction, Linear
 from dalembert.machine.motion.steps import Integrator
 
 if TYPE_CHECKING:
     from dalembert.kernel.emit.machine_code import Machine
 
-STEPS, RENEWAL, SAME, ROUNDING = 40, 20, 1e-13, 1e-10
-"""Broyden's steps for accelerations with friction; the change of one, over the largest, that ends them; and that below
-which they end where it does not fall any more."""
-
-
+STEPS = 40
+"""Newton's steps for a pose that has no closed form."""
 NEAR = 1e-7
 """How far the pose of a state may be from the one that Newton's steps began at, so that they have ended."""
 NO_INERTIA = "nothing there has inertia"
@@ -54,14 +50,15 @@ class StoppedError(AnalysisError):
 
 
 class Terms(NamedTuple):
-    """At a state: efforts (D,) for the accelerations given, M_r (D, D), powers of loads, dampers and friction (3,),
-    rates of the contacts (E,), and what is below zero within 0.2 deg of a dead centre or change point."""
+    """At a state: efforts (D,) at no acceleration, M_r (D, D), powers of loads and dampers (2,), rates of the contacts
+    (E,), what is below zero within 0.2 deg of a dead centre or change point, and what friction changes."""
 
     effort: Array
     mass: Array
     power: Array
     rates: Array
     closure: Array
+    linear: Linear | None
 
 
 @dataclass
@@ -91,7 +88,8 @@ class Equation:
 
     ``parts``: nodes of the terms, in their order; ``numbers``: those of speeds, then of accelerations; ``values``: of
     all numbers, those of nodes where ``places`` says; ``channels``: where an input stands in positions, senses and
-    time, or how it follows from time and positions. ``known``: the pose, where states are followed one by one.
+    time, or how it follows from time and positions. ``known``: the pose, where states are followed one by one; ``dry``:
+    the contacts, where there is friction, with the names of the joints of its ``own`` ones.
     """
 
     def __init__(
@@ -108,26 +106,19 @@ class Equation:
         self.ends, self.numbers, self.values = np.cumsum([len(part) for part in parts]), numbers, values
         self.places, self.rates = places, [places[n.index] for n in numbers]
         program.__dict__["places"] = program.places | places
-        self.contacts, self.joints, self.rough = len(parts[3]), list[str](), False
+        self.joints: list[str] = []
+        self.dry: DryFriction | None = None
         self.known: LastPose | None = None
         self.by_newton = False
         self.kept: dict[object, Any] = {}
         self.kernel: Any = None
         self.asked, self.asked_channels = program, channels
-        self.begin()
-
-    def begin(self) -> Equation:
-        """Know nothing of the motion yet."""
-        self.last, self.size = np.zeros(len(self.names)), 1e-300
-        self.slopes: dict[tuple[bool, ...], Array] = {}
-        self.placed: tuple[tuple[float, ...], list[Any]] = ((), [])
-        return self
 
     def again(self, values: Array | None = None) -> Equation:
         """The same equation for another motion, of other numbers; its machine code is shared."""
-        new = copy(self).begin()
+        new = copy(self)
         new.values = (self.values if values is None else values).copy()
-        new.known = self.known and replace(self.known)
+        new.known, new.dry = self.known and replace(self.known), self.dry and replace(self.dry)
         new.__dict__.pop("run", None)
         return new
 
@@ -144,28 +135,22 @@ class Equation:
             self.kept["terms"], self.values, len(self.channels), len(self.program.outputs)
         )
 
-    def __call__(self, t: float, q: Array, u: Array, a: Array, sense: Array) -> Terms:
-        d, ends, state = len(u), self.ends, (*q, *sense, t)
-        self.values[self.rates] = [*u, *a]
-        at = (t, *q.tolist())
+    def __call__(self, t: float, q: Array, u: Array) -> Terms:
+        """The terms at a state, at no accelerations and without dry friction."""
+        d, state = len(u), (*q, t)
+        self.values[self.rates] = [*u, *np.zeros(d)]
         for _ in range(STEPS):
-            if (
-                at != self.placed[0]
-            ):  # the pose of a state that has been followed stays with other accelerations
-                self.placed = (), [f(t, q, self.known) if callable(f) else 0.0 for f in self.channels]
-            out = self.run(
-                [
-                    state[f] if type(f) is int else x
-                    for f, x in zip(self.channels, self.placed[1], strict=True)
-                ]
-            )
-            if not self.known or at == self.placed[0]:
+            along = [f(t, q, self.known) if callable(f) else state[f] for f in self.channels]
+            out = self.run(along)
+            if not self.known or self.known.follow(out[self.ends[-1] :]) <= NEAR or not self.by_newton:
                 break
-            if self.known.follow(out[ends[4] :]) <= NEAR or not self.by_newton:
-                self.placed = at, [f(t, q, self.known) if callable(f) else 0.0 for f in self.channels]
-                break
-        mass, power, rates = (out[i:j] for i, j in pairwise(ends[:4]))
-        return Terms(out[:d], mass.reshape(d, d), power, rates, out[ends[3] : ends[4]])
+        effort, mass, power, rates, closure, *more = np.split(out[: self.ends[-1]], self.ends[:-1])
+        linear = None
+        if self.dry:
+            e = self.dry.contacts.count
+            shapes = (d, e), (3, e), (3, e, d), (3, e, e), (e,)
+            linear = Linear(*(x.reshape(shape) for x, shape in zip(more, shapes, strict=True)))
+        return Terms(effort, mass.reshape(d, d), power, rates, closure, linear)
 
     def steps(self, free: Flags, lanes: int = 1, works: bool = True) -> Integrator | None:
         """Steps of motions side by side in machine code, where drives go by forces (``free``, (D,)) that are straight
@@ -174,7 +159,7 @@ class Equation:
         The state: positions, speeds; ``works`` of drives, of brakes, loads, dampers and friction. Behind ``values``
         there stand, each (D,): effort at speed 0, its slope, that of the brake, acceleration of what is prescribed.
         """
-        uneven = self.rough or self.known or any(callable(f) for f in self.channels)
+        uneven = self.dry or self.known or any(callable(f) for f in self.channels)
         if uneven or find_spec("llvmlite") is None:
             return None
         key = (lanes, works, *free.tolist())
@@ -202,7 +187,7 @@ class Equation:
         rate = [*u, *a]
         if works:
             asked, _, power = np.split(found(self.ends[2], a), self.ends[:2])
-            rate += [*np.where(free, applied, asked) * u, (given[2] * u).sum(), *power]
+            rate += [*np.where(free, applied, asked) * u, (given[2] * u).sum(), *power, graph.zero]
         program = Program(graph, tuple(trace_array(graph, rate)))
         first = len(self.values)
         numbers = {x.index: first + k for k, x in enumerate(given.ravel())}
@@ -211,36 +196,27 @@ class Equation:
         return Integrator(program, n, first + 4 * d, lanes)
 
     def accelerations(
-        self, t: float, q: Array, u: Array, given: Array, tau: Array, free: Array, sense: Array
-    ) -> tuple[Array, Array, Terms]:
-        """Accelerations (D,), those of ``free`` drives (D,) from their efforts tau; efforts of all; and the terms.
+        self, t: float, q: Array, u: Array, given: Array, tau: Array, free: Flags, sense: Array, stuck: Flags
+    ) -> tuple[Contacted, Terms]:
+        """Accelerations (D,), those of ``free`` drives (D,) from their efforts tau, with what contacts do; the terms.
 
         Raises StoppedError where there are none: the mechanism does not close, or is singular, or jams.
         """
-        a = np.where(free, self.last if self.rough else 0.0, given)
-        before, slope, step = np.inf, self.slopes.get(tuple(free)), np.zeros_like(a)
-        change, left = 0.0, a[free]
-        for k in range(STEPS):
-            e = self(t, q, u, a, sense)
-            if not (np.isfinite(e.effort).all() and np.isfinite(e.mass).all()):
-                raise StoppedError(OPEN)
-            if not free.any():
-                return a, e.effort, e
-            gap = (tau - e.effort)[free]
-            if slope is None or not self.rough or k == RENEWAL:
-                slope = e.mass[np.ix_(free, free)]
-            elif k and change:
-                slope = slope - np.outer(gap - left + slope @ step[free], step[free] / (step @ step))
-            pushed = np.abs(tau).max() / max(float(np.abs(slope).max()), 1e-300)
-            self.size = max(self.size, float(pushed))  # what rounding is measured by, of the whole motion
-            step[free], left = _solve(slope, gap), gap
-            a, effort, change = a + step, e.effort + e.mass @ step, float(np.abs(step).max())
-            self.size = max(self.size, float(np.abs(a).max()))
-            if not self.rough or change <= SAME * self.size or before <= change <= ROUNDING * self.size:
-                self.last, self.slopes[tuple(free)] = a, slope
-                return a, effort, e
-            before = change
-        raise StoppedError("there it jams: no acceleration satisfies the law of friction")
+        e, a = self(t, q, u), np.where(free, 0.0, given)
+        if not all(np.isfinite(x).all() for x in (e.effort, e.mass, *(e.linear or ()))):
+            raise StoppedError(OPEN)
+        push = e.linear.push if e.linear else np.zeros((len(a), 0))
+        ease = _solve(e.mass[np.ix_(free, free)], np.column_stack([tau - e.effort - e.mass @ a, -push])[free])
+        a[free], change = ease[:, 0], np.zeros_like(push)
+        change[free] = ease[:, 1:]
+        effort, change = e.effort + e.mass @ a, np.vstack([change, push + e.mass @ change])
+        none = np.zeros(push.shape[1])
+        if not self.dry or not e.linear:
+            return Contacted(a, effort, none, none, none), e
+        found = self.dry.solve(e.linear, a, effort, change, self.dry.senses(e.rates, sense), stuck)
+        if found is None:
+            raise StoppedError("there it jams: no acceleration satisfies the law of friction")
+        return found, e
 
 
 def solve_nodes(mass: Array, right: Array) -> Array:
@@ -255,9 +231,9 @@ def solve_nodes(mass: Array, right: Array) -> Array:
 
 def _solve(mass: Array, right: Array) -> Array:
     with suppress(np.linalg.LinAlgError):
-        if len(right) > 1 or mass[0, 0] > 0:
+        if len(mass) != 1 or mass[0, 0] > 0:
             return np.asarray(np.linalg.solve(mass, right))
-    raise StoppedError(f"{NO_INERTIA}, or friction makes it negative: no acceleration is determined")
+    raise StoppedError(f"{NO_INERTIA}: no acceleration is determined")
 
 
 def _machine_program(

@@ -19,13 +19,16 @@ from dalembert.analysis.compile.compiled_mechanism import Compiled, compile_mech
 from dalembert.analysis.compile.pose_loads import TIME
 from dalembert.analysis.engine.kept_program import KeptProgram
 from dalembert.analysis.engine.structures import ready
-from dalembert.arrays import Array
+from dalembert.arrays import Array, Ints
 from dalembert.core import forcing as fc
+from dalembert.core.constraints import drift, rates
+from dalembert.core.friction.contact_equations import Contacts
 from dalembert.errors import ModelError
 from dalembert.kernel.derivatives import gradients
 from dalembert.kernel.graph import CONSTANT, Graph, Node, trace_array
 from dalembert.kernel.program import Program
 from dalembert.kernel.trace import Traced
+from dalembert.machine.motion.dry_friction import DryFriction
 from dalembert.machine.motion.equation import LOCK, Equation, LastPose
 from dalembert.model import Mechanism, Schedule
 
@@ -52,27 +55,32 @@ def trace_equation(
     """The equation of one mechanism, for any numbers at the paths ``vary``; with what is ``asked`` of a state: outputs,
     then what is below zero where it is in doubt."""
     names = tuple(m.drives)
-    rates = [f"drives.{n}.{what}" for what in ("speed", "acceleration") for n in names]
-    trace = trace_analysis(m, [*vary, *rates], inertia=True, moves=True)
+    moving = [f"drives.{n}.{what}" for what in ("speed", "acceleration") for n in names]
+    trace = trace_analysis(m, [*vary, *moving], inertia=True, moves=True)
     graph, traced, count = trace.catalogue.graph, trace.catalogue.traced, len(names)
     kernel = Kernel(m, trace, outputs or (), None, False, 1)
     numbers = kernel.number_nodes[-2 * count :]
     effort = [n for name in names for n in trace.catalogue.nodes(f"effort.{name}")]
     mass = [n for row in gradients(graph, effort, numbers[count:]) for n in row]
-    joints, senses, rubbing = _contacts(trace)
-    inputs = [graph.input("channel", f"sense {k}", 1.0) for k in range(len(senses))]
-    places = {n.index: new for n, new in zip(senses, inputs, strict=True)}
-    parts = [effort, mass, _powers(graph, trace.catalogue.compiled, traced), rubbing, traced.closure]
+    parts = [
+        effort,
+        mass,
+        _powers(graph, trace.catalogue.compiled, traced),
+        *_contacts(trace, numbers[count:]),
+    ]
+    slip, none = traced.friction.slip, dict[int, Node]()
+    if slip is not None:
+        none = dict.fromkeys((n.index for n in (*trace_array(graph, slip.cz), *numbers[count:])), graph.zero)
 
     def program(*more: Node) -> Program:
-        nodes = graph.substitute([*(n for part in parts for n in part), *more], places)
+        nodes = graph.substitute([*(n for part in parts for n in part), *more], none)
         return plain(kernel, nodes, marked=False, without=OUTSIDE)
 
     found = program()
     known = [x for n in found.inputs_in_use("channel") if (x := graph.names[n.index]).startswith("known ")]
     if known:  # whole turns, and groups without a closed form: followed from state to state
         found = program(*(n for a in traced.pose for n in trace_array(graph, a).ravel()))
-    channels = [_channel(trace, names, n, inputs) for n in found.inputs_in_use("channel")]
+    channels = [_channel(trace, names, n) for n in found.inputs_in_use("channel")]
     own = {n.index: k for k, n in enumerate(kernel.number_nodes)}
     out = Equation(names, found, parts, numbers, own, np.append(kernel.nominal, 0.0), channels)
     out.kernel = kernel
@@ -81,24 +89,24 @@ def trace_equation(
             kernel, [*kernel.flat, *traced.closure, *traced.open], marked=False, without=OUTSIDE
         )
         out.asked.__dict__["places"] = out.asked.places | own
-        out.asked_channels = [_channel(trace, names, n, inputs) for n in out.asked.inputs_in_use("channel")]
-    out.joints, out.rough = joints, trace.catalogue.compiled.contacts is not None
-    followed = trace.course.followed
+        out.asked_channels = [_channel(trace, names, n) for n in out.asked.inputs_in_use("channel")]
+    followed, contacts = trace.course.followed, trace.course.followed.compiled.contacts
+    if contacts is not None and slip is not None:
+        out.dry = DryFriction(contacts, _own(contacts, trace_array(graph, slip.state.sense)))
+        out.joints = [followed.compiled.joints[contacts.joint[e]] for e in out.dry.own]
     out.known = LastPose(trace.course.pose, followed, followed.compiled.layout) if known else None
     out.by_newton = any(not name.startswith("known turn") for name in known)
     return out
 
 
-def _channel(trace: Trace, names: tuple[str, ...], node: Node, senses: list[Node]) -> Any:
-    """Where an input stands in positions, senses and time, or how it follows from time and positions."""
-    name, count = trace.catalogue.graph.names[node.index], len(names)
-    if node in senses:
-        return count + senses.index(node)
+def _channel(trace: Trace, names: tuple[str, ...], node: Node) -> Any:
+    """Where an input stands in positions and time, or how it follows from time and positions."""
+    name = trace.catalogue.graph.names[node.index]
     what, _, of = name.partition(" ")
     if what == "position" and of in names:
         return names.index(of)
     if name == TIME:
-        return count + len(senses)
+        return len(names)
     if what == "known":
         found = trace.inputs.found[node]
         return lambda t, q, known: np.ravel(found(known))[0]
@@ -141,34 +149,46 @@ def _shared(k: KeptProgram, names: tuple[str, ...]) -> Equation:
     numbers = {n.index: x for n, x in zip(k.inputs, own, strict=True) if n not in list(q)}
     program = Program(graph, tuple(graph.substitute([n for part in parts for n in part], numbers)))
     channels = [list(q).index(n) for n in program.inputs_in_use("channel")]
-    rates, places = [numbers[n.index] for n in (*u, *a)], {n.index: j for j, n in enumerate(own)}
-    return Equation(names, program, parts, rates, places, np.zeros(len(own) + 1), channels)
+    moving, places = [numbers[n.index] for n in (*u, *a)], {n.index: j for j, n in enumerate(own)}
+    return Equation(names, program, parts, moving, places, np.zeros(len(own) + 1), channels)
 
 
-def _contacts(trace: Trace) -> tuple[list[str], list[Node], list[Node]]:
-    """Joints, senses and rates of contacts whose sense is that of a rate of their own.
+def _own(contacts: Contacts, sense: Array) -> Ints:
+    """Contacts whose sense is that of a rate of their own.
 
     Contacts of a common slip share a direction, and teeth are pushed apart always: they follow by themselves.
     """
-    c = trace.catalogue.compiled
-    slip, contacts = trace.catalogue.traced.friction.slip, c.contacts
+    alone = (contacts.group == contacts.group[:, None]).sum(axis=0) == 1
+    moves = [n.level != CONSTANT for n in sense]
+    return np.flatnonzero(~contacts.fixed & alone & (contacts.led == np.arange(contacts.count)) & moves)
+
+
+def _contacts(trace: Trace, accelerations: Sequence[Node]) -> list[list[Node]]:
+    """Rates of the contacts, what vanishes at dead centres, and the nodes of ``Linear``."""
+    c, traced, graph = trace.catalogue.compiled, trace.catalogue.traced, trace.catalogue.graph
+    slip, contacts = traced.friction.slip, c.contacts
     if slip is None or contacts is None:
-        return [], [], []
-    sense, rate = (trace_array(trace.catalogue.graph, x) for x in (slip.state.sense, slip.state.rate))
-    own = [
-        e
-        for e in range(contacts.count)
-        if not contacts.fixed[e]
-        and contacts.led[e] == e
-        and (contacts.group == contacts.group[e]).sum() == 1
-        and sense[e].level != CONSTANT  # it never slips
-    ]
-    joints = [c.joints[contacts.joint[e]] for e in own]
-    return joints, [sense[e] for e in own], [rate[e] for e in own]
+        return [[], traced.closure]
+    first = c.layout.constraints.count
+    second = rates(slip.along, traced.acceleration) + drift(
+        c.layout.algebra, contacts.rows, traced.pose, traced.twist
+    )
+    push = slip.r.change[first : first + len(accelerations)]
+    ahead = gradients(graph, list(slip.r.y.ravel()), accelerations)
+    arrays = (
+        slip.state.rate,
+        np.array(traced.closure, object),
+        push,
+        slip.r.y,
+        np.array(ahead),
+        slip.r.h,
+        second,
+    )
+    return [list(trace_array(graph, a).ravel()) for a in arrays]
 
 
 def _powers(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:
-    """Powers of forces and couples, of dampers, and of dry friction, as nodes."""
+    """Powers of forces and couples, and of dampers, as nodes; dry friction is not there yet."""
     layout, f, pose, twist = c.layout, c.forcing, traced.pose, traced.twist
 
     def power(*sources: fc.Source) -> Node:
@@ -188,12 +208,9 @@ def _powers(graph: Graph, c: Compiled, traced: Traced) -> list[Node]:
         )
 
     dampers = power(*elastic(twist)) - power(*elastic(0.0 * twist))
-    slip, rubbing = traced.friction.slip, graph.zero
-    if slip is not None and c.contacts is not None:
-        rubbing = (np.where(c.contacts.fixed, 0.0, slip.cz) * slip.state.rate).sum()
     loads = graph.zero
     if len(f.forces.link) or len(f.couples.link):  # all power less that of the others
         inertial = fc.inertia_wrench(layout, f.inertia, pose, twist, traced.acceleration[:-1])
         others = power(*elastic(twist), fc.weight(layout, f.inertia, pose), inertial)
-        loads = (traced.loads * twist[:-1]).sum() - others - rubbing
-    return list(trace_array(graph, np.array([loads, dampers, rubbing], object)))
+        loads = (traced.loads * twist[:-1]).sum() - others
+    return list(trace_array(graph, np.array([loads, dampers], object)))

@@ -62,12 +62,12 @@ class StopState(ContactState):
     def strike(self, k: int, side: float, t: float, y: Array) -> None:
         """u+ = u- - (1 + e) M^-1 n (n u-) / (n M^-1 n) at a stop of drive k; what friction holds is let go."""
         d, free, stops = self.d, np.flatnonzero(self.acting.free), self.stops[k]
-        u, none = y[d : 2 * d], np.zeros(d)
+        u = y[d : 2 * d]
         y[k] = stops.least if side < 0 else stops.greatest
         before = max(float(u[k]) * side, 0.0)
         e = stops.restitution
         e = e if e * before > SLOW * max(float(self.fastest.max()), 1e-300) else 0.0
-        mass = self.equation(t, y[:d], u, none, 0 * self.sense).mass[np.ix_(free, free)]
+        mass = self.equation(t, y[:d], u).mass[np.ix_(free, free)]
         ease = np.linalg.solve(mass, (free == k).astype(float))
         own = float(ease[free == k][0])
         u[free] -= (1 + e) * before * side * ease / own
@@ -75,8 +75,8 @@ class StopState(ContactState):
         lost = (1 - e * e) * before**2 / (2 * own)
         self.losses.append((t, lost))
         self.locked &= u == 0
-        if self.equation.contacts:
-            rates = self.equation(t, y[:d], u, none, self.sense).rates
+        if len(self.sense):
+            rates = self.own(self.equation(t, y[:d], u).rates)
             clear = np.abs(rates) > STILL * np.abs(rates).max(initial=0.0)
             self.sense = np.where(clear, np.where(rates < 0, -1.0, 1.0), self.sense)
         self.toward = np.where(u != 0, np.where(u < 0, -1.0, 1.0), self.toward)

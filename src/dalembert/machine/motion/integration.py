@@ -130,11 +130,7 @@ class Integration(StopState):
             if steps > MANY_STEPS and before - t < steps * NEVER * (self.end - t) < np.inf:
                 raise StoppedError("there the steps become too small, as where friction nearly jams")
             if solver.step():
-                if (
-                    self.equation.rough
-                    and self.tolerance < COARSEST
-                    and not self._near_singular(before, from_)
-                ):
+                if self.equation.dry and self.tolerance < COARSEST and not self._near_singular(before, from_):
                     self.tolerance *= 10  # forces with friction are found to fewer digits than that
                     return before, from_
                 raise StoppedError(self.refusal or "there the steps of the integration become too small")
@@ -214,7 +210,7 @@ class Integration(StopState):
     def _meet(self, g: Guard, when: float, t: float, y: Array) -> tuple[float, Array]:
         """The instant near ``when`` at which a guard passes zero, by the motion itself from (t, y), and the state."""
         there = self._exactly(t, y, when) if when > t else y.copy()
-        for _ in range(2 if self.equation.rough and when > t else 0):  # else it is exact to rounding
+        for _ in range(2 if self.equation.dry and when > t else 0):  # else it is exact to rounding
             short = 1e-3 * (when - t)
             slope = (
                 g.value(when + short, there + short * self.rate(when, there)) - g.value(when, there)

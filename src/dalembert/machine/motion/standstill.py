@@ -13,6 +13,7 @@ from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.result.result import Result
 from dalembert.arrays import Array, Flags
 from dalembert.machine.motion.actuation import Actuation
+from dalembert.machine.motion.dry_friction import Contacted
 from dalembert.machine.motion.equation import NO_INERTIA, StoppedError, Terms
 from dalembert.machine.motion.equation_trace import equation_of
 from dalembert.machine.motion.occurrences import Event, Words
@@ -54,8 +55,10 @@ class ContactState:
         self.d = len(actuation.names)
         self.locked: Flags = np.zeros(self.d, bool)
         self.on_stop = np.zeros(self.d)
-        self.sense, self.toward = np.ones(self.equation.contacts), np.ones(self.d)
-        self.rubs: Flags = actuation.free & (self.equation.rough | (actuation.brake > 0))
+        dry = self.equation.dry
+        self.sense, self.toward = np.ones(len(dry.own) if dry else 0), np.ones(self.d)
+        self.stuck: Flags = np.zeros(dry.contacts.count if dry else 0, bool)
+        self.rubs: Flags = actuation.free & ((dry is not None) | (actuation.brake > 0))
         self.events: list[Event] = []
         self.switched: set[tuple[int, str]] = set()
         self.evaluations, self.refusal = 0, ""
@@ -63,32 +66,43 @@ class ContactState:
 
     def at(self, t: float, y: Array) -> tuple[Array, Array, Terms]:
         """Accelerations (D,), efforts (D,) of the drives with their brakes, and the terms."""
+        found, effort, terms = self.solved(t, y)
+        return found.a, effort, terms
+
+    def solved(self, t: float, y: Array) -> tuple[Contacted, Array, Terms]:
+        """Accelerations and friction, efforts (D,) of the drives with their brakes, and the terms."""
         q, u = y[: self.d], y[self.d : 2 * self.d]
         self.evaluations += 1
-        tau = self.acting.effort(t, q, u) - self.acting.brake * self.toward
+        given = self.acting.effort(t, q, u)
+        tau = given - self.acting.brake * self.toward
         free = self.acting.free & ~self.locked
-        given = np.where(self.acting.free, 0.0, self.acting.acceleration)
-        a, effort, terms = self.equation.accelerations(t, q, u, given, tau, free, self.sense)
-        held = self.acting.effort(t, q, u) if self.equation.rough else effort
-        return a, np.where(free, tau, np.where(self.acting.free, held, effort)), terms
+        a = np.where(self.acting.free, 0.0, self.acting.acceleration)
+        found, terms = self.equation.accelerations(t, q, u, a, tau, free, self.sense, self.stuck)
+        held = given if self.equation.dry else found.effort
+        return found, np.where(free, tau, np.where(self.acting.free, held, found.effort)), terms
 
     def rate(self, t: float, y: Array) -> Array:
         """Time derivative of positions, speeds and works; no numbers where there is none, with the reason kept."""
         try:
-            a, effort, terms = self.at(t, y)
+            found, effort, terms = self.solved(t, y)
         except StoppedError as error:
             self.refusal = str(error)
             return np.full_like(y, np.nan)
         u = y[self.d : 2 * self.d]
         braking = -self.acting.brake * self.toward * u * ~self.locked
-        return np.concatenate([u, a, (effort * u) - braking, [braking.sum()], terms.power])
+        rubbing = found.cz @ np.where(self.stuck, 0.0, terms.rates)
+        return np.concatenate([u, found.a, (effort * u) - braking, [braking.sum()], terms.power, [rubbing]])
 
     def rubbing_rates(self, t: float, y: Array) -> Array:
-        """Rates of the contacts (E,), those of the last state kept."""
+        """Rates of the contacts (E,) that slip by themselves, those of the last state kept."""
         if self.slipping[0] != (t, y.tobytes()):
             q, u = y[: self.d], y[self.d : 2 * self.d]
-            self.slipping = (t, y.tobytes()), self.equation(t, q, u, np.zeros(self.d), self.sense).rates
+            self.slipping = (t, y.tobytes()), self.own(self.equation(t, q, u).rates)
         return self.slipping[1]
+
+    def own(self, rates: Array) -> Array:
+        """Of all contacts those that slip by themselves."""
+        return rates[self.equation.dry.own] if self.equation.dry else rates
 
     def note(self, t: float, name: str, *words: str | tuple[str, float], of: str = "") -> None:
         self.events.append(Event(t, name, words, of))
@@ -96,11 +110,9 @@ class ContactState:
     def _settle_start(self, t: float, y: Array) -> None:
         """Senses at the start; what stands there is held, or goes the way it is pushed."""
         u = y[self.d : 2 * self.d]
-        if self.equation.rough:
+        if self.equation.dry:
             self._check_inertia(t, y)
-        if self.equation.contacts:
-            rates = self.equation(t, y[: self.d], u, np.zeros(self.d), self.sense).rates
-            self.sense = np.where(rates < 0, -1.0, 1.0)
+            self.sense = np.where(self.rubbing_rates(t, y) < 0, -1.0, 1.0)
         self.toward = np.where(u < 0, -1.0, 1.0)
         for k in np.flatnonzero(self.rubs & (u == 0)):
             self._settle(int(k), t, y)
@@ -108,7 +120,7 @@ class ContactState:
     def _check_inertia(self, t: float, y: Array) -> None:
         """Refuse drives that move nothing with inertia; friction is left out, which could seem to be some."""
         q, u, free = y[: self.d], y[self.d : 2 * self.d], np.flatnonzero(self.acting.free)
-        mass = self.equation(t, q, u, np.zeros(self.d), 0 * self.sense).mass[np.ix_(free, free)]
+        mass = self.equation(t, q, u).mass[np.ix_(free, free)]
         if not np.isfinite(mass).all():
             return
         size = np.sqrt(np.abs(mass.diagonal()))
@@ -132,7 +144,7 @@ class ContactState:
             self.locked = held
         r = at_state(self.m, self.acting.position, t, q, u, a)
         name = self.acting.names[k]
-        low, high = holding_efforts(r, k) if self.equation.rough else (float(r.effort(name)[1]),) * 2
+        low, high = holding_efforts(r, k) if self.equation.dry else (float(r.effort(name)[1]),) * 2
         if np.isnan(low) or np.isnan(high):
             raise StoppedError(f"{name} stands, and {r.reasons[1] or r.status[1]}")
         tau = float(self.acting.effort(t, q, u)[k])
@@ -156,10 +168,9 @@ class ContactState:
             return
         self.locked[k], left, self.on_stop[k] = False, self.on_stop[k], 0.0
         self.toward[k] = 1.0 if tau > high or (not wide and tau >= (low + high) / 2) else -1.0
-        there = self.equation(t, y[: self.d], y[self.d : 2 * self.d], np.zeros(self.d), self.sense).rates
-        ahead = np.zeros(self.d)
+        there, ahead = self.rubbing_rates(t, y), np.zeros(self.d)
         ahead[k] = self.toward[k]
-        pushed = self.equation(t, y[: self.d], ahead, np.zeros(self.d), self.sense).rates
+        pushed = self.own(self.equation(t, y[: self.d], ahead).rates)
         still = np.abs(there) <= STILL * np.abs(pushed)
         self.sense = np.where(still & (pushed != 0), np.where(pushed < 0, -1.0, 1.0), self.sense)
         if t > 0 or was:

@@ -1,0 +1,128 @@
+"""Dry friction of a moving machine: accelerations and friction of its contacts together, of known senses.
+
+Equilibrium with inertia is linear in accelerations a and friction c z alike:
+
+    effort = e + M a + G c z,    y = y0 + Ya a + H c z,    rates of the contacts' rates = d - G^T a
+
+With a put in from the first, where efforts are given, the second is that of contacts at known accelerations, with other
+numbers: the same solver finds z = -s S(y), the same determinant tells that there is one solution. A contact that sticks
+has its rate's rate 0 in place of that law, and its friction is what this takes.
+
+Mechanics: docs/theory.md 10.6.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from dalembert.arrays import Array, Flags, Ints
+from dalembert.core.friction.contact_equations import (
+    Contacts,
+    Response,
+    SlipState,
+    argument,
+    bearing,
+    multiplier,
+    sign,
+    strength,
+)
+from dalembert.core.friction.friction_solver import newton, solve_friction
+
+DEPENDENT = 1e-9
+"""A contact whose rate changes by less than this part with its own friction, where others stick, sticks with them."""
+
+
+class Linear(NamedTuple):
+    """Inverse dynamics in accelerations and friction: G (D, E), y0 (3, E), Ya (3, E, D), H (3, E, E), d (E,)."""
+
+    push: Array
+    y: Array
+    ahead: Array
+    h: Array
+    drift: Array
+
+
+class Contacted(NamedTuple):
+    """Accelerations and efforts (D,), the rates of the contacts' rates (E,), their friction c z (E,), and how much more
+    those that stick could take (E,)."""
+
+    a: Array
+    effort: Array
+    second: Array
+    cz: Array
+    room: Array
+
+
+@dataclass
+class DryFriction:
+    """The contacts of a machine; ``own``: those that slip by themselves, whose senses are told. ``last``: z of the last
+    state, where the next one's is sought from."""
+
+    contacts: Contacts
+    own: Ints
+    last: Array | None = None
+
+    def senses(self, rates: Array, told: Array) -> Array:
+        """Part of each contact (E,) in the direction of its slip; ``told``: of the own ones."""
+        c = self.contacts
+        sense = sign(c, rates * c.reckoned, (c.group == c.group[:, None]).sum(axis=0) == 1)
+        sense[self.own] = told
+        return np.where(c.fixed, -1.0, sense[c.led])
+
+    def solve(
+        self, f: Linear, a: Array, effort: Array, change: Array, sense: Array, stuck: Flags
+    ) -> Contacted | None:
+        """The solution, from that without friction (a, effort) and the ``change`` (2D, E) of both with c z; None where
+        there is none, or not by the way from no friction."""
+        d = len(a)
+        x = np.concatenate([a, effort, f.drift - f.push.T @ a])
+        r = Response(
+            x, np.vstack([change, -f.push.T @ change[:d]]), f.y + f.ahead @ a, f.h + f.ahead @ change[:d]
+        )
+        held = np.flatnonzero(stuck)
+        part = _sticking(r, 2 * d + held, held)
+        sense = np.where(stuck, 0.0, sense)
+        c = strength(self.contacts, 1.0, sense=sense)
+        z = self._slip(part, sense, c)
+        if z is None:
+            return None
+        cz = np.where(stuck, 0.0, c * z)
+        x, y = multiplier(part, cz), argument(part, cz)
+        if len(held):
+            cz[held] = np.linalg.solve(r.change[2 * d + held][:, held], (x - multiplier(r, cz))[2 * d + held])
+        limit = strength(self.contacts, 1.0, True) * np.abs(bearing(self.contacts, y))
+        return Contacted(x[:d], x[d : 2 * d], x[2 * d :], cz, np.where(stuck, limit - np.abs(cz), 0.0))
+
+    def _slip(self, r: Response, sense: Array, c: Array) -> Array | None:
+        """z of those that slip: near the last one, else by the way from no friction."""
+        whole = Response(*(x[None] for x in r))
+        if self.last is not None:
+            found = newton(self.contacts, whole, sense[None], c[None], self.last[None])
+            if found.arrived[0] and found.determinant[0] > 0:
+                self.last = found.z[0]
+                return self.last
+        state = SlipState(sense[None], np.zeros((1, len(sense)), bool), sense[None])
+        self.last = solve_friction(self.contacts, whole, state).z[0]
+        if not np.isfinite(self.last).all():
+            self.last = None
+        return self.last
+
+
+def _sticking(r: Response, rows: Ints, held: Ints) -> Response:
+    """The response where friction of some contacts keeps some multipliers at 0: it follows from the others'."""
+    if not len(held):
+        return r
+    inverse = np.linalg.inv(r.change[rows][:, held])
+    own, others = -inverse @ r.x[rows], -inverse @ r.change[rows]
+    others[:, held] = 0.0
+    change, h = r.change.copy(), r.h.copy()
+    change[:, held] = h[..., held] = 0.0
+    return Response(
+        r.x + r.change[:, held] @ own,
+        change + r.change[:, held] @ others,
+        r.y + r.h[..., held] @ own,
+        h + r.h[..., held] @ others,
+    )
