@@ -3,8 +3,10 @@
 Every program integrates the same motion, as its users would write it, on one thread of one process, again and again
 with finer steps (here: tolerances). The error is that of the crank's angle at the end, in radians, against this
 program's own motion at its tightest tolerance, which is compared with scipy's LSODA on the closed-form equation first.
-The model is built outside the clock in MuJoCo and Exudyn; here the whole call of da.simulate is timed, its checks and
-joint forces included. Medians of runs taken in turns.
+Models are built outside the clock everywhere, and the motion alone is asked for, with the drives' speeds and
+accelerations. Beside it: da.simulate with its checks and all joint forces at the instants of the answer, as when it is
+printed; and the model built anew each time, here and in Exudyn (here, the machine code of a structure stays). The other
+programs have the coarse steps too that reach an accuracy soonest. Medians of runs taken in turns.
 
     python benchmarks/simulate.py [seconds simulated]
 """
@@ -23,11 +25,12 @@ from scipy.integrate import solve_ivp
 
 import dalembert as da
 
-SECONDS, G, TORQUE, BEGIN, SPEED, REPEAT = 1.0, 9.80665, 0.4, pi / 3, 30.0, 3
+SECONDS, G, TORQUE, BEGIN, SPEED, REPEAT, TURN = 1.0, 9.80665, 0.4, pi / 3, 30.0, 5, 0.03
 A, B, C, D = 0.05, 0.15, 0.12, 0.2
 LINKS = {"crank": (A, 1.0, 0.0, 0.02), "rod": (B, 1.2, 0.07, 0.003), "rocker": (C, 0.8, 0.06, 0.004)}
 """Length, mass, centre from the first point and inertia about it of each link; the piston has a mass alone."""
 PISTON = 0.9
+KINDS = ("", "with checks", "and model")
 
 
 def model(four_bar: bool) -> Any:
@@ -106,10 +109,18 @@ def reference(four_bar: bool, seconds: float) -> float:
 def ours(four_bar: bool, seconds: float) -> dict[str, Callable[[], float]]:
     m = model(four_bar)
 
-    def way(tolerance: float) -> Callable[[], float]:
-        return lambda: float(da.simulate(m, seconds, count=2, tolerance=tolerance).position("O2")[-1])
+    def way(kind: str, tolerance: float) -> Callable[[], float]:
+        def run() -> float:
+            of = model(four_bar) if kind == "and model" else m
+            s = da.simulate(of, seconds, count=2, tolerance=tolerance)
+            if kind == "with checks":
+                assert max(s.energy_residual, s.law_residual, s.closure) < 1
+            return float(s.position("O2")[-1])
 
-    return {f"da.simulate, tolerance {t:.0e}": way(t) for t in (1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)}
+        return run
+
+    tolerances = (1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
+    return {f"da.simulate{k and ' '}{k}, {t:.0e}": way(k, t) for k in KINDS for t in tolerances}
 
 
 MUJOCO = """
@@ -181,7 +192,7 @@ def mujoco_ways(four_bar: bool, seconds: float) -> dict[str, Callable[[], float]
     return {
         f"MuJoCo, {integrator}, {step * 1e6:g} us": way(step, integrator)
         for integrator in ("Euler", "RK4")
-        for step in (1e-3, 2e-4, 5e-5)
+        for step in (1e-2, 2e-3, 1e-3, 2e-4, 5e-5)
     }
 
 
@@ -265,18 +276,22 @@ def exudyn_ways(four_bar: bool, seconds: float) -> dict[str, Callable[[], float]
 
         return run
 
-    return {f"Exudyn, {step * 1e6:g} us": way(step) for step in (1e-3, 2e-4, 5e-5)}
+    steps = (1e-2, 4e-3, 2e-3, 1e-3, 2e-4, 5e-5)
+    alone = {f"Exudyn, {step * 1e6:g} us": way(step) for step in steps}
+    return alone | {f"Exudyn and model, {step * 1e6:g} us": lambda s=step: way(s)() for step in steps}
 
 
 def measured(ways: dict[str, Callable[[], float]], known: float) -> dict[str, tuple[float, float]]:
-    """Median seconds and error (rad) of each, in turns."""
+    """Median seconds and error (rad) of each, in turns; short ones are repeated within theirs."""
     errors = {name: abs(way() - known) for name, way in ways.items()}
     times: dict[str, list[float]] = {name: [] for name in ways}
     for _ in range(REPEAT):
         for name, way in ways.items():
-            start = perf_counter()
-            way()
-            times[name].append(perf_counter() - start)
+            start, count = perf_counter(), 0
+            while perf_counter() - start < TURN:
+                way()
+                count += 1
+            times[name].append((perf_counter() - start) / count)
     return {name: (median(t), errors[name]) for name, t in times.items()}
 
 
@@ -297,7 +312,7 @@ def main() -> None:
                 print(f"left out: {error}")
         found = measured(ways, finest)
         for name, (time, error) in found.items():
-            print(f"{name:32} {time * 1e3:10.2f} ms {error:10.1e} rad")
+            print(f"{name:36} {time * 1e3:10.2f} ms {error:10.1e} rad")
         compare(found)
         many(four_bar)
 
@@ -320,14 +335,20 @@ def many(four_bar: bool) -> None:
 
 def compare(found: dict[str, tuple[float, float]]) -> None:
     """For each accuracy, the fastest of each program that reaches it."""
-    print("reached, rad | da.simulate ms | MuJoCo / it | Exudyn / it")
+    programs = ("da.simulate,", "da.simulate with checks,", "da.simulate and model,")
+    rivals = {"MuJoCo,": 0, "Exudyn,": 0, "Exudyn, / with checks": 1, "Exudyn and model,": 2}
+    print(
+        "reached, rad | ms: motion, with checks, and model | times as long: MuJoCo, Exudyn, / with checks, and model"
+    )
     for most in (1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8):
-        best = [
-            min((t for name, (t, e) in found.items() if name.startswith(who) and e <= most), default=np.inf)
-            for who in ("da.", "MuJoCo", "Exudyn")
-        ]
-        ratios = [f"{t / best[0]:11.1f}" if np.isfinite(t) else "not reached" for t in best[1:]]
-        print(f"{most:12.0e} | {best[0] * 1e3:14.2f} | {ratios[0]} | {ratios[1]}")
+
+        def best(who: str, most: float = most) -> float:
+            return min((t for n, (t, e) in found.items() if n.startswith(who) and e <= most), default=np.inf)
+
+        own = [best(who) for who in programs]
+        ratios = [best(who.split(" /")[0]) / own[k] for who, k in rivals.items()]
+        said = [f"{x:8.1f}" if np.isfinite(x) else "       -" for x in ratios]
+        print(f"{most:12.0e} | {' '.join(f'{1e3 * t:8.2f}' for t in own)} | {' '.join(said)}")
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ Mechanics: docs/theory.md 10.6.
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import Any
@@ -18,7 +19,15 @@ from dalembert.machine.motion.equation import StoppedError
 from dalembert.machine.motion.impacts import StopState
 from dalembert.machine.motion.occurrences import Condition, Guard, Value, Words
 from dalembert.machine.motion.standstill import STILL
-from dalembert.machine.motion.steps import LEAST, Between, Integrator, MachineSteps, Steps, between
+from dalembert.machine.motion.steps import (
+    LEAST,
+    Between,
+    Integrator,
+    MachineSteps,
+    Steps,
+    between,
+    standing_step,
+)
 from dalembert.model import Mechanism
 from dalembert.model.drives.motors import Switch
 
@@ -49,15 +58,14 @@ class Integration(StopState):
         self.waiting = None if times is None else list(times)
         self.ended: Words = ()
         self.rows: list[tuple[float, Array, Array, Array, Array, Array, Array]] = []
-        self.samples: list[tuple[float, Between]] = []
+        self.samples: list[tuple[float, Array]] = []
 
     def keep(self, t: float, y: Array) -> None:
-        """Keep an instant."""
-        self._keep_samples()
-        d, code = self.d, self._machine(t, y)
-        if code is not None:
-            self._keep_rates(*code, np.array([t]), y[None])
+        """Keep an instant; in machine code together with those of its segment."""
+        if self.samples or self._machine(t, y) is not None:
+            self.samples.append((t, standing_step(t, y)))
             return
+        d = self.d
         a, effort, _ = self.at(t, y)
         q, u = y[:d].copy(), y[d : 2 * d].copy()
         on_stop = np.where(self.on_stop != 0, self.acting.effort(t, q, u), np.nan)
@@ -66,9 +74,8 @@ class Integration(StopState):
     def _keep_samples(self) -> None:
         """Keep the instants of the segment that wait, all at once, before anything else happens."""
         if self.samples:
-            waiting, self.samples = self.samples, []
-            t = np.array([t for t, _ in waiting])
-            y = between(np.array([step.record for _, step in waiting]), t)
+            t, records = (np.array(x) for x in zip(*self.samples, strict=True))
+            self.samples, y = [], between(records, t)
             code = self._machine(t[0], y[0])
             assert code is not None
             self._keep_rates(*code, t, y)
@@ -101,6 +108,7 @@ class Integration(StopState):
             if self.rows and self.reached[0] > self.rows[-1][0]:
                 with suppress(StoppedError):
                     self.keep(*self.reached)
+                    self._keep_samples()
             t = self.rows[-1][0] if self.rows else 0.0
             self.ended = ("stopped at ", ("time", t), f": {error}")
             self.note(t, "stopped", *self.ended)
@@ -124,6 +132,8 @@ class Integration(StopState):
         """To the first event, or the end."""
         guards = self._guards(t, y)
         solver, tiny, longest, steps = self._solver(t, y, self.end), 0, 0.0, 0
+        if isinstance(solver, MachineSteps) and not guards and self.waiting is not None:
+            longest = self._unwatched(solver, t)
         while solver.status == "running":
             before, from_ = self.reached = solver.t, solver.y
             steps += 1
@@ -168,6 +178,32 @@ class Integration(StopState):
             elif self.waiting and self.waiting[0] <= solver.t:
                 self._keep_until(solver.dense_output(), before, solver.t)
         return solver.t, solver.y
+
+    def _unwatched(self, solver: MachineSteps, t: float) -> float:
+        """Take many steps at a time where nothing may happen, until one is short; the longest."""
+        longest, d, n = 0.0, self.d, solver.n
+        while solver.status == "running" and not (self.locked & self.acting.free).any():
+            records = solver.ahead()
+            lengths = records[:, 1]
+            most = float(lengths.max(initial=longest))
+            if not lengths.size or lengths.min() <= max(SHORT * most, NEVER * (self.end - t)):
+                break
+            longest = most
+            solver.take_all()
+            speeds = np.abs(records[:, 2 + n + d : 2 + n + 2 * d])
+            self.fastest = np.maximum(self.fastest, speeds.max(axis=0))
+            self._keep_within(records, solver)
+        return longest
+
+    def _keep_within(self, records: Array, solver: MachineSteps) -> None:
+        """Keep the instants that wait, within steps up to the solver's time."""
+        assert self.waiting is not None
+        count = bisect_right(self.waiting, solver.t)
+        t, self.waiting = self.waiting[:count], self.waiting[count:]
+        places = (np.searchsorted(records[:, 0], t) - 1).tolist()
+        self.samples += [(x, records[k]) for x, k in zip(t, places, strict=True) if k >= 0 and x < solver.t]
+        if t and t[-1] == solver.t:
+            self.keep(solver.t, solver.y)
 
     def _near_singular(self, t: float, y: Array) -> bool:
         """Raise StoppedError at a dead centre or change point, where two ways go on; otherwise False."""
@@ -225,7 +261,7 @@ class Integration(StopState):
         while self.waiting and self.waiting[0] <= end:
             when = self.waiting.pop(0)
             if when > before and isinstance(dense, Between):
-                self.samples.append((when, dense))
+                self.samples.append((when, dense.record))
             elif when > before:
                 self.keep(when, dense(when))
 
@@ -312,6 +348,7 @@ class Integration(StopState):
 
     def _rest(self, t: float, y: Array) -> float:
         """All that forces move stands: until it is no longer held, or to the end."""
+        self._keep_samples()
         end = self.end if np.isfinite(self.end) else t
         when = self._let_go(t, end, y)
         self._keep_until(lambda _: y, t, when)
@@ -319,6 +356,7 @@ class Integration(StopState):
             self._resume(when, y)
             return when
         self.ended = ("at rest from ", ("time", t), " on")
+        self._keep_samples()
         if self.rows[-1][0] < end:
             self.keep(end, y)
         return self.end

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +16,7 @@ import numpy as np
 from dalembert.analysis.one_pass import at_schedule
 from dalembert.analysis.output.columns import Column, Scale, columns, drive_kinds
 from dalembert.analysis.result.closure_residual import closure_gap
+from dalembert.analysis.result.link_motion import place_of
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.machine.motion.actuation import Actuation, actuation
@@ -45,24 +47,81 @@ class Simulation(Answer):
     that it rests on. ``works``: J since the start, (T,), by name.
     ``kinetic``, ``potential`` (T,). Checks: ``energy_residual``, the gap of the energy balance over the largest energy;
     ``law_gap`` (T,), of the efforts that the found motion asks for when it is prescribed, over the largest,
-    ``law_residual`` its largest; and ``closure``, of the loops, m or rad.
+    ``law_residual`` its largest; and ``closure``, of the loops, m or rad. Joint forces and checks take
+    longer than the motion, and are computed when they are first asked for: nothing is printed or written without.
     """
 
     NAME = "simulation"
 
-    result: Result
-    time: Array
-    applied: Array
-    stop_force: Array
+    schedule: Schedule = field(repr=False)
     works: Mapping[str, Array]
-    kinetic: Array
-    potential: Array
     events: tuple[Event, ...]
     ending: Words
-    energy_residual: float
-    law_gap: Array
-    closure: float
+    prescribed: Mechanism = field(repr=False)
+    moves: Actuation = field(repr=False)
+    given: Array = field(repr=False)  # applied, where that is no joint force: else NaN
+    pushed: Array = field(repr=False)  # efforts on what rests on a stop, else NaN
     evaluations: int = field(repr=False, default=0)
+
+    @cached_property
+    def result(self) -> Result:  # type: ignore[override]
+        """The analysis along the motion that was found."""
+        return at_schedule(self.prescribed, self.schedule, inertia=True)
+
+    @property
+    def time(self) -> Array:
+        """Instants (T,), s."""
+        assert self.schedule.time is not None
+        return self.schedule.time
+
+    @cached_property
+    def applied(self) -> Array:
+        """What acts in each drive's freedom (T, D), N m or N."""
+        asked = np.where(np.isnan(self.given), self.result.effort_array, self.given)
+        return np.where(np.isnan(self.pushed), asked, self.pushed + self.stop_force)
+
+    @cached_property
+    def stop_force(self) -> Array:
+        """What stops give (T, D) to drives that rest on them: what friction and brakes do not hold."""
+        out, r, brake = np.zeros_like(self.pushed), self.result, self.moves.brake
+        for k in np.flatnonzero(np.isfinite(self.pushed).any(axis=0)):
+            ends = r.interval(r.drives[k]) if r.friction is not None else r.effort_array[:, [k, k]]
+            low, high = np.where(np.isnan(ends), r.effort_array[:, [k, k]], ends).T
+            held = np.clip(self.pushed[:, k], low - brake[k], high + brake[k])
+            out[:, k] = np.where(np.isfinite(self.pushed[:, k]), held - self.pushed[:, k], 0.0)
+        return out
+
+    @cached_property
+    def _energies(self) -> tuple[Array, Array]:
+        return energies(self.result)
+
+    @property
+    def kinetic(self) -> Array:
+        """Kinetic energy (T,), J."""
+        return self._energies[0]
+
+    @property
+    def potential(self) -> Array:
+        """Energy of weights and springs (T,), J."""
+        return self._energies[1]
+
+    @cached_property
+    def energy_residual(self) -> float:
+        """Gap of the energy balance over the largest energy."""
+        gained, works = [x - x[0] for x in self._energies], self.works.values()
+        exchanged = [self.kinetic, gained[1], *works]
+        largest = max(float(np.nanmax(np.abs(x), initial=0.0)) for x in exchanged)
+        return float(np.nanmax(np.abs(sum(gained) - sum(works)), initial=0.0)) / (largest or 1.0)
+
+    @cached_property
+    def law_gap(self) -> Array:
+        """The found motion, prescribed, asks for the efforts that made it: where they are numbers, nothing reverses."""
+        r, free = self.result, self.moves.free
+        sure = np.array([s in ("ok", "self_locking") for s in r.status])
+        asked, given = r.effort_array[:, free], self.applied[:, free]
+        inner = np.nan_to_num(r.force_array) * r.compiled.layout.length  # beside it an effort may be nothing
+        largest = max(float(np.abs(x[sure]).max(initial=0.0)) for x in (asked, given, inner))
+        return np.where(sure, np.abs(asked - given).max(axis=1, initial=0.0), 0.0) / (largest or 1.0)
 
     @property
     def ended(self) -> str:
@@ -73,6 +132,11 @@ class Simulation(Answer):
     def law_residual(self) -> float:
         """The largest of ``law_gap``."""
         return float(self.law_gap.max(initial=0.0))
+
+    @cached_property
+    def closure(self) -> float:
+        """Gap of the loops, m or rad."""
+        return float(np.nanmax(closure_gap(self.result), initial=0.0))
 
     @property
     def doubt(self) -> str:
@@ -91,19 +155,19 @@ class Simulation(Answer):
     @property
     def drives(self) -> tuple[str, ...]:
         """Names of the drives."""
-        return self.result.drives
+        return self.schedule.names
 
     def position(self, drive: str) -> Array:
         """Position of a drive (T,), rad or m, whole turns counted."""
-        return self.result.drive_position(drive)
+        return self.schedule.position[:, place_of(self.drives, drive, "drive")]
 
     def speed(self, drive: str) -> Array:
         """Speed of a drive (T,), rad/s or m/s."""
-        return self.result.drive_speed(drive)
+        return self.schedule.speed[:, place_of(self.drives, drive, "drive")]
 
     def acceleration(self, drive: str) -> Array:
         """Acceleration of a drive (T,), rad/s2 or m/s2."""
-        return self.result.drive_acceleration(drive)
+        return self.schedule.acceleration[:, place_of(self.drives, drive, "drive")]
 
     def event(self, name: str) -> list[Event]:
         """Events whose name or sentence begins so."""
@@ -226,7 +290,7 @@ def _condition(m: Mechanism, text: str, stops: bool) -> Condition:
 
 
 def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, run: Integration) -> Simulation:
-    """The analysis along the motion that was found, and the checks."""
+    """The motion that was found."""
     if not run.rows:
         raise ModelError(
             f"the motion cannot begin: {say(run.ended)}", "start elsewhere, or with another speed", ("start",)
@@ -234,54 +298,11 @@ def _answer(m: Mechanism, prescribed: Mechanism, moves: Actuation, run: Integrat
     t, q, u, a, applied, works, on_stop = (np.array(column) for column in zip(*run.rows, strict=True))
     kept = np.append(np.diff(t) > 0, True)  # of an event the state behind it
     t, q, u, a, applied, works, on_stop = (x[kept] for x in (t, q, u, a, applied, works, on_stop))
-    result = at_schedule(prescribed, Schedule(tuple(m.drives), q, u, a, time=t), inertia=True)
-    applied = np.where(np.isnan(applied), result.effort_array, applied)
-    stop_force = _stop_force(result, on_stop, moves)
-    applied = np.where(np.isnan(on_stop), applied, on_stop + stop_force)
-    kinetic, potential = energies(result)
     names = [*m.drives, "brakes", "loads", "dampers", "friction"]
     named = {name: w for name, w in zip(names, works.T, strict=True) if name in m.drives or w.any()}
     if run.losses:
         named["impacts"] = -np.array([sum(lost for when, lost in run.losses if when <= x) for x in t])
+    ending, schedule = run.ended or ("at ", ("time", t[-1])), Schedule(tuple(m.drives), q, u, a, time=t)
     return Simulation(
-        result=result,
-        time=t,
-        applied=applied,
-        stop_force=stop_force,
-        works=named,
-        kinetic=kinetic,
-        potential=potential,
-        events=tuple(run.events),
-        ending=run.ended or ("at ", ("time", t[-1])),
-        energy_residual=_energy_residual(kinetic, potential, named),
-        law_gap=_law_gap(result, applied, moves),
-        closure=float(np.nanmax(closure_gap(result), initial=0.0)),
-        evaluations=run.evaluations,
+        schedule, named, tuple(run.events), ending, prescribed, moves, applied, on_stop, run.evaluations
     )
-
-
-def _stop_force(r: Result, pushed: Array, moves: Actuation) -> Array:
-    """What stops give (T, D) to drives that rest on them, ``pushed`` by these efforts: what friction does not hold."""
-    out = np.zeros_like(pushed)
-    for k in np.flatnonzero(np.isfinite(pushed).any(axis=0)):
-        ends = r.interval(r.drives[k]) if r.friction is not None else r.effort_array[:, [k, k]]
-        low, high = np.where(np.isnan(ends), r.effort_array[:, [k, k]], ends).T
-        held = np.clip(pushed[:, k], low - moves.brake[k], high + moves.brake[k])
-        out[:, k] = np.where(np.isfinite(pushed[:, k]), held - pushed[:, k], 0.0)
-    return out
-
-
-def _energy_residual(kinetic: Array, potential: Array, works: Mapping[str, Array]) -> float:
-    exchanged = [kinetic, potential - potential[0], *works.values()]
-    largest = max(float(np.nanmax(np.abs(x), initial=0.0)) for x in exchanged)
-    gap = (kinetic - kinetic[0]) + (potential - potential[0]) - sum(works.values())
-    return float(np.nanmax(np.abs(gap), initial=0.0)) / (largest or 1.0)
-
-
-def _law_gap(r: Result, applied: Array, moves: Actuation) -> Array:
-    """The found motion, prescribed, asks for the efforts that made it: where they are numbers, and nothing reverses."""
-    sure = np.array([s in ("ok", "self_locking") for s in r.status])
-    asked, given = r.effort_array[:, moves.free], applied[:, moves.free]
-    inner = np.nan_to_num(r.force_array) * r.compiled.layout.length  # beside it an effort may be nothing
-    largest = max(float(np.abs(x[sure]).max(initial=0.0)) for x in (asked, given, inner))
-    return np.where(sure, np.abs(asked - given).max(axis=1, initial=0.0), 0.0) / (largest or 1.0)

@@ -18,8 +18,8 @@ from dalembert.kernel.program import Program
 
 LEAST = 1e-4
 """Absolute tolerance over the relative one."""
-AT_ONCE = 16
-"""Attempts of steps of one motion at once: an event among them makes the others useless."""
+AT_ONCE, UNWATCHED = 16, 256
+"""Attempts of steps of one motion at once: an event among them makes the others useless; and where none may happen."""
 
 
 PARTS = ("state", "rates", "time", "step", "end", "tolerance", "least", "growth", "attempts")
@@ -83,8 +83,9 @@ class Integrator:
 
     def rates(self, values: Array, t: Array | float, y: Array) -> Array:
         """Rates (M, n) at states (M, n) of motions with the same values, one lane wide."""
-        motions = self.motions(y, t, 0.0, 0.0)
-        self.advance(np.tile(values, (len(y), 1)), motions, 0)
+        motions = np.zeros((len(y), state_size(self.n), 1))
+        motions[:, : self.n, 0], motions[:, 2 * self.n, 0] = y, t
+        self.advance(values if len(y) == 1 else np.tile(values, (len(y), 1)), motions, 0)
         return motions[:, self.n : 2 * self.n, 0]
 
 
@@ -94,7 +95,7 @@ def first_step(y: Array, f: Array, ahead: Any, room: Array | float, tolerance: f
     scale = tolerance * (LEAST + np.abs(y))
 
     def size(x: Array) -> Array:
-        return np.asarray(np.sqrt(np.mean((x / scale) ** 2, axis=1)))
+        return np.asarray(np.sqrt(((x / scale) ** 2).sum(axis=1) / x.shape[1]))
 
     with np.errstate(all="ignore"):
         d0, d1 = size(y), size(f)
@@ -115,6 +116,13 @@ def between(records: Array, t: Array) -> Array:
     for k, part in enumerate(reversed(parts)):
         out = (out + part) * (x if k % 2 == 0 else 1 - x)
     return np.asarray(out + y)
+
+
+def standing_step(t: float, y: Array) -> Array:
+    """The record of a step that stays at a state (n,)."""
+    record = np.zeros(record_size(len(y)))
+    record[:2], record[2 : 2 + len(y)], record[2 + len(y) : 2 + 2 * len(y)] = (t, 1.0), y, y
+    return record
 
 
 @dataclass
@@ -165,12 +173,24 @@ class MachineSteps:
             self.status = "finished"
         return None
 
-    def _more(self) -> bool:
+    def ahead(self) -> Array:
+        """Records of many steps that come next, none where steps that are known have not all been taken."""
+        if self.next == len(self.records) and self._more(UNWATCHED):
+            return self.records[self.records[:, 1] > 0]
+        return self.records[:0]
+
+    def take_all(self) -> None:
+        """Take all steps that are known."""
+        self.next = int(np.flatnonzero(self.records[:, 1])[-1])
+        self.step()
+        self.next = len(self.records)
+
+    def _more(self, most: int = AT_ONCE) -> bool:
         """Further attempts in machine code; whether there are any."""
         whole = self.motion[0, :, 0]
         if not whole[2 * self.n + 1] > 0:
             return False
-        self.records = self.code.advance(self.values, self.motion, AT_ONCE, self.between)[
+        self.records = self.code.advance(self.values, self.motion, most, self.between)[
             0, : int(whole[-1]), :, 0
         ]
         self.next = 0
