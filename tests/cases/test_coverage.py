@@ -16,12 +16,10 @@ PUBLISHED_NAMES = """
     4B-01 4B-02 DK-01 DK-02 4B-06 ML-01 4B-08 DK-04 DK-05 SC-01 SC-02 SC-03 SC-04 SC-06 SC-07 SC-08 SC-11 SC-12 SC-13
     SC-14 SC-15 SC-16 SC-18 SC-21 SC-23 SC-24 SC-25 SC-28 QR-03 QR-04 QR-06 SP-01 SP-04 SP-05 SP-06 SP-07 SP-08 SP-11
     SP-12 FW-01 FW-02 FW-04 FW-06 FW-08 FW-09 BA-01 BA-03 BA-04 BA-06 BA-07 BA-08 ML-04 BAL-1 BAL-3
+    BRK-1 BRK-4 BRK-5 BRK-7 BLT-1 BLT-2 CAM-4 CLU-4 FRI-1 GTR-1 GTR-3
 """
 
 SEEDS, PUBLISHED = SEED_NAMES.split(), PUBLISHED_NAMES.split()
-
-IN_PART = {"SP-01", "SP-12"}
-"""Problems of which one part is a file and another waits."""
 
 
 def written() -> dict[str, list[str]]:
@@ -46,9 +44,9 @@ def test_every_problem_is_a_file_or_waits() -> None:
     assert [name for name in files if not files[name] and name not in rows] == []
 
 
-def test_no_problem_is_both_unless_in_part() -> None:
+def test_no_problem_is_both() -> None:
     files = written()
-    assert {row[0] for row in waiting() if files.get(row[0])} == IN_PART
+    assert [row[0] for row in waiting() if files.get(row[0])] == []
 
 
 def test_the_waiting_list_names_known_problems_once() -> None:

@@ -1,7 +1,4 @@
-"""States of free motions that files prescribe: without a torque, of one energy, and where an integration has them.
-
-The product takes motion as given; that these are the motions that follow by themselves is shown here, without it.
-"""
+"""States of free motions that files prescribe: without a torque, of one energy, and where integrations have them."""
 
 from __future__ import annotations
 
@@ -13,7 +10,9 @@ from tests.oracles.jets import Jet
 from tests.oracles.space import free_motion
 from tests.oracles.space.free_motion import Solve
 from tests.oracles.space.statics import Answer
+from tests.tiers import tiers
 
+import dalembert as da
 from dalembert.model import load
 
 CASES = Path(__file__).parents[2] / "cases"
@@ -64,3 +63,18 @@ def test_states_are_reached_at_their_times(name: str, solve: Solve, drive: str, 
     given = states(name)[:, : len(until)]
     found, _ = free_motion.moved(solve, drive, given[1, 0], np.array(until))
     np.testing.assert_allclose(found.T, given, rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.parametrize("last", tiers([2], [8]))
+def test_a_simulation_reaches_them(last: int) -> None:
+    """All states of the one, of the other those of the first 0.2 s; the whole 5 s in the long tier."""
+    for name, _, _, times in (SWINGING, CRANK):
+        m = load(CASES / f"{name}.yaml")
+        drive = next(iter(m.drives))
+        given, k = states(name), min(last, len(times) - 1) if name == CRANK[0] else len(times) - 1
+        begin = {drive: {"position": float(given[0, 0]), "speed": float(given[1, 0])}}
+        count = round(times[k] * 100) + 1
+        s = da.simulate(m, f"{times[k]} s", start=begin, count=count)
+        at = [int(np.argmin(np.abs(s.time - t))) for t in times[: k + 1]]
+        found = np.array([s.position(drive), s.speed(drive), s.acceleration(drive)])[:, at]
+        np.testing.assert_allclose(found, given[:, : k + 1], rtol=1e-8, atol=1e-8)

@@ -12,7 +12,7 @@ import pytest
 from scipy.optimize import lsq_linear, minimize
 
 import dalembert as da
-from dalembert.bundled import cases, examples
+from dalembert.bundled import examples
 from dalembert.cli import main
 from dalembert.errors import ModelError
 from dalembert.machine.balance.cone_programme import minimise
@@ -46,64 +46,11 @@ def four_bar() -> Any:
 def test_full_force_balance_of_a_four_bar(four_bar: Any) -> None:
     """Berkof and Lowen 1969: the residual of least squares is 0, and the moment the same about every point."""
     b = da.balance(four_bar, ["crank", "rocker"])
-    expected = [[-0.16428571428571428, 0.01142857142857143], [-0.4071428571428572, -0.03428571428571429]]
-    assert b.numbers[:, 1:3] == pytest.approx(np.array(expected), rel=1e-8)
     assert b.complete
     assert b.residual < 1e-12
     moments = [da.shaking(b.after.result, about=point).moment for point in ((0, 0), (3.0, -2.0))]
     assert np.abs(moments[0] - moments[1]).max() < 1e-10
     assert da.balance(four_bar, ["crank"]).missing() == ["rocker"]
-
-
-def test_rotors_of_the_books() -> None:
-    """Sarkar 8.1 and Bevan 14.2 (BA-01, BA-03), through the bundled cases."""
-    b = da.balance(da.load(cases()["ba-01-rotor-with-four-masses"]), {"shaft": {"radius": 0.1}})
-    found = b.placed["shaft"]
-    assert found.mass == pytest.approx(8.111306495590426, rel=1e-8)
-    assert math.degrees(found.angle) % 360 == pytest.approx(267.47112693674467, rel=1e-8)
-    b = da.balance(da.load(cases()["ba-03-rotor-with-four-weights"]), {"shaft": {"radius": 24 * 0.0254}})
-    found = b.placed["shaft"]
-    assert found.mass * 386.4 * 0.0254 / 4.4482216152605 == pytest.approx(57.944233241300076, rel=1e-8)
-    assert math.degrees(found.angle) % 360 - 180 == pytest.approx(23.28325486911854, rel=1e-8)
-    assert b.complete
-
-
-YOKE = """
-links:
-  ground: {points: {O: [0, 0]}}
-  crank: {points: {O: [0, 0], A: [%g, 0]}, mass: %.17g, center: [%.17g, 0]}
-  piston: {points: {S: [0, 0]}, mass: %.17g}
-joints:
-  O: {type: pin, links: [ground, crank]}
-  slot: {type: slot, links: [piston, crank], at: [S, A], direction: 90}
-  guide: {type: slider, links: [ground, piston], at: [O, S], direction: 0}
-drives:
-  O: {position: %s, speed: %.17g rad/s}
-"""
-
-
-def yoke(crank: float, turning: float, moment: float, piston: float, position: str, speed: float) -> Any:
-    return da.dynamics(da.loads(YOKE % (crank, turning, moment / turning, piston, position, speed)))
-
-
-def test_partly_balanced_cylinders() -> None:
-    """Sarkar 12.1 and Bevan 14.5 (BAL-1, BA-04): an infinitely long rod is a crank in a slot."""
-    speed = 250 * math.pi / 30
-    balance = (70 + 120 * 2 / 3) * 0.09 / 0.15
-    assert balance == pytest.approx(90)
-    r = yoke(0.09, 160, 70 * 0.09 - balance * 0.15, 120, "30", speed)
-    assert np.hypot(*da.shaking(r).force[0]) == pytest.approx(3264.064847983876, rel=1e-8)
-    pound, inch, foot = 0.45359237, 0.0254, 0.3048
-    r = yoke(
-        7.5 * inch,
-        1.0,
-        (180 * 7.5 - 318.75 * 6) * pound * inch,
-        150 * pound,
-        "{from: 0, to: 360, count: 12}",
-        10 * math.pi,
-    )
-    force = np.hypot(*da.shaking(r).force.T) / (pound * 32.2 * foot)
-    assert force == pytest.approx(np.full(12, 1436.763063046781), rel=1e-8)
 
 
 def test_least_squares_of_a_crank_balance_half_of_what_goes_to_and_fro(four_bar: Any) -> None:

@@ -36,32 +36,6 @@ def shaft(load: str, bearing: str = "{rating: 12 kN}") -> Any:
     return da.dynamics(da.loads(SHAFT.format(load=load, bearing=bearing, turn=2 * math.pi)))
 
 
-def test_a_load_that_pulses_with_the_turn() -> None:
-    """BRG-4: cube mean of 1 + cos/2 is (1 + 3/8)^(1/3)."""
-    ball, roller = (
-        da.bearing(shaft("1000 + 500*cos(O)", f"{{rating: 12 kN, kind: {kind}}}"), "O")
-        for kind in ("ball", "roller")
-    )
-    assert ball.equivalent == pytest.approx(1111.9900452846575, rel=1e-9)
-    assert ball.turns == pytest.approx(1256.7272727272734e6, rel=1e-9)
-    assert ball.hours == pytest.approx(ball.turns / 300 / 60, rel=1e-9)
-    assert roller.equivalent == pytest.approx(1126.9726504325563, rel=1e-9)
-    rule = (ball.radial.min() + 2 * ball.radial.max()) / 3
-    assert rule == pytest.approx(1166.6666666666667, rel=1e-9)
-
-
-def test_ratings_of_the_books() -> None:
-    """BRG-1 and BRG-3."""
-    ball = da.bearing(shaft("1898"), "O")
-    assert ball.rating_for(30_000, 1.2, 0.9, (0.02, 4.439, 1.483)) == pytest.approx(
-        18588.38007093364, rel=1e-7
-    )
-    assert ball.rating_for(30_000, 1.2) == pytest.approx(18547.072690669673, rel=1e-9)
-    assert 30_000 * 3600 * ball.speed / (2 * math.pi) / 1e6 == pytest.approx(540, rel=1e-12)
-    roller = da.bearing(shaft(f"{1650 * 4.4482216152605}", "{rating: 12 kN, kind: roller}"), "O")
-    assert roller.rating_for(1440e6 / 300 / 60, 1.4) == pytest.approx(91055.70131184496, rel=1e-7)
-
-
 @over(4, 200)
 def test_pressure_and_life_against_sums_of_ones_own(seed: int) -> None:
     """By the angles of the links, not by their rates: a finer cycle, and differences of the relative angle."""

@@ -38,69 +38,6 @@ def shaft(value: str, rpm: float, period: float = 360.0, inertia: float = 0.0) -
     return da.dynamics(da.loads(SHAFT % (inertia, period, rpm * math.pi / 30, value)))
 
 
-# cases of the books: FW-04, FW-06, FW-08
-
-
-def test_triangular_diagram_of_a_double_acting_engine() -> None:
-    """Khurmi, example 16.7: triangles of 0, 80, 180 deg up to 2000 N m and 180, 260, 360 deg up to 1500 N m."""
-    table = "{against: O, periodic: 360 deg, x: [0, 80, 180, 260, 360], y: [0, 2000, 0, 1500, 0]}"
-    f = da.flywheel(shaft(table, 100), Cs=0.015)
-    assert 100 * f.coefficient_of_energy == pytest.approx(18.080357142857153, rel=1e-8)
-    assert f.size.mass(1.75) == pytest.approx(197.31964883331926, rel=1e-8)
-    assert math.degrees(f.slowest) == pytest.approx(35, rel=1e-8)
-    assert math.degrees(f.fastest) == pytest.approx(136.25, rel=1e-8)
-
-
-def test_four_stroke_gas_engine() -> None:
-    """Khurmi, example 16.9: a triangle of expansion over half a turn of two, three times the work of compression."""
-    work = 20e3 / (300 / 60) * 2  # a cycle, of two turns
-    expansion, compression = 1.5 * work, 0.5 * work
-    peak, low = 2 * expansion / math.pi, 2 * compression / math.pi
-    y = f"[0, {peak!r}, 0, 0, {-low!r}, 0]"
-    f = da.flywheel(
-        shaft(f"{{against: O, periodic: 720 deg, x: [0, 90, 180, 540, 630, 720], y: {y}}}", 300, 720), Cs=0.04
-    )
-    assert f.mean == pytest.approx(-work / (4 * math.pi), rel=1e-12)
-    mean = work / (4 * math.pi)
-    excess = expansion * ((peak - mean) / peak) ** 2  # what stands above the mean, a triangle like the whole
-    assert max(abs(p) for p in f.size.pulses) == pytest.approx(excess, rel=1e-8)
-    assert da.flywheel_size(excess, 10 * math.pi, Cs=0.04).inertia == pytest.approx(
-        255.4138170983931, rel=1e-7
-    )
-
-
-def test_an_engine_with_a_constant_and_with_a_varying_load() -> None:
-    """Khurmi, example 16.13: 5000 + 1500 sin 3q against 5000, and against 5000 + 600 sin q (the print is wrong)."""
-    constant = da.flywheel(shaft("5000 + 1500*sin(3*O)", 300), inertia=1000.0)
-    assert 100 * constant.size.fluctuation == pytest.approx(0.10132118364233782, rel=1e-8)
-    assert -constant.mean * 10 * math.pi / 1e3 == pytest.approx(157.07963267948963, rel=1e-8)
-    varying = da.flywheel(shaft("1500*sin(3*O) - 600*sin(O)", 300), inertia=1000.0)
-    assert varying.size.energy == pytest.approx(1656.5023392678927, rel=1e-8)
-    assert 100 * varying.size.fluctuation == pytest.approx(0.1678387777209243, rel=1e-8)
-
-
-SIZES = [
-    ("FW-01", lambda: da.flywheel_size(0.1 * 300e3 * 60 / 90, 3 * math.pi, Cs=0.01).mass(2), 5628.954646796543),
-    (
-        "FW-02",
-        lambda: da.flywheel_size(
-            [31.416 * a for a in (52, -124, 92, -140, 85, -72, 107)], 20 * math.pi, Cs=0.03
-        ).mass(0.5),
-        182.4980948376405,
-    ),
-    ("FW-09", lambda: da.flywheel_size(2500 * 32.2, 4 * math.pi, Cs=0.01).mass(3.5) / 2240, 1.857770427115569),
-    ("FLY-1", lambda: da.flywheel_size(56e3, 4 * math.pi, inertia=21060).limits[1] * 30 / math.pi, 121.01032519301474),
-    ("FLY-4", lambda: da.flywheel_size([200.73, -261.05, 153.88, -92.02], 50, Cs=0.05).inertia, 2.0884),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(
-    ("name", "found", "exact"), SIZES, ids=lambda value: value if isinstance(value, str) else ""
-)
-def test_sizes_of_the_books(name: str, found: Any, exact: float) -> None:
-    assert found() == pytest.approx(exact, rel=1e-8), name
-
-
 def test_discs_and_rims_have_the_inertia() -> None:
     f = da.flywheel_size(5000.0, 20.0, Cs=0.02)
     radius, thickness = f.disc(7200.0, thickness=0.08)
