@@ -219,8 +219,6 @@ class _Lift:
                 tree["value"] = [*tree["value"], 0.0]
             elif load.direction is not None:
                 tree["direction"] = [math.cos(load.direction), math.sin(load.direction), 0.0]
-            if not isinstance(load.at, str):
-                tree["at"] = self._at(load.at, self.link[load.on])
         elif load.ON == "link":
             tree["direction"] = UP
         elif load.ON == "span":
@@ -229,6 +227,8 @@ class _Lift:
             tree["between"] = [".".join(end) for end in ends]
         elif load.FORCE == "spring":
             tree["free_angle"] = load.free_angle - self._turn_offset(name)
+        if isinstance(tree.get("at"), (list, tuple)):
+            tree["at"] = self._at(load.at, self.link[load.on])
         return tree
 
     def _assembly(self) -> Tree:

@@ -261,6 +261,10 @@ class Couple(Directed):
     ON: ClassVar = "link"
     type: Literal["couple"] = "couple"
     on: Name = Field(description="the link it acts on")
+    at: Annotated[str | Vector, Spot()] | None = Field(
+        None,
+        description="where inside the link, for its inner forces: as of a force; left out: the mass centre",
+    )
     value: Annotated[Varying | tuple[Varying, ...] | Literal["unknown"], CoupleValue()] = Field(
         description="a moment, or unknown; in space a vector"
     )

@@ -276,7 +276,7 @@ def _drive_remedy(name: str, drives: list[str]) -> str:
 def _loads(m: Mechanism) -> Iterator[ModelError]:
     for name, load in m.loads.items():
         user, path = f"load {name!r}", ("loads", name)
-        if isinstance(load, ForceLoad) and isinstance(load.at, str):
+        if isinstance(load, (ForceLoad, Couple)) and isinstance(load.at, str):
             missing = list(_link(m, load.on, user, (*path, "on")))
             yield from missing or _point(m, load.on, load.at, user, (*path, "at"))
         elif isinstance(load, (ForceLoad, Couple)):

@@ -249,7 +249,7 @@ def unknown_load_actions(r: Result) -> tuple[Action, ...]:
     for k, name in enumerate(r.unknown_loads):
         load: Any = r.mechanism.loads[name]
         value, (force, couple) = r.unknown_load(name), unit_load(r, k)
-        u = r.mechanism.center(load.on) if load.ON == "link" else point_of(r.mechanism, load.on, load.at)
+        u = point_of(r.mechanism, load.on, load.at or "center")
         couple = value * couple if couple.ndim == 1 else value[:, None] * couple
         at = link_place(r, load.on, u)
         out.append(Action(name, "load", "", load.on, None, at, value[:, None] * force, couple))
@@ -332,11 +332,14 @@ class _Builder:
             self.add(name, "load", name, one, k, self.arm(int(forces.link[k]), forces.at[k]), "force")
 
     def couples(self, names: list[str], one: Source) -> None:
+        from dalembert.analysis.compile.load_arrays import point_of
+
         for k, name in enumerate(names):
-            link = int(one.link[k])
-            middle = (
-                self.center(link) if link < len(self.r.links) else np.zeros_like(self.pose.point[:, link, :])
-            )
+            link, at = int(one.link[k]), getattr(self.mechanism.loads[name], "at", None)
+            middle = self.center(link) if link < len(self.r.links) else 0 * self.pose.point[:, link, :]
+            if at:
+                reference = self.r.compiled.layout.reference[link]
+                middle = self.arm(link, point_of(self.mechanism, self.links[link], at) - reference)
             self.add(name, "load", name, one, k, middle, "couple")
 
     def springs(self, loads: Tree, one: Source) -> None:

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from dalembert.analysis.methods.applied_forces import Action, on_link, whole_actions
+from dalembert.analysis.methods.applied_forces import Action, on_link
 from dalembert.arrays import Array, Ints
 from dalembert.machine.link_axes import LinkAxes, in_space
+from dalembert.machine.members.free_reactions import Acting
 from dalembert.machine.members.straight_members import Straight
 
 if TYPE_CHECKING:
@@ -35,23 +36,21 @@ class Wrench:
 
 
 class Loads(NamedTuple):
-    """What acts at feet, and what mass along a member (by its number) does in all."""
+    """What acts at feet, what mass along a member (by its number) does in all, and what of the first is free."""
 
     seated: list[Wrench]
     spread: list[tuple[int, Wrench]]
+    free: list[list[Wrench]]
 
 
 class LinkBalance(LinkAxes):
-    """A link's motion and what acts on it, in its own axes, with three components; ``unknown`` (P,) is 0 or NaN."""
+    """A link's motion and what acts on it, in its own axes, with three components."""
 
-    def __init__(self, r: Result, link: str) -> None:
+    def __init__(self, r: Result, link: str, found: Acting) -> None:
         super().__init__(r, link)
         count, d = len(r.status), r.mechanism.dimension
-        self.actions = on_link(whole_actions(r), link)
-        self.unknown = np.zeros(count)
-        for name in r.joints:
-            if link in r.mechanism.joints[name].links:
-                self.unknown += np.where(np.isfinite(r.reaction(name)).all(axis=-1), 0.0, np.nan)
+        self.actions = on_link(found.known, link)
+        self.free = [on_link(some, link) for some in found.free]
         self.center = in_space(r.mechanism.center(link))
         gravity = np.array(r.mechanism.gravity_vector, float)
         self.gravity = self.own(np.broadcast_to(gravity, (count, d)))
@@ -67,6 +66,10 @@ class LinkBalance(LinkAxes):
         places: Array = np.concatenate(some) if some else np.zeros((0, 3))
         return np.asarray(places[np.isfinite(places).all(axis=1)])
 
+    def seated(self, members: tuple[Straight, ...], a: Action) -> Wrench:
+        """An action at its foot."""
+        return _seated(members, self.place(a), self.own(a.force), self.own_couple(a.couple))
+
     def distributed(self, e: Straight) -> tuple[Array, Array]:
         """Force on unit mass along a member: c0 - c1 s, both (P, 3), by gravity and acceleration."""
         at_start = self.acceleration + self.rate @ (e.start - self.center)
@@ -75,14 +78,13 @@ class LinkBalance(LinkAxes):
     def loads(self, members: tuple[Straight, ...]) -> Loads:
         """All that acts; what mass along members does is taken off weight and inertia at the centre."""
         zero = np.zeros_like(self.acceleration)
-        out = Loads([], [])
+        out = Loads([], [], [[self.seated(members, a) for a in some] for some in self.free])
         force, couple = zero, zero
         for a in self.actions:
-            one, about = self.own(a.force), self.own_couple(a.couple)
             if a.kind in ("weight", "inertia"):
-                force, couple = force + one, couple + about
+                force, couple = force + self.own(a.force), couple + self.own_couple(a.couple)
             else:
-                out.seated.append(_seated(members, self.place(a), one, about))
+                out.seated.append(self.seated(members, a))
         for k, e in enumerate(members):
             c0, c1 = self.distributed(e)
             for p in e.mass:

@@ -8,6 +8,7 @@ Mechanics: docs/theory.md 10.4.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
@@ -16,7 +17,9 @@ import numpy as np
 
 from dalembert.analysis.output.columns import Column, Scale
 from dalembert.arrays import Array, Flags, Tree
+from dalembert.core.equilibrium import UNIQUE
 from dalembert.errors import ModelError
+from dalembert.machine.members.free_reactions import Acting, acting
 from dalembert.machine.members.link_balance import LinkBalance, Loads, Wrench
 from dalembert.machine.members.straight_members import Straight, beyond, members_of
 from dalembert.wording import closest
@@ -66,7 +69,7 @@ class MemberCurve:
     def extremes(self, of: str) -> tuple[Array, Array, Array, Array]:
         """Least and greatest value (P,) of one of ``ORDER``, each with its place (P,), m: least, at, greatest, at.
 
-        Exact: ends of the pieces and the zeros of the derivative, which is a quadratic.
+        Exact: ends of the pieces and the zeros of the derivative, which is a quadratic. NaN where a piece has none.
         """
         c = self.cubics[:, :, ORDER.index(of), :]
         low, high = self.edges[:, :-1], self.edges[:, 1:]
@@ -74,6 +77,8 @@ class MemberCurve:
         inside = (s >= low[..., None]) & (s <= high[..., None]) & (high > low)[..., None]
         s = np.where(inside, s, low[..., None])
         values = np.where(inside, (c[..., None, :] * s[..., None] ** np.arange(4)).sum(axis=-1), np.nan)
+        hidden = (np.isnan(c).any(axis=-1) & (high > low)).any(axis=1)
+        values[hidden], s[hidden] = np.nan, np.nan
         flat, places = values.reshape(len(values), -1), s.reshape(len(values), -1)
         out = []
         for sign in (-1.0, 1.0):
@@ -132,14 +137,22 @@ class MemberForces:
 
     def largest(self, of: str) -> tuple[float, str, float, int]:
         """Over the cycle: the value largest in size, its member, place (m) and position (from 0)."""
-        best = (0.0, self.curves[0].name, 0.0, 0)
-        for curve in self.curves:
-            values, places = curve.greatest(of)
-            if np.isfinite(values).any():
-                k = int(np.nanargmax(np.abs(values)))
-                if abs(values[k]) > abs(best[0]):
-                    best = float(values[k]), curve.name, float(places[k]), k
-        return best if np.isfinite(self.residual).any() else (np.nan, *best[1:])
+        values, places = np.moveaxis(np.array([curve.greatest(of) for curve in self.curves]), 1, 0)
+        known = np.isfinite(values).all(axis=0)
+        if not known.any():
+            return math.nan, self.curves[0].name, math.nan, 0
+        j, k = np.unravel_index(np.argmax(np.where(known, np.abs(values), -1.0)), values.shape)
+        return float(values[j, k]), self.curves[j].name, float(places[j, k]), int(k)
+
+    def unknown(self) -> dict[str, list[str]]:
+        """Positions ("3" or "3-7", from 1), and which inner forces are not known there all along the link."""
+        values = {of: np.sum([curve.greatest(of)[0] for curve in self.curves], axis=0) for of in self.names}
+        out = {}
+        for which, _, _ in self.result.problems():
+            first, _, last = which.partition("-")
+            run = slice(int(first) - 1, int(last or first))
+            out[which] = [of for of in self.names if np.isnan(values[of][run]).any()]
+        return {which: some for which, some in out.items() if some}
 
     def stress(self, section: Section | Tree | None = None) -> Stresses:
         """Stresses of a section, by default that of the file, with safety against yield and fatigue."""
@@ -169,8 +182,9 @@ class MemberForces:
         for of in self.names:
             value, member, place, k = self.largest(of)
             found = {"largest": to(kind_of(of), value), "member": member, "at": to("length", place)}
-            out[of] = found | {"position": k + 1}
-        return out
+            out[of] = found | {"position": None if math.isnan(value) else k + 1}
+        unknown = self.unknown()
+        return out | {"unknown": unknown} if unknown else out
 
 
 def member_forces(r: Result, link: str) -> MemberForces:
@@ -178,8 +192,9 @@ def member_forces(r: Result, link: str) -> MemberForces:
 
     The link is its `members`, straight lines between its points, or the line through its joints. Its mass lies along
     them as `mass_along` says; what of mass, centre and inertia that leaves over acts at the mass centre, so that every
-    link is in balance (``residual``). What acts beside the line does so by a stiff bracket at its foot. NaN where the
-    reactions are not unique. Raises ModelError for a link without length, and for one whose joints are on no line.
+    link is in balance (``residual``). What acts beside the line does so by a stiff bracket at its foot. Where reactions
+    are not unique, an inner force is a number if all of them give the same, else NaN. Raises ModelError for a link
+    without length, and for one whose joints are on no line.
 
     >>> import dalembert as da
     >>> from dalembert.bundled import examples
@@ -187,26 +202,32 @@ def member_forces(r: Result, link: str) -> MemberForces:
     >>> bool(f.residual.max() < 1e-9), sorted(f.at(0.05))
     (True, ['axial', 'bending', 'shear'])
     """
+    return forces_inside(r, link, acting(r))
+
+
+def forces_inside(r: Result, link: str, found: Acting) -> MemberForces:
+    """The same with what acts on all links."""
     if link not in r.links:
         raise ModelError(f"there is no moving link {link!r}", closest(link, list(r.links)))
-    acting = LinkBalance(r, link)
-    members = members_of(r.mechanism, link, acting.joints())
-    loads, far = acting.loads(members), beyond(members)
-    curves = tuple(_curve(acting, e, k, far[k], loads) for k, e in enumerate(members))
-    return MemberForces(r, link, curves, _residual(acting, loads))
+    own = LinkBalance(r, link, found)
+    members = members_of(r.mechanism, link, own.joints())
+    loads, far = own.loads(members), beyond(members)
+    curves = tuple(_curve(own, e, k, far[k], loads) for k, e in enumerate(members))
+    return MemberForces(r, link, curves, _residual(own, loads))
 
 
-def _curve(acting: LinkBalance, e: Straight, k: int, far: Flags, loads: Loads) -> MemberCurve:
+def _curve(own: LinkBalance, e: Straight, k: int, far: Flags, loads: Loads) -> MemberCurve:
     """Cubics of member number k: sums of what is beyond each piece, and the mass on it."""
-    count, masses = len(acting.unknown), {0.0, e.length, *(x for p in e.mass for x in (p.start, p.end))}
+    count, masses = len(own.rotation), {0.0, e.length, *(x for p in e.mass for x in (p.start, p.end))}
     feet = [np.where(w.member == k, w.foot, 0.0) for w in loads.seated if (w.member == k).any()]
     fixed = [np.full(count, x) for x in masses]
     edges = np.sort(np.stack([*feet, *fixed], axis=1), axis=1)
     low, high = edges[:, :-1], edges[:, 1:]
-    cubics = np.zeros((count, high.shape[1], 6, 4))
-    for w in loads.seated:
-        on = (w.member == k)[:, None] & (w.foot[:, None] >= high)
-        _add(cubics, e, np.asarray(on | far[w.member][:, None]), w)
+    cubics, *free = (np.zeros((count, high.shape[1], 6, 4)) for _ in range(1 + len(loads.free)))
+    for into, wrenches in zip((cubics, *free), (loads.seated, *loads.free), strict=True):
+        for w in wrenches:
+            on = (w.member == k)[:, None] & (w.foot[:, None] >= high)
+            _add(into, e, np.asarray(on | far[w.member][:, None]), w)
     for j, w in loads.spread:
         if far[j]:
             _add(cubics, e, np.ones_like(high, bool), w)
@@ -214,8 +235,10 @@ def _curve(acting: LinkBalance, e: Straight, k: int, far: Flags, loads: Loads) -
         (np.where((low >= p.start) & (high <= p.end), p.density, 0.0) for p in e.mass), np.zeros_like(high)
     )
     if e.mass:
-        _add_mass(cubics, edges, density, *(v @ e.axes.T for v in acting.distributed(e)))
-    return MemberCurve(e, edges, cubics + acting.unknown[:, None, None, None])
+        _add_mass(cubics, edges, density, *(v @ e.axes.T for v in own.distributed(e)))
+    for moved in free:
+        cubics[(np.abs(moved) > UNIQUE).any(axis=-1)] = np.nan
+    return MemberCurve(e, edges, cubics)
 
 
 def _add(cubics: Array, e: Straight, on: Flags, w: Wrench) -> None:
@@ -248,13 +271,13 @@ def _add_mass(cubics: Array, edges: Array, density: Array, c0: Array, c1: Array)
     cubics[:, :, 5] += arm[:, :, 1]
 
 
-def _residual(acting: LinkBalance, loads: Loads) -> Array:
+def _residual(own: LinkBalance, loads: Loads) -> Array:
     """What is left of forces and moments about the centre, over the largest."""
     wrenches = [*loads.seated, *(w for _, w in loads.spread)]
     forces = np.array([w.force for w in wrenches])
-    moments = np.array([w.about(acting.center) for w in wrenches])
-    length = acting.r.compiled.layout.length
+    moments = np.array([w.about(own.center) for w in wrenches])
+    length = own.r.compiled.layout.length
     largest = [float(np.nanmax(np.abs(x), initial=0.0)) for x in (forces, moments)]
     size = max(largest[0], largest[1] / length) or 1.0
     off = [np.abs(x.sum(axis=0)).max(axis=1) for x in (forces, moments)]
-    return np.asarray(np.maximum(off[0], off[1] / length) / size + acting.unknown)
+    return np.asarray(np.maximum(off[0], off[1] / length) / size)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from dalembert.analysis.output.columns import Column, Scale
 from dalembert.arrays import Tree
 from dalembert.errors import ModelError
-from dalembert.machine.members.member_forces import MemberForces, member_forces
+from dalembert.machine.members.free_reactions import acting
+from dalembert.machine.members.member_forces import MemberForces, forces_inside
 from dalembert.machine.members.stresses import Buckling, Stresses
 from dalembert.machine.output.answer import Answer
 
@@ -31,10 +32,9 @@ class MemberTable(Answer):
 
     @property
     def unknown(self) -> dict[str, str]:
-        """Positions at which a link has no numbers, with the reason."""
-        if not any((f.residual != f.residual).any() for f in self.links.values()):
-            return {}
-        return {which: sentence for which, _, sentence in self.result.problems()}
+        """Positions at which some link has not all numbers, with the reason."""
+        some = {which for f in self.links.values() for which in f.unknown()}
+        return {which: sentence for which, _, sentence in self.result.problems() if which in some}
 
     def columns(self) -> Iterator[Column]:
         """The drives' positions, every inner force, and the greatest stress."""
@@ -83,10 +83,11 @@ def member_table(r: Result, links: Iterable[str] | None = None) -> MemberTable:
     none, and where none has."""
     found: dict[str, MemberForces] = {}
     left: dict[str, str] = {}
+    all_of_them = acting(r)
     asked = [links] if isinstance(links, str) else links
     for link in r.links if asked is None else asked:
         try:
-            found[link] = member_forces(r, link)
+            found[link] = forces_inside(r, link, all_of_them)
         except ModelError as error:
             if asked is not None:
                 raise

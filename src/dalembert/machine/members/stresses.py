@@ -23,12 +23,12 @@ from dalembert.model.links.sections import Section
 if TYPE_CHECKING:
     from dalembert.machine.members.member_forces import MemberForces
 
-SAMPLES, STEPS = 33, 60
-"""Places on each piece of a member where a stress is looked at first, and halvings about the greatest of them."""
+SAMPLES, STEPS = 33, 40
+"""Places on each piece where a stress is looked at first, and steps, to two thirds, about the greatest of them."""
 STATIONS = 129
 """Places along a member where fatigue is looked at, three times, closer each time about the worst."""
 FIBRES = 72
-"""Fibres round a circle that bends in both planes."""
+"""Fibres round a circle that bends in both planes, looked at three times as the stations."""
 
 
 @dataclass(frozen=True)
@@ -131,13 +131,14 @@ def fibre_stress(s: Section, comps: Array, plane: bool, places: Array | None = N
     return np.asarray(direct[..., None] + bent)
 
 
-def outer_fibres(s: Section, plane: bool) -> Array:
-    """Places (F, 2) of the fibres that are stressed most: y = +-, in space the corners, or round a circle."""
+def outer_fibres(s: Section, plane: bool, middle: float = 0.0, half: float = math.pi) -> Array:
+    """Places (F, 2) of the fibres that are stressed most: y = +-, in space the corners, or round a circle, there by
+    angles from y to both sides of a middle, rad."""
     y, z = s.reach
     if plane:
         return np.array([[y, 0.0], [-y, 0.0]])
     if s.round:
-        angle = 2 * math.pi * np.arange(FIBRES) / FIBRES
+        angle = middle + half * np.linspace(-1.0, 1.0, FIBRES + 1)
         return y * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     s.torsion  # noqa: B018  numbers alone say nothing of bending two ways: refused
     return np.array([[a * y, b * z] for a in (1, -1) for b in (1, -1)])
@@ -147,7 +148,7 @@ def equivalent_stress(s: Section, comps: Array, plane: bool) -> Array:
     """Von Mises stress (...): at the outer fibre with torsion, at the axis with shear and torsion, the larger."""
     sigma = np.abs(fibre_stress(s, comps, plane)).max(axis=-1)
     twist = 0.0 if plane else np.abs(comps[..., 3]) / s.torsion
-    shear = s.shear * np.hypot(comps[..., 1], comps[..., 2])
+    shear = np.hypot(s.shear[0] * comps[..., 1], s.shear[1] * comps[..., 2])
     axis = (comps[..., 0] / s.area_of) ** 2 + 3 * (shear + twist) ** 2
     return np.asarray(np.sqrt(np.maximum(sigma**2 + 3 * twist**2, axis)))
 
@@ -157,19 +158,20 @@ def stresses(forces: MemberForces, given: Section | Tree | None = None) -> Stres
     s, plane = section_of(forces, given), forces.result.mechanism.dimension == 2
     found = [_greatest(curve, lambda comps: equivalent_stress(s, comps, plane)) for curve in forces.curves]
     values = np.array([f[0] for f in found])
-    k = np.argmax(np.nan_to_num(values), axis=0)
+    k = np.argmax(values, axis=0)  # one that is not known before all others
     place = np.take_along_axis(np.array([f[1] for f in found]), k[None], axis=0)[0]
     comps = np.take_along_axis(np.array([f[2] for f in found]), k[None, :, None], axis=0)[0]
     sigma = fibre_stress(s, comps, plane)
     normal = np.take_along_axis(sigma, np.argmax(np.abs(np.nan_to_num(sigma)), axis=-1)[:, None], axis=-1)
     names = tuple(forces.curves[j].name for j in k)
-    return Stresses(forces, s, np.take_along_axis(values, k[None], axis=0)[0], names, place, normal[:, 0])
+    values = np.take_along_axis(values, k[None], axis=0)[0]
+    return Stresses(forces, s, values, names, np.where(np.isnan(values), np.nan, place), normal[:, 0])
 
 
 def _greatest(curve: MemberCurve, f: Callable[[Array], Array]) -> tuple[Array, Array, Array]:
     """Greatest value (P,) of f of the inner forces along a member, its place (P,), and the forces there (P, 6)."""
     low, high = curve.edges[:, :-1], curve.edges[:, 1:]
-    best = [np.full(len(low), -np.inf), low[:, 0], np.zeros((len(low), 6))]
+    best = [np.where(np.isnan(low[:, 0]), np.nan, -np.inf), low[:, 0], np.zeros((len(low), 6))]
     for j in range(low.shape[1]):
         a, b = low[:, j], high[:, j]
 
@@ -185,7 +187,8 @@ def _greatest(curve: MemberCurve, f: Callable[[Array], Array]) -> tuple[Array, A
         )
         for _ in range(STEPS):
             third = (right - left) / 3
-            up = value(left + third)[0] < value(right - third)[0]
+            two, _ = value(np.stack([left + third, right - third], axis=1))
+            up = two[:, 0] < two[:, 1]
             left, right = np.where(up, left + third, left), np.where(up, right, right - third)
         for s in (a, b, (left + right) / 2):
             found, comps = value(s)
@@ -206,15 +209,14 @@ def _utilisation(s: Section, mean: Array | float, amplitude: Array | float) -> A
 
 
 def _fatigue(forces: MemberForces, curve: MemberCurve, s: Section) -> Fatigue:
-    """The worst fibre of a member: at even stations, then closer about the worst, on both sides of every force."""
+    """The worst fibre of a member: at even stations and on both sides of every force, then closer about the worst."""
     plane, length = forces.result.mechanism.dimension == 2, curve.member.length
-    at = outer_fibres(s, plane)
-    low, high = 0.0, length
+    known = curve.edges[np.isfinite(curve.edges).all(axis=1)][:1]
+    low, high, round_it = 0.0, length, (0.0, math.pi)
     best = (-math.inf, 0.0, math.nan, math.nan)
     for _ in range(3):
-        places = np.linspace(low, high, STATIONS)
-        if high - low == length:
-            places = np.union1d(places, curve.edges[0][np.isfinite(curve.edges[0])])
+        places = np.union1d(np.linspace(low, high, STATIONS), known[(known >= low) & (known <= high)])
+        at = outer_fibres(s, plane, *round_it)
         for side in ("before", "behind"):
             inner = places[(places > 0) if side == "before" else (places < length)]
             sigma = fibre_stress(s, curve.at(inner, side), plane, at)
@@ -225,10 +227,12 @@ def _fatigue(forces: MemberForces, curve: MemberCurve, s: Section) -> Fatigue:
             k = np.unravel_index(np.argmax(use), use.shape)
             if use[k] > best[0]:
                 best = (float(use[k]), float(inner[k[0]]), float(mean[k]), float(swing[k]))
+                round_it = math.atan2(at[k[1], 1], at[k[1], 0]), round_it[1]
         step = (high - low) / (STATIONS - 1)
         low, high = max(0.0, best[1] - step), min(length, best[1] + step)
-    known = s.endurance is not None and s.ultimate is not None
-    safety = (1 / best[0] if best[0] > 0 else math.inf) if known else None
+        round_it = round_it[0], round_it[1] * 2 / FIBRES
+    goodman = s.endurance is not None and s.ultimate is not None
+    safety = (1 / best[0] if best[0] > 0 else math.inf) if goodman else None
     return Fatigue(curve.name, best[1], best[2], best[3], safety)
 
 

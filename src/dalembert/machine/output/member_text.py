@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from dalembert.analysis.output.summary.printed_series import where
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.machine.members.member_forces import ORDER, kind_of
@@ -14,6 +16,7 @@ from dalembert.printing import Part, Table, number, remainder
 if TYPE_CHECKING:
     from dalembert.machine.members.member_forces import MemberForces
     from dalembert.machine.members.member_table import MemberTable
+    from dalembert.machine.members.stresses import Stresses
 
 SIGNS = dict(zip(ORDER, ("N", "V", "V_z", "T", "M_y", "M"), strict=True))
 NONE = 1e-11
@@ -22,9 +25,11 @@ NONE = 1e-11
 
 def floors(f: MemberForces) -> dict[str, float]:
     """What of each inner force is nothing but rounding, by its kind."""
-    force = max(abs(f.largest(of)[0]) for of in f.names if kind_of(of) == "force")
+    force, moment = (
+        max(np.nan_to_num(abs(f.largest(of)[0])) for of in f.names if kind_of(of) == kind)
+        for kind in ("force", "moment")
+    )
     length = sum(c.member.length for c in f.curves)
-    moment = max(abs(f.largest(of)[0]) for of in f.names if kind_of(of) == "moment")
     return {"force": NONE * max(force, moment / length), "moment": NONE * max(force * length, moment)}
 
 
@@ -34,13 +39,23 @@ def member_parts(t: MemberTable, to: Printed) -> Iterator[Part]:
     rows = _largest_rows(t, to)
     if rows or not t.unknown:
         yield Table(heads, rows, 2) if rows else "Nothing is carried inside the links."
-    for which, why in t.unknown.items():
-        yield f"At position {which} forces inside links are not known: {why}"
+    yield from (_unknown(t, which, why) for which, why in t.unknown.items())
     yield from (table for f in (_stress_table, _fatigue_table, _buckling_table) if (table := f(t, to)).rows)
     said = "N tension +; the distance is from the first end of the member. "
     known = [float(x) for f in t.links.values() for x in f.residual[f.residual == f.residual]]
     yield said + (f"Forces and moments close on every link within {remainder(max(known))}." if known else "")
     yield from (f"Left out: {why}." for why in t.left_out.values())
+
+
+def _unknown(t: MemberTable, which: str, why: str) -> str:
+    """What of which link is not known, and why."""
+    lost = {link: f.unknown().get(which, []) for link, f in t.links.items()}
+    if all(len(lost[link]) == len(f.names) for link, f in t.links.items()):
+        return f"At position {which} forces inside links are not known: {why}"
+    some = [f"{link} {', '.join(SIGNS[of] for of in names)}" for link, names in lost.items() if names]
+    stress = ", nor the stress" if any(lost[link] for link in t.stress) else ""
+    reason = why.partition(": reactions that")[0].rstrip(".")
+    return f"At position {which} these are not known{stress}: {'; '.join(some)}. {reason}."
 
 
 def _largest_rows(t: MemberTable, to: Printed) -> list[list[str]]:
@@ -57,9 +72,14 @@ def _largest_rows(t: MemberTable, to: Printed) -> list[list[str]]:
     return rows
 
 
+def known_stresses(t: MemberTable) -> Iterator[tuple[str, Stresses]]:
+    """Stresses of the links where they are known."""
+    return ((link, s) for link, s in t.stress.items() if not math.isnan(s.largest))
+
+
 def _stress_table(t: MemberTable, to: Printed) -> Table:
     rows = []
-    for link, s in t.stress.items():
+    for link, s in known_stresses(t):
         k = s.position
         numbers = [number(float(to("pressure", x)), 5) for x in (s.largest, *s.parts())]
         place = number(float(to("length", float(s.place[k]))), 4)
@@ -70,7 +90,7 @@ def _stress_table(t: MemberTable, to: Printed) -> Table:
 
 def _fatigue_table(t: MemberTable, to: Printed) -> Table:
     rows = []
-    for link, s in t.stress.items():
+    for link, s in known_stresses(t):
         f = s.fatigue()
         numbers = [number(float(to("pressure", x)), 5) for x in (f.mean, f.amplitude)]
         rows.append([link, *numbers, f.member, to.number("length", f.place), _safety(f.safety)])

@@ -73,7 +73,7 @@ class Measures(NamedTuple):
     area: float
     second_moments: tuple[float, float]
     reach: tuple[float, float]
-    shear: float
+    shear: tuple[float, float]
     torsion: float | None = None
 
 
@@ -141,23 +141,27 @@ class Section(Part):
         if self.rectangle:
             b, h = self.rectangle
             short, long = sorted(self.rectangle)
-            torsion = long * short**2 / (3 + 1.8 * short / long)
-            return Measures(b * h, (h * b**3 / 12, b * h**3 / 12), (h / 2, b / 2), 1.5 / (b * h), torsion)
+            k = short / long
+            roark = 1 + 0.6095 * k + 0.8865 * k**2 - 1.8023 * k**3 + 0.91 * k**4
+            second = h * b**3 / 12, b * h**3 / 12
+            return Measures(b * h, second, (h / 2, b / 2), (1.5 / (b * h),) * 2, long * short**2 / 3 / roark)
         if self.I:
             h, b, web, flange = self.I
             clear = h - 2 * flange
             second = (2 * flange * b**3 + clear * web**3) / 12, (b * h**3 - (b - web) * clear**3) / 12
             torsion = (2 * b * flange**3 + clear * web**3) / 3 / max(web, flange)
-            return Measures(2 * b * flange + clear * web, second, (h / 2, b / 2), 1 / (web * clear), torsion)
+            shears = 1 / (web * clear), 0.75 / (b * flange)
+            return Measures(2 * b * flange + clear * web, second, (h / 2, b / 2), shears, torsion)
         if self.round:
             r, R = (d / 2 for d in self.tube or (0.0, self.circle or 0.0))
             area, second_moment = math.pi * (R**2 - r**2), math.pi / 4 * (R**4 - r**4)
             shear = 4 / 3 / area * (R**2 + R * r + r**2) / (R**2 + r**2)
-            return Measures(area, (second_moment,) * 2, (R, R), shear, 2 * second_moment / R)
+            return Measures(area, (second_moment,) * 2, (R, R), (shear,) * 2, 2 * second_moment / R)
         assert self.area is not None
         assert self.inertia is not None
         assert self.modulus is not None
-        return Measures(self.area, (self.inertia,) * 2, (self.inertia / self.modulus,) * 2, 1.5 / self.area)
+        reach, shear = self.inertia / self.modulus, 1.5 / self.area
+        return Measures(self.area, (self.inertia,) * 2, (reach,) * 2, (shear,) * 2)
 
     @property
     def area_of(self) -> float:
@@ -175,13 +179,16 @@ class Section(Part):
         return self._measures.reach
 
     @property
-    def shear(self) -> float:
-        """Greatest shear stress over the shear force, 1/m2: 3/2 A, 4/3 A, 2/A of a thin tube, that of a web."""
+    def shear(self) -> tuple[float, float]:
+        """Greatest shear stress over the shear force along y, and along z, 1/m2.
+
+        3/2 A, 4/3 A of a circle, 2/A of a thin tube; of an I 1/A of its web, and 3/2 A of both flanges.
+        """
         return self._measures.shear
 
     @property
     def torsion(self) -> float:
-        """Torque over its greatest shear stress, m3; rectangles by a b^2 / (3 + 1.8 b/a), a the longer side."""
+        """Torque over its greatest shear stress, m3: 2 I / r, rectangles within 0.2 % (Roark), an I as thin strips."""
         if self._measures.torsion is None:
             remedy = "give a rectangle, a circle, a tube or an I"
             what = "a section by its numbers says nothing of torsion, nor of bending two ways"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dalembert.machine.members.member_table import MemberTable
+from dalembert.machine.output.member_text import known_stresses
 from dalembert.reports.sheet import Sheet, Working
 from dalembert.views.notation import Shown
 
@@ -21,7 +22,7 @@ def member_section(sheet: Sheet, t: MemberTable, shown: Shown) -> None:
             Working("frac(d N; d s) = -q_{t} quad frac(d V; d s) = q_{n} quad frac(d M; d s) = V"),
         ]
     )
-    for link, s in t.stress.items():
+    for link, s in known_stresses(t):
         direct, bent = (shown.number("pressure", x) for x in s.parts())
         most = f'{shown.number("pressure", s.largest)} "{shown.unit("pressure")}"'
         where = f"{link}, {shown.text('length', float(s.place[s.position]))} along {s.member[s.position]}:"
