@@ -25,7 +25,7 @@ class Word(NamedTuple):
     plain: str
 
 
-_GREEK = "alpha α, beta β, gamma γ, delta δ, theta θ, omega ω, phi φ, mu μ, pi π"
+_GREEK = "alpha α, beta β, gamma γ, delta δ, theta θ, omega ω, phi φ, mu μ, pi π, eta η, sigma σ, tau τ"
 
 WORDS: dict[str, Word] = {
     **{name: Word(name, "\\" + name, sign) for name, sign in map(str.split, _GREEK.split(","))},
