@@ -32,6 +32,11 @@ def with_help(sentence: str) -> Parameter:
     return Parameter(help=sentence)
 
 
+def several(sentence: str) -> Parameter:
+    """An option that takes one word or more."""
+    return Parameter(consume_multiple=True, negative=(), help=sentence)
+
+
 def flag(sentence: str, name: str | None = None) -> Parameter:
     """An option without a value."""
     return Parameter(name=name, negative=(), help=sentence)

@@ -23,7 +23,7 @@ from dalembert.analysis.methods.applied_forces import (
     magnitude,
     unknown_load_actions,
 )
-from dalembert.analysis.output.columns import Column, Scale, parts
+from dalembert.analysis.output.columns import Column, Scale, columns, parts
 from dalembert.analysis.result.transmission_lines import ground_points
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
@@ -76,6 +76,10 @@ class Shaking(Answer):
         """Whether all links are counted: then it is what the ground feels."""
         return len(self.links) == len(self.result.links)
 
+    def without_weight(self, name: str) -> Array:
+        """The `force` or the `moment` less the constant weights: what counterweights are to make small."""
+        return np.asarray(getattr(self, name) - self.parts["weight"][("force", "moment").index(name)])
+
     def harmonics(self, orders: int | Sequence[float] = 4, of: str = "force") -> Harmonics:
         """Harmonics of the `force`, the `moment` or the `couple` over whole turns of the first drive."""
         return harmonics(getattr(self, of), turning_angle(self.result), orders)
@@ -84,14 +88,11 @@ class Shaking(Answer):
         """Every number: the first drives' positions, force and moment, and their parts."""
         yield from self.drive_columns()
         whole = {"shaking": (self.force, self.moment)}
-        for name, (force, moment) in (whole | self.parts).items():
-            for axis, values in parts(force):
-                yield Column(f"{name} force{axis}", "force", values)
-            for axis, values in parts(moment):
-                yield Column(f"{name} moment{axis}", "moment", values)
+        for name, wrench in (whole | self.parts).items():
+            for kind, numbers in zip(("force", "moment"), wrench, strict=True):
+                yield from (Column(f"{name} {kind}{axis}", kind, v) for axis, v in parts(numbers))
         if self.couple is not None:
-            yield Column("shaking couple x", "moment", self.couple[:, 0])
-            yield Column("shaking couple y", "moment", self.couple[:, 1])
+            yield from (Column(f"shaking couple{axis}", "moment", v) for axis, v in parts(self.couple))
         yield Column("residual", "number", self.residual)
 
     def record(self, to: Scale) -> Tree:
@@ -117,10 +118,7 @@ def shaking(r: Result, about: About = None, links: Iterable[str] | None = None) 
     chosen = _chosen(r, links)
     name, point = fixed_point(r, about)
     loads, carried = _actions(r, chosen)
-    causes = {
-        part: _sum(r, [a for a in loads if CAUSES[a.kind] == part], point)
-        for part in dict.fromkeys(CAUSES.values())
-    }
+    causes = {p: _sum(r, [a for a in loads if CAUSES[a.kind] == p], point) for p in CAUSES.values()}
     force, moment = (np.sum([w[k] for w in causes.values()], axis=0) for k in (0, 1))
     through = _sum(r, carried, point)
     length = r.compiled.layout.length
@@ -134,9 +132,8 @@ def shaking(r: Result, about: About = None, links: Iterable[str] | None = None) 
 def _couple(r: Result, loads: Sequence[Action]) -> Array | None:
     """Couple (P, 2) about axes in the plane of what acts on links that lie beside it."""
     places = {link: r.mechanism.links[link].place for link in r.links}
-    if not any(places.values()):
-        return None
-    return np.asarray(sum(places[a.link] * across(a.force) for a in loads))
+    placed = any(places.values())
+    return np.asarray(sum(places[a.link] * across(a.force) for a in loads)) if placed else None
 
 
 def _chosen(r: Result, links: Iterable[str] | None) -> tuple[str, ...]:
@@ -166,19 +163,14 @@ def fixed_point(r: Result, about: About) -> tuple[str, Array]:
 
 def _actions(r: Result, links: tuple[str, ...]) -> tuple[list[Action], list[Action]]:
     """What reaches the links from outside and by their inertia; what joins them to all else."""
+    named: Tree = {"load": r.mechanism.loads, "effort": r.mechanism.drives}
     loads: list[Action] = []
     carried = list(joint_actions(r, split=False))
     for a in (*known_actions(r), *unknown_load_actions(r), *effort_actions(r)):
-        exerted = getattr(_part(r, a), "by", None)
-        outside = exerted == "outside" if a.kind == "effort" else a.kind in CAUSES and exerted != GROUND
+        by = getattr(named.get(a.kind, {}).get(a.of), "by", None)
+        outside = by == "outside" if a.kind == "effort" else a.kind in CAUSES and by != GROUND
         (loads if outside else carried).append(a)
     return [a for a in loads if a.link in links], [a for a in carried if a.link in links]
-
-
-def _part(r: Result, a: Action) -> object:
-    """The load or drive that an action is of."""
-    named: Tree = {"load": r.mechanism.loads, "effort": r.mechanism.drives}
-    return named.get(a.kind, {}).get(a.of)
 
 
 def _sum(r: Result, some: Sequence[Action], point: Array) -> Wrench:
@@ -196,3 +188,16 @@ def _size(values: Array) -> Array:
 def shaking_force(r: Result) -> Array:
     """Force of the whole machine on the ground (P, d), N."""
     return shaking(r).force
+
+
+def harmonics_of(r: Result, of: str, orders: int | Sequence[float] = 4) -> Harmonics:
+    """Harmonics of the shaking force or moment, or of a column of the outputs, over the first drive's turns; of a name
+    without its component, of the vector."""
+    if of in ("shaking", "shaking force", "shaking moment"):
+        return shaking(r).harmonics(orders, "moment" if of == "shaking moment" else "force")
+    named = {c.name: c.values for c in columns(r)}
+    vector = [named[f"{of} {axis}"] for axis in "xyz" if f"{of} {axis}" in named]
+    if of not in named and not vector:
+        raise ModelError(f"no output is named {of!r}", closest(of, ["shaking", "shaking moment", *named]))
+    values = named[of] if of in named else np.stack(vector, axis=-1)
+    return harmonics(values, turning_angle(r), orders)

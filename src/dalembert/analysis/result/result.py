@@ -322,7 +322,7 @@ class Result(LinkMotion):
 
         A column by its name, or without the component for its vector: `effort O2`, `reaction A on rod`.
         """
-        from dalembert.machine.output.by_name import harmonics_of
+        from dalembert.machine.shaking import harmonics_of
 
         return harmonics_of(self, of, orders)
 

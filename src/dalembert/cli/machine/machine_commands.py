@@ -18,6 +18,7 @@ from dalembert.cli.options import (
     Positions,
     Static,
     Theme,
+    several,
     target,
     with_help,
 )
@@ -53,29 +54,50 @@ class Outputs:
     theme: Theme = "light"
     force: Force = False
 
-    def check(self, file: Path) -> None:
-        """Refused before the work, not behind it."""
+    @property
+    def targets(self) -> dict[str, Path | None]:
+        """Kind of file -> where it goes, - for the screen."""
+        return {name: getattr(self, name) for name in ("json", "csv", "xlsx", "drawing", "report")}
+
+    def load(self, file: Path, changes: Changes) -> Mechanism:
+        """The description; what cannot be written is refused before the work, not behind it."""
+        from dalembert.cli.model_argument import load_model
         from dalembert.cli.solve_command import check_targets
 
-        targets = {name: getattr(self, name) for name in ("json", "csv", "xlsx", "drawing", "report")}
-        check_targets(file, targets, self.force)
+        check_targets(file, self.targets, self.force)
+        return load_model(file, changes)
 
-    def deliver(self, m: Mechanism, find: Callable[[], Any], **choice: Any) -> Any:
-        """Find, print and write an answer of ``machine``, with a choice of what is printed."""
+    def deliver(self, m: Mechanism, find: Callable[[], Any], model: Path | None = None, **choice: Any) -> Any:
+        """Find, write and print an answer of ``machine``, with a choice of what is printed, and write its mechanism to
+        the file ``model``. What is printed comes last: a pipe that closes early takes no file with it."""
         from dalembert.machine.output import written
-        from dalembert.saving import new_file
 
         try:
             answer = find()
         except ModelError as error:
             raise error.at_source(m.source) from None
         units: Literal["SI", "file"] = "file" if self.units == "file" else "SI"
-        silent = False
+        self._save(answer, units)
+        if model is not None:
+            answer.mechanism.save(model, self.force)
+        if str(self.json) == "-":
+            written.write_json(answer, sys.stdout, units)
+        elif str(self.csv) == "-":
+            written.write_csv(answer, sys.stdout, units)
+        else:
+            print(answer.text("SI" if self.units == "si" else "file", **choice))
+        for path in (*self.targets.values(), model):
+            if path is not None and str(path) != "-":
+                print(f"Written: {path}", file=sys.stderr)
+        return answer
+
+    def _save(self, answer: Answer, units: Literal["SI", "file"]) -> None:
+        """Every file that is asked for."""
+        from dalembert.machine.output import written
+        from dalembert.saving import new_file
+
         for path, write in ((self.json, written.write_json), (self.csv, written.write_csv)):
-            if str(path) == "-":
-                write(answer, sys.stdout, units)
-                silent = True
-            elif path is not None:
+            if path is not None and str(path) != "-":
                 with (
                     new_file(path, self.force) as new,
                     open(new, "w", encoding="utf-8", newline="") as stream,
@@ -84,16 +106,8 @@ class Outputs:
         if self.xlsx is not None:
             with new_file(self.xlsx, self.force) as new:
                 written.write_workbook(answer, new, units)
-        if not silent:
-            print(answer.text("SI" if self.units == "si" else "file", **choice))
-        if self.drawing is not None or self.report is not None:
-            self._draw(answer)
-        for path in (self.json, self.csv, self.xlsx, self.drawing, self.report):
-            if path is not None and str(path) != "-":
-                print(f"Written: {path}", file=sys.stderr)
-        return answer
-
-    def _draw(self, answer: Answer) -> None:
+        if self.drawing is None and self.report is None:
+            return
         from dalembert.reports import report
         from dalembert.views import draw
 
@@ -119,15 +133,25 @@ class Analysis(Outputs):
     def of(self, file: Path) -> Result:
         """The analysis of a file, over a whole turn where it has one position."""
         from dalembert.analysis import solve
-        from dalembert.cli.model_argument import load_model
         from dalembert.machine.whole_cycle import over_a_turn
 
-        self.check(file)
-        m = load_model(file, self.changes)
+        m = self.load(file, self.changes)
         return solve(m, static=self.static, positions=over_a_turn(m, self.positions))
+
+    def answer(self, result: Result, find: Callable[[Result], Answer]) -> int:
+        """Find, write and print what is found from an analysis."""
+        self.deliver(result.mechanism, lambda: find(result))
+        return 0
 
 
 AS_ASKED = Analysis()
+
+
+def number_of(r: Result, text: str | None, kind: str) -> float | None:
+    """What an option says, in the units of the file."""
+    from dalembert.units import file_units, quantity
+
+    return None if text is None else quantity(text, kind, file_units(r.mechanism.units))
 
 
 def shake(
@@ -140,10 +164,8 @@ def shake(
             'Point to take moments about: a joint or point of the ground, or "[x, y]"; default its first joint.'
         ),
     ] = None,
-    links: Annotated[
-        list[str] | None, Parameter(negative=(), help="Links to count, one or more (default: all).")
-    ] = None,
-    orders: Annotated[int, Parameter(help="Highest order of the harmonics.")] = 4,
+    links: Annotated[list[str] | None, several("Links to count, one or more (default: all).")] = None,
+    orders: Annotated[int, with_help("Highest order of the harmonics.")] = 4,
     out: Analysis = AS_ASKED,
 ) -> int:
     """Shaking force and moment of FILE: what the machine exerts on its foundation, and the harmonics."""
@@ -183,12 +205,10 @@ def flywheel(
 ) -> int:
     """Flywheel of FILE: energy curve, inertia from Cs or back, and the exact speed over the cycle."""
     from dalembert.machine.flywheel import flywheels
-    from dalembert.units import file_units, quantity
 
     result = out.of(file)
-    given = None if inertia is None else quantity(inertia, "inertia", file_units(result.mechanism.units))
-    out.deliver(result.mechanism, lambda: flywheels.flywheel(result, None, cs, given))
-    return 0
+    given = number_of(result, inertia, "inertia")
+    return out.answer(result, lambda r: flywheels.flywheel(r, None, cs, given))
 
 
 FLYWHEEL = """Examples:
@@ -202,11 +222,9 @@ def balance(
     *,
     on: Annotated[
         list[str],
-        Parameter(
-            consume_multiple=True,
-            negative=(),
-            help="Links that get a counterweight, each with its bounds: crank, or "
-            "crank:radius=80mm,mass=2kg,moment=...,place=X/Y,x=FROM/TO,disc=DENSITY/THICKNESS/RADIUS,at=POINT.",
+        several(
+            "Links that get a counterweight, each with its bounds: crank, or "
+            "crank:radius=80mm,mass=2kg,moment=...,place=X/Y,x=FROM/TO,disc=DENSITY/THICKNESS/RADIUS,at=POINT."
         ),
     ],
     least: Annotated[
@@ -228,19 +246,14 @@ def balance(
 ) -> int:
     """Counterweights on links of FILE that leave least shaking, within bounds, proved best."""
     from dalembert.cli.machine.counterweight_argument import bounds_of, sum_of
-    from dalembert.cli.model_argument import load_model
     from dalembert.machine.balance.balancing import balance as balanced
     from dalembert.saving import check_new
 
-    out.check(file)
     if output is not None:
         check_new(output, out.force)
-    m = load_model(file, changes)
+    m = out.load(file, changes)
     weights = dict(bounds_of(m, text) for text in on)
-    found = out.deliver(m, lambda: balanced(m, weights, least, sum_of(of), _point(m, about), positions))
-    if output is not None:
-        found.mechanism.save(output, out.force)
-        print(f"Written: {output}", file=sys.stderr)
+    out.deliver(m, lambda: balanced(m, weights, least, sum_of(of), _point(m, about), positions), output)
     return 0
 
 
@@ -256,30 +269,21 @@ def simulate(
     *,
     until: Annotated[
         list[str],
-        Parameter(
-            consume_multiple=True,
-            negative=(),
-            help='When it ends: a time (2s), or a condition ("O2.speed = 0 rad/s"); the first of several.',
-        ),
+        several('When it ends: a time (2s), or a condition ("O2.speed = 0 rad/s"); the first of several.'),
     ],
     event: Annotated[
         list[str] | None,
         Parameter(negative=(), help='Condition to note when it is met: "O2.position = 90 deg".'),
     ] = None,
-    count: Annotated[
-        int, Parameter(help="Instants in the answer, evenly in time, besides the events.")
-    ] = 201,
+    count: Annotated[int, with_help("Instants in the answer, evenly in time, besides the events.")] = 201,
     tolerance: Annotated[float | None, with_help("Relative error of a step (default: 1e-12).")] = None,
     changes: Changes = AS_IN_FILE,
     out: Outputs = NO_OUTPUTS,
 ) -> int:
     """Motion of FILE under forces: motors, loads, springs and friction, with every joint force."""
-    from dalembert.cli.model_argument import load_model
     from dalembert.machine.motion import simulation
 
-    out.check(file)
-    m = load_model(file, changes)
-    small = tolerance or simulation.TOLERANCE
+    m, small = out.load(file, changes), tolerance or simulation.TOLERANCE
     found = out.deliver(m, lambda: simulation.simulate(m, until, None, event or (), count, tolerance=small))
     return 1 if found.ended.startswith("stopped") else 0
 

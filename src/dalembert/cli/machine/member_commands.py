@@ -6,30 +6,21 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import Parameter
-
-from dalembert.cli.machine.machine_commands import AS_ASKED, Analysis
-from dalembert.cli.options import ModelFile, with_help
+from dalembert.cli.machine.machine_commands import AS_ASKED, Analysis, number_of
+from dalembert.cli.options import ModelFile, several, with_help
 
 
 def members(
     file: ModelFile,
     /,
     *,
-    links: Annotated[
-        list[str] | None,
-        Parameter(
-            negative=(), consume_multiple=True, help="Links, one or more (default: all with a length)."
-        ),
-    ] = None,
+    links: Annotated[list[str] | None, several("Links, one or more (default: all with a length).")] = None,
     out: Analysis = AS_ASKED,
 ) -> int:
     """Axial force, shear and bending moment inside links of FILE; stress, safety and buckling of their sections."""
     from dalembert.machine.members.member_table import member_table
 
-    result = out.of(file)
-    out.deliver(result.mechanism, lambda: member_table(result, links))
-    return 0
+    return out.answer(out.of(file), lambda r: member_table(r, links))
 
 
 MEMBERS = """Examples:
@@ -42,24 +33,19 @@ def bearings(
     file: ModelFile,
     /,
     *,
-    joints: Annotated[
-        list[str] | None,
-        Parameter(negative=(), consume_multiple=True, help="Joints, one or more (default: all that turn)."),
-    ] = None,
-    hours: Annotated[float | None, Parameter(help="Life to be had, in hours.")] = None,
+    joints: Annotated[list[str] | None, several("Joints, one or more (default: all that turn).")] = None,
+    hours: Annotated[float | None, with_help("Life to be had, in hours.")] = None,
     table: Annotated[
         Path | None, with_help("Bearings to choose from: a text file with columns name, C, C0, d.")
     ] = None,
-    factor: Annotated[float, Parameter(help="The load is taken so many times (default: 1).")] = 1.0,
-    safety: Annotated[float, Parameter(help="C0 over the largest load, at least (default: 1).")] = 1.0,
+    factor: Annotated[float, with_help("The load is taken so many times (default: 1).")] = 1.0,
+    safety: Annotated[float, with_help("C0 over the largest load, at least (default: 1).")] = 1.0,
     out: Analysis = AS_ASKED,
 ) -> int:
     """Pressure, PV, equivalent load and life of the bearings of FILE; the smallest of a table that lives so long."""
     from dalembert.machine.bearings.bearing_table import bearings as bearing_table
 
-    result = out.of(file)
-    out.deliver(result.mechanism, lambda: bearing_table(result, joints, hours, table, factor, safety))
-    return 0
+    return out.answer(out.of(file), lambda r: bearing_table(r, joints, hours, table, factor, safety))
 
 
 BEARINGS = """Examples:
@@ -72,12 +58,12 @@ def motor(
     file: ModelFile,
     /,
     *,
-    drive: Annotated[str | None, Parameter(help="The drive (default: the first).")] = None,
+    drive: Annotated[str | None, with_help("The drive (default: the first).")] = None,
     inertia: Annotated[str, with_help("The motor's own inertia, such as 0.002kg*m^2.")] = "0",
     ratio: Annotated[
-        float | None, Parameter(help="Gear ratio, speed of the motor over that of the drive.")
+        float | None, with_help("Gear ratio, speed of the motor over that of the drive.")
     ] = None,
-    efficiency: Annotated[float, Parameter(help="Of the gear (default: 1).")] = 1.0,
+    efficiency: Annotated[float, with_help("Of the gear (default: 1).")] = 1.0,
     curve: Annotated[
         Path | None, with_help("Greatest torque of the motor: a text file with columns speed, torque.")
     ] = None,
@@ -86,16 +72,11 @@ def motor(
 ) -> int:
     """Torque, speed and power that a drive of FILE asks for, and the gear ratio with which its motor needs least."""
     from dalembert.machine.motors import motor_choice
-    from dalembert.units import file_units, quantity
 
     result = out.of(file)
-    units = file_units(result.mechanism.units)
-    own, lasting = quantity(inertia, "inertia", units), rated and quantity(rated, "moment", units)
-    out.deliver(
-        result.mechanism,
-        lambda: motor_choice.motor(result, drive, own, ratio, efficiency, curve, lasting or None),
-    )
-    return 0
+    own, lasting = number_of(result, inertia, "inertia") or 0.0, number_of(result, rated, "moment")
+    choice = drive, own, ratio, efficiency, curve, lasting
+    return out.answer(result, lambda r: motor_choice.motor(r, *choice))
 
 
 MOTOR = """Examples:

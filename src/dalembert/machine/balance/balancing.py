@@ -94,16 +94,13 @@ class Balance(Answer):
     @property
     def complete(self) -> bool:
         """Whether nothing of the force is left: full force balance."""
-        left = without_weight(self.after, "force")
-        return greatest(left)[0] < COMPLETE * (greatest(without_weight(self.before, "force"))[0] or 1.0)
+        before, after = (greatest(s.without_weight("force"))[0] for s in (self.before, self.after))
+        return after < COMPLETE * (before or 1.0)
 
     def sizes(self, after: bool = True) -> dict[str, tuple[float, float]]:
         """Rms and greatest value of force, moment and torque, before or after."""
-        s = self.after if after else self.before
-        out = {name: without_weight(s, name) for name in ("force", "moment")}
-        if s.result.drives:
-            out["torque"] = s.result.effort(s.result.drives[0])
-        return {name: (rms(v), greatest(v)[0]) for name, v in out.items()}
+        found = _values(self.after if after else self.before)
+        return {name: (rms(v), greatest(v)[0]) for name, v in found.items()}
 
     def trade_off(self, other: str, count: int = 9) -> list[tuple[float, float]]:
         """Pairs (of, other), parts of what they were before, none of which can be bettered in both.
@@ -139,12 +136,10 @@ class Balance(Answer):
 
     def columns(self) -> Iterator[Column]:
         """Force, moment and torque before and after, over the positions."""
+        yield from self.drive_columns()
         for name, s in (("before", self.before), ("after", self.after)):
-            for c in s.columns():
-                if c.name.startswith("drive ") and name == "before":
-                    yield c
-                elif c.name.startswith("shaking"):
-                    yield c._replace(name=f"{name} {c.name}")
+            shaking = (c for c in s.columns() if c.name.startswith("shaking"))
+            yield from (c._replace(name=f"{name} {c.name}") for c in shaking)
             for drive in s.result.drives:
                 yield Column(f"{name} effort {drive}", "moment", s.result.effort(drive))
 
@@ -160,16 +155,20 @@ class Balance(Answer):
             }
             for link, p in self.placed.items()
         }
-        kinds = {"force": "force", "moment": "moment", "torque": "moment"}
-        sizes = {
-            name: {
-                n: {"rms": to(kinds[n], a), "max": to(kinds[n], b)} for n, (a, b) in self.sizes(after).items()
-            }
-            for name, after in (("before", False), ("after", True))
+        out: Tree = {
+            "least": self.least,
+            "of": self.of,
+            "about": self.before.about,
+            "complete": self.complete,
         }
-        proof = {"value": self.value, "bound": self.bound, "gap": self.gap, "residual": self.residual}
-        said = {"least": self.least, "of": self.of, "about": self.before.about, "complete": self.complete}
-        return {"balance": {**said, "counterweights": weights, **sizes, **proof, "missing": self.missing()}}
+        out["counterweights"] = weights
+        for side in ("before", "after"):
+            sizes = out[side] = dict[str, Tree]()
+            for name, both in self.sizes(side == "after").items():
+                found = (to("force" if name == "force" else "moment", size) for size in both)
+                sizes[name] = dict(zip(("rms", "max"), found, strict=True))
+        out |= {name: getattr(self, name) for name in ("value", "bound", "gap", "residual")}
+        return {"balance": out | {"missing": self.missing()}}
 
 
 def balance(
@@ -198,36 +197,24 @@ def balance(
     from dalembert.model import Mechanism as Description
 
     r = dynamics(m, over_a_turn(m, positions)) if isinstance(m, Description) else m
-    wanted = _quantities(of, r)
-    asked = counterweights(r.mechanism, weights)
-    before = shaking(r, about)
-    drive = r.drives[0] if r.drives else None
-    count = len(r.status)
-    base = {name: without_weight(before, name).reshape(count, -1) for name in ("force", "moment")}
-    base["torque"] = r.effort(drive)[:, None] if drive else np.zeros((count, 1))
+    wanted, asked, before = _wanted(of, r), counterweights(r.mechanism, weights), shaking(r, about)
+    base = {name: v.reshape(len(v), -1) for name, v in _values(before).items()}
     refuse_unknown(r, "balancing needs every position", *base.values())
     floors = {n: before.floor("force" if n == "force" else "moment") for n in base}
     base = {n: v if np.abs(v).max() > floors[n] else 0 * v for n, v in base.items()}
-    columns = mass_columns(r, asked, before.point, drive)
+    columns = mass_columns(r, asked, before.point, r.drives[0] if r.drives else None)
     problem = Problem(base, columns.of, tuple(asked.items()), columns.axes)
     found = problem.solve(least, wanted)
     numbers = found.numbers.reshape(len(asked), -1)
     placed = {link: _placed(r, link, w, p) for (link, w), p in zip(asked.items(), numbers, strict=True)}
-    after = shaking(
-        at_schedule(
-            with_masses(r.mechanism, {link: [(p.mass, p.center, p.inertia)] for link, p in placed.items()}),
-            r.schedule,
-            r.inertia,
-        ),
-        about,
-    )
-    off = _difference(after, found, problem, drive)
-    return Balance(
-        r, asked, least, wanted, placed, numbers, found.value, found.bound, before, after, off, problem
-    )
+    masses = {link: [(p.mass, p.center, p.inertia)] for link, p in placed.items()}
+    after = shaking(at_schedule(with_masses(r.mechanism, masses), r.schedule, r.inertia), about)
+    off = _difference(after, found, problem)
+    proof = found.value, found.bound, before, after, off
+    return Balance(r, asked, least, wanted, placed, numbers, *proof, problem)
 
 
-def _quantities(of: Of, r: Result) -> dict[str, float]:
+def _wanted(of: Of, r: Result) -> dict[str, float]:
     wanted = {of: 1.0} if isinstance(of, str) else dict(of)
     for name, weight in wanted.items():
         if name not in QUANTITIES:
@@ -243,22 +230,19 @@ def _quantities(of: Of, r: Result) -> dict[str, float]:
     return wanted
 
 
-def without_weight(s: Shaking, name: str) -> Array:
-    """Force or moment that counterweights are to make small: all but the constant weights."""
-    which = ("force", "moment").index(name)
-    return np.asarray((s.force, s.moment)[which] - s.parts["weight"][which])
+def _values(s: Shaking) -> dict[str, Array]:
+    """Force and moment that counterweights are to make small, and the effort of the first drive if there is one."""
+    torque = {"torque": s.result.effort(s.result.drives[0])} if s.result.drives else {}
+    return {name: s.without_weight(name) for name in ("force", "moment")} | torque
 
 
-def _difference(after: Shaking, found: Solved, problem: Problem, drive: str | None) -> float:
+def _difference(after: Shaking, found: Solved, problem: Problem) -> float:
     """The linear prediction against the analysis with the counterweights, over the values before."""
-    off = 0.0
-    for name, size in problem.sizes("max").items():
-        if name == "torque" and drive is None:
-            continue
-        there = after.result.effort(drive) if name == "torque" and drive else None
-        values = (without_weight(after, name) if there is None else there).reshape(len(after.force), -1)
-        off = max(off, float(np.abs(values - problem.predict(name, found.numbers)).max()) / (size or 1.0))
-    return off
+    sizes, off = problem.sizes("max"), [0.0]
+    for name, values in _values(after).items():
+        gap = values.reshape(len(values), -1) - problem.predict(name, found.numbers)
+        off.append(float(np.abs(gap).max()) / (sizes[name] or 1.0))
+    return max(off)
 
 
 def _placed(r: Result, link: str, w: Counterweight, p: Array) -> Placed:
@@ -278,9 +262,10 @@ def _force_left(r: Result, links: list[str]) -> float:
     asked = counterweights(r.mechanism, links)
     s = shaking(r)
     columns = mass_columns(r, asked, s.point, None).of["force"]
-    base = without_weight(s, "force").ravel()
+    base = s.without_weight("force").ravel()
     flat = columns.reshape(len(base), len(links), -1)[..., 1 : columns.shape[1] + 1].reshape(len(base), -1)
     scale = np.abs(flat).max(axis=0)
-    flat = flat[:, scale > 1e-12 * scale.max()] / scale[scale > 1e-12 * scale.max()]
+    counts = scale > 1e-12 * scale.max()
+    flat = flat[:, counts] / scale[counts]
     left = base - flat @ np.linalg.lstsq(flat, base, rcond=1e-12)[0]
     return float(np.abs(left).max() / (np.abs(base).max() or 1.0))

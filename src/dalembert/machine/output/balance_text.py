@@ -36,15 +36,13 @@ def balance_parts(b: Balance, to: Printed) -> Iterator[Part]:
 
 def _comparison_rows(b: Balance, to: Printed) -> list[list[str]]:
     """Rms and greatest value of each quantity before and after, and their ratio."""
-    before, after, rows = b.sizes(after=False), b.sizes(), []
-    for name, old in before.items():
-        for k, what in enumerate(("rms", "greatest")):
-            new = after[name][k]
-            floor = 1e-12 * old[k]
-            share = number(100 * new / old[k] if new > floor else 0.0, 4) + " %" if old[k] else "-"
-            kind = "force" if name == "force" else "moment"
-            sizes = [to.quantity(kind, v if v > floor else 0.0) for v in (old[k], new)]
-            rows.append([f"{what} {name}", *sizes, share])
+    after, rows = b.sizes(), []
+    for name, sizes in b.sizes(after=False).items():
+        kind = "force" if name == "force" else "moment"
+        for what, old, left in zip(("rms", "greatest"), sizes, after[name], strict=True):
+            new = left if left > 1e-12 * old else 0.0
+            share = number(100 * new / old, 4) + " %" if old else "-"
+            rows.append([f"{what} {name}", to.quantity(kind, old), to.quantity(kind, new), share])
     return rows
 
 

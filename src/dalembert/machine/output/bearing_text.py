@@ -22,9 +22,9 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
     loads, plain, rolling = [], [], []
     for joint, b in t.loads.items():
         size, k = greatest(b.radial)
-        most = [to.number("force", size), where(t.result, to, k), to.number("force", b.axial.max())]
-        loads.append([joint, *most, to.number("force", b.equivalent), to.number("angular_speed", b.speed)])
-        loads[-1].append("to and fro" if b.swings else "on")
+        most, *others = (to.number("force", x) for x in (size, b.axial.max(), b.equivalent))
+        turning = [to.number("angular_speed", b.speed), "to and fro" if b.swings else "on"]
+        loads.append([joint, most, where(t.result, to, k), *others, *turning])
         if b.sized:
             values = [to("pressure", to("speed", x)) for x in (float(b.pv.max()), b.mean_pv)]
             plain.append([joint, to.number("pressure", b.pressure.max()), *(number(v) for v in values)])
@@ -49,9 +49,7 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
         "The equivalent load is weighted by the turning of the joint's links to each other; exponent 3, of rollers "
         "10/3. A joint that turns to and fro: turns are the angle swept over 360 deg."
     )
-    thrust = [
-        joint for joint, b in t.loads.items() if not np.isfinite(b.load).all() and np.isfinite(b.radial).all()
-    ]
+    thrust = [j for j, b in t.loads.items() if np.isfinite(b.radial).all() and not np.isfinite(b.load).all()]
     if thrust:
         yield f"{', '.join(thrust)}: an axial force, and no axial_factor in the bearing to count it by."
     tilted = [f"{joint} ({to.quantity('moment', b.tilting)})" for joint, b in t.loads.items() if b.tilting]
@@ -63,22 +61,12 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
 
 
 def _choice(t: BearingTable, to: Printed) -> Table:
-    rows = []
+    rows, hours, force = [], t.hours or 0.0, to.text("force")
     for joint, b in t.loads.items():
-        row = t.chosen.get(joint)
-        said = (
-            [row.name, *(to.number("force", x) for x in (row.C, row.C0)), to.number("length", row.d)]
-            if row
-            else []
-        )
-        said = said or ["none is enough" if t.rows else "no table given", "", "", ""]
-        rows.append([joint, to.number("force", b.rating_for(t.hours or 0.0, t.factor)), *said])
-    heads = [
-        f"C needed\n{to.text('force')}",
-        "chosen\n",
-        f"C\n{to.text('force')}",
-        "C0\n",
-        f"bore\n{to.text('length')}",
-    ]
+        said, row = ["none is enough" if t.rows else "no table given", "", "", ""], t.chosen.get(joint)
+        if row:
+            said = [row.name, *(to.number("force", x) for x in (row.C, row.C0)), to.number("length", row.d)]
+        rows.append([joint, to.number("force", b.rating_for(hours, t.factor)), *said])
+    heads = ["joint", f"C needed\n{force}", "chosen\n", f"C\n{force}", "C0\n", f"bore\n{to.text('length')}"]
     factor = f", with {number(t.factor)} times the load" if t.factor != 1 else ""
-    return Table(["joint", *heads], rows, note=f"For {number(t.hours or 0.0)} hours{factor}.")
+    return Table(heads, rows, note=f"For {number(hours)} hours{factor}.")

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from dalembert.analysis.output.summary.printed_units import Printed
+from dalembert.machine.flywheel.flywheel_size import FlywheelSize
 from dalembert.machine.flywheel.speed_fluctuation import SpeedFluctuation
 from dalembert.printing import Part, Table, number, remainder
 
@@ -36,20 +37,18 @@ def flywheel_parts(f: Flywheel, to: Printed) -> Iterator[Part]:
 
 
 def _sizes(f: Flywheel, to: Printed) -> Table:
-    low, high = f.size.limits
-    rows = [["by dE / (Cs w^2)", *_cells(to, f.size.inertia, f.size.fluctuation, low, high)]]
-    some = (("its exact speed", f.exact), ("for that Cs, exact", f.exact_size))
-    rows += [
-        [name, *_cells(to, s.inertia, s.fluctuation, s.least[0], s.greatest[0])] for name, s in some if s
-    ]
-    unit = to.text("angular_speed")
+    rows, unit = [], to.text("angular_speed")
+    for name, s in (
+        ("by dE / (Cs w^2)", f.size),
+        ("its exact speed", f.exact),
+        ("for that Cs, exact", f.exact_size),
+    ):
+        if s is not None:
+            limits = s.limits if isinstance(s, FlywheelSize) else (s.least[0], s.greatest[0])
+            speeds = [to.number("angular_speed", w) for w in limits]
+            rows.append([name, to.number("inertia", s.inertia), number(s.fluctuation, 5), *speeds])
     heads = ["flywheel", f"inertia\n{to.text('inertia')}", "Cs", f"least speed\n{unit}", f"greatest\n{unit}"]
     return Table(heads, rows)
-
-
-def _cells(to: Printed, inertia: float, fluctuation: float, low: float, high: float) -> list[str]:
-    speeds = [to.number("angular_speed", w) for w in (low, high)]
-    return [to.number("inertia", inertia), number(fluctuation, 5), *speeds]
 
 
 def comparison(f: Flywheel, to: Printed) -> str:
@@ -63,11 +62,11 @@ def comparison(f: Flywheel, to: Printed) -> str:
     )
     if f.exact_size is not None:
         rule = f.size.inertia - f.own
-        said += f"For the Cs asked for {to.quantity('inertia', f.exact_size.inertia)} will do" + (
-            f"; the rule less the links' own inertia says {to.quantity('inertia', rule)}. "
-            if rule > 0
-            else ". "
+        said += f"For the Cs asked for {to.quantity('inertia', f.exact_size.inertia)} will do"
+        said += (
+            f"; the rule less the links' own inertia says {to.quantity('inertia', rule)}" if rule > 0 else ""
         )
+        said += ". "
     elif f.reason:
         said += f"The flywheel for just that Cs is not found: {f.reason}. "
     return f"{said}The exact motion, prescribed, asks for a constant torque within {remainder(f.exact.residual)}."

@@ -47,11 +47,7 @@ def motor_parts(c: MotorChoice, to: Printed) -> Iterator[Part]:
             "Torque falls with every higher ratio, as nothing of it goes into the motor's own acceleration: the ratio "
             "is limited by the motor's speed alone."
         )
-    given = ["its curve"] * (c.curve is not None) + ["its rated torque against the rms"] * (
-        c.rated is not None
-    )
-    yield (
-        f"Whether it is enough is judged by {' and '.join(given)}."
-        if given
-        else "No curve and no rated torque given: nothing is judged."
-    )
+    by = {"its curve": c.curve, "its rated torque against the rms": c.rated}
+    given = " and ".join(what for what, value in by.items() if value is not None)
+    judged = f"Whether it is enough is judged by {given}."
+    yield judged if given else "No curve and no rated torque given: nothing is judged."

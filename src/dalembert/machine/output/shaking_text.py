@@ -65,24 +65,19 @@ def _harmonic_tables(s: Shaking, to: Printed, orders: int | Sequence[float]) -> 
         found = {kind: s.harmonics(orders, kind) for kind in some}
     except ModelError as error:
         return [f"No harmonics: {error}."]
-    out: list[Part] = []
-    for kind, h in found.items():
-        if np.any(h.amplitude > s.floor(kind)):
-            unit = "force" if kind == "force" else "moment"
-            out.append(harmonic_table(f"{kind}\n{to.text(unit)}", h, float(to(unit, 1.0)), s.floor(kind)))
-    turns = next(iter(found.values())).turns
+    shown = {kind: h for kind, h in found.items() if np.any(h.amplitude > s.floor(kind))}
+    turns, drive = found["force"].turns, s.result.drives[0]
     period = "a turn" if turns == 1 else f"{turns} turns"
-    drive = s.result.drives[0]
-    return [f"Harmonics over {period} of {drive}: amplitude, and phase in deg (a cos(k q - phase))", *out]
+    said = f"Harmonics over {period} of {drive}: amplitude, and phase in deg (a cos(k q - phase))"
+    return [said, *(_harmonic_table(kind, h, to, s.floor(kind)) for kind, h in shown.items())]
 
 
 def _engine(s: Shaking, to: Printed) -> list[Part]:
     """Of an engine, the book's two harmonics beside the exact ones."""
-    from dalembert.machine.balance.engine_series import cylinders, engine_series
+    from dalembert.machine.balance.engine_series import engine_series
 
     r = s.result
-    some = r.mechanism.dimension == 2 and s.whole and cylinders(r.mechanism)
-    if not some or not s.parts["inertia"][0].any():
+    if r.mechanism.dimension == 3 or not s.whole or not s.parts["inertia"][0].any():
         return []
     try:
         e = engine_series(r)
@@ -104,27 +99,25 @@ def _engine(s: Shaking, to: Printed) -> list[Part]:
     return [Table(heads, rows, note=wrap(said))]
 
 
-def harmonic_table(head: str, h: Harmonics, factor: float = 1.0, floor: float = 0.0) -> Table:
+def _harmonic_table(name: str, h: Harmonics, to: Printed, floor: float) -> Table:
     """Amplitude and phase of each order, of vectors by component, in the plane also the parts that turn."""
+    kind = "force" if name == "force" else "moment"
     floor = max(floor, 1e-12 * float(np.max(h.amplitude, initial=0.0)))
-    names = [""] if h.amplitude.ndim == 1 else list("xyz"[: h.amplitude.shape[1]])
-    name, _, unit = head.partition("\n")
-    heads = ["order", *(x for n in names for x in (f"{name} {n}\n{unit or name}", "phase"))]
-    turning = len(names) == 2
-    heads += ["with it", "against"] if turning else []
+    amplitude, phase = (np.reshape(v, (len(h.order), -1)) for v in (h.amplitude, h.phase))
+    turning = amplitude.shape[1] == 2
+    axes = "xyz"[: amplitude.shape[1]] if h.amplitude.ndim > 1 else ("",)
+    heads = ["order", *(x for axis in axes for x in (f"{name} {axis}\n{to.text(kind)}", "phase"))]
     rows = []
     for k, order in enumerate(h.order):
         row = [number(order)]
-        for c in range(len(names)):
-            a, phase = (float(np.reshape(v, (len(h.order), -1))[k, c]) for v in (h.amplitude, h.phase))
-            row += [number(factor * a), _phase(phase, order)] if a > floor else ["0", "-"]
+        for a, angle in zip(amplitude[k], phase[k], strict=True):
+            row += [to.number(kind, a), _phase(angle, order)] if a > floor else ["0", "-"]
         for part in (h.forward, h.backward) if turning else ():
-            row.append(number(factor * float(abs(part[k])) if abs(part[k]) > floor else 0.0))
+            row.append(to.number(kind, abs(part[k])) if abs(part[k]) > floor else "0")
         rows.append(row)
-    note = f"Every other position left out changes them by {remainder(factor * h.aliasing)} at most."
-    return Table(
-        heads, rows, note=note if math.isfinite(h.aliasing) else "Too few positions to tell their aliasing."
-    )
+    note = f"Every other position left out changes them by {remainder(float(to(kind, h.aliasing)))} at most."
+    note = note if math.isfinite(h.aliasing) else "Too few positions to tell their aliasing."
+    return Table([*heads, *(["with it", "against"] if turning else [])], rows, note=note)
 
 
 def _phase(phase: float, order: float) -> str:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.machine.motion.occurrences import say
-from dalembert.model.drives.drives import SLIDE, TURN
+from dalembert.machine.output.written import greatest
 from dalembert.printing import Part, Table, number, remainder
 
 if TYPE_CHECKING:
@@ -49,16 +50,9 @@ def _drives(s: Simulation, to: Printed) -> Table:
     """Position, speed, acceleration and effort of each drive at even instants."""
     heads, columns = [f"time\n{to.text('time')}"], [to("time", s.time)]
     for k, drive in enumerate(s.drives):
-        kinds = TURN if s.result.mechanism.drives[drive].turns else SLIDE
-        for what, values in (
-            ("position", s.position(drive)),
-            ("speed", s.speed(drive)),
-            ("acceleration", s.acceleration(drive)),
-            ("effort", s.applied[:, k]),
-        ):
-            kind = kinds["" if what == "position" else what]
+        for what, kind in drive_kinds(s.result, drive).items():
             heads.append(f"{drive} {what}\n{to.text(kind)}")
-            columns.append(to(kind, values))
+            columns.append(to(kind, s.applied[:, k] if what == "effort" else getattr(s, what)(drive)))
     which = np.unique(np.linspace(0, len(s.time) - 1, ROWS).astype(int))
     rows = [[number(float(np.asarray(c)[n])) for c in columns] for n in which]
     return Table(heads, rows, 0)
@@ -97,11 +91,8 @@ def _works(s: Simulation, to: Printed) -> Table:
 
 def _joints(s: Simulation, to: Printed) -> Table:
     """Greatest force in each joint and when."""
-    rows = []
-    for joint in s.result.joints:
-        size = np.sqrt((s.result.reaction(joint) ** 2).sum(axis=-1))
-        if np.isfinite(size).any():
-            k = int(np.nanargmax(size))
-            rows.append([joint, to.number("force", size[k]), to.number("time", s.time[k])])
+    found = {joint: greatest(s.result.reaction(joint)) for joint in s.result.joints}
+    known = {joint: both for joint, both in found.items() if np.isfinite(both[0])}
+    rows = [[n, to.number("force", f), to.number("time", s.time[k])] for n, (f, k) in known.items()]
     heads = ["joint", f"greatest force\n{to.text('force')}", f"at\n{to.text('time')}"]
     return Table(heads, rows)

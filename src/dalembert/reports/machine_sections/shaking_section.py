@@ -43,11 +43,8 @@ def _inertia_table(sheet: Sheet, s: Shaking, shown: Shown, k: int) -> None:
             rows.append([shown.heading(link), shown.number("mass", mass), *cells])
     heads = ["Link", "$m$", *(f"$a_{{{x}}}$" for x in axes), *(f"$-m a_{{{x}}}$" for x in axes)]
     units = [shown.unit(kind) for kind in ("mass", "acceleration", "force")]
-    sheet.table(
-        heads,
-        rows,
-        f"Mass in {units[0]}, acceleration of the centre in {units[1]}, inertia force in {units[2]}",
-    )
+    said = f"Mass in {units[0]}, acceleration of the centre in {units[1]}, inertia force in {units[2]}"
+    sheet.table(heads, rows, said)
 
 
 def _sums(

@@ -1,4 +1,4 @@
-"""Drawings of machine design, each in a file with the name of its answer.
+"""Drawings of machine design.
 
 In: an answer of ``machine``. Out: ``Scene``. Imports ``machine`` and what ``views`` imports.
 """
@@ -11,9 +11,12 @@ from dalembert.machine.output.answer import Answer
 from dalembert.views.notation import Notation
 from dalembert.views.paper.scene import Scene
 
+OWN = {"member": "member_views", "shaking": "shaking_views"}
+"""Answers with a file of their own; the others are charts over the cycle."""
+
 
 def scenes_of(answer: Answer, notation: Notation | None = None) -> list[Scene]:
     """The drawings of an answer."""
-    drawings = import_module(f"dalembert.views.machine.{answer.NAME}_views")
+    drawings = import_module(f"dalembert.views.machine.{OWN.get(answer.NAME, 'cycle_views')}")
     found: list[Scene] = getattr(drawings, f"{answer.NAME}_scenes")(answer, notation or Notation())
     return found

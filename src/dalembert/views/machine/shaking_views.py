@@ -8,11 +8,12 @@ from dalembert.arrays import Array
 from dalembert.errors import ModelError
 from dalembert.machine.harmonics import Harmonics
 from dalembert.machine.shaking import Shaking
-from dalembert.views.charts import along, crank_marks, vector_chart
+from dalembert.views.charts import crank_marks, vector_chart
+from dalembert.views.machine.cycle_views import cycle_axis
 from dalembert.views.not_shown import refuse_still
-from dalembert.views.notation import Notation, Shown
+from dalembert.views.notation import Notation
 from dalembert.views.paper.canvas import Canvas
-from dalembert.views.paper.diagrams import curves_scene, polar_scene
+from dalembert.views.paper.diagrams import polar_scene
 from dalembert.views.paper.frame import round_up
 from dalembert.views.paper.scene import Line, Polygon, Scene, Text
 
@@ -20,8 +21,8 @@ from dalembert.views.paper.scene import Line, Polygon, Scene, Text
 def shaking_scenes(s: Shaking, notation: Notation) -> list[Scene]:
     """Polar diagram (in the plane), components and moment over the cycle, harmonics where it is a period."""
     refuse_still(s.result, "a chart")
-    r = s.result.before
-    shown = Shown(r, notation)
+    r, axis = s.result.before, cycle_axis(s.result.before, notation)
+    shown = axis.shown
     force = s.force / shown.size("force")
     whose = "on the ground" if s.whole else f"of {', '.join(s.links)}"
     out = []
@@ -29,17 +30,14 @@ def shaking_scenes(s: Shaking, notation: Notation) -> list[Scene]:
         marks = crank_marks(r, shown)
         out.append(polar_scene({"force": force}, shown.unit("force"), f"Shaking force {whose}", marks=marks))
     out.append(vector_chart(r, force, "force", f"Shaking force {whose}", shown))
-    x, label, angle = along(r, shown)
     turning = {f"Shaking moment about {s.about}": s.moment, "Shaking couple": s.couple}
     for title, values in turning.items():
         if values is None or not np.nanmax(np.abs(values), initial=0.0) > s.floor("moment"):
             continue
-        moment = values / shown.size("moment")
-        if moment.ndim > 1:
-            out.append(vector_chart(r, moment, "moment", title, shown))
+        if values.ndim > 1:
+            out.append(vector_chart(r, values / shown.size("moment"), "moment", title, shown))
         else:
-            unit = f"Moment in {shown.unit('moment')}"
-            out.append(curves_scene(x, {"moment": moment}, label, unit, title, angle))
+            out.append(axis.chart("moment", {"moment": values}, title))
     try:
         found = s.harmonics(6)
     except ModelError:

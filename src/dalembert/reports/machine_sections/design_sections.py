@@ -1,0 +1,116 @@
+"""Balance, bearings, flywheel, motor and motion under forces worked out in letters and numbers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from dalembert.machine.motion.occurrences import say
+from dalembert.reports.sheet import Sheet, Working
+from dalembert.views.notation import Shown
+
+if TYPE_CHECKING:
+    from dalembert.machine.balance.balancing import Balance
+    from dalembert.machine.bearings.bearing_load import BearingLoad
+    from dalembert.machine.bearings.bearing_table import BearingTable
+    from dalembert.machine.flywheel.flywheels import Flywheel
+    from dalembert.machine.motion.simulation import Simulation
+    from dalembert.machine.motors.motor_choice import MotorChoice
+
+
+def balance_section(sheet: Sheet, b: Balance, shown: Shown) -> None:
+    """In letters the columns of a counterweight."""
+    sheet.heading("Balance")
+    where = "with m x and m y about its base point A, on a link at the angle $theta$, adds to the shaking force, in "
+    where, letters = where + "complex numbers,", "(i alpha - omega^{2}) e^{i theta} (m x + i m y)"
+    if b.problem.dimension == 3:
+        where = "at r from its base point A adds to the shaking force"
+        letters = "m (alpha times r) - m (omega times (omega times r))"
+    sheet.text(f"A counterweight of mass m {where} a sum that is linear in its mass numbers:")
+    sheet.equations([Working(f"F = -m a_{{A}} - {letters}")])
+    sheet.text(
+        "So the least squares, or the least greatest value, over all positions is a convex problem with one answer."
+    )
+
+
+def bearing_section(sheet: Sheet, t: BearingTable, shown: Shown) -> None:
+    """Pressure, equivalent load and life of each joint that has a bearing."""
+    sheet.heading("Bearings")
+    sheet.text(
+        "The force of a joint bears on the projected area of its pin. A rolling bearing lives as long under the steady "
+        "load P as under the force over the cycle, weighted by how much the joint turns, $phi$."
+    )
+    sheet.equations([Working("P = (frac(∫ F^{e} |d phi|; ∫ |d phi|))^{1/e}")])
+    for joint, b in t.loads.items():
+        lines = _bearing_lines(b, shown)
+        if lines:
+            sheet.text(f"Joint {joint}:")
+            sheet.equations(lines)
+
+
+def _bearing_lines(b: BearingLoad, shown: Shown) -> list[Working]:
+    lines, described = list[Working](), b.bearing
+    if described and described.diameter and described.length:
+        numbers = {
+            "force": float(b.radial.max()),
+            "length": described.diameter,
+            "pressure": float(b.pressure.max()),
+        }
+        most, d, pressure = (shown.number(kind, x) for kind, x in numbers.items())
+        divided = f"frac({most}; {d} cdot {shown.number('length', described.length)})"
+        factor = shown.factor("force", "pressure", "length", "length")
+        divided += "" if factor == 1 else f" / {shown.conversion(factor)}"
+        lines.append(Working("p = frac(F; d l)", divided, f'{pressure} "{shown.unit("pressure")}"'))
+    if described and described.rating:
+        rating, load = (shown.number("force", x) for x in (described.rating, b.equivalent))
+        e = "3" if described.kind == "ball" else "10/3"
+        turns = f'{shown.notation.number(b.turns / 1e6)} cdot 10^{{6}} "turns"'
+        lines.append(Working("P", "", f'{load} "{shown.unit("force")}"'))
+        life = f"(frac({rating}; {load}))^{{{e}}} 10^{{6}}"
+        lines.append(Working("L_{10} = (frac(C; P))^{e} 10^{6}", life, turns))
+    return lines
+
+
+def flywheel_section(sheet: Sheet, f: Flywheel, shown: Shown) -> None:
+    """Mean torque, dE, I, limits of speed, beside the exact speed."""
+    sheet.heading("Flywheel")
+    sheet.text(
+        f"The effort T of {f.drive} at steady speed is what the machine asks for; its mean is what a steady supply "
+        "gives. Above the mean the flywheel gives, and slows down: where E is greatest the speed is least."
+    )
+    size, cs = f.size, shown.notation.number(f.size.fluctuation)
+    energies = max(f.energies, default=0), min(f.energies, default=0), size.energy
+    most, least, fluctuation = (shown.number("energy", e) for e in energies)
+    speed, *limits = (shown.number("angular_speed", w) for w in (abs(size.speed), *size.limits))
+    rotating = shown.with_factor(f"frac({fluctuation}; {cs} cdot {speed}^{{2}})", "inertia", "energy")
+    rotating = rotating if shown.scale.text("angular_speed") == "rad/s" else ""
+    rows = [
+        ("T_{m}", "", shown.number("moment", f.mean), "moment"),
+        ("Δ E = E_{max} - E_{min}", f"{most} - ({least})", fluctuation, "energy"),
+        ("I = frac(Δ E; C_{s} omega^{2})", rotating, shown.number("inertia", size.inertia), "inertia"),
+        ("omega = omega_{m} (1 -+ C_{s} / 2)", "", " quad ".join(limits), "angular_speed"),
+    ]
+    sheet.equations([Working(a, b, f'{value} "{shown.unit(kind)}"') for a, b, value, kind in rows])
+
+
+def motor_section(sheet: Sheet, c: MotorChoice, shown: Shown) -> None:
+    """The torque behind a gear, and the ratio of its least rms."""
+    sheet.heading(f"Motor for {c.drive}")
+    sheet.text(
+        "Behind a gear of ratio n the motor turns n times as fast as the drive: it accelerates its own inertia, and "
+        "gives the drive's effort T over n, with the efficiency of the gear where power goes to the machine."
+    )
+    lines, best = [Working("T_{m} = J_{m} n alpha + frac(T; n eta)")], c.least_rms()
+    if best is not None:
+        found = f"{shown.notation.number(best**2)} quad n = {shown.notation.number(best)}"
+        lines.append(Working("n^{2} = frac(T_{rms}; J_{m} alpha_{rms})", "", found))
+    sheet.equations(lines)
+
+
+def simulation_section(sheet: Sheet, s: Simulation, shown: Shown) -> None:
+    """What moves, and how its motion is found: the equation that is integrated."""
+    sheet.heading("Motion under forces")
+    sheet.text(
+        f"The speeds of {', '.join(s.drives)} follow from the efforts that act: the effort that a state asks for is "
+        "the reduced inertia times the acceleration, and what is asked for without one. Between events this is "
+        f"integrated step by step (Dormand and Prince, order 8). It ends {say(s.ending, shown.scale)}."
+    )

@@ -1,0 +1,153 @@
+"""Charts over the cycle of machine design: balance, bearings, flywheel, motor; a simulated motion over time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dalembert.analysis.methods.applied_forces import magnitude
+from dalembert.analysis.output.columns import drive_kinds
+from dalembert.arrays import Array
+from dalembert.errors import ModelError
+from dalembert.views.charts import MOST, along, polar_chart
+from dalembert.views.not_shown import refuse_still
+from dalembert.views.notation import Notation, Shown
+from dalembert.views.paper.diagrams import curves_scene, polar_scene
+from dalembert.views.paper.scene import Scene
+
+if TYPE_CHECKING:
+    from dalembert.analysis.result.result import Result
+    from dalembert.machine.balance.balancing import Balance
+    from dalembert.machine.bearings.bearing_table import BearingTable
+    from dalembert.machine.flywheel.flywheels import Flywheel
+    from dalembert.machine.motion.simulation import Simulation
+    from dalembert.machine.motors.motor_choice import MotorChoice
+
+NOTHING = 1e-6
+"""A trade-off that gains or costs less, in per cent, is none."""
+
+
+@dataclass(frozen=True)
+class Axis:
+    """What charts are drawn against: values in the reader's unit with their label, and whether they are degrees."""
+
+    shown: Shown
+    values: Array
+    label: str
+    degrees: bool = False
+
+    def chart(self, kind: str, curves: Mapping[str, Array], title: str, said: str = "") -> Scene:
+        """Curves, SI, of one kind of number, of which something is said on the axis."""
+        series = {name: values / self.shown.size(kind) for name, values in curves.items()}
+        label = f"{(said or kind).capitalize()} in {self.shown.unit(kind)}"
+        return curves_scene(self.values, series, self.label, label, title, self.degrees)
+
+    def percents(self, curves: Mapping[str, Array], title: str, said: str) -> Scene:
+        """The same of numbers in per cent."""
+        return curves_scene(self.values, curves, self.label, f"{said} in %", title, self.degrees)
+
+
+def cycle_axis(r: Result, notation: Notation) -> Axis:
+    """The first drive, or the number of the position."""
+    shown = Shown(r, notation)
+    return Axis(shown, *along(r, shown))
+
+
+def balance_scenes(b: Balance, notation: Notation) -> list[Scene]:
+    """Force (in the plane a polar diagram, in space its size), moment and torque over the cycle, the trade-off."""
+    axis, sides = cycle_axis(b.result, notation), {"before": b.before, "after": b.after}
+    force, moment = ({n: s.without_weight(of) for n, s in sides.items()} for of in ("force", "moment"))
+    plane, out, shown = b.problem.dimension == 2, list[Scene](), axis.shown
+    if plane:
+        scaled = {name: values / shown.size("force") for name, values in force.items()}
+        out.append(polar_scene(scaled, shown.unit("force"), "Shaking force"))
+    if len(b.result.status) < 3 or not b.result.drives:
+        return out
+    drive, about = b.result.drives[0], f"haking moment about {b.before.about}"
+    if not plane:
+        sizes = ({n: magnitude(v) for n, v in some.items()} for some in (force, moment))
+        force, moment = sizes
+        out.append(axis.chart("force", force, "Size of the shaking force"))
+    out.append(axis.chart("moment", moment, f"S{about}" if plane else f"Size of the s{about}"))
+    torque = {n: s.result.effort(drive) for n, s in sides.items()}
+    out.append(axis.chart("moment", torque, f"Torque of {drive}"))
+    return [*out, *_trade_off(b, axis)]
+
+
+def _trade_off(b: Balance, axis: Axis) -> list[Scene]:
+    """What is made least against the first that is not, where one costs the other."""
+    other = next((n for n in ("torque", "force", "moment") if n not in b.of), None)
+    try:
+        pairs = 100 * np.array(b.trade_off(other) if other else [(0.0, 0.0)])
+    except ModelError:  # the other asks for bounds that are not given
+        return []
+    if not other or np.ptp(pairs, axis=0).min() < NOTHING:
+        return []
+    of = " and ".join(b.of)
+    title, left = f"Trade-off: {b.least} of {of} against {other}", {other: pairs[:, 1]}
+    return [Axis(axis.shown, pairs[:, 0], f"{of} left in %").percents(left, title, f"{other} left")]
+
+
+def bearing_scenes(t: BearingTable, notation: Notation) -> list[Scene]:
+    """Polar diagrams of the first joints, in ground axes and the link's (where it wears), their forces and turning."""
+    r, some, axis = t.result, [*t.loads.items()][:MOST], cycle_axis(t.result, notation)
+    out: list[Scene] = []
+    if r.mechanism.dimension == 2:
+        out = [polar_chart(r, [joint], axes, notation) for joint, _ in some for axes in ("ground", "link")]
+    series = {
+        "Radial force": ("force", {j: b.radial for j, b in some}),
+        "Turning": ("angular_speed", {j: b.rate for j, b in some}),
+        "Pressure": ("pressure", {j: b.pressure for j, b in some if b.sized}),
+    }
+    drawn = {said: both for said, both in series.items() if both[1] and len(r.status) > 1}
+    return out + [axis.chart(kind, v, f"{said} of the joints", said) for said, (kind, v) in drawn.items()]
+
+
+def flywheel_scenes(f: Flywheel, notation: Notation) -> list[Scene]:
+    """The turning-moment diagram with its mean, the energy curve, and the exact speeds, each over the period."""
+    shown, q = Shown(f.result, notation), f.result.drive_position(f.drive)
+    unit = shown.unit("angle")
+    axis = Axis(shown, q / shown.size("angle"), f"{f.drive} in {unit}", unit == "°")
+    torque = {"effort": f.torque, "mean": np.full_like(f.torque, f.mean)}
+    out = [axis.chart("moment", torque, "Turning moment", "torque")]
+    out.append(axis.chart("energy", {"E": f.energy}, "Energy above the mean"))
+    if f.exact is None:
+        return out
+    some = {"book's flywheel": f.exact} | ({"exact for Cs": f.exact_size} if f.exact_size else {})
+    speeds = {n: np.interp(np.sort(q), s.angle, s.speed) for n, s in some.items()}
+    percents = {n: 100 * (speed / abs(f.size.speed) - 1) for n, speed in speeds.items()}
+    axis = Axis(shown, np.sort(q) / shown.size("angle"), axis.label, axis.degrees)
+    return [*out, axis.percents(percents, "Speed off its mean", "Speed off its mean")]
+
+
+def motor_scenes(c: MotorChoice, notation: Notation) -> list[Scene]:
+    """Effort, speed and power of the drive; torque of the motor for each ratio, with what the curve allows."""
+    refuse_still(c.result, "a chart")
+    axis, kinds, out = cycle_axis(c.result, notation), drive_kinds(c.result, c.drive), []
+    for name in ("effort", "speed", "power"):
+        title = f"{name.capitalize()} of {c.drive}"
+        out.append(axis.chart(kinds.get(name, name), {name: getattr(c, name)}, title, name))
+    for name, need in c.needs.items():
+        series = {"torque": c.torque(need.ratio)}
+        if c.curve is not None:
+            series["allowed"] = np.abs(np.asarray(c.curve.at(need.ratio * np.abs(c.speed))))
+        title = f"Motor, {name}: ratio {notation.number(need.ratio)}"
+        out.append(axis.chart("moment", series, title, "torque"))
+    return out
+
+
+def simulation_scenes(s: Simulation, notation: Notation) -> list[Scene]:
+    """Speed and effort of each drive, and the energies, over time."""
+    shown, out = Shown(s.result, notation), []
+    axis = Axis(shown, s.time / shown.size("time"), f"Time in {shown.unit('time')}")
+    for k, drive in enumerate(s.drives):
+        kinds = drive_kinds(s.result, drive)
+        for what, values in (("speed", s.speed(drive)), ("effort", s.applied[:, k])):
+            out.append(axis.chart(kinds[what], {what: values}, f"{what.capitalize()} of {drive}", what))
+    energies = {"kinetic": s.kinetic, "potential": s.potential - s.potential[0]}
+    energies |= {f"work of {name}": w for name, w in s.works.items()}
+    series = {name: e for name, e in energies.items() if np.abs(e).max() > 0}
+    return [*out, *([axis.chart("energy", series, "Energies and works")] if series else [])]
