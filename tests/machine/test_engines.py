@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 import dalembert as da
+from dalembert.cli import main
 from dalembert.errors import ModelError
 from tests.machine.closed_forms import crank_points, shaking_of, turn
 
@@ -83,3 +86,57 @@ def test_a_rotor_in_two_planes_leaves_its_bearings_alone() -> None:
         da.balance_rotor(m, (0.1, 0.1), (0.04, 0.06))
     with pytest.raises(ModelError, match=r"use da\.balance"):
         da.balance_rotor(da.four_bar(), (0.1, 0.2), (0.04, 0.06))
+
+
+SHAFT = """
+space: space
+units: {length: mm}
+links:
+  ground: {points: {S: [0, 0, 0], E: [0, 0, 900]}}
+  shaft: {points: {S: [0, 0, 0], E: [0, 0, 900], %s}}
+%sjoints:
+  S: {type: spherical, links: [ground, shaft]}
+  E: {type: sphere_in_cylinder, links: [ground, shaft], axis: [0, 0, 1]}
+%sdrives:
+  S: {freedom: turn, axis: [0, 0, 1], position: {from: 0, to: 360, count: 12}, speed: 100 rpm}
+"""
+
+
+def shaft_with_masses(*masses: tuple[float, float, float, float]) -> str:
+    """Of kg, mm from the axis, degrees, and mm along the axis, each a link on a shaft without mass."""
+    turned = [(m, r * math.cos(math.radians(a)), r * math.sin(math.radians(a)), z) for m, r, a, z in masses]
+    points = [f"m{k}: [{x}, {y}, {z}]" for k, (_, x, y, z) in enumerate(turned)]
+    links = [f"  m{k}: {{points: {{m{k}: [0, 0, 0]}}, mass: {m}}}\n" for k, (m, *_) in enumerate(turned)]
+    joints = [f"  m{k}: {{type: weld, links: [shaft, m{k}]}}\n" for k in range(len(turned))]
+    return SHAFT % (", ".join(points), "".join(links), "".join(joints))
+
+
+def test_the_command_balances_four_masses_in_two_planes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Khurmi and Gupta, Theory of Machines, example 21.2, read off its drawings: 355 kg at 145 deg and 182.5 kg at
+    12.6 deg, against the turn, where the exact angle of the first is 146.6."""
+    file = tmp_path / "shaft.yaml"
+    masses = ((200, 80, 0, 100), (300, 70, 45, 400), (400, 60, 115, 500), (200, 80, 235, 800))
+    file.write_text(shaft_with_masses(*masses))
+    asked = ["balance", str(file), "--planes", "200mm,600mm", "--radii", "100"]
+    drawing, balanced = tmp_path / "r.svg", tmp_path / "balanced.yaml"
+    assert main([*asked, "--drawing", str(drawing), "--output", str(balanced), "--json", "-"]) == 0
+    found = json.loads(capsys.readouterr().out)["rotor"]
+    assert found["corrections"]["mass"] == pytest.approx([355, 182.5], rel=0.01)
+    assert np.degrees(found["corrections"]["angle"]) == pytest.approx([-145, -12.6], abs=2)
+    u = [m * r / 1e3 * np.exp(1j * math.radians(a)) for m, r, a, _ in masses]
+    s, t = sum(u), sum(u_k * z / 1e3 for u_k, (*_, z) in zip(u, masses, strict=True))
+    exact = [-(0.6 * s - t) / 0.4, -(t - 0.2 * s) / 0.4]
+    assert found["corrections"]["moment"] == pytest.approx(np.abs(exact), rel=1e-12)
+    assert found["corrections"]["angle"] == pytest.approx(np.angle(exact), abs=1e-12)
+    assert [found["unbalance"][name] for name in ("force", "couple")] == pytest.approx([abs(s), abs(t)])
+    assert found["after"]["force"]["max"] < 1e-9 * found["before"]["force"]["max"]
+    assert "Size of the shaking force" in drawing.read_text()
+    assert da.shaking(da.dynamics(da.load(balanced)), about="S").moment.max() < 1e-6
+    assert main([*asked, "--report", str(tmp_path / "r.txt")]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "Planes along the axis from S, in the sense in which the shaft turns" in said
+    assert "Rotor balanced in two planes" in (tmp_path / "r.txt").read_text()
+    for wrong in (asked[:4], asked[:2], [*asked, "--on", "shaft"]):
+        assert main(wrong) == 2

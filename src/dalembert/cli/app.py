@@ -62,6 +62,18 @@ GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
     },
 }
 """Heading in the help -> module of `dalembert.cli` -> its commands; the module's `COMMANDS` has their functions."""
+FIELD_WORDS = {
+    "shake": "shaking harmonics vibration foundation",
+    "balance": "counterweight counterweights rotor",
+    "members": "stress stresses bending buckling fatigue",
+    "bearings": "pins life pv",
+    "motor": "gear torque",
+    "simulate": "motion run",
+    "solve": "analyse analyze statics kinematics dynamics forces",
+    "draw": "plot chart charts picture",
+    "new": "template templates",
+}
+"""Command -> words of the field that its name does not resemble."""
 MODULES = {name: module for modules in GROUPS.values() for module, names in modules.items() for name in names}
 """Command -> module."""
 
@@ -137,7 +149,8 @@ def command_line_error(error: CycloptsError, arguments: list[str]) -> str:
 
 def _report_error(error: CycloptsError, asked: str) -> str:
     if isinstance(error, UnknownCommandError):
-        return f"there is no command {asked!r}; {closest(asked, list(MODULES))}"
+        meant = next((name for name, words in FIELD_WORDS.items() if asked.lower() in words.split()), asked)
+        return f"there is no command {asked!r}; {closest(meant, list(MODULES))}"
     if isinstance(error, UnusedCliTokensError):
         return f"{' '.join(error.unused_tokens or ())!r} is one too many; what has spaces stands in quotes"
     missing = isinstance(error, MissingArgumentError) and re.search(r"parameter (\S+) requires", str(error))

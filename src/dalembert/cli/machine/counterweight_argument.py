@@ -10,6 +10,7 @@ from dalembert.units import Units, file_units, quantity
 if TYPE_CHECKING:
     from dalembert.model import Mechanism
 
+Range = tuple[float, float]
 KINDS = {"radius": "length", "mass": "mass"}
 RANGES = ("x", "y", "z")
 DISC = ("density", "length", "length")
@@ -47,6 +48,24 @@ def _moment(text: str, units: Units) -> float:
     mass, _, length = text.partition("*")
     length = length if length[:1].isdigit() else f"1{length}"
     return quantity(mass, "mass", units) * quantity(length, "length", units)
+
+
+def two_planes(m: Mechanism, planes: str, radii: str, on: object) -> tuple[Range, Range]:
+    """The planes and the radii of a rotor's corrections, in the units of the file."""
+    if on:
+        raise ModelError(
+            "--planes puts masses on a rotor, --on counterweights on links", "ask for one of both"
+        )
+    units, found = file_units(m.units), []
+    for option, text in (("planes", planes), ("radii", radii)):
+        numbers = [quantity(part, "length", units) for part in text.split(",") if part.strip()]
+        numbers *= 2 if option == "radii" and len(numbers) == 1 else 1
+        if len(numbers) != 2:
+            raise ModelError(
+                f"--{option} has {len(numbers)} lengths, not two", f"write --{option} 50mm,450mm"
+            )
+        found.append((numbers[0], numbers[1]))
+    return found[0], found[1]
 
 
 def sum_of(text: str) -> str | dict[str, float]:

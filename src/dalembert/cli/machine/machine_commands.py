@@ -221,12 +221,17 @@ def balance(
     /,
     *,
     on: Annotated[
-        list[str],
+        list[str] | None,
         several(
-            "Links that get a counterweight, each with its bounds: crank, or "
-            "crank:radius=80mm,mass=2kg,moment=...,place=X/Y,x=FROM/TO,disc=DENSITY/THICKNESS/RADIUS,at=POINT."
+            "Links that get a counterweight, each with its bounds: crank, or crank:radius=80mm,mass=2kg; also "
+            "moment=..., place=X/Y, x=FROM/TO, disc=DENSITY/THICKNESS/RADIUS, at=POINT, without spaces."
         ),
-    ],
+    ] = None,
+    planes: Annotated[
+        str | None,
+        target("Two planes of a rotor in space, along its axis from the driven joint: 50mm,450mm."),
+    ] = None,
+    radii: Annotated[str | None, with_help("Radii of the masses in them: 40mm,60mm, or one of both.")] = None,
     least: Annotated[
         Literal["rms", "max"], with_help("Make the rms value least (default), or the greatest.")
     ] = "rms",
@@ -244,14 +249,22 @@ def balance(
     changes: Changes = AS_IN_FILE,
     out: Outputs = NO_OUTPUTS,
 ) -> int:
-    """Counterweights on links of FILE that leave least shaking, within bounds, proved best."""
-    from dalembert.cli.machine.counterweight_argument import bounds_of, sum_of
+    """Counterweights on links of FILE that leave least shaking, within bounds, proved best; a rotor in two planes."""
+    from dalembert.cli.machine.counterweight_argument import bounds_of, sum_of, two_planes
     from dalembert.machine.balance.balancing import balance as balanced
+    from dalembert.machine.balance.rotors import balance_rotor
     from dalembert.saving import check_new
 
     if output is not None:
         check_new(output, out.force)
     m = out.load(file, changes)
+    if planes is not None or radii is not None:
+        both = two_planes(m, planes or "", radii or "", on)
+        out.deliver(m, lambda: balance_rotor(m, *both), output)
+        return 0
+    if not on:
+        remedy = "write --on crank rocker, or of a rotor --planes 50mm,450mm --radii 40mm"
+        raise ModelError("nothing says where masses may be added", remedy)
     weights = dict(bounds_of(m, text) for text in on)
     out.deliver(m, lambda: balanced(m, weights, least, sum_of(of), _point(m, about), positions), output)
     return 0
@@ -260,7 +273,8 @@ def balance(
 BALANCE = """Examples:
   dalembert balance four_bar.yaml --on crank rocker
   dalembert balance four_bar.yaml --on crank:radius=60mm,mass=3kg rocker --least max --of force=1,torque=0.5
-  dalembert balance engine.yaml --on crank --output balanced.yaml --drawing balance.svg"""
+  dalembert balance engine.yaml --on crank --output balanced.yaml --drawing balance.svg
+  dalembert balance shaft.yaml --planes 50mm,450mm --radii 40mm"""
 
 
 def simulate(

@@ -6,18 +6,19 @@ Mechanics: docs/theory.md 10.2.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from dalembert.analysis.one_pass import at_schedule
-from dalembert.analysis.output.columns import Column, Scale
+from dalembert.analysis.output.columns import Scale
 from dalembert.analysis.solution import dynamics
 from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
 from dalembert.machine.balance.balance_problem import Problem, Solved
+from dalembert.machine.balance.comparison import Comparison, values_of
 from dalembert.machine.balance.counterweights import (
     Counterweight,
     Wanted,
@@ -26,8 +27,7 @@ from dalembert.machine.balance.counterweights import (
     with_masses,
 )
 from dalembert.machine.balance.mass_columns import mass_columns, numbers_of
-from dalembert.machine.output.answer import Answer
-from dalembert.machine.output.written import greatest, rms
+from dalembert.machine.output.written import greatest
 from dalembert.machine.shaking import About, Shaking, shaking
 from dalembert.machine.whole_cycle import over_a_turn, refuse_unknown
 from dalembert.model import GROUND
@@ -57,7 +57,7 @@ class Placed:
 
 
 @dataclass(frozen=True)
-class Balance(Answer):
+class Balance(Comparison):
     """Counterweights by link, what is left, and the proof that no others leave less.
 
     ``before``, ``after``: shaking without and with them. ``numbers`` (W, N): of each m, m x, m y and I about its base
@@ -87,20 +87,10 @@ class Balance(Answer):
         return max(self.value - self.bound, 0.0)
 
     @property
-    def mechanism(self) -> Mechanism:
-        """The description with the counterweights in its links' masses, centres and inertias."""
-        return self.after.result.mechanism
-
-    @property
     def complete(self) -> bool:
         """Whether nothing of the force is left: full force balance."""
         before, after = (greatest(s.without_weight("force"))[0] for s in (self.before, self.after))
         return after < COMPLETE * (before or 1.0)
-
-    def sizes(self, after: bool = True) -> dict[str, tuple[float, float]]:
-        """Rms and greatest value of force, moment and torque, before or after."""
-        found = _values(self.after if after else self.before)
-        return {name: (rms(v), greatest(v)[0]) for name, v in found.items()}
 
     def trade_off(self, other: str, count: int = 9) -> list[tuple[float, float]]:
         """Pairs (of, other), parts of what they were before, none of which can be bettered in both.
@@ -134,15 +124,6 @@ class Balance(Answer):
                 return [link]
         return rest if rest and _force_left(r, [*self.weights, *rest]) < COMPLETE else []
 
-    def columns(self) -> Iterator[Column]:
-        """Force, moment and torque before and after, over the positions."""
-        yield from self.drive_columns()
-        for name, s in (("before", self.before), ("after", self.after)):
-            shaking = (c for c in s.columns() if c.name.startswith("shaking"))
-            yield from (c._replace(name=f"{name} {c.name}") for c in shaking)
-            for drive in s.result.drives:
-                yield Column(f"{name} effort {drive}", "moment", s.result.effort(drive))
-
     def record(self, to: Scale) -> Tree:
         """Its other numbers by name, in the units of a scale."""
         weights = {
@@ -162,12 +143,9 @@ class Balance(Answer):
             "complete": self.complete,
         }
         out["counterweights"] = weights
-        for side in ("before", "after"):
-            sizes = out[side] = dict[str, Tree]()
-            for name, both in self.sizes(side == "after").items():
-                found = (to("force" if name == "force" else "moment", size) for size in both)
-                sizes[name] = dict(zip(("rms", "max"), found, strict=True))
-        out |= {name: getattr(self, name) for name in ("value", "bound", "gap", "residual")}
+        out |= self.sizes_record(to) | {
+            name: getattr(self, name) for name in ("value", "bound", "gap", "residual")
+        }
         return {"balance": out | {"missing": self.missing()}}
 
 
@@ -190,7 +168,7 @@ def balance(
 
     >>> import dalembert as da
     >>> m = da.four_bar(ground=0.4, crank=0.1, coupler=0.35, rocker=0.3)
-    >>> found = da.balance(m.with_values({"links.crank.mass": 1.0}), ["crank", "rocker"])
+    >>> found = da.balance(m.withvalues_of({"links.crank.mass": 1.0}), ["crank", "rocker"])
     >>> found.complete, bool(found.gap < 1e-9)
     (True, True)
     """
@@ -198,7 +176,7 @@ def balance(
 
     r = dynamics(m, over_a_turn(m, positions)) if isinstance(m, Description) else m
     wanted, asked, before = _wanted(of, r), counterweights(r.mechanism, weights), shaking(r, about)
-    base = {name: v.reshape(len(v), -1) for name, v in _values(before).items()}
+    base = {name: v.reshape(len(v), -1) for name, v in values_of(before).items()}
     refuse_unknown(r, "balancing needs every position", *base.values())
     floors = {n: before.floor("force" if n == "force" else "moment") for n in base}
     base = {n: v if np.abs(v).max() > floors[n] else 0 * v for n, v in base.items()}
@@ -230,16 +208,10 @@ def _wanted(of: Of, r: Result) -> dict[str, float]:
     return wanted
 
 
-def _values(s: Shaking) -> dict[str, Array]:
-    """Force and moment that counterweights are to make small, and the effort of the first drive if there is one."""
-    torque = {"torque": s.result.effort(s.result.drives[0])} if s.result.drives else {}
-    return {name: s.without_weight(name) for name in ("force", "moment")} | torque
-
-
 def _difference(after: Shaking, found: Solved, problem: Problem) -> float:
     """The linear prediction against the analysis with the counterweights, over the values before."""
     sizes, off = problem.sizes("max"), [0.0]
-    for name, values in _values(after).items():
+    for name, values in values_of(after).items():
         gap = values.reshape(len(values), -1) - problem.predict(name, found.numbers)
         off.append(float(np.abs(gap).max()) / (sizes[name] or 1.0))
     return max(off)

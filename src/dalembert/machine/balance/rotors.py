@@ -16,10 +16,16 @@ import numpy as np
 
 from dalembert.analysis.methods.applied_forces import joint_place, state
 from dalembert.analysis.methods.inertia_couples import inertia_matrix
-from dalembert.analysis.solution import kinematics
-from dalembert.arrays import Array
+from dalembert.analysis.one_pass import at_schedule
+from dalembert.analysis.output.columns import Scale
+from dalembert.analysis.result.transmission_lines import ground_points
+from dalembert.analysis.solution import dynamics
+from dalembert.arrays import Array, Tree
 from dalembert.errors import ModelError
+from dalembert.machine.balance.comparison import Comparison
 from dalembert.machine.balance.counterweights import with_masses
+from dalembert.machine.shaking import Shaking, shaking
+from dalembert.machine.whole_cycle import over_a_turn
 from dalembert.model import GROUND
 
 if TYPE_CHECKING:
@@ -28,14 +34,17 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class RotorBalance:
+class RotorBalance(Comparison):
     """Corrections in two planes: m r (2,), kg m, and angles (2,), rad, from an axis of the shaft across its own.
 
-    ``unbalance``: S and T as complex numbers, kg m and kg m2. ``centers`` (2, 3), m, and ``masses`` (2,), kg: of the
-    corrections at their radii, in the shaft link's axes.
+    ``unbalance``: S and T as complex numbers, kg m and kg m2; ``left``: the same with the corrections. ``centers``
+    (2, 3), m, and ``masses`` (2,), kg: of the corrections at their radii, in the shaft link's axes. ``before``,
+    ``after``: shaking without and with them, moments about the driven joint.
     """
 
-    mechanism_before: Mechanism = field(repr=False)
+    NAME = "rotor"
+
+    result: Result = field(repr=False)
     shaft: str
     planes: tuple[float, float]
     unbalance: tuple[complex, complex]
@@ -43,12 +52,27 @@ class RotorBalance:
     angle: Array
     masses: Array
     centers: Array
+    zero: str
+    left: tuple[complex, complex]
+    before: Shaking = field(repr=False)
+    after: Shaking = field(repr=False)
 
-    @property
-    def mechanism(self) -> Mechanism:
-        """The description with both corrections as point masses on the shaft."""
-        masses = [(float(w), c, np.zeros((3, 3))) for w, c in zip(self.masses, self.centers, strict=True)]
-        return with_masses(self.mechanism_before, {self.shaft: masses})
+    def record(self, to: Scale) -> Tree:
+        """Its other numbers by name, in the units of a scale."""
+        moment = to("mass", to("length", self.moment))
+        corrections = {"plane": to("length", np.array(self.planes)), "mass": to("mass", self.masses)}
+        corrections |= {
+            "moment": moment,
+            "angle": to("angle", self.angle),
+            "center": to("length", self.centers),
+        }
+        out: Tree = {"shaft": self.shaft, "angle_from": self.zero, "corrections": corrections}
+        for name, both in (("unbalance", self.unbalance), ("left", self.left)):
+            out[name] = {
+                "force": to("mass", to("length", abs(both[0]))),
+                "couple": to("inertia", abs(both[1])),
+            }
+        return {"rotor": out | self.sizes_record(to)}
 
 
 def balance_rotor(m: Mechanism, planes: tuple[float, float], radii: Sequence[float]) -> RotorBalance:
@@ -68,55 +92,59 @@ def balance_rotor(m: Mechanism, planes: tuple[float, float], radii: Sequence[flo
         raise ModelError(
             "two planes balance a rotor in space, and this one is in the plane", "use da.balance"
         )
-    (a, b), (ra, rb) = planes, radii
-    if not abs(b - a) > 0 or not min(ra, rb) > 0:
+    (a, b), radius = planes, np.array(radii, float)
+    if not abs(b - a) > 0 or not radius.min() > 0:
         raise ModelError(
-            f"planes at {a:g} and {b:g} m, radii {ra:g} and {rb:g} m", "give two planes and two radii"
+            f"planes at {a:g} and {b:g} m, radii {radius[0]:g} and {radius[1]:g} m",
+            "give two planes and two radii",
         )
-    r = kinematics(m)
-    shaft, origin, frame = _axes(r)
-    moments = [_unbalance(r, link, origin, frame) for link in r.links]
-    s, t = (sum(u[k] for u in moments) for k in (0, 1))
+    r = dynamics(m, over_a_turn(m))
+    shaft, joint, frame, zero = _axes(r)
+    origin = joint_place(r, joint)[0]
+    about = joint if joint in ground_points(m) else origin
+    s, t = _unbalance(r, origin, frame)
     at_b = -(t - a * s) / (b - a)
     found = np.array([-s - at_b, at_b])
     angle, size = np.angle(found), np.abs(found)
-    radius = np.array([ra, rb])
     spots = np.stack([radius * np.cos(angle), radius * np.sin(angle), [a, b]], axis=-1)
-    link = r.rotation(shaft)[0].T
-    centers = (origin + spots @ frame - r.position(shaft)[0]) @ link.T
-    unbalance = complex(s), complex(t)
-    return RotorBalance(m, shaft, (a, b), unbalance, size, angle, size / radius, centers)
+    centers = (origin + spots @ frame - r.position(shaft)[0]) @ r.rotation(shaft)[0]
+    masses = size / radius
+    points = [(float(w), c, np.zeros((3, 3))) for w, c in zip(masses, centers, strict=True)]
+    after = at_schedule(with_masses(m, {shaft: points}), r.schedule, r.inertia)
+    corrections = (a, b), (s, t), size, angle, masses, centers, zero, _unbalance(after, origin, frame)
+    return RotorBalance(r, shaft, *corrections, shaking(r, about), shaking(after, about))
 
 
-def _axes(r: Result) -> tuple[str, Array, Array]:
-    """The shaft, a point of its axis, and rows x, y, z of a frame with z along it, ground axes."""
+def _axes(r: Result) -> tuple[str, str, Array, str]:
+    """The shaft, its driven joint, rows x, y, z of a frame with z along its axis, ground axes, and the link's axis that
+    x is nearly."""
     if not r.drives or not r.ok.any():
         raise ModelError("a rotor has a drive that turns it", "drive its shaft")
-    drive = r.mechanism.drives[r.drives[0]]
-    joint = drive.joint or r.drives[0]
+    joint = r.mechanism.drives[r.drives[0]].joint or r.drives[0]
     i, j = r.mechanism.joints[joint].links
     shaft = j if i == GROUND else i
-    speed = _unit_spin(r, shaft)
-    for link in r.links:
-        if np.abs(_unit_spin(r, link) - speed).max() > 1e-9:
+    spins = state(r).moving.virtual[0, 0, :, 3:]  # at unit speed of the first drive
+    speed = spins[r.links.index(shaft)]
+    for link, own in zip(r.links, spins, strict=False):
+        if np.abs(own - speed).max() > 1e-9:
             raise ModelError(f"{link} does not turn with {shaft}", "a rotor is what turns about one axis")
-    z = speed / np.linalg.norm(speed)
-    across = r.rotation(shaft)[0][:, int(np.argmin(np.abs(r.rotation(shaft)[0].T @ z)))]
-    x = across - (across @ z) * z
+    z, turned = speed / np.linalg.norm(speed), r.rotation(shaft)[0]
+    k = int(np.argmin(np.abs(turned.T @ z)))
+    x = turned[:, k] - (turned[:, k] @ z) * z
     x = x / np.linalg.norm(x)
-    return shaft, joint_place(r, joint)[0], np.stack([x, np.cross(z, x), z])
+    return shaft, joint, np.stack([x, np.cross(z, x), z]), "xyz"[k]
 
 
-def _unit_spin(r: Result, link: str) -> Array:
-    """Angular velocity (3,) at unit speed of the first drive."""
-    return np.asarray(state(r).moving.virtual[0, 0, r.links.index(link), 3:])
-
-
-def _unbalance(r: Result, link: str, origin: Array, frame: Array) -> tuple[complex, complex]:
-    """S and T of one link: with the products of inertia about its centre in T."""
-    m = r.mechanism
-    mass, c = m.mass(link), frame @ (r.center(link)[0] - origin)
-    turned = frame @ r.rotation(link)[0]
-    products = turned @ inertia_matrix(r, link) @ turned.T
-    u = complex(c[0], c[1])
-    return mass * u, mass * c[2] * u - complex(products[0, 2], products[1, 2])
+def _unbalance(r: Result, origin: Array, frame: Array) -> tuple[complex, complex]:
+    """S and T of all links, with the products of inertia about their centres in T."""
+    out = np.zeros(2, complex)
+    for link in r.links:
+        mass, c, turned = (
+            r.mechanism.mass(link),
+            frame @ (r.center(link)[0] - origin),
+            frame @ r.rotation(link)[0],
+        )
+        products = turned @ inertia_matrix(r, link) @ turned.T
+        u = mass * complex(c[0], c[1])
+        out += u, c[2] * u - complex(products[0, 2], products[1, 2])
+    return complex(out[0]), complex(out[1])

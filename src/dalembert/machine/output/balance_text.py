@@ -11,6 +11,7 @@ from dalembert.printing import Part, Table, number, remainder, round_components,
 
 if TYPE_CHECKING:
     from dalembert.machine.balance.balancing import Balance
+    from dalembert.machine.balance.comparison import Comparison
 
 
 def balance_parts(b: Balance, to: Printed) -> Iterator[Part]:
@@ -19,31 +20,38 @@ def balance_parts(b: Balance, to: Printed) -> Iterator[Part]:
     rows = []
     for link, p in b.placed.items():
         center = map(number, round_components([float(to("length", v)) for v in p.center]))
-        turned = [] if p.angle is None else [number(math.degrees(p.angle), 5) if p.moment else "-"]
+        angle = [] if p.angle is None else [turned(p.angle) if p.moment else "-"]
         size = "-" if p.radius is None else to.number("length", p.radius)
         moment = to.number("mass", to("length", p.moment))
-        rows.append([link, moment, *turned, to.number("mass", p.mass), *center, size])
+        rows.append([link, moment, *angle, to.number("mass", p.mass), *center, size])
     plane = b.problem.dimension == 2
     heads = ["counterweight\non link", f"m r\n{mass}*{length}", *["angle\ndeg"] * plane, f"mass\n{mass}"]
     places = ("centre x", "y", "disc radius") if plane else ("centre x", "y", "z", "disc radius")
     yield Table([*heads, *(f"{x}\n{length}" for x in places)], rows)
     both = "Angles and centres in link axes; m r and its angle" if plane else "Centres in link axes; m r"
     yield f"{both} from the link's base point."
-    about = f"Moment about {b.before.about}; weights, which are constant, are left out of force and moment."
-    yield Table(["", "before", "after", "left"], _comparison_rows(b, to), note=wrap(about))
+    yield comparison_table(b, to)
     yield proof(b)
 
 
-def _comparison_rows(b: Balance, to: Printed) -> list[list[str]]:
+def turned(angle: float) -> str:
+    """An angle in degrees; half a turn back is half a turn on."""
+    degrees = round(math.degrees(angle), 9)
+    return number(180.0 if degrees == -180 else degrees, 5)
+
+
+def comparison_table(b: Comparison, to: Printed) -> Table:
     """Rms and greatest value of each quantity before and after, and their ratio."""
     after, rows = b.sizes(), []
     for name, sizes in b.sizes(after=False).items():
         kind = "force" if name == "force" else "moment"
-        for what, old, left in zip(("rms", "greatest"), sizes, after[name], strict=True):
-            new = left if left > 1e-12 * old else 0.0
+        for what, was, left in zip(("rms", "greatest"), sizes, after[name], strict=True):
+            old = was if was > b.before.floor(kind) else 0.0
+            new = left if left > max(1e-12 * was, b.before.floor(kind)) else 0.0
             share = number(100 * new / old, 4) + " %" if old else "-"
             rows.append([f"{what} {name}", to.quantity(kind, old), to.quantity(kind, new), share])
-    return rows
+    about = f"Moment about {b.before.about}; weights, which are constant, are left out of force and moment."
+    return Table(["", "before", "after", "left"], rows, note=wrap(about))
 
 
 def proof(b: Balance) -> str:

@@ -15,10 +15,14 @@ from dalembert.printing import Part, Table, number
 if TYPE_CHECKING:
     from dalembert.machine.bearings.bearing_table import BearingTable
 
+PV_UNITS = (("MPa*m/s", 1e6), ("lbf/in^2*ft/min", 4.4482216152605 / 0.0254**2 * 0.3048 / 60))
+"""In which makers give the limit of PV, with metres and with inches, and what one of it is in W/m^2."""
+
 
 def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
     """Loads, pressure and PV, life, and what is chosen."""
     force, rate = to.text("force"), to.text("angular_speed")
+    pv, unit = PV_UNITS[to.text("length") in ("in", "ft", "yd")]
     loads, plain, rolling = [], [], []
     for joint, b in t.loads.items():
         size, k = greatest(b.radial)
@@ -26,8 +30,8 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
         turning = [to.number("angular_speed", b.speed), "to and fro" if b.swings else "on"]
         loads.append([joint, most, where(t.result, to, k), *others, *turning])
         if b.sized:
-            values = [to("pressure", to("speed", x)) for x in (float(b.pv.max()), b.mean_pv)]
-            plain.append([joint, to.number("pressure", b.pressure.max()), *(number(v) for v in values)])
+            values = [number(x / unit) for x in (float(b.pv.max()), b.mean_pv)]
+            plain.append([joint, to.number("pressure", b.pressure.max()), *values])
         if b.bearing and b.bearing.rating:
             safety = "-" if b.static_safety is None else number(b.static_safety, 4)
             life = [number(b.turns / 1e6), number(b.hours), safety]
@@ -37,7 +41,6 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
     if not any(b.axial.any() for b in t.loads.values()):
         heads, *loads = [[*row[:3], *row[4:]] for row in (heads, *loads)]
     yield Table(heads, loads)
-    pv = f"{to.text('pressure')}*{to.text('speed')}"
     if plain:
         yield Table(["joint", f"pressure\n{to.text('pressure')}", f"greatest PV\n{pv}", "mean PV\n"], plain)
     if rolling:
@@ -63,10 +66,11 @@ def bearing_parts(t: BearingTable, to: Printed) -> Iterator[Part]:
 def _choice(t: BearingTable, to: Printed) -> Table:
     rows, hours, force = [], t.hours or 0.0, to.text("force")
     for joint, b in t.loads.items():
-        said, row = ["none is enough" if t.rows else "no table given", "", "", ""], t.chosen.get(joint)
+        needed, row = b.rating_for(hours, t.factor), t.chosen.get(joint)
+        said = ["no table given" if not t.rows else "none is enough" if needed == needed else "-", "", "", ""]
         if row:
             said = [row.name, *(to.number("force", x) for x in (row.C, row.C0)), to.number("length", row.d)]
-        rows.append([joint, to.number("force", b.rating_for(hours, t.factor)), *said])
+        rows.append([joint, to.number("force", needed), *said])
     heads = ["joint", f"C needed\n{force}", "chosen\n", f"C\n{force}", "C0\n", f"bore\n{to.text('length')}"]
     factor = f", with {number(t.factor)} times the load" if t.factor != 1 else ""
     return Table(heads, rows, note=f"For {number(hours)} hours{factor}.")

@@ -12,6 +12,7 @@ from dalembert.analysis.output.summary.printed_series import where
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.errors import ModelError
 from dalembert.machine.harmonics import Harmonics, harmonics
+from dalembert.machine.output.balance_text import turned
 from dalembert.machine.output.written import greatest, rms
 from dalembert.printing import Part, Table, number, remainder, round_components, wrap
 
@@ -87,10 +88,10 @@ def _engine(s: Shaking, to: Printed) -> list[Part]:
         rows = []
         for name, kind, *sides in both:
             exact, book = (harmonics(v, angle, [1, 2, 4, 6]) for v in sides)
-            for k, order in enumerate(exact.order):
-                sizes = [part[k] for h in (exact, book) for part in (abs(h.forward), abs(h.backward))]
-                cells = [to.number(kind, v if v > s.floor(kind) else 0.0) for v in sizes]
-                rows.append([f"{name} {to.text(kind)}", number(order), *cells])
+            sizes = np.abs([exact.forward, exact.backward, book.forward, book.backward])
+            sizes[sizes <= s.floor(kind)] = 0.0
+            for order, row in zip(exact.order, sizes.T if sizes.any() else (), strict=False):
+                rows.append([f"{name} {to.text(kind)}", number(order), *(to.number(kind, v) for v in row)])
     except ModelError:
         return []
     heads = ["inertia", "order", "exact: with", "against", "book: with", "against"]
@@ -121,5 +122,5 @@ def _harmonic_table(name: str, h: Harmonics, to: Printed, floor: float) -> Table
 
 
 def _phase(phase: float, order: float) -> str:
-    """Of the mean, which has a sign, 0 or 180."""
-    return number(round_components([math.degrees(phase)], 1.0)[0], 5) if order or phase else "0"
+    """Of the mean, which has a sign, 0 or 180; half a turn back is half a turn on."""
+    return turned(math.radians(round_components([math.degrees(phase)], 1.0)[0])) if order or phase else "0"

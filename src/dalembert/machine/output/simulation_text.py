@@ -12,7 +12,7 @@ from dalembert.analysis.output.columns import drive_kinds
 from dalembert.analysis.output.summary.printed_units import Printed
 from dalembert.machine.motion.occurrences import say
 from dalembert.machine.output.written import greatest
-from dalembert.printing import Part, Table, number, remainder
+from dalembert.printing import Part, Table, number, remainder, round_components
 
 if TYPE_CHECKING:
     from dalembert.machine.motion.occurrences import Event
@@ -83,9 +83,16 @@ def _line(several: list[Event], to: Printed) -> str:
 
 def _works(s: Simulation, to: Printed) -> Table:
     """Energies at both ends, and what was given and taken between."""
-    rows = [[f"work of {name}", "", to.number("energy", w[-1])] for name, w in s.works.items()]
-    for name, e in (("kinetic energy", s.kinetic), ("potential energy", s.potential)):
-        rows.append([name, *(to.number("energy", x) for x in (e[0], e[-1]))])
+    largest = max(float(np.abs(e).max()) for e in (s.kinetic, s.potential, *s.works.values()))
+
+    def ends(*both: float) -> list[str]:
+        return [to.number("energy", x) for x in round_components(both, largest)]
+
+    rows = [[f"work of {name}", "", *ends(w[-1])] for name, w in s.works.items()]
+    rows += [
+        ["kinetic energy", *ends(*s.kinetic[[0, -1]])],
+        ["potential energy", *ends(*s.potential[[0, -1]])],
+    ]
     return Table([f"{to.text('energy')}", "start", "end"], rows)
 
 

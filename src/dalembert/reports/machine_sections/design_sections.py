@@ -10,6 +10,7 @@ from dalembert.views.notation import Shown
 
 if TYPE_CHECKING:
     from dalembert.machine.balance.balancing import Balance
+    from dalembert.machine.balance.rotors import RotorBalance
     from dalembert.machine.bearings.bearing_load import BearingLoad
     from dalembert.machine.bearings.bearing_table import BearingTable
     from dalembert.machine.flywheel.flywheels import Flywheel
@@ -30,6 +31,17 @@ def balance_section(sheet: Sheet, b: Balance, shown: Shown) -> None:
     sheet.text(
         "So the least squares, or the least greatest value, over all positions is a convex problem with one answer."
     )
+
+
+def rotor_section(sheet: Sheet, b: RotorBalance, shown: Shown) -> None:
+    """In letters the conditions that no force and no couple turns with the shaft, and what ends them."""
+    sheet.heading("Rotor balanced in two planes")
+    sheet.text(
+        "Every mass of the rotor has a moment u = m r as a complex number at its angle, in the plane z along the axis. "
+        "Nothing that turns with the shaft is left on its bearings if these sums vanish with the corrections a and b:"
+    )
+    sums = Working("S = sum u_{i} quad T = sum z_{i} u_{i}")
+    sheet.equations([sums, Working("u_{b} = -frac(T - z_{a} S; z_{b} - z_{a}) quad u_{a} = -S - u_{b}")])
 
 
 def bearing_section(sheet: Sheet, t: BearingTable, shown: Shown) -> None:

@@ -12,6 +12,7 @@ from dalembert.analysis.methods.applied_forces import magnitude
 from dalembert.analysis.output.columns import drive_kinds
 from dalembert.arrays import Array
 from dalembert.errors import ModelError
+from dalembert.machine.balance.comparison import Comparison, values_of
 from dalembert.views.charts import MOST, along, polar_chart
 from dalembert.views.not_shown import refuse_still
 from dalembert.views.notation import Notation, Shown
@@ -21,6 +22,7 @@ from dalembert.views.paper.scene import Scene
 if TYPE_CHECKING:
     from dalembert.analysis.result.result import Result
     from dalembert.machine.balance.balancing import Balance
+    from dalembert.machine.balance.rotors import RotorBalance
     from dalembert.machine.bearings.bearing_table import BearingTable
     from dalembert.machine.flywheel.flywheels import Flywheel
     from dalembert.machine.motion.simulation import Simulation
@@ -58,27 +60,40 @@ def cycle_axis(r: Result, notation: Notation) -> Axis:
 
 def balance_scenes(b: Balance, notation: Notation) -> list[Scene]:
     """Force (in the plane a polar diagram, in space its size), moment and torque over the cycle, the trade-off."""
-    axis, sides = cycle_axis(b.result, notation), {"before": b.before, "after": b.after}
-    force, moment = ({n: s.without_weight(of) for n, s in sides.items()} for of in ("force", "moment"))
-    plane, out, shown = b.problem.dimension == 2, list[Scene](), axis.shown
+    axis = cycle_axis(b.result, notation)
+    return [*comparison_scenes(b, axis), *_trade_off(b, axis)]
+
+
+def rotor_scenes(b: RotorBalance, notation: Notation) -> list[Scene]:
+    """Sizes of force and moment over the cycle, and the torque."""
+    return comparison_scenes(b, cycle_axis(b.result, notation))
+
+
+def comparison_scenes(b: Comparison, axis: Axis) -> list[Scene]:
+    """Force (in the plane a polar diagram, in space its size), moment and torque, before and after."""
+    sides, plane = {"before": b.before, "after": b.after}, b.result.mechanism.dimension == 2
+    found = {name: {side: values_of(s)[name] for side, s in sides.items()} for name in values_of(b.before)}
+    out = []
     if plane:
-        scaled = {name: values / shown.size("force") for name, values in force.items()}
-        out.append(polar_scene(scaled, shown.unit("force"), "Shaking force"))
+        scaled = {side: values / axis.shown.size("force") for side, values in found.pop("force").items()}
+        out.append(polar_scene(scaled, axis.shown.unit("force"), "Shaking force"))
     if len(b.result.status) < 3 or not b.result.drives:
         return out
-    drive, about = b.result.drives[0], f"haking moment about {b.before.about}"
-    if not plane:
-        sizes = ({n: magnitude(v) for n, v in some.items()} for some in (force, moment))
-        force, moment = sizes
-        out.append(axis.chart("force", force, "Size of the shaking force"))
-    out.append(axis.chart("moment", moment, f"S{about}" if plane else f"Size of the s{about}"))
-    torque = {n: s.result.effort(drive) for n, s in sides.items()}
-    out.append(axis.chart("moment", torque, f"Torque of {drive}"))
-    return [*out, *_trade_off(b, axis)]
+    titles = {"force": "shaking force", "moment": f"shaking moment about {b.before.about}"}
+    for name, both in found.items():
+        kind = "force" if name == "force" else "moment"
+        sizes = {side: v if v.ndim == 1 else magnitude(v) for side, v in both.items()}
+        title = titles.get(name, f"torque of {b.result.drives[0]}")
+        title = f"Size of the {title}" if not plane and name in titles else title[0].upper() + title[1:]
+        if max(np.abs(v).max() for v in sizes.values()) > b.before.floor(kind):
+            out.append(axis.chart(kind, sizes, title))
+    return out
 
 
 def _trade_off(b: Balance, axis: Axis) -> list[Scene]:
     """What is made least against the first that is not, where one costs the other."""
+    if len(b.result.status) < 3 or not b.result.drives:
+        return []
     other = next((n for n in ("torque", "force", "moment") if n not in b.of), None)
     try:
         pairs = 100 * np.array(b.trade_off(other) if other else [(0.0, 0.0)])

@@ -51,6 +51,7 @@ class Printed(Scale):
 PREFIXES = {3: "k", 6: "M", 9: "G", 12: "T"}
 PREFIXED = ("N", "N*m", "W", "J", "Pa")
 """Units that take a prefix; before others stands the power itself."""
+PASCAL = {"N/m^2": "Pa"}
 OF_METRES = {"N*mm": "N*m", "mm/s": "m/s", "mm/s^2": "m/s^2"}
 """Units of millimetres -> those of metres that stand for a thousand of them."""
 
@@ -60,7 +61,11 @@ def unit_with_power(unit: str, power: int) -> str:
 
     >>> unit_with_power("N*m", 3), unit_with_power("N*mm", 9), unit_with_power("lbf*in", 6)
     ('kN*m', 'MN*m', '10^6 lbf*in')
+    >>> unit_with_power("N/m^2", 6)
+    'MPa'
     """
+    if power:
+        unit = PASCAL.get(unit, unit)
     if power >= 3 and unit in OF_METRES:
         unit, power = OF_METRES[unit], power - 3
     if not power:
@@ -82,7 +87,8 @@ def print_scale(result: Result, units: UnitChoice) -> Printed:
 def scale_for(units: object, most: Mapping[str, float], least: float = math.inf) -> Printed:
     """The scale for answers whose largest numbers (SI) are known by kind: a kind whose largest would be printed with an
     exponent has it with its unit. Forces and moments have one power, so that arms stay in the unit of the file: kN
-    times mm is N*m. ``least``: the smallest force (N), for which a lower power is taken where the largest allows it."""
+    times mm is N*m. ``least``: the smallest force (N), for which a lower power is taken where the largest allows it.
+    Stresses and pressures in N/m^2 are in MPa."""
     plain = Printed(units)
     sizes = {"force": 0.0, "moment": 0.0} | {k: float(abs(plain(k, size))) for k, size in most.items()}
     powers = {k: p for k, size in sizes.items() if (p := _power(size))}
@@ -92,6 +98,8 @@ def scale_for(units: object, most: Mapping[str, float], least: float = math.inf)
         common -= 3
     if common:
         powers |= {"force": common, "moment": common}
+    if plain.text("pressure") in PASCAL:
+        powers["pressure"] = 6
     return Printed(units, powers)
 
 

@@ -1,0 +1,56 @@
+"""What shakes before and after masses are added: the part that all answers of balancing share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from dalembert.analysis.output.columns import Column, Scale
+from dalembert.arrays import Array, Tree
+from dalembert.machine.output.answer import Answer
+from dalembert.machine.output.written import greatest, rms
+from dalembert.machine.shaking import Shaking
+
+if TYPE_CHECKING:
+    from dalembert.model import Mechanism
+
+
+class Comparison(Answer):
+    """An answer with shaking ``before`` and ``after``; weights, which are constant, are left out."""
+
+    before: Shaking
+    after: Shaking
+
+    @property
+    def mechanism(self) -> Mechanism:
+        """The description with the added masses in its links' masses, centres and inertias."""
+        return self.after.result.mechanism
+
+    def sizes(self, after: bool = True) -> dict[str, tuple[float, float]]:
+        """Rms and greatest value of force, moment and torque, before or after."""
+        found = values_of(self.after if after else self.before)
+        return {name: (rms(v), greatest(v)[0]) for name, v in found.items()}
+
+    def sizes_record(self, to: Scale) -> Tree:
+        """The same of both by name, in the units of a scale."""
+        out: Tree = {"before": {}, "after": {}}
+        for side, found in out.items():
+            for name, both in self.sizes(side == "after").items():
+                sizes = (to("force" if name == "force" else "moment", size) for size in both)
+                found[name] = dict(zip(("rms", "max"), sizes, strict=True))
+        return out
+
+    def columns(self) -> Iterator[Column]:
+        """Force, moment and torque before and after, over the positions."""
+        yield from self.drive_columns()
+        for name, s in (("before", self.before), ("after", self.after)):
+            shaking = (c for c in s.columns() if c.name.startswith("shaking"))
+            yield from (c._replace(name=f"{name} {c.name}") for c in shaking)
+            for drive in s.result.drives:
+                yield Column(f"{name} effort {drive}", "moment", s.result.effort(drive))
+
+
+def values_of(s: Shaking) -> dict[str, Array]:
+    """Force and moment that added masses are to make small, and the effort of the first drive if there is one."""
+    torque = {"torque": s.result.effort(s.result.drives[0])} if s.result.drives else {}
+    return {name: s.without_weight(name) for name in ("force", "moment")} | torque
